@@ -1,0 +1,15 @@
+# trapeze_room(NAME SOURCES ... TESTS ... LINKS ... PRIVATE_LINKS ...)
+# A room is one static library and, when tests are built, one test program made of the tests beside its sources.
+# Includes are written from the root of the repository: #include "core/grid.h".
+function(trapeze_room name)
+    cmake_parse_arguments(ROOM "" "" "SOURCES;TESTS;LINKS;PRIVATE_LINKS" ${ARGN})
+    add_library(trapeze_${name} STATIC ${ROOM_SOURCES})
+    target_include_directories(trapeze_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+    target_link_libraries(trapeze_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
+    if(TRAPEZE_BUILD_TESTS AND ROOM_TESTS)
+        add_executable(${name}_test ${ROOM_TESTS})
+        target_link_libraries(${name}_test PRIVATE trapeze_${name} ${ROOM_PRIVATE_LINKS} GTest::gtest_main GTest::gmock)
+        target_compile_definitions(${name}_test PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+        gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+    endif()
+endfunction()

@@ -1,0 +1,59 @@
+/// The camera: raster space <-> rays and camera space. Raster space: pixels, x right, y down, (0, 0) at the
+/// top left of the whole image (not of the crop). Camera space: x right, y up, z forward.
+#pragma once
+
+#include "core/math.h"
+#include "core/rays.h"
+
+namespace trapeze {
+
+struct Options;
+
+/// An inclusive-exclusive rectangle of pixels.
+struct PixelRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    int width() const { return x1 > x0 ? x1 - x0 : 0; }
+    int height() const { return y1 > y0 ? y1 - y0 : 0; }
+    bool empty() const { return x1 <= x0 || y1 <= y0; }
+    bool operator==(const PixelRect&) const = default;
+};
+
+PixelRect intersection(const PixelRect& a, const PixelRect& b);
+
+struct Camera {
+    bool perspective = true;
+    int width = 0, height = 0;  ///< pixels of the whole image
+    PixelRect crop;             ///< pixels to make
+    float near_clip = 0, far_clip = 0;
+    float lens_radius = 0;     ///< camera-space length; 0: pinhole
+    float focal_distance = 1;  ///< camera-space z in focus
+    /// The image plane: z = 1 for perspective, any z for orthographic; plane = raster * scale + offset.
+    float plane_scale_x = 1, plane_offset_x = 0;
+    float plane_scale_y = -1, plane_offset_y = 0;
+    float left = -1, right = 1, bottom = -1, top = 1;  ///< the screen window (for worldToNDC)
+    float tan_half_fov = 1;
+
+    bool has_lens() const { return lens_radius > 0; }
+
+    /// The ray through a raster position from a point of the lens (unit disk), at a time.
+    AxisRay ray(float raster_x, float raster_y, float lens_u, float lens_v, float time01) const;
+
+    /// Where a point is seen through the middle of the lens. For perspective z must be positive.
+    V2f raster_from_camera(const V3f& p) const;
+
+    /// Half-width in pixels, along x and y, of the blur of a point at depth z; z is clamped to the near
+    /// plane.
+    V2f circle_of_confusion(float z) const;
+
+    /// Pixels per camera-space length at depth z (positive for perspective).
+    V2f pixels_per_length(float z) const;
+};
+
+/// Format, FrameAspectRatio, ScreenWindow, CropWindow, Projection, Clipping, DepthOfField (RISpec 4.1.1).
+Camera make_camera(const Options& options);
+
+/// The matrix that takes camera-space points to screen or NDC space, for files' metadata (row vectors).
+M44f screen_from_camera(const Camera& camera);
+
+}  // namespace trapeze

@@ -1,0 +1,61 @@
+#include "core/grid.h"
+
+#include <algorithm>
+#include <new>
+
+namespace trapeze {
+namespace {
+
+constexpr size_t kAlignment = 64;
+constexpr size_t kChunkBytes = size_t{1} << 20;
+
+size_t aligned(size_t size) {
+    return (size + kAlignment - 1) & ~(kAlignment - 1);
+}
+
+}  // namespace
+
+void GridArena::Free::operator()(std::byte* p) const {
+    ::operator delete (p, std::align_val_t{kAlignment});
+}
+
+std::byte* GridArena::take(size_t size) {
+    size = aligned(size);
+    if (size > left_) {
+        const size_t chunk = std::max(size, kChunkBytes);
+        chunks_.emplace_back(static_cast<std::byte*>(::operator new (chunk, std::align_val_t{kAlignment})));
+        next_ = chunks_.back().get();
+        left_ = chunk;
+        bytes_ += chunk;
+    }
+    std::byte* taken = next_;
+    next_ += size, left_ -= size;
+    return taken;
+}
+
+void GridArena::allocate(Grid& grid) {
+    const size_t floats = static_cast<size_t>(grid.plane_count()) * grid.shape.plane_size();
+    const size_t halves = static_cast<size_t>(grid.color_plane_count()) * grid.shape.vertex_count();
+    grid.positions = reinterpret_cast<float*>(take(floats * sizeof(float)));
+    grid.colors = reinterpret_cast<Imath::half*>(take(halves * sizeof(Imath::half)));
+}
+
+uint64_t Grids::micropolygon_count() const {
+    uint64_t count = 0;
+    for (const Grid& grid : grids) count += grid.shape.micropolygon_count();
+    return count;
+}
+
+size_t Grids::bytes() const {
+    size_t total = grids.capacity() * sizeof(Grid);
+    for (const GridArena& arena : arenas) total += arena.bytes();
+    return total;
+}
+
+int Grids::max_key_count() const {
+    int keys = 1;
+    for (const Grid& grid : grids) keys = std::max<int>(keys, grid.key_count);
+    return keys;
+}
+
+}  // namespace trapeze

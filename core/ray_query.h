@@ -1,0 +1,19 @@
+/// What shaders and tests may ask of whatever holds the grids: rays that do not come through the lens.
+#pragma once
+
+#include <optional>
+
+#include "core/hit_buffer.h"
+#include "core/rays.h"
+
+namespace trapeze {
+
+/// Depths are along the direction's largest axis, growing away from the origin: parameter * |that component|.
+class RayQuery {
+  public:
+    virtual ~RayQuery() = default;
+    virtual std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const = 0;
+    virtual bool any(const SpaceRay& ray, DepthRange range) const = 0;
+};
+
+}  // namespace trapeze

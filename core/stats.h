@@ -1,0 +1,47 @@
+/// Statistics are values that add (decision 12), with the unit in the name. Every stage returns its own.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace trapeze {
+
+struct TessellateStats {
+    uint64_t primitives = 0, subpatches = 0, grids = 0, micropolygons = 0, culled_subpatches = 0;
+
+    TessellateStats& operator+=(const TessellateStats& o) {
+        primitives += o.primitives, subpatches += o.subpatches, grids += o.grids;
+        micropolygons += o.micropolygons, culled_subpatches += o.culled_subpatches;
+        return *this;
+    }
+};
+
+struct ShadeStats {
+    uint64_t shaded_vertices = 0, not_finite_values = 0;
+
+    ShadeStats& operator+=(const ShadeStats& o) {
+        shaded_vertices += o.shaded_vertices, not_finite_values += o.not_finite_values;
+        return *this;
+    }
+};
+
+struct BuildStats {
+    uint64_t tree_bytes = 0, tree_nodes = 0, tree_leaves = 0;
+
+    BuildStats& operator+=(const BuildStats& o) {
+        tree_bytes += o.tree_bytes, tree_nodes += o.tree_nodes, tree_leaves += o.tree_leaves;
+        return *this;
+    }
+};
+
+struct SampleStats {
+    uint64_t rays = 0, predicate_tests = 0, predicate_hits = 0, nodes_visited = 0, leaves_visited = 0;
+
+    SampleStats& operator+=(const SampleStats& o) {
+        rays += o.rays, predicate_tests += o.predicate_tests, predicate_hits += o.predicate_hits;
+        nodes_visited += o.nodes_visited, leaves_visited += o.leaves_visited;
+        return *this;
+    }
+};
+
+}  // namespace trapeze

@@ -1,0 +1,58 @@
+/// Bound, split, dice: the room's door. A Tessellation holds a scene's surfaces and the list of subpatches
+/// into which they were split, each of which dices to one grid. Splitting is done once a frame; dicing when a
+/// region needs the grid, with the same bits each time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/render_context.h"
+#include "core/shading_grid.h"
+#include "core/stats.h"
+
+namespace trapeze {
+
+/// What scheduling needs to know of a subpatch.
+struct SubpatchInfo {
+    PixelRect
+        bound;  ///< raster pixels that its samples may see, grown by motion, lens and displacement bound; not
+                ///< by the pixel filter. Clamped to the picture grown by the filter's radius.
+    GridShape shape;
+    uint8_t key_count = 1;
+    uint32_t primitive = 0;
+};
+
+class DiceScratch {
+  public:
+    DiceScratch();
+    DiceScratch(DiceScratch&&) noexcept;
+    DiceScratch& operator=(DiceScratch&&) noexcept;
+    ~DiceScratch();
+    struct State;
+    std::unique_ptr<State> state;
+};
+
+class Tessellation {
+  public:
+    /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads.
+    explicit Tessellation(const RenderContext& context);
+    ~Tessellation();
+
+    /// In the order that defines Grid::ordinal.
+    const std::vector<SubpatchInfo>& subpatches() const { return infos_; }
+    const TessellateStats& stats() const { return stats_; }
+    size_t bytes() const;
+
+    /// Dices one subpatch: positions at all keys, normals, derivatives, variables; Ci and Oi are sized but
+    /// not set. Thread-safe with a scratch per thread.
+    void dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    std::vector<SubpatchInfo> infos_;
+    TessellateStats stats_;
+};
+
+}  // namespace trapeze
