@@ -72,6 +72,14 @@ Camera make_camera(const Options& options) {
     return camera;
 }
 
+PixelRect sampled_pixels(const Camera& camera, const Options& options) {
+    // A sample at x reaches the centre p + 1/2 of a pixel when |x - p - 1/2| <= width / 2.
+    const auto reach = [](float width) { return std::max(0, static_cast<int>(std::ceil((width - 1) / 2))); };
+    const int rx = reach(options.filter.width_x), ry = reach(options.filter.width_y);
+    const PixelRect& c = camera.crop;
+    return {c.x0 - rx, c.y0 - ry, c.x1 + rx, c.y1 + ry};
+}
+
 M44f screen_from_camera(const Camera& camera) {
     // x' = x / (z tan) for perspective, mapped so that the screen window spans [-1, 1] (OpenEXR's
     // worldToNDC).
