@@ -1,0 +1,43 @@
+/// What a frame cost: seconds by stage, counts, bytes. A value; the command line writes it as JSON.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/stats.h"
+
+namespace trapeze {
+
+struct StageSeconds {
+    double read = 0, tessellate = 0, shade = 0, build = 0, trace = 0, composite = 0, total = 0;
+
+    StageSeconds& operator+=(const StageSeconds& o) {
+        read += o.read, tessellate += o.tessellate, shade += o.shade, build += o.build;
+        trace += o.trace, composite += o.composite, total += o.total;
+        return *this;
+    }
+};
+
+struct FrameStats {
+    StageSeconds seconds;  ///< wall clock; work of a parallel loop is shared out by the threads' own times
+    TessellateStats tessellate;
+    ShadeStats shade;
+    BuildStats build;      ///< summed over regions
+    SampleStats sample;
+    uint64_t grid_bytes = 0, peak_region_bytes = 0, tree_bytes = 0;  ///< largest region's
+    uint64_t samples = 0;
+    int regions = 0, threads = 0, width = 0, height = 0, frame = 0;
+    std::string sampler, simd_target;
+
+    double rays_per_second() const {
+        return seconds.trace > 0 ? static_cast<double>(sample.rays) / seconds.trace : 0;
+    }
+};
+
+/// Peak resident memory of this process so far, in bytes.
+uint64_t peak_resident_bytes();
+
+/// One JSON object; the keys are documented in README.md.
+std::string to_json(const FrameStats& stats);
+
+}  // namespace trapeze

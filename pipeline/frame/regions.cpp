@@ -1,0 +1,100 @@
+#include "pipeline/frame/regions.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/samples.h"
+
+namespace trapeze {
+namespace {
+
+/// Of the tree in its paper form, measured for full grids; small grids carry more overhead each.
+constexpr size_t kTreeBytesPerMicropolygon = 20;
+constexpr size_t kTreeBytesPerGrid = 256;
+
+int floor_to_tile(int pixel) {
+    const int rest = ((pixel % kTileSide) + kTileSide) % kTileSide;
+    return pixel - rest;
+}
+
+Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches) {
+    Region part{pixels, {}, 0};
+    for (const uint32_t index : whole.subpatches) {
+        if (intersection(subpatches[index].bound, pixels).empty()) continue;
+        part.subpatches.push_back(index);
+        part.estimated_bytes += estimated_bytes(subpatches[index]);
+    }
+    return part;
+}
+
+/// The two halves of a rectangle at a tile border near its middle; equal halves when it is a single tile.
+std::pair<PixelRect, PixelRect> halves(const PixelRect& r) {
+    PixelRect low = r, high = r;
+    const bool across = r.width() >= r.height();
+    const int middle = across ? floor_to_tile(r.x0 + r.width() / 2) : floor_to_tile(r.y0 + r.height() / 2);
+    if (across)
+        low.x1 = high.x0 = middle;
+    else
+        low.y1 = high.y0 = middle;
+    if (low.empty()) {
+        // The middle's tile begins before the rectangle does: try the next border.
+        const int next = middle + kTileSide;
+        if (across)
+            low.x1 = high.x0 = next;
+        else
+            low.y1 = high.y0 = next;
+    }
+    return {low, high};
+}
+
+bool can_split(const PixelRect& r) {
+    const auto [low, high] = halves(r);
+    return !low.empty() && !high.empty();
+}
+
+}  // namespace
+
+size_t estimated_bytes(const SubpatchInfo& subpatch) {
+    Grid grid;
+    grid.shape = subpatch.shape;
+    grid.key_count = subpatch.key_count;
+    grid.opaque = false;
+    return grid.bytes() + 2 * 64 /* alignment of its two arrays */ + kTreeBytesPerGrid +
+           kTreeBytesPerMicropolygon * grid.shape.micropolygon_count() * std::max(1, grid.key_count - 1);
+}
+
+std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
+                                       const RegionLimits& limits) {
+    Region whole;
+    whole.pixels = pixels;
+    whole.subpatches.resize(subpatches.size());
+    std::iota(whole.subpatches.begin(), whole.subpatches.end(), 0u);
+    std::vector<Region> regions{part_of(whole, pixels, subpatches)};
+    // The heaviest region that must be split, else (while there are too few) the largest.
+    for (;;) {
+        const bool too_few = static_cast<int>(regions.size()) < limits.at_least;
+        size_t chosen = regions.size();
+        for (size_t i = 0; i < regions.size(); ++i) {
+            if (!can_split(regions[i].pixels)) continue;
+            if (!too_few && regions[i].estimated_bytes <= limits.bytes) continue;
+            if (chosen == regions.size() || regions[i].estimated_bytes > regions[chosen].estimated_bytes) chosen = i;
+        }
+        if (chosen == regions.size()) return regions;
+        const auto [low, high] = halves(regions[chosen].pixels);
+        Region second = part_of(regions[chosen], high, subpatches);
+        regions[chosen] = part_of(regions[chosen], low, subpatches);
+        regions.insert(regions.begin() + static_cast<std::ptrdiff_t>(chosen) + 1, std::move(second));
+    }
+}
+
+std::vector<PixelRect> tiles_of(const PixelRect& pixels) {
+    std::vector<PixelRect> tiles;
+    for (int y = floor_to_tile(pixels.y0); y < pixels.y1; y += kTileSide)
+        for (int x = floor_to_tile(pixels.x0); x < pixels.x1; x += kTileSide) {
+            const PixelRect tile = intersection({x, y, x + kTileSide, y + kTileSide}, pixels);
+            if (!tile.empty()) tiles.push_back(tile);
+        }
+    return tiles;
+}
+
+}  // namespace trapeze

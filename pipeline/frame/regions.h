@@ -1,0 +1,37 @@
+/// Regions: the picture is split, not the data, until the grids and the tree of each part fit the memory budget
+/// (RenderAnts' dynamic scheduling, docs/papers.md [Zhou09]).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/camera.h"
+#include "tessellate/tessellate.h"
+
+namespace trapeze {
+
+/// A rectangle of the picture in raster pixels (aligned to tiles but for the picture's own border), and the subpatches
+/// that its samples may see, in order.
+struct Region {
+    PixelRect pixels;
+    std::vector<uint32_t> subpatches;
+    size_t estimated_bytes = 0;  ///< of grids and tree
+};
+
+struct RegionLimits {
+    size_t bytes = 0;      ///< a region's grids and tree may take this much
+    int at_least = 1;      ///< regions to make even when fewer would fit (as far as there are tiles)
+};
+
+/// Upper estimate of the memory of a subpatch's grid and its part of the tree.
+size_t estimated_bytes(const SubpatchInfo& subpatch);
+
+/// Splits `pixels` along tile borders, the longer side first, until every region fits or is a single tile.
+std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
+                                       const RegionLimits& limits);
+
+/// The tiles of a rectangle: kTileSide pixels wide, anchored at multiples of it (negative ones too), cut by the rectangle.
+std::vector<PixelRect> tiles_of(const PixelRect& pixels);
+
+}  // namespace trapeze

@@ -1,0 +1,39 @@
+/// The frame: the whole algorithm on one page.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "composite/film.h"
+#include "core/render_context.h"
+#include "pipeline/frame/frame_stats.h"
+
+namespace trapeze {
+
+struct RenderSettings {
+    std::string sampler = "raytrace";  ///< a row of the table of visibility methods
+    size_t memory_bytes = 0;           ///< for grids and tree together; 0: three quarters of the machine's
+    int regions_at_least = 1;          ///< tests force a split that memory would not ask for
+    uint32_t seed = 0;
+    /// Called now and then from any thread, one at a time, with the part done in [0, 1].
+    std::function<void(double)> on_progress;
+    const std::atomic<bool>* cancelled = nullptr;
+};
+
+struct FrameResult {
+    Image image;
+    FrameStats stats;
+};
+
+/// Three quarters of the machine's memory, in bytes.
+size_t default_memory_budget();
+
+/// The context of a scene's render: camera, sample counts (rounded to at least 1), whether anything moves.
+RenderContext make_context(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
+
+/// Renders with the threads of the calling task arena. Empty when cancelled. `context` is make_context's.
+std::optional<FrameResult> render_frame(const RenderContext& context, const RenderSettings& settings);
+
+}  // namespace trapeze
