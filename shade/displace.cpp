@@ -1,0 +1,80 @@
+#include "shade/displace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion_keys.h"
+#include "core/scene.h"
+#include "shade/differences.h"
+
+namespace trapeze {
+namespace {
+
+/// A primitive's matrices, at a key of the grid's possibly finer ones; points between keys move linearly.
+M44d pose_at_key(const std::vector<M44f>& poses, int key, int key_count) {
+    const int count = static_cast<int>(poses.size());
+    if (count <= 1) return count ? M44d(poses.front()) : M44d();
+    const float time01 = key_count > 1 ? static_cast<float>(key) / static_cast<float>(key_count - 1) : 0.0f;
+    const MotionSegment segment = segment_at(time01, count);
+    const double w = segment.local;
+    return M44d(poses[segment.index]) * (1 - w) + M44d(poses[segment.index + 1]) * w;
+}
+
+/// Displacement vectors, written over the displaced positions.
+void subtract_positions(const Triples& P, size_t vertices, Plane3 moved) {
+    for (size_t i = 0; i < vertices; ++i) {
+        const V3f move = V3f(moved.x[i], moved.y[i], moved.z[i]) - P.at(i);
+        const bool finite = std::isfinite(move.x) && std::isfinite(move.y) && std::isfinite(move.z);
+        for (int k = 0; k < 3; ++k) moved[k][i] = finite ? move[k] : 0;
+    }
+}
+
+/// Adds the vectors, taken from key 0 to a key, to that key's positions; returns the longest.
+float move_key(const Plane3& moves, const M44d& key_from_first, Triples& P) {
+    double longest = 0;
+    for (size_t i = 0; i < P.size(); ++i) {
+        const V3d move(moves.x[i], moves.y[i], moves.z[i]);
+        V3d here;
+        key_from_first.multDirMatrix(move, here);
+        longest = std::max(longest, here.length());
+        P.set(i, P.at(i) + V3f(here));
+    }
+    return static_cast<float>(longest);
+}
+
+void store(ConstPlane3 planes, size_t vertices, Triples& out) {
+    for (int k = 0; k < 3; ++k) out.c[k].assign(planes[k].begin(), planes[k].begin() + vertices);
+}
+
+}  // namespace
+
+float displace_grid(const DisplacementShader& shader, const Camera& camera, ShadingGrid& grid,
+                    PlanePool& pool) {
+    const size_t vertices = grid.vertex_count();
+    pool.start(vertices);
+    ShaderInput input(grid, camera, pool);
+    const Plane3 moves = pool.take3(), N = pool.take3(), P = pool.take3();
+    for (int k = 0; k < 3; ++k) load(grid.N.c[k], vertices, N[k]);
+    const bool normals_set = shader.displace(input, moves, N);
+    subtract_positions(grid.P.front(), vertices, moves);
+
+    const std::vector<M44f>& poses = grid.primitive->camera_from_object;
+    const M44d object_from_first = pose_at_key(poses, 0, grid.key_count).inverse();
+    float longest = move_key(moves, M44d(), grid.P.front());
+    for (size_t key = 1; key < grid.P.size(); ++key) {
+        const M44d key_from_first =
+            poses.size() <= 1 ? M44d()
+                              : object_from_first * pose_at_key(poses, static_cast<int>(key), grid.key_count);
+        longest = std::max(longest, move_key(moves, key_from_first, grid.P[key]));
+    }
+    grid.displaced = grid.displaced || longest > 0;
+    if (!normals_set) {
+        for (int k = 0; k < 3; ++k) load(grid.P.front().c[k], vertices, P[k]);
+        find_normals(grid.shape, P, grid.reverse_orientation, N);
+        store(N, vertices, grid.Ng);
+    }
+    store(N, vertices, grid.N);
+    return longest;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,44 @@
+/// The room's door: runs a scene's shaders over diced grids.
+#pragma once
+
+#include <memory>
+
+#include "core/render_context.h"
+#include "core/shading_grid.h"
+#include "core/stats.h"
+
+namespace trapeze {
+
+/// A thread's memory for shading, reused from grid to grid.
+class ShadeScratch {
+  public:
+    ShadeScratch();
+    ShadeScratch(ShadeScratch&&) noexcept;
+    ShadeScratch& operator=(ShadeScratch&&) noexcept;
+    ~ShadeScratch();
+    struct State;
+    std::unique_ptr<State> state;
+};
+
+class Shading {
+  public:
+    /// Makes every shader that the scene names. One that is not known is reported once for each name, where
+    /// it is first named; a surface becomes defaultsurface, a light or displacement is left out. The context
+    /// and its scene must outlive this.
+    explicit Shading(const RenderContext& context);
+    ~Shading();
+
+    /// Displaces the grid at all keys, then sets Ci and Oi. Thread-safe with a scratch per thread; the result
+    /// depends on the grid alone.
+    void shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const;
+
+    /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond
+    /// the displacement bound, with the bound that was needed.
+    void report_displacement_bounds() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trapeze
