@@ -1,0 +1,294 @@
+#include "composite/film.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "composite/resolve_layers.h"
+
+namespace trapeze {
+namespace {
+
+int tile_of(int pixel) {
+    return pixel >= 0 ? pixel / kTileSide : -((kTileSide - 1 - pixel) / kTileSide);
+}
+
+PixelRect grown(const PixelRect& r, int x, int y) {
+    return {r.x0 - x, r.y0 - y, r.x1 + x, r.y1 + y};
+}
+
+DepthFilter depth_filter_of(const RenderContext& context) {
+    const std::string name = context.scene->options.hider_parameters.string_or("depthfilter", "min");
+    if (name == "max") return DepthFilter::Max;
+    if (name == "average") return DepthFilter::Average;
+    if (name != "min" && context.diagnostics)
+        context.diagnostics->warning(
+            {}, "Hider \"depthfilter\" \"" + name + "\" is not supported; min is used", "depthfilter");
+    return DepthFilter::Min;
+}
+
+bool wants_ids(const Options& options) {
+    return std::any_of(options.displays.begin(), options.displays.end(),
+                       [](const Display& display) { return display.mode == "id"; });
+}
+
+/// The depths of a pixel's samples, in their order.
+class PixelDepth {
+  public:
+    explicit PixelDepth(DepthFilter filter) : filter_(filter) {}
+
+    void add(float depth) {
+        if (depth >= kInfinity) return;
+        if (count_ == 0)
+            value_ = depth;
+        else if (filter_ == DepthFilter::Min)
+            value_ = std::min(value_, depth);
+        else if (filter_ == DepthFilter::Max)
+            value_ = std::max(value_, depth);
+        else
+            value_ += depth;
+        ++count_;
+    }
+    float value() const {
+        if (count_ == 0) return kInfinity;
+        return filter_ == DepthFilter::Average ? value_ / static_cast<float>(count_) : value_;
+    }
+
+  private:
+    DepthFilter filter_;
+    float value_ = 0;
+    int count_ = 0;
+};
+
+/// What the sample nearest a pixel's centre sees; the first of equals.
+class CentrePrimitive {
+  public:
+    CentrePrimitive(int px, int py) : x_(static_cast<float>(px) + 0.5f), y_(static_cast<float>(py) + 0.5f) {}
+
+    void add(float x, float y, uint32_t primitive) {
+        const float dx = x - x_, dy = y - y_, distance = dx * dx + dy * dy;
+        if (distance < nearest_) nearest_ = distance, primitive_ = primitive;
+    }
+    uint32_t value() const { return primitive_; }
+
+  private:
+    float x_, y_;
+    float nearest_ = kInfinity;
+    uint32_t primitive_ = kNoPrimitive;
+};
+
+}  // namespace
+
+/// A tile's own sums, over its pixels and all that its samples may reach.
+struct Film::Sums {
+    PixelRect pixels;
+    std::vector<float> weights;  ///< one a pixel
+    std::vector<float> rgba;     ///< four a pixel; empty when no sample hits anything
+
+    Sums(const PixelRect& tile, const FilterKernel& kernel, bool colored)
+        : pixels(grown(tile, kernel.reach_x(), kernel.reach_y())) {
+        const size_t count = static_cast<size_t>(pixels.width()) * pixels.height();
+        weights.resize(count);
+        if (colored) rgba.resize(4 * count);
+    }
+    size_t index(int x, int y) const {
+        return static_cast<size_t>(y - pixels.y0) * pixels.width() + static_cast<size_t>(x - pixels.x0);
+    }
+    size_t bytes() const { return sizeof(float) * (weights.size() + rgba.size()); }
+};
+
+struct Film::Tile {
+    std::unique_ptr<Sums>
+        sums;  ///< written by the thread that adds it, before `missing` of its neighbours falls
+    std::atomic<int> missing{
+        0};  ///< tiles that this one's pixels still wait for; 0: developed, or no pixels in the crop
+    std::atomic<int> readers{0};  ///< tiles whose pixels still need `sums`
+    std::atomic<bool> added{false};
+};
+
+Film::Film(const RenderContext& context, bool record_ids)
+    : kernel_(context.scene->options.filter, context.diagnostics), depth_filter_(depth_filter_of(context)) {
+    const Options& options = context.scene->options;
+    gain_ = options.exposure_gain;
+    inverse_gamma_ = options.exposure_gamma > 0 ? 1 / options.exposure_gamma : 1.0f;
+
+    image_.width = context.camera.width, image_.height = context.camera.height;
+    image_.window = context.camera.crop;
+    if (image_.window.empty()) return;
+    const size_t count = static_cast<size_t>(image_.window.width()) * image_.window.height();
+    image_.rgba.resize(4 * count);
+    image_.z.assign(count, kInfinity);
+    if (record_ids || wants_ids(options)) image_.id.assign(count, kNoPrimitive);
+
+    sampled_ = intersection(sampled_pixels(context.camera, options),
+                            grown(image_.window, kernel_.reach_x(), kernel_.reach_y()));
+    first_tile_x_ = tile_of(sampled_.x0), first_tile_y_ = tile_of(sampled_.y0);
+    tiles_x_ = tile_of(sampled_.x1 - 1) + 1 - first_tile_x_;
+    tiles_y_ = tile_of(sampled_.y1 - 1) + 1 - first_tile_y_;
+    tile_reach_x_ = (kernel_.reach_x() + kTileSide - 1) / kTileSide;
+    tile_reach_y_ = (kernel_.reach_y() + kTileSide - 1) / kTileSide;
+    const int tile_count = tiles_x_ * tiles_y_;
+    tiles_ = std::make_unique<Tile[]>(tile_count);
+    for (int tile = 0; tile < tile_count; ++tile)
+        for_each_neighbour(tile, [&](int from) {
+            if (!reaches(from, tile)) return;
+            tiles_[tile].missing.fetch_add(1, std::memory_order_relaxed);
+            tiles_[from].readers.fetch_add(1, std::memory_order_relaxed);
+        });
+}
+
+Film::~Film() = default;
+
+PixelRect Film::tile_pixels(int tile) const {
+    const int x = (first_tile_x_ + tile % tiles_x_) * kTileSide,
+              y = (first_tile_y_ + tile / tiles_x_) * kTileSide;
+    return intersection({x, y, x + kTileSide, y + kTileSide}, sampled_);
+}
+
+bool Film::reaches(int from, int to) const {
+    const PixelRect reached = grown(tile_pixels(from), kernel_.reach_x(), kernel_.reach_y());
+    return !intersection(intersection(reached, tile_pixels(to)), image_.window).empty();
+}
+
+template <class Visit>
+void Film::for_each_neighbour(int tile, Visit&& visit) const {
+    const int column = tile % tiles_x_, row = tile / tiles_x_;
+    for (int y = std::max(0, row - tile_reach_y_); y <= std::min(tiles_y_ - 1, row + tile_reach_y_); ++y)
+        for (int x = std::max(0, column - tile_reach_x_); x <= std::min(tiles_x_ - 1, column + tile_reach_x_);
+             ++x)
+            visit(y * tiles_x_ + x);
+}
+
+void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) {
+    if (samples.pixels.empty()) return;
+    const int column = tile_of(samples.pixels.x0) - first_tile_x_,
+              row = tile_of(samples.pixels.y0) - first_tile_y_;
+    if (column < 0 || column >= tiles_x_ || row < 0 || row >= tiles_y_) return;
+    const int index = row * tiles_x_ + column;
+    Tile& tile = tiles_[index];
+    if (tile.added.exchange(true)) return;
+    const bool colored = !hits.hits.empty() && hits.size() == samples.size();
+    auto sums = std::make_unique<Sums>(samples.pixels, kernel_, colored);
+    accumulate(samples, hits, grids, *sums);
+    if (tile.readers.load(std::memory_order_relaxed) > 0) {
+        waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
+        tile.sums = std::move(sums);
+    }
+    for_each_neighbour(index, [&](int to) {
+        // Acquire and release: whoever takes the last one sees the sums of all.
+        if (reaches(index, to) && tiles_[to].missing.fetch_sub(1, std::memory_order_acq_rel) == 1) settle(to);
+    });
+}
+
+void Film::accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums) {
+    std::vector<float> weights(kernel_.tap_count());
+    const bool colored = !sums.rgba.empty(), ids = !image_.id.empty();
+    size_t sample = 0;
+    for (int py = samples.pixels.y0; py < samples.pixels.y1; ++py)
+        for (int px = samples.pixels.x0; px < samples.pixels.x1; ++px) {
+            const size_t end =
+                std::min(samples.size(), sample + static_cast<size_t>(samples.samples_per_pixel));
+            PixelDepth depth(depth_filter_);
+            CentrePrimitive primitive(px, py);
+            for (; sample < end; ++sample) {
+                const auto seen = colored ? hits.of(sample) : std::span<const Hit>();
+                if (seen.empty()) {
+                    add_sample(samples, sample, px, py, nullptr, weights.data(), sums);
+                    if (ids) primitive.add(samples.x[sample], samples.y[sample], kNoPrimitive);
+                    continue;
+                }
+                const SampleColor color = resolve_layers(samples.rays[sample], seen, grids);
+                add_sample(samples, sample, px, py, color.rgba, weights.data(), sums);
+                depth.add(color.depth);
+                if (ids) primitive.add(samples.x[sample], samples.y[sample], color.primitive);
+            }
+            if (colored) record_pixel(px, py, depth.value(), primitive.value());
+        }
+}
+
+void Film::add_sample(const SampleTile& samples, size_t sample, int px, int py, const float* rgba,
+                      float* weights, Sums& sums) const {
+    const FilterTaps taps = kernel_.weigh(samples.x[sample], samples.y[sample], px, py, weights);
+    const int width = sums.pixels.width();
+    size_t row = sums.index(taps.x0, taps.y0);
+    for (int j = 0; j < kernel_.taps_y(); ++j, row += width, weights += kernel_.taps_x())
+        for (int i = 0; i < kernel_.taps_x(); ++i) {
+            const float weight = weights[i];
+            sums.weights[row + i] += weight;
+            if (!rgba) continue;
+            float* sum = &sums.rgba[4 * (row + i)];
+            for (int c = 0; c < 4; ++c) sum[c] += weight * rgba[c];
+        }
+}
+
+/// Depth and id are of the samples within the pixel alone, which all lie in one tile.
+void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
+    const PixelRect& window = image_.window;
+    if (px < window.x0 || px >= window.x1 || py < window.y0 || py >= window.y1) return;
+    const size_t at = image_.index(px, py);
+    image_.z[at] = depth;
+    if (!image_.id.empty()) image_.id[at] = primitive;
+}
+
+/// All that a tile's pixels wait for is there.
+void Film::settle(int tile) {
+    develop(tile);
+    for_each_neighbour(tile, [&](int from) {
+        if (reaches(from, tile)) release(from);
+    });
+}
+
+void Film::release(int tile) {
+    if (tiles_[tile].readers.fetch_sub(1, std::memory_order_acq_rel) != 1 || !tiles_[tile].sums) return;
+    waiting_bytes_.fetch_sub(tiles_[tile].sums->bytes(), std::memory_order_relaxed);
+    tiles_[tile].sums.reset();
+}
+
+void Film::develop(int tile) {
+    const PixelRect pixels = intersection(tile_pixels(tile), image_.window);
+    const size_t count = static_cast<size_t>(pixels.width()) * pixels.height();
+    std::vector<float> weights(count), colors(4 * count);
+    for_each_neighbour(tile, [&](int from) {
+        const Sums* sums = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
+        if (!sums) return;
+        const PixelRect shared = intersection(sums->pixels, pixels);
+        for (int y = shared.y0; y < shared.y1; ++y)
+            for (int x = shared.x0; x < shared.x1; ++x) {
+                const size_t at = static_cast<size_t>(y - pixels.y0) * pixels.width() + (x - pixels.x0);
+                const size_t source = sums->index(x, y);
+                weights[at] += sums->weights[source];
+                if (sums->rgba.empty()) continue;
+                for (int c = 0; c < 4; ++c) colors[4 * at + c] += sums->rgba[4 * source + c];
+            }
+    });
+    size_t at = 0;
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+        for (int x = pixels.x0; x < pixels.x1; ++x, ++at) {
+            if (weights[at] == 0) continue;
+            float* rgba = &image_.rgba[4 * image_.index(x, y)];
+            for (int c = 0; c < 4; ++c) rgba[c] = colors[4 * at + c] / weights[at];
+            expose(rgba);
+        }
+}
+
+/// RISpec 4.1.2, Exposure: (colour * gain) ^ (1 / gamma). What filters of negative lobes make negative stays
+/// so.
+void Film::expose(float* rgba) const {
+    for (int c = 0; c < 3; ++c) {
+        rgba[c] *= gain_;
+        if (inverse_gamma_ == 1) continue;
+        const double power =
+            std::pow(std::abs(static_cast<double>(rgba[c])), static_cast<double>(inverse_gamma_));
+        rgba[c] = static_cast<float>(std::copysign(power, static_cast<double>(rgba[c])));
+    }
+}
+
+Image Film::finish() {
+    for (int tile = 0; tile < tiles_x_ * tiles_y_; ++tile)
+        if (tiles_[tile].missing.load(std::memory_order_acquire) > 0) develop(tile);
+    tiles_.reset();
+    tiles_x_ = tiles_y_ = 0;
+    waiting_bytes_ = 0;
+    return std::move(image_);
+}
+
+}  // namespace trapeze

@@ -1,0 +1,30 @@
+/// A finished picture: what displays are written from.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/camera.h"
+
+namespace trapeze {
+
+/// Image::id of a pixel that shows nothing.
+inline constexpr uint32_t kNoPrimitive = ~uint32_t{0};
+
+struct Image {
+    int width = 0, height = 0;  ///< of the whole picture
+    PixelRect window;           ///< the pixels that are here: the crop
+    std::vector<float>
+        rgba;  ///< 4 a pixel, row by row; colour premultiplied, exposed, linear unless gamma was asked for
+    std::vector<float> z;  ///< camera-space depth; kInfinity where nothing is
+    std::vector<uint32_t>
+        id;  ///< index in Scene::primitives of what the sample nearest the centre sees; may be empty
+
+    /// Of a pixel of the window, in z and id; times 4 in rgba.
+    size_t index(int x, int y) const {
+        return static_cast<size_t>(y - window.y0) * window.width() + static_cast<size_t>(x - window.x0);
+    }
+    bool operator==(const Image&) const = default;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,59 @@
+#include "composite/resolve_layers.h"
+
+#include <algorithm>
+
+namespace trapeze {
+namespace {
+
+struct Layer {
+    V3f color, opacity;
+};
+
+/// Reyes shading interpolation (RISpec, ShadingInterpolation): a constant micropolygon has its vertex 00's
+/// colour; a smooth one interpolates on the triangle that the predicate found.
+Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id) {
+    if (!grid.smooth) return {grid.color(id.u, id.v), grid.opacity(id.u, id.v)};
+    const QuadWeights weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
+    Layer layer{V3f(0), V3f(0)};
+    for (int corner = 0; corner < 4; ++corner) {
+        const int i = id.u + (corner & 1), j = id.v + (corner >> 1);
+        layer.color += weights.w[corner] * grid.color(i, j);
+        if (!grid.opaque) layer.opacity += weights.w[corner] * grid.opacity(i, j);
+    }
+    if (grid.opaque) layer.opacity = V3f(1);  // weights sum to 1 only within rounding
+    return layer;
+}
+
+}  // namespace
+
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids) {
+    SampleColor sample;
+    V3f transmission(1), color(0), alpha(0);
+    for (const Hit& hit : hits) {
+        const MicropolygonId id = MicropolygonId::unpack(hit.id);
+        if (id.grid >= grids.grids.size()) continue;
+        const Grid& grid = grids.grids[id.grid];
+        const Layer layer = layer_at(ray, grid, id);
+        for (int c = 0; c < 3; ++c) {
+            const float opacity = std::clamp(layer.opacity[c], 0.0f, 1.0f);
+            if (!grid.matte) {
+                color[c] += transmission[c] * layer.color[c];
+                alpha[c] += transmission[c] * opacity;
+            }
+            transmission[c] *= 1 - opacity;
+        }
+        const bool shows = !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));
+        if (shows && sample.primitive == ~uint32_t{0}) {
+            sample.depth = hit.depth;
+            sample.primitive = grid.primitive;
+        }
+        if (transmission == V3f(0)) break;
+    }
+    for (int c = 0; c < 3; ++c) sample.rgba[c] = color[c];
+    // An equal alpha in all channels is kept exactly: (1 + 1 + 1) * (1 / 3) need not be 1.
+    const bool gray = alpha.x == alpha.y && alpha.y == alpha.z;
+    sample.rgba[3] = gray ? alpha.x : (alpha.x + alpha.y + alpha.z) / 3;
+    return sample;
+}
+
+}  // namespace trapeze

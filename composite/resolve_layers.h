@@ -1,0 +1,25 @@
+/// What one sample sees, out of its hits: colour, coverage and depth.
+#pragma once
+
+#include <span>
+
+#include "core/grid.h"
+#include "core/hit_buffer.h"
+#include "core/rays.h"
+#include "core/scene.h"
+
+namespace trapeze {
+
+struct SampleColor {
+    float rgba[4] = {0, 0, 0,
+                     0};      ///< colour premultiplied by opacity; alpha is the mean of the three opacities
+    float depth = kInfinity;  ///< of the first layer that counts: not held out, not wholly transparent
+    uint32_t primitive = ~uint32_t{0};  ///< whose that layer is; all ones when there is none
+};
+
+/// Composites a sample's hits, front to back. Ci is premultiplied by Oi (RISpec 3.4), each channel has its
+/// own opacity. A matte micropolygon holds out: it adds neither colour nor alpha but hides what is behind it
+/// by its Oi.
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids);
+
+}  // namespace trapeze

@@ -1,0 +1,135 @@
+#include "composite/resolve_layers.h"
+
+#include <gtest/gtest.h>
+
+#include "composite/raster_harness.h"
+
+namespace trapeze {
+namespace {
+
+using testing::add_grids;
+using testing::GridLook;
+
+constexpr AxisRay kRay{3.25f, 5.5f, 0, 0, 0, 0};
+
+uint64_t id_of(uint32_t grid) {
+    return MicropolygonId{grid, 3, 5}.packed();
+}
+
+GridLook flat(V3f color, float depth, uint32_t primitive) {
+    GridLook look;
+    look.color = [color](int, int) { return color; };
+    look.depth = depth;
+    look.primitive = primitive;
+    return look;
+}
+
+GridLook glass(V3f color, V3f opacity, float depth, uint32_t primitive) {
+    GridLook look = flat(color, depth, primitive);
+    look.opacity = [opacity](int, int) { return opacity; };
+    return look;
+}
+
+void expect_rgba(const SampleColor& sample, float r, float g, float b, float a) {
+    EXPECT_FLOAT_EQ(sample.rgba[0], r);
+    EXPECT_FLOAT_EQ(sample.rgba[1], g);
+    EXPECT_FLOAT_EQ(sample.rgba[2], b);
+    EXPECT_FLOAT_EQ(sample.rgba[3], a);
+}
+
+TEST(ResolveLayers, NothingIsTransparentAndFar) {
+    const SampleColor sample = resolve_layers(kRay, {}, Grids{});
+    expect_rgba(sample, 0, 0, 0, 0);
+    EXPECT_EQ(sample.depth, kInfinity);
+    EXPECT_EQ(sample.primitive, ~uint32_t{0});
+}
+
+TEST(ResolveLayers, AnOpaqueHitHidesWhatFollows) {
+    Grids grids;
+    add_grids(grids, 1, 1, flat({1, 0.5f, 0.25f}, 2, 7));
+    add_grids(grids, 1, 1, flat({0, 1, 0}, 3, 8));
+    const Hit hits[] = {{2, id_of(0)}, {3, id_of(1)}};
+    const SampleColor sample = resolve_layers(kRay, hits, grids);
+    expect_rgba(sample, 1, 0.5f, 0.25f, 1);
+    EXPECT_EQ(sample.depth, 2);
+    EXPECT_EQ(sample.primitive, 7u);
+}
+
+TEST(ResolveLayers, FrontToBackWithOpacityPerChannel) {
+    Grids grids;
+    add_grids(grids, 1, 1, glass({0.5f, 0, 0}, {0.5f, 0.25f, 0}, 2, 1));
+    add_grids(grids, 1, 1, flat({0, 1, 1}, 3, 2));
+    const Hit hits[] = {{2, id_of(0)}, {3, id_of(1)}};
+    expect_rgba(resolve_layers(kRay, hits, grids), 0.5f, 0.75f, 1, 1);
+    expect_rgba(resolve_layers(kRay, std::span(hits).first(1), grids), 0.5f, 0, 0, 0.25f);
+    const Hit reversed[] = {{3, id_of(1)}, {4, id_of(0)}};
+    expect_rgba(resolve_layers(kRay, reversed, grids), 0, 1, 1, 1);
+}
+
+TEST(ResolveLayers, MatteHoldsOut) {
+    Grids grids;
+    GridLook matte = glass({0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, 2, 1);
+    matte.matte = 1;
+    add_grids(grids, 1, 1, matte);
+    add_grids(grids, 1, 1, flat({1, 1, 1}, 3, 2));
+    GridLook wall = flat({9, 9, 9}, 1, 3);
+    wall.matte = 1;
+    add_grids(grids, 1, 1, wall);
+    const Hit through[] = {{2, id_of(0)}, {3, id_of(1)}};
+    const SampleColor seen = resolve_layers(kRay, through, grids);
+    expect_rgba(seen, 0.75f, 0.75f, 0.75f, 0.75f);
+    EXPECT_EQ(seen.depth, 3);
+    EXPECT_EQ(seen.primitive, 2u);
+    const Hit behind[] = {{1, id_of(2)}, {3, id_of(1)}};
+    const SampleColor hidden = resolve_layers(kRay, behind, grids);
+    expect_rgba(hidden, 0, 0, 0, 0);
+    EXPECT_EQ(hidden.depth, kInfinity);
+}
+
+TEST(ResolveLayers, AWhollyTransparentLayerHasNoDepth) {
+    Grids grids;
+    add_grids(grids, 1, 1, glass({0, 0, 0}, {0, 0, 0}, 2, 1));
+    add_grids(grids, 1, 1, flat({1, 0, 0}, 3, 2));
+    const Hit hits[] = {{2, id_of(0)}, {3, id_of(1)}};
+    const SampleColor sample = resolve_layers(kRay, hits, grids);
+    EXPECT_EQ(sample.depth, 3);
+    EXPECT_EQ(sample.primitive, 2u);
+}
+
+TEST(ResolveLayers, ConstantTakesVertex00AndSmoothInterpolates) {
+    GridLook ramp;
+    ramp.color = [](int x, int y) { return V3f(static_cast<float>(x), static_cast<float>(y), 1); };
+    Grids grids;
+    add_grids(grids, 1, 1, ramp);
+    ramp.smooth = true;
+    add_grids(grids, 1, 1, ramp);
+    const Hit constant[] = {{1, id_of(0)}}, smooth[] = {{1, id_of(1)}};
+    expect_rgba(resolve_layers(kRay, constant, grids), 3, 5, 1, 1);
+    expect_rgba(resolve_layers(kRay, smooth, grids), 3.25f, 5.5f, 1, 1);
+}
+
+TEST(ResolveLayers, SmoothFollowsAMovingGrid) {
+    Grids grids;
+    GridArena arena;
+    Grid grid;
+    grid.shape = {1, 1};
+    grid.key_count = 2;
+    grid.smooth = true;
+    arena.allocate(grid);
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) {
+            const int at = grid.shape.tiled_index(i, j);
+            const float start[] = {
+                static_cast<float>(i), static_cast<float>(j), 1, 2, 0, 0};  // moves by 2 along x
+            for (int k = 0; k < 6; ++k) grid.plane(0, k)[at] = start[k];
+            for (int c = 0; c < 3; ++c)
+                grid.colors[c * 4 + grid.shape.row_index(i, j)] = static_cast<float>(i);
+        }
+    grids.grids.push_back(grid);
+    const Hit hits[] = {{1, MicropolygonId{0, 0, 0}.packed()}};
+    expect_rgba(resolve_layers({0.75f, 0.5f, 0, 0, 0, 0}, hits, grids), 0.75f, 0.75f, 0.75f, 1);
+    expect_rgba(resolve_layers({1.5f, 0.5f, 0, 0, 0, 0.5f}, hits, grids), 0.5f, 0.5f, 0.5f, 1);
+}
+
+}  // namespace
+}  // namespace trapeze
