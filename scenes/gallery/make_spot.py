@@ -55,7 +55,10 @@ class Spot:
     shading_rate: float = 1.0
 
 
-PAINTED = 'Surface "paintedplastic" "texturename" ["textures/spot_texture.png"] "Ks" [{ks}] "roughness" [{rough}]'
+PAINTED = (
+    'Surface "paintedplastic" "texturename" ["textures/spot_texture.png"] '
+    '"Kd" [.9] "Ks" [{ks}] "roughness" [{rough}]'
+)
 
 
 def painted(color, ks=0.25, rough=0.15):
@@ -73,7 +76,7 @@ SPOTS = [
         -1.44,
         2.55,
         -152,
-        plain("plastic", (0.80, 0.16, 0.09), '"Ks" [.6] "roughness" [.08]'),
+        plain("plastic", (0.80, 0.16, 0.09), '"Kd" [.9] "Ks" [.6] "roughness" [.08]'),
         shading_rate=16,
     ),
     Spot(
@@ -92,7 +95,7 @@ SPOTS = [
         -0.35,
         17.5,
         20,
-        plain("plastic", (0.10, 0.30, 0.62), '"Ks" [.7]'),
+        plain("plastic", (0.10, 0.30, 0.62), '"Kd" [.9] "Ks" [.7]'),
         shading_rate=4,
     ),
     Spot("Behind: cream.", 5.0, 20.5, -30, painted((0.95, 0.85, 0.60)), shading_rate=4),
@@ -132,11 +135,11 @@ class Ball:
 
 
 BALLS = [
-    Ball(-0.40, 5.15, 0.20, plain("plastic", (0.02, 0.35, 0.36), '"Ks" [.8] "roughness" [.06]')),
-    Ball(-0.03, 4.80, 0.11, plain("plastic", (0.85, 0.50, 0.06), '"Ks" [.8] "roughness" [.06]')),
-    Ball(1.95, 6.3, 0.26, plain("plastic", (0.78, 0.13, 0.10), '"Ks" [.8] "roughness" [.06]')),
-    Ball(-3.0, 10.5, 0.38, plain("plastic", (0.85, 0.50, 0.06), '"Ks" [.8]')),
-    Ball(0.25, 11.8, 0.34, plain("plastic", (0.78, 0.13, 0.10), '"Ks" [.8]')),
+    Ball(-0.40, 5.15, 0.20, plain("plastic", (0.02, 0.35, 0.36), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
+    Ball(-0.03, 4.80, 0.11, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
+    Ball(1.95, 6.3, 0.26, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
+    Ball(-3.0, 10.5, 0.38, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8]')),
+    Ball(0.25, 11.8, 0.34, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8]')),
 ]
 
 
