@@ -7,10 +7,10 @@ namespace trapeze {
 /// Wall seconds since it was made or lapped.
 class Stopwatch {
   public:
+    double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
     double lap() {
-        const auto now = Clock::now();
-        const double seconds = std::chrono::duration<double>(now - start_).count();
-        start_ = now;
+        const double seconds = elapsed();
+        start_ = Clock::now();
         return seconds;
     }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/diagnostics.h"
+#include "pipeline/cli/arguments.h"
+#include "pipeline/cli/terminal.h"
+
+namespace trapeze {
+
+/// The program's commands. Each returns the exit code.
+int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+int info_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+
+/// True when all inputs can be opened; reports those that cannot.
+bool inputs_exist(const Arguments& arguments, Diagnostics& diagnostics);
+
+}  // namespace trapeze

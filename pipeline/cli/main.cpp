@@ -1,0 +1,38 @@
+#include <exception>
+#include <new>
+
+#include "pipeline/cli/commands.h"
+#include "pipeline/cli/exit_codes.h"
+
+namespace {
+
+int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
+    using namespace trapeze;
+    Diagnostics diagnostics([&](const Diagnostic& diagnostic) { terminal.show(diagnostic); });
+    int code = kExitInternal;
+    switch (arguments.command) {
+        case Command::Render: code = render_command(arguments, terminal, diagnostics); break;
+        case Command::Check: code = check_command(arguments, terminal, diagnostics); break;
+        case Command::Info: code = info_command(arguments, terminal, diagnostics); break;
+    }
+    terminal.summarise(diagnostics);
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace trapeze;
+    Arguments arguments;
+    if (const auto code = parse_arguments(argc, argv, arguments)) return *code;
+    Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet});
+    try {
+        return run(arguments, terminal);
+    } catch (const std::bad_alloc&) {
+        terminal.show({Severity::Error, "out of memory; no output was written", {}, {}, {}});
+        return kExitNoMemory;
+    } catch (const std::exception& error) {
+        terminal.show({Severity::Error, std::string("internal error: ") + error.what(), {}, {}, {}});
+        return kExitInternal;
+    }
+}

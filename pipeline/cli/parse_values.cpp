@@ -1,0 +1,80 @@
+#include "pipeline/cli/parse_values.h"
+
+#include <cctype>
+#include <charconv>
+
+namespace trapeze {
+namespace {
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return {};
+    return value;
+}
+
+/// "AxB" with both in [low, high].
+std::optional<std::pair<int, int>> pair_of(std::string_view text, int low, int high) {
+    const size_t cross = text.find_first_of("xX");
+    if (cross == std::string_view::npos) return {};
+    const auto a = number<int>(text.substr(0, cross)), b = number<int>(text.substr(cross + 1));
+    if (!a || !b || *a < low || *a > high || *b < low || *b > high) return {};
+    return {{*a, *b}};
+}
+
+}  // namespace
+
+std::optional<size_t> parse_size(std::string_view text) {
+    size_t digits = 0;
+    while (digits < text.size() && (std::isdigit(static_cast<unsigned char>(text[digits])) || text[digits] == '.'))
+        ++digits;
+    const auto value = number<double>(text.substr(0, digits));
+    std::string_view unit = text.substr(digits);
+    if (!value || !(*value > 0)) return {};
+    double scale = 1;
+    if (!unit.empty()) {
+        const size_t power = std::string_view("KMGT").find(static_cast<char>(std::toupper(unit[0])));
+        if (power == std::string_view::npos) return {};
+        for (size_t i = 0; i <= power; ++i) scale *= 1024;
+        unit.remove_prefix(1);
+        if (unit != "" && unit != "B" && unit != "iB") return {};
+    }
+    const double bytes = *value * scale;
+    if (bytes > 1e18) return {};
+    return static_cast<size_t>(bytes);
+}
+
+std::optional<std::pair<int, int>> parse_resolution(std::string_view text) {
+    return pair_of(text, 1, 65536);
+}
+
+std::optional<std::pair<int, int>> parse_samples(std::string_view text) {
+    if (const auto n = number<int>(text)) return *n >= 1 && *n <= 64 ? std::optional(std::pair{*n, *n}) : std::nullopt;
+    return pair_of(text, 1, 64);
+}
+
+std::optional<std::vector<FrameRange>> parse_frames(std::string_view text) {
+    std::vector<FrameRange> ranges;
+    while (true) {
+        const size_t comma = text.find(',');
+        std::string_view item = text.substr(0, comma);
+        FrameRange range;
+        if (const size_t step = item.find('x'); step != std::string_view::npos) {
+            const auto value = number<int>(item.substr(step + 1));
+            if (!value || *value < 1) return {};
+            range.step = *value;
+            item = item.substr(0, step);
+        }
+        const size_t dash = item.find('-', 1);
+        const auto first = number<int>(item.substr(0, dash));
+        const auto last = dash == std::string_view::npos ? first : number<int>(item.substr(dash + 1));
+        if (!first || !last || *last < *first) return {};
+        range.first = *first, range.last = *last;
+        ranges.push_back(range);
+        if (comma == std::string_view::npos) return ranges;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+}  // namespace trapeze

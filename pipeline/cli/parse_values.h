@@ -1,0 +1,29 @@
+/// The small languages of option values: sizes, frame lists, resolutions. Each returns nothing for what it cannot read.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace trapeze {
+
+/// "512M", "2G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024.
+std::optional<size_t> parse_size(std::string_view text);
+
+/// "640x480": positive numbers.
+std::optional<std::pair<int, int>> parse_resolution(std::string_view text);
+
+/// "8" or "8x4": samples along x and y, 1 to 64.
+std::optional<std::pair<int, int>> parse_samples(std::string_view text);
+
+/// Frames to render: ranges with an optional step, "1-10,20" or "1-9x2".
+struct FrameRange {
+    int first = 0, last = 0, step = 1;
+    bool has(int frame) const { return frame >= first && frame <= last && (frame - first) % step == 0; }
+};
+std::optional<std::vector<FrameRange>> parse_frames(std::string_view text);
+
+}  // namespace trapeze

@@ -1,0 +1,188 @@
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "composite/write_displays.h"
+#include "pipeline/cli/commands.h"
+#include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/version.h"
+#include "pipeline/frame/render_frame.h"
+#include "pipeline/frame/stopwatch.h"
+#include "pipeline/rib/read_rib.h"
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+int thread_count(int asked) {
+    const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    if (asked > 0) return asked;
+    return std::max(1, all + asked);
+}
+
+/// "shot.exr" and 3: "shot.3.exr".
+std::string numbered(const std::string& name, int number) {
+    const fs::path path(name);
+    return (path.parent_path() / (path.stem().string() + "." + std::to_string(number) + path.extension().string()))
+        .string();
+}
+
+/// Renders the worlds of the input as they are read.
+class RenderJob {
+  public:
+    RenderJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
+        : arguments_(arguments), terminal_(terminal), diagnostics_(diagnostics), interrupt_(remove_partial_outputs) {}
+
+    int run();
+
+  private:
+    void render_world(Scene&& scene);
+    void override_options(Options& options) const;
+    void override_displays(Options& options) const;
+    bool write_stats() const;
+    int exit_code() const;
+
+    const Arguments& arguments_;
+    Terminal& terminal_;
+    Diagnostics& diagnostics_;
+    Interrupt interrupt_;
+    double render_seconds_ = 0, last_read_seconds_ = 0;
+    Stopwatch total_;
+    std::vector<FrameStats> frames_;
+    int worlds_ = 0, written_ = 0;
+    bool output_failed_ = false;
+};
+
+void RenderJob::override_options(Options& options) const {
+    if (arguments_.resolution) std::tie(options.width, options.height) = *arguments_.resolution;
+    if (arguments_.crop) options.crop_window = *arguments_.crop;
+    if (arguments_.samples) {
+        options.samples_x = static_cast<float>(arguments_.samples->first);
+        options.samples_y = static_cast<float>(arguments_.samples->second);
+    }
+}
+
+void RenderJob::override_displays(Options& options) const {
+    if (options.displays.empty()) {
+        // RISpec's default display is one picture of a fixed name; ours has the scene's.
+        const std::string& input = arguments_.inputs.front();
+        const std::string stem = input == "-" ? "stdin" : fs::path(input).stem().string();
+        options.displays.push_back({stem + ".exr", "file", "rgba", {}, {}});
+    }
+    if (!arguments_.output.empty()) {
+        Display& first = options.displays.front();
+        first.name = worlds_ == 1 ? arguments_.output : numbered(arguments_.output, worlds_);
+        first.type = "file";
+    }
+    if (!arguments_.driver.empty())
+        for (Display& display : options.displays) display.type = arguments_.driver;
+}
+
+void RenderJob::render_world(Scene&& scene) {
+    if (interrupt_.requested()) return;
+    Stopwatch watch;
+    const double read_seconds = total_.elapsed() - render_seconds_;
+    ++worlds_;
+    override_options(scene.options);
+    override_displays(scene.options);
+
+    RenderSettings settings;
+    settings.sampler = arguments_.sampler;
+    settings.memory_bytes = arguments_.memory_bytes;
+    settings.regions_at_least = arguments_.regions_at_least;
+    settings.seed = arguments_.seed;
+    settings.cancelled = &interrupt_.requested();
+    settings.on_progress = [&](double fraction) { terminal_.progress(fraction); };
+
+    terminal_.begin_progress(scene.options.displays.front().name);
+    const RenderContext context = make_context(scene, settings, diagnostics_);
+    std::optional<FrameResult> result = render_frame(context, settings);
+    terminal_.end_progress();
+    if (result) {
+        FrameStats& stats = result->stats;
+        Stopwatch writing;
+        OutputInfo info;
+        info.software = std::string("Trapeze ") + kVersion;
+        info.metadata = {{"sampler", stats.sampler},
+                         {"samples", std::to_string(context.samples_x) + "x" + std::to_string(context.samples_y)},
+                         {"renderTime", std::to_string(stats.seconds.total)}};
+        std::vector<std::string> written;
+        if (!write_displays(result->image, context, info, &written)) output_failed_ = true;
+        written_ += static_cast<int>(written.size());
+        const double write_seconds = writing.lap();
+        stats.seconds.composite += write_seconds;
+        stats.seconds.read = read_seconds - last_read_seconds_;
+        stats.seconds.total += write_seconds + stats.seconds.read;
+        last_read_seconds_ = read_seconds;
+        frames_.push_back(stats);
+    }
+    render_seconds_ += watch.lap();
+}
+
+bool RenderJob::write_stats() const {
+    if (arguments_.stats_file.empty()) return true;
+    std::string text = frames_.size() == 1 ? to_json(frames_[0]) : "[";
+    if (frames_.size() != 1) {
+        for (size_t i = 0; i < frames_.size(); ++i) text += (i ? ",\n" : "\n") + to_json(frames_[i]);
+        text += "]";
+    }
+    // Whole or not at all, like every output.
+    const std::string partial = arguments_.stats_file + ".part-" + std::to_string(getpid());
+    std::ofstream file(partial);
+    file << text << "\n";
+    file.close();
+    std::error_code error;
+    if (file) fs::rename(partial, arguments_.stats_file, error);
+    if (!file || error) {
+        fs::remove(partial, error);
+        diagnostics_.error({}, "cannot write statistics to \"" + arguments_.stats_file + "\"");
+        return false;
+    }
+    return true;
+}
+
+int RenderJob::exit_code() const {
+    if (interrupt_.requested()) return interrupt_.exit_code();
+    if (output_failed_) return kExitNoOutput;
+    if (frames_.empty()) return kExitNothingRendered;
+    if (arguments_.strict && diagnostics_.kinds().count("missing-shader")) return kExitShaderMissing;
+    const bool warned = diagnostics_.count(Severity::Warning) > 0;
+    return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
+}
+
+int RenderJob::run() {
+    ReadOptions options;
+    options.shading_rate = arguments_.shading_rate;
+    if (arguments_.frames)
+        options.wants_frame = [this](int frame) {
+            return std::any_of(arguments_.frames->begin(), arguments_.frames->end(),
+                               [&](const FrameRange& range) { return range.has(frame); });
+        };
+    const int threads = thread_count(arguments_.threads);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        read_rib(arguments_.inputs, options, diagnostics_, [&](Scene&& scene) { render_world(std::move(scene)); });
+    });
+    if (!interrupt_.requested()) {
+        if (worlds_ == 0) diagnostics_.error({}, "no WorldBegin block was found in the input; nothing rendered");
+        if (!frames_.empty() && !write_stats()) output_failed_ = true;
+    }
+    return exit_code();
+}
+
+}  // namespace
+
+int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
+    return RenderJob(arguments, terminal, diagnostics).run();
+}
+
+}  // namespace trapeze

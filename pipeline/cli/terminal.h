@@ -1,0 +1,50 @@
+/// All that the program says while it works: messages and progress, on standard error, without one tearing the other.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "core/diagnostics.h"
+
+namespace trapeze {
+
+enum class ProgressStyle { None, Bar, Lines, Json, Prman };
+
+/// "auto" is a bar on a terminal and nothing elsewhere.
+ProgressStyle progress_style(const std::string& name);
+
+class Terminal {
+  public:
+    struct Settings {
+        ProgressStyle progress = ProgressStyle::None;
+        bool color = true;  ///< if standard error is a terminal and NO_COLOR is not set
+        bool quiet = false; ///< only errors
+    };
+    explicit Terminal(const Settings& settings);
+
+    void show(const Diagnostic& diagnostic);
+    void say(const std::string& line);
+    /// What repeated kinds were not shown: one line each.
+    void summarise(const Diagnostics& diagnostics);
+
+    void begin_progress(const std::string& what);
+    void progress(double fraction);
+    void end_progress();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void clear_bar();
+    void draw_bar();
+    const char* color_of(Severity severity) const;
+
+    Settings settings_;
+    std::mutex mutex_;
+    std::string what_;
+    double fraction_ = 0;
+    int last_percent_ = -1;
+    bool bar_shown_ = false, active_ = false;
+    Clock::time_point start_;
+};
+
+}  // namespace trapeze

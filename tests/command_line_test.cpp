@@ -1,0 +1,152 @@
+/// The program from outside: exit codes, messages, outputs that appear whole or not at all, interruption.
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/program.h"
+
+namespace trapeze::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSphere = R"(Format 64 48 1
+PixelSamples 2 2
+Projection "perspective" "fov" 40
+Display "sphere.exr" "openexr" "rgbaz"
+Translate 0 0 5
+WorldBegin
+LightSource "distantlight" 1
+Surface "plastic"
+Sphere 1 -1 1 360
+WorldEnd
+)";
+
+/// A scene that takes minutes, for interrupting.
+constexpr const char* kSlow = R"(Format 1920 1080 1
+PixelSamples 32 32
+Projection "perspective" "fov" 40
+Display "slow.exr" "openexr" "rgba"
+Translate 0 0 3
+WorldBegin
+ShadingRate 0.05
+Sphere 1 -1 1 360
+WorldEnd
+)";
+
+std::string files_in(const WorkFolder& folder) {
+    std::string names;
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        if (const std::string name = entry.path().filename(); name != ".stdout" && name != ".stderr") names += name + " ";
+    return names;
+}
+
+TEST(CommandLine, RendersASceneAndWritesItsDisplay) {
+    WorkFolder folder;
+    folder.write("a.rib", kSphere);
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "sphere.exr"));
+}
+
+TEST(CommandLine, TheCommandMayBeLeftOutAsWithPrman) {
+    WorkFolder folder;
+    folder.write("a.rib", kSphere);
+    const Outcome outcome = run_program(folder, "-t:1 -res 32 32 -Progress a.rib -o x.exr");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("R90000"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "x.exr"));
+    EXPECT_FALSE(fs::exists(folder / "sphere.exr"));
+}
+
+TEST(CommandLine, ReadsStandardInputAndSeveralFilesAsOne) {
+    WorkFolder folder;
+    const std::string scene = kSphere;
+    const size_t half = scene.find("WorldBegin");
+    folder.write("head.rib", scene.substr(0, half));
+    folder.write("tail.rib", scene.substr(half));
+    EXPECT_EQ(run_program(folder, "render head.rib tail.rib -o a.exr").exit_code, 0);
+    folder.write("a.rib", scene);
+    EXPECT_EQ(run_program(folder, "render -o b.exr - < a.rib").exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "b.exr"));
+    EXPECT_EQ(run_program(folder, "render <(gzip -c a.rib) -o c.exr").exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "c.exr"));
+}
+
+TEST(CommandLine, StatisticsHaveThePromisedKeys) {
+    WorkFolder folder;
+    folder.write("a.rib", kSphere);
+    ASSERT_EQ(run_program(folder, "render a.rib --stats s.json").exit_code, 0);
+    const auto stats = nlohmann::json::parse(text_of(folder / "s.json"));
+    for (const char* stage : {"read", "tessellate", "shade", "build", "trace", "composite", "total"})
+        EXPECT_TRUE(stats["stages"][stage]["seconds"].is_number()) << stage;
+    for (const char* key : {"grids", "micropolygons", "samples", "rays_per_second", "predicate_tests", "predicate_hits",
+                            "nodes_visited", "threads", "simd_target", "sampler"})
+        EXPECT_TRUE(stats.contains(key)) << key;
+    for (const char* key : {"grids", "tree", "peak_rss"}) EXPECT_GT(stats["bytes"][key].get<double>(), 0) << key;
+    EXPECT_GT(stats["micropolygons"].get<int>(), 500);
+    EXPECT_GT(stats["predicate_hits"].get<int>(), 1000);
+}
+
+TEST(CommandLine, ExitCodesSayWhatWentWrong) {
+    WorkFolder folder;
+    folder.write("a.rib", kSphere);
+    folder.write("empty.rib", "# nothing\n");
+    folder.write("wrong.rib", std::string("Sphare 1\n") + kSphere);
+    folder.write("shader.rib", std::string(kSphere).replace(std::string(kSphere).find("plastic"), 7, "gloop"));
+    EXPECT_EQ(run_program(folder, "render").exit_code, 2);
+    EXPECT_EQ(run_program(folder, "render a.rib --sampler none").exit_code, 2);
+    EXPECT_EQ(run_program(folder, "render missing.rib").exit_code, 3);
+    EXPECT_EQ(run_program(folder, "render empty.rib").exit_code, 4);
+    EXPECT_EQ(run_program(folder, "render wrong.rib").exit_code, 1);
+    EXPECT_EQ(run_program(folder, "render shader.rib").exit_code, 0);
+    EXPECT_EQ(run_program(folder, "render shader.rib --strict").exit_code, 5);
+    EXPECT_EQ(run_program(folder, "render a.rib -o no/such/folder/x.exr").exit_code, 6);
+    EXPECT_EQ(run_program(folder, "check a.rib").exit_code, 0);
+    EXPECT_EQ(run_program(folder, "check wrong.rib").exit_code, 1);
+    EXPECT_EQ(run_program(folder, "--version").exit_code, 0);
+    EXPECT_EQ(run_program(folder, "--help").exit_code, 0);
+}
+
+TEST(CommandLine, AMissingShaderIsSaidOnce) {
+    WorkFolder folder;
+    const std::string scene = kSphere;
+    const size_t sphere = scene.find("Sphere");
+    folder.write("a.rib", scene.substr(0, scene.find("Surface")) + "Surface \"gloop\"\n" + scene.substr(sphere, 20) +
+                              "Surface \"gloop\"\n" + scene.substr(sphere));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    const size_t first = outcome.err.find("warning");
+    ASSERT_NE(first, std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("a.rib:"), std::string::npos);
+    EXPECT_NE(outcome.err.find("gloop"), std::string::npos);
+    EXPECT_EQ(outcome.err.find("warning", first + 1), std::string::npos) << outcome.err;
+}
+
+TEST(CommandLine, InterruptionLeavesNothingHalfWritten) {
+    for (const auto& [signal, code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
+        WorkFolder folder;
+        folder.write("slow.rib", kSlow);
+        // `timeout` sends the signal and, with --preserve-status, passes on the program's own exit code.
+        const std::string command = "cd '" + folder.path().string() + "' && timeout --preserve-status -s " + signal +
+                                    " 1 '" TRAPEZE_PROGRAM "' render slow.rib >.stdout 2>.stderr";
+        const auto start = std::chrono::steady_clock::now();
+        const int status = std::system(command.c_str());
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        EXPECT_EQ(WEXITSTATUS(status), code);
+        EXPECT_EQ(files_in(folder), "slow.rib ");
+        RecordProperty("seconds", std::to_string(seconds));
+    }
+}
+
+TEST(CommandLine, AnOutputThatCannotBeWrittenLeavesTheOldOneAlone) {
+    WorkFolder folder;
+    folder.write("a.rib", kSphere);
+    fs::create_directory(folder / "sphere.exr");  // a folder in the output's place
+    EXPECT_EQ(run_program(folder, "render a.rib").exit_code, 6);
+    EXPECT_TRUE(fs::is_directory(folder / "sphere.exr"));
+    const auto entries = std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
+    EXPECT_EQ(entries, 4) << "a.rib, sphere.exr/, .stdout, .stderr; but: " << files_in(folder);
+}
+
+}  // namespace
+}  // namespace trapeze::testing

@@ -1,0 +1,71 @@
+/// Every tiny scene renders to the same bits whatever the visibility method, the threads, the regions and the crop.
+#include <gtest/gtest.h>
+
+#include "tests/scene_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+bool same_bits(const Image& a, const Image& b) {
+    const auto same = [](const std::vector<float>& x, const std::vector<float>& y) {
+        return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0;
+    };
+    return a.window == b.window && same(a.rgba, b.rgba) && same(a.z, b.z) && a.id == b.id;
+}
+
+void expect_same(const std::vector<FrameResult>& a, const std::vector<FrameResult>& b, const std::string& what) {
+    ASSERT_EQ(a.size(), b.size()) << what;
+    for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(same_bits(a[i].image, b[i].image)) << what << ", world " << i;
+}
+
+class TinyScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
+    const std::string path = tiny_scene_path(GetParam());
+    RenderSettings settings;
+    const auto reference = render_scene(path, settings, 2);
+    ASSERT_FALSE(reference.empty());
+
+    for (const int threads : {1, 7}) expect_same(reference, render_scene(path, settings, threads), "threads");
+    for (const int regions : {3, 40}) {
+        RenderSettings split = settings;
+        split.regions_at_least = regions;
+        const auto results = render_scene(path, split, 2);
+        expect_same(reference, results, std::to_string(regions) + " regions");
+        // A picture this small may have fewer tiles than that.
+        for (const FrameResult& result : results) EXPECT_GT(result.stats.regions, 1);
+    }
+    RenderSettings brute = settings;
+    brute.sampler = "bruteforce";
+    expect_same(reference, render_scene(path, brute, 2), "bruteforce");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(tiny_scenes()),
+                         [](const auto& info) { return info.param; });
+
+TEST(Seed, ChangesTheSamplesAndNothingElse) {
+    RenderSettings settings;
+    const auto a = render_scene(tiny_scene_path(tiny_scenes().front()), settings);
+    const auto b = render_scene(tiny_scene_path(tiny_scenes().front()), settings);
+    settings.seed = 1;
+    const auto c = render_scene(tiny_scene_path(tiny_scenes().front()), settings);
+    EXPECT_TRUE(same_bits(a[0].image, b[0].image));
+    EXPECT_FALSE(same_bits(a[0].image, c[0].image));
+    EXPECT_EQ(a[0].stats.tessellate.micropolygons, c[0].stats.tessellate.micropolygons);
+}
+
+TEST(TwoRendersInOneProcess, DoNotSeeEachOther) {
+    const auto scenes = tiny_scenes();
+    RenderSettings settings;
+    const auto alone_a = render_scene(tiny_scene_path(scenes.front()), settings, 1);
+    const auto alone_b = render_scene(tiny_scene_path(scenes.back()), settings, 1);
+    std::vector<FrameResult> together_a, together_b;
+    std::thread other([&] { together_b = render_scene(tiny_scene_path(scenes.back()), settings, 1); });
+    together_a = render_scene(tiny_scene_path(scenes.front()), settings, 1);
+    other.join();
+    expect_same(alone_a, together_a, "first");
+    expect_same(alone_b, together_b, "second");
+}
+
+}  // namespace
+}  // namespace trapeze::testing

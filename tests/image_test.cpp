@@ -1,0 +1,44 @@
+/// The tiny scenes against their reference pictures (tests/references, made by tests/update_references after looking at
+/// them), with idiff's thresholds. What may differ between machines is the last place of libraries' floats.
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include "tests/program.h"
+#include "tests/scene_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kReferences = TRAPEZE_SOURCE_DIR "/tests/references";
+
+class TinyPicture : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(TinyPicture, LooksLikeItsReference) {
+    WorkFolder folder;
+    const Outcome outcome = run_program(folder, "render '" + tiny_scene_path(GetParam()) + "'");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    int pictures = 0;
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+        const std::string file = entry.path().filename();
+        if (file.starts_with(".std")) continue;
+        ++pictures;
+        const OIIO::ImageBuf made(entry.path().string()), wanted((kReferences / file).string());
+        ASSERT_TRUE(wanted.has_error() == false && wanted.spec().width > 0) << "no reference for " << file;
+        ASSERT_EQ(made.spec().nchannels, wanted.spec().nchannels) << file;
+        ASSERT_EQ(OIIO::get_roi(made.spec()), OIIO::get_roi(wanted.spec())) << file;
+        // A pixel fails beyond 0.01; a handful may, where a sample falls on the other side of an edge.
+        const auto result = OIIO::ImageBufAlgo::compare(made, wanted, 0.01f, 0.002f);
+        const double pixels = static_cast<double>(made.spec().width) * made.spec().height;
+        EXPECT_LE(static_cast<double>(result.nfail), pixels * 0.002) << file << ": largest error " << result.maxerror;
+        EXPECT_LE(static_cast<double>(result.nwarn), pixels * 0.01) << file;
+    }
+    EXPECT_GT(pictures, 0) << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TinyPicture, ::testing::ValuesIn(tiny_scenes()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace trapeze::testing

@@ -1,0 +1,58 @@
+/// Runs the built program as a user would, in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace trapeze::testing {
+
+inline std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// A temporary folder that goes away with the test.
+class WorkFolder {
+  public:
+    WorkFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "trapeze-test-XXXXXX").string();
+        path_ = mkdtemp(pattern.data());
+    }
+    ~WorkFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    WorkFolder(const WorkFolder&) = delete;
+    WorkFolder& operator=(const WorkFolder&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+struct Outcome {
+    int exit_code = -1;
+    std::string out, err;
+};
+
+/// Runs `trapeze ARGUMENTS` (shell syntax) with the folder as working directory.
+inline Outcome run_program(const WorkFolder& folder, const std::string& arguments) {
+    const std::string command = "cd '" + folder.path().string() + "' && '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " +
+                                arguments;
+    const int status = std::system(("bash -c \"" + command + "\"").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".stdout"), text_of(folder / ".stderr")};
+}
+
+}  // namespace trapeze::testing

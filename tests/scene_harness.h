@@ -1,0 +1,52 @@
+/// Renders RIB scenes in the test's own process, so that images can be compared bit for bit.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+#include <string>
+#include <vector>
+
+#include "pipeline/frame/render_frame.h"
+#include "pipeline/rib/read_rib.h"
+
+namespace trapeze::testing {
+
+/// Every scene of scenes/tiny, by stem, sorted.
+inline std::vector<std::string> tiny_scenes() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(TRAPEZE_SOURCE_DIR "/scenes/tiny")) {
+        const std::string file = entry.path().filename().string();
+        if (file.ends_with(".rib") && !file.starts_with("archive_")) names.push_back(entry.path().stem().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+inline std::string tiny_scene_path(const std::string& name) {
+    return TRAPEZE_SOURCE_DIR "/scenes/tiny/" + name + ".rib";
+}
+
+/// All worlds of a scene, rendered with so many threads.
+inline std::vector<FrameResult> render_scene(const std::string& path, const RenderSettings& settings, int threads = 2) {
+    std::vector<FrameResult> results;
+    Diagnostics diagnostics;
+    const std::vector<std::string> files{path};
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        read_rib(files, ReadOptions{}, diagnostics, [&](Scene&& scene) {
+            auto result = render_frame(make_context(scene, settings, diagnostics), settings);
+            if (result) results.push_back(std::move(*result));
+        });
+    });
+    EXPECT_EQ(diagnostics.count(Severity::Error), 0u) << path;
+    return results;
+}
+
+}  // namespace trapeze::testing
