@@ -18,8 +18,14 @@ FOV = 30.0  # degrees, of the picture's height
 FOCUS = 5.35  # the hero's eyes
 FEET = 0.731  # how far below its origin Spot's limit surface ends
 
-HORIZON = (1.0, 0.66, 0.43)
-ZENITH = (0.07, 0.20, 0.36)
+SKY = [  # elevation in degrees, colour: gold, rose, violet, blue
+    (0.0, (1.0, 0.63, 0.38)),
+    (3.5, (0.90, 0.46, 0.35)),
+    (7.0, (0.52, 0.33, 0.42)),
+    (11.0, (0.20, 0.21, 0.40)),
+    (20.0, (0.06, 0.11, 0.26)),
+]
+HORIZON = SKY[0][1]
 # What the ground's matte surface reflects of all distant lights: its colour far away is the horizon's over this.
 GROUND_LIGHT = (0.90, 0.87, 0.88)
 MIST_LENGTH = 26.0  # the ground's colour nears the horizon's with this decay
@@ -137,9 +143,9 @@ class Ball:
 BALLS = [
     Ball(-0.40, 5.15, 0.20, plain("plastic", (0.02, 0.35, 0.36), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
     Ball(-0.03, 4.80, 0.11, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
-    Ball(1.95, 6.3, 0.26, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
+    Ball(-1.12, 6.0, 0.22, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
     Ball(-3.0, 10.5, 0.38, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8]')),
-    Ball(0.25, 11.8, 0.34, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8]')),
+    Ball(-0.14, 9.6, 0.30, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8]')),
 ]
 
 
@@ -180,23 +186,29 @@ LightSource "spotlight" 4 "intensity" [16] "lightcolor" [1 .8 .6] "from" [-1.2 5
 """
 
 
+def sky_color(azimuth, elevation):
+    """Between the stops of SKY, with a glow low down on the left; degrees."""
+    color = SKY[-1][1] if elevation > 0 else HORIZON
+    for (low, below), (high, above) in zip(SKY, SKY[1:]):
+        if low <= elevation <= high:
+            color = mix(below, above, (elevation - low) / (high - low))
+    glow = math.exp(-(((azimuth + 12) / 18) ** 2) - (max(0.0, elevation) / 6) ** 2)
+    return tuple(c + glow * g for c, g in zip(color, (0.50, 0.30, 0.08)))
+
+
 def sky():
-    """A wall of bilinear patches around the view, coloured by height with a glow towards the left."""
-    columns, rows, radius = 9, 6, 3000.0
+    """A wall of bilinear patches around the view."""
+    columns, radius = 13, 3000.0
+    elevations = [-1, 0, 1, 2, 3.5, 5, 7, 9, 11, 14, 20]
+    rows = len(elevations)
     points, colors = [], []
-    for j in range(rows):
-        elevation = 34.0 * (j / (rows - 1)) ** 1.5 - 1.0
+    for elevation in elevations:
         for i in range(columns):
-            azimuth = math.radians(-44 + 88 * i / (columns - 1))
-            points += [
-                radius * math.sin(azimuth),
-                radius * math.tan(math.radians(elevation)),
-                radius * math.cos(azimuth),
-            ]
-            height = min(1.0, max(0.0, elevation) / 26.0)
-            color = mix(HORIZON, ZENITH, height**0.62)
-            glow = math.exp(-(((math.degrees(azimuth) + 14) / 20) ** 2) - (max(0.0, elevation) / 9) ** 2)
-            colors += [c + glow * g for c, g in zip(color, (0.55, 0.30, 0.06))]
+            azimuth = -44 + 88 * i / (columns - 1)
+            angle = math.radians(azimuth)
+            height = EYE[1] + radius * math.tan(math.radians(elevation))
+            points += [radius * math.sin(angle), height, radius * math.cos(angle)]
+            colors += sky_color(azimuth, elevation)
     return f"""
 # The evening sky: colours at the vertices of a wall of patches.
 AttributeBegin
