@@ -6,6 +6,8 @@
 namespace trapeze {
 namespace {
 
+constexpr double kParallel = 1e-5;  ///< sine of the angle
+
 V3f at(ConstPlane3 p, int i) {
     return {p.x[i], p.y[i], p.z[i]};
 }
@@ -23,14 +25,14 @@ V3f tangent(const GridShape& shape, ConstPlane3 P, GridAxis axis, int i, int j) 
     return V3f(0);
 }
 
-/// Zero where there is none. Doubles, since micropolygons far from the origin are small against their
-/// coordinates' products.
+/// Zero where there is none, which chords that are parallel but for rounding do not hide. Doubles, since
+/// micropolygons far from the origin are small against their coordinates' products.
 V3f normal_at(const GridShape& shape, ConstPlane3 P, int i, int j) {
     const V3d along_u(tangent(shape, P, GridAxis::U, i, j));
     const V3d along_v(tangent(shape, P, GridAxis::V, i, j));
     const V3d cross = along_u.cross(along_v);
     const double length = cross.length();
-    if (!(length > 0) || !std::isfinite(length)) return V3f(0);
+    if (!(length > kParallel * along_u.length() * along_v.length()) || !std::isfinite(length)) return V3f(0);
     return V3f(cross / length);
 }
 

@@ -1,0 +1,165 @@
+#include "shade/displace.h"
+
+#include <cmath>
+
+#include "shade/test_scene.h"
+
+namespace trapeze {
+namespace {
+
+V3f moved(const ShadingGrid& after, const ShadingGrid& before, size_t i, int key = 0) {
+    return after.P[key].at(i) - before.P[key].at(i);
+}
+
+TEST(Displacement, SineWavesFollowTheirFormulaInShaderSpace) {
+    TestScene scene;
+    scene.attributes->displacement_bound = 1;
+    ShaderInstance& waves =
+        scene.displacement("sinewaves", {number("amplitude", 0.3f), number("frequency", 2)});
+    waves.camera_from_shader.setScale(V3f(2));
+    waves.camera_from_shader[3][0] = 0.1f;
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    for (size_t i = 0; i < before.vertex_count(); ++i) {
+        const V3f p = (before.P[0].at(i) - V3f(0.1f, 0, 0)) / 2;
+        const auto wave = [](float x) { return std::sin(2 * M_PI * 2 * x); };
+        const double height = 2 * 0.3 * (wave(p.x) + wave(p.y) + wave(p.z)) / 3;
+        expect_near(moved(after, before, i), V3f(0, 0, -static_cast<float>(height)), 2e-6f);
+    }
+    EXPECT_TRUE(after.displaced);
+}
+
+TEST(Displacement, NormalsFollowTheMovedSurface) {
+    TestScene scene;
+    scene.attributes->displacement_bound = 1;
+    scene.displacement("sinewaves", {number("amplitude", 0.1f), number("frequency", 1)});
+    const ShadingGrid after = scene.shaded(scene.grid(16, 16));
+    for (int j = 1; j < 16; ++j)
+        for (int i = 1; i < 16; ++i) {
+            const V3f p = scene.grid(16, 16).P[0].at(after.shape.row_index(i, j));
+            // z = 4 - a (sin 2 pi x + sin 2 pi y + sin 8 pi) / 3, seen from negative z.
+            const float slope = 0.1f * 2 * static_cast<float>(M_PI) / 3;
+            const V3f expected = V3f(-slope * std::cos(2 * static_cast<float>(M_PI) * p.x),
+                                     -slope * std::cos(2 * static_cast<float>(M_PI) * p.y), -1)
+                                     .normalized();
+            expect_near(after.N.at(after.shape.row_index(i, j)), expected, 0.01f);
+            EXPECT_EQ(after.Ng.at(after.shape.row_index(i, j)), after.N.at(after.shape.row_index(i, j)));
+        }
+}
+
+TEST(Displacement, OrientationIsKept) {
+    TestScene scene;
+    scene.attributes->displacement_bound = 1;
+    scene.displacement("dented");
+    ShadingGrid inside = scene.grid(8, 8);
+    inside.reverse_orientation = true;
+    inside.N.fill(inside.vertex_count(), V3f(0, 0, 1));
+    const ShadingGrid outside = scene.shaded(scene.grid(8, 8));
+    inside = scene.shaded(inside);
+    for (size_t i = 0; i < inside.vertex_count(); ++i) {
+        EXPECT_GT(inside.N.at(i).z, 0.3f);
+        EXPECT_LT(outside.N.at(i).z, -0.3f);
+    }
+}
+
+/// Two grids side by side with different rates that share three vertices of an edge at all keys.
+TEST(Displacement, SharedVerticesStayShared) {
+    for (const char* name : {"dented", "sinewaves"}) {
+        TestScene scene;
+        scene.attributes->displacement_bound = 10;
+        scene.displacement(name, {number("amplitude", 0.7f), number("frequency", 3.3f)});
+        M44f turn;
+        turn.setAxisAngle(V3f(0.3f, 1, 0.2f).normalized(), 0.8f);
+        scene.scene.primitives[0].camera_from_object = {M44f(), turn, turn * turn};
+        ShadingGrid left = scene.grid(4, 2, 3), right = scene.grid(7, 2, 3);
+        for (int key = 0; key < 3; ++key)
+            for (int j = 0; j <= 2; ++j) {
+                const V3f shared(1.1f, 0.37f * static_cast<float>(j + key), 3.9f);
+                left.P[key].set(left.shape.row_index(4, j), shared);
+                right.P[key].set(right.shape.row_index(0, j), shared);
+                const V3f normal = V3f(0.3f, 0.1f * static_cast<float>(j), -1).normalized();
+                left.N.set(left.shape.row_index(4, j), normal);
+                right.N.set(right.shape.row_index(0, j), normal);
+            }
+        const ShadingGrid before = left;
+        left = scene.shaded(left), right = scene.shaded(right);
+        for (int key = 0; key < 3; ++key)
+            for (int j = 0; j <= 2; ++j) {
+                const size_t at = left.shape.row_index(4, j);
+                EXPECT_EQ(left.P[key].at(at), right.P[key].at(right.shape.row_index(0, j)));
+                EXPECT_NE(left.P[key].at(at), before.P[key].at(at));
+            }
+    }
+}
+
+TEST(Displacement, TurnsWithThePrimitive) {
+    TestScene scene;
+    scene.attributes->displacement_bound = 10;
+    scene.displacement("dented", {number("amplitude", 0.5f)});
+    M44f quarter;
+    quarter.setAxisAngle(V3f(0, 1, 0), static_cast<float>(M_PI) / 2);  // z to x
+    scene.scene.primitives[0].camera_from_object = {M44f(), quarter};
+    const ShadingGrid before = scene.grid(4, 4, 2), after = scene.shaded(before);
+    for (size_t i = 0; i < before.vertex_count(); ++i) {
+        const V3f first = moved(after, before, i), last = moved(after, before, i, 1);
+        expect_near(last, V3f(first.z, 0, 0), 1e-6f);
+    }
+}
+
+TEST(Displacement, KeysBetweenPosesAreInterpolated) {
+    TestScene scene;
+    scene.attributes->displacement_bound = 10;
+    scene.displacement("sinewaves", {number("amplitude", 0.5f)});
+    M44f larger;
+    larger.setScale(V3f(3));
+    scene.scene.primitives[0].camera_from_object = {M44f(), larger};
+    const ShadingGrid before = scene.grid(4, 4, 3), after = scene.shaded(before);
+    for (size_t i = 0; i < before.vertex_count(); ++i) {
+        expect_near(moved(after, before, i, 1), moved(after, before, i) * 2.0f, 1e-6f);
+        expect_near(moved(after, before, i, 2), moved(after, before, i) * 3.0f, 1e-6f);
+    }
+}
+
+TEST(Displacement, BeyondItsBoundIsReportedWithTheBoundNeeded) {
+    TestScene scene;
+    scene.attributes->displacement_bound = 0.2f;
+    scene.attributes->user["displacementbound"].set(number("sphere", 0.1f));
+    scene.displacement("sinewaves", {number("amplitude", 0.5f), number("frequency", 0.25f)});
+    const ShadingGrid before = scene.grid(8, 8), after = scene.shaded(before);
+    float farthest = 0;
+    for (size_t i = 0; i < before.vertex_count(); ++i)
+        farthest = std::max(farthest, moved(after, before, i).length());
+    ASSERT_EQ(scene.reported.size(), 1u);
+    char needed[64];
+    std::snprintf(needed, sizeof needed, "\"sphere\" %.4g is needed", farthest / 2);
+    EXPECT_NE(scene.reported[0].text.find(needed), std::string::npos) << scene.reported[0].text << needed;
+
+    scene.reported.clear();
+    scene.attributes->displacement_bound = 0.5f;
+    scene.shaded(before);
+    EXPECT_TRUE(scene.reported.empty());
+}
+
+TEST(Displacement, NullAndZeroNormalsMoveNothing) {
+    TestScene scene;
+    scene.displacement("null");
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    EXPECT_EQ(after.P[0].c, before.P[0].c);
+    EXPECT_EQ(after.N.c, before.N.c);
+    EXPECT_FALSE(after.displaced);
+
+    scene.displacement("dented");
+    ShadingGrid flat = scene.grid();
+    flat.N.fill(flat.vertex_count(), V3f(0));
+    EXPECT_EQ(scene.shaded(flat).P[0].c, before.P[0].c);
+}
+
+TEST(Displacement, ToNowhereStays) {
+    TestScene scene;
+    scene.displacement("sinewaves", {number("amplitude", 3e38f)}).camera_from_shader.setScale(V3f(10));
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    EXPECT_EQ(after.P[0].c, before.P[0].c);
+    EXPECT_TRUE(finite(after.N) && finite(after.Ci));
+}
+
+}  // namespace
+}  // namespace trapeze

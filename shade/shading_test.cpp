@@ -1,0 +1,88 @@
+#include "shade/shading.h"
+
+#include <thread>
+
+#include "shade/test_scene.h"
+
+namespace trapeze {
+namespace {
+
+TEST(Shading, UnknownSurfacesWarnOnceAndBecomeDefaultsurface) {
+    TestScene scene;
+    const ShadingGrid expected = scene.shaded();
+    scene.surface("marble");
+    auto second = std::make_shared<Attributes>();
+    second->surface = std::make_shared<ShaderInstance>(shader("marble"));
+    scene.scene.primitives.push_back(scene.scene.primitives[0]);
+    scene.scene.primitives[1].attributes = second;
+    const ShadingGrid grid = scene.shaded();
+    EXPECT_EQ(grid.Ci.c, expected.Ci.c);
+    ASSERT_EQ(scene.reported.size(), 1u);
+    EXPECT_EQ(scene.reported[0].severity, Severity::Warning);
+    EXPECT_NE(scene.reported[0].text.find("\"marble\""), std::string::npos) << scene.reported[0].text;
+}
+
+TEST(Shading, UnknownShadersAreReportedWhereTheyAreNamed) {
+    TestScene scene;
+    const uint32_t source = scene.diagnostics.add_source("scene.rib");
+    scene.light("lamp").location = {source, 12, 3};
+    scene.displacement("crumpled").location = {source, 15, 1};
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    ASSERT_EQ(scene.reported.size(), 2u);
+    for (const Diagnostic& d : scene.reported)
+        EXPECT_EQ(d.place, d.text.find("lamp") != std::string::npos ? "scene.rib:12:3" : "scene.rib:15:1");
+    EXPECT_EQ(after.P[0].c, before.P[0].c);
+}
+
+TEST(Shading, EachPrimitiveHasItsOwnShaders) {
+    TestScene scene;
+    scene.surface("constant");
+    scene.scene.primitives.push_back(scene.scene.primitives[0]);
+    auto second = std::make_shared<Attributes>();
+    second->surface = std::make_shared<ShaderInstance>(shader("null"));
+    scene.scene.primitives[1].attributes = second;
+    ShadingGrid other = scene.grid();
+    other.primitive_index = 1, other.primitive = &scene.scene.primitives[1];
+    EXPECT_EQ(scene.shaded().Ci.at(0), scene.grid().Cs.at(0) * scene.grid().Os.at(0));
+    EXPECT_EQ(scene.shaded(other).Ci.at(0), V3f(0));
+}
+
+TEST(Shading, ScratchDoesNotRememberEarlierGrids) {
+    TestScene scene;
+    scene.surface("plastic");
+    scene.light("pointlight");
+    const Shading shading(scene.context);
+    ShadeScratch scratch;
+    ShadeStats stats;
+    ShadingGrid large = scene.grid(16, 16), small = scene.grid(1, 1);
+    large.Cs.fill(large.vertex_count(), V3f(100));
+    shading.shade(large, scratch, stats);
+    shading.shade(small, scratch, stats);
+    EXPECT_EQ(small.Ci.c, scene.shaded(scene.grid(1, 1)).Ci.c);
+    EXPECT_EQ(stats.shaded_vertices, 289u + 4u);
+}
+
+TEST(Shading, ThreadsShadeAlike) {
+    TestScene scene;
+    scene.surface("plastic");
+    scene.light("spotlight");
+    scene.attributes->displacement_bound = 10;
+    scene.displacement("dented");
+    const Shading shading(scene.context);
+    std::vector<ShadingGrid> grids(4, scene.grid(16, 16));
+    std::vector<std::thread> threads;
+    for (ShadingGrid& grid : grids)
+        threads.emplace_back([&shading, &grid] {
+            ShadeScratch scratch;
+            ShadeStats stats;
+            shading.shade(grid, scratch, stats);
+        });
+    for (std::thread& thread : threads) thread.join();
+    for (const ShadingGrid& grid : grids) {
+        EXPECT_EQ(grid.Ci.c, grids[0].Ci.c);
+        EXPECT_EQ(grid.P[0].c, grids[0].P[0].c);
+    }
+}
+
+}  // namespace
+}  // namespace trapeze
