@@ -40,8 +40,7 @@ TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
     expect_same(reference, render_scene(path, brute, 2), "bruteforce");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(tiny_scenes()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(tiny_scenes()), test_name);
 
 TEST(Seed, ChangesTheSamplesAndNothingElse) {
     RenderSettings settings;

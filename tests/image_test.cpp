@@ -37,8 +37,7 @@ TEST_P(TinyPicture, LooksLikeItsReference) {
     EXPECT_GT(pictures, 0) << outcome.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TinyPicture, ::testing::ValuesIn(tiny_scenes()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(All, TinyPicture, ::testing::ValuesIn(tiny_scenes()), test_name);
 
 }  // namespace
 }  // namespace trapeze::testing

@@ -17,19 +17,24 @@
 
 namespace trapeze::testing {
 
-/// Every scene of scenes/tiny, by stem, sorted.
+inline std::string tiny_scene_path(const std::string& file) {
+    return TRAPEZE_SOURCE_DIR "/scenes/tiny/" + file;
+}
+
+/// Every scene of scenes/tiny, by file name, sorted.
 inline std::vector<std::string> tiny_scenes() {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(TRAPEZE_SOURCE_DIR "/scenes/tiny")) {
+    for (const auto& entry : std::filesystem::directory_iterator(tiny_scene_path(""))) {
         const std::string file = entry.path().filename().string();
-        if (file.ends_with(".rib") && !file.starts_with("archive_")) names.push_back(entry.path().stem().string());
+        if (file.ends_with(".rib") || file.ends_with(".rib.gz")) names.push_back(file);
     }
     std::sort(names.begin(), names.end());
     return names;
 }
 
-inline std::string tiny_scene_path(const std::string& name) {
-    return TRAPEZE_SOURCE_DIR "/scenes/tiny/" + name + ".rib";
+/// A test's name for a scene.
+inline std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
+    return info.param.substr(0, info.param.find('.'));
 }
 
 /// All worlds of a scene, rendered with so many threads.
