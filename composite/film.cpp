@@ -84,8 +84,7 @@ struct Film::Sums {
     std::vector<float> weights;  ///< one a pixel
     std::vector<float> rgba;     ///< four a pixel; empty when no sample hits anything
 
-    Sums(const PixelRect& tile, const FilterKernel& kernel, bool colored)
-        : pixels(grown(tile, kernel.reach_x(), kernel.reach_y())) {
+    Sums(const PixelRect& tile, const FilterKernel& kernel, bool colored) : pixels(kernel.footprint(tile)) {
         const size_t count = static_cast<size_t>(pixels.width()) * pixels.height();
         weights.resize(count);
         if (colored) rgba.resize(4 * count);
@@ -168,7 +167,22 @@ void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& gr
     if (tile.added.exchange(true)) return;
     const bool colored = !hits.hits.empty() && hits.size() == samples.size();
     auto sums = std::make_unique<Sums>(samples.pixels, kernel_, colored);
-    accumulate(samples, hits, grids, *sums);
+    switch (kernel_.taps_x() == kernel_.taps_y() ? kernel_.taps_x() : 0) {
+        case 1:
+            accumulate<1>(samples, hits, grids, *sums);
+            break;
+        case 2:
+            accumulate<2>(samples, hits, grids, *sums);
+            break;
+        case 3:
+            accumulate<3>(samples, hits, grids, *sums);
+            break;
+        case 4:
+            accumulate<4>(samples, hits, grids, *sums);
+            break;
+        default:
+            accumulate<0>(samples, hits, grids, *sums);
+    }
     if (tile.readers.load(std::memory_order_relaxed) > 0) {
         waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
         tile.sums = std::move(sums);
@@ -179,6 +193,7 @@ void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& gr
     });
 }
 
+template <int kTaps>
 void Film::accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums) {
     std::vector<float> weights(kernel_.tap_count());
     const bool colored = !sums.rgba.empty(), ids = !image_.id.empty();
@@ -191,33 +206,32 @@ void Film::accumulate(const SampleTile& samples, const HitBuffer& hits, const Gr
             CentrePrimitive primitive(px, py);
             for (; sample < end; ++sample) {
                 const auto seen = colored ? hits.of(sample) : std::span<const Hit>();
+                const float x = samples.x[sample], y = samples.y[sample];
                 if (seen.empty()) {
-                    add_sample(samples, sample, px, py, nullptr, weights.data(), sums);
-                    if (ids) primitive.add(samples.x[sample], samples.y[sample], kNoPrimitive);
+                    add_sample<kTaps>(x, y, px, py, nullptr, weights.data(), sums);
+                    if (ids) primitive.add(x, y, kNoPrimitive);
                     continue;
                 }
                 const SampleColor color = resolve_layers(samples.rays[sample], seen, grids);
-                add_sample(samples, sample, px, py, color.rgba, weights.data(), sums);
+                add_sample<kTaps>(x, y, px, py, color.rgba, weights.data(), sums);
                 depth.add(color.depth);
-                if (ids) primitive.add(samples.x[sample], samples.y[sample], color.primitive);
+                if (ids) primitive.add(x, y, color.primitive);
             }
             if (colored) record_pixel(px, py, depth.value(), primitive.value());
         }
 }
 
-void Film::add_sample(const SampleTile& samples, size_t sample, int px, int py, const float* rgba,
-                      float* weights, Sums& sums) const {
-    const FilterTaps taps = kernel_.weigh(samples.x[sample], samples.y[sample], px, py, weights);
-    const int width = sums.pixels.width();
+template <int kTaps>
+void Film::add_sample(float x, float y, int px, int py, const float* rgba, float* weights, Sums& sums) const {
+    const int nx = kTaps ? kTaps : kernel_.taps_x(), ny = kTaps ? kTaps : kernel_.taps_y();
+    const FilterTaps taps = kernel_.weigh<kTaps>(x, y, px, py, weights);
     size_t row = sums.index(taps.x0, taps.y0);
-    for (int j = 0; j < kernel_.taps_y(); ++j, row += width, weights += kernel_.taps_x())
-        for (int i = 0; i < kernel_.taps_x(); ++i) {
-            const float weight = weights[i];
-            sums.weights[row + i] += weight;
-            if (!rgba) continue;
-            float* sum = &sums.rgba[4 * (row + i)];
-            for (int c = 0; c < 4; ++c) sum[c] += weight * rgba[c];
-        }
+    for (int j = 0; j < ny; ++j, row += sums.pixels.width(), weights += nx) {
+        for (int i = 0; i < nx; ++i) sums.weights[row + i] += weights[i];
+        if (!rgba) continue;
+        for (int i = 0; i < nx; ++i)
+            for (int c = 0; c < 4; ++c) sums.rgba[4 * (row + i) + c] += weights[i] * rgba[c];
+    }
 }
 
 /// Depth and id are of the samples within the pixel alone, which all lie in one tile.

@@ -56,9 +56,11 @@ class Film {
     /// Whether samples of a tile reach pixels (of the crop) of another.
     bool reaches(int from, int to) const;
 
+    /// kTaps is FilterKernel::weigh()'s.
+    template <int kTaps>
     void accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums);
-    void add_sample(const SampleTile& samples, size_t sample, int px, int py, const float* rgba,
-                    float* weights, Sums& sums) const;
+    template <int kTaps>
+    void add_sample(float x, float y, int px, int py, const float* rgba, float* weights, Sums& sums) const;
     void record_pixel(int px, int py, float depth, uint32_t primitive);
     void settle(int tile);
     void develop(int tile);

@@ -1,5 +1,7 @@
 #include "composite/filters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +11,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kMinWidth = 1;   ///< below it a pixel might see no sample at all
 constexpr float kMaxWidth = 64;  ///< a bound on what absurd input costs
-constexpr int kEntriesPerPixel = 512;
-constexpr int kMinEntries = 1024;
-constexpr int kMaxTaps = 64;
+constexpr int kRadialEntriesPerPixel = 512;
 
 double sinc(double x) {
     return std::abs(x) < 1e-9 ? 1.0 : std::sin(kPi * x) / (kPi * x);
@@ -145,87 +145,58 @@ FilterKernel::Axis FilterKernel::make_axis(float width) {
     axis.half_width = width / 2;
     axis.taps = static_cast<int>(std::ceil(width));
     axis.reach = static_cast<int>(std::ceil((width - 1) / 2));  // as sampled_pixels() has it
+    axis.rim = static_cast<float>(axis.taps) - width;
     return axis;
 }
 
 FilterKernel::FilterKernel(const PixelFilter& filter, Diagnostics* diagnostics) {
     const FilterRow* found = find_filter(filter.name);
     if (!found && diagnostics)
-        diagnostics->warning({}, "PixelFilter \"" + filter.name + "\" is not known; gaussian is used",
+        diagnostics->warning({},
+                             fmt::format("PixelFilter \"{}\" is not known; gaussian is used", filter.name),
                              "unknown-filter");
     const FilterRow& row = found ? *found : kFilters[0];
-    const float width_x = sane_width(filter.width_x), width_y = sane_width(filter.width_y);
-    x_ = make_axis(width_x), y_ = make_axis(width_y);
-
-    const auto tabulate = [&](float length, double width) {
-        const int last = std::max(kMinEntries, static_cast<int>(std::ceil(length * kEntriesPerPixel)));
-        Table table;
-        table.scale = static_cast<float>(last) / length;
-        table.last = static_cast<float>(last);
-        for (int i = 0; i <= last; ++i)
-            table.values.push_back(
-                static_cast<float>(row.value(static_cast<double>(length) * i / last, width)));
-        table.values.push_back(table.values.back());
-        return table;
-    };
+    x_ = make_axis(sane_width(filter.width_x)), y_ = make_axis(sane_width(filter.width_y));
     separable_ = row.form == Form::Separable;
     if (separable_) {
-        x_.table = tabulate(x_.half_width, width_x);
-        y_.table = tabulate(y_.half_width, width_y);
-    } else {
-        radial_aspect_ = static_cast<float>(radial_aspect(row, width_x, width_y));
-        // An ellipse ends where the table does; a radial filter's square support reaches to its corner.
-        const float corner = std::sqrt(width_x * width_x + width_y * width_y) / 2;
-        radial_ = tabulate(row.form == Form::Elliptic ? width_x / 2 : corner, width_x);
-        if (row.value == disk)
-            *(radial_.values.end() - 1) = *(radial_.values.end() - 2) = 1;  // the rim is not a ramp
+        for (Axis* axis : {&x_, &y_})
+            for (int phase = 0; phase <= kPhases + 1; ++phase)
+                for (int i = 0; i < axis->taps; ++i) {
+                    const double x = axis->half_width - 1.0 + static_cast<double>(phase) / kPhases - i;
+                    axis->phases.push_back(static_cast<float>(row.value(x, 2.0 * axis->half_width)));
+                }
+        return;
     }
+    const double width_x = 2.0 * x_.half_width, width_y = 2.0 * y_.half_width;
+    // A function of the ellipse ends where that does, others at the corner of the support.
+    const double length =
+        row.form == Form::Elliptic ? width_x / 2 : std::sqrt(width_x * width_x + width_y * width_y) / 2;
+    const int last = static_cast<int>(std::ceil(length * kRadialEntriesPerPixel));
+    radial_.aspect = static_cast<float>(radial_aspect(row, width_x, width_y));
+    radial_.scale = static_cast<float>(last / length);
+    radial_.last = static_cast<float>(last);
+    for (int i = 0; i <= last; ++i)
+        radial_.values.push_back(static_cast<float>(row.value(length * i / last, width_x)));
+    if (row.value == disk) radial_.values.back() = 1;  // its rim is no ramp
 }
 
-float FilterKernel::Table::at(float distance) const {
-    const float position = std::min(distance * scale, last);
-    const int i = static_cast<int>(position);
-    const float below = values[i];
-    return below + (position - static_cast<float>(i)) * (values[i + 1] - below);
-}
-
-int FilterKernel::Axis::first_tap(float position, int pixel) const {
-    const int first = static_cast<int>(std::floor(position - 0.5f - half_width)) + 1;
-    // Rounding may put a sample on its pixel's far edge; it stays that pixel's.
-    return std::clamp(first, pixel - reach, pixel + reach + 1 - taps);
-}
-
-void FilterKernel::Axis::weigh(float position, int first, float* weights) const {
-    for (int i = 0; i < taps; ++i) {
-        const float distance = std::abs(position - (static_cast<float>(first + i) + 0.5f));
-        weights[i] = distance <= half_width ? table.at(distance) : 0.0f;
-    }
-}
-
-void FilterKernel::weigh_radially(float x, float y, const FilterTaps& taps, float* weights) const {
+FilterTaps FilterKernel::weigh_radially(float x, float y, int pixel_x, int pixel_y, float* weights) const {
+    float phase_x, phase_y;
+    const FilterTaps taps{x_.locate(x, pixel_x, &phase_x), y_.locate(y, pixel_y, &phase_y)};
     for (int j = 0; j < y_.taps; ++j)
         for (int i = 0; i < x_.taps; ++i) {
-            const float dx = x - (static_cast<float>(taps.x0 + i) + 0.5f);
-            const float dy = y - (static_cast<float>(taps.y0 + j) + 0.5f);
-            const float sy = dy * radial_aspect_;
-            const float r = std::sqrt(dx * dx + sy * sy);
-            const bool inside = std::abs(dx) <= x_.half_width && std::abs(dy) <= y_.half_width &&
-                                r * radial_.scale < radial_.last;
-            weights[j * x_.taps + i] = inside ? radial_.at(r) : 0.0f;
+            const float dx = x_.half_width - 1 + phase_x - static_cast<float>(i);
+            const float dy = (y_.half_width - 1 + phase_y - static_cast<float>(j)) * radial_.aspect;
+            const float at = std::sqrt(dx * dx + dy * dy) * radial_.scale;
+            const bool outside = (i + 1 == x_.taps && phase_x < x_.rim) ||
+                                 (j + 1 == y_.taps && phase_y < y_.rim) || at >= radial_.last;
+            float& weight = weights[j * x_.taps + i];
+            weight = 0;
+            if (outside) continue;
+            const int k = static_cast<int>(at);
+            weight = radial_.values[k] +
+                     (at - static_cast<float>(k)) * (radial_.values[k + 1] - radial_.values[k]);
         }
-}
-
-FilterTaps FilterKernel::weigh(float x, float y, int pixel_x, int pixel_y, float* weights) const {
-    const FilterTaps taps{x_.first_tap(x, pixel_x), y_.first_tap(y, pixel_y)};
-    if (!separable_) {
-        weigh_radially(x, y, taps, weights);
-        return taps;
-    }
-    float wx[kMaxTaps], wy[kMaxTaps];
-    x_.weigh(x, taps.x0, wx);
-    y_.weigh(y, taps.y0, wy);
-    for (int j = 0; j < y_.taps; ++j)
-        for (int i = 0; i < x_.taps; ++i) weights[j * x_.taps + i] = wx[i] * wy[j];
     return taps;
 }
 

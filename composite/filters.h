@@ -4,9 +4,11 @@
 /// sum of the weights, so scale does not matter.
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
+#include "core/camera.h"
 #include "core/diagnostics.h"
 #include "core/scene.h"
 
@@ -17,14 +19,15 @@ double filter_value(std::string_view name, double x, double y, double width_x, d
 
 bool is_known_filter(std::string_view name);
 
-/// The pixels that a sample reaches and its weight on each: row by row, count_y rows of count_x.
+/// The first of the pixels that a sample reaches; its weights on them follow row by row, taps_y() rows of
+/// taps_x().
 struct FilterTaps {
-    int x0 = 0, y0 = 0;  ///< the first pixel
+    int x0 = 0, y0 = 0;
 };
 
-/// A filter ready to weigh millions of samples: tabulated by distance, in double precision from the C library
-/// and rounded, so that its last bits do not depend on the processor. A table's error (linear, 512 or more
-/// entries a pixel) is below 1e-5 of the largest weight.
+/// A filter ready to weigh millions of samples: tabulated, in double precision from the C library and
+/// rounded, so that its last bits do not depend on the processor. What the tables lose is below 1e-5 of the
+/// largest weight.
 class FilterKernel {
   public:
     /// Warns once about a name that is not known and uses the gaussian.
@@ -37,34 +40,77 @@ class FilterKernel {
     int reach_x() const { return x_.reach; }
     int reach_y() const { return y_.reach; }
 
+    /// What samples in these pixels may name as taps: the pixels in reach and, with some widths between
+    /// integers, one more on the far sides, whose weight is always 0.
+    PixelRect footprint(const PixelRect& pixels) const {
+        return {pixels.x0 - x_.reach, pixels.y0 - y_.reach, pixels.x1 + x_.reach + x_.spare(),
+                pixels.y1 + y_.reach + y_.spare()};
+    }
+
     /// The weights of a sample at raster position (x, y) in pixel (pixel_x, pixel_y). Depends on nothing
-    /// else, and never reaches further than reach_x() and reach_y(). `weights` has room for tap_count(); taps
-    /// outside the support get 0.
-    FilterTaps weigh(float x, float y, int pixel_x, int pixel_y, float* weights) const;
+    /// else. `weights` has room for tap_count(); taps outside the support get 0. kTaps: taps_x() and
+    /// taps_y() where these are equal and known to the caller's compiler, else 0.
+    template <int kTaps = 0>
+    FilterTaps weigh(float x, float y, int pixel_x, int pixel_y, float* weights) const {
+        if (!separable_) return weigh_radially(x, y, pixel_x, pixel_y, weights);
+        const int nx = kTaps ? kTaps : x_.taps, ny = kTaps ? kTaps : y_.taps;
+        float wx[kTaps ? kTaps : kMaxTaps], wy[kTaps ? kTaps : kMaxTaps];
+        const FilterTaps taps{x_.weigh<kTaps>(x, pixel_x, wx), y_.weigh<kTaps>(y, pixel_y, wy)};
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i) weights[j * nx + i] = wx[i] * wy[j];
+        return taps;
+    }
 
   private:
-    struct Table {
-        std::vector<float>
-            values;       ///< two more than `last` says, so that interpolation at the end stays inside
-        float scale = 1;  ///< entries per pixel
-        float last = 0;   ///< index of the support's (or radius') end
-        float at(float distance) const;
-    };
+    static constexpr int kMaxTaps = 64;
+    static constexpr int kPhases = 1024;
+
+    /// One axis of the support. A sample's first tap is the first pixel whose centre lies less than half a
+    /// width to its left; its phase in [0, 1) is how far it lies beyond the position where that tap came in.
+    /// Both give all distances: tap i is at half_width - 1 + phase - i.
     struct Axis {
         float half_width = 1;
         int taps = 2, reach = 1;
-        Table table;  ///< of a separable filter
-        int first_tap(float position, int pixel) const;
-        void weigh(float position, int first, float* weights) const;
+        float rim = 0;  ///< below this phase the last tap is outside: a width between integers
+        std::vector<float>
+            phases;  ///< of a separable filter: kPhases + 2 rows of `taps` weights, interpolated
+
+        int locate(float position, int pixel, float* phase) const {
+            // Rounding may put a sample on its pixel's far edge; it stays that pixel's.
+            const float in_pixel = std::min(position - static_cast<float>(pixel), 0x1.fffffep-1f);
+            const float start = in_pixel + (static_cast<float>(reach) + 0.5f - half_width);
+            const int first = static_cast<int>(start);
+            *phase = start - static_cast<float>(first);
+            return pixel - reach + first;
+        }
+        int spare() const { return taps > 2 * reach && rim > 0 ? 1 : 0; }
+        template <int kTaps>
+        int weigh(float position, int pixel, float* weights) const {
+            float phase;
+            const int first = locate(position, pixel, &phase), n = kTaps ? kTaps : taps;
+            const float at = phase * kPhases;
+            const int row = static_cast<int>(at);
+            const float part = at - static_cast<float>(row);
+            const float* low = phases.data() + static_cast<size_t>(row) * n;
+            for (int i = 0; i < n; ++i) weights[i] = low[i] + part * (low[n + i] - low[i]);
+            if (phase < rim) weights[n - 1] = 0;
+            return first;
+        }
+    };
+    /// A function of the distance from the centre.
+    struct RadialTable {
+        std::vector<float>
+            values;        ///< one more than `last` says, so that interpolation at the end stays inside
+        float scale = 1;   ///< entries per pixel
+        float last = 0;    ///< index of the end, from which on it is 0
+        float aspect = 1;  ///< y is multiplied by it before the radius is taken
     };
     static Axis make_axis(float width);
-
-    void weigh_radially(float x, float y, const FilterTaps& taps, float* weights) const;
+    FilterTaps weigh_radially(float x, float y, int pixel_x, int pixel_y, float* weights) const;
 
     Axis x_, y_;
     bool separable_ = true;
-    Table radial_;
-    float radial_aspect_ = 1;  ///< y is multiplied by it before the radius is taken
+    RadialTable radial_;
 };
 
 }  // namespace trapeze

@@ -54,8 +54,14 @@ TEST(Filters, TapsHoldTheWholeSupportAndStayInReach) {
             const int pixel = 100;
             std::vector<float> weights(kernel.tap_count());
             const FilterTaps taps = kernel.weigh(x, 100.5f, pixel, 100, weights.data());
-            EXPECT_GE(taps.x0, pixel - kernel.reach_x());
-            EXPECT_LE(taps.x0 + kernel.taps_x() - 1, pixel + kernel.reach_x());
+            const PixelRect footprint = kernel.footprint({pixel, 100, pixel + 1, 101});
+            EXPECT_GE(taps.x0, footprint.x0);
+            EXPECT_LE(taps.x0 + kernel.taps_x(), footprint.x1);
+            for (int i = 0; i < kernel.taps_x(); ++i)
+                for (int j = 0; j < kernel.taps_y(); ++j) {
+                    const bool in_reach = std::abs(taps.x0 + i - pixel) <= kernel.reach_x();
+                    EXPECT_TRUE(in_reach || weights[j * kernel.taps_x() + i] == 0) << width << " " << x;
+                }
             for (int p = pixel - 20; p <= pixel + 20; ++p) {
                 const float distance = std::abs(x - (static_cast<float>(p) + 0.5f));
                 if (distance < width / 2 - 1e-4f) {

@@ -24,10 +24,24 @@ Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id) {
     return layer;
 }
 
+/// What the loop below makes of a first hit that hides everything, to the bit.
+bool resolve_opaque(const AxisRay& ray, const Hit& hit, const Grids& grids, SampleColor& sample) {
+    const MicropolygonId id = MicropolygonId::unpack(hit.id);
+    if (id.grid >= grids.grids.size()) return false;
+    const Grid& grid = grids.grids[id.grid];
+    if (!grid.opaque || grid.matte) return false;
+    const V3f color = grid.smooth ? layer_at(ray, grid, id).color : grid.color(id.u, id.v);
+    sample.rgba[0] = color.x, sample.rgba[1] = color.y, sample.rgba[2] = color.z, sample.rgba[3] = 1;
+    sample.depth = hit.depth;
+    sample.primitive = grid.primitive;
+    return true;
+}
+
 }  // namespace
 
 SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids) {
     SampleColor sample;
+    if (!hits.empty() && resolve_opaque(ray, hits.front(), grids, sample)) return sample;
     V3f transmission(1), color(0), alpha(0);
     for (const Hit& hit : hits) {
         const MicropolygonId id = MicropolygonId::unpack(hit.id);
