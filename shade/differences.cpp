@@ -12,31 +12,26 @@ V3f at(ConstPlane3 p, int i) {
     return {p.x[i], p.y[i], p.z[i]};
 }
 
-/// Between the nearest vertices to both sides of (i, j) along an axis that do not coincide; zero when all of
-/// the row does.
-V3f tangent(const GridShape& shape, ConstPlane3 P, GridAxis axis, int i, int j) {
-    const bool along_u = axis == GridAxis::U;
-    const int here = along_u ? i : j, last = along_u ? shape.nu : shape.nv;
-    const auto vertex = [&](int k) { return at(P, along_u ? shape.row_index(k, j) : shape.row_index(i, k)); };
-    for (int reach = 1; reach <= last; ++reach) {
-        const V3f chord = vertex(std::min(here + reach, last)) - vertex(std::max(here - reach, 0));
-        if (chord != V3f(0)) return chord;
-    }
-    return V3f(0);
+/// Between the vertices to both sides of (i, j) along an axis.
+V3d chord(const GridShape& shape, ConstPlane3 P, GridAxis axis, int i, int j) {
+    const int u = axis == GridAxis::U ? 1 : 0, v = 1 - u;
+    const int after = shape.row_index(std::min<int>(i + u, shape.nu), std::min<int>(j + v, shape.nv));
+    const int before = shape.row_index(std::max(i - u, 0), std::max(j - v, 0));
+    return V3d(at(P, after)) - V3d(at(P, before));
 }
 
 /// Zero where there is none, which chords that are parallel but for rounding do not hide. Doubles, since
 /// micropolygons far from the origin are small against their coordinates' products.
 V3f normal_at(const GridShape& shape, ConstPlane3 P, int i, int j) {
-    const V3d along_u(tangent(shape, P, GridAxis::U, i, j));
-    const V3d along_v(tangent(shape, P, GridAxis::V, i, j));
+    const V3d along_u = chord(shape, P, GridAxis::U, i, j);
+    const V3d along_v = chord(shape, P, GridAxis::V, i, j);
     const V3d cross = along_u.cross(along_v);
     const double length = cross.length();
     if (!(length > kParallel * along_u.length() * along_v.length()) || !std::isfinite(length)) return V3f(0);
     return V3f(cross / length);
 }
 
-/// That of the nearest rows inwards, for the collapsed row of a pole.
+/// That of the vertices next to it: for a pole, and borders where several vertices are snapped to one.
 V3f normal_from_inside(const GridShape& shape, ConstPlane3 P, int i, int j) {
     V3f sum(0);
     for (const auto& [du, dv] : {std::pair{0, 1}, std::pair{0, -1}, std::pair{1, 0}, std::pair{-1, 0}}) {

@@ -12,9 +12,9 @@ enum class GridAxis { U, V };
 
 void difference(const GridShape& shape, GridAxis axis, ConstPlane values, Plane out);
 
-/// Unit normals of the surface through P, along dPdu x dPdv or, if asked, against it. Where neighbours lie on
-/// one point (borders snapped to a coarser rate, poles) the nearest ones that differ are used; where there is
-/// no normal at all, N keeps what it holds.
+/// Unit normals of the surface through P, along dPdu x dPdv or, if asked, against it. Where that is
+/// nothing because neighbours lie on one point (borders snapped to a coarser rate, poles) the neighbours'
+/// normals are used; where they have none either, N keeps what it holds.
 void find_normals(const GridShape& shape, ConstPlane3 P, bool reverse, Plane3 N);
 
 }  // namespace trapeze

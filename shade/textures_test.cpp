@@ -148,8 +148,8 @@ TEST_F(TexturesTest, FilterWidthsComeFromTheGrid) {
     ShadingGrid grid = scene.grid(1, 1);
     const V3f average = V3f((1 + kGrey) / 4);
     const V3f base = grid.Cs.at(0) * grid.Os.at(0);
-    for (float& s : grid.s) s = s * 4;  // four pictures in a micropolygon
-    for (float& t : grid.t) t = t * 4;
+    for (float& s : grid.s) s = s * 4 + 0.25f;  // four pictures in a micropolygon
+    for (float& t : grid.t) t = t * 4 + 0.25f;
     const ShadingGrid shaded = scene.shaded(grid);
     for (size_t i = 0; i < 4; ++i) expect_near(shaded.Ci.at(i), base * average, 0.01f);
 }
