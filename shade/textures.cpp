@@ -58,20 +58,18 @@ struct Textures::Impl {
     std::unique_ptr<OIIO::ImageCache, DestroyCache> cache;
     std::unique_ptr<OIIO::TextureSystem, DestroySystem> system;
     std::vector<std::string> folders;
+    float memory_megabytes = kDefaultMemoryMegabytes;
     Diagnostics* diagnostics = nullptr;
     std::mutex mutex;
     std::map<std::string, std::unique_ptr<Picture>, std::less<>> pictures;  ///< null: cannot be read
 
+    /// Makes the cache, which a render without textures goes without.
+    void start();
     std::unique_ptr<Picture> open(const std::string& name, SourceLocation location);
 };
 
 Textures::Textures(const Options& options, Diagnostics* diagnostics) : impl_(std::make_unique<Impl>()) {
-    impl_->cache.reset(OIIO::ImageCache::create(false));
-    impl_->cache->attribute("max_memory_MB", memory_megabytes(options));
-    impl_->cache->attribute("autotile", 64);
-    impl_->cache->attribute("automip", 1);
-    impl_->system.reset(OIIO::TextureSystem::create(false, impl_->cache.get()));
-    impl_->system->attribute("gray_to_rgb", 1);
+    impl_->memory_megabytes = memory_megabytes(options);
     if (const auto paths = options.search_paths.find("texture"); paths != options.search_paths.end())
         impl_->folders = paths->second;
     impl_->diagnostics = diagnostics;
@@ -79,7 +77,18 @@ Textures::Textures(const Options& options, Diagnostics* diagnostics) : impl_(std
 
 Textures::~Textures() = default;
 
+void Textures::Impl::start() {
+    if (system) return;
+    cache.reset(OIIO::ImageCache::create(false));
+    cache->attribute("max_memory_MB", memory_megabytes);
+    cache->attribute("autotile", 64);
+    cache->attribute("automip", 1);
+    system.reset(OIIO::TextureSystem::create(false, cache.get()));
+    system->attribute("gray_to_rgb", 1);
+}
+
 std::unique_ptr<Textures::Picture> Textures::Impl::open(const std::string& name, SourceLocation location) {
+    start();
     const OIIO::ustring path(resolved_path(name, folders));
     cache->add_file(path, &LinearImageInput::create);
     auto picture = std::make_unique<Picture>();
