@@ -1,0 +1,143 @@
+#include "composite/display_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace trapeze {
+namespace {
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+struct Named {
+    std::string_view name;
+    FileFormat format;
+};
+
+constexpr Named kExtensions[] = {{".exr", FileFormat::OpenExr}, {".tif", FileFormat::Tiff},
+                                 {".tiff", FileFormat::Tiff},   {".png", FileFormat::Png},
+                                 {".jpg", FileFormat::Jpeg},    {".jpeg", FileFormat::Jpeg},
+                                 {".tga", FileFormat::Targa},   {".bmp", FileFormat::Bmp}};
+constexpr Named kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileFormat::OpenExr},
+                              {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
+                              {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
+                              {"bmp", FileFormat::Bmp}};
+constexpr std::string_view kWindowDrivers[] = {"framebuffer", "it",    "x11",    "windows",
+                                               "idisplay",    "piqsl", "houdini"};
+
+template <class Table>
+std::optional<FileFormat> look_up(const Table& table, std::string_view name) {
+    for (const Named& row : table)
+        if (row.name == name) return row.format;
+    return {};
+}
+
+/// Driver and extension to format and path. Nothing: driver "null".
+bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    const std::string driver = lower(display.type);
+    if (driver == "null") return false;
+    plan.path = display.name;
+    if (const auto format = look_up(kDrivers, driver)) {
+        plan.format = *format;
+        return true;
+    }
+    const auto by_extension =
+        look_up(kExtensions, lower(std::filesystem::path(display.name).extension().string()));
+    const bool window =
+        std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), driver) != std::end(kWindowDrivers);
+    if (window) {
+        if (!by_extension) plan.path += ".exr";
+        diagnostics.warning(
+            display.location,
+            fmt::format("Display \"{}\": no window is opened; \"{}\" is written instead", driver, plan.path),
+            "display-window");
+    } else if (driver != "file" && !driver.empty()) {
+        diagnostics.warning(
+            display.location,
+            fmt::format("Display driver \"{}\" is not known; \"{}\" is written as {}", display.type,
+                        plan.path, by_extension ? "its extension says" : "OpenEXR"),
+            "display-driver");
+    } else if (!by_extension) {
+        diagnostics.note(display.location,
+                         fmt::format("\"{}\" has no known extension; it is written as OpenEXR", plan.path),
+                         "display-extension");
+    }
+    plan.format = by_extension.value_or(FileFormat::OpenExr);
+    return true;
+}
+
+/// rgb, a and z in this order, each or not; or "id".
+bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    std::string_view mode = display.mode;
+    const auto take = [&](std::string_view channels) {
+        if (!mode.starts_with(channels)) return false;
+        mode.remove_prefix(channels.size());
+        return true;
+    };
+    if (mode.empty()) mode = "rgba";
+    plan.id = take("id");
+    plan.rgb = !plan.id && take("rgb");
+    plan.alpha = !plan.id && take("a");
+    plan.depth = !plan.id && take("z");
+    if (!mode.empty()) {
+        diagnostics.warning(display.location,
+                            fmt::format("Display mode \"{}\" is not supported; \"{}\" is not written",
+                                        display.mode, plan.path),
+                            "display-mode");
+        return false;
+    }
+    if (plan.format == FileFormat::OpenExr) return true;
+    const bool depth_fits = !plan.depth || (plan.format == FileFormat::Tiff && !plan.rgb && !plan.alpha);
+    if (plan.id || (!depth_fits && !plan.rgb && !plan.alpha)) {
+        diagnostics.warning(
+            display.location,
+            fmt::format("mode \"{}\" needs OpenEXR; \"{}\" is not written", display.mode, plan.path),
+            "display-mode-format");
+        return false;
+    }
+    if (!depth_fits) {
+        plan.depth = false;
+        diagnostics.warning(display.location, fmt::format("\"{}\" cannot hold z; it is left out", plan.path),
+                            "display-z-format");
+    }
+    return true;
+}
+
+const Parameter* floats_of(const ParameterList& list, std::string_view name, size_t count) {
+    const Parameter* parameter = list.find(name);
+    return parameter && parameter->floats.size() >= count ? parameter : nullptr;
+}
+
+void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
+    const Parameter* own = floats_of(display.parameters, "quantize", 4);
+    const Parameter* given =
+        own ? own : floats_of(options.quantize, plan.rgb || plan.alpha ? "rgba" : "z", 4);
+    if (given) plan.quantization = {given->floats[0], given->floats[1], given->floats[2], given->floats[3]};
+    plan.quantization.dither = display.parameters.float_or("dither", plan.quantization.dither);
+    if (!plan.rgb && !plan.alpha) plan.quantization.one = 0;  // depth
+    plan.float_pixels =
+        own && std::all_of(own->floats.begin(), own->floats.begin() + 4, [](float v) { return v == 0; });
+    const std::string type =
+        lower(display.parameters.string_or("exrpixeltype", display.parameters.string_or("type", "")));
+    if (type == "float") plan.float_pixels = true, plan.quantization.one = 0;
+    if (type == "half") plan.float_pixels = false;
+    plan.compression = lower(
+        display.parameters.string_or("exrcompression", display.parameters.string_or("compression", "")));
+}
+
+}  // namespace
+
+std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
+                                        Diagnostics& diagnostics) {
+    DisplayPlan plan;
+    if (!choose_format(display, diagnostics, plan) || !choose_channels(display, diagnostics, plan)) return {};
+    choose_pixel_type(display, options, plan);
+    return plan;
+}
+
+}  // namespace trapeze

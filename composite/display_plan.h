@@ -1,0 +1,35 @@
+/// What a Display asks for, decided: file format, channels, pixel type.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/diagnostics.h"
+#include "core/scene.h"
+
+namespace trapeze {
+
+enum class FileFormat { OpenExr, Tiff, Png, Jpeg, Targa, Bmp };
+
+/// RISpec, Quantize: round(one * value + dither * random in [-1, 1)) clamped to [min, max]. one = 0: floats.
+struct Quantization {
+    float one = 255, min = 0, max = 255, dither = 0.5f;
+
+    bool to_float() const { return one == 0; }
+};
+
+struct DisplayPlan {
+    std::string path;
+    FileFormat format = FileFormat::OpenExr;
+    bool rgb = true, alpha = true, depth = false, id = false;
+    bool float_pixels = false;  ///< OpenEXR: colour in floats, not halves
+    std::string compression;    ///< OpenEXR's name of it, in lower case; empty: the default
+    Quantization quantization;  ///< of the other formats
+};
+
+/// Nothing when there is nothing to write: driver "null", or a mode or driver that is not supported, of which
+/// it warns.
+std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
+                                        Diagnostics& diagnostics);
+
+}  // namespace trapeze

@@ -1,0 +1,131 @@
+#include "composite/display_plan.h"
+
+#include <gtest/gtest.h>
+
+namespace trapeze {
+namespace {
+
+struct Planned {
+    std::optional<DisplayPlan> plan;
+    uint64_t warnings, notes;
+};
+
+Planned planned(const Display& display, const Options& options) {
+    Diagnostics diagnostics;
+    Planned result;
+    result.plan = plan_display(display, options, diagnostics);
+    result.warnings = diagnostics.count(Severity::Warning);
+    result.notes = diagnostics.count(Severity::Note);
+    EXPECT_EQ(diagnostics.count(Severity::Error), 0u);
+    return result;
+}
+
+Planned planned(const Display& display) {
+    const Options options;
+    return planned(display, options);
+}
+
+Parameter floats(const std::string& name, std::vector<float> values) {
+    return {name, {StorageClass::Uniform, ValueType::Float, static_cast<int>(values.size())}, values, {}};
+}
+
+Parameter text(const std::string& name, const std::string& value) {
+    return {name, {StorageClass::Uniform, ValueType::String, 1}, {}, {value}};
+}
+
+TEST(DisplayPlan, DriverThenExtensionChoosesTheFormat) {
+    const struct {
+        const char *name, *type;
+        FileFormat format;
+        const char* path;
+        uint64_t warnings, notes;
+    } cases[] = {
+        {"a.exr", "openexr", FileFormat::OpenExr, "a.exr", 0, 0},
+        {"a.tif", "exr", FileFormat::OpenExr, "a.tif", 0, 0},
+        {"a.exr", "file", FileFormat::OpenExr, "a.exr", 0, 0},
+        {"a.TIF", "file", FileFormat::Tiff, "a.TIF", 0, 0},
+        {"a.tiff", "tiff", FileFormat::Tiff, "a.tiff", 0, 0},
+        {"a.png", "file", FileFormat::Png, "a.png", 0, 0},
+        {"a.jpg", "file", FileFormat::Jpeg, "a.jpg", 0, 0},
+        {"a", "file", FileFormat::OpenExr, "a", 0, 1},
+        {"a.pic", "tiff", FileFormat::Tiff, "a.pic", 0, 0},
+        {"a", "framebuffer", FileFormat::OpenExr, "a.exr", 1, 0},
+        {"a.png", "it", FileFormat::Png, "a.png", 1, 0},
+        {"a.z", "zfile", FileFormat::OpenExr, "a.z", 1, 0},
+    };
+    for (const auto& c : cases) {
+        const Planned result = planned({c.name, c.type, "rgba", {}, {}});
+        ASSERT_TRUE(result.plan) << c.name << " " << c.type;
+        EXPECT_EQ(result.plan->format, c.format) << c.name << " " << c.type;
+        EXPECT_EQ(result.plan->path, c.path);
+        EXPECT_EQ(result.warnings, c.warnings) << c.name << " " << c.type;
+        EXPECT_EQ(result.notes, c.notes) << c.name << " " << c.type;
+    }
+    EXPECT_FALSE(planned({"a.exr", "null", "rgba", {}, {}}).plan);
+}
+
+TEST(DisplayPlan, Modes) {
+    const struct {
+        const char* mode;
+        bool rgb, alpha, depth, id;
+    } cases[] = {{"rgb", true, false, false, false}, {"rgba", true, true, false, false},
+                 {"a", false, true, false, false},   {"z", false, false, true, false},
+                 {"rgbz", true, false, true, false}, {"rgbaz", true, true, true, false},
+                 {"az", false, true, true, false},   {"id", false, false, false, true},
+                 {"", true, true, false, false}};
+    for (const auto& c : cases) {
+        const Planned result = planned({"a.exr", "exr", c.mode, {}, {}});
+        ASSERT_TRUE(result.plan) << c.mode;
+        EXPECT_EQ(result.plan->rgb, c.rgb) << c.mode;
+        EXPECT_EQ(result.plan->alpha, c.alpha) << c.mode;
+        EXPECT_EQ(result.plan->depth, c.depth) << c.mode;
+        EXPECT_EQ(result.plan->id, c.id) << c.mode;
+        EXPECT_EQ(result.warnings, 0u);
+    }
+    for (const char* mode : {"varying color foo", "bgr", "rgbaa", "P"}) {
+        const Planned result = planned({"a.exr", "exr", mode, {}, {}});
+        EXPECT_FALSE(result.plan) << mode;
+        EXPECT_EQ(result.warnings, 1u) << mode;
+    }
+}
+
+TEST(DisplayPlan, WhatAFormatCannotHold) {
+    const Planned depth_left_out = planned({"a.png", "png", "rgbaz", {}, {}});
+    ASSERT_TRUE(depth_left_out.plan);
+    EXPECT_FALSE(depth_left_out.plan->depth);
+    EXPECT_EQ(depth_left_out.warnings, 1u);
+    EXPECT_FALSE(planned({"a.png", "png", "z", {}, {}}).plan);
+    EXPECT_FALSE(planned({"a.tif", "tiff", "id", {}, {}}).plan);
+    const Planned depth = planned({"a.tif", "tiff", "z", {}, {}});
+    ASSERT_TRUE(depth.plan);
+    EXPECT_TRUE(depth.plan->quantization.to_float());
+}
+
+TEST(DisplayPlan, PixelTypes) {
+    Display display{"a.exr", "exr", "rgba", {}, {}};
+    EXPECT_FALSE(planned(display).plan->float_pixels);
+    display.parameters.set(floats("quantize", {0, 0, 0, 0}));
+    EXPECT_TRUE(planned(display).plan->float_pixels);
+    display.parameters.set(text("exrpixeltype", "half"));
+    EXPECT_FALSE(planned(display).plan->float_pixels);
+    display.parameters = {};
+    display.parameters.set(text("type", "float"));
+    EXPECT_TRUE(planned(display).plan->float_pixels);
+    display.parameters.set(text("compression", "PIZ"));
+    EXPECT_EQ(planned(display).plan->compression, "piz");
+}
+
+TEST(DisplayPlan, QuantizeOfTheDisplayBeatsThatOfTheOptions) {
+    Display display{"a.tif", "tiff", "rgba", {}, {}};
+    Options options;
+    EXPECT_EQ(planned(display, options).plan->quantization.one, 255);
+    options.quantize.set(floats("rgba", {65535, 0, 65535, 0.25f}));
+    EXPECT_EQ(planned(display, options).plan->quantization.one, 65535);
+    EXPECT_EQ(planned(display, options).plan->quantization.dither, 0.25f);
+    display.parameters.set(floats("quantize", {0, 0, 0, 0}));
+    EXPECT_TRUE(planned(display, options).plan->quantization.to_float());
+    EXPECT_FALSE(planned({"a.exr", "exr", "rgba", {}, {}}, options).plan->float_pixels);
+}
+
+}  // namespace
+}  // namespace trapeze

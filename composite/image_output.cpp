@@ -1,0 +1,168 @@
+#include "composite/image_output.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+
+namespace trapeze {
+namespace {
+
+const char* format_name(FileFormat format) {
+    switch (format) {
+        case FileFormat::OpenExr:
+            return "openexr";
+        case FileFormat::Tiff:
+            return "tiff";
+        case FileFormat::Png:
+            return "png";
+        case FileFormat::Jpeg:
+            return "jpeg";
+        case FileFormat::Targa:
+            return "targa";
+        case FileFormat::Bmp:
+            return "bmp";
+    }
+    return "";
+}
+
+/// IEC 61966-2-1.
+float srgb_encoded(float linear) {
+    if (!(linear > 0)) return 0;
+    if (linear <= 0.0031308f) return 12.92f * linear;
+    return static_cast<float>(1.055 * std::pow(static_cast<double>(linear), 1 / 2.4) - 0.055);
+}
+
+/// How the picture's pixels become the file's.
+struct Encoding {
+    Quantization quantization;
+    OIIO::TypeDesc type = OIIO::TypeDesc::UINT8;
+    bool srgb = false, unassociated = false;
+    int channels = 3;
+    int first_channel = 0;  ///< 3 when alpha is alone
+    bool depth = false;
+
+    bool to_float() const { return type == OIIO::TypeDesc::FLOAT; }
+};
+
+Encoding encoding_of(const PictureToWrite& picture) {
+    const DisplayPlan& plan = picture.plan;
+    Encoding e;
+    e.quantization = plan.quantization;
+    const bool takes_floats = plan.format == FileFormat::Tiff;
+    const bool takes_16_bits = takes_floats || plan.format == FileFormat::Png;
+    if (e.quantization.to_float() && !takes_floats) e.quantization = Quantization{};
+    if (e.quantization.max > 255 && !takes_16_bits) e.quantization = Quantization{};
+    e.type = e.quantization.to_float()  ? OIIO::TypeDesc::FLOAT
+             : e.quantization.max > 255 ? OIIO::TypeDesc::UINT16
+                                        : OIIO::TypeDesc::UINT8;
+    e.srgb = !e.to_float() && picture.context.scene->options.exposure_gamma == 1;
+    const bool takes_alpha = plan.format != FileFormat::Jpeg;
+    e.channels = plan.rgb ? (plan.alpha && takes_alpha ? 4 : 3) : 1;
+    e.first_channel = plan.rgb ? 0 : 3;
+    e.unassociated = e.channels == 4 && plan.format != FileFormat::Tiff;
+    e.depth = plan.depth;
+    return e;
+}
+
+/// One channel of a pixel in the file's scale: 0..1 for what is quantized.
+float encoded(const Encoding& e, const float* rgba, int channel) {
+    if (channel == 3) return rgba[3];
+    const float alpha = rgba[3];
+    float value = rgba[channel];
+    if (e.unassociated) value = alpha > 0 ? value / alpha : 0;
+    return e.srgb ? srgb_encoded(value) : value;
+}
+
+/// Dither from the pixel's place, so that the file is the same for any order of work and any crop.
+int quantized(const Quantization& q, float value, int x, int y, int channel) {
+    const uint32_t bits =
+        hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(channel));
+    const float level = q.one * value + q.dither * (2 * unit_float(bits) - 1);
+    const float high = std::clamp(q.max, 0.0f, 65535.0f), low = std::clamp(q.min, 0.0f, high);
+    return static_cast<int>(std::clamp(std::floor(level + 0.5f), low, high));
+}
+
+template <class Value>
+std::vector<Value> encode_pixels(const Image& image, const Encoding& e) {
+    std::vector<Value> out;
+    out.reserve(image.z.size() * static_cast<size_t>(e.channels));
+    for (int y = image.window.y0; y < image.window.y1; ++y)
+        for (int x = image.window.x0; x < image.window.x1; ++x) {
+            const float* rgba = &image.rgba[4 * image.index(x, y)];
+            for (int c = e.first_channel; c < e.first_channel + e.channels; ++c) {
+                const float value = encoded(e, rgba, c);
+                if constexpr (std::is_same_v<Value, float>)
+                    out.push_back(value);
+                else
+                    out.push_back(static_cast<Value>(quantized(e.quantization, value, x, y, c)));
+            }
+        }
+    return out;
+}
+
+/// "name: value; name: value"
+std::string description(const OutputInfo& info) {
+    std::string text;
+    for (const auto& [name, value] : info.metadata)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name, value);
+    return text;
+}
+
+OIIO::ImageSpec make_spec(const PictureToWrite& picture, const Encoding& e) {
+    const Image& image = picture.image;
+    OIIO::ImageSpec spec(image.window.width(), image.window.height(), e.channels, e.type);
+    spec.x = image.window.x0, spec.y = image.window.y0;
+    spec.full_width = image.width, spec.full_height = image.height;
+    if (!picture.plan.rgb) {
+        spec.channelnames = {e.depth ? "Z" : "A"};
+        spec.alpha_channel = e.depth ? -1 : 0;
+    }
+    spec.attribute("PixelAspectRatio", picture.context.scene->options.pixel_aspect);
+    spec.attribute("Software", picture.info.software);
+    spec.attribute("ImageDescription", description(picture.info));
+    if (e.unassociated) spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (picture.plan.format == FileFormat::Tiff) {
+        const M44f screen =
+            picture.context.scene->camera_from_world * screen_from_camera(picture.context.camera);
+        spec.attribute("worldtocamera", OIIO::TypeMatrix, &picture.context.scene->camera_from_world);
+        spec.attribute("worldtoscreen", OIIO::TypeMatrix, &screen);
+    } else {
+        // In a TIFF this would be Exif data, which OpenImageIO 2.4 cannot write to memory; readers take whole
+        // numbers there for sRGB anyway.
+        spec.attribute("oiio:ColorSpace", e.srgb ? "sRGB" : "");
+    }
+    return spec;
+}
+
+bool write_pixels(OIIO::ImageOutput& out, const Image& image, const Encoding& e) {
+    if (e.depth) return out.write_image(OIIO::TypeDesc::FLOAT, image.z.data());
+    if (e.type == OIIO::TypeDesc::FLOAT)
+        return out.write_image(e.type, encode_pixels<float>(image, e).data());
+    if (e.type == OIIO::TypeDesc::UINT16)
+        return out.write_image(e.type, encode_pixels<uint16_t>(image, e).data());
+    return out.write_image(e.type, encode_pixels<uint8_t>(image, e).data());
+}
+
+}  // namespace
+
+std::string write_image(const PictureToWrite& picture, OutputFile& file) {
+    if (!file.open()) return file.error();
+    // Into memory first: not every format's code notices a full disk, OutputFile does.
+    OIIO::Filesystem::IOVecOutput memory;
+    const char* format = format_name(picture.plan.format);
+    const auto out = OIIO::ImageOutput::create(format);
+    if (!out) return OIIO::geterror();
+    const Encoding encoding = encoding_of(picture);
+    const bool good = out->set_ioproxy(&memory) && out->open(format, make_spec(picture, encoding)) &&
+                      write_pixels(*out, picture.image, encoding) && out->close();
+    if (!good) return out->geterror();
+    const std::vector<unsigned char>& bytes = memory.buffer();
+    return file.write(bytes.data(), bytes.size()) && file.commit() ? std::string() : file.error();
+}
+
+}  // namespace trapeze

@@ -1,0 +1,133 @@
+#include "composite/output_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <set>
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The temporary files on the disk. A process has one set of them as it has one set of signal handlers, for
+/// which this is kept: no render reads it.
+struct Partials {
+    std::mutex mutex;
+    std::set<std::string> paths;
+    uint64_t count = 0;
+};
+
+Partials& partials() {
+    static Partials instance;
+    return instance;
+}
+
+constexpr size_t kNameBytes = 200;  ///< of the target's name kept in the temporary one: names end at 255
+
+constexpr int kMaxLinks = 40;  ///< as Linux has it
+
+}  // namespace
+
+OutputFile::~OutputFile() {
+    if (file_) std::fclose(file_);
+    if (partial_.empty()) return;
+    const std::lock_guard lock(partials().mutex);
+    ::unlink(partial_.c_str());
+    partials().paths.erase(partial_);
+}
+
+bool OutputFile::fail(std::string reason) {
+    if (error_.empty()) error_ = std::move(reason);
+    return false;
+}
+
+bool OutputFile::fail_with_errno() {
+    return fail(std::strerror(errno));
+}
+
+/// The folder and name to write, after links; false if something that is not a file of ours to replace is
+/// there.
+bool OutputFile::find_place(std::string& folder, std::string& name) {
+    std::error_code failed;
+    fs::path path(target_);
+    // A link stays a link: what it points to is replaced, or made.
+    for (int links = 0; links < kMaxLinks && fs::is_symlink(fs::symlink_status(path, failed)); ++links) {
+        path = path.parent_path() / fs::read_symlink(path, failed);
+        if (failed) return fail(failed.message());
+    }
+    target_ = path.string();
+    name = path.filename().string();
+    folder = path.parent_path().string();
+    if (name.empty()) return fail("it names no file");
+    if (!folder.empty() && !fs::is_directory(folder, failed))
+        return fail(fmt::format("there is no folder \"{}\"", folder));
+    const fs::file_status status = fs::status(path, failed);
+    if (!fs::exists(status)) return true;
+    if (fs::is_directory(status)) return fail("it is a folder");
+    if (!fs::is_regular_file(status)) return fail("it is not a regular file");
+    return ::access(target_.c_str(), W_OK) == 0 || fail_with_errno();
+}
+
+bool OutputFile::open() {
+    std::string folder, name;
+    if (!find_place(folder, name)) return false;
+    const std::lock_guard lock(partials().mutex);
+    const std::string partial =
+        fmt::format("{}{}.{}.part-{}-{}", folder, folder.empty() || folder.back() == '/' ? "" : "/",
+                    name.substr(0, kNameBytes), ::getpid(), ++partials().count);
+    file_ = std::fopen(partial.c_str(), "wbx");
+    if (!file_ && errno == EEXIST) {
+        // Of a process of the same number that was killed.
+        ::unlink(partial.c_str());
+        file_ = std::fopen(partial.c_str(), "wbx");
+    }
+    if (!file_) return fail_with_errno();
+    partial_ = partial;
+    partials().paths.insert(partial);
+    return true;
+}
+
+bool OutputFile::write(const void* bytes, size_t count) {
+    if (!error_.empty()) return false;
+    if (!file_) return fail("it is not open");
+    if (std::fwrite(bytes, 1, count, file_) != count) return fail_with_errno();
+    position_ += count;
+    return true;
+}
+
+bool OutputFile::seek(uint64_t position) {
+    if (!error_.empty()) return false;
+    if (!file_) return fail("it is not open");
+    if (::fseeko(file_, static_cast<off_t>(position), SEEK_SET) != 0) return fail_with_errno();
+    position_ = position;
+    return true;
+}
+
+bool OutputFile::commit() {
+    if (!error_.empty()) return false;
+    if (!file_) return fail("it is not open");
+    if (std::fflush(file_) != 0) return fail_with_errno();
+    // Some file systems know no fsync; a full disk may be noticed only here.
+    if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP) return fail_with_errno();
+    const bool closed = std::fclose(file_) == 0;
+    file_ = nullptr;
+    if (!closed) return fail_with_errno();
+    const std::lock_guard lock(partials().mutex);
+    if (::rename(partial_.c_str(), target_.c_str()) != 0) return fail_with_errno();
+    partials().paths.erase(partial_);
+    partial_.clear();
+    return true;
+}
+
+void OutputFile::remove_partials() {
+    const std::lock_guard lock(partials().mutex);
+    for (const std::string& path : partials().paths) ::unlink(path.c_str());
+    partials().paths.clear();
+}
+
+}  // namespace trapeze
