@@ -1,0 +1,174 @@
+/// Polygon meshes (RISpec 5.1): flat faces, bilinear or linear on each.
+#include <algorithm>
+#include <numeric>
+
+#include "tessellate/face_evaluation.h"
+#include "tessellate/mesh_topology.h"
+#include "tessellate/polygon_faces.h"
+#include "tessellate/surface.h"
+#include "tessellate/surface_variables.h"
+
+namespace trapeze {
+namespace {
+
+bool has_normals(const ParameterList& variables) {
+    const Parameter* N = variables.find("N");
+    return N && N->declaration.floats_per_item() == 3 && !N->is_string();
+}
+
+class PolygonSurface : public Surface {
+  public:
+    PolygonSurface(const Primitive& primitive, PolygonFaces faces)
+        : primitive_(primitive),
+          faces_(std::move(faces)),
+          topology_(faces_.sizes, faces_.vertices,
+                    std::get<PolygonMesh>(primitive.shape().topology).vertex_count, 4, {}) {
+        for (const auto& shape : primitive.shape_keys)
+            positions_.push_back(shape->variables.find("P")->floats.data());
+        const ParameterList& variables = primitive.shape().variables;
+        is_faceted_ = !has_normals(variables);
+        has_texture_coordinates_ = variables.find("s") || variables.find("t") || variables.find("st");
+    }
+
+    int face_count() const override { return topology_.face_count(); }
+    uint32_t edge_count() const override { return topology_.edge_count(); }
+    uint32_t vertex_count() const override { return topology_.vertex_count(); }
+    std::array<SurfaceSide, 4> sides(int face) const override { return topology_.sides(face); }
+    EdgeLine edge(uint32_t edge) const override { return topology_.edge(edge); }
+    SurfacePoint vertex(uint32_t vertex) const override { return topology_.vertex(vertex); }
+    bool is_faceted() const override { return is_faceted_; }
+
+    void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
+                  std::span<V3f> dPdu, std::span<V3f> dPdv) const override;
+    bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
+                            ShadingGrid& grid) const override;
+    Box3f bound(int face, V2f lo, V2f hi, int shape_key) const override;
+
+  private:
+    class Values;
+
+    /// Positions at the corners of a mesh face.
+    std::array<float, 12> corner_positions(const FacePiece& piece, int shape_key) const;
+
+    const Primitive& primitive_;
+    PolygonFaces faces_;
+    MeshTopology topology_;
+    std::vector<const float*> positions_;  ///< by shape key
+    bool is_faceted_ = true, has_texture_coordinates_ = false;
+};
+
+std::array<float, 12> PolygonSurface::corner_positions(const FacePiece& piece, int shape_key) const {
+    std::array<float, 12> positions{};
+    const std::span<const int> vertices = topology_.face_vertices(piece.mesh_face);
+    for (size_t i = 0; i < vertices.size(); ++i)
+        std::copy_n(positions_[shape_key] + 3 * static_cast<size_t>(vertices[i]), 3,
+                    positions.data() + 3 * i);
+    return positions;
+}
+
+void PolygonSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch*,
+                              std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
+    const FacePiece piece = topology_.piece(face);
+    const std::array<float, 12> positions = corner_positions(piece, shape_key);
+    evaluate_linear_piece(piece, positions.data(), 3, uv, sink_of(P), sink_of(dPdu), sink_of(dPdv));
+}
+
+Box3f PolygonSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
+    const FacePiece piece = topology_.piece(face);
+    float corners[12];
+    piece_corners(piece, corner_positions(piece, shape_key).data(), 3, corners);
+    return bilinear_bound(corners, lo, hi);
+}
+
+class PolygonSurface::Values : public VariableSource {
+  public:
+    Values(const PolygonSurface& surface, int face, std::span<const V2f> uv)
+        : surface_(surface), piece_(surface.topology_.piece(face)), uv_(uv) {}
+
+    void component(const Parameter& parameter, int component, std::span<float> values) const override {
+        const size_t stride = parameter.declaration.floats_per_item();
+        float corners[4] = {};
+        for (int i = 0; i < piece_.size; ++i)
+            corners[i] = parameter.floats[item(parameter, i) * stride + component];
+        evaluate_linear_piece(piece_, corners, 1, uv_, {values.data(), 1, 0}, {}, {});
+    }
+
+    /// Variables without values in between (strings) are those of a face's first corner.
+    size_t uniform_index(const Parameter& parameter) const override { return item(parameter, 0); }
+
+  private:
+    size_t item(const Parameter& parameter, int corner) const {
+        const int number = surface_.topology_.first_corner(piece_.mesh_face) + corner;
+        switch (parameter.declaration.storage) {
+            case StorageClass::Constant:
+                return 0;
+            case StorageClass::Uniform:
+                return surface_.faces_.polygons[piece_.mesh_face];
+            case StorageClass::Varying:
+            case StorageClass::Vertex:
+                return surface_.faces_.vertices[number];
+            case StorageClass::FaceVarying:
+            case StorageClass::FaceVertex:
+                return surface_.faces_.corners[number];
+        }
+        return 0;
+    }
+
+    const PolygonSurface& surface_;
+    FacePiece piece_;
+    std::span<const V2f> uv_;
+};
+
+bool PolygonSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
+                                        ShadingGrid& grid) const {
+    for (size_t i = 0; i < uv.size(); ++i) grid.u[i] = uv[i].x, grid.v[i] = uv[i].y;
+    if (!has_texture_coordinates_) {
+        // The default texture coordinates of polygons are x and y in object space.
+        const FacePiece piece = topology_.piece(face);
+        const std::array<float, 12> positions = corner_positions(piece, 0);
+        float x[4], y[4];
+        for (int i = 0; i < 4; ++i) x[i] = positions[3 * i], y[i] = positions[3 * i + 1];
+        evaluate_linear_piece(piece, x, 1, uv, {grid.s.data(), 1, 0}, {}, {});
+        evaluate_linear_piece(piece, y, 1, uv, {grid.t.data(), 1, 0}, {}, {});
+    }
+    return set_variables(primitive_.shape().variables, Values(*this, face, uv), grid);
+}
+
+/// Whether the counts agree with each other, so that nothing is read outside its array.
+bool is_consistent(const PolygonMesh& mesh) {
+    const auto sum = [](const std::vector<int>& counts) {
+        return std::accumulate(counts.begin(), counts.end(), size_t{0});
+    };
+    const auto negative = [](int n) { return n < 0; };
+    if (std::any_of(mesh.loops_per_polygon.begin(), mesh.loops_per_polygon.end(), negative)) return false;
+    if (std::any_of(mesh.vertices_per_loop.begin(), mesh.vertices_per_loop.end(), negative)) return false;
+    return sum(mesh.loops_per_polygon) == mesh.vertices_per_loop.size() &&
+           sum(mesh.vertices_per_loop) == mesh.vertices.size() &&
+           std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                       [&](int v) { return v >= 0 && v < mesh.vertex_count; });
+}
+
+}  // namespace
+
+std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagnostics& diagnostics) {
+    const PolygonMesh& mesh = std::get<PolygonMesh>(primitive.shape().topology);
+    for (const auto& shape : primitive.shape_keys) {
+        const Parameter* P = shape->variables.find("P");
+        if (P && P->floats.size() >= 3 * static_cast<size_t>(mesh.vertex_count)) continue;
+        diagnostics.error(primitive.location, "Polygon: has no vertex positions P; skipped",
+                          "polygon-points");
+        return nullptr;
+    }
+    if (!is_consistent(mesh)) {
+        diagnostics.error(primitive.location, "Polygon: its counts do not agree; skipped", "polygon-counts");
+        return nullptr;
+    }
+    PolygonFaces faces = make_polygon_faces(mesh, primitive.shape().variables.find("P")->floats);
+    if (faces.sizes.empty()) {
+        diagnostics.warning(primitive.location, "Polygon: has no area; skipped", "polygon-empty");
+        return nullptr;
+    }
+    return std::make_unique<PolygonSurface>(primitive, std::move(faces));
+}
+
+}  // namespace trapeze
