@@ -78,7 +78,9 @@ class Surface {
 
     /// Sets grid.u, v, s, t, and where the primitive has them N (object space; leave untouched and return
     /// false when it has none), Cs, Os (already filled from the attributes) and the other variables (object
-    /// space), at points of a face, in the order of the grid's vertices; shape key 0.
+    /// space), at points of a face, in the order of the grid's vertices; shape key 0. The caller has sized
+    /// all but `variables` to uv.size(), which is grid.vertex_count(). `variables` holds those of an earlier
+    /// grid, of this surface or another: reuse their memory where they fit.
     virtual bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
                                     ShadingGrid& grid) const = 0;
 
@@ -86,6 +88,10 @@ class Surface {
     /// Surfaces without a cheap sure bound return an empty box: the splitter then samples the rectangle and
     /// grows the result.
     virtual Box3f bound(int /*face*/, V2f /*lo*/, V2f /*hi*/, int /*shape_key*/) const { return {}; }
+
+    /// How many faces the unit of grid.u and grid.v spans: 1 unless they run over a whole mesh. Derivatives
+    /// in the grid are by grid.u and grid.v, those of evaluate() by the face's.
+    virtual V2f faces_per_unit() const { return {1, 1}; }
 
     /// A flat normal for each face (polygons): N is then dPdu x dPdv of the face without sharing across
     /// edges.

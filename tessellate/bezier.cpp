@@ -1,0 +1,115 @@
+#include "tessellate/bezier.h"
+
+#include <cmath>
+
+namespace trapeze {
+namespace {
+
+/// Weights of the control points and their derivatives, exact at 0 and 1.
+struct Weights {
+    float w[4], d[4];
+};
+
+Weights weights(int degree, float t) {
+    const float s = 1 - t;
+    if (degree == 1) return {{s, t, 0, 0}, {-1, 1, 0, 0}};
+    const float ss = s * s, st = s * t, tt = t * t;
+    return {{ss * s, 3 * ss * t, 3 * s * tt, tt * t},
+            {-3 * ss, 3 * (ss - 2 * st), 3 * (2 * st - tt), 3 * tt}};
+}
+
+void add(Control& sum, const Control& p, float weight) {
+    for (int k = 0; k < 4; ++k) sum[k] += p[k] * weight;
+}
+
+Control lerp(const Control& a, const Control& b, float t) {
+    Control c;
+    for (int k = 0; k < 4; ++k) c[k] = a[k] * (1 - t) + b[k] * t;
+    return c;
+}
+
+/// The blossom of four points a stride apart: de Casteljau's algorithm with a parameter of its own each step.
+Control blossom(const Control* p, int stride, int degree, const std::array<float, 3>& t) {
+    std::array<Control, 4> q;
+    for (int i = 0; i <= degree; ++i) q[i] = p[i * stride];
+    for (int step = 0; step < degree; ++step)
+        for (int i = 0; i < degree - step; ++i) q[i] = lerp(q[i], q[i + 1], t[step]);
+    return q[0];
+}
+
+void restrict_line(Control* p, int stride, int degree, float lo, float hi) {
+    std::array<Control, 4> q;
+    for (int i = 0; i <= degree; ++i) {
+        std::array<float, 3> t;
+        for (int step = 0; step < degree; ++step) t[step] = step < degree - i ? lo : hi;
+        q[i] = blossom(p, stride, degree, t);
+    }
+    for (int i = 0; i <= degree; ++i) p[i * stride] = q[i];
+}
+
+}  // namespace
+
+Control BezierPatch::at(V2f uv) const {
+    const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
+    Control sum{};
+    for (int j = 0; j <= degree; ++j) {
+        Control row{};
+        for (int i = 0; i <= degree; ++i) add(row, p[j * 4 + i], u.w[i]);
+        add(sum, row, v.w[j]);
+    }
+    return sum;
+}
+
+void BezierPatch::at(V2f uv, Control* value, Control* by_u, Control* by_v) const {
+    const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
+    *value = *by_u = *by_v = {};
+    for (int j = 0; j <= degree; ++j) {
+        Control row{}, row_by_u{};
+        for (int i = 0; i <= degree; ++i) {
+            add(row, p[j * 4 + i], u.w[i]);
+            add(row_by_u, p[j * 4 + i], u.d[i]);
+        }
+        add(*value, row, v.w[j]);
+        add(*by_u, row_by_u, v.w[j]);
+        add(*by_v, row, v.d[j]);
+    }
+}
+
+BezierPatch BezierPatch::restricted(V2f lo, V2f hi) const {
+    BezierPatch part = *this;
+    for (int j = 0; j <= degree; ++j) restrict_line(&part.p[j * 4], 1, degree, lo.x, hi.x);
+    for (int i = 0; i <= degree; ++i) restrict_line(&part.p[i], 4, degree, lo.y, hi.y);
+    return part;
+}
+
+M44f bezier_from_basis(const M44f& basis) {
+    // The inverse of Bezier's basis; in double, so that Bezier's own comes out as the identity.
+    constexpr double kInverse[4][4] = {
+        {0, 0, 0, 1}, {0, 0, 1 / 3.0, 1}, {0, 1 / 3.0, 2 / 3.0, 1}, {1, 1, 1, 1}};
+    M44f m;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            double sum = 0;
+            for (int k = 0; k < 4; ++k) sum += kInverse[i][k] * static_cast<double>(basis[k][j]);
+            m[i][j] = std::abs(sum) < 1e-7 ? 0.0f : static_cast<float>(sum);
+        }
+    return m;
+}
+
+void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch) {
+    const M44f identity;
+    const auto convert = [&](const M44f& m, int along, int across) {
+        if (m == identity) return;
+        const std::array<Control, 16> q = patch.p;
+        for (int line = 0; line < 4; ++line)
+            for (int i = 0; i < 4; ++i) {
+                Control sum{};
+                for (int k = 0; k < 4; ++k) add(sum, q[line * across + k * along], m[i][k]);
+                patch.p[line * across + i * along] = sum;
+            }
+    };
+    convert(u_bezier_from_basis, 1, 4);
+    convert(v_bezier_from_basis, 4, 1);
+}
+
+}  // namespace trapeze

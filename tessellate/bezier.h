@@ -1,0 +1,31 @@
+/// Bilinear and bicubic tensor-product patches in Bezier form, of points with up to four components.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/math.h"
+
+namespace trapeze {
+
+/// A control point: x y z w, or what components are used.
+using Control = std::array<float, 4>;
+
+/// degree 1 or 3; point (i, j) is p[j * 4 + i], i along u.
+struct BezierPatch {
+    int degree = 3;
+    std::array<Control, 16> p{};
+
+    Control at(V2f uv) const;
+    void at(V2f uv, Control* value, Control* by_u, Control* by_v) const;
+    /// The same surface over a rectangle of its parameters.
+    BezierPatch restricted(V2f lo, V2f hi) const;
+};
+
+/// Takes four control points of a basis (RISpec 5.2: P(u) = [u^3 u^2 u 1] * basis * points) to Bezier's.
+M44f bezier_from_basis(const M44f& basis);
+
+/// Changes a 4x4 net of other bases into Bezier form.
+void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch);
+
+}  // namespace trapeze

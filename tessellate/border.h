@@ -1,0 +1,46 @@
+/// The shared points of subpatches' borders: what both neighbours take, wherever they stand.
+#pragma once
+
+#include "tessellate/edges.h"
+
+namespace trapeze {
+
+/// Positions of a surface's vertices at all keys, each made once.
+class VertexTable {
+  public:
+    VertexTable() = default;
+    explicit VertexTable(const PlacedSurface& surface);
+
+    std::span<const V3f> keys_of(uint32_t vertex) const {
+        return {positions_.data() + static_cast<size_t>(vertex) * key_count_, key_count_};
+    }
+    size_t bytes() const { return positions_.capacity() * sizeof(V3f); }
+
+  private:
+    size_t key_count_ = 1;
+    std::vector<V3f> positions_;
+};
+
+/// The most border points that a subpatch has, corners counted twice.
+inline constexpr int kMaxBorderPoints = 4 * (kMaxGridSide + 1);
+
+/// P[point * key_count + key], at most kMaxBorderPoints points.
+void border_positions(const PlacedSurface& surface, const VertexTable& vertices,
+                      std::span<const BorderPoint> points, EvaluationScratch& scratch, std::span<V3f> P);
+
+/// A subpatch's side on its edge: `count` + 1 vertices of the interval, from `first`, each `step` (1 or -1)
+/// further.
+struct BorderSide {
+    uint32_t edge = 0;
+    const EdgeInterval* interval = nullptr;
+    int first = 0, step = 1, count = 0;
+
+    int vertex(int i) const { return first + step * i; }
+    /// Which of the side's vertices belongs to vertex i of n + 1 of the grid's border, n >= count: all occur.
+    int vertex_of_border(int i, int n) const { return (2 * i * count + n) / (2 * n); }
+};
+
+/// Of a side that lies in one interval of its edge.
+BorderSide border_side(const Edges& edges, const SurfaceSide& side);
+
+}  // namespace trapeze

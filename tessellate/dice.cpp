@@ -1,0 +1,213 @@
+#include "tessellate/dice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tessellate/camera_variables.h"
+#include "tessellate/displaced_border.h"
+#include "tessellate/normals.h"
+
+namespace trapeze {
+namespace {
+
+class Dicer {
+  public:
+    Dicer(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
+          DiceScratch::State& scratch)
+        : context_(context),
+          surface_(*context.surface),
+          subpatch_(subpatch),
+          attributes_(*surface_.primitive().attributes),
+          grid_(grid),
+          scratch_(scratch),
+          shape_(subpatch.shape),
+          count_(shape_.vertex_count()) {}
+
+    void run() {
+        prepare_grid();
+        find_border();
+        place_vertices();
+        if (attributes_.displacement)
+            snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), scratch_.uv);
+        evaluate();
+        set_border_positions();
+        set_normals();
+        set_variables();
+    }
+
+  private:
+    void prepare_grid() {
+        grid_.shape = shape_;
+        grid_.key_count = surface_.key_count();
+        grid_.primitive = &surface_.primitive();
+        grid_.reverse_orientation = attributes_.reverse_orientation;
+        grid_.displaced = false;
+        const size_t keys = surface_.key_count();
+        std::vector<Triples>& spare = scratch_.spare_keys;
+        for (; grid_.P.size() > keys; grid_.P.pop_back()) spare.push_back(std::move(grid_.P.back()));
+        for (; grid_.P.size() < keys && !spare.empty(); spare.pop_back())
+            grid_.P.push_back(std::move(spare.back()));
+        grid_.P.resize(keys);
+        for (Triples& P : grid_.P) P.resize(count_);
+        for (Triples* t : {&grid_.N, &grid_.Ng, &grid_.dPdu, &grid_.dPdv, &grid_.Ci, &grid_.Oi})
+            t->resize(count_);
+        for (std::vector<float>* values : {&grid_.u, &grid_.v, &grid_.s, &grid_.t}) values->resize(count_);
+        grid_.Cs.fill(count_, attributes_.color);
+        grid_.Os.fill(count_, attributes_.opacity);
+    }
+
+    void find_border() {
+        for (int s = 0; s < 4; ++s) {
+            BorderSide& side = sides_[s] = border_side(context_.edges, subpatch_.sides[s]);
+            const int first = point_count_, n = s == kBottom || s == kTop ? shape_.nu : shape_.nv;
+            for (int i = 0; i <= side.count; ++i)
+                points_[point_count_++] = context_.edges.vertex(side.edge, *side.interval, side.vertex(i));
+            for (int i = 0; i <= n; ++i)
+                border_[border_count_++] = {border_vertex(s, i), first + side.vertex_of_border(i, n), s};
+        }
+    }
+
+    std::span<const BorderPoint> points() const {
+        return {points_.data(), static_cast<size_t>(point_count_)};
+    }
+    /// Side by side; corners come twice.
+    std::span<const BorderVertex> border() const {
+        return {border_.data(), static_cast<size_t>(border_count_)};
+    }
+
+    int border_vertex(int side, int i) const {
+        switch (side) {
+            case kBottom:
+                return shape_.row_index(i, 0);
+            case kRight:
+                return shape_.row_index(shape_.nu, i);
+            case kTop:
+                return shape_.row_index(i, shape_.nv);
+            default:
+                return shape_.row_index(0, i);
+        }
+    }
+
+    /// Uniform over the subpatch, in the arithmetic of line_uv.
+    void place_vertices() {
+        scratch_.uv.resize(count_);
+        const auto along = [](float lo, float hi, int i, int n) {
+            return i == n ? hi : lo + (hi - lo) * (static_cast<float>(i) / static_cast<float>(n));
+        };
+        for (int j = 0; j <= shape_.nv; ++j)
+            for (int i = 0; i <= shape_.nu; ++i)
+                scratch_.uv[shape_.row_index(i, j)] = {along(subpatch_.lo.x, subpatch_.hi.x, i, shape_.nu),
+                                                       along(subpatch_.lo.y, subpatch_.hi.y, j, shape_.nv)};
+    }
+
+    void evaluate() {
+        const size_t keys = grid_.P.size();
+        scratch_.P.resize(count_ * keys);
+        scratch_.dPdu.resize(count_);
+        scratch_.dPdv.resize(count_);
+        surface_.positions_and_derivatives(subpatch_.face, scratch_.uv, static_cast<int>(keys),
+                                           scratch_.evaluation, scratch_.P, scratch_.dPdu, scratch_.dPdv);
+        for (size_t key = 0; key < keys; ++key) {
+            Triples& P = grid_.P[key];
+            for (size_t i = 0; i < count_; ++i) P.set(i, scratch_.P[key * count_ + i]);
+        }
+    }
+
+    /// A border vertex that lies at its edge's vertex, bit for bit, has its position already.
+    bool is_in_place(int vertex, const BorderPoint& point) const {
+        return !point.is_vertex && point.at.face == subpatch_.face && point.at.uv == scratch_.uv[vertex];
+    }
+
+    void set_border_positions() {
+        const size_t keys = grid_.P.size();
+        std::array<BorderPoint, kMaxBorderPoints> wanted;
+        std::array<int, kMaxBorderPoints> place;  // of border points in `wanted`; -1: not wanted
+        place.fill(-1);
+        size_t count = 0;
+        for (const BorderVertex& at : border()) {
+            if (place[at.point] >= 0 || is_in_place(at.vertex, points_[at.point])) continue;
+            place[at.point] = static_cast<int>(count);
+            wanted[count++] = points_[at.point];
+        }
+        scratch_.border.resize(kMaxBorderPoints * keys);
+        border_positions(surface_, *context_.vertices, {wanted.data(), count}, scratch_.evaluation,
+                         scratch_.border);
+        for (const BorderVertex& at : border()) {
+            if (place[at.point] < 0) continue;
+            for (size_t key = 0; key < keys; ++key)
+                grid_.P[key].set(at.vertex, scratch_.border[place[at.point] * keys + key]);
+        }
+    }
+
+    void set_normals() {
+        const float outside = attributes_.reverse_orientation ? -1.0f : 1.0f;
+        scratch_.degenerate.clear();
+        for (size_t i = 0; i < count_; ++i) {
+            V3f& du = scratch_.dPdu[i];
+            V3f& dv = scratch_.dPdv[i];
+            V3f n = unit_normal(du, dv);
+            if (n == V3f(0, 0, 0)) {
+                nearby_derivatives(surface_, {subpatch_.face, scratch_.uv[i]}, scratch_.evaluation, &du, &dv);
+                n = unit_normal(du, dv);
+                if (n == V3f(0, 0, 0)) scratch_.degenerate.push_back(static_cast<int>(i));
+            }
+            grid_.Ng.set(i, n * outside);
+        }
+        borrow_normals();
+        const V2f faces = surface_.surface().faces_per_unit();
+        for (size_t i = 0; i < count_; ++i) {
+            grid_.dPdu.set(i, scratch_.dPdu[i] * faces.x);
+            grid_.dPdv.set(i, scratch_.dPdv[i] * faces.y);
+        }
+        for (int k = 0; k < 3; ++k) std::ranges::copy(grid_.Ng.c[k], grid_.N.c[k].begin());
+    }
+
+    /// Where the surface has no normal, the nearest vertex' that has one; else towards the eye.
+    void borrow_normals() {
+        for (const int vertex : scratch_.degenerate) {
+            const int row = shape_.vertices_u(), i = vertex % row, j = vertex / row;
+            V3f normal(0, 0, -1);
+            int nearest = 1 << 20;
+            for (size_t other = 0; other < count_; ++other) {
+                const V3f n = grid_.Ng.at(other);
+                const int du = static_cast<int>(other) % row - i, dv = static_cast<int>(other) / row - j;
+                if (n == V3f(0, 0, 0) || du * du + dv * dv >= nearest) continue;
+                if (std::ranges::binary_search(scratch_.degenerate, static_cast<int>(other))) continue;
+                nearest = du * du + dv * dv, normal = n;
+            }
+            grid_.Ng.set(vertex, normal);
+        }
+    }
+
+    void set_variables() {
+        const bool own_normals = surface_.surface().evaluate_variables(
+            subpatch_.face, scratch_.uv, scratch_.evaluation.of(surface_.surface()), grid_);
+        const M44f& camera_from_object = surface_.camera_from_object(0);
+        if (own_normals) normals_to_camera_space(camera_from_object, grid_.Ng, grid_.N);
+        for (GridVariable& variable : grid_.variables) to_camera_space(camera_from_object, variable);
+        if (attributes_.displacement)
+            share_border_shading(context_, sides_, points(), border(), grid_, scratch_);
+    }
+
+    const DiceContext& context_;
+    const PlacedSurface& surface_;
+    const Subpatch& subpatch_;
+    const Attributes& attributes_;
+    ShadingGrid& grid_;
+    DiceScratch::State& scratch_;
+    const GridShape shape_;
+    const size_t count_;
+    std::array<BorderSide, 4> sides_;
+    std::array<BorderPoint, kMaxBorderPoints> points_;  ///< shared, side by side
+    std::array<BorderVertex, kMaxBorderPoints> border_;
+    int point_count_ = 0, border_count_ = 0;
+};
+
+}  // namespace
+
+void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
+                   DiceScratch::State& scratch) {
+    Dicer(context, subpatch, grid, scratch).run();
+}
+
+}  // namespace trapeze

@@ -1,0 +1,144 @@
+#include "tessellate/edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/grid.h"
+
+namespace trapeze {
+namespace {
+
+/// Pieces measured first, and when there may be more than as many segments.
+constexpr int kCoarsePieces = 4, kFinePieces = 8;
+
+class EdgeCutter {
+  public:
+    EdgeCutter(const PlacedSurface& surface, const EdgeLine& line, const ScreenMetric& metric,
+               const EdgeRate& rate, EvaluationScratch& scratch, std::vector<EdgeInterval>& out)
+        : surface_(surface),
+          line_(line),
+          metric_(metric),
+          rate_(rate),
+          scratch_(scratch),
+          out_(out),
+          limit_(out.size() + rate.max_intervals) {}
+
+    void cut(EdgeInterval interval) {
+        const float rate = rate_.pixels_per_segment;
+        RateEstimate estimate = measure(interval, kCoarsePieces);
+        if (estimate.segments(rate) > kCoarsePieces) estimate = measure(interval, kFinePieces);
+        const bool may_split = interval.depth < rate_.max_depth && out_.size() < limit_;
+        if (may_split && estimate.wants_split(rate)) {
+            ++interval.depth;
+            cut(interval);
+            interval.begin = interval.end();
+            cut(interval);
+            return;
+        }
+        interval.segments = static_cast<uint8_t>(estimate.clamped_segments(rate));
+        out_.push_back(interval);
+    }
+
+  private:
+    RateEstimate measure(const EdgeInterval& interval, int pieces) {
+        std::array<V2f, kFinePieces + 1> uv;
+        std::array<V3f, kFinePieces + 1> P;
+        EdgeInterval pieces_of = interval;
+        pieces_of.segments = static_cast<uint8_t>(pieces);
+        for (int i = 0; i <= pieces; ++i) uv[i] = line_uv(line_, pieces_of, i);
+        const size_t n = pieces + 1;
+        surface_.positions(line_.face, {uv.data(), n}, 1, scratch_, {P.data(), n});
+        RateEstimate estimate;
+        for (int i = 0; i < pieces; ++i) estimate.add(metric_.length(P[i], P[i + 1]));
+        return estimate;
+    }
+
+    const PlacedSurface& surface_;
+    const EdgeLine& line_;
+    const ScreenMetric& metric_;
+    const EdgeRate& rate_;
+    EvaluationScratch& scratch_;
+    std::vector<EdgeInterval>& out_;
+    const size_t limit_;
+};
+
+}  // namespace
+
+bool RateEstimate::wants_split(float pixels_per_segment) const {
+    const float even = sum / pixels_per_segment;
+    const float uneven = static_cast<float>(pieces) * longest / pixels_per_segment;
+    return even > kMaxGridSide || uneven > 1.5f * even + 2;  // false for NaN
+}
+
+int RateEstimate::clamped_segments(float pixels_per_segment) const {
+    const float n = std::ceil(segments(pixels_per_segment));
+    return n >= 1 ? static_cast<int>(std::min<float>(n, kMaxGridSide)) : 1;  // also NaN
+}
+
+void EdgeTessellations::add(const PlacedSurface& surface, const EdgeLine& line, const ScreenMetric& metric,
+                            const EdgeRate& rate, EvaluationScratch& scratch) {
+    const size_t first = intervals_.size();
+    EdgeCutter(surface, line, metric, rate, scratch, intervals_).cut({});
+    records_.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(intervals_.size() - first)});
+}
+
+void EdgeTessellations::append(const EdgeTessellations& other) {
+    const uint32_t offset = static_cast<uint32_t>(intervals_.size());
+    intervals_.insert(intervals_.end(), other.intervals_.begin(), other.intervals_.end());
+    for (Record r : other.records_) records_.push_back({r.first + offset, r.count});
+}
+
+void EdgeTessellations::renumber(std::span<const uint32_t> new_number) {
+    std::vector<Record> old = std::move(records_);
+    records_.assign(old.size(), {});
+    for (size_t i = 0; i < old.size(); ++i) records_[new_number[i]] = old[i];
+}
+
+void EdgeTessellations::shrink_to_fit() {
+    records_.shrink_to_fit();
+    intervals_.shrink_to_fit();
+}
+
+size_t EdgeTessellations::bytes() const {
+    return records_.capacity() * sizeof(Record) + intervals_.capacity() * sizeof(EdgeInterval);
+}
+
+EdgeLine Edges::line(uint32_t edge) const {
+    const size_t surface_edges = of_surface->size();
+    return edge < surface_edges ? surface->edge(edge) : (*made_lines)[edge - surface_edges];
+}
+
+const EdgeInterval* Edges::interval(uint32_t edge, float a, float b) const {
+    const size_t surface_edges = of_surface->size();
+    const std::span<const EdgeInterval> all =
+        edge < surface_edges ? of_surface->of(edge) : made->of(static_cast<uint32_t>(edge - surface_edges));
+    if (a > b) std::swap(a, b);
+    const auto after = std::upper_bound(all.begin(), all.end(), a,
+                                        [](float p, const EdgeInterval& i) { return p < i.begin; });
+    const EdgeInterval& holds_a = *(after == all.begin() ? after : after - 1);
+    return b <= holds_a.end() ? &holds_a : nullptr;
+}
+
+BorderPoint Edges::vertex(uint32_t edge, const EdgeInterval& interval, int number) const {
+    const EdgeLine l = line(edge);
+    BorderPoint point;
+    if (number == 0 && interval.begin == 0)
+        point = end(l.start);
+    else if (number == interval.segments && interval.end() == 1)
+        point = end(l.finish);
+    else
+        return {false, 0, {l.face, line_uv(l, interval, number)}, 0, false};
+    ++point.hops;
+    return point;
+}
+
+BorderPoint Edges::end(const EdgeEnd& at) const {
+    if (!at.on_edge) return {true, at.id, surface->vertex(at.id), 0, false};
+    const EdgeInterval& holds = *interval(at.id, at.parameter, at.parameter);
+    const int number = holds.snap(at.parameter);
+    BorderPoint point = vertex(at.id, holds, number);
+    point.moved |= holds.parameter_of(number) != at.parameter;
+    return point;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,112 @@
+/// Edges and their tessellation. Every edge (of the surface, or made when a subpatch is split) is cut into
+/// dyadic intervals, each with 1 to 16 segments uniform in the edge's parameter: a function of the edge alone
+/// [Fisher09, DiagSplit]. Subpatches on either side take their border vertices from here. A subpatch's side
+/// lies inside one interval, and may be finer than it: its ends snap to the interval's vertices.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tessellate/placed_surface.h"
+#include "tessellate/screen_metric.h"
+
+namespace trapeze {
+
+/// [begin, begin + 2^-depth] of an edge's parameter.
+struct EdgeInterval {
+    float begin = 0;
+    uint8_t depth = 0;
+    uint8_t segments = 1;
+
+    float size() const { return 1.0f / static_cast<float>(1u << depth); }
+    float end() const { return begin + size(); }
+    bool contains(float a, float b) const { return a >= begin && b <= end(); }
+
+    /// The number of the interval's vertex nearest to a parameter inside it. Exact: all parameters of sides
+    /// are dyadic. Halves go up, seen along the edge from both sides alike.
+    int snap(float parameter) const {
+        return static_cast<int>((parameter - begin) / size() * static_cast<float>(segments) + 0.5f);
+    }
+    float parameter_of(int vertex) const {
+        return begin + size() * (static_cast<float>(vertex) / static_cast<float>(segments));
+    }
+};
+
+/// Where an edge's vertex is evaluated: a vertex of the surface, or a point of one face.
+struct BorderPoint {
+    bool is_vertex = false;
+    uint32_t vertex = 0;
+    SurfacePoint at;
+    int hops = 0;        ///< edges whose ends were followed to get there
+    bool moved = false;  ///< not at the parameter asked for: snapped to a vertex
+};
+
+struct EdgeRate {
+    float pixels_per_segment = 1;
+    int max_depth = 14;
+    int max_intervals = 4096;  ///< then the rest is 16 segments for each interval
+};
+
+/// Whether pieces of these lengths, uniform in the parameter, want a split: too many segments, or too uneven
+/// to be uniform in the parameter. Otherwise *segments is how many they want.
+struct RateEstimate {
+    float sum = 0, longest = 0;
+    int pieces = 0;
+
+    void add(float length) {
+        sum += length, ++pieces;
+        if (length > longest) longest = length;
+    }
+    float segments(float pixels_per_segment) const { return sum / pixels_per_segment; }
+    bool wants_split(float pixels_per_segment) const;
+    int clamped_segments(float pixels_per_segment) const;  ///< 1..16
+};
+
+/// The intervals of many edges, numbered from 0.
+class EdgeTessellations {
+  public:
+    size_t size() const { return records_.size(); }
+    std::span<const EdgeInterval> of(uint32_t edge) const {
+        const Record& r = records_[edge];
+        return {intervals_.data() + r.first, r.count};
+    }
+    void add(const PlacedSurface& surface, const EdgeLine& line, const ScreenMetric& metric,
+             const EdgeRate& rate, EvaluationScratch& scratch);
+    void append(const EdgeTessellations& other);
+    /// Edge i becomes edge new_number[i].
+    void renumber(std::span<const uint32_t> new_number);
+    void shrink_to_fit();
+    size_t bytes() const;
+
+  private:
+    struct Record {
+        uint32_t first = 0, count = 0;
+    };
+    std::vector<Record> records_;
+    std::vector<EdgeInterval> intervals_;
+};
+
+/// All edges that a face's subpatches know: the surface's, numbered as it does, then those made by splits.
+/// A view; both parts outlive it.
+struct Edges {
+    const Surface* surface = nullptr;
+    const EdgeTessellations* of_surface = nullptr;
+    const std::vector<EdgeLine>* made_lines = nullptr;
+    const EdgeTessellations* made = nullptr;
+
+    EdgeLine line(uint32_t edge) const;
+    /// The interval that holds [a, b], or null when the edge is split within it.
+    const EdgeInterval* interval(uint32_t edge, float a, float b) const;
+    BorderPoint vertex(uint32_t edge, const EdgeInterval& interval, int number) const;
+    BorderPoint end(const EdgeEnd& end) const;
+};
+
+/// A point of an edge's line; ends exact.
+inline V2f line_uv(const EdgeLine& line, const EdgeInterval& interval, int number) {
+    const V2f a = line.from + (line.to - line.from) * interval.begin;
+    const V2f b = line.from + (line.to - line.from) * interval.end();
+    if (number == interval.segments) return b;
+    return a + (b - a) * (static_cast<float>(number) / static_cast<float>(interval.segments));
+}
+
+}  // namespace trapeze

@@ -1,0 +1,26 @@
+#include "tessellate/surface.h"
+
+namespace trapeze {
+
+std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics) {
+    struct ByTopology {
+        const Primitive& primitive;
+        Diagnostics& diagnostics;
+
+        std::unique_ptr<Surface> operator()(const PolygonMesh&) const {
+            return make_polygon_surface(primitive, diagnostics);
+        }
+        std::unique_ptr<Surface> operator()(const SubdivisionMesh&) const {
+            return make_subdivision_surface(primitive, diagnostics);
+        }
+        std::unique_ptr<Surface> operator()(const Quadric&) const {
+            return make_quadric_surface(primitive, diagnostics);
+        }
+        std::unique_ptr<Surface> operator()(const PatchMesh&) const {
+            return make_patch_surface(primitive, diagnostics);
+        }
+    };
+    return std::visit(ByTopology{primitive, diagnostics}, primitive.shape().topology);
+}
+
+}  // namespace trapeze

@@ -1,0 +1,66 @@
+#include "tessellate/screen_metric.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapeze {
+namespace {
+
+constexpr float kLeastForeshortening = 0.25f;
+
+/// The parameter of the segment's point nearest to the origin.
+template <class V>
+float nearest_to_origin(const V& p, const V& d) {
+    const float dd = d.dot(d);
+    return dd > 0 ? std::clamp(-p.dot(d) / dd, 0.0f, 1.0f) : 0.0f;
+}
+
+}  // namespace
+
+ScreenMetric::ScreenMetric(const Camera& camera)
+    : perspective_(camera.perspective),
+      pixels_x_(std::abs(1 / camera.plane_scale_x)),
+      pixels_y_(std::abs(1 / camera.plane_scale_y)),
+      pixels_(std::max(pixels_x_, pixels_y_)) {
+    // The whole image, not the crop: a crop shows the same micropolygons.
+    const float x0 = camera.plane_offset_x, y0 = camera.plane_offset_y;
+    const float x1 = x0 + camera.plane_scale_x * static_cast<float>(camera.width);
+    const float y1 = y0 + camera.plane_scale_y * static_cast<float>(camera.height);
+    const float x = std::max(std::abs(x0), std::abs(x1)), y = std::max(std::abs(y0), std::abs(y1));
+    view_cosine_ = 1 / std::sqrt(1 + x * x + y * y);
+    center_ = {(x0 + x1) / 2, (y0 + y1) / 2};
+    radius_ = std::hypot(x1 - x0, y1 - y0) / 2;
+}
+
+float ScreenMetric::length(const V3f& p, const V3f& q) const {
+    return perspective_ ? perspective_length(p, q) : orthographic_length(p, q);
+}
+
+float ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
+    const V3f d = q - p;
+    const float p_distance = p.length(), q_distance = q.length();
+    const bool in_view =
+        p.z > 0 && q.z > 0 && p.z >= view_cosine_ * p_distance && q.z >= view_cosine_ * q_distance;
+    if (in_view) {
+        const float x = (q.x / q.z - p.x / p.z) * pixels_x_, y = (q.y / q.z - p.y / p.z) * pixels_y_;
+        return std::max(std::sqrt(x * x + y * y),
+                        kLeastForeshortening * d.length() * pixels_ * 2 / (p.z + q.z));
+    }
+    const float angle = std::atan2(p.cross(q).length(), p.dot(q));
+    const float nearest = (p + d * nearest_to_origin(p, d)).length();
+    // A bound for pieces through the eye itself, whose splitting the depth limit ends.
+    const float distance = std::max(nearest, d.length() / 64);
+    const float square_on = distance > 0 ? d.length() / distance : 0.0f;
+    return std::max(angle / view_cosine_, kLeastForeshortening * square_on) * pixels_ / view_cosine_;
+}
+
+float ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {
+    const V3f d = q - p;
+    const V2f from_center = V2f(p.x, p.y) - center_, across(d.x, d.y);
+    const float outside = (from_center + across * nearest_to_origin(from_center, across)).length();
+    const float x = d.x * pixels_x_, y = d.y * pixels_y_;
+    const float pixels = std::max(std::sqrt(x * x + y * y), kLeastForeshortening * std::abs(d.z) * pixels_);
+    return outside > radius_ ? pixels * radius_ / outside : pixels;
+}
+
+}  // namespace trapeze

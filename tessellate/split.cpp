@@ -1,0 +1,264 @@
+#include "tessellate/split.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapeze {
+namespace {
+
+/// A face never makes more than about this many subpatches by its interior's size: a bound on absurd input.
+constexpr size_t kMaxSubpatchesOfFace = size_t{1} << 20;
+/// Samples of a rectangle along u and v: for small ones, else.
+constexpr int kCoarse = 2, kFine = 4;
+
+struct Node {
+    V2f lo{0, 0}, hi{1, 1};
+    std::array<SurfaceSide, 4> sides;
+    int depth_u = 0, depth_v = 0;
+    bool inside = false;  ///< the picture holds it: no culling
+};
+
+/// Positions of (pieces + 1)^2 points, at one key or all.
+struct Lattice {
+    int pieces = 0, keys = 0;
+    std::span<const V3f> P;
+
+    int row() const { return pieces + 1; }
+    const V3f& at(int key, int i, int j) const { return P[(key * row() + j) * row() + i]; }
+};
+
+/// How many micropolygons a rectangle wants along a direction.
+struct Want {
+    bool split = false;
+    int segments = 1;
+    float pixels = 0;
+};
+
+class FaceSplitter {
+  public:
+    FaceSplitter(const SplitContext& context, Splits& out)
+        : context_(context),
+          surface_(*context.surface),
+          out_(out),
+          edges_{&surface_.surface(), context.surface_edges, &out.made_lines, &out.made} {}
+
+    void split_face(int face) {
+        face_ = face;
+        first_subpatch_ = out_.subpatches.size();
+        Node node;
+        node.sides = surface_.surface().sides(face);
+        split(node);
+    }
+
+  private:
+    void split(Node node) {
+        Lattice lattice = sample(node, kCoarse, 1);
+        std::array<Want, 2> want = wanted(lattice);
+        if (std::max(want[0].segments, want[1].segments) > kCoarse || want[0].split || want[1].split) {
+            lattice = sample(node, kFine, 1);
+            want = wanted(lattice);
+        }
+        const bool must_u = !in_interval(node.sides[kBottom]) || !in_interval(node.sides[kTop]);
+        const bool must_v = !in_interval(node.sides[kLeft]) || !in_interval(node.sides[kRight]);
+        const bool room = out_.subpatches.size() - first_subpatch_ < kMaxSubpatchesOfFace;
+        const bool split_u = must_u || (want[0].split && room && node.depth_u < context_.rate.max_depth);
+        const bool split_v = must_v || (want[1].split && room && node.depth_v < context_.rate.max_depth);
+        if (!split_u && !split_v) return emit(node, want);
+
+        if (!node.inside) {
+            const RasterBound::Result seen = bound(node);
+            if (seen.rect.empty()) {
+                ++out_.culled;
+                return;
+            }
+            node.inside = seen.inside;
+        }
+        const bool along_u = split_u && (!split_v || want[0].pixels >= want[1].pixels);
+        for (const Node& half : halves(node, along_u, room)) split(half);
+    }
+
+    bool in_interval(const SurfaceSide& side) const {
+        return edges_.interval(side.edge, side.begin, side.end) != nullptr;
+    }
+
+    Lattice sample(const Node& node, int pieces, int keys) {
+        std::array<V2f, (kFine + 1) * (kFine + 1)> uv;
+        const size_t n = static_cast<size_t>((pieces + 1) * (pieces + 1));
+        for (int j = 0; j <= pieces; ++j)
+            for (int i = 0; i <= pieces; ++i) {
+                const V2f share(static_cast<float>(i) / static_cast<float>(pieces),
+                                static_cast<float>(j) / static_cast<float>(pieces));
+                uv[j * (pieces + 1) + i] = node.lo + (node.hi - node.lo) * share;
+            }
+        const std::span<V3f> P = scratch_.points(3, n * keys);
+        surface_.positions(face_, {uv.data(), n}, keys, scratch_, P);
+        return {pieces, keys, P};
+    }
+
+    std::array<Want, 2> wanted(const Lattice& lattice) const {
+        std::array<Want, 2> want;
+        const float rate = context_.rate.pixels_per_segment;
+        for (int line = 0; line <= lattice.pieces; ++line) {
+            RateEstimate along[2];
+            for (int k = 0; k < lattice.pieces; ++k) {
+                along[0].add(context_.metric->length(lattice.at(0, k, line), lattice.at(0, k + 1, line)));
+                along[1].add(context_.metric->length(lattice.at(0, line, k), lattice.at(0, line, k + 1)));
+            }
+            for (int d = 0; d < 2; ++d) {
+                want[d].split |= along[d].wants_split(rate);
+                want[d].segments = std::max(want[d].segments, along[d].clamped_segments(rate));
+                want[d].pixels = std::max(want[d].pixels, along[d].sum);
+            }
+        }
+        return want;
+    }
+
+    std::array<Node, 2> halves(const Node& node, bool along_u, bool room) {
+        const int axis = along_u ? 0 : 1;
+        const SideName low = along_u ? kBottom : kLeft, high = along_u ? kTop : kRight;
+        const SideName before = along_u ? kLeft : kBottom, after = along_u ? kRight : kTop;
+        const float middle = (node.lo[axis] + node.hi[axis]) / 2;
+        const float at_low = (node.sides[low].begin + node.sides[low].end) / 2;
+        const float at_high = (node.sides[high].begin + node.sides[high].end) / 2;
+        EdgeLine line;
+        line.face = face_;
+        line.from = node.lo, line.to = node.hi;
+        line.from[axis] = line.to[axis] = middle;
+        line.start = {true, node.sides[low].edge, at_low};
+        line.finish = {true, node.sides[high].edge, at_high};
+        const uint32_t edge = make_edge(line, room ? (along_u ? node.depth_v : node.depth_u) : -1);
+
+        std::array<Node, 2> half{node, node};
+        half[0].hi[axis] = half[1].lo[axis] = middle;
+        half[0].sides[low].end = half[1].sides[low].begin = at_low;
+        half[0].sides[high].end = half[1].sides[high].begin = at_high;
+        half[0].sides[after] = half[1].sides[before] = {edge, 0, 1};
+        for (Node& h : half) ++(along_u ? h.depth_u : h.depth_v);
+        return half;
+    }
+
+    /// depth: of the node along the edge; -1 when the edge must not be split. Depths add up to the surface
+    /// parameter's, which stays exact.
+    uint32_t make_edge(const EdgeLine& line, int depth) {
+        EdgeRate rate = context_.rate;
+        rate.max_depth = depth < 0 ? 0 : std::max(0, rate.max_depth - depth);
+        const size_t number = context_.surface_edges->size() + out_.made_lines.size();
+        out_.made_lines.push_back(line);
+        out_.made.add(surface_, line, *context_.metric, rate, scratch_);
+        return static_cast<uint32_t>(number);
+    }
+
+    void emit(const Node& node, const std::array<Want, 2>& want) {
+        const RasterBound::Result seen = bound(node);
+        if (seen.rect.empty()) {
+            ++out_.culled;
+            return;
+        }
+        const auto count = [&](SideName side) { return border_side(edges_, node.sides[side]).count; };
+        Subpatch subpatch;
+        subpatch.face = face_;
+        subpatch.lo = node.lo, subpatch.hi = node.hi;
+        subpatch.sides = node.sides;
+        subpatch.shape.nu = static_cast<uint8_t>(std::max({count(kBottom), count(kTop), want[0].segments}));
+        subpatch.shape.nv = static_cast<uint8_t>(std::max({count(kLeft), count(kRight), want[1].segments}));
+        out_.subpatches.push_back(subpatch);
+        out_.bounds.push_back(seen.rect);
+    }
+
+    RasterBound::Result bound(const Node& node) {
+        const int keys = surface_.key_count();
+        boxes_.assign(keys, {});
+        for (int key = 0; key < keys; ++key) boxes_[key] = surface_.bound(face_, node.lo, node.hi, key);
+        if (boxes_[0].isEmpty()) sampled_bound(node);
+        add_moved_corners(node);
+        for (Box3f& box : boxes_) {
+            if (box.isEmpty()) continue;
+            float largest = 0;
+            for (int k = 0; k < 3; ++k)
+                largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
+            const float grow = context_.displacement_bound + 4e-6f * largest;  // rounding of positions
+            box.min -= V3f(grow), box.max += V3f(grow);
+        }
+        return context_.raster->of(boxes_);
+    }
+
+    /// Of samples, grown by half their second differences: four times what a curve with that second
+    /// derivative departs from its chords.
+    void sampled_bound(const Node& node) {
+        const Lattice lattice = sample(node, kFine, surface_.key_count());
+        for (int key = 0; key < lattice.keys; ++key) {
+            Box3f& box = boxes_[key];
+            box.makeEmpty();
+            V3f bend_u(0, 0, 0), bend_v(0, 0, 0);
+            const auto second = [](const V3f& a, const V3f& b, const V3f& c, V3f& largest) {
+                for (int k = 0; k < 3; ++k)
+                    largest[k] = std::max(largest[k], std::abs((a[k] - b[k]) + (c[k] - b[k])));
+            };
+            for (int j = 0; j <= lattice.pieces; ++j)
+                for (int i = 0; i <= lattice.pieces; ++i) {
+                    box.extendBy(lattice.at(key, i, j));
+                    if (i > 0 && i < lattice.pieces)
+                        second(lattice.at(key, i - 1, j), lattice.at(key, i, j), lattice.at(key, i + 1, j),
+                               bend_u);
+                    if (j > 0 && j < lattice.pieces)
+                        second(lattice.at(key, i, j - 1), lattice.at(key, i, j), lattice.at(key, i, j + 1),
+                               bend_v);
+                }
+            const V3f grow = (bend_u + bend_v) * 0.5f;
+            box.min -= grow, box.max += grow;
+        }
+    }
+
+    /// Corners that snap to a vertex of an edge may leave the rectangle, by up to half a segment.
+    void add_moved_corners(const Node& node) {
+        std::array<BorderPoint, 8> corners;
+        size_t count = 0;
+        for (const SurfaceSide& side : node.sides)
+            for (const float parameter : {side.begin, side.end}) {
+                const BorderPoint corner = edges_.end({true, side.edge, parameter});
+                if (corner.moved) corners[count++] = corner;
+            }
+        if (count == 0) return;
+        const size_t keys = boxes_.size();
+        const std::span<V3f> P = scratch_.points(4, count * keys);
+        border_positions(surface_, *context_.vertices, {corners.data(), count}, scratch_, P);
+        for (size_t i = 0; i < count * keys; ++i) boxes_[i % keys].extendBy(P[i]);
+    }
+
+    const SplitContext& context_;
+    const PlacedSurface& surface_;
+    Splits& out_;
+    const Edges edges_;
+    EvaluationScratch scratch_;
+    std::vector<Box3f> boxes_;
+    int face_ = 0;
+    size_t first_subpatch_ = 0;
+};
+
+}  // namespace
+
+void Splits::append(Splits&& other, uint32_t surface_edges) {
+    const uint32_t offset = static_cast<uint32_t>(made_lines.size());
+    const auto moved = [&](uint32_t edge) { return edge < surface_edges ? edge : edge + offset; };
+    for (EdgeLine& line : other.made_lines) {
+        line.start.id = moved(line.start.id), line.finish.id = moved(line.finish.id);
+        made_lines.push_back(line);
+    }
+    for (Subpatch& subpatch : other.subpatches) {
+        for (SurfaceSide& side : subpatch.sides) side.edge = moved(side.edge);
+        subpatches.push_back(subpatch);
+    }
+    bounds.insert(bounds.end(), other.bounds.begin(), other.bounds.end());
+    made.append(other.made);
+    culled += other.culled;
+}
+
+Splits split_faces(const SplitContext& context, int first_face, int end_face) {
+    Splits splits;
+    FaceSplitter splitter(context, splits);
+    for (int face = first_face; face < end_face; ++face)
+        if (!context.surface->surface().is_hole(face)) splitter.split_face(face);
+    return splits;
+}
+
+}  // namespace trapeze

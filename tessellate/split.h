@@ -1,0 +1,44 @@
+/// Splits faces into subpatches that dice to grids of at most 16x16: at parametric midpoints, as long as a
+/// side is not inside one interval of its edge or the interior is too large [Fisher09]. What cannot be seen
+/// is left out.
+#pragma once
+
+#include "core/stats.h"
+#include "tessellate/border.h"
+#include "tessellate/raster_bound.h"
+
+namespace trapeze {
+
+/// A rectangle of a face, to be diced as `shape`.
+struct Subpatch {
+    int face = 0;
+    GridShape shape;
+    V2f lo{0, 0}, hi{1, 1};
+    std::array<SurfaceSide, 4> sides;
+};
+
+/// What all splitting of a primitive reads.
+struct SplitContext {
+    const PlacedSurface* surface = nullptr;
+    const EdgeTessellations* surface_edges = nullptr;
+    const VertexTable* vertices = nullptr;
+    const ScreenMetric* metric = nullptr;
+    const RasterBound* raster = nullptr;
+    EdgeRate rate;
+    float displacement_bound = 0;
+};
+
+/// Subpatches, and the edges that were made between them, numbered from the surface's edge count on.
+struct Splits {
+    std::vector<Subpatch> subpatches;
+    std::vector<PixelRect> bounds;
+    std::vector<EdgeLine> made_lines;
+    EdgeTessellations made;
+    uint64_t culled = 0;
+
+    void append(Splits&& other, uint32_t surface_edges);
+};
+
+Splits split_faces(const SplitContext& context, int first_face, int end_face);
+
+}  // namespace trapeze

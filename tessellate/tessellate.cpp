@@ -1,0 +1,207 @@
+#include "tessellate/tessellate.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "tessellate/dice.h"
+
+namespace trapeze {
+namespace {
+
+constexpr int kFacesPerTask = 64, kEdgesPerTask = 512;
+/// Shading rates below this (in pixels' area) are taken as this: a bound on absurd input.
+constexpr float kLeastShadingRate = 1e-4f;
+
+/// A primitive's part of a Tessellation.
+struct TessellatedPrimitive {
+    std::shared_ptr<const Surface> surface;
+    std::unique_ptr<PlacedSurface> placed;
+    VertexTable vertices;
+    EdgeTessellations surface_edges;
+    Splits splits;
+    size_t first_subpatch = 0;
+
+    DiceContext dice_context() const {
+        return {placed.get(), {surface.get(), &surface_edges, &splits.made_lines, &splits.made}, &vertices};
+    }
+    size_t bytes() const {
+        return vertices.bytes() + surface_edges.bytes() + splits.made.bytes() +
+               splits.made_lines.capacity() * sizeof(EdgeLine) +
+               splits.subpatches.capacity() * sizeof(Subpatch);
+    }
+};
+
+/// The surface's edges, in tasks of those that are evaluated on the same faces.
+EdgeTessellations tessellate_edges(const PlacedSurface& placed, const ScreenMetric& metric,
+                                   const EdgeRate& rate) {
+    const Surface& surface = placed.surface();
+    const uint32_t count = surface.edge_count();
+    std::vector<std::pair<int, uint32_t>> order(count);  // face, edge
+    for (uint32_t e = 0; e < count; ++e) order[e] = {surface.edge(e).face, e};
+    std::sort(order.begin(), order.end());
+    const size_t tasks = (count + kEdgesPerTask - 1) / kEdgesPerTask;
+    std::vector<EdgeTessellations> parts(tasks);
+    tbb::parallel_for(size_t{0}, tasks, [&](size_t task) {
+        EvaluationScratch scratch;
+        const size_t end = std::min<size_t>((task + 1) * kEdgesPerTask, count);
+        for (size_t i = task * kEdgesPerTask; i < end; ++i)
+            parts[task].add(placed, surface.edge(order[i].second), metric, rate, scratch);
+    });
+    EdgeTessellations edges;
+    for (const EdgeTessellations& part : parts) edges.append(part);
+    std::vector<uint32_t> numbers(count);
+    for (uint32_t i = 0; i < count; ++i) numbers[i] = order[i].second;
+    edges.renumber(numbers);
+    edges.shrink_to_fit();
+    return edges;
+}
+
+Splits split_all(const SplitContext& context, const RenderContext& render) {
+    const Surface& surface = context.surface->surface();
+    const int faces = surface.face_count();
+    const size_t tasks = static_cast<size_t>((faces + kFacesPerTask - 1) / kFacesPerTask);
+    // Few faces may be large ones: a task each.
+    const int per_task = faces < 4 * kFacesPerTask ? 1 : kFacesPerTask;
+    const size_t count = per_task == 1 ? static_cast<size_t>(faces) : tasks;
+    std::vector<Splits> parts(count);
+    tbb::parallel_for(size_t{0}, count, [&](size_t task) {
+        const int first = static_cast<int>(task) * per_task;
+        if (!render.is_cancelled())
+            parts[task] = split_faces(context, first, std::min(first + per_task, faces));
+    });
+    if (parts.size() == 1) return std::move(parts[0]);
+    Splits splits;
+    for (Splits& part : parts) {
+        splits.append(std::move(part), surface.edge_count());
+        part = {};
+    }
+    return splits;
+}
+
+void shrink(Splits& splits) {
+    splits.subpatches.shrink_to_fit();
+    splits.made_lines.shrink_to_fit();
+    splits.made.shrink_to_fit();
+}
+
+/// Shapes shared by several primitives (instances) make one surface. What else a surface reads of its
+/// primitive is part of the key.
+class SurfaceCache {
+  public:
+    std::shared_ptr<const Surface>& of(const Primitive& primitive) {
+        Key key;
+        for (const auto& shape : primitive.shape_keys) key.first.push_back(shape.get());
+        key.second = primitive.attributes->texture_coordinates;
+        return surfaces_[key];
+    }
+    size_t size() const { return surfaces_.size(); }
+
+  private:
+    using Key = std::pair<std::vector<const Shape*>, std::array<float, 8>>;
+    std::map<Key, std::shared_ptr<const Surface>> surfaces_;
+};
+
+}  // namespace
+
+struct Tessellation::Impl {
+    std::vector<TessellatedPrimitive> primitives;
+};
+
+DiceScratch::DiceScratch() : state(std::make_unique<State>()) {}
+DiceScratch::DiceScratch(DiceScratch&&) noexcept = default;
+DiceScratch& DiceScratch::operator=(DiceScratch&&) noexcept = default;
+DiceScratch::~DiceScratch() = default;
+
+namespace {
+
+/// One surface for each slot that the cache hands out, made in parallel.
+void make_surfaces(const RenderContext& context, std::vector<TessellatedPrimitive>& primitives) {
+    SurfaceCache cache;
+    std::vector<std::shared_ptr<const Surface>*> slots(primitives.size());
+    std::vector<size_t> makers;
+    for (size_t i = 0; i < primitives.size(); ++i) {
+        const size_t before = cache.size();
+        slots[i] = &cache.of(context.scene->primitives[i]);
+        if (cache.size() > before) makers.push_back(i);
+    }
+    tbb::parallel_for(size_t{0}, makers.size(), [&](size_t m) {
+        *slots[makers[m]] = make_surface(context.scene->primitives[makers[m]], *context.diagnostics);
+    });
+    for (size_t i = 0; i < primitives.size(); ++i) primitives[i].surface = *slots[i];
+}
+
+void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
+                          const ScreenMetric& metric, const RasterBound& raster, TessellatedPrimitive& out) {
+    if (!out.surface || !primitive.attributes->visible_to_camera || context.is_cancelled()) return;
+    out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
+    EdgeRate rate;
+    rate.pixels_per_segment = std::sqrt(std::max(primitive.attributes->shading_rate, kLeastShadingRate));
+    out.surface_edges = tessellate_edges(*out.placed, metric, rate);
+    out.vertices = VertexTable(*out.placed);
+    SplitContext split;
+    split.surface = out.placed.get();
+    split.surface_edges = &out.surface_edges;
+    split.vertices = &out.vertices;
+    split.metric = &metric;
+    split.raster = &raster;
+    split.rate = rate;
+    split.displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
+    out.splits = split_all(split, context);
+    shrink(out.splits);
+}
+
+}  // namespace
+
+Tessellation::Tessellation(const RenderContext& context) : impl_(std::make_unique<Impl>()) {
+    const Scene& scene = *context.scene;
+    std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
+    primitives.resize(scene.primitives.size());
+    make_surfaces(context, primitives);
+    const ScreenMetric metric(context.camera);
+    const RasterBound raster(context.camera, sampled_pixels(context.camera, scene.options));
+    tbb::parallel_for(size_t{0}, primitives.size(), [&](size_t i) {
+        tessellate_primitive(context, scene.primitives[i], metric, raster, primitives[i]);
+    });
+
+    size_t count = 0;
+    for (const TessellatedPrimitive& p : primitives) count += p.splits.subpatches.size();
+    infos_.reserve(count);
+    for (size_t i = 0; i < primitives.size(); ++i) {
+        TessellatedPrimitive& p = primitives[i];
+        p.first_subpatch = infos_.size();
+        for (size_t s = 0; s < p.splits.subpatches.size(); ++s) {
+            const GridShape shape = p.splits.subpatches[s].shape;
+            infos_.push_back({p.splits.bounds[s], shape, static_cast<uint8_t>(p.placed->key_count()),
+                              static_cast<uint32_t>(i)});
+            stats_.micropolygons += shape.micropolygon_count();
+        }
+        stats_.primitives += p.placed ? 1 : 0;
+        stats_.culled_subpatches += p.splits.culled;
+        p.splits.bounds = {};
+    }
+    stats_.subpatches = stats_.grids = infos_.size();
+}
+
+Tessellation::~Tessellation() = default;
+
+size_t Tessellation::bytes() const {
+    size_t total = infos_.capacity() * sizeof(SubpatchInfo) + sizeof(Impl) +
+                   impl_->primitives.capacity() * sizeof(TessellatedPrimitive);
+    for (const TessellatedPrimitive& p : impl_->primitives) total += p.bytes();
+    return total;
+}
+
+void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch) const {
+    const SubpatchInfo& info = infos_[subpatch];
+    const TessellatedPrimitive& p = impl_->primitives[info.primitive];
+    dice_subpatch(p.dice_context(), p.splits.subpatches[subpatch - p.first_subpatch], grid, *scratch.state);
+    grid.primitive_index = info.primitive;
+    grid.ordinal = subpatch;
+}
+
+}  // namespace trapeze
