@@ -96,11 +96,12 @@ struct Film::Sums {
 };
 
 struct Film::Tile {
-    std::unique_ptr<Sums>
-        sums;  ///< written by the thread that adds it, before `missing` of its neighbours falls
-    std::atomic<int> missing{
-        0};  ///< tiles that this one's pixels still wait for; 0: developed, or no pixels in the crop
-    std::atomic<int> readers{0};  ///< tiles whose pixels still need `sums`
+    /// Set by the thread that adds the tile, before it lowers the neighbours' `missing`.
+    std::unique_ptr<Sums> sums;
+    /// Tiles that this one's pixels wait for. At 0 they are developed, or none of them is in the crop.
+    std::atomic<int> missing{0};
+    /// Tiles whose pixels still need `sums`.
+    std::atomic<int> readers{0};
     std::atomic<bool> added{false};
 };
 
@@ -167,22 +168,7 @@ void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& gr
     if (tile.added.exchange(true)) return;
     const bool colored = !hits.hits.empty() && hits.size() == samples.size();
     auto sums = std::make_unique<Sums>(samples.pixels, kernel_, colored);
-    switch (kernel_.taps_x() == kernel_.taps_y() ? kernel_.taps_x() : 0) {
-        case 1:
-            accumulate<1>(samples, hits, grids, *sums);
-            break;
-        case 2:
-            accumulate<2>(samples, hits, grids, *sums);
-            break;
-        case 3:
-            accumulate<3>(samples, hits, grids, *sums);
-            break;
-        case 4:
-            accumulate<4>(samples, hits, grids, *sums);
-            break;
-        default:
-            accumulate<0>(samples, hits, grids, *sums);
-    }
+    accumulate(samples, hits, grids, *sums);
     if (tile.readers.load(std::memory_order_relaxed) > 0) {
         waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
         tile.sums = std::move(sums);
@@ -193,8 +179,18 @@ void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& gr
     });
 }
 
-template <int kTaps>
+/// The usual filters' sizes are compiled in.
 void Film::accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums) {
+    const int taps = kernel_.taps_x() == kernel_.taps_y() ? kernel_.taps_x() : 0;
+    if (taps == 1) return accumulate_taps<1>(samples, hits, grids, sums);
+    if (taps == 2) return accumulate_taps<2>(samples, hits, grids, sums);
+    if (taps == 3) return accumulate_taps<3>(samples, hits, grids, sums);
+    if (taps == 4) return accumulate_taps<4>(samples, hits, grids, sums);
+    accumulate_taps<0>(samples, hits, grids, sums);
+}
+
+template <int kTaps>
+void Film::accumulate_taps(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums) {
     std::vector<float> weights(kernel_.tap_count());
     const bool colored = !sums.rgba.empty(), ids = !image_.id.empty();
     size_t sample = 0;

@@ -56,9 +56,10 @@ class Film {
     /// Whether samples of a tile reach pixels (of the crop) of another.
     bool reaches(int from, int to) const;
 
+    void accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums);
     /// kTaps is FilterKernel::weigh()'s.
     template <int kTaps>
-    void accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums);
+    void accumulate_taps(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums);
     template <int kTaps>
     void add_sample(float x, float y, int px, int py, const float* rgba, float* weights, Sums& sums) const;
     void record_pixel(int px, int py, float depth, uint32_t primitive);

@@ -76,8 +76,10 @@ class FilterKernel {
             phases;  ///< of a separable filter: kPhases + 2 rows of `taps` weights, interpolated
 
         int locate(float position, int pixel, float* phase) const {
-            // Rounding may put a sample on its pixel's far edge; it stays that pixel's.
-            const float in_pixel = std::min(position - static_cast<float>(pixel), 0x1.fffffep-1f);
+            // Rounding may put a sample on its pixel's far edge; it stays that pixel's. So does one that is
+            // no number.
+            const float in_pixel =
+                std::max(0.0f, std::min(0x1.fffffep-1f, position - static_cast<float>(pixel)));
             const float start = in_pixel + (static_cast<float>(reach) + 0.5f - half_width);
             const int first = static_cast<int>(start);
             *phase = start - static_cast<float>(first);

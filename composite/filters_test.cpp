@@ -73,6 +73,24 @@ TEST(Filters, TapsHoldTheWholeSupportAndStayInReach) {
     }
 }
 
+TEST(Filters, ASampleOnTheEdgeOrOutsideOfItsPixelStaysInItsFootprint) {
+    for (const float width : {1.0f, 1.2f, 2.0f, 2.5f, 3.0f, 4.0f})
+        for (const float x : {101.0f, 101.5f, 99.0f, std::nanf("")}) {
+            const FilterKernel kernel({"box", width, width});
+            const PixelRect footprint = kernel.footprint({100, 100, 101, 101});
+            std::vector<float> weights(kernel.tap_count());
+            const FilterTaps taps = kernel.weigh(x, x, 100, 100, weights.data());
+            EXPECT_GE(taps.x0, footprint.x0);
+            EXPECT_LE(taps.x0 + kernel.taps_x(), footprint.x1);
+            EXPECT_GE(taps.y0, footprint.y0);
+            EXPECT_LE(taps.y0 + kernel.taps_y(), footprint.y1);
+            for (int i = 0; i < kernel.taps_x(); ++i) {
+                const bool in_reach = std::abs(taps.x0 + i - 100) <= kernel.reach_x();
+                EXPECT_TRUE(in_reach || weights[i] == 0) << width << " " << x;
+            }
+        }
+}
+
 TEST(Filters, SymmetricAndSwappedAxesAgree) {
     for (const std::string name : kNames)
         for (double x = -2; x <= 2; x += 0.17)

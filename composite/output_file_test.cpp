@@ -1,8 +1,6 @@
 #include "composite/output_file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 #include <fstream>
 #include <sstream>
@@ -12,6 +10,7 @@
 namespace trapeze {
 namespace {
 
+using testing::FileSizeLimit;
 using testing::TemporaryFolder;
 using Names = std::vector<std::string>;
 
@@ -100,25 +99,6 @@ TEST(OutputFile, LongNames) {
     EXPECT_TRUE(file.open() && file.write("x", 1) && file.commit()) << file.error();
     EXPECT_EQ(folder.names(), Names{name});
 }
-
-/// As on a full disk: from a number of bytes on, writes fail.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) {
-        getrlimit(RLIMIT_FSIZE, &old_);
-        old_action_ = signal(SIGXFSZ, SIG_IGN);
-        const rlimit limit{bytes, old_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &old_);
-        signal(SIGXFSZ, old_action_);
-    }
-
-  private:
-    rlimit old_{};
-    void (*old_action_)(int) = nullptr;
-};
 
 TEST(OutputFile, AFullDiskIsAnError) {
     const TemporaryFolder folder;

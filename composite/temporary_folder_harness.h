@@ -1,8 +1,10 @@
-/// An empty folder that is gone at the end of a test.
+/// An empty folder that is gone at the end of a test, and a disk that is full.
 #pragma once
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -38,6 +40,25 @@ class TemporaryFolder {
 
   private:
     std::string path_;
+};
+
+/// As on a full disk: from a number of bytes on, writes fail.
+class FileSizeLimit {
+  public:
+    explicit FileSizeLimit(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &old_);
+        old_action_ = signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{bytes, old_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &old_);
+        signal(SIGXFSZ, old_action_);
+    }
+
+  private:
+    rlimit old_{};
+    void (*old_action_)(int) = nullptr;
 };
 
 }  // namespace trapeze::testing

@@ -16,6 +16,7 @@
 namespace trapeze {
 namespace {
 
+using testing::FileSizeLimit;
 using testing::RasterScene;
 using testing::TemporaryFolder;
 
@@ -320,6 +321,24 @@ TEST(WriteDisplays, AFailureIsOneErrorAndTheOthersAreWritten) {
     ASSERT_EQ(shown.size(), 2u);
     EXPECT_EQ(shown[0], "s.rib:7:3: error: cannot write \"" + folder.file("none/a.exr") +
                             "\": there is no folder \"" + folder.file("none") + "\"");
+}
+
+TEST(WriteDisplays, AFullDiskLeavesNothing) {
+    const TemporaryFolder folder;
+    RasterScene scene(400, 300, 1);
+    for (const char* name : {"a.exr", "a.tif", "a.png"})
+        scene.scene.options.displays.push_back({folder.file(name), "file", "rgba", {}, {}});
+    Image image = numbered_image(scene);
+    for (size_t i = 0; i < image.rgba.size(); ++i)  // nothing to compress
+        image.rgba[i] = unit_float(hash(static_cast<uint32_t>(i)));
+    for (const size_t limit : {100u, 20000u, 100000u}) {
+        const FileSizeLimit full(limit);
+        EXPECT_FALSE(write(image, scene).good) << limit;
+        EXPECT_TRUE(folder.names().empty()) << limit;
+    }
+    EXPECT_EQ(scene.diagnostics.count(Severity::Error), 9u);
+    EXPECT_TRUE(write(image, scene).good);
+    EXPECT_EQ(folder.names().size(), 3u);
 }
 
 TEST(WriteDisplays, CancellingLeavesNothing) {

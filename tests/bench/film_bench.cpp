@@ -1,8 +1,12 @@
-/// What compositing costs a sample: resolving its hits and adding it to the film, on one thread.
+/// What compositing costs a sample: resolving its hits and adding it to the film, on one thread; and what
+/// writing a picture costs.
 #include <benchmark/benchmark.h>
+
+#include <filesystem>
 
 #include "composite/film.h"
 #include "composite/raster_harness.h"
+#include "composite/write_displays.h"
 
 namespace trapeze {
 namespace {
@@ -44,6 +48,23 @@ void film_add(benchmark::State& state, View view, const char* filter, float widt
                            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+/// A noisy 1280x720 picture, which compresses badly, to a file.
+void write_picture(benchmark::State& state, const char* extension) {
+    testing::RasterScene scene(1280, 720, 1);
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("trapeze_film_bench" + std::string(extension))).string();
+    scene.scene.options.displays = {{path, "file", "rgba", {}, {}}};
+    Image image;
+    image.width = 1280, image.height = 720, image.window = scene.context.camera.crop;
+    image.rgba.resize(4 * 1280 * 720), image.z.resize(1280 * 720);
+    for (size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = unit_float(hash(static_cast<uint32_t>(i)));
+    for (auto _ : state)
+        if (!write_displays(image, scene.context, {"film_bench", {}})) state.SkipWithError("not written");
+    std::filesystem::remove(path);
+}
+
+BENCHMARK_CAPTURE(write_picture, exr, ".exr")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(write_picture, png, ".png")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, empty_gaussian2, View::Empty, "gaussian", 2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, constant_gaussian2, View::Constant, "gaussian", 2)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(film_add, smooth_gaussian2, View::Smooth, "gaussian", 2)->Unit(benchmark::kMillisecond);
