@@ -1,0 +1,101 @@
+#include "accel/builders/grid_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trapeze {
+namespace {
+
+/// The grid's plane of a component at one of its keys, tile by tile; `at_end` adds the segment's motion.
+struct KeyPlanes {
+    const float* start[3];
+    const float* delta[3];  ///< null: the key is a segment's first
+};
+
+KeyPlanes planes_at(const Grid& grid, int key) {
+    KeyPlanes planes{};
+    const bool at_end = grid.moves() && key == grid.key_count - 1;
+    const int segment = at_end ? key - 1 : key;
+    for (int k = 0; k < 3; ++k) {
+        planes.start[k] = grid.plane(segment, k);
+        planes.delta[k] = at_end ? grid.plane(segment, 3 + k) : nullptr;
+    }
+    return planes;
+}
+
+struct Extremes {
+    float absolute_max = 0, quad_extent = 0;
+};
+
+void extend_extremes(const GridShape& shape, const FramedVertices& p, Extremes& extremes) {
+    const int row = shape.vertices_u();
+    for (int k = 0; k < 3; ++k) {
+        const float* c = p.c[k];
+        for (int i = 0; i < shape.vertex_count(); ++i)
+            extremes.absolute_max = std::max(extremes.absolute_max, std::abs(c[i]));
+        for (int v = 0; v < shape.nv; ++v)
+            for (int u = 0; u < shape.nu; ++u) {
+                const float* q = c + v * row + u;
+                const float low = std::min(std::min(q[0], q[1]), std::min(q[row], q[row + 1]));
+                const float high = std::max(std::max(q[0], q[1]), std::max(q[row], q[row + 1]));
+                extremes.quad_extent = std::max(extremes.quad_extent, high - low);
+            }
+    }
+}
+
+/// A grid one micropolygon wide and long is a curve's ribbon.
+bool is_curve(const GridShape& shape) {
+    return std::min(shape.nu, shape.nv) == 1 && std::max(shape.nu, shape.nv) >= 4;
+}
+
+}  // namespace
+
+void vertices_in_frame(const Grid& grid, int key, const Frame& frame, FramedVertices& out) {
+    const KeyPlanes planes = planes_at(grid, key);
+    int n = 0;
+    for (int j = 0; j <= grid.shape.nv; ++j)
+        for (int i = 0; i <= grid.shape.nu; ++i, ++n) {
+            const int at = grid.shape.tiled_index(i, j);
+            float x = planes.start[0][at], y = planes.start[1][at], z = planes.start[2][at];
+            if (planes.delta[0]) x += planes.delta[0][at], y += planes.delta[1][at], z += planes.delta[2][at];
+            for (int k = 0; k < 3; ++k)
+                out.c[k][n] = (frame.axis[k].x * x + frame.axis[k].y * y) + frame.axis[k].z * z;
+        }
+}
+
+GridSummary summarise(const Grid& grid) {
+    const GridShape& shape = grid.shape;
+    GridSummary summary;
+    summary.weight = static_cast<uint32_t>(shape.micropolygon_count());
+
+    Extremes extremes;
+    FramedVertices p;
+    for (int key = 0; key < grid.key_count; ++key) {
+        vertices_in_frame(grid, key, Frame{}, p);
+        extend_extremes(shape, p, extremes);
+    }
+    const bool boundable = extremes.absolute_max <= kBoundableCoordinate;
+    summary.absolute_max = boundable ? extremes.absolute_max : std::numeric_limits<float>::infinity();
+    summary.quad_extent = extremes.quad_extent;
+
+    for (int j = 0; j <= shape.nv; ++j)
+        for (int i = 0; i <= shape.nu; ++i) summary.box.extendBy(grid.vertex(i, j, 0.5f));
+
+    // Sums of edges along u and v: interior vertices cancel.
+    V3d along_u(0), along_v(0);
+    for (int j = 0; j <= shape.nv; ++j)
+        along_u += V3d(grid.vertex(shape.nu, j, 0.5f)) - V3d(grid.vertex(0, j, 0.5f));
+    for (int i = 0; i <= shape.nu; ++i)
+        along_v += V3d(grid.vertex(i, shape.nv, 0.5f)) - V3d(grid.vertex(i, 0, 0.5f));
+    along_u /= shape.vertices_v() * shape.nu;  // averages of one edge
+    along_v /= shape.vertices_u() * shape.nv;
+    summary.frame = boundable ? frame_of(along_u, along_v) : Frame{};
+    const bool long_u = shape.nu >= shape.nv;
+    summary.main_direction = summary.frame.axis[2];
+    if (is_curve(shape) && boundable)
+        summary.main_direction = frame_of(long_u ? along_u : along_v, V3d(0)).axis[0];
+    return summary;
+}
+
+}  // namespace trapeze

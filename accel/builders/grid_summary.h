@@ -1,0 +1,33 @@
+/// What top-level builders know of a grid: its place at mid-shutter, its orientation, its weight.
+#pragma once
+
+#include <vector>
+
+#include "core/grid.h"
+#include "core/hyper_trapezoid.h"
+
+namespace trapeze {
+
+/// Coordinates beyond this may overflow in the predicate's products: such grids are in every bound.
+inline constexpr float kBoundableCoordinate = 1e15f;
+
+struct GridSummary {
+    Box3f box;               ///< camera space, axis-aligned, at mid-shutter
+    uint32_t weight = 0;     ///< micropolygons: the SAH's cost of the grid
+    Frame frame;             ///< from the averaged edges at mid-shutter [Hou10 sec. 3.3]
+    V3f main_direction;      ///< unit: average normal of a surface, average segment of a curve
+    float absolute_max = 0;  ///< largest coordinate at any key; infinity when not boundable
+    float quad_extent = 0;   ///< longest side of the axis-aligned box of any one micropolygon at any key
+
+    V3f centroid() const { return box.min * 0.5f + box.max * 0.5f; }
+};
+
+GridSummary summarise(const Grid& grid);
+
+/// Coordinates in a frame of all vertices at one of the grid's own keys; row by row, u fastest.
+struct FramedVertices {
+    float c[3][kMaxGridVertices];
+};
+void vertices_in_frame(const Grid& grid, int key, const Frame& frame, FramedVertices& out);
+
+}  // namespace trapeze

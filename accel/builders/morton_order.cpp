@@ -1,0 +1,68 @@
+#include "accel/builders/morton_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace trapeze {
+namespace {
+
+constexpr int kBits = 12;
+
+/// NaN and what lies outside [0, 1] go to the ends.
+uint32_t quantised(float value) {
+    constexpr float kSteps = 1 << kBits;
+    const float scaled = value * kSteps;
+    return scaled > 0 ? static_cast<uint32_t>(std::min(scaled, kSteps - 1)) : 0u;
+}
+
+/// Inverse of the concentric map of the square [-1,1]^2 to the disk [Shirley97].
+V2f square_from_disk(const V2f& p) {
+    const float r = std::sqrt(p.x * p.x + p.y * p.y);
+    if (r == 0) return {0, 0};
+    constexpr auto kQuarterPi = static_cast<float>(M_PI / 4);
+    if (std::abs(p.x) >= std::abs(p.y)) {
+        const float a = std::copysign(r, p.x);
+        return {a, std::abs(a) * std::atan2(p.y, std::abs(p.x)) / kQuarterPi};
+    }
+    const float b = std::copysign(r, p.y);
+    return {std::abs(b) * std::atan2(p.x, std::abs(p.y)) / kQuarterPi, b};
+}
+
+}  // namespace
+
+V2f square_from_direction(const V3f& unit) {
+    const V3f up = unit.z < 0 ? -unit : unit;
+    // Equal area: a hemisphere's cap of height 1 - z goes to the disk of radius sqrt(1 - z).
+    const float planar = std::sqrt(up.x * up.x + up.y * up.y);
+    if (!(planar > 0)) return {0.5f, 0.5f};
+    const float radius = std::sqrt(std::max(0.0f, 1 - up.z));
+    const V2f square = square_from_disk({up.x / planar * radius, up.y / planar * radius});
+    return {square.x * 0.5f + 0.5f, square.y * 0.5f + 0.5f};
+}
+
+uint64_t orientation_morton_code(const GridSummary& grid, const Box3f& centroids) {
+    const V2f orientation = square_from_direction(grid.main_direction);
+    const V3f centroid = grid.centroid();
+    uint32_t dimension[5] = {quantised(orientation.x), quantised(orientation.y)};
+    for (int k = 0; k < 3; ++k)
+        dimension[2 + k] =
+            quantised((centroid[k] - centroids.min[k]) / (centroids.max[k] - centroids.min[k]));
+    uint64_t code = 0;
+    for (int bit = kBits - 1; bit >= 0; --bit)
+        for (const uint32_t d : dimension) code = code << 1 | (d >> bit & 1);
+    return code;
+}
+
+void sort_by_orientation(std::span<uint32_t> order, std::span<const GridSummary> grids) {
+    Box3f centroids;
+    for (const uint32_t grid : order) centroids.extendBy(grids[grid].centroid());
+    std::vector<std::pair<uint64_t, uint32_t>> coded;
+    coded.reserve(order.size());
+    for (const uint32_t grid : order)
+        coded.emplace_back(orientation_morton_code(grids[grid], centroids), grid);
+    std::sort(coded.begin(), coded.end());
+    for (size_t i = 0; i < order.size(); ++i) order[i] = coded[i].second;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,110 @@
+/// Rectangles of micropolygons of one grid: the nodes of the implicit in-grid trees, and how a ray meets the
+/// micropolygons of a leaf.
+#pragma once
+
+#include <cstdint>
+
+#include "accel/trace_ray.h"
+#include "core/grid.h"
+#include "core/hit_buffer.h"
+#include "core/stats.h"
+
+namespace trapeze {
+
+struct GridBlock {
+    uint8_t u = 0, v = 0;    ///< first micropolygon
+    uint8_t nu = 1, nv = 1;  ///< how many
+
+    int count() const { return nu * nv; }
+};
+
+/// Parametric midpoint splits end at fewer micropolygons than this [Hou10 sec. 3.3].
+inline constexpr int kSplitFrom = 8;
+
+constexpr bool is_leaf_block(int nu, int nv) {
+    return nu * nv < kSplitFrom;
+}
+
+/// The halves of a block at the midpoint of its longer parametric axis.
+struct BlockHalves {
+    GridBlock low, high;
+};
+
+constexpr BlockHalves halves(const GridBlock& b) {
+    if (b.nu >= b.nv) {
+        const auto n = static_cast<uint8_t>(b.nu / 2);
+        return {{b.u, b.v, n, b.nv},
+                {static_cast<uint8_t>(b.u + n), b.v, static_cast<uint8_t>(b.nu - n), b.nv}};
+    }
+    const auto n = static_cast<uint8_t>(b.nv / 2);
+    return {{b.u, b.v, b.nu, n}, {b.u, static_cast<uint8_t>(b.v + n), b.nu, static_cast<uint8_t>(b.nv - n)}};
+}
+
+/// A one-sided micropolygon shows its other sign to a ray that runs against the axis.
+inline Facing facing_along(Facing facing, float sign) {
+    if (sign > 0 || facing == Facing::Both) return facing;
+    return facing == Facing::PositiveOnly ? Facing::NegativeOnly : Facing::PositiveOnly;
+}
+
+namespace grid_block_detail {
+
+/// The vertices of a leaf block at the ray's time, in its turned axes, by Grid::vertex()'s arithmetic.
+struct Vertices {
+    static constexpr int kMaxVertices = 2 * kSplitFrom;  ///< 1 x 7 micropolygons
+    float x[kMaxVertices], y[kMaxVertices], z[kMaxVertices];
+};
+
+template <bool kMoves>
+inline void gather(const Grid& grid, const GridBlock& block, const TraceRay& ray, Vertices& out) {
+    const MotionSegment s = kMoves ? segment_at(ray.axis.time, grid.key_count) : MotionSegment{};
+    const size_t plane_size = grid.shape.plane_size();
+    const float* first = grid.plane(s.index, 0);
+    const float* px = first + ray.planes[0] * plane_size;
+    const float* py = first + ray.planes[1] * plane_size;
+    const float* pz = first + ray.planes[2] * plane_size;
+    const size_t to_delta = 3 * plane_size;
+    int n = 0;
+    for (int j = 0; j <= block.nv; ++j)
+        for (int i = 0; i <= block.nu; ++i, ++n) {
+            const int at = grid.shape.tiled_index(block.u + i, block.v + j);
+            if constexpr (kMoves) {
+                out.x[n] = position_at(px[at], px[at + to_delta], s.local);
+                out.y[n] = position_at(py[at], py[at + to_delta], s.local);
+                out.z[n] = position_at(pz[at], pz[at + to_delta], s.local);
+            } else {
+                out.x[n] = px[at], out.y[n] = py[at], out.z[n] = pz[at];
+            }
+        }
+}
+
+}  // namespace grid_block_detail
+
+/// Tests a ray against every micropolygon of a leaf block and shows the policy what it hits.
+template <class Policy>
+inline void test_block(const Grid& grid, uint32_t grid_index, const GridBlock& block, TraceRay& ray,
+                       Policy& policy, SampleStats& stats) {
+    grid_block_detail::Vertices p;
+    if (grid.moves())
+        grid_block_detail::gather<true>(grid, block, ray, p);
+    else
+        grid_block_detail::gather<false>(grid, block, ray, p);
+    const Facing facing = facing_along(grid.facing, ray.sign);
+    const int row = block.nu + 1;
+    stats.predicate_tests += static_cast<uint64_t>(block.count());
+    for (int v = 0; v < block.nv; ++v)
+        for (int u = 0; u < block.nu; ++u) {
+            const int a = v * row + u, b = a + row;
+            const Quad quad{{p.x[a], p.x[a + 1], p.x[b], p.x[b + 1]},
+                            {p.y[a], p.y[a + 1], p.y[b], p.y[b + 1]},
+                            {p.z[a], p.z[a + 1], p.z[b], p.z[b + 1]}};
+            float z;
+            if (!hit_micropolygon(ray.axis, quad, facing, &z)) continue;
+            ++stats.predicate_hits;
+            const Hit hit{ray.depth_of(z), MicropolygonId{grid_index, static_cast<uint8_t>(block.u + u),
+                                                          static_cast<uint8_t>(block.v + v)}
+                                               .packed()};
+            if (hit.depth >= ray.t_min && hit.depth <= ray.t_max) policy.consider(hit, grid.opaque, ray);
+        }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,58 @@
+/// Hit policies: what a ray keeps of the micropolygons that it hits. `consider` sees every hit in the ray's
+/// range and pulls the range in.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "accel/trace_ray.h"
+#include "core/hit_buffer.h"
+
+namespace trapeze {
+
+inline constexpr Hit kNoHit{std::numeric_limits<float>::infinity(), MicropolygonId::kNone};
+
+/// The nearest hit; of equal depths the one of the smaller id.
+struct ClosestHit {
+    Hit best = kNoHit;
+
+    bool found() const { return best.id != MicropolygonId::kNone; }
+    void consider(const Hit& hit, bool, TraceRay& ray) {
+        if (!in_front(hit, best)) return;
+        best = hit;
+        ray.t_max = hit.depth;
+    }
+};
+
+/// Whether there is a hit at all.
+struct AnyHit {
+    bool found = false;
+
+    void consider(const Hit&, bool, TraceRay& ray) {
+        found = true;
+        ray.t_max = -std::numeric_limits<float>::infinity();
+    }
+};
+
+/// All hits as far as the first opaque one, which is included.
+struct HitsUntilOpaque {
+    std::vector<Hit>& hits;  ///< in no order until finish()
+    Hit first_opaque = kNoHit;
+
+    void consider(const Hit& hit, bool opaque, TraceRay& ray) {
+        if (!in_front(hit, first_opaque)) return;
+        hits.push_back(hit);
+        if (opaque) first_opaque = hit, ray.t_max = hit.depth;
+    }
+    /// Sorts the hits of this ray, which begin at `first`, and drops what the opaque one hides.
+    void finish(size_t first) {
+        const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(first);
+        hits.erase(
+            std::remove_if(begin, hits.end(), [this](const Hit& hit) { return in_front(first_opaque, hit); }),
+            hits.end());
+        std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(), in_front);
+    }
+};
+
+}  // namespace trapeze

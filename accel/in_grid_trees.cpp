@@ -1,0 +1,119 @@
+#include "accel/in_grid_trees.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace trapeze {
+namespace {
+
+/// Bounds of all nodes of one grid's tree at one key.
+class KeyBounds {
+  public:
+    KeyBounds(const FramedVertices& vertices, int vertices_u) : vertices_(vertices), row_(vertices_u) {}
+
+    /// The bound of a block; those of the children of inner nodes go to pairs(), by number of the parent.
+    Box3f bound(const GridBlock& block, uint32_t inner) {
+        if (is_leaf_block(block.nu, block.nv)) return leaf_bound(block);
+        const BlockHalves parts = halves(block);
+        const Box3f low = bound(parts.low, inner + 1);
+        const Box3f high = bound(parts.high, inner + 1 + inner_node_count(parts.low));
+        pairs_[inner] = {low, high};
+        Box3f both = low;
+        both.extendBy(high);
+        return both;
+    }
+    const std::array<Box3f, 2>& pair(uint32_t inner) const { return pairs_[inner]; }
+
+  private:
+    Box3f leaf_bound(const GridBlock& block) const {
+        Box3f box;
+        for (int j = block.v; j <= block.v + block.nv; ++j)
+            for (int i = block.u; i <= block.u + block.nu; ++i) {
+                const int at = j * row_ + i;
+                box.extendBy(V3f(vertices_.c[0][at], vertices_.c[1][at], vertices_.c[2][at]));
+            }
+        return box;
+    }
+
+    const FramedVertices& vertices_;
+    int row_;
+    std::array<std::array<Box3f, 2>, 256> pairs_;
+};
+
+/// The number of quanta at or below (above) a coordinate within the reference box. What rounds here is within
+/// the growth of the reference box, whose first and last quantum the true box does not reach.
+uint16_t quantum_below(float value, float low, float step) {
+    const double quanta = std::floor((static_cast<double>(value) - low) / step) - 1;
+    return static_cast<uint16_t>(std::clamp(quanta, 0.0, double{InGridTrees::kQuantumCount}));
+}
+uint16_t quantum_above(float value, float low, float step) {
+    const double quanta = std::ceil((static_cast<double>(value) - low) / step) + 1;
+    return static_cast<uint16_t>(std::clamp(quanta, 0.0, double{InGridTrees::kQuantumCount}));
+}
+
+/// The box of what has no bound: a point; its nodes are infinite by their rounding.
+Box3f point_box() {
+    return {V3f(0), V3f(0)};
+}
+
+}  // namespace
+
+InGridTrees::InGridTrees(std::span<const Grid> grids, std::span<const GridSummary> summaries,
+                         std::vector<HyperTrapezoid>& bounds)
+    : entries_(grids.size()) {
+    uint32_t records = 0, references = 0;
+    for (size_t i = 0; i < grids.size(); ++i) {
+        const uint32_t inner = inner_node_count({0, 0, grids[i].shape.nu, grids[i].shape.nv});
+        entries_[i] = {FrameColumns(summaries[i].frame), summaries[i].absolute_max, summaries[i].quad_extent,
+                       records, references};
+        records += inner * grids[i].key_count;
+        references += grids[i].key_count;
+        inner_nodes_ += inner;
+    }
+    records_.resize(size_t{records} * kRecordSize);
+    references_.resize(references);
+    bounds.resize(grids.size());
+    tbb::parallel_for(size_t{0}, grids.size(),
+                      [&](size_t i) { build_grid(grids[i], summaries[i], entries_[i], bounds[i]); });
+}
+
+void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const Entry& entry,
+                             HyperTrapezoid& bound) {
+    const GridShape& shape = grid.shape;
+    const uint32_t inner = inner_node_count({0, 0, shape.nu, shape.nv});
+    const bool boundable = std::isfinite(summary.absolute_max);
+    bound.frame = summary.frame;
+    bound.keys.clear();
+    FramedVertices vertices;
+    for (int key = 0; key < grid.key_count; ++key) {
+        vertices_in_frame(grid, key, summary.frame, vertices);
+        KeyBounds bounds(vertices, shape.vertices_u());
+        const Box3f root = bounds.bound({0, 0, shape.nu, shape.nv}, 0);
+        const V3f pad(boundable ? kBoundRounding * summary.absolute_max + 0x1p-80f : 0.0f);
+        bound.keys.push_back(boundable ? Box3f(root.min - pad, root.max + pad) : point_box());
+        if (!boundable) continue;  // quanta and steps stay 0
+
+        const Box3f& outer = bound.keys.back();
+        Reference& reference = references_[entry.first_reference + key];
+        for (int k = 0; k < 3; ++k) {
+            reference.low[k] = outer.min[k];
+            reference.step[k] = (outer.max[k] - outer.min[k]) * (1.0f / (kQuantumCount - 4));
+        }
+        for (uint32_t node = 0; node < inner; ++node) {
+            uint16_t* record =
+                records_.data() + (size_t{entry.first_record} + node * grid.key_count + key) * kRecordSize;
+            for (int k = 0; k < 3; ++k)
+                for (int child = 0; child < 2; ++child) {
+                    const Box3f& box = bounds.pair(node)[child];
+                    record[4 * k + child] = quantum_below(box.min[k], reference.low[k], reference.step[k]);
+                    record[4 * k + 2 + child] =
+                        quantum_above(box.max[k], reference.low[k], reference.step[k]);
+                }
+        }
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,72 @@
+/// Rays in the frames of oriented boxes, and slab tests there. Loops run over four lanes, the three axes and
+/// one that is never decisive, so that compilers make a vector operation of each.
+#pragma once
+
+#include <cmath>
+
+#include "accel/trace_ray.h"
+#include "core/hyper_trapezoid.h"
+
+namespace trapeze {
+
+/// A Frame by columns: coordinate k of a point is sum over i of column[i][k] * point[i].
+struct alignas(16) FrameColumns {
+    float column[3][4] = {};
+
+    FrameColumns() = default;
+    explicit FrameColumns(const Frame& frame) {
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < 3; ++i) column[i][k] = frame.axis[k][i];
+    }
+};
+
+/// A box at one key; lane 3 is set so that every ray passes it.
+struct alignas(16) KeyBox {
+    float low[4] = {0, 0, 0, -1}, high[4] = {0, 0, 0, 1};
+};
+
+/// Directions nearer to a slab's plane than this are taken as this: products stay finite, and what it moves a
+/// ray is far below its rounding.
+inline constexpr float kLeastDirection = 1e-18f;
+
+struct alignas(16) FrameRay {
+    float origin[4], inverse_direction[4];
+
+    FrameRay(const FrameColumns& frame, const TraceRay& ray) {
+        const auto& c = frame.column;
+        for (int k = 0; k < 4; ++k)
+            origin[k] = (c[0][k] * ray.origin.x + c[1][k] * ray.origin.y) + c[2][k] * ray.origin.z;
+        float direction[4];
+        for (int k = 0; k < 4; ++k) {
+            const float d =
+                (c[0][k] * ray.direction.x + c[1][k] * ray.direction.y) + c[2][k] * ray.direction.z;
+            direction[k] = std::abs(d) < kLeastDirection ? kLeastDirection : d;
+        }
+        for (int k = 0; k < 4; ++k) inverse_direction[k] = 1.0f / direction[k];
+    }
+};
+
+/// Depths between which a ray is inside a box; empty when near > far. A NaN makes no bound.
+struct DepthInterval {
+    float near, far;
+};
+
+/// The box between two keys at a local time, grown by `rounding`.
+inline DepthInterval clip(const FrameRay& ray, const KeyBox& from, const KeyBox& to, float local_time,
+                          float rounding) {
+    float near[4], far[4];
+    for (int k = 0; k < 4; ++k) {
+        const float low = position_at(from.low[k], to.low[k] - from.low[k], local_time);
+        const float high = position_at(from.high[k], to.high[k] - from.high[k], local_time);
+        const float a = (low - ray.origin[k]) * ray.inverse_direction[k];
+        const float b = (high - ray.origin[k]) * ray.inverse_direction[k];
+        const float pad = rounding * std::abs(ray.inverse_direction[k]);
+        near[k] = (a < b ? a : b) - pad;
+        far[k] = (a < b ? b : a) + pad;
+    }
+    const float near_xy = near[0] > near[1] ? near[0] : near[1];
+    const float far_xy = far[0] < far[1] ? far[0] : far[1];
+    return {near_xy > near[2] ? near_xy : near[2], far_xy < far[2] ? far_xy : far[2]};
+}
+
+}  // namespace trapeze

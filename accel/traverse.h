@@ -1,0 +1,34 @@
+/// The one traversal loop [Hou10 sec. 3.5]. Structures differ in `step`, hit policies in what on_leaf does to
+/// the ray's range.
+#pragma once
+
+#include "accel/ray_tree.h"
+
+namespace trapeze {
+
+struct TraversalStats {
+    uint64_t nodes = 0, leaves = 0;
+};
+
+/// Visits the leaves that a ray may hit, near ones first as far as bounds tell. on_leaf(leaf, ray) tests what
+/// is there and pulls ray.t_max in; it may set it to minus infinity to end. Nodes at exactly t_max are still
+/// visited: equal depths are settled by id.
+template <class Ray, RayTree<Ray> Tree, class OnLeaf>
+inline void traverse(const Tree& tree, Ray& ray, TraversalStats& stats, OnLeaf&& on_leaf) {
+    std::array<Visit, Tree::kStackSize> todo;
+    int waiting = 0;
+    for (const Visit& visit : tree.enter(ray)) todo[waiting++] = visit;
+    while (waiting > 0) {
+        const Visit at = todo[--waiting];
+        if (at.depth > ray.t_max) continue;
+        if (tree.is_leaf(at.node)) {
+            ++stats.leaves;
+            on_leaf(tree.leaf(at.node), ray);
+            continue;
+        }
+        ++stats.nodes;
+        for (const Visit& child : tree.step(at, ray)) todo[waiting++] = child;
+    }
+}
+
+}  // namespace trapeze

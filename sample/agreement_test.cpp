@@ -1,0 +1,317 @@
+/// The ray tracer finds what testing everything finds, bit for bit: on every scene, for any number of
+/// threads, on every instruction set of the machine.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <random>
+
+#include "accel/hit_policies.h"
+#include "accel/trace_ray.h"
+#include "sample/test_grids.h"
+
+namespace trapeze {
+namespace {
+
+using testing::Frame2D;
+using testing::GridMaker;
+using testing::tiles_of;
+
+struct TestScene {
+    std::string name;
+    Frame2D frame;
+    GridMaker maker;
+    bool must_hit = true;
+};
+
+struct Noise {
+    std::mt19937 engine;
+    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
+    V3f point(float xy, float z_from, float z_to) {
+        return {(*this)(-xy, xy), (*this)(-xy, xy), (*this)(z_from, z_to)};
+    }
+};
+
+V3f rotated(const V3f& p, float angle) {
+    return {p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle),
+            p.z};
+}
+
+/// Wavy sheets at random places and orientations.
+void add_sheets(GridMaker& maker, int count, int keys, uint32_t seed, float motion = 1) {
+    Noise noise{std::mt19937(seed)};
+    for (int n = 0; n < count; ++n) {
+        const V3f origin = noise.point(3, 3, 9), along_u = noise.point(2, -1, 1),
+                  along_v = noise.point(2, -1, 1);
+        const V3f shift = noise.point(motion, -motion / 2, motion / 2);
+        const float turn = noise(-motion, motion);
+        const int nu = 1 + static_cast<int>(noise.engine() % 16),
+                  nv = 1 + static_cast<int>(noise.engine() % 16);
+        maker.add(nu, nv, keys, [=](int i, int j, float t) {
+            const float u = static_cast<float>(i) / static_cast<float>(nu),
+                        v = static_cast<float>(j) / static_cast<float>(nv);
+            const V3f p = origin + along_u * u + along_v * v + V3f(0, 0, 0.2f * std::sin(9 * u + 7 * v));
+            return keys == 1 ? p : rotated(p, turn * t) + shift * t;
+        });
+    }
+}
+
+/// Loose quads of random corners, needles and points among them.
+void add_shards(GridMaker& maker, int count, int keys, uint32_t seed, float z_from, float z_to) {
+    Noise noise{std::mt19937(seed)};
+    for (int n = 0; n < count; ++n) {
+        const int kind = n % 5;
+        const V3f centre = noise.point(3, z_from, z_to);
+        std::array<std::array<V3f, 4>, 2> corner;
+        for (auto& pose : corner)
+            for (V3f& p : pose) p = centre + noise.point(1, -1, 1);
+        for (auto& pose : corner) {
+            if (kind == 1) pose[2] = pose[0], pose[3] = pose[1];   // a line
+            if (kind == 2) pose[1] = pose[2] = pose[3] = pose[0];  // a point
+            if (kind == 3)
+                pose[3] = pose[0] + (pose[1] - pose[0]) * 0.5f, pose[2] = pose[0] + V3f(1e-6f, 0, 1e-6f);
+            if (kind == 4) std::swap(pose[2], pose[3]);  // likelier a bow-tie
+        }
+        maker.add(1, 1, keys, [&](int i, int j, float t) {
+            const size_t c = static_cast<size_t>(i + 2 * j);
+            return corner[0][c] + (corner[1][c] - corner[0][c]) * t;
+        });
+    }
+}
+
+std::vector<TestScene> make_scenes() {
+    std::vector<TestScene> scenes;
+    scenes.reserve(32);
+    const auto scene = [&](const char* name, bool motion, bool defocus) -> TestScene& {
+        return scenes.emplace_back(TestScene{name, Frame2D(40, 24, 3, motion, defocus), {}});
+    };
+    add_sheets(scene("static", false, false).maker, 30, 1, 1);
+    add_sheets(scene("motion", true, false).maker, 30, 2, 2);
+    add_sheets(scene("defocus", false, true).maker, 30, 1, 3);
+    add_sheets(scene("motion and defocus", true, true).maker, 30, 2, 4);
+    add_sheets(scene("five keys", true, true).maker, 20, 5, 5, 2);
+    {
+        GridMaker& maker = scene("mixed key counts", true, true).maker;
+        int seed = 10;
+        for (const int keys : {1, 2, 3, 5, 9, 65}) add_sheets(maker, 6, keys, seed++);
+    }
+    {
+        GridMaker& maker = scene("hair", true, true).maker;
+        Noise noise{std::mt19937(20)};
+        for (int n = 0; n < 200; ++n) {
+            const V3f root = noise.point(3, 4, 8), lean = noise.point(1, -1, 1),
+                      shift = noise.point(1, -1, 1);
+            maker.add(1, 16, 2, [=](int i, int j, float t) {
+                const float s = static_cast<float>(j) / 16;
+                return root + lean * s + V3f(0.5f * s * s + 0.002f * static_cast<float>(i), 0, 0) +
+                       shift * (t * s);
+            });
+        }
+    }
+    {
+        GridMaker& maker = scene("edge-on and hair-thin", false, false).maker;
+        Noise noise{std::mt19937(21)};
+        for (int n = 0; n < 60; ++n) {
+            const V3f eye_ray = noise.point(0.5f, 1, 1), off = noise.point(1e-6f, 0, 0);
+            maker.add(4, 4, 1,
+                      [=](int i, int j, float) {  // planes nearly through the eye: weights round to anything
+                          return eye_ray * (2.0f + 0.7f * static_cast<float>(i)) +
+                                 V3f(0.1f, 0.2f, 0) * static_cast<float>(j) + off * static_cast<float>(j);
+                      });
+        }
+    }
+    {
+        TestScene& behind = scene("behind the lens", true, true);
+        behind.must_hit = false;
+        add_shards(behind.maker, 100, 2, 22, -9, -2);
+    }
+    add_shards(scene("crossing the eye plane", true, true).maker, 100, 2, 23, -1, 1);
+    add_shards(scene("needles, bow-ties, points", false, false).maker, 300, 1, 24, 2, 8);
+    add_shards(scene("needles, bow-ties, points moving", true, true).maker, 300, 2, 25, 2, 8);
+    {
+        GridMaker& maker = scene("floor under the camera", false, true).maker;
+        for (int part = 0; part < 8; ++part)
+            maker.add(16, 16, 1, [=](int i, int j, float) {
+                return V3f(static_cast<float>(i) * 4 - 32, -1, static_cast<float>(j + 16 * part) * 0.5f - 20);
+            });
+    }
+    {
+        GridMaker& maker = scene("transparent layers", true, true).maker;
+        maker.opaque = false;
+        add_sheets(maker, 40, 2, 26);
+        maker.opaque = true;
+        add_sheets(maker, 6, 2, 27);
+    }
+    {
+        GridMaker& maker = scene("one-sided", true, false).maker;
+        maker.facing = Facing::PositiveOnly;
+        add_sheets(maker, 15, 2, 28);
+        maker.facing = Facing::NegativeOnly;
+        add_sheets(maker, 15, 1, 29);
+    }
+    {
+        GridMaker& maker = scene("ties", false, true).maker;
+        for (int copy = 0; copy < 3; ++copy) add_sheets(maker, 10, 1, 30);
+        maker.opaque = false;
+        for (int copy = 0; copy < 2; ++copy) add_sheets(maker, 10, 1, 30);
+    }
+    {
+        GridMaker& maker = scene("all at one place", false, false).maker;
+        for (int n = 0; n < 70; ++n)
+            maker.add(3, 2, 1, [](int i, int j, float) { return V3f(0.3f * i - 0.5f, 0.3f * j, 4); });
+    }
+    {
+        TestScene& ortho = scene("orthographic", true, true);
+        ortho.frame.options.projection = "orthographic";
+        ortho.frame.options.screen_window = std::array{-4.0f, 4.0f, -3.0f, 3.0f};
+        ortho.frame.update();
+        add_sheets(ortho.maker, 30, 2, 31);
+    }
+    {
+        TestScene& clipped = scene("clipped", true, true);
+        clipped.frame.options.near_clip = 4.5f, clipped.frame.options.far_clip = 6;
+        clipped.frame.update();
+        clipped.maker.opaque = false;
+        add_sheets(clipped.maker, 30, 2, 32);
+    }
+    {
+        GridMaker& maker = scene("far from the origin and huge", true, false).maker;
+        maker.add(8, 8, 2,
+                  [](int i, int j, float t) { return V3f(1e3f * (i - 4), 1e3f * (j - 4) + 500 * t, 900); });
+        maker.add(1, 1, 1, [](int i, int j, float) {
+            return V3f(2e30f * (i - 0.5f), 3e30f * (j - 0.5f), 1e20f * (i + 1));
+        });
+        maker.add(1, 1, 1,
+                  [](int i, int j, float) { return V3f(1e16f * (i - 0.5f), 1e16f * (j - 0.5f), 100); });
+        add_sheets(maker, 10, 2, 33);
+    }
+    return scenes;
+}
+
+/// Samples of a frame with a border of filter pixels around, tile by tile in parallel.
+std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_name) {
+    const VisibilityMethod* method = find_visibility_method(method_name);
+    const std::unique_ptr<Visibility> visibility = method->prepare(scene.frame.context, scene.maker.grids());
+    const SamplePattern pattern(scene.frame.context);
+    const auto tiles = tiles_of({-2, -2, scene.frame.options.width + 2, scene.frame.options.height + 2});
+    std::vector<HitBuffer> buffers(tiles.size());
+    tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+        SampleTile samples;
+        SampleScratch scratch;
+        SampleStats stats;
+        pattern.make_tile(tiles[i], samples);
+        visibility->resolve(samples, buffers[i], scratch, stats);
+        EXPECT_EQ(stats.rays, samples.size());
+    });
+    return buffers;
+}
+
+/// What no bound has a say in: every sample against every micropolygon, one by one.
+std::vector<HitBuffer> resolve_naively(const TestScene& scene) {
+    const Camera& camera = scene.frame.context.camera;
+    const SamplePattern pattern(scene.frame.context);
+    const auto tiles = tiles_of({-2, -2, scene.frame.options.width + 2, scene.frame.options.height + 2});
+    std::vector<HitBuffer> buffers(tiles.size());
+    for (size_t n = 0; n < tiles.size(); ++n) {
+        SampleTile samples;
+        pattern.make_tile(tiles[n], samples);
+        HitBuffer& buffer = buffers[n];
+        buffer.first.push_back(0);
+        for (const AxisRay& ray : samples.rays) {
+            std::vector<Hit> hits;
+            Hit opaque = kNoHit;
+            for (size_t g = 0; g < scene.maker.grids().grids.size(); ++g) {
+                const Grid& grid = scene.maker.grids().grids[g];
+                for (int v = 0; v < grid.shape.nv; ++v)
+                    for (int u = 0; u < grid.shape.nu; ++u) {
+                        float depth;
+                        if (!hit_micropolygon(ray, grid.quad(u, v, ray.time), grid.facing, &depth)) continue;
+                        if (!(depth >= camera.near_clip && depth <= camera.far_clip)) continue;
+                        const MicropolygonId id{static_cast<uint32_t>(g), static_cast<uint8_t>(u),
+                                                static_cast<uint8_t>(v)};
+                        hits.push_back({depth, id.packed()});
+                        if (grid.opaque && in_front(hits.back(), opaque)) opaque = hits.back();
+                    }
+            }
+            std::sort(hits.begin(), hits.end(), in_front);
+            for (const Hit& hit : hits)
+                if (!in_front(opaque, hit)) buffer.hits.push_back(hit);
+            buffer.first.push_back(static_cast<uint32_t>(buffer.hits.size()));
+        }
+    }
+    return buffers;
+}
+
+size_t hit_count(const std::vector<HitBuffer>& buffers) {
+    size_t count = 0;
+    for (const HitBuffer& buffer : buffers) count += buffer.hits.size();
+    return count;
+}
+
+/// How many samples differ; told in words rather than as two dumps.
+size_t differing_samples(const std::vector<HitBuffer>& a, const std::vector<HitBuffer>& b) {
+    size_t differing = 0;
+    for (size_t tile = 0; tile < a.size(); ++tile)
+        for (size_t s = 0; s < a[tile].size(); ++s)
+            if (!std::ranges::equal(a[tile].of(s), b[tile].of(s))) ++differing;
+    return differing;
+}
+
+const std::vector<TestScene>& scenes() {
+    static const std::vector<TestScene> all = make_scenes();
+    return all;
+}
+
+class Agreement : public ::testing::TestWithParam<size_t> {
+  protected:
+    const TestScene& scene() const { return scenes()[GetParam()]; }
+};
+
+TEST_P(Agreement, RayTracerAndBruteForceFindWhatTestingEverythingFinds) {
+    const auto truth = resolve_naively(scene());
+    EXPECT_EQ(hit_count(truth) > 0, scene().must_hit);
+    EXPECT_EQ(differing_samples(resolve(scene(), "bruteforce"), truth), 0u);
+    const auto traced = resolve(scene(), "raytrace");
+    EXPECT_EQ(differing_samples(traced, truth), 0u);
+    EXPECT_TRUE(traced == truth);
+}
+
+TEST_P(Agreement, OfAnyNumberOfThreads) {
+    for (const char* method : {"raytrace", "bruteforce"}) {
+        std::vector<std::vector<HitBuffer>> results;
+        for (const size_t threads : {1, 2, 7}) {
+            const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+            tbb::task_arena arena(static_cast<int>(threads));
+            arena.execute([&] { results.push_back(resolve(scene(), method)); });
+        }
+        EXPECT_TRUE(results[0] == results[1]) << method;
+        EXPECT_TRUE(results[0] == results[2]) << method;
+    }
+}
+
+TEST_P(Agreement, OfAllInstructionSets) {
+    const auto traced = resolve(scene(), "raytrace");
+    int tried = 0;
+    for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
+        hwy::SetSupportedTargetsForTest(targets & -targets);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        EXPECT_TRUE(resolve(scene(), "bruteforce") == traced) << simd_target_name();
+        ++tried;
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_GT(tried, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::Range(size_t{0}, scenes().size()),
+                         [](const ::testing::TestParamInfo<size_t>& tested) {
+                             std::string name = scenes()[tested.param].name;
+                             std::replace_if(
+                                 name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace trapeze

@@ -1,0 +1,18 @@
+/// From what methods find, in whatever order, to the hit buffer.
+#pragma once
+
+#include "core/hit_buffer.h"
+#include "sample/visibility_method.h"
+
+namespace trapeze {
+
+/// Then one hit a sample is all there is to find.
+bool every_grid_is_opaque(const Grids& grids);
+
+/// One hit a sample at most: scratch.nearest, where kNone is no hit.
+void buffer_of_nearest(const SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
+
+/// Lists in scratch.hits, of scratch.count[sample] hits from scratch.first[sample], sorted and cut.
+void buffer_of_lists(const SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
+
+}  // namespace trapeze

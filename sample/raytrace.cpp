@@ -1,0 +1,75 @@
+/// The method of [Hou10]: one ray after another through the hyper-trapezoid tree.
+#include <algorithm>
+
+#include "accel/paper_tree.h"
+#include "sample/hit_lists.h"
+#include "sample/ray_order.h"
+#include "sample/visibility_method.h"
+
+namespace trapeze {
+namespace {
+
+class RayTraced final : public Visibility {
+  public:
+    RayTraced(const RenderContext& context, const Grids& grids)
+        : range_{context.camera.near_clip, context.camera.far_clip},
+          motion_(context.motion),
+          defocus_(context.camera.has_lens()),
+          all_opaque_(every_grid_is_opaque(grids)),
+          tree_(grids) {}
+
+    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                 SampleStats& stats) const override {
+        order_rays(samples, motion_, defocus_, scratch);
+        SampleStats counted;  // on the stack, so that counting stays in registers
+        if (all_opaque_)
+            resolve_closest(samples, hits, scratch, counted);
+        else
+            resolve_layers(samples, hits, scratch, counted);
+        stats += counted;
+    }
+
+    BuildStats build_stats() const override { return tree_.stats(); }
+
+  private:
+    void resolve_closest(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                         SampleStats& stats) const {
+        scratch.nearest.resize(samples.size());
+        for (const uint32_t sample : scratch.order) {
+            TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
+            ClosestHit policy;
+            tree_.trace(ray, policy, stats);
+            scratch.nearest[sample] = policy.best;
+        }
+        buffer_of_nearest(scratch, samples.size(), hits);
+    }
+
+    void resolve_layers(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                        SampleStats& stats) const {
+        scratch.hits.clear();
+        scratch.first.resize(samples.size());
+        scratch.count.resize(samples.size());
+        for (const uint32_t sample : scratch.order) {
+            TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
+            const size_t first = scratch.hits.size();
+            HitsUntilOpaque policy{scratch.hits};
+            tree_.trace(ray, policy, stats);
+            policy.finish(first);
+            scratch.first[sample] = static_cast<uint32_t>(first);
+            scratch.count[sample] = static_cast<uint32_t>(scratch.hits.size() - first);
+        }
+        buffer_of_lists(scratch, samples.size(), hits);
+    }
+
+    DepthRange range_;
+    bool motion_, defocus_, all_opaque_;
+    PaperTree tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Visibility> prepare_raytrace(const RenderContext& context, const Grids& grids) {
+    return std::make_unique<RayTraced>(context, grids);
+}
+
+}  // namespace trapeze

@@ -1,0 +1,95 @@
+#include "sample/swept_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trapeze {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Beyond this the predicate's products may overflow, and nothing is known.
+constexpr double kBoundable = 1e15;
+
+/// Relative rounding of the predicate and of the rays, with much to spare.
+constexpr double kRounding = 0x1p-18;
+
+/// Samples lie this far outside the image at most (filters).
+constexpr double kBorderPixels = 1024;
+
+struct Range {
+    double min, max;
+};
+
+/// From a range of the image plane, grown, to raster coordinates.
+Range raster_range(Range plane, double grow, double scale, double offset) {
+    const double a = (plane.min - grow - offset) / scale, b = (plane.max + grow - offset) / scale;
+    return {std::min(a, b), std::max(a, b)};
+}
+
+/// The largest coordinate of the image plane that a sample may have.
+double plane_reach(const Camera& camera) {
+    const double x =
+        std::abs(camera.plane_scale_x) * (camera.width + kBorderPixels) + std::abs(camera.plane_offset_x);
+    const double y =
+        std::abs(camera.plane_scale_y) * (camera.height + kBorderPixels) + std::abs(camera.plane_offset_y);
+    return std::max(x, y);
+}
+
+}  // namespace
+
+RasterBox RasterBox::everything() {
+    return {-kInfinite, -kInfinite, kInfinite, kInfinite};
+}
+
+RasterBox RasterBox::nothing() {
+    return {kInfinite, kInfinite, -kInfinite, -kInfinite};
+}
+
+void SweptBound::add(float xf, float yf, float zf) {
+    const double x = xf, y = yf, z = zf;
+    z_min_ = std::min(z_min_, z), z_max_ = std::max(z_max_, z);
+    x_min_ = std::min(x_min_, x), x_max_ = std::max(x_max_, x);
+    y_min_ = std::min(y_min_, y), y_max_ = std::max(y_max_, y);
+    absolute_max_ = std::max({absolute_max_, std::abs(x), std::abs(y), std::abs(z)});
+    if (!(z > 0)) return;
+    px_min_ = std::min(px_min_, x / z), px_max_ = std::max(px_max_, x / z);
+    py_min_ = std::min(py_min_, y / z), py_max_ = std::max(py_max_, y / z);
+}
+
+RasterBox SweptBound::raster(const Camera& camera) const {
+    if (z_max_ < camera.near_clip || z_min_ > camera.far_clip) return RasterBox::nothing();
+    if (!(absolute_max_ < kBoundable)) return RasterBox::everything();
+    const double radius = camera.lens_radius * (1 + kRounding), in_focus = 1.0 / camera.focal_distance;
+    const double reach = plane_reach(camera) + radius * in_focus;
+    Range x{x_min_, x_max_}, y{y_min_, y_max_};
+    double grow;
+    if (camera.perspective) {
+        if (!(z_min_ > camera.near_clip && z_min_ > 0)) return RasterBox::everything();
+        x = {px_min_, px_max_}, y = {py_min_, py_max_};
+        grow = radius * std::max(std::abs(in_focus - 1 / z_min_), std::abs(in_focus - 1 / z_max_)) +
+               kRounding * ((absolute_max_ + radius + reach * z_max_) / z_min_ + reach);
+    } else {
+        grow = radius * std::max(std::abs(z_min_ * in_focus - 1), std::abs(z_max_ * in_focus - 1)) +
+               kRounding * (absolute_max_ * (1 + radius * in_focus) + reach);
+    }
+    const Range rx = raster_range(x, grow, camera.plane_scale_x, camera.plane_offset_x);
+    const Range ry = raster_range(y, grow, camera.plane_scale_y, camera.plane_offset_y);
+    return {rx.min, ry.min, rx.max, ry.max};
+}
+
+void add_vertex(const Grid& grid, int i, int j, SweptBound& bound) {
+    const int at = grid.shape.tiled_index(i, j);
+    for (int segment = 0; segment < segment_count(grid.key_count); ++segment) {
+        const float x = grid.plane(segment, 0)[at], y = grid.plane(segment, 1)[at],
+                    z = grid.plane(segment, 2)[at];
+        bound.add(x, y, z);
+        if (!grid.moves()) continue;
+        bound.add(position_at(x, grid.plane(segment, 3)[at], 1),
+                  position_at(y, grid.plane(segment, 4)[at], 1),
+                  position_at(z, grid.plane(segment, 5)[at], 1));
+    }
+}
+
+}  // namespace trapeze

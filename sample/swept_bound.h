@@ -1,0 +1,36 @@
+/// Where on the raster a moving, defocused thing can be seen: a conservative box.
+#pragma once
+
+#include "core/camera.h"
+#include "core/grid.h"
+
+namespace trapeze {
+
+/// Raster space; empty when min > max.
+struct RasterBox {
+    double min_x, min_y, max_x, max_y;
+
+    static RasterBox everything();
+    static RasterBox nothing();
+};
+
+/// Collects the points of a thing at all its keys: corners that move linearly between them.
+class SweptBound {
+  public:
+    void add(float x, float y, float z);
+
+    /// The pixels of all samples that may see it through any point of the lens at any time. Everything when
+    /// it touches or crosses the near plane; nothing when it is wholly outside the clipping range.
+    RasterBox raster(const Camera& camera) const;
+
+  private:
+    double z_min_ = 1e300, z_max_ = -1e300, absolute_max_ = 0;
+    double x_min_ = 1e300, x_max_ = -1e300, y_min_ = 1e300, y_max_ = -1e300;
+    /// Projected on the plane z = 1; meaningful when z_min_ is positive.
+    double px_min_ = 1e300, px_max_ = -1e300, py_min_ = 1e300, py_max_ = -1e300;
+};
+
+/// Adds a vertex of a grid at the ends of all its segments.
+void add_vertex(const Grid& grid, int i, int j, SweptBound& bound);
+
+}  // namespace trapeze

@@ -1,0 +1,88 @@
+/// Synthetic grids and frames for tests and benchmarks.
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <functional>
+#include <memory>
+
+#include "core/render_context.h"
+#include "core/scene.h"
+#include "sample/sample_pattern.h"
+#include "sample/visibility_method.h"
+
+namespace trapeze::testing {
+
+/// Where vertex (i, j) is at time 0..1.
+using Surface = std::function<V3f(int i, int j, float time01)>;
+
+/// Collects grids as the packing stage would leave them: tiled, padded, deltas between keys.
+class GridMaker {
+  public:
+    Grid& add(int nu, int nv, int key_count, const Surface& surface) {
+        if (grids_.arenas.empty()) grids_.arenas.emplace_back();
+        Grid grid;
+        grid.shape = {static_cast<uint8_t>(nu), static_cast<uint8_t>(nv)};
+        grid.key_count = static_cast<uint8_t>(key_count);
+        grid.ordinal = grids_.grids.size();
+        grid.opaque = opaque;
+        grid.facing = facing;
+        grids_.arenas.back().allocate(grid);
+        std::fill_n(grid.colors, grid.color_plane_count() * grid.shape.vertex_count(), Imath::half(1.0f));
+        for (int segment = 0; segment < segment_count(key_count); ++segment)
+            for (int tv = 0; tv < grid.shape.tiles_v() * 4; ++tv)
+                for (int tu = 0; tu < grid.shape.tiles_u() * 4; ++tu) {
+                    const int i = std::min(tu, nu), j = std::min(tv, nv), at = grid.shape.tiled_index(tu, tv);
+                    const V3f from = surface(i, j, time_of_key(segment, key_count));
+                    const V3f to = surface(i, j, time_of_key(segment + 1, key_count));
+                    for (int k = 0; k < 3; ++k) {
+                        grid.plane(segment, k)[at] = from[k];
+                        if (grid.moves()) grid.plane(segment, 3 + k)[at] = to[k] - from[k];
+                    }
+                }
+        grids_.grids.push_back(grid);
+        return grids_.grids.back();
+    }
+
+    bool opaque = true;  ///< of the next grids
+    Facing facing = Facing::Both;
+
+    const Grids& grids() const { return grids_; }
+
+  private:
+    static float time_of_key(int key, int key_count) {
+        return key_count == 1 ? 0.0f : static_cast<float>(key) / static_cast<float>(key_count - 1);
+    }
+
+    Grids grids_;
+};
+
+/// A small frame with its pattern.
+struct Frame2D {
+    Options options;
+    RenderContext context;
+
+    Frame2D(int width, int height, int samples, bool motion, bool defocus) {
+        options.width = width, options.height = height;
+        options.projection = "perspective";
+        options.fov = 60;
+        options.near_clip = 0.1f, options.far_clip = 1000;
+        if (defocus) options.f_stop = 2, options.focal_length = 1, options.focal_distance = 5;
+        context.samples_x = context.samples_y = samples;
+        context.motion = motion;
+        context.seed = 7;
+        update();
+    }
+    /// After a change of the options.
+    void update() { context.camera = make_camera(options); }
+};
+
+inline std::vector<PixelRect> tiles_of(const PixelRect& all) {
+    std::vector<PixelRect> tiles;
+    for (int y = all.y0; y < all.y1; y += kTileSide)
+        for (int x = all.x0; x < all.x1; x += kTileSide)
+            tiles.push_back({x, y, std::min(x + kTileSide, all.x1), std::min(y + kTileSide, all.y1)});
+    return tiles;
+}
+
+}  // namespace trapeze::testing
