@@ -1,0 +1,287 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <map>
+
+#include "core/random.h"
+#include "tessellate/test_scene.h"
+
+namespace trapeze {
+namespace {
+
+using test::TestScene;
+
+std::shared_ptr<const Shape> sphere(float theta = 360, ParameterList variables = {}) {
+    return test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, theta}), std::move(variables));
+}
+
+/// A bilinear square of 2 x 2 at z = 0, facing the eye (dPdu x dPdv along +z: see the first test).
+std::shared_ptr<const Shape> square(ParameterList variables = {}, float z = 0) {
+    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                  {-1, -1, z, 1, -1, z, -1, 1, z, 1, 1, z}));
+    return test::shape_of(PatchMesh{}, std::move(variables));
+}
+
+struct Diced {
+    RenderContext context;
+    Tessellation tessellation;
+    std::vector<ShadingGrid> grids;
+
+    Diced(TestScene& scene) : context(scene.context()), tessellation(context) {
+        DiceScratch scratch;
+        for (size_t i = 0; i < tessellation.subpatches().size(); ++i)
+            tessellation.dice(i, grids.emplace_back(), scratch);
+    }
+};
+
+/// In one number, all floats that shading and tracing get.
+uint64_t bits_of(const ShadingGrid& grid) {
+    uint64_t sum = grid.ordinal * 64 + grid.shape.nu * 256 + grid.shape.nv;
+    const auto add = [&](const std::vector<float>& values) {
+        for (const float value : values) sum = sum * 1099511628211u + std::bit_cast<uint32_t>(value);
+    };
+    const auto add_triples = [&](const Triples& t) {
+        for (const auto& plane : t.c) add(plane);
+    };
+    for (const Triples& P : grid.P) add_triples(P);
+    for (const Triples* t : {&grid.N, &grid.Ng, &grid.dPdu, &grid.dPdv, &grid.Cs, &grid.Os}) add_triples(*t);
+    for (const auto* values : {&grid.u, &grid.v, &grid.s, &grid.t}) add(*values);
+    for (const GridVariable& variable : grid.variables)
+        for (const auto& plane : variable.planes) add(plane);
+    return sum;
+}
+
+TEST(Dice, SquareHasTheShadingRateAndLooksAtTheEye) {
+    for (const float rate : {0.25f, 1.0f, 4.0f}) {
+        TestScene scene;
+        scene.attributes->shading_rate = rate;
+        scene.scene.options.width = scene.scene.options.height = 200;
+        scene.add(square(), test::translation(0, 0, 2));  // fills the middle half: 100 x 100 pixels
+        const Diced diced(scene);
+        const double wanted = 100 * 100 / static_cast<double>(rate);
+        EXPECT_GE(static_cast<double>(diced.tessellation.stats().micropolygons), wanted);
+        EXPECT_LT(static_cast<double>(diced.tessellation.stats().micropolygons), 1.35 * wanted);
+        for (const ShadingGrid& grid : diced.grids)
+            for (size_t i = 0; i < grid.vertex_count(); ++i) {
+                EXPECT_EQ(grid.Ng.at(i), V3f(0, 0, 1));
+                EXPECT_EQ(grid.N.at(i), V3f(0, 0, 1));
+                EXPECT_EQ(grid.dPdu.at(i), V3f(2, 0, 0));
+                EXPECT_EQ(grid.dPdv.at(i), V3f(0, 2, 0));
+                EXPECT_EQ(grid.P[0].at(i).z, 2);
+                EXPECT_NEAR(grid.P[0].at(i).x, 2 * grid.u[i] - 1, 1e-6f);
+                EXPECT_FLOAT_EQ(grid.s[i], grid.u[i]);
+                EXPECT_FLOAT_EQ(grid.t[i], grid.v[i]);
+            }
+    }
+}
+
+TEST(Dice, SameBitsWheneverAndWithWhateverScratch) {
+    TestScene scene;
+    ParameterList variables;
+    variables.set(test::parameter("tint", StorageClass::Varying, ValueType::Color,
+                                  {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}));
+    scene.add({sphere(360, variables)}, {test::translation(0, 0, 3), test::translation(0.5f, 0, 3)});
+    scene.add(square(), test::translation(0, 0, 4));
+    const Diced diced(scene);
+    const RenderContext context = scene.context();
+    const Tessellation again(context);
+    ASSERT_EQ(again.subpatches().size(), diced.grids.size());
+    DiceScratch scratch;
+    ShadingGrid grid;
+    for (size_t n = 0; n < diced.grids.size(); ++n) {
+        const size_t i = n * 7 % diced.grids.size();  // another order, one grid for all
+        again.dice(i, grid, scratch);
+        EXPECT_EQ(bits_of(grid), bits_of(diced.grids[i]));
+        EXPECT_EQ(grid.P.size(), static_cast<size_t>(grid.key_count));
+        EXPECT_EQ(again.subpatches()[i].bound, diced.tessellation.subpatches()[i].bound);
+    }
+}
+
+TEST(Dice, SphereNormalsPointOutsideAlsoAtThePoles) {
+    for (const bool reverse : {false, true}) {
+        TestScene scene;
+        scene.attributes->reverse_orientation = reverse;
+        scene.keep_all().add(sphere(), test::translation(0, 0, 3));
+        const Diced diced(scene);
+        for (const ShadingGrid& grid : diced.grids) {
+            EXPECT_EQ(grid.reverse_orientation, reverse);
+            for (size_t i = 0; i < grid.vertex_count(); ++i) {
+                const V3f outside = grid.P[0].at(i) - V3f(0, 0, 3);
+                EXPECT_NEAR(grid.N.at(i).dot(outside), reverse ? -1 : 1, 0.02f);
+                EXPECT_GT(grid.dPdu.at(i).length(), 0);
+                EXPECT_NEAR(grid.dPdu.at(i).dot(grid.Ng.at(i)), 0, 1e-4f);
+            }
+        }
+    }
+}
+
+TEST(Dice, DerivativesAreByTheWholeSurfacesParameters) {
+    TestScene scene;
+    scene.add(sphere(180), test::translation(0, 0, 3));
+    const Diced diced(scene);
+    for (const ShadingGrid& grid : diced.grids)
+        for (size_t i = 0; i < grid.vertex_count(); ++i) {
+            const float latitude = (grid.v[i] - 0.5f) * static_cast<float>(M_PI);
+            if (std::abs(latitude) > 1.5f) continue;
+            EXPECT_NEAR(grid.dPdu.at(i).length(), M_PI * std::cos(static_cast<double>(latitude)), 1e-4);
+            EXPECT_NEAR(grid.dPdv.at(i).length(), M_PI, 1e-4);
+        }
+}
+
+TEST(Dice, NoNormalAnywhereLooksAtTheEye) {
+    TestScene scene;
+    ParameterList variables;
+    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                  {-1, 0, 3, 1, 0, 3, -1, 0, 3, 1, 0, 3}));  // a line
+    scene.keep_all().add(test::shape_of(PatchMesh{}, variables), M44f());
+    const Diced diced(scene);
+    ASSERT_FALSE(diced.grids.empty());
+    for (const ShadingGrid& grid : diced.grids)
+        for (size_t i = 0; i < grid.vertex_count(); ++i) EXPECT_EQ(grid.Ng.at(i), V3f(0, 0, -1));
+}
+
+TEST(Dice, MotionKeysMixShapesAndTransforms) {
+    TestScene scene;
+    const auto shape = [](float z) { return square({}, z); };
+    std::vector<M44f> matrices;
+    for (int k = 0; k < 5; ++k) matrices.push_back(test::translation(0.1f * static_cast<float>(k), 0, 4));
+    scene.add({shape(0), shape(1), shape(3)}, matrices);
+    scene.add({shape(0), shape(1)},
+              {test::translation(0, 0, 4), test::translation(0, 0, 4), test::translation(0, 1, 4)});
+    scene.add({square()}, {test::translation(0, 0, 4), test::translation(0, 0, 4)});  // does not move
+    const Diced diced(scene);
+    for (const ShadingGrid& grid : diced.grids)
+        for (size_t i = 0; i < grid.vertex_count(); ++i) {
+            const V3f P = grid.P[0].at(i);
+            const auto moved = [&](int key, const V3f& by) {
+                EXPECT_NEAR((grid.P[key].at(i) - P - by).length(), 0, 1e-6f) << key;
+            };
+            if (grid.primitive_index == 0) {
+                ASSERT_EQ(grid.key_count, 5);
+                moved(1, {0.1f, 0, 0.5f});
+                moved(2, {0.2f, 0, 1});
+                moved(3, {0.3f, 0, 2});
+                moved(4, {0.4f, 0, 3});
+            } else if (grid.primitive_index == 1) {
+                ASSERT_EQ(grid.key_count, 3);
+                moved(1, {0, 0, 0.5f});
+                moved(2, {0, 1, 1});
+            } else {
+                EXPECT_EQ(grid.key_count, 1);
+            }
+        }
+}
+
+TEST(Dice, StillFramesHaveOneKey) {
+    TestScene scene;
+    scene.add({square()}, {test::translation(0, 0, 4), test::translation(0, 1, 4)});
+    RenderContext context = scene.context();
+    context.motion = false;
+    const Tessellation tessellation(context);
+    EXPECT_EQ(tessellation.subpatches()[0].key_count, 1);
+}
+
+TEST(Dice, GeometryGoesToCameraSpace) {
+    TestScene scene;
+    ParameterList variables;
+    const auto four = [](V3f v) {
+        std::vector<float> values;
+        for (int i = 0; i < 4; ++i) values.insert(values.end(), {v.x, v.y, v.z});
+        return values;
+    };
+    variables.set(test::parameter("N", StorageClass::Varying, ValueType::Normal, four({1, 1, 0})));
+    variables.set(test::parameter("where", StorageClass::Varying, ValueType::Point, four({1, 2, 3})));
+    variables.set(test::parameter("way", StorageClass::Constant, ValueType::Vector, {1, 2, 3}));
+    variables.set(test::parameter("across", StorageClass::Constant, ValueType::Normal, {1, 1, 0}));
+    variables.set(test::parameter("tint", StorageClass::Constant, ValueType::Color, {1, 2, 3}));
+    M44f stretch;
+    stretch.setScale(V3f(2, 1, 1));
+    scene.attributes->color = {0.5f, 0.25f, 1};
+    scene.add(square(variables), stretch * test::translation(0, 0, 4));
+    const Diced diced(scene);
+    for (const ShadingGrid& grid : diced.grids) {
+        const V3f n = V3f(0.5f, 1, 0).normalized();
+        EXPECT_NEAR((grid.N.at(3) - n).length(), 0, 1e-6f);
+        EXPECT_EQ(grid.Ng.at(3), V3f(0, 0, 1));
+        const auto value = [&](const char* name) {
+            const GridVariable* v = grid.find(name);
+            return V3f(v->planes[0][0], v->planes[1][0], v->planes[2][0]);
+        };
+        EXPECT_EQ(value("where"), V3f(2, 2, 7));
+        EXPECT_EQ(value("way"), V3f(2, 2, 3));
+        EXPECT_NEAR((value("across") - V3f(0.5f, 1, 0)).length(), 0, 1e-6f);
+        EXPECT_EQ(value("tint"), V3f(1, 2, 3));
+        EXPECT_EQ(grid.Cs.at(0), V3f(0.5f, 0.25f, 1));
+        EXPECT_EQ(grid.Os.at(0), V3f(1, 1, 1));
+    }
+}
+
+/// Border vertices of all grids by position: each appears on both sides with the same shading.
+TEST(Dice, DisplacedBordersShareWhatDisplacementReads) {
+    TestScene scene;
+    scene.attributes->displacement = std::make_shared<ShaderInstance>();
+    scene.keep_all().add(sphere(), test::translation(0.4f, 0.2f, 1.3f));
+    const Diced diced(scene);
+    std::map<std::array<float, 3>, V3f> normals;
+    size_t shared = 0;
+    for (const ShadingGrid& grid : diced.grids)
+        for (int j = 0; j <= grid.shape.nv; ++j)
+            for (int i = 0; i <= grid.shape.nu; ++i) {
+                if (i > 0 && i < grid.shape.nu && j > 0 && j < grid.shape.nv) continue;
+                const size_t at = grid.shape.row_index(i, j);
+                const V3f P = grid.P[0].at(at);
+                const auto [entry, is_new] = normals.try_emplace({P.x, P.y, P.z}, grid.N.at(at));
+                shared += !is_new;
+                EXPECT_EQ(entry->second, grid.N.at(at));
+            }
+    EXPECT_GT(shared, normals.size());
+}
+
+TEST(Dice, MemoryIsReusedBetweenGridsOfAPrimitive) {
+    TestScene scene;
+    scene.add({sphere()}, {test::translation(0, 0, 3), test::translation(0.5f, 0, 3)});
+    const RenderContext context = scene.context();
+    const Tessellation tessellation(context);
+    DiceScratch scratch;
+    ShadingGrid grid;
+    size_t largest = 0;
+    for (size_t i = 0; i < tessellation.subpatches().size(); ++i)
+        if (tessellation.subpatches()[i].shape.vertex_count() >
+            tessellation.subpatches()[largest].shape.vertex_count())
+            largest = i;
+    tessellation.dice(largest, grid, scratch);
+    const float* const memory = grid.P[1].c[2].data();
+    for (size_t i = 0; i < tessellation.subpatches().size(); ++i) {
+        tessellation.dice(i, grid, scratch);
+        EXPECT_EQ(grid.P[1].c[2].data(), memory);
+    }
+}
+
+TEST(Tessellation, SubpatchesAreSmall) {
+    TestScene scene;
+    scene.scene.options.width = 640, scene.scene.options.height = 480;
+    scene.add(sphere(), test::translation(0, 0, 2));
+    const RenderContext context = scene.context();
+    const Tessellation tessellation(context);
+    EXPECT_GT(tessellation.subpatches().size(), 200u);
+    EXPECT_LT(tessellation.bytes(), 200 * tessellation.subpatches().size());
+    EXPECT_EQ(tessellation.stats().grids, tessellation.subpatches().size());
+}
+
+TEST(Tessellation, InvisibleAndBrokenPrimitivesAreLeftOut) {
+    TestScene scene;
+    scene.add(test::shape_of(PatchMesh{}));  // no points
+    scene.add(square());
+    auto hidden = std::make_shared<Attributes>();
+    hidden->visible_to_camera = false;
+    scene.attributes = hidden;
+    scene.add(square());
+    const Diced diced(scene);
+    EXPECT_EQ(scene.diagnostics.count(Severity::Error), 1u);
+    EXPECT_EQ(diced.tessellation.stats().primitives, 1u);
+    for (const SubpatchInfo& info : diced.tessellation.subpatches()) EXPECT_EQ(info.primitive, 1u);
+}
+
+}  // namespace
+}  // namespace trapeze
