@@ -111,16 +111,22 @@ std::vector<TestScene> make_scenes() {
         }
     }
     {
-        GridMaker& maker = scene("edge-on and hair-thin", false, false).maker;
+        // Slivers along the very rays of samples: the weights of their hits round to anything.
+        TestScene& slivers = scene("edge-on slivers", false, false);
         Noise noise{std::mt19937(21)};
-        for (int n = 0; n < 60; ++n) {
-            const V3f eye_ray = noise.point(0.5f, 1, 1), off = noise.point(1e-6f, 0, 0);
-            maker.add(4, 4, 1,
-                      [=](int i, int j, float) {  // planes nearly through the eye: weights round to anything
-                          return eye_ray * (2.0f + 0.7f * static_cast<float>(i)) +
-                                 V3f(0.1f, 0.2f, 0) * static_cast<float>(j) + off * static_cast<float>(j);
-                      });
+        SampleTile samples;
+        SamplePattern(slivers.frame.context).make_tile({12, 4, 28, 20}, samples);
+        for (const AxisRay& ray : samples.rays) {
+            std::array<V3f, 4> corner;
+            const float reach = noise(0, 1) < 0.5f ? 0.3f : 0.0f, thin = std::pow(10.0f, noise(-8, -5));
+            for (V3f& p : corner) {
+                const float z = noise(2, 9);
+                p = {ray.ux * z + noise(-reach, reach), ray.uy * z + noise(-thin, thin), z};
+            }
+            slivers.maker.add(1, 1, 1,
+                              [&](int c, int d, float) { return corner[static_cast<size_t>(c + 2 * d)]; });
         }
+        add_sheets(slivers.maker, 10, 1, 34);
     }
     {
         TestScene& behind = scene("behind the lens", true, true);

@@ -1,0 +1,130 @@
+/// The ray tracer on a synthetic scene of a chosen number of micropolygons: build, trace, counts and memory.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+
+#include "accel/paper_tree.h"
+#include "sample/test_grids.h"
+
+namespace trapeze {
+namespace {
+
+using testing::Frame2D;
+using testing::GridMaker;
+
+enum Effects { kStill = 0, kMotion = 1, kDefocus = 2 };
+
+/// Bumpy balls over a ground that runs under the camera, in grids of 16 x 16 micropolygons; with motion the
+/// balls fly and turn.
+void add_scene(GridMaker& maker, int micropolygons, bool motion) {
+    constexpr int kBalls = 24, kSide = kMaxGridSide;
+    std::mt19937 engine(1);
+    const auto random = [&](float from, float to) {
+        return std::uniform_real_distribution<float>(from, to)(engine);
+    };
+    const int patches =
+        std::max(1, static_cast<int>(std::sqrt(micropolygons / (kBalls + 4.0) / (kSide * kSide) / 2)));
+    for (int ball = 0; ball < kBalls; ++ball) {
+        const V3f centre(random(-5, 5), random(-1.5f, 2.5f), random(5, 16));
+        const V3f shift(random(-0.6f, 0.6f), random(-0.6f, 0.6f), random(-0.3f, 0.3f));
+        const float radius = random(0.5f, 1.1f), turn = motion ? random(-0.5f, 0.5f) : 0.0f;
+        for (int pu = 0; pu < 2 * patches; ++pu)
+            for (int pv = 0; pv < patches; ++pv)
+                maker.add(kSide, kSide, motion ? 2 : 1, [&](int i, int j, float t) {
+                    const float u =
+                        static_cast<float>(pu * kSide + i) / static_cast<float>(2 * patches * kSide);
+                    const float v = static_cast<float>(pv * kSide + j) / static_cast<float>(patches * kSide);
+                    const float phi = 6.2831853f * u + turn * t, theta = 3.1415927f * v;
+                    const float r = radius * (1 + 0.05f * std::sin(20 * theta) * std::sin(15 * phi));
+                    const V3f p(r * std::sin(theta) * std::cos(phi), r * std::cos(theta),
+                                r * std::sin(theta) * std::sin(phi));
+                    return centre + p + (motion ? shift * t : V3f(0));
+                });
+    }
+    const int ground = 2 * patches * 2;
+    for (int px = 0; px < ground; ++px)
+        for (int pz = 0; pz < ground / 2; ++pz)
+            maker.add(kSide, kSide, 1, [&](int i, int j, float) {
+                const float u = static_cast<float>(px * kSide + i) / static_cast<float>(ground * kSide);
+                const float v = static_cast<float>(pz * kSide + j) / static_cast<float>(ground / 2 * kSide);
+                return V3f((u - 0.5f) * 40, -2.5f, v * 30 - 3);
+            });
+}
+
+struct BenchScene {
+    Frame2D frame;
+    GridMaker maker;
+
+    BenchScene(int micropolygons, int effects) : frame(1280, 720, 8, effects & kMotion, effects & kDefocus) {
+        if (effects & kDefocus) {
+            frame.options.f_stop = 4, frame.options.focal_length = 0.5f, frame.options.focal_distance = 9;
+            frame.update();
+        }
+        add_scene(maker, micropolygons, effects & kMotion);
+    }
+};
+
+void build_tree(benchmark::State& state) {
+    const BenchScene scene(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    const auto count = static_cast<double>(scene.maker.grids().micropolygon_count());
+    double bytes = 0;
+    for (auto _ : state) {
+        const PaperTree tree(scene.maker.grids());
+        bytes = static_cast<double>(tree.stats().tree_bytes);
+    }
+    state.counters["mpolys"] = count;
+    state.counters["tree_bytes/mpoly"] = bytes / count;
+    state.counters["grid_bytes/mpoly"] = static_cast<double>(scene.maker.grids().bytes()) / count;
+    state.counters["mpolys/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// Every eighth tile of the picture on one thread, samples made before.
+void trace(benchmark::State& state) {
+    const BenchScene scene(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    const auto method = find_visibility_method("raytrace")->prepare(scene.frame.context, scene.maker.grids());
+    const SamplePattern pattern(scene.frame.context);
+    const auto all = testing::tiles_of({0, 0, 1280, 720});
+    std::vector<SampleTile> tiles;
+    for (size_t i = 0; i < all.size(); i += 37) pattern.make_tile(all[i], tiles.emplace_back());
+    HitBuffer hits;
+    SampleScratch scratch;
+    SampleStats stats;
+    for (auto _ : state)
+        for (const SampleTile& tile : tiles) method->resolve(tile, hits, scratch, stats);
+    const auto rays = static_cast<double>(stats.rays);
+    state.counters["rays/s"] = benchmark::Counter(rays, benchmark::Counter::kIsRate);
+    state.counters["nodes/ray"] = static_cast<double>(stats.nodes_visited) / rays;
+    state.counters["leaves/ray"] = static_cast<double>(stats.leaves_visited) / rays;
+    state.counters["tests/ray"] = static_cast<double>(stats.predicate_tests) / rays;
+    state.counters["tests/hit"] =
+        static_cast<double>(stats.predicate_tests) / static_cast<double>(stats.predicate_hits);
+}
+
+void make_samples(benchmark::State& state) {
+    const Frame2D frame(1280, 720, 8, state.range(0) & kMotion, state.range(0) & kDefocus);
+    const SamplePattern pattern(frame.context);
+    SampleTile tile;
+    size_t samples = 0;
+    for (auto _ : state) {
+        pattern.make_tile({64, 64, 80, 80}, tile);
+        benchmark::DoNotOptimize(tile.rays.data());
+        samples += tile.size();
+    }
+    state.counters["samples/s"] =
+        benchmark::Counter(static_cast<double>(samples), benchmark::Counter::kIsRate);
+}
+
+BENCHMARK(build_tree)
+    ->ArgsProduct({{2'000'000}, {kStill, kMotion}})
+    ->ArgNames({"mpolys", "effects"})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(trace)
+    ->ArgsProduct({{500'000, 2'000'000}, {kStill, kMotion, kDefocus, kMotion | kDefocus}})
+    ->ArgNames({"mpolys", "effects"})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(make_samples)->Arg(kStill)->Arg(kMotion | kDefocus)->ArgName("effects");
+
+}  // namespace
+}  // namespace trapeze
