@@ -111,12 +111,13 @@ void LimitPatch::set_face_varying(const Factory& factory, int mesh_face, int cha
     classify(corners);
 }
 
+void LimitPatch::set_linear(std::span<const int> corners) {
+    form_ = Form::Linear;
+    corners_.assign(corners.begin(), corners.end());
+}
+
 void LimitPatch::classify(std::span<const int> corners) {
-    if (!surface_.IsValid() || surface_.IsLinear()) {
-        form_ = Form::Linear;
-        corners_.assign(corners.begin(), corners.end());
-        return;
-    }
+    if (!surface_.IsValid() || surface_.IsLinear()) return set_linear(corners);
     form_ = Form::Library;
     if (!surface_.IsRegular() || surface_.GetParameterization().GetType() != Parameterization::QUAD) return;
     form_ = Form::Bspline;

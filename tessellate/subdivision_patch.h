@@ -24,6 +24,9 @@ class LimitPatch {
     void set_vertex(const Factory& factory, int mesh_face, std::span<const int> corners);
     void set_face_varying(const Factory& factory, int mesh_face, int channel, std::span<const int> corners);
 
+    /// For faces without limit surface: linear between the values at the corners.
+    void set_linear(std::span<const int> corners);
+
     bool is_bspline() const { return form_ == Form::Bspline; }
     bool is_linear() const { return form_ == Form::Linear; }
 

@@ -1,6 +1,5 @@
 #include "tessellate/subdivision_refiner.h"
 
-#include <opensubdiv/bfr/limits.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
 #include <algorithm>
@@ -13,6 +12,9 @@ namespace {
 using OpenSubdiv::Far::TopologyRefiner;
 using OpenSubdiv::Far::TopologyRefinerFactory;
 using SdcOptions = OpenSubdiv::Sdc::Options;
+
+/// Beyond these a face's limit surface takes more than 100 MB: Bfr's weights grow with their square.
+constexpr int kMostCorners = 256, kMostFaces = 1024;
 
 /// What the factory reads.
 struct RefinerInput {
@@ -159,22 +161,21 @@ OpenSubdiv::Sdc::SchemeType scheme_type(SubdivisionMesh::Scheme scheme) {
 
 /// What OpenSubdiv would refuse, in words; empty when it takes the mesh.
 std::string reason_to_refuse(const SubdivisionMesh& mesh) {
-    const int limit = OpenSubdiv::Bfr::Limits::MaxValence();
     std::vector<int> valence(mesh.vertex_count);
     size_t corner = 0;
     for (size_t face = 0; face < mesh.vertices_per_face.size(); ++face) {
         const int size = mesh.vertices_per_face[face];
         const std::string name = "face " + std::to_string(face);
         if (size < 3 || corner + size > mesh.vertices.size()) return name + " has too few vertices";
-        if (size > limit) return name + " has more than " + std::to_string(limit) + " vertices";
+        if (size > kMostCorners) return name + " has more than " + std::to_string(kMostCorners) + " vertices";
         if (mesh.scheme == SubdivisionMesh::Scheme::Loop && size != 3)
             return name + " is not a triangle, as scheme \"loop\" wants";
         const int* v = mesh.vertices.data() + corner;
         for (int i = 0; i < size; ++i) {
             if (v[i] < 0 || v[i] >= mesh.vertex_count) return name + " has a vertex outside the mesh";
             if (std::find(v, v + i, v[i]) != v + i) return name + " has a vertex twice";
-            if (++valence[v[i]] > limit)
-                return "vertex " + std::to_string(v[i]) + " has more than " + std::to_string(limit) +
+            if (++valence[v[i]] > kMostFaces)
+                return "vertex " + std::to_string(v[i]) + " has more than " + std::to_string(kMostFaces) +
                        " faces";
         }
         corner += size;

@@ -1,23 +1,60 @@
 #include "tessellate/subdivision_surface.h"
 
 namespace trapeze {
+namespace {
+
+/// Near an extraordinary vertex the library refines to this level, then approximates. The error against level
+/// 10 on a cube's faces, in face sizes: 0.01 (normals: 0.5 degrees) at level 2, 2e-3 at 4, below 3e-4 at 6.
+constexpr int kApproximationLevel = 6;
+
+OpenSubdiv::Bfr::SurfaceFactory::Options factory_options() {
+    OpenSubdiv::Bfr::SurfaceFactory::Options options;
+    return options.SetApproxLevelSmooth(kApproximationLevel).SetApproxLevelSharp(kApproximationLevel);
+}
+
+}  // namespace
 
 SubdivisionSurface::SubdivisionSurface(const Primitive& primitive,
                                        std::unique_ptr<const OpenSubdiv::Far::TopologyRefiner> refiner,
                                        std::vector<FaceVaryingChannel> channels)
     : primitive_(primitive),
       refiner_(std::move(refiner)),
-      factory_(*refiner_),
+      factory_(*refiner_, factory_options()),
       channels_(std::move(channels)) {
     for (const auto& shape : primitive.shape_keys)
         positions_.push_back(shape->variables.find("P")->floats.data());
     const SubdivisionMesh& mesh = std::get<SubdivisionMesh>(primitive.shape().topology);
-    has_limit_.resize(mesh.vertices_per_face.size());
-    for (size_t face = 0; face < has_limit_.size(); ++face)
-        has_limit_[face] = factory_.FaceHasLimitSurface(static_cast<int>(face));
+    std::vector<uint8_t> has_limit;
+    for (int face = 0; face < static_cast<int>(mesh.vertices_per_face.size()); ++face) {
+        kinds_.push_back(kind_of(face));
+        has_limit.push_back(kinds_.back() == FaceKind::Limit);
+    }
     const int whole_size = mesh.scheme == SubdivisionMesh::Scheme::Loop ? 0 : 4;
     topology_ = std::make_unique<MeshTopology>(mesh.vertices_per_face, mesh.vertices, mesh.vertex_count,
-                                               whole_size, has_limit_);
+                                               whole_size, has_limit);
+}
+
+SubdivisionSurface::FaceKind SubdivisionSurface::kind_of(int mesh_face) const {
+    if (!factory_.FaceHasLimitSurface(mesh_face)) return FaceKind::Hole;
+    // OpenSubdiv 3.5.0 writes past its arrays for some faces that have both a vertex of a non-manifold fan
+    // and an inner vertex of only two faces.
+    const OpenSubdiv::Far::TopologyLevel& level = refiner_->GetLevel(0);
+    bool non_manifold = false, doubled = false;
+    for (int vertex : level.GetFaceVertices(mesh_face)) {
+        if (level.IsVertexNonManifold(vertex))
+            non_manifold = true;
+        else if (!level.IsVertexBoundary(vertex) && level.GetVertexFaces(vertex).size() == 2)
+            doubled = true;
+    }
+    return non_manifold && doubled ? FaceKind::Flat : FaceKind::Limit;
+}
+
+void SubdivisionSurface::set_vertex_patch(int mesh_face, LimitPatch& patch) const {
+    const std::span<const int> corners = topology_->face_vertices(mesh_face);
+    if (kinds_[mesh_face] == FaceKind::Limit)
+        patch.set_vertex(factory_, mesh_face, corners);
+    else
+        patch.set_linear(corners);
 }
 
 std::unique_ptr<SurfaceScratch> SubdivisionSurface::make_scratch() const {
@@ -29,7 +66,7 @@ SubdivisionScratch::Face& SubdivisionSurface::cached_face(SubdivisionScratch& sc
         scratch.faces[static_cast<size_t>(mesh_face) % SubdivisionScratch::kFaces];
     if (cached.mesh_face == mesh_face) return cached;
     cached.mesh_face = mesh_face;
-    cached.patch.set_vertex(factory_, mesh_face, topology_->face_vertices(mesh_face));
+    set_vertex_patch(mesh_face, cached.patch);
     cached.positions.resize(positions_.size());
     for (auto& points : cached.positions) points.clear();
     cached.channels.resize(channels_.size());
@@ -41,9 +78,12 @@ const LimitPatch& SubdivisionSurface::cached_channel(SubdivisionScratch::Face& c
     SubdivisionScratch::Face::Channel& entry = cached.channels[channel];
     if (entry.is_set) return entry.patch;
     const std::span<const int> values(channels_[channel].topology.values);
-    const size_t corners = topology_->face_vertices(cached.mesh_face).size();
-    entry.patch.set_face_varying(factory_, cached.mesh_face, channel,
-                                 values.subspan(topology_->first_corner(cached.mesh_face), corners));
+    const std::span<const int> corners = values.subspan(topology_->first_corner(cached.mesh_face),
+                                                        topology_->face_vertices(cached.mesh_face).size());
+    if (kinds_[cached.mesh_face] == FaceKind::Limit)
+        entry.patch.set_face_varying(factory_, cached.mesh_face, channel, corners);
+    else
+        entry.patch.set_linear(corners);
     entry.is_set = true;
     return entry.patch;
 }
@@ -74,7 +114,7 @@ Box3f SubdivisionSurface::ring_box(int mesh_face, int shape_key) const {
 Box3f SubdivisionSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     const FacePiece piece = topology_->piece(face);
     LimitPatch patch;
-    patch.set_vertex(factory_, piece.mesh_face, topology_->face_vertices(piece.mesh_face));
+    set_vertex_patch(piece.mesh_face, patch);
     if (!patch.is_bspline() && !patch.is_linear()) return ring_box(piece.mesh_face, shape_key);
     std::vector<float> points;
     patch.gather(positions_[shape_key], 3, points);

@@ -53,7 +53,9 @@ class SubdivisionSurface : public Surface {
     int face_count() const override { return topology_->face_count(); }
     uint32_t edge_count() const override { return topology_->edge_count(); }
     uint32_t vertex_count() const override { return topology_->vertex_count(); }
-    bool is_hole(int face) const override { return !has_limit_[topology_->piece(face).mesh_face]; }
+    bool is_hole(int face) const override {
+        return kinds_[topology_->piece(face).mesh_face] == FaceKind::Hole;
+    }
     std::array<SurfaceSide, 4> sides(int face) const override { return topology_->sides(face); }
     EdgeLine edge(uint32_t edge) const override { return topology_->edge(edge); }
     SurfacePoint vertex(uint32_t vertex) const override { return topology_->vertex(vertex); }
@@ -71,6 +73,14 @@ class SubdivisionSurface : public Surface {
     const LimitPatch& cached_channel(SubdivisionScratch::Face& cached, int channel) const;
 
   private:
+    enum class FaceKind : uint8_t {
+        Hole,   ///< or at a boundary that is not interpolated: not drawn
+        Limit,  ///< has a limit surface
+        Flat,   ///< is drawn as it is, because the library cannot take it
+    };
+
+    FaceKind kind_of(int mesh_face) const;
+    void set_vertex_patch(int mesh_face, LimitPatch& patch) const;
     Box3f ring_box(int mesh_face, int shape_key) const;
 
     using Factory = OpenSubdiv::Bfr::RefinerSurfaceFactory<OpenSubdiv::Bfr::SurfaceFactoryCacheThreaded<
@@ -81,7 +91,7 @@ class SubdivisionSurface : public Surface {
     std::unique_ptr<const OpenSubdiv::Far::TopologyRefiner> refiner_;
     Factory factory_;
     std::vector<FaceVaryingChannel> channels_;
-    std::vector<uint8_t> has_limit_;  ///< by mesh face
+    std::vector<FaceKind> kinds_;  ///< by mesh face
     std::unique_ptr<MeshTopology> topology_;
 };
 
