@@ -6,7 +6,9 @@ std::string to_string(const Diagnostic& diagnostic) {
     static constexpr const char* kNames[] = {"note", "warning", "error"};
     std::string line;
     if (!diagnostic.place.empty()) line += diagnostic.place + ": ";
-    line += std::string(kNames[static_cast<int>(diagnostic.severity)]) + ": " + diagnostic.text;
+    line += kNames[static_cast<int>(diagnostic.severity)];
+    line += ": ";
+    line += diagnostic.text;
     for (const std::string& place : diagnostic.included_from) line += "\n    included from " + place;
     return line;
 }

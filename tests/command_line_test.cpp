@@ -37,7 +37,8 @@ WorldEnd
 std::string files_in(const WorkFolder& folder) {
     std::string names;
     for (const auto& entry : fs::directory_iterator(folder.path()))
-        if (const std::string name = entry.path().filename(); name != ".stdout" && name != ".stderr") names += name + " ";
+        if (const std::string name = entry.path().filename(); name != ".stdout" && name != ".stderr")
+            names += name + " ";
     return names;
 }
 
@@ -80,10 +81,11 @@ TEST(CommandLine, StatisticsHaveThePromisedKeys) {
     const auto stats = nlohmann::json::parse(text_of(folder / "s.json"));
     for (const char* stage : {"read", "tessellate", "shade", "build", "trace", "composite", "total"})
         EXPECT_TRUE(stats["stages"][stage]["seconds"].is_number()) << stage;
-    for (const char* key : {"grids", "micropolygons", "samples", "rays_per_second", "predicate_tests", "predicate_hits",
-                            "nodes_visited", "threads", "simd_target", "sampler"})
+    for (const char* key : {"grids", "micropolygons", "samples", "rays_per_second", "predicate_tests",
+                            "predicate_hits", "nodes_visited", "threads", "simd_target", "sampler"})
         EXPECT_TRUE(stats.contains(key)) << key;
-    for (const char* key : {"grids", "tree", "peak_rss"}) EXPECT_GT(stats["bytes"][key].get<double>(), 0) << key;
+    for (const char* key : {"grids", "tree", "peak_rss"})
+        EXPECT_GT(stats["bytes"][key].get<double>(), 0) << key;
     EXPECT_GT(stats["micropolygons"].get<int>(), 500);
     EXPECT_GT(stats["predicate_hits"].get<int>(), 1000);
 }
@@ -93,7 +95,8 @@ TEST(CommandLine, ExitCodesSayWhatWentWrong) {
     folder.write("a.rib", kSphere);
     folder.write("empty.rib", "# nothing\n");
     folder.write("wrong.rib", std::string("Sphare 1\n") + kSphere);
-    folder.write("shader.rib", std::string(kSphere).replace(std::string(kSphere).find("plastic"), 7, "gloop"));
+    folder.write("shader.rib",
+                 std::string(kSphere).replace(std::string(kSphere).find("plastic"), 7, "gloop"));
     EXPECT_EQ(run_program(folder, "render").exit_code, 2);
     EXPECT_EQ(run_program(folder, "render a.rib --sampler none").exit_code, 2);
     EXPECT_EQ(run_program(folder, "render missing.rib").exit_code, 3);
@@ -112,8 +115,8 @@ TEST(CommandLine, AMissingShaderIsSaidOnce) {
     WorkFolder folder;
     const std::string scene = kSphere;
     const size_t sphere = scene.find("Sphere");
-    folder.write("a.rib", scene.substr(0, scene.find("Surface")) + "Surface \"gloop\"\n" + scene.substr(sphere, 20) +
-                              "Surface \"gloop\"\n" + scene.substr(sphere));
+    folder.write("a.rib", scene.substr(0, scene.find("Surface")) + "Surface \"gloop\"\n" +
+                              scene.substr(sphere, 20) + "Surface \"gloop\"\n" + scene.substr(sphere));
     const Outcome outcome = run_program(folder, "render a.rib");
     const size_t first = outcome.err.find("warning");
     ASSERT_NE(first, std::string::npos) << outcome.err;
@@ -127,11 +130,12 @@ TEST(CommandLine, InterruptionLeavesNothingHalfWritten) {
         WorkFolder folder;
         folder.write("slow.rib", kSlow);
         // `timeout` sends the signal and, with --preserve-status, passes on the program's own exit code.
-        const std::string command = "cd '" + folder.path().string() + "' && timeout --preserve-status -s " + signal +
-                                    " 1 '" TRAPEZE_PROGRAM "' render slow.rib >.stdout 2>.stderr";
+        const std::string command = "cd '" + folder.path().string() + "' && timeout --preserve-status -s " +
+                                    signal + " 1 '" TRAPEZE_PROGRAM "' render slow.rib >.stdout 2>.stderr";
         const auto start = std::chrono::steady_clock::now();
         const int status = std::system(command.c_str());
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         EXPECT_EQ(WEXITSTATUS(status), code);
         EXPECT_EQ(files_in(folder), "slow.rib ");
         RecordProperty("seconds", std::to_string(seconds));

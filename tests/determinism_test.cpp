@@ -1,4 +1,5 @@
-/// Every tiny scene renders to the same bits whatever the visibility method, the threads, the regions and the crop.
+/// Every tiny scene renders to the same bits whatever the visibility method, the threads, the regions and the
+/// crop.
 #include <gtest/gtest.h>
 
 #include "tests/scene_harness.h"
@@ -13,9 +14,11 @@ bool same_bits(const Image& a, const Image& b) {
     return a.window == b.window && same(a.rgba, b.rgba) && same(a.z, b.z) && a.id == b.id;
 }
 
-void expect_same(const std::vector<FrameResult>& a, const std::vector<FrameResult>& b, const std::string& what) {
+void expect_same(const std::vector<FrameResult>& a, const std::vector<FrameResult>& b,
+                 const std::string& what) {
     ASSERT_EQ(a.size(), b.size()) << what;
-    for (size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(same_bits(a[i].image, b[i].image)) << what << ", world " << i;
+    for (size_t i = 0; i < a.size(); ++i)
+        EXPECT_TRUE(same_bits(a[i].image, b[i].image)) << what << ", world " << i;
 }
 
 class TinyScene : public ::testing::TestWithParam<std::string> {};

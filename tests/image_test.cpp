@@ -1,5 +1,6 @@
-/// The tiny scenes against their reference pictures (tests/references, made by tests/update_references after looking at
-/// them), with idiff's thresholds. What may differ between machines is the last place of libraries' floats.
+/// The tiny scenes against their reference pictures (tests/references, made by tests/update_references after
+/// looking at them), with idiff's thresholds. What may differ between machines is the last place of
+/// libraries' floats.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -31,7 +32,8 @@ TEST_P(TinyPicture, LooksLikeItsReference) {
         // A pixel fails beyond 0.01; a handful may, where a sample falls on the other side of an edge.
         const auto result = OIIO::ImageBufAlgo::compare(made, wanted, 0.01f, 0.002f);
         const double pixels = static_cast<double>(made.spec().width) * made.spec().height;
-        EXPECT_LE(static_cast<double>(result.nfail), pixels * 0.002) << file << ": largest error " << result.maxerror;
+        EXPECT_LE(static_cast<double>(result.nfail), pixels * 0.002)
+            << file << ": largest error " << result.maxerror;
         EXPECT_LE(static_cast<double>(result.nwarn), pixels * 0.01) << file;
     }
     EXPECT_GT(pictures, 0) << outcome.err;

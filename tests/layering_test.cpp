@@ -1,5 +1,5 @@
-/// The include rule of the rooms, read from the sources themselves: stages never include each other, what they exchange is
-/// a type in core; each heavy library is confined to one room.
+/// The include rule of the rooms, read from the sources themselves: stages never include each other, what
+/// they exchange is a type in core; each heavy library is confined to one room.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -62,11 +62,12 @@ int for_each_include(const std::string& room, Visit&& visit) {
 TEST(Layering, RoomsIncludeOnlyWhatTheyMay) {
     int includes = 0;
     for (const auto& [room, allowed] : kMayInclude)
-        includes += for_each_include(room, [&, &may = allowed](const fs::path& file, const std::string& included) {
-            const std::string target = included.substr(0, included.find('/'));
-            if (!kMayInclude.count(target) || included.find('/') == std::string::npos) return;
-            EXPECT_TRUE(may.count(target)) << file << " includes " << included;
-        });
+        includes +=
+            for_each_include(room, [&, &may = allowed](const fs::path& file, const std::string& included) {
+                const std::string target = included.substr(0, included.find('/'));
+                if (!kMayInclude.count(target) || included.find('/') == std::string::npos) return;
+                EXPECT_TRUE(may.count(target)) << file << " includes " << included;
+            });
     EXPECT_GT(includes, 100) << "the test reads no sources";
 }
 
@@ -75,7 +76,8 @@ TEST(Layering, LibrariesStayInTheirRooms) {
         for_each_include(room, [&, &in = room](const fs::path& file, const std::string& included) {
             if (is_test(file)) return;  // tests may read what another room's library writes
             for (const auto& [library, rooms] : kConfinedLibraries)
-                EXPECT_TRUE(!included.starts_with(library) || rooms.count(in)) << file << " includes " << included;
+                EXPECT_TRUE(!included.starts_with(library) || rooms.count(in))
+                    << file << " includes " << included;
         });
 }
 

@@ -36,7 +36,9 @@ class WorkFolder {
 
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
     const std::filesystem::path& path() const { return path_; }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / name) << text;
+    }
 
   private:
     std::filesystem::path path_;
@@ -49,10 +51,11 @@ struct Outcome {
 
 /// Runs `trapeze ARGUMENTS` (shell syntax) with the folder as working directory.
 inline Outcome run_program(const WorkFolder& folder, const std::string& arguments) {
-    const std::string command = "cd '" + folder.path().string() + "' && '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " +
-                                arguments;
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " + arguments;
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".stdout"), text_of(folder / ".stderr")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".stdout"),
+            text_of(folder / ".stderr")};
 }
 
 }  // namespace trapeze::testing

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <thread>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "pipeline/frame/render_frame.h"
@@ -38,11 +38,13 @@ inline std::string test_name(const ::testing::TestParamInfo<std::string>& info) 
 }
 
 /// All worlds of a scene, rendered with so many threads.
-inline std::vector<FrameResult> render_scene(const std::string& path, const RenderSettings& settings, int threads = 2) {
+inline std::vector<FrameResult> render_scene(const std::string& path, const RenderSettings& settings,
+                                             int threads = 2) {
     std::vector<FrameResult> results;
     Diagnostics diagnostics;
     const std::vector<std::string> files{path};
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<size_t>(threads));
     tbb::task_arena arena(threads);
     arena.execute([&] {
         read_rib(files, ReadOptions{}, diagnostics, [&](Scene&& scene) {

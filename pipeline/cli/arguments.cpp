@@ -28,8 +28,8 @@ std::vector<std::string> take(std::vector<std::string>& args, size_t i, size_t c
 
 /// An option whose text is read by one of parse_values.h's functions.
 template <class Value, class Parse>
-CLI::Option* add_parsed(CLI::App& app, const std::string& name, Value& value, Parse parse, const std::string& help,
-                        const std::string& form) {
+CLI::Option* add_parsed(CLI::App& app, const std::string& name, Value& value, Parse parse,
+                        const std::string& help, const std::string& form) {
     return app
         .add_option_function<std::string>(
             name,
@@ -54,7 +54,8 @@ void add_render_options(CLI::App& app, Arguments& a) {
     for (const VisibilityMethod& method : visibility_methods()) samplers.emplace_back(method.name);
 
     app.add_option("-o,--output", a.output, "replaces the first Display's name")->type_name("FILE");
-    app.add_option("-d,--driver", a.driver, "replaces every Display's driver; null writes nothing")->type_name("DRIVER");
+    app.add_option("-d,--driver", a.driver, "replaces every Display's driver; null writes nothing")
+        ->type_name("DRIVER");
     add_parsed(app, "-r,--resolution", a.resolution, parse_resolution, "size of the whole picture", "WxH");
     app.add_option("--crop", a.crop, "part of the picture to make, as fractions: x0 x1 y0 y1")
         ->check(CLI::Range(0.0f, 1.0f))
@@ -63,15 +64,20 @@ void add_render_options(CLI::App& app, Arguments& a) {
     app.add_option("--shading-rate", a.shading_rate, "pixel area of a micropolygon, everywhere")
         ->check(CLI::Range(1e-4f, 1e6f))
         ->type_name("AREA");
-    app.add_option("--sampler", a.sampler, "visibility method")->check(CLI::IsMember(samplers))->capture_default_str();
-    app.add_option("-t,--threads", a.threads, "threads; 0: all, -N: all but N")->check(CLI::Range(-1024, 1024))->type_name("N");
+    app.add_option("--sampler", a.sampler, "visibility method")
+        ->check(CLI::IsMember(samplers))
+        ->capture_default_str();
+    app.add_option("-t,--threads", a.threads, "threads; 0: all, -N: all but N")
+        ->check(CLI::Range(-1024, 1024))
+        ->type_name("N");
     app.add_option("--seed", a.seed, "of all random numbers")->type_name("N");
     add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20");
     app.add_option("--progress", a.progress, "how to show progress")
         ->check(CLI::IsMember({"auto", "bar", "lines", "json", "prman", "none"}))
         ->capture_default_str();
     app.add_option("--stats", a.stats_file, "writes statistics as JSON")->type_name("FILE.json");
-    add_parsed(app, "--memory", a.memory_bytes, parse_size, "for grids and tree (default: 3/4 of the machine's)", "SIZE like 4G");
+    add_parsed(app, "--memory", a.memory_bytes, parse_size,
+               "for grids and tree (default: 3/4 of the machine's)", "SIZE like 4G");
     app.add_option("--regions", a.regions_at_least, "split the picture into at least so many regions")
         ->check(CLI::Range(1, 100000))
         ->type_name("N");
@@ -103,28 +109,34 @@ std::vector<std::string> modern_spelling(std::vector<std::string> args) {
         } else if (arg == "-frames" || arg == "-framelist") {
             const bool pair = i + 2 < args.size() && is_number(args[i + 1]) && is_number(args[i + 2]);
             const auto frames = take(args, i, pair ? 2 : 1);
-            args[i] = "--frames=" + (frames.empty() ? std::string() : pair ? frames[0] + "-" + frames[1] : frames[0]);
+            args[i] = "--frames=" + (frames.empty() ? std::string()
+                                     : pair         ? frames[0] + "-" + frames[1]
+                                                    : frames[0]);
         }
     }
     const auto is_command = [](const std::string& a) {
         return std::find(kCommands.begin(), kCommands.end(), a) != kCommands.end();
     };
-    const bool asks_for_program = !args.empty() && (args[0] == "--help" || args[0] == "-h" || args[0] == "--version");
+    const bool asks_for_program =
+        !args.empty() && (args[0] == "--help" || args[0] == "-h" || args[0] == "--version");
     if (!args.empty() && !is_command(args[0]) && !asks_for_program) args.insert(args.begin(), "render");
     return args;
 }
 
 std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) {
-    CLI::App app{"Trapeze: a Reyes renderer that samples micropolygons by ray tracing.\n"
-                 "RIB scenes in, EXR pictures out."};
+    CLI::App app{
+        "Trapeze: a Reyes renderer that samples micropolygons by ray tracing.\n"
+        "RIB scenes in, EXR pictures out."};
     app.name("trapeze");
-    app.footer(std::string(kExitCodeHelp) + "\nRenderMan programs' spellings are accepted: -progress -Progress -t:N -res W H "
-                                            "-crop X0 X1 Y0 Y1 -frames A B -d DRIVER.");
+    app.footer(std::string(kExitCodeHelp) +
+               "\nRenderMan programs' spellings are accepted: -progress -Progress -t:N -res W H "
+               "-crop X0 X1 Y0 Y1 -frames A B -d DRIVER.");
     app.set_version_flag("--version", std::string("Trapeze ") + kVersion);
     app.require_subcommand(1);
 
     CLI::App* render = app.add_subcommand("render", "renders scenes");
-    CLI::App* check = app.add_subcommand("check", "reads scenes and reports all that is wrong or not supported; renders nothing");
+    CLI::App* check = app.add_subcommand(
+        "check", "reads scenes and reports all that is wrong or not supported; renders nothing");
     CLI::App* info = app.add_subcommand("info", "says what is in scenes");
     for (CLI::App* command : {render, check, info}) {
         add_inputs(*command, arguments);

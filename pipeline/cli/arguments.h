@@ -15,14 +15,14 @@ enum class Command { Render, Check, Info };
 struct Arguments {
     Command command = Command::Render;
     std::vector<std::string> inputs;
-    std::string output;   ///< empty: as the scene says
-    std::string driver;   ///< replaces every Display's type; "null" writes nothing
+    std::string output;  ///< empty: as the scene says
+    std::string driver;  ///< replaces every Display's type; "null" writes nothing
     std::optional<std::pair<int, int>> resolution, samples;
     std::optional<std::array<float, 4>> crop;
     std::optional<float> shading_rate;
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
-    int threads = 0;      ///< 0: all; negative: all but so many
+    int threads = 0;  ///< 0: all; negative: all but so many
     uint32_t seed = 0;
     size_t memory_bytes = 0;
     int regions_at_least = 1;
@@ -31,11 +31,12 @@ struct Arguments {
     bool strict = false, quiet = false, color = true;
 };
 
-/// RenderMan programs' spellings turned into ours: -progress -Progress -t:N -res W H -crop a b c d -frames ... -recover N,
-/// and "render" put first when the command is left out. `args` without the program's name.
+/// RenderMan programs' spellings turned into ours: -progress -Progress -t:N -res W H -crop a b c d -frames
+/// ... -recover N, and "render" put first when the command is left out. `args` without the program's name.
 std::vector<std::string> modern_spelling(std::vector<std::string> args);
 
-/// Reads the command line. When it says to stop (help, version, usage errors), prints and returns the exit code.
+/// Reads the command line. When it says to stop (help, version, usage errors), prints and returns the exit
+/// code.
 std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments);
 
 }  // namespace trapeze

@@ -28,9 +28,37 @@ TEST(Arguments, RenderManSpellingsBecomeOurs) {
 
 TEST(Arguments, AllRenderOptionsArrive) {
     Arguments a;
-    ASSERT_FALSE(parse({"render", "a.rib", "b.rib", "-o", "x.exr", "-r", "64x48", "--crop", "0", "0.5", "0.25", "1", "-t",
-                        "-1", "--samples", "4x2", "--shading-rate", "0.5", "--sampler", "bruteforce", "--seed", "7", "-f",
-                        "1-3", "--progress", "json", "--stats", "s.json", "--memory", "1G", "--strict"},
+    ASSERT_FALSE(parse({"render",
+                        "a.rib",
+                        "b.rib",
+                        "-o",
+                        "x.exr",
+                        "-r",
+                        "64x48",
+                        "--crop",
+                        "0",
+                        "0.5",
+                        "0.25",
+                        "1",
+                        "-t",
+                        "-1",
+                        "--samples",
+                        "4x2",
+                        "--shading-rate",
+                        "0.5",
+                        "--sampler",
+                        "bruteforce",
+                        "--seed",
+                        "7",
+                        "-f",
+                        "1-3",
+                        "--progress",
+                        "json",
+                        "--stats",
+                        "s.json",
+                        "--memory",
+                        "1G",
+                        "--strict"},
                        a));
     EXPECT_EQ(a.inputs, (Words{"a.rib", "b.rib"}));
     EXPECT_EQ(a.output, "x.exr");
@@ -48,8 +76,12 @@ TEST(Arguments, AllRenderOptionsArrive) {
 }
 
 TEST(Arguments, BadOnesAreUsageErrors) {
-    for (const Words& words : {Words{}, {"render"}, {"render", "a.rib", "--sampler", "magic"}, {"render", "a.rib", "-r", "5"},
-                               {"render", "a.rib", "--memory", "lots"}, {"render", "a.rib", "--frobnicate"}}) {
+    for (const Words& words : {Words{},
+                               {"render"},
+                               {"render", "a.rib", "--sampler", "magic"},
+                               {"render", "a.rib", "-r", "5"},
+                               {"render", "a.rib", "--memory", "lots"},
+                               {"render", "a.rib", "--frobnicate"}}) {
         Arguments a;
         EXPECT_EQ(parse(words, a), kExitUsage);
     }

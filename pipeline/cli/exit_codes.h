@@ -5,9 +5,9 @@ namespace trapeze {
 /// The program's exit codes; the table in --help is made from these meanings.
 enum ExitCode : int {
     kExitOk = 0,
-    kExitErrors = 1,         ///< rendered with errors, or with warnings under --strict
+    kExitErrors = 1,  ///< rendered with errors, or with warnings under --strict
     kExitUsage = 2,
-    kExitNoInput = 3,        ///< an input file is missing or unreadable
+    kExitNoInput = 3,  ///< an input file is missing or unreadable
     kExitNothingRendered = 4,
     kExitShaderMissing = 5,  ///< under --strict
     kExitNoOutput = 6,       ///< an output cannot be written

@@ -1,5 +1,5 @@
-/// Ctrl-C and SIGTERM: work is asked to stop; if it has not within most of a second, the process ends at once. Outputs that
-/// are being written are temporary files until they are renamed, and those are removed.
+/// Ctrl-C and SIGTERM: work is asked to stop; if it has not within most of a second, the process ends at
+/// once. Outputs that are being written are temporary files until they are renamed, and those are removed.
 #pragma once
 
 #include <atomic>

@@ -11,9 +11,15 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
     Diagnostics diagnostics([&](const Diagnostic& diagnostic) { terminal.show(diagnostic); });
     int code = kExitInternal;
     switch (arguments.command) {
-        case Command::Render: code = render_command(arguments, terminal, diagnostics); break;
-        case Command::Check: code = check_command(arguments, terminal, diagnostics); break;
-        case Command::Info: code = info_command(arguments, terminal, diagnostics); break;
+        case Command::Render:
+            code = render_command(arguments, terminal, diagnostics);
+            break;
+        case Command::Check:
+            code = check_command(arguments, terminal, diagnostics);
+            break;
+        case Command::Info:
+            code = info_command(arguments, terminal, diagnostics);
+            break;
     }
     terminal.summarise(diagnostics);
     return code;

@@ -27,7 +27,8 @@ std::optional<std::pair<int, int>> pair_of(std::string_view text, int low, int h
 
 std::optional<size_t> parse_size(std::string_view text) {
     size_t digits = 0;
-    while (digits < text.size() && (std::isdigit(static_cast<unsigned char>(text[digits])) || text[digits] == '.'))
+    while (digits < text.size() &&
+           (std::isdigit(static_cast<unsigned char>(text[digits])) || text[digits] == '.'))
         ++digits;
     const auto value = number<double>(text.substr(0, digits));
     std::string_view unit = text.substr(digits);
@@ -50,7 +51,8 @@ std::optional<std::pair<int, int>> parse_resolution(std::string_view text) {
 }
 
 std::optional<std::pair<int, int>> parse_samples(std::string_view text) {
-    if (const auto n = number<int>(text)) return *n >= 1 && *n <= 64 ? std::optional(std::pair{*n, *n}) : std::nullopt;
+    if (const auto n = number<int>(text))
+        return *n >= 1 && *n <= 64 ? std::optional(std::pair{*n, *n}) : std::nullopt;
     return pair_of(text, 1, 64);
 }
 

@@ -1,4 +1,5 @@
-/// The small languages of option values: sizes, frame lists, resolutions. Each returns nothing for what it cannot read.
+/// The small languages of option values: sizes, frame lists, resolutions. Each returns nothing for what it
+/// cannot read.
 #pragma once
 
 #include <cstddef>

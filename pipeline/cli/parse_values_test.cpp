@@ -10,7 +10,8 @@ TEST(ParseSize, ReadsUnits) {
     EXPECT_EQ(parse_size("512M"), 512u << 20);
     EXPECT_EQ(parse_size("1.5GiB"), size_t{3} << 29);
     EXPECT_EQ(parse_size("2gB"), size_t{2} << 30);
-    for (const char* bad : {"", "M", "-1", "12Q", "1e999", "4GG", "0", "nan"}) EXPECT_FALSE(parse_size(bad)) << bad;
+    for (const char* bad : {"", "M", "-1", "12Q", "1e999", "4GG", "0", "nan"})
+        EXPECT_FALSE(parse_size(bad)) << bad;
 }
 
 TEST(ParseResolution, WantsTwoPositiveNumbers) {
@@ -35,7 +36,8 @@ TEST(ParseFrames, ReadsListsRangesAndSteps) {
     };
     for (const int f : {1, 4, 7, 10, 20, -2, -1}) EXPECT_TRUE(has(f)) << f;
     for (const int f : {0, 2, 3, 11, 19, 21, -3}) EXPECT_FALSE(has(f)) << f;
-    for (const char* bad : {"", ",", "1,", "3-1", "1-x", "1-5x0", "a"}) EXPECT_FALSE(parse_frames(bad)) << bad;
+    for (const char* bad : {"", ",", "1,", "3-1", "1-x", "1-5x0", "a"})
+        EXPECT_FALSE(parse_frames(bad)) << bad;
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ int thread_count(int asked) {
 /// "shot.exr" and 3: "shot.3.exr".
 std::string numbered(const std::string& name, int number) {
     const fs::path path(name);
-    return (path.parent_path() / (path.stem().string() + "." + std::to_string(number) + path.extension().string()))
+    return (path.parent_path() /
+            (path.stem().string() + "." + std::to_string(number) + path.extension().string()))
         .string();
 }
 
@@ -38,7 +39,10 @@ std::string numbered(const std::string& name, int number) {
 class RenderJob {
   public:
     RenderJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
-        : arguments_(arguments), terminal_(terminal), diagnostics_(diagnostics), interrupt_(remove_partial_outputs) {}
+        : arguments_(arguments),
+          terminal_(terminal),
+          diagnostics_(diagnostics),
+          interrupt_(remove_partial_outputs) {}
 
     int run();
 
@@ -110,9 +114,10 @@ void RenderJob::render_world(Scene&& scene) {
         Stopwatch writing;
         OutputInfo info;
         info.software = std::string("Trapeze ") + kVersion;
-        info.metadata = {{"sampler", stats.sampler},
-                         {"samples", std::to_string(context.samples_x) + "x" + std::to_string(context.samples_y)},
-                         {"renderTime", std::to_string(stats.seconds.total)}};
+        info.metadata = {
+            {"sampler", stats.sampler},
+            {"samples", std::to_string(context.samples_x) + "x" + std::to_string(context.samples_y)},
+            {"renderTime", std::to_string(stats.seconds.total)}};
         std::vector<std::string> written;
         if (!write_displays(result->image, context, info, &written)) output_failed_ = true;
         written_ += static_cast<int>(written.size());
@@ -166,13 +171,16 @@ int RenderJob::run() {
                                [&](const FrameRange& range) { return range.has(frame); });
         };
     const int threads = thread_count(arguments_.threads);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<size_t>(threads));
     tbb::task_arena arena(threads);
     arena.execute([&] {
-        read_rib(arguments_.inputs, options, diagnostics_, [&](Scene&& scene) { render_world(std::move(scene)); });
+        read_rib(arguments_.inputs, options, diagnostics_,
+                 [&](Scene&& scene) { render_world(std::move(scene)); });
     });
     if (!interrupt_.requested()) {
-        if (worlds_ == 0) diagnostics_.error({}, "no WorldBegin block was found in the input; nothing rendered");
+        if (worlds_ == 0)
+            diagnostics_.error({}, "no WorldBegin block was found in the input; nothing rendered");
         if (!frames_.empty() && !write_stats()) output_failed_ = true;
     }
     return exit_code();

@@ -43,9 +43,12 @@ Terminal::Terminal(const Settings& settings) : settings_(settings) {
 const char* Terminal::color_of(Severity severity) const {
     if (!settings_.color) return "";
     switch (severity) {
-        case Severity::Error: return "\033[1;31m";
-        case Severity::Warning: return "\033[1;35m";
-        case Severity::Note: return "\033[1;36m";
+        case Severity::Error:
+            return "\033[1;31m";
+        case Severity::Warning:
+            return "\033[1;35m";
+        case Severity::Note:
+            return "\033[1;36m";
     }
     return "";
 }
@@ -90,13 +93,19 @@ void Terminal::progress(double fraction) {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
     const double remaining = fraction > 0 ? elapsed / fraction - elapsed : 0;
     switch (settings_.progress) {
-        case ProgressStyle::None: break;
-        case ProgressStyle::Bar: draw_bar(); break;
-        case ProgressStyle::Lines: write(fmt::format("{} {}%\n", what_, percent)); break;
+        case ProgressStyle::None:
+            break;
+        case ProgressStyle::Bar:
+            draw_bar();
+            break;
+        case ProgressStyle::Lines:
+            write(fmt::format("{} {}%\n", what_, percent));
+            break;
         case ProgressStyle::Json:
-            write(fmt::format(R"({{"progress": {:.3f}, "elapsed_seconds": {:.2f}, "remaining_seconds": {:.2f}}})"
-                              "\n",
-                              fraction, elapsed, remaining));
+            write(fmt::format(
+                R"({{"progress": {:.3f}, "elapsed_seconds": {:.2f}, "remaining_seconds": {:.2f}}})"
+                "\n",
+                fraction, elapsed, remaining));
             break;
         case ProgressStyle::Prman:
             write(std::getenv("TR_PROGRESS") ? fmt::format("TR_PROGRESS {:03}%\n", percent)
@@ -120,11 +129,13 @@ void Terminal::clear_bar() {
 void Terminal::draw_bar() {
     if (settings_.progress != ProgressStyle::Bar) return;
     winsize window{};
-    const int columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
+    const int columns =
+        ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
     const double remaining = fraction_ > 0.01 ? elapsed / fraction_ - elapsed : 0;
-    const std::string tail = fmt::format(" {:3.0f}%  {} elapsed  {} left", fraction_ * 100, clock_text(elapsed),
-                                         fraction_ > 0.01 ? clock_text(remaining) : "-:--");
+    const std::string tail =
+        fmt::format(" {:3.0f}%  {} elapsed  {} left", fraction_ * 100, clock_text(elapsed),
+                    fraction_ > 0.01 ? clock_text(remaining) : "-:--");
     const int room = columns - static_cast<int>(tail.size() + what_.size()) - 4;
     std::string bar;
     if (room >= 10) {

@@ -1,4 +1,5 @@
-/// All that the program says while it works: messages and progress, on standard error, without one tearing the other.
+/// All that the program says while it works: messages and progress, on standard error, without one tearing
+/// the other.
 #pragma once
 
 #include <chrono>
@@ -18,8 +19,8 @@ class Terminal {
   public:
     struct Settings {
         ProgressStyle progress = ProgressStyle::None;
-        bool color = true;  ///< if standard error is a terminal and NO_COLOR is not set
-        bool quiet = false; ///< only errors
+        bool color = true;   ///< if standard error is a terminal and NO_COLOR is not set
+        bool quiet = false;  ///< only errors
     };
     explicit Terminal(const Settings& settings);
 

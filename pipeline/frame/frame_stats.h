@@ -22,7 +22,7 @@ struct FrameStats {
     StageSeconds seconds;  ///< wall clock; work of a parallel loop is shared out by the threads' own times
     TessellateStats tessellate;
     ShadeStats shade;
-    BuildStats build;      ///< summed over regions
+    BuildStats build;  ///< summed over regions
     SampleStats sample;
     uint64_t grid_bytes = 0, peak_region_bytes = 0, tree_bytes = 0;  ///< largest region's
     uint64_t samples = 0;

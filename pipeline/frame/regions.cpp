@@ -77,7 +77,8 @@ std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const 
         for (size_t i = 0; i < regions.size(); ++i) {
             if (!can_split(regions[i].pixels)) continue;
             if (!too_few && regions[i].estimated_bytes <= limits.bytes) continue;
-            if (chosen == regions.size() || regions[i].estimated_bytes > regions[chosen].estimated_bytes) chosen = i;
+            if (chosen == regions.size() || regions[i].estimated_bytes > regions[chosen].estimated_bytes)
+                chosen = i;
         }
         if (chosen == regions.size()) return regions;
         const auto [low, high] = halves(regions[chosen].pixels);

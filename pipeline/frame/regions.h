@@ -1,5 +1,5 @@
-/// Regions: the picture is split, not the data, until the grids and the tree of each part fit the memory budget
-/// (RenderAnts' dynamic scheduling, docs/papers.md [Zhou09]).
+/// Regions: the picture is split, not the data, until the grids and the tree of each part fit the memory
+/// budget (RenderAnts' dynamic scheduling, docs/papers.md [Zhou09]).
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace trapeze {
 
-/// A rectangle of the picture in raster pixels (aligned to tiles but for the picture's own border), and the subpatches
-/// that its samples may see, in order.
+/// A rectangle of the picture in raster pixels (aligned to tiles but for the picture's own border), and the
+/// subpatches that its samples may see, in order.
 struct Region {
     PixelRect pixels;
     std::vector<uint32_t> subpatches;
@@ -20,8 +20,8 @@ struct Region {
 };
 
 struct RegionLimits {
-    size_t bytes = 0;      ///< a region's grids and tree may take this much
-    int at_least = 1;      ///< regions to make even when fewer would fit (as far as there are tiles)
+    size_t bytes = 0;  ///< a region's grids and tree may take this much
+    int at_least = 1;  ///< regions to make even when fewer would fit (as far as there are tiles)
 };
 
 /// Upper estimate of the memory of a subpatch's grid and its part of the tree.
@@ -31,7 +31,8 @@ size_t estimated_bytes(const SubpatchInfo& subpatch);
 std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                                        const RegionLimits& limits);
 
-/// The tiles of a rectangle: kTileSide pixels wide, anchored at multiples of it (negative ones too), cut by the rectangle.
+/// The tiles of a rectangle: kTileSide pixels wide, anchored at multiples of it (negative ones too), cut by
+/// the rectangle.
 std::vector<PixelRect> tiles_of(const PixelRect& pixels);
 
 }  // namespace trapeze

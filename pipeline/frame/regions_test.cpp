@@ -42,8 +42,10 @@ TEST(Regions, CoverThePictureOnceAndKnowTheirSubpatches) {
 TEST(Regions, InnerBordersLieOnTiles) {
     const PixelRect picture{-2, -2, 322, 202};
     for (const Region& region : split_into_regions(picture, {}, {~size_t{0}, 17}))
-        for (const auto& [edge, low, high] : {std::tuple{region.pixels.x0, -2, 322}, {region.pixels.x1, -2, 322},
-                                              {region.pixels.y0, -2, 202}, {region.pixels.y1, -2, 202}})
+        for (const auto& [edge, low, high] : {std::tuple{region.pixels.x0, -2, 322},
+                                              {region.pixels.x1, -2, 322},
+                                              {region.pixels.y0, -2, 202},
+                                              {region.pixels.y1, -2, 202}})
             EXPECT_TRUE(edge == low || edge == high || edge % kTileSide == 0) << edge;
 }
 

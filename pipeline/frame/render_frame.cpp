@@ -31,7 +31,8 @@ class Progress {
         const size_t done = done_.fetch_add(1, std::memory_order_relaxed) + 1;
         if (!on_progress_ || (done * 100 / steps_ == (done - 1) * 100 / steps_)) return;
         const std::lock_guard lock(mutex_);
-        const double fraction = from_ + (to_ - from_) * static_cast<double>(done) / static_cast<double>(steps_);
+        const double fraction =
+            from_ + (to_ - from_) * static_cast<double>(done) / static_cast<double>(steps_);
         if (fraction < last_) return;
         last_ = fraction;
         on_progress_(fraction);
@@ -193,7 +194,8 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
                            {budget, settings.regions_at_least});
     for (size_t r = 0; r < regions.size() && !context.is_cancelled(); ++r) {
         const Region& region = regions[r];
-        const double begin = static_cast<double>(r) / regions.size(), end = static_cast<double>(r + 1) / regions.size();
+        const double begin = static_cast<double>(r) / regions.size(),
+                     end = static_cast<double>(r + 1) / regions.size();
         progress.begin_part(begin, begin + 0.2 * (end - begin), region.subpatches.size());
         const Grids grids = make_grids(context, region, tessellation, shading, stats, progress);
 
@@ -205,13 +207,15 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
         stats.build += build;
         stats.grid_bytes = std::max<uint64_t>(stats.grid_bytes, grids.bytes());
         stats.tree_bytes = std::max<uint64_t>(stats.tree_bytes, build.tree_bytes);
-        stats.peak_region_bytes = std::max<uint64_t>(stats.peak_region_bytes, grids.bytes() + build.tree_bytes);
+        stats.peak_region_bytes =
+            std::max<uint64_t>(stats.peak_region_bytes, grids.bytes() + build.tree_bytes);
         check_memory(context, region, grids.bytes() + build.tree_bytes, budget);
 
         progress.begin_part(begin + 0.2 * (end - begin), end, tiles_of(region.pixels).size());
         resolve_tiles(context, region, grids, *visibility, pattern, film, stats, progress);
     }
     if (context.is_cancelled()) return {};
+    shading.report_displacement_bounds();
 
     watch.lap();
     result.image = film.finish();

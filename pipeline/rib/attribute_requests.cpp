@@ -1,0 +1,185 @@
+/// RISpec 4.2: what is attached to primitives.
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/rib/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+Attributes& change(Reader& r) {
+    return r.change_attributes().attributes;
+}
+
+V3f color_of(ArgumentCursor& c, const char* what) {
+    const auto v = c.numbers(3, what);
+    return {v[0], v[1], v[2]};
+}
+
+void opacity(Reader& r, ArgumentCursor& c) {
+    const V3f o = color_of(c, "the opacity");
+    change(r).opacity = o;
+}
+
+void texture_coordinates(Reader& r, ArgumentCursor& c) {
+    const auto v = c.numbers(8, "the coordinates");
+    std::copy(v.begin(), v.end(), change(r).texture_coordinates.begin());
+}
+
+void shading_rate(Reader& r, ArgumentCursor& c) {
+    const float rate = c.number("the rate");
+    if (!(rate > 0)) throw RequestError{"the rate must be positive", {}};
+    change(r).shading_rate = rate;
+}
+
+void shading_interpolation(Reader& r, ArgumentCursor& c) {
+    const std::string type = c.string("the type");
+    if (type != "constant" && type != "smooth")
+        throw RequestError{"\"" + type + "\" is neither constant nor smooth", {}};
+    change(r).smooth_shading = type == "smooth";
+}
+
+void matte(Reader& r, ArgumentCursor& c) {
+    change(r).matte = std::clamp(static_cast<int>(c.number("0 or 1")), 0, 2);
+}
+
+void sides(Reader& r, ArgumentCursor& c) {
+    const float n = c.number("1 or 2");
+    if (n != 1 && n != 2) throw RequestError{"must be 1 or 2", {}};
+    change(r).sides = static_cast<int>(n);
+}
+
+void orientation(Reader& r, ArgumentCursor& c) {
+    const std::string name = c.string("the orientation");
+    AttributeState& state = r.change_attributes();
+    if (name == "outside")
+        state.orientation = Orientation::Outside;
+    else if (name == "inside")
+        state.orientation = Orientation::Inside;
+    else if (name == "lh")
+        state.orientation = Orientation::LeftHanded;
+    else if (name == "rh")
+        state.orientation = Orientation::RightHanded;
+    else
+        throw RequestError{"\"" + name + "\" is none of outside, inside, lh, rh", {}};
+    state.orientation_reversed = false;
+}
+
+void reverse_orientation(Reader& r, ArgumentCursor&) {
+    AttributeState& state = r.change_attributes();
+    state.orientation_reversed = !state.orientation_reversed;
+}
+
+template <std::shared_ptr<const ShaderInstance> Attributes::*kWhere>
+void shader(Reader& r, ArgumentCursor& c, const char* kind) {
+    if (auto instance = r.shader(c, kind)) change(r).*kWhere = std::move(instance);
+}
+
+void light_source(Reader& r, ArgumentCursor& c) {
+    auto light = std::make_shared<LightInstance>();
+    light->shader.name = c.string("the shader's name");
+    light->handle = c.handle("the handle");
+    light->shader.location = r.at();
+    light->shader.parameters = r.parameters(c);
+    light->shader.camera_from_shader = r.camera_from_current();
+    ++r.summary().shaders["light " + light->shader.name];
+    r.add_light(std::move(light));
+}
+
+void illuminate(Reader& r, ArgumentCursor& c) {
+    const std::string handle = c.handle("the light's handle");
+    const bool on = c.done() || c.number("0 or 1") != 0;
+    const auto light = r.light(handle);
+    if (!light) throw RequestError{"no light \"" + handle + "\"", {}};
+    auto& lights = change(r).lights;
+    const auto place = std::find(lights.begin(), lights.end(), light);
+    if (on && place == lights.end()) lights.push_back(light);
+    if (!on && place != lights.end()) lights.erase(place);
+}
+
+void basis(Reader& r, ArgumentCursor& c) {
+    const auto one = [&](M44f& matrix, int& step, const char* what) {
+        if (c.next_is_string()) {
+            const std::string name = c.string(what);
+            if (name == "bezier")
+                matrix = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0), step = 3;
+            else if (name == "b-spline")
+                matrix = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1.0f / 6), step = 1;
+            else if (name == "catmull-rom")
+                matrix = M44f(-1, 3, -3, 1, 2, -5, 4, -1, -1, 0, 1, 0, 0, 2, 0, 0) * 0.5f, step = 1;
+            else if (name == "hermite")
+                matrix = M44f(2, 1, -2, 1, -3, -2, 3, -1, 0, 1, 0, 0, 1, 0, 0, 0), step = 2;
+            else if (name == "power")
+                matrix = M44f(), step = 4;
+            else
+                throw RequestError{"no basis \"" + name + "\"", {}};
+        } else {
+            const auto v = c.numbers(16, what);
+            for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = v[i];
+        }
+        if (c.next_is_number() && c.peek()->kind == Argument::Kind::Number) {
+            const float s = c.number("the step");
+            if (!(s >= 1 && s <= 4)) throw RequestError{"a step must be 1 to 4", {}};
+            step = static_cast<int>(s);
+        }
+    };
+    M44f u, v;
+    int u_step = 3, v_step = 3;
+    one(u, u_step, "the u basis");
+    one(v, v_step, "the v basis");
+    AttributeState& state = r.change_attributes();
+    state.u_basis = u, state.v_basis = v, state.u_step = u_step, state.v_step = v_step;
+}
+
+void attribute(Reader& r, ArgumentCursor& c) {
+    const std::string category = c.string("the category");
+    const ParameterList values = r.parameters(c);
+    AttributeState& state = r.change_attributes();
+    for (const Parameter& value : values.values) {
+        state.attributes.user[category].set(value);
+        const float number = value.floats.empty() ? 0 : value.floats[0];
+        const std::string text = value.strings.empty() ? "" : value.strings[0];
+        if (category == "displacementbound" && value.name == "sphere")
+            state.displacement_bound.sphere = std::abs(number);
+        if (category == "displacementbound" && value.name == "coordinatesystem")
+            state.displacement_bound.coordinate_system = text;
+        if (category == "identifier" && value.name == "name") state.attributes.name = text;
+        if (category == "visibility" && value.name == "camera")
+            state.attributes.visible_to_camera = number != 0;
+        if (category == "cull" && value.name == "backfacing") state.attributes.cull_backfacing = number != 0;
+    }
+}
+
+constexpr RequestRow kRows[] = {
+    {"Attribute", attribute},
+    {"Color",
+     [](Reader& r, ArgumentCursor& c) {
+         const V3f v = color_of(c, "the colour");
+         change(r).color = v;
+     }},
+    {"Opacity", opacity},
+    {"TextureCoordinates", texture_coordinates},
+    {"ShadingRate", shading_rate},
+    {"ShadingInterpolation", shading_interpolation},
+    {"Matte", matte},
+    {"Sides", sides},
+    {"Orientation", orientation},
+    {"ReverseOrientation", reverse_orientation},
+    {"Surface", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
+    {"Displacement",
+     [](Reader& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
+    {"Atmosphere", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
+    {"Interior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
+    {"Exterior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
+    {"LightSource", light_source},
+    {"Illuminate", illuminate},
+    {"Basis", basis},
+};
+
+}  // namespace
+
+std::span<const RequestRow> attribute_requests() {
+    return kRows;
+}
+
+}  // namespace trapeze::rib

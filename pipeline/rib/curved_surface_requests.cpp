@@ -1,0 +1,109 @@
+/// RISpec 5.2, 5.4: patches and quadrics.
+#include <cmath>
+
+#include "pipeline/rib/primitive_variables.h"
+#include "pipeline/rib/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr int kLargestMesh = 1 << 20;  ///< control points along a side
+
+PatchMesh mesh_of_type(Reader& r, const std::string& type) {
+    PatchMesh mesh;
+    if (type != "bilinear" && type != "bicubic")
+        throw RequestError{"\"" + type + "\" is neither bilinear nor bicubic; primitive skipped", {}};
+    mesh.bicubic = type == "bicubic";
+    mesh.u_basis = r.attributes().u_basis, mesh.v_basis = r.attributes().v_basis;
+    mesh.u_step = r.attributes().u_step, mesh.v_step = r.attributes().v_step;
+    return mesh;
+}
+
+void add_patches(Reader& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
+    Shape shape{mesh, {}};
+    ParameterList list = r.parameters(c);
+    if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing; primitive skipped", {}};
+    shape.variables = checked_variables(r, std::move(list), shape.topology);
+    r.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
+}
+
+void patch(Reader& r, ArgumentCursor& c) {
+    PatchMesh mesh = mesh_of_type(r, c.string("the type"));
+    mesh.nu = mesh.nv = mesh.bicubic ? 4 : 2;
+    add_patches(r, c, "Patch", mesh);
+}
+
+void patch_mesh(Reader& r, ArgumentCursor& c) {
+    PatchMesh mesh = mesh_of_type(r, c.string("the type"));
+    const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
+        const float count = c.number("the number of points");
+        const std::string wrap = c.string("the wrap mode");
+        if (wrap != "periodic" && wrap != "nonperiodic")
+            throw RequestError{"\"" + wrap + "\" is neither periodic nor nonperiodic; primitive skipped", {}};
+        wraps = wrap == "periodic";
+        if (!(count >= 2 && count <= kLargestMesh) || count != std::trunc(count))
+            throw RequestError{
+                std::string("the number of points along ") + axis + " is out of range; primitive skipped",
+                {}};
+        n = static_cast<int>(count);
+        if (!mesh.bicubic) return;
+        if (wraps ? (n % step != 0 || n < 3) : (n < 4 || (n - 4) % step != 0))
+            throw RequestError{std::to_string(n) + " points along " + axis +
+                                   " do not fit the basis' step of " + std::to_string(step) +
+                                   "; primitive skipped",
+                               {}};
+    };
+    side("u", mesh.nu, mesh.u_wraps, mesh.u_step);
+    side("v", mesh.nv, mesh.v_wraps, mesh.v_step);
+    add_patches(r, c, "PatchMesh", mesh);
+}
+
+struct QuadricRow {
+    Quadric::Kind kind;
+    const char* name;
+    int count;  ///< numbers, thetamax included
+};
+
+constexpr QuadricRow kQuadrics[] = {
+    {Quadric::Kind::Sphere, "Sphere", 4},         {Quadric::Kind::Cone, "Cone", 3},
+    {Quadric::Kind::Cylinder, "Cylinder", 4},     {Quadric::Kind::Hyperboloid, "Hyperboloid", 7},
+    {Quadric::Kind::Paraboloid, "Paraboloid", 4}, {Quadric::Kind::Disk, "Disk", 3},
+    {Quadric::Kind::Torus, "Torus", 5},
+};
+
+template <int kRow>
+void quadric(Reader& r, ArgumentCursor& c) {
+    const QuadricRow& row = kQuadrics[kRow];
+    Quadric q;
+    q.kind = row.kind, q.value_count = row.count;
+    // All in one array, or number by number (a hyperboloid's points may be arrays of three).
+    std::vector<float> values;
+    while (static_cast<int>(values.size()) < row.count && c.next_is_number()) {
+        const std::vector<float> more = c.number_array("a number");
+        values.insert(values.end(), more.begin(), more.end());
+    }
+    if (static_cast<int>(values.size()) != row.count)
+        throw RequestError{"has " + std::to_string(values.size()) + " numbers, needs " +
+                               std::to_string(row.count) + "; primitive skipped",
+                           {}};
+    std::copy(values.begin(), values.end(), q.values.begin());
+    if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0)
+        throw RequestError{"the radius is 0; primitive skipped", {}};
+    Shape shape{q, {}};
+    shape.variables = checked_variables(r, r.parameters(c), shape.topology);
+    r.add_shape(row.name, std::move(shape), 1);
+}
+
+constexpr RequestRow kRows[] = {
+    {"Patch", patch},           {"PatchMesh", patch_mesh}, {"Sphere", quadric<0>},
+    {"Cone", quadric<1>},       {"Cylinder", quadric<2>},  {"Hyperboloid", quadric<3>},
+    {"Paraboloid", quadric<4>}, {"Disk", quadric<5>},      {"Torus", quadric<6>},
+};
+
+}  // namespace
+
+std::span<const RequestRow> curved_surface_requests() {
+    return kRows;
+}
+
+}  // namespace trapeze::rib

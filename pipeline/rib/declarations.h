@@ -1,0 +1,29 @@
+/// Types of parameters: RISpec's own, those that Declare adds, and inline ones ("uniform color foo").
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/parameters.h"
+
+namespace trapeze::rib {
+
+/// "[class] type[n]", words apart by spaces; nothing when it is not one.
+std::optional<Declaration> parse_declaration(std::string_view text);
+
+class Declarations {
+  public:
+    Declarations();  ///< RISpec's predeclared names
+
+    void declare(const std::string& name, const Declaration& declaration) { known_[name] = declaration; }
+    /// A parameter's token, which may carry its declaration: the bare name and its type, or nothing when it
+    /// is unknown.
+    std::optional<std::pair<std::string, Declaration>> resolve(const std::string& token) const;
+
+  private:
+    std::map<std::string, Declaration, std::less<>> known_;
+};
+
+}  // namespace trapeze::rib

@@ -1,0 +1,69 @@
+/// The graphics state of RISpec 4: what blocks save and restore.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene.h"
+#include "pipeline/rib/moving_transform.h"
+
+namespace trapeze::rib {
+
+/// Attribute "displacementbound", resolved when a primitive takes it.
+struct DisplacementBound {
+    float sphere = 0;
+    std::string coordinate_system = "object";
+};
+
+/// Orientation as it was asked for; what it means for normals depends on the space of each primitive.
+enum class Orientation { Outside, Inside, LeftHanded, RightHanded };
+
+struct AttributeState {
+    Attributes attributes;
+    DisplacementBound displacement_bound;
+    Orientation orientation = Orientation::Outside;
+    bool orientation_reversed = false;
+    M44f u_basis, v_basis;
+    int u_step = 3, v_step = 3;
+};
+
+struct GraphicsState {
+    MovingTransform transform;  ///< camera_from_current
+    std::shared_ptr<const AttributeState> attributes;
+};
+
+enum class Block { Frame, World, Attribute, Transform, Motion, Object, Solid, Archive };
+
+struct OpenBlock {
+    Block kind = Block::Attribute;
+    SourceLocation at;
+    GraphicsState saved;
+    Options saved_options;  ///< of frames and worlds
+};
+
+/// Geometry or transforms gathered between MotionBegin and MotionEnd.
+struct MotionBlock {
+    SourceLocation at;
+    std::vector<float> times;
+    std::string request;  ///< what the block holds
+    TransformKind transform_kind = TransformKind::Matrix;
+    bool absolute = false;  ///< Transform
+    std::vector<TransformArguments> transforms;
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    int others = 0;  ///< requests of other kinds, of which the first counts
+};
+
+/// A primitive as an object definition keeps it: placed by each instance.
+struct ObjectPrimitive {
+    std::string request;
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    std::vector<float> times;
+    MovingTransform object_from_shape;
+    std::shared_ptr<const AttributeState> attributes;  ///< null: the instance's
+    SourceLocation at;
+};
+
+}  // namespace trapeze::rib

@@ -1,0 +1,56 @@
+/// Transformations that move: kept as the requests that made them until the shutter is known, so that a
+/// rotation stays a rotation between its keys. Row vectors: p' = p * M.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/math.h"
+
+namespace trapeze::rib {
+
+enum class TransformKind { Translate, Rotate, Scale, Skew, Matrix, Perspective };
+
+/// The numbers of the request: Translate and Scale 3, Rotate angle and axis, Skew angle and two vectors,
+/// Matrix 16.
+using TransformArguments = std::vector<float>;
+
+M44d transform_matrix(TransformKind kind, const TransformArguments& arguments);
+
+/// Requests of one kind at given times (seconds of the scene); arguments between times are interpolated
+/// linearly, outside they stay.
+struct MovingFactor {
+    TransformKind kind = TransformKind::Matrix;
+    std::vector<float> times;
+    std::vector<TransformArguments> arguments;
+
+    M44d at(float time) const;
+    bool moves_between(float open, float close) const;
+};
+
+/// A chain of factors, the newest applied first.
+class MovingTransform {
+  public:
+    void concat(const M44d& matrix);
+    void concat(MovingFactor factor);
+    void concat(const MovingTransform& newer);
+    M44d at(float time) const;
+    bool moves_between(float open, float close) const;
+    /// Keys that the motion in the shutter wants: 1, or 2^m + 1 so that keys given on a dyadic division of
+    /// the shutter are met and no segment turns by more than about ten degrees.
+    int wanted_keys(float open, float close) const;
+
+  private:
+    /// Either a fixed matrix or a moving factor.
+    struct Factor {
+        bool moves = false;
+        M44d fixed;
+        MovingFactor moving;
+    };
+    std::vector<Factor> factors_;  ///< oldest first
+};
+
+/// The smallest 2^m + 1 (m <= 4) whose even keys meet all of the times within the shutter; 17 when none does.
+int keys_meeting(const std::vector<float>& times, float open, float close);
+
+}  // namespace trapeze::rib

@@ -1,0 +1,203 @@
+/// RISpec 4.1: the camera, the display, the hider.
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/rib/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr int kLargestPicture = 65536;  ///< pixels along a side
+constexpr float kMostSamples = 64;      ///< along a side of a pixel
+
+/// Options are fixed within a world.
+Options& changeable(Reader& r) {
+    if (r.in_world()) throw RequestError{"options cannot change inside a world", {}};
+    return r.options();
+}
+
+void require(bool holds, const char* text) {
+    if (!holds) throw RequestError{text, {}};
+}
+
+void format(Reader& r, ArgumentCursor& c) {
+    const float width = c.number("the width"), height = c.number("the height");
+    const float aspect = c.done() ? 1.0f : c.number("the pixel aspect ratio");
+    require(width <= kLargestPicture && height <= kLargestPicture,
+            "the picture is larger than 65536 pixels along a side");
+    Options& o = changeable(r);
+    if (width >= 1) o.width = static_cast<int>(width);
+    if (height >= 1) o.height = static_cast<int>(height);
+    if (aspect > 0) o.pixel_aspect = aspect;  // RISpec: values below 1 ask for the default
+}
+
+void frame_aspect_ratio(Reader& r, ArgumentCursor& c) {
+    const float aspect = c.number("the ratio");
+    require(aspect > 0, "the ratio must be positive");
+    changeable(r).frame_aspect = aspect;
+}
+
+std::array<float, 4> four(ArgumentCursor& c, const char* what) {
+    const auto v = c.numbers(4, what);
+    return {v[0], v[1], v[2], v[3]};
+}
+
+void screen_window(Reader& r, ArgumentCursor& c) {
+    const auto w = four(c, "the window");
+    require(w[0] != w[1] && w[2] != w[3], "the window is empty");
+    changeable(r).screen_window = w;
+}
+
+void crop_window(Reader& r, ArgumentCursor& c) {
+    auto w = four(c, "the window");
+    for (float& v : w) v = std::clamp(v, 0.0f, 1.0f);
+    require(w[0] < w[1] && w[2] < w[3], "the window is empty");
+    changeable(r).crop_window = w;
+}
+
+void projection(Reader& r, ArgumentCursor& c) {
+    const std::string name = c.string("the projection's name");
+    const ParameterList parameters = r.parameters(c);
+    Options& o = changeable(r);
+    if (name != "perspective" && name != "orthographic") {
+        if (!name.empty() && name != "null")
+            r.warn_once("projection \"" + name + "\" is not supported; orthographic is used",
+                        "projection-" + name);
+        o.projection = "orthographic";
+    } else {
+        o.projection = name;
+    }
+    const float fov = parameters.float_or("fov", 90);
+    require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
+    o.fov = fov;
+    // RISpec 4.1.1: what follows places the world in front of the camera.
+    r.state().transform = MovingTransform();
+}
+
+void clipping(Reader& r, ArgumentCursor& c) {
+    const float near = c.number("the near plane"), far = c.number("the far plane");
+    require(near >= 0 && near < far, "needs 0 <= near < far");
+    Options& o = changeable(r);
+    o.near_clip = std::max(near, kEpsilon);
+    o.far_clip = std::min(far, kInfinity);
+}
+
+void depth_of_field(Reader& r, ArgumentCursor& c) {
+    Options& o = changeable(r);
+    if (c.done() || c.next_is_string()) {  // "-" in older files, or nothing: a pinhole
+        if (!c.done()) c.string("f-stop");
+        o.f_stop = kInfinity;
+        return;
+    }
+    const float f_stop = c.number("the f-stop"), length = c.number("the focal length"),
+                distance = c.number("the focal distance");
+    require(f_stop > 0 && length >= 0 && distance > 0, "needs a positive f-stop and focal distance");
+    o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
+}
+
+void shutter(Reader& r, ArgumentCursor& c) {
+    const float open = c.number("the opening time"), close = c.number("the closing time");
+    require(open <= close, "closes before it opens");
+    changeable(r).shutter_open = open;
+    r.options().shutter_close = close;
+}
+
+void pixel_samples(Reader& r, ArgumentCursor& c) {
+    const float x = c.number("samples along x"), y = c.number("samples along y");
+    require(x >= 1 && y >= 1, "needs at least one sample along each side");
+    if (x > kMostSamples || y > kMostSamples) r.error("more than 64 samples along a side; 64 are used");
+    changeable(r).samples_x = std::min(x, kMostSamples);
+    r.options().samples_y = std::min(y, kMostSamples);
+}
+
+void pixel_filter(Reader& r, ArgumentCursor& c) {
+    const std::string name = c.string("the filter's name");
+    const float x = c.number("the width along x"), y = c.number("the width along y");
+    require(x > 0 && y > 0 && x <= 64 && y <= 64, "widths must be positive and at most 64 pixels");
+    changeable(r).filter = {name, x, y};
+}
+
+void exposure(Reader& r, ArgumentCursor& c) {
+    const float gain = c.number("the gain"), gamma = c.number("the gamma");
+    require(gain >= 0 && gamma > 0, "needs a positive gamma");
+    changeable(r).exposure_gain = gain;
+    r.options().exposure_gamma = gamma;
+}
+
+void quantize(Reader& r, ArgumentCursor& c) {
+    Parameter value;
+    value.name = c.string("the type");
+    value.floats = c.numbers(4, "one, min, max and dither");
+    value.declaration.array_length = 4;
+    changeable(r).quantize.set(std::move(value));
+}
+
+void imager(Reader& r, ArgumentCursor& c) {
+    changeable(r).imager = c.string("the imager's name");
+    r.parameters(c);
+}
+
+void hider(Reader& r, ArgumentCursor& c) {
+    const std::string name = c.string("the hider's name");
+    changeable(r).hider = name;
+    r.options().hider_parameters = r.parameters(c);
+}
+
+void display(Reader& r, ArgumentCursor& c) {
+    Display d;
+    d.location = r.at();
+    d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
+    d.parameters = r.parameters(c);
+    Options& o = changeable(r);
+    if (!d.name.empty() && d.name[0] == '+') {
+        d.name.erase(0, 1);
+        o.displays.push_back(std::move(d));
+    } else {
+        o.displays.assign(1, std::move(d));
+    }
+}
+
+void option(Reader& r, ArgumentCursor& c) {
+    const std::string category = c.string("the category");
+    const ParameterList values = r.parameters(c);
+    for (const Parameter& value : values.values) {
+        if (category == "searchpath" && !value.strings.empty())
+            r.set_search_path(value.name, value.strings[0]);
+        r.options().user[category].set(value);
+    }
+}
+
+void kept(Reader& r, ArgumentCursor& c) {
+    Parameter value;
+    while (!c.done()) value.floats.push_back(c.number("a number"));
+    r.options().user["request"].set(value);
+}
+
+constexpr RequestRow kRows[] = {
+    {"Format", format},
+    {"FrameAspectRatio", frame_aspect_ratio},
+    {"ScreenWindow", screen_window},
+    {"CropWindow", crop_window},
+    {"Projection", projection},
+    {"Clipping", clipping},
+    {"DepthOfField", depth_of_field},
+    {"Shutter", shutter},
+    {"PixelSamples", pixel_samples},
+    {"PixelFilter", pixel_filter},
+    {"PixelVariance", kept},
+    {"Exposure", exposure},
+    {"Quantize", quantize},
+    {"Imager", imager},
+    {"Hider", hider},
+    {"Display", display},
+    {"Option", option},
+    {"RelativeDetail", kept},
+};
+
+}  // namespace
+
+std::span<const RequestRow> option_requests() {
+    return kRows;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,43 @@
+/// Reads RIB into Scenes: the border at which everything is validated.
+///
+/// Requests not supported are skipped whole, with one warning of each kind. What is wrong is reported as
+/// `file:line:col: error: Request: what is wrong; what was done`, and reading goes on at the next request.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/diagnostics.h"
+#include "core/scene.h"
+
+namespace trapeze {
+
+struct ReadOptions {
+    std::optional<float> shading_rate;  ///< instead of every ShadingRate
+    std::function<bool(int)>
+        wants_frame;            ///< worlds of other FrameBegin blocks are not delivered; empty: all
+    bool keep_geometry = true;  ///< false: primitives are validated and counted, not kept
+    size_t max_source_bytes = size_t{8} << 30;  ///< of any one file, unpacked
+};
+
+/// What was in the input.
+struct ReadSummary {
+    std::map<std::string, uint64_t> requests;     ///< all known ones, by name
+    std::map<std::string, uint64_t> unsupported;  ///< known but skipped
+    std::map<std::string, uint64_t> primitives;   ///< by request, those that were valid
+    std::map<std::string, uint64_t> shaders;      ///< by kind and name: "surface plastic"
+    uint64_t points = 0, faces = 0;               ///< control points and faces of those primitives
+    uint64_t moving_primitives = 0, lights = 0;
+    uint64_t bytes = 0;  ///< unpacked
+    int files = 0, frames = 0, worlds = 0;
+};
+
+/// Reads the files ("-": standard input) one after another as one stream; calls on_world at the end of each
+/// world.
+ReadSummary read_rib(std::span<const std::string> files, const ReadOptions& options, Diagnostics& diagnostics,
+                     const std::function<void(Scene&&)>& on_world);
+
+}  // namespace trapeze

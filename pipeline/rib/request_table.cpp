@@ -1,0 +1,128 @@
+#include "pipeline/rib/request_table.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+namespace trapeze::rib {
+namespace {
+
+/// The rest of RISpec 3.2, and what later RenderMans added: skipped whole.
+constexpr const char* kUnsupported[] = {"AreaLightSource",
+                                        "Bound",
+                                        "ClippingPlane",
+                                        "ColorSamples",
+                                        "Deformation",
+                                        "Detail",
+                                        "DetailRange",
+                                        "DisplayChannel",
+                                        "ErrorHandler",
+                                        "GeometricApproximation",
+                                        "GeometricRepresentation",
+                                        "Geometry",
+                                        "Blobby",
+                                        "Curves",
+                                        "Points",
+                                        "NuPatch",
+                                        "TrimCurve",
+                                        "HierarchicalSubdivisionMesh",
+                                        "Procedural",
+                                        "Procedural2",
+                                        "Volume",
+                                        "SolidBegin",
+                                        "SolidEnd",
+                                        "MakeTexture",
+                                        "MakeBump",
+                                        "MakeLatLongEnvironment",
+                                        "MakeCubeFaceEnvironment",
+                                        "MakeShadow",
+                                        "MakeOcclusion",
+                                        "MakeBrickMap",
+                                        "MakeTexture3D",
+                                        "IfBegin",
+                                        "ElseIf",
+                                        "Else",
+                                        "IfEnd",
+                                        "Resource",
+                                        "ResourceBegin",
+                                        "ResourceEnd",
+                                        "EditBegin",
+                                        "EditEnd",
+                                        "EditAttributeBegin",
+                                        "EditAttributeEnd",
+                                        "EditWorldBegin",
+                                        "EditWorldEnd",
+                                        "ScopedCoordinateSystem",
+                                        "System",
+                                        "Camera",
+                                        "VolumePixelSamples",
+                                        "VPInterior",
+                                        "VPAtmosphere",
+                                        "VPSurface",
+                                        "ShaderLayer",
+                                        "ConnectShaderLayers",
+                                        "Shader",
+                                        "Bxdf",
+                                        "Pattern",
+                                        "Light",
+                                        "LightFilter",
+                                        "Integrator",
+                                        "Displace",
+                                        "DisplayFilter",
+                                        "SampleFilter",
+                                        "PixelSampleImager",
+                                        "Projection2",
+                                        "DepthOfField2",
+                                        "ArchiveRecord",
+                                        "PixelVariance2",
+                                        "OpacityThreshold"};
+
+using Table = std::map<std::string, RequestHandler, std::less<>>;
+
+const Table& table() {
+    static const Table all = [] {
+        Table rows;
+        for (const auto& group : {structure_requests(), option_requests(), attribute_requests(),
+                                  transform_requests(), polygon_requests(), curved_surface_requests()})
+            for (const RequestRow& row : group) rows[row.name] = row.handler;
+        for (const char* name : kUnsupported) rows.emplace(name, nullptr);
+        return rows;
+    }();
+    return all;
+}
+
+/// Levenshtein's distance; letters that differ in case are equal.
+int distance(std::string_view a, std::string_view b) {
+    std::vector<int> row(b.size() + 1);
+    for (size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
+    for (size_t i = 1; i <= a.size(); ++i) {
+        int diagonal = row[0];
+        row[0] = static_cast<int>(i);
+        for (size_t j = 1; j <= b.size(); ++j) {
+            const int keep = diagonal + ((a[i - 1] | 0x20) == (b[j - 1] | 0x20) ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({keep, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row[b.size()];
+}
+
+}  // namespace
+
+std::optional<RequestHandler> find_request(const std::string& name) {
+    const auto row = table().find(name);
+    if (row == table().end()) return {};
+    return row->second;
+}
+
+std::string suggestion_for(const std::string& name) {
+    if (name.size() > 40) return {};
+    std::string best;
+    int best_distance = 1 + static_cast<int>(name.size()) / 4;
+    for (const auto& [known, handler] : table())
+        if (const int d = distance(name, known); d < best_distance + (best.empty() ? 1 : 0))
+            best = known, best_distance = d;
+    return best;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,22 @@
+/// Requests are rows of tables, one table for each group, each in its own file.
+#pragma once
+
+#include <span>
+
+#include "pipeline/rib/reader.h"
+
+namespace trapeze::rib {
+
+struct RequestRow {
+    const char* name;
+    RequestHandler handler;  ///< null: known, not supported
+};
+
+std::span<const RequestRow> structure_requests();
+std::span<const RequestRow> option_requests();
+std::span<const RequestRow> attribute_requests();
+std::span<const RequestRow> transform_requests();
+std::span<const RequestRow> polygon_requests();
+std::span<const RequestRow> curved_surface_requests();
+
+}  // namespace trapeze::rib

@@ -1,0 +1,18 @@
+/// The bytes of a RIB stream: a file or standard input, gzip undone.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace trapeze::rib {
+
+struct SourceText {
+    std::string text;
+    std::string problem;  ///< why there is none, or not all of it; empty when all is well
+};
+
+/// Reads "-" as standard input. Gzip is known by its first two bytes. Never holds more than max_bytes.
+std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error);
+
+}  // namespace trapeze::rib
