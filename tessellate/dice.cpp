@@ -62,8 +62,13 @@ class Dicer {
             const int first = point_count_, n = s == kBottom || s == kTop ? shape_.nu : shape_.nv;
             for (int i = 0; i <= side.count; ++i)
                 points_[point_count_++] = context_.edges.vertex(side.edge, *side.interval, side.vertex(i));
-            for (int i = 0; i <= n; ++i)
-                border_[border_count_++] = {border_vertex(s, i), first + side.vertex_of_border(i, n), s};
+            for (int i = 0; i <= n; ++i) {
+                const int number = side.vertex_of_border(i, n);
+                const int corner = number == 0            ? border_vertex(s, 0)
+                                   : number == side.count ? border_vertex(s, n)
+                                                          : -1;
+                border_[border_count_++] = {border_vertex(s, i), first + number, s, corner};
+            }
         }
     }
 

@@ -76,6 +76,8 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
         const float own = subpatch.lo[axis] + (subpatch.hi[axis] - subpatch.lo[axis]) * share;
         uv[at.vertex][axis] = std::clamp(own, 0.0f, 1.0f);
     }
+    for (const BorderVertex& at : border)
+        if (at.corner >= 0 && !pole[at.side]) uv[at.vertex] = uv[at.corner];
     // The same bits as the shared point, where that is on this very side.
     for (const BorderVertex& at : border) {
         const BorderPoint& point = points[at.point];
@@ -104,10 +106,14 @@ void share_border_shading(const DiceContext& context, std::span<const BorderSide
     for (const BorderVertex& at : border) {
         const SharedShading& shading = shared[at.point];
         if (shading.normal != V3f(0, 0, 0)) grid.N.set(at.vertex, shading.normal);
-        const bool goes_on = std::abs(grid.s[at.vertex] - shading.s) <= s_tolerance &&
-                             std::abs(grid.t[at.vertex] - shading.t) <= t_tolerance;
-        if (goes_on || pole[at.side]) grid.s[at.vertex] = shading.s, grid.t[at.vertex] = shading.t;
+        const auto share = [&](float& own, float value, float slack) {
+            if (pole[at.side] || std::abs(own - value) <= slack) own = value;
+        };
+        share(grid.s[at.vertex], shading.s, s_tolerance);
+        share(grid.t[at.vertex], shading.t, t_tolerance);
     }
+    for (const BorderVertex& at : border)
+        if (at.corner >= 0) grid.s[at.vertex] = grid.s[at.corner], grid.t[at.vertex] = grid.t[at.corner];
 }
 
 }  // namespace trapeze

@@ -11,6 +11,7 @@ struct BorderVertex {
     int vertex = 0;  ///< of the grid
     int point = 0;   ///< of the subpatch's border points
     int side = 0;
+    int corner = -1;  ///< the grid's corner that takes the same point; -1: none
 };
 
 /// Moves the face's own parameters of border vertices to where their shared points are on this face, so that

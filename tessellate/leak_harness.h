@@ -8,6 +8,8 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <utility>
 
 #include "core/hit_micropolygon.h"
 #include "core/random.h"
@@ -21,6 +23,7 @@ struct LeakCount {
     int64_t leaks = 0;        ///< hit nothing
     int64_t wrong_sides = 0;  ///< hit an even number of times
     int64_t hits = 0;
+    size_t open_sides = 0;  ///< see count_open_sides
 };
 
 /// Micropolygons at one time, binned by the direction in which they are seen from a point: for each of the
@@ -112,6 +115,36 @@ class DirectionBins {
     std::vector<std::vector<int>> bins_;
 };
 
+/// Sides of micropolygons, given by the bits of their ends at all keys, that occur an odd number of times:
+/// the holes' rims. None in a closed surface, whatever rays find.
+inline size_t count_open_sides(const std::vector<Grid>& grids) {
+    using Point = std::vector<float>;
+    std::map<std::pair<Point, Point>, bool> odd;
+    const auto point = [](const Grid& grid, int i, int j) {
+        Point p;
+        for (int key = 0; key < grid.key_count; ++key) {
+            const V3f at = grid.vertex_at_key(i, j, key, grid.key_count);
+            p.insert(p.end(), {at.x + 0.0f, at.y + 0.0f, at.z + 0.0f});
+        }
+        return p;
+    };
+    const auto add = [&](Point a, Point b) {
+        if (a == b) return;
+        if (b < a) std::swap(a, b);
+        bool& is_odd = odd[{std::move(a), std::move(b)}];
+        is_odd = !is_odd;
+    };
+    // Inside a grid all sides come twice: its rim is enough.
+    for (const Grid& grid : grids) {
+        const int nu = grid.shape.nu, nv = grid.shape.nv;
+        for (int i = 0; i < nu; ++i)
+            for (const int j : {0, nv}) add(point(grid, i, j), point(grid, i + 1, j));
+        for (int j = 0; j < nv; ++j)
+            for (const int i : {0, nu}) add(point(grid, i, j), point(grid, i, j + 1));
+    }
+    return static_cast<size_t>(std::ranges::count_if(odd, [](const auto& side) { return side.second; }));
+}
+
 /// An even distribution over the sphere, by number.
 inline V3f random_direction(uint32_t a, uint32_t b) {
     const float z = 2 * unit_float(hash(a, b, 1)) - 1;
@@ -122,9 +155,9 @@ inline V3f random_direction(uint32_t a, uint32_t b) {
 
 /// Rays from `inside(number, time)`, which is to give camera-space points inside the surface at a time.
 inline LeakCount count_leaks(TestScene& test, const std::function<V3f(uint32_t, float)>& inside,
-                             int64_t rays = 1'000'000) {
+                             int64_t rays = 1'000'000, const DicedScene::Displace& displace = {}) {
     constexpr uint32_t kBatch = 10000;
-    const DicedScene diced(test);
+    const DicedScene diced(test, displace);
     const uint32_t batches = static_cast<uint32_t>((rays + kBatch - 1) / kBatch);
     std::atomic<int64_t> leaks = 0, wrong = 0, hits = 0;
     tbb::parallel_for(0u, batches, [&](uint32_t batch) {
@@ -138,7 +171,7 @@ inline LeakCount count_leaks(TestScene& test, const std::function<V3f(uint32_t, 
             hits += crossings;
         }
     });
-    return {int64_t{batches} * kBatch, leaks, wrong, hits};
+    return {int64_t{batches} * kBatch, leaks, wrong, hits, count_open_sides(diced.grids)};
 }
 
 }  // namespace trapeze::test

@@ -1,6 +1,7 @@
 /// For tests: scenes of one primitive, diced into grids.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -73,13 +74,15 @@ struct TestScene {
     }
 };
 
-/// All subpatches as packed grids.
+/// All subpatches as packed grids, after a displacement where there is one.
 struct DicedScene {
+    using Displace = std::function<void(ShadingGrid&)>;
+
     std::vector<Grid> grids;
     GridArena arena;
     TessellateStats stats;
 
-    explicit DicedScene(TestScene& test) {
+    explicit DicedScene(TestScene& test, const Displace& displace = {}) {
         const RenderContext context = test.context();
         const Tessellation tessellation(context);
         stats = tessellation.stats();
@@ -87,6 +90,7 @@ struct DicedScene {
         ShadingGrid grid;
         for (size_t i = 0; i < tessellation.subpatches().size(); ++i) {
             tessellation.dice(i, grid, scratch);
+            if (displace) displace(grid);
             grid.Ci = grid.Cs, grid.Oi = grid.Os;
             int64_t not_finite = 0;
             grids.push_back(pack_grid(grid, arena, &not_finite));

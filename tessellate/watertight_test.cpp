@@ -19,6 +19,7 @@ void expect_closed(const LeakCount& count) {
     EXPECT_GE(count.rays, 1'000'000);
     EXPECT_EQ(count.leaks, 0);
     EXPECT_EQ(count.wrong_sides, 0);
+    EXPECT_EQ(count.open_sides, 0u);
     EXPECT_GE(count.hits, count.rays);
 }
 
@@ -58,6 +59,25 @@ TEST(Watertight, MovingSphere) {
     // The chords between keys of a turning sphere go no deeper than cos(angle / 2).
     expect_closed(count_leaks(
         scene, [](uint32_t n, float t) { return in_unit_ball(n) * 0.5f + V3f(0.4f * t, 0, 1.05f); }));
+}
+
+/// Waves along the normal that go on over the seam, in their bits.
+void displace_by_texture(ShadingGrid& grid) {
+    for (size_t i = 0; i < grid.vertex_count(); ++i) {
+        const float s = grid.s[i] - std::floor(grid.s[i]);
+        const float height = 0.1f * std::sin(8 * kPi * s) * std::sin(5 * kPi * grid.t[i]);
+        for (Triples& P : grid.P) P.set(i, P.at(i) + grid.N.at(i) * height);
+    }
+}
+
+TEST(Watertight, DisplacedMovingSphere) {
+    TestScene scene;
+    scene.attributes->displacement = std::make_shared<ShaderInstance>();
+    scene.keep_all().add({test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}))},
+                         {kNear, turned(0.3f, kNear)});
+    expect_closed(count_leaks(
+        scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.8f * kNear; }, 1'000'000,
+        displace_by_texture));
 }
 
 V3f inside_torus(uint32_t number, float minor) {
