@@ -73,7 +73,10 @@ void evaluate_in(const Chart& chart, const OpenSubdiv::Bfr::Surface<float>& surf
     float p[kMostFloats], ps[kMostFloats], pt[kMostFloats];
     for (size_t i = 0; i < uv.size(); ++i) {
         const ChartPoint at = chart.at(uv[i]);
-        surface.Evaluate(at.st, points, layout, p, ps, pt);
+        if (du)
+            surface.Evaluate(at.st, points, layout, p, ps, pt);
+        else
+            surface.Evaluate(at.st, points, layout, p);  // the same bits in half the time
         for (int k = 0; k < size; ++k) {
             if (value) value.at(i, k) = p[k];
             if (!du) continue;

@@ -133,6 +133,18 @@ inline V3f position(const Surface& surface, const EdgeEnd& end) {
     return end.on_edge ? position(surface, end.id, end.parameter) : position(surface, surface.vertex(end.id));
 }
 
+/// All variables at points of a face, as one row of a grid.
+inline ShadingGrid variables_at(const Surface& surface, int face, const std::vector<V2f>& uv,
+                                bool* has_normals) {
+    ShadingGrid grid;
+    for (auto* plane : {&grid.u, &grid.v, &grid.s, &grid.t}) plane->resize(uv.size());
+    for (auto* triples : {&grid.N, &grid.Cs, &grid.Os}) triples->fill(uv.size(), V3f(1));
+    grid.shape.nu = static_cast<int>(uv.size()) - 1, grid.shape.nv = 0;
+    const auto scratch = surface.make_scratch();
+    *has_normals = surface.evaluate_variables(face, uv, scratch.get(), grid);
+    return grid;
+}
+
 inline void expect_near(const V3f& a, const V3f& b, float tolerance, const std::string& what) {
     EXPECT_LE((a - b).length(), tolerance) << what << ": " << a << " and " << b;
 }
