@@ -90,33 +90,10 @@ class InGridTree {
   public:
     static constexpr int kStackSize = 12;  ///< 16 x 16 is halved six times
 
-    InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid_index, const TraceRay& ray)
-        : key_count_(grid.key_count), root_(pack({0, 0, grid.shape.nu, grid.shape.nv}, 0)) {
-        const InGridTrees::Entry& entry = trees.entries_[grid_index];
-        const MotionSegment segment = segment_at(ray.axis.time, key_count_);
-        records_ = trees.records_.data() + size_t{entry.first_record + static_cast<uint32_t>(segment.index)} *
-                                               InGridTrees::kRecordSize;
-        const float rounding = ray.rounding(entry.absolute_max);
-        slack_ = entry.quad_extent + rounding;
-        // A slab's plane is low(t) + quantum(t) * step(t), and its depth (plane - origin) / direction: linear
-        // in the quanta of both keys.
-        const FrameRay local(entry.frame, ray);
-        const InGridTrees::Reference& from = trees.references_[entry.first_reference + segment.index];
-        const InGridTrees::Reference& to = key_count_ > 1 ? (&from)[1] : from;
-        for (int k = 0; k < 4; ++k) {
-            const float inverse = local.inverse_direction[k];
-            const float low = position_at(from.low[k], to.low[k] - from.low[k], segment.local);
-            base_[k] = (low - local.origin[k]) * inverse;
-            from_scale_[k] = (1 - segment.local) * from.step[k] * inverse;
-            to_scale_[k] = segment.local * to.step[k] * inverse;
-            pad_[k] = rounding * std::abs(inverse);
-        }
-    }
+    InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid_index, const TraceRay& ray);
 
     Visits enter(const TraceRay&) const {
-        Visits visits;
-        visits.add({-std::numeric_limits<float>::infinity(), root_});
-        return visits;
+        return Visits::one({-std::numeric_limits<float>::infinity(), root_}, true);
     }
     bool is_leaf(uint32_t node) const {
         const GridBlock block = leaf(node);
@@ -140,40 +117,5 @@ class InGridTree {
     float slack_;
     alignas(16) float base_[4], from_scale_[4], to_scale_[4], pad_[4];
 };
-
-inline Visits InGridTree::step(const Visit& at, const TraceRay& ray) const {
-    const uint32_t inner = at.node >> 16;
-    const uint16_t* from = records_ + size_t{inner} * key_count_ * InGridTrees::kRecordSize;
-    const uint16_t* to = key_count_ > 1 ? from + InGridTrees::kRecordSize : from;
-    constexpr float kInfinite = std::numeric_limits<float>::infinity();
-    float near[2] = {-kInfinite, -kInfinite}, far[2] = {kInfinite, kInfinite};
-    for (int k = 0; k < 3; ++k) {
-        float t[4];  // low, low, high, high
-        for (int i = 0; i < 4; ++i)
-            t[i] = (static_cast<float>(from[4 * k + i]) * from_scale_[k] +
-                    static_cast<float>(to[4 * k + i]) * to_scale_[k]) +
-                   base_[k];
-        for (int child = 0; child < 2; ++child) {
-            const float low = t[child], high = t[2 + child];
-            const float n = (low < high ? low : high) - pad_[k], f = (low < high ? high : low) + pad_[k];
-            near[child] = n > near[child] ? n : near[child];
-            far[child] = f < far[child] ? f : far[child];
-        }
-    }
-    const BlockHalves parts = halves(leaf(at.node));
-    const uint32_t low_inner = inner + 1, high_inner = low_inner + inner_node_count(parts.low);
-    Visits visits;
-    const auto met = [&](int child) {
-        return !(near[child] > far[child]) && !(far[child] + slack_ < ray.t_min) &&
-               !(near[child] - slack_ > ray.t_max);
-    };
-    const Visit low{near[0] - slack_, pack(parts.low, low_inner)};
-    const Visit high{near[1] - slack_, pack(parts.high, high_inner)};
-    const bool low_is_near = low.depth <= high.depth;
-    const Visit& second = low_is_near ? high : low;
-    if (met(low_is_near ? 1 : 0)) visits.add(second);
-    if (met(low_is_near ? 0 : 1)) visits.add(low_is_near ? low : high);
-    return visits;
-}
 
 }  // namespace trapeze

@@ -28,18 +28,18 @@ std::vector<GridSummary> PaperTree::summaries_of(const Grids& grids) {
 }
 
 PaperTree::PaperTree(const Grids& grids, const std::vector<GridSummary>& summaries)
-    : grids_(grids), key_count_(grids.max_key_count()), in_grid_(grids.grids, summaries, grid_bounds_) {
+    : grids_(grids), in_grid_(grids.grids, summaries, grid_bounds_) {
     const size_t count = grids.grids.size();
+    top_.key_count = grids.max_key_count();
     if (count > 0) {
-        nodes_.resize(2 * count - 1);
-        boxes_.resize(nodes_.size() * key_count_);
+        top_.nodes.resize(2 * count - 1);
+        top_.boxes.resize(top_.nodes.size() * top_.key_count);
         const TopTopology topology = build_top_topology(summaries);
-        set_node(nodes_.size() - 1, topology.root, build_bounds(topology, summaries, topology.root, 0));
+        set_node(top_.nodes.size() - 1, topology.root, build_bounds(topology, summaries, topology.root, 0));
     }
     grid_bounds_ = {};
-    stats_.tree_bytes = sizeof(*this) + in_grid_.bytes() + nodes_.capacity() * sizeof(Node) +
-                        boxes_.capacity() * sizeof(KeyBox);
-    stats_.tree_nodes = nodes_.size() + 2 * in_grid_.inner_nodes();
+    stats_.tree_bytes = sizeof(*this) + in_grid_.bytes() + top_.bytes();
+    stats_.tree_nodes = top_.nodes.size() + 2 * in_grid_.inner_nodes();
     stats_.tree_leaves = count + in_grid_.inner_nodes();  // a binary tree has a leaf more than inner nodes
 }
 
@@ -49,7 +49,7 @@ PaperTree::NodeBound PaperTree::build_bounds(const TopTopology& topology,
     if (link.is_leaf()) {
         const GridSummary& grid = summaries[link.index()];
         const HyperTrapezoid& bound = grid_bounds_[link.index()];
-        return {bound.in(bound.frame, key_count_), grid.absolute_max, grid.quad_extent};
+        return {bound.in(bound.frame, top_.key_count), grid.absolute_max, grid.quad_extent};
     }
     NodeBound child[2];
     const auto build = [&](int side) {
@@ -66,9 +66,9 @@ PaperTree::NodeBound PaperTree::build_bounds(const TopTopology& topology,
 }
 
 void PaperTree::set_node(size_t index, TopLink link, const NodeBound& bound) {
-    nodes_[index] = {FrameColumns(bound.box.frame), bound.absolute_max, bound.quad_extent, link};
-    for (int key = 0; key < key_count_; ++key) {
-        KeyBox& box = boxes_[index * key_count_ + key];
+    top_.nodes[index] = {FrameColumns(bound.box.frame), bound.absolute_max, bound.quad_extent, link};
+    for (int key = 0; key < top_.key_count; ++key) {
+        KeyBox& box = top_.boxes[index * top_.key_count + key];
         for (int k = 0; k < 3; ++k) {
             box.low[k] = bound.box.keys[key].min[k];
             box.high[k] = bound.box.keys[key].max[k];

@@ -15,14 +15,19 @@ struct Visit {
     uint32_t node = 0;
 };
 
-/// What a step leads to: at most two children, the far one first.
+/// What a step leads to: the first `count` of two children, the far one first. Made without branches, which
+/// nobody could predict.
 struct Visits {
     std::array<Visit, 2> visit;
-    int count = 0;
+    uint32_t count = 0;
 
-    void add(const Visit& v) { visit[count++] = v; }
-    const Visit* begin() const { return visit.data(); }
-    const Visit* end() const { return visit.data() + count; }
+    static Visits one(const Visit& v, bool met) { return {{v, v}, met ? 1u : 0u}; }
+    static Visits two(const std::array<Visit, 2>& v, bool met_first, bool met_second) {
+        const bool swap = !met_first || (met_second && v[0].depth < v[1].depth);
+        const uint32_t first = swap ? 1 : 0;
+        return {{v[first], v[1 - first]},
+                static_cast<uint32_t>(met_first) + static_cast<uint32_t>(met_second)};
+    }
 };
 
 /// kStackSize: visits that can wait at once; a guarantee of the builder.

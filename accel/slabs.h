@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "accel/trace_ray.h"
+#include "core/hit_micropolygon.h"
 #include "core/hyper_trapezoid.h"
 
 namespace trapeze {
@@ -49,6 +50,13 @@ struct alignas(16) FrameRay {
 /// Depths between which a ray is inside a box; empty when near > far. A NaN makes no bound.
 struct DepthInterval {
     float near, far;
+
+    /// Whether hits within the ray's range may be inside; *depth becomes a lower bound of theirs. Hits may
+    /// be `slack` outside of the interval (see PaperTree).
+    bool meets(const TraceRay& ray, float slack, float& depth) const {
+        depth = near - slack;
+        return !(near > far) & !(far + slack < ray.t_min) & !(depth > ray.t_max);
+    }
 };
 
 /// The box between two keys at a local time, grown by `rounding`.

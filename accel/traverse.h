@@ -15,19 +15,23 @@ struct TraversalStats {
 /// visited: equal depths are settled by id.
 template <class Ray, RayTree<Ray> Tree, class OnLeaf>
 inline void traverse(const Tree& tree, Ray& ray, TraversalStats& stats, OnLeaf&& on_leaf) {
-    std::array<Visit, Tree::kStackSize> todo;
-    int waiting = 0;
-    for (const Visit& visit : tree.enter(ray)) todo[waiting++] = visit;
+    std::array<Visit, Tree::kStackSize + 2> todo;
+    uint32_t waiting = 0;
+    const auto push = [&](const Visits& visits) {
+        todo[waiting] = visits.visit[0], todo[waiting + 1] = visits.visit[1];
+        waiting += visits.count;
+    };
+    push(tree.enter(ray));
     while (waiting > 0) {
         const Visit at = todo[--waiting];
         if (at.depth > ray.t_max) continue;
         if (tree.is_leaf(at.node)) {
             ++stats.leaves;
             on_leaf(tree.leaf(at.node), ray);
-            continue;
+        } else {
+            ++stats.nodes;
+            push(tree.step(at, ray));
         }
-        ++stats.nodes;
-        for (const Visit& child : tree.step(at, ray)) todo[waiting++] = child;
     }
 }
 

@@ -9,6 +9,9 @@
 namespace trapeze {
 namespace {
 
+/// Rays that are consecutive in their order and look for what they may meet above grids together.
+constexpr size_t kGroupSize = 256;
+
 class RayTraced final : public Visibility {
   public:
     RayTraced(const RenderContext& context, const Grids& grids)
@@ -32,15 +35,30 @@ class RayTraced final : public Visibility {
     BuildStats build_stats() const override { return tree_.stats(); }
 
   private:
+    /// Calls trace_one(sample, part of the tree) for all samples in order.
+    template <class TraceOne>
+    void trace_in_order(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats,
+                        TraceOne&& trace_one) const {
+        const std::span<const uint32_t> order = scratch.order;
+        if (order.empty()) return;
+        tree_.top().within(Beam(samples.rays, order, range_), scratch.tile_top, &stats.nodes_visited);
+        for (size_t first = 0; first < order.size(); first += kGroupSize) {
+            const auto group = order.subspan(first, std::min(kGroupSize, order.size() - first));
+            scratch.tile_top.within(Beam(samples.rays, group, range_), scratch.group_top,
+                                    &stats.nodes_visited);
+            for (const uint32_t sample : group) trace_one(sample, scratch.group_top);
+        }
+    }
+
     void resolve_closest(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const {
         scratch.nearest.resize(samples.size());
-        for (const uint32_t sample : scratch.order) {
+        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
             TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
             ClosestHit policy;
-            tree_.trace(ray, policy, stats);
+            tree_.trace(part, ray, policy, stats);
             scratch.nearest[sample] = policy.best;
-        }
+        });
         buffer_of_nearest(scratch, samples.size(), hits);
     }
 
@@ -49,15 +67,15 @@ class RayTraced final : public Visibility {
         scratch.hits.clear();
         scratch.first.resize(samples.size());
         scratch.count.resize(samples.size());
-        for (const uint32_t sample : scratch.order) {
+        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
             TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
             const size_t first = scratch.hits.size();
             HitsUntilOpaque policy{scratch.hits};
-            tree_.trace(ray, policy, stats);
+            tree_.trace(part, ray, policy, stats);
             policy.finish(first);
             scratch.first[sample] = static_cast<uint32_t>(first);
             scratch.count[sample] = static_cast<uint32_t>(scratch.hits.size() - first);
-        }
+        });
         buffer_of_lists(scratch, samples.size(), hits);
     }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "accel/top_level.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/render_context.h"
@@ -19,6 +20,7 @@ namespace trapeze {
 struct SampleScratch {
     std::vector<uint32_t> order;              ///< samples in the order of tracing
     std::vector<uint32_t> keys, sorted;       ///< of the sort that makes it
+    TopLevel tile_top, group_top;             ///< what of a tree the tile, and a group of its rays, may meet
     std::vector<Hit> nearest;                 ///< sample -> nearest opaque hit
     std::vector<Hit> hits;                    ///< in the order of finding
     std::vector<uint32_t> hit_sample;         ///< whose each of these is
