@@ -116,17 +116,20 @@ std::vector<TestScene> make_scenes() {
         Noise noise{std::mt19937(21)};
         SampleTile samples;
         SamplePattern(slivers.frame.context).make_tile({12, 4, 28, 20}, samples);
-        for (const AxisRay& ray : samples.rays) {
+        for (size_t n = 0; n < 3 * samples.size(); ++n) {
+            const AxisRay& ray = samples.rays[n / 3];
+            const float middle = 5 + 0.01f * static_cast<float>(n % 3), thin = std::pow(10.0f, noise(-9, -6));
+            const V2f lean(noise(-0.3f, 0.3f), noise(-0.3f, 0.3f));
             std::array<V3f, 4> corner;
-            const float reach = noise(0, 1) < 0.5f ? 0.3f : 0.0f, thin = std::pow(10.0f, noise(-8, -5));
-            for (V3f& p : corner) {
-                const float z = noise(2, 9);
-                p = {ray.ux * z + noise(-reach, reach), ray.uy * z + noise(-thin, thin), z};
+            for (V3f& p : corner) {  // nearly on a line through the ray, slanted in depth
+                const float along = noise(-1, 1), z = middle + 2 * along;
+                p = V3f(ray.ux * z + lean.x * along, ray.uy * z + lean.y * along, z) +
+                    noise.point(thin, -thin, thin);
             }
             slivers.maker.add(1, 1, 1,
-                              [&](int c, int d, float) { return corner[static_cast<size_t>(c + 2 * d)]; });
+                              [&](int i, int j, float) { return corner[static_cast<size_t>(i + 2 * j)]; });
         }
-        add_sheets(slivers.maker, 10, 1, 34);
+        add_sheets(slivers.maker, 3, 1, 34);
     }
     {
         TestScene& behind = scene("behind the lens", true, true);
