@@ -156,6 +156,38 @@ TEST(RasterBound, CropWithFilterMargin) {
         7);
 }
 
+/// Corners that snap to an older edge's vertex leave the rectangle that was split off.
+TEST(RasterBound, HoldsEveryVertexThoughCornersSnap) {
+    for (const float rate : {1.0f, 30.0f, 500.0f}) {
+        TestScene scene;
+        scene.scene.options.width = 320, scene.scene.options.height = 240;
+        scene.attributes->shading_rate = rate;
+        scene.add({sphere()}, {turned(0.3f, 0.3f, 0.2f, 1.1f), turned(0.6f, 0.3f, 0.2f, 1.1f)});
+        PatchMesh mesh;  // a floor whose near edge has many times the far edge's segments
+        ParameterList variables;
+        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                      {-8, -1, 1.05f, 8, -1, 1.05f, -8, -1, 30, 8, -1, 25}));
+        scene.add(test::shape_of(mesh, variables), M44f());
+        const RenderContext context = scene.context();
+        const Tessellation tessellation(context);
+        const PixelRect picture = sampled_pixels(context.camera, scene.scene.options);
+        DiceScratch scratch;
+        ShadingGrid grid;
+        for (size_t s = 0; s < tessellation.subpatches().size(); ++s) {
+            tessellation.dice(s, grid, scratch);
+            const PixelRect bound = tessellation.subpatches()[s].bound;
+            for (const Triples& P : grid.P)
+                for (size_t i = 0; i < grid.vertex_count(); ++i) {
+                    const V2f at = context.camera.raster_from_camera(P.at(i));
+                    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
+                    if (P.at(i).z < context.camera.near_clip) continue;
+                    if (intersection(picture, {x, y, x + 1, y + 1}).empty()) continue;
+                    EXPECT_FALSE(intersection(bound, {x, y, x + 1, y + 1}).empty());
+                }
+        }
+    }
+}
+
 struct Bounds {
     Camera camera;
     RasterBound bound;

@@ -38,13 +38,14 @@ float ScreenMetric::length(const V3f& p, const V3f& q) const {
 
 float ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
     const V3f d = q - p;
-    const float p_distance = p.length(), q_distance = q.length();
-    const bool in_view =
-        p.z > 0 && q.z > 0 && p.z >= view_cosine_ * p_distance && q.z >= view_cosine_ * q_distance;
+    const float least = view_cosine_ * view_cosine_;
+    const bool in_view = p.z > 0 && q.z > 0 && p.z * p.z >= least * p.dot(p) && q.z * q.z >= least * q.dot(q);
     if (in_view) {
-        const float x = (q.x / q.z - p.x / p.z) * pixels_x_, y = (q.y / q.z - p.y / p.z) * pixels_y_;
+        const float p_scale = 1 / p.z, q_scale = 1 / q.z;
+        const float x = (q.x * q_scale - p.x * p_scale) * pixels_x_;
+        const float y = (q.y * q_scale - p.y * p_scale) * pixels_y_;
         return std::max(std::sqrt(x * x + y * y),
-                        kLeastForeshortening * d.length() * pixels_ * 2 / (p.z + q.z));
+                        kLeastForeshortening * std::sqrt(d.dot(d)) * pixels_ * 2 / (p.z + q.z));
     }
     const float angle = std::atan2(p.cross(q).length(), p.dot(q));
     const float nearest = (p + d * nearest_to_origin(p, d)).length();

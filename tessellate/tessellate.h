@@ -23,6 +23,7 @@ struct SubpatchInfo {
     uint32_t primitive = 0;
 };
 
+/// A thread's memory for dicing one Tessellation. Not for another one: surfaces leave their own scratch here.
 class DiceScratch {
   public:
     DiceScratch();
