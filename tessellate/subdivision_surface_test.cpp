@@ -366,24 +366,12 @@ TEST(SubdivisionSurface, NonManifoldMeshes) {
         }
 }
 
-/// Random connectivity, mostly without sense, gives a surface or a diagnostic.
 TEST(SubdivisionSurface, RandomConnectivity) {
     std::mt19937 random(17);
     int surfaces = 0;
     for (int round = 0; round < 300; ++round) {
-        Cage cage;
-        const int vertices = 4 + static_cast<int>(random() % 6);
-        for (int i = 0; i < 3 * vertices; ++i) cage.P.push_back(static_cast<float>(random() % 100));
         const bool loop = round % 3 == 0;
-        for (int f = 1 + static_cast<int>(random() % 7); f-- > 0;) {
-            std::vector<int> order(vertices);
-            for (int i = 0; i < vertices; ++i) order[i] = i;
-            std::shuffle(order.begin(), order.end(), random);
-            const int size = loop ? 3 : 3 + static_cast<int>(random() % (vertices - 3));
-            cage.sizes.push_back(size);
-            cage.vertices.insert(cage.vertices.end(), order.begin(), order.begin() + size);
-        }
-        const Made made(cage, {{"interpolateboundary", {round % 2 + 1}, {}, {}}},
+        const Made made(test::random_cage(random, loop), {{"interpolateboundary", {round % 2 + 1}, {}, {}}},
                         loop ? Scheme::Loop : Scheme::CatmullClark);
         EXPECT_EQ(made.errors(), made.surface ? 0u : 1u);
         if (!made.surface) continue;

@@ -217,6 +217,26 @@ TEST(SubdivisionVariables, IslandsOnRegularAndIrregularFaces) {
     }
 }
 
+/// Random seams on random connectivity.
+TEST(SubdivisionVariables, AnythingHasFiniteValues) {
+    std::mt19937 random(23);
+    for (int round = 0; round < 200; ++round) {
+        const bool loop = round % 3 == 0;
+        const Cage cage = test::random_cage(random, loop);
+        std::vector<float> values;
+        for (size_t i = 0; i < cage.vertices.size(); ++i) values.push_back(static_cast<float>(random() % 2));
+        const Made made(cage, {{floats("seamed", StorageClass::FaceVertex, values)}},
+                        {kInterpolate, face_varying_rule(round % 4)},
+                        loop ? Scheme::Loop : Scheme::CatmullClark);
+        if (!made.surface) continue;
+        for (int face = 0; face < made.surface->face_count(); ++face) {
+            const ShadingGrid grid = made.at(face, kPoints);
+            for (float value : grid.find("seamed")->planes[0])
+                ASSERT_TRUE(value > -1e-3f && value < 1.001f) << "round " << round << " face " << face;
+        }
+    }
+}
+
 TEST(SubdivisionVariables, NormalsOfTheUser) {
     const Cage cage = test::cube_cage();
     const Made made(cage, {{floats("N", StorageClass::Vertex, cage.P, ValueType::Normal)}}, {});

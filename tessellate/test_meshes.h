@@ -74,6 +74,22 @@ inline Cage sheet_cage(int n, float height) {
     return cage;
 }
 
+/// Faces of random vertices, mostly without sense.
+inline Cage random_cage(std::mt19937& random, bool triangles) {
+    Cage cage;
+    const int vertices = 4 + static_cast<int>(random() % 6);
+    for (int i = 0; i < 3 * vertices; ++i) cage.P.push_back(static_cast<float>(random() % 100));
+    std::vector<int> order(vertices);
+    for (int i = 0; i < vertices; ++i) order[i] = i;
+    for (int f = 1 + static_cast<int>(random() % 7); f-- > 0;) {
+        std::shuffle(order.begin(), order.end(), random);
+        const int size = triangles ? 3 : 3 + static_cast<int>(random() % (vertices - 3));
+        cage.sizes.push_back(size);
+        cage.vertices.insert(cage.vertices.end(), order.begin(), order.begin() + size);
+    }
+    return cage;
+}
+
 inline Parameter points(const std::vector<float>& P) {
     return {"P", {StorageClass::Vertex, ValueType::Point, 1}, P, {}};
 }
