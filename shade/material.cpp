@@ -64,7 +64,7 @@ void Materials::warn_unknown(std::string_view kind, const ShaderInstance& instan
     if (!diagnostics_) return;
     diagnostics_->warning(instance.location,
                           fmt::format("{}: there is no shader \"{}\"; {}", kind, instance.name, instead),
-                          fmt::format("unknown {} shader {}", kind, instance.name));
+                          fmt::format("missing-shader {} {}", kind, instance.name));
 }
 
 }  // namespace trapeze

@@ -35,6 +35,12 @@ std::string numbered(const std::string& name, int number) {
         .string();
 }
 
+bool has_missing_shader(const Diagnostics& diagnostics) {
+    const auto kinds = diagnostics.kinds();
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [](const auto& kind) { return kind.first.starts_with("missing-shader"); });
+}
+
 /// Renders the worlds of the input as they are read.
 class RenderJob {
   public:
@@ -157,7 +163,7 @@ int RenderJob::exit_code() const {
     if (interrupt_.requested()) return interrupt_.exit_code();
     if (output_failed_) return kExitNoOutput;
     if (frames_.empty()) return kExitNothingRendered;
-    if (arguments_.strict && diagnostics_.kinds().count("missing-shader")) return kExitShaderMissing;
+    if (arguments_.strict && has_missing_shader(diagnostics_)) return kExitShaderMissing;
     const bool warned = diagnostics_.count(Severity::Warning) > 0;
     return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
 }
