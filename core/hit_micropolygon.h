@@ -9,17 +9,22 @@
 /// ray passes the quad when the origin of (a, b) is inside by the even-odd rule. A quad may be a bow-tie or
 /// degenerate.
 ///
-///     v                 Vertices and edges; edges are half-open, decided by `b > 0` of both ends and, when
-///     these differ, ^  01 ---- 11     by the sign of c = a_i * b_j - a_j * b_i: multiply, multiply,
-///     subtract, never fused, hence |   |    / |      exactly antisymmetric: both micropolygons at an edge
-///     decide alike, whatever way they walk it. |   |  /   |      So a mesh that is closed in its bits has no
-///     leaks. |  00 ---- 10
-///     +-------------> u   The diagonal 00-11 makes two triangles; the depth is that of the point on the one
-///     that holds it.
+/// Edges are half-open, decided by `b > 0` of both ends and, when these differ, by the sign of
+///     c = a_i * b_j - a_j * b_i:
+/// multiply, multiply, subtract, never fused, hence exactly antisymmetric: both micropolygons at an edge
+/// decide alike, whatever way they walk it. So a mesh that is closed in its bits has no leaks.
 ///
-/// Departs from the paper: depth on the triangle instead of bilinear interpolation of all four; clamped to
-/// the quad's own depth range so that weights are valid and the point lies inside every box that bounds the
-/// vertices.
+// clang-format off
+///     v  01 ---- 11     The diagonal 00-11 makes two triangles; the depth is that of the point on the one
+///     ^   |    / |      that holds it.
+///     |   |  /   |
+///     |  00 ---- 10
+///     +-------------> u
+// clang-format on
+///
+/// Departs from the paper: depth on the triangle instead of bilinear interpolation of all four, clamped to
+/// the quad's own depth range: the weights of a triangle seen edge-on round to anything, and this much stays
+/// certain. (Culls by the depth at which a bound is entered must allow for it: see accel/paper_tree.h.)
 #pragma once
 
 #include <algorithm>
@@ -108,8 +113,8 @@ inline QuadWeights weights(const Edges& e) {
 }  // namespace predicate_detail
 
 /// True when the ray's line passes the quad; then *depth is where, along the ray's axis. The caller compares
-/// the depth with its range and orders equal depths by micropolygon id. A NaN among the coordinates is never
-/// hit.
+/// the depth with its range and orders equal depths by micropolygon id. Coordinates are finite: pack_grid()
+/// sees to it.
 inline bool hit_micropolygon(const AxisRay& ray, const Quad& q, Facing facing, float* depth) {
     namespace d = predicate_detail;
     const d::Edges e = d::edges_of(ray, q);

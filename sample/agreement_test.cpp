@@ -10,18 +10,20 @@
 
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
-#include "sample/test_grids.h"
+#include "sample/sample_pattern.h"
+#include "sample/test_frame.h"
+#include "sample/visibility_method.h"
 
 namespace trapeze {
 namespace {
 
-using testing::Frame2D;
 using testing::GridMaker;
+using testing::TestFrame;
 using testing::tiles_of;
 
 struct TestScene {
     std::string name;
-    Frame2D frame;
+    TestFrame frame;
     GridMaker maker;
     bool must_hit = true;
 };
@@ -85,7 +87,7 @@ std::vector<TestScene> make_scenes() {
     std::vector<TestScene> scenes;
     scenes.reserve(32);
     const auto scene = [&](const char* name, bool motion, bool defocus) -> TestScene& {
-        return scenes.emplace_back(TestScene{name, Frame2D(40, 24, 3, motion, defocus), {}});
+        return scenes.emplace_back(TestScene{name, TestFrame(40, 24, 3, motion, defocus), {}});
     };
     add_sheets(scene("static", false, false).maker, 30, 1, 1);
     add_sheets(scene("motion", true, false).maker, 30, 2, 2);

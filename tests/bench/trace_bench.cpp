@@ -5,13 +5,15 @@
 #include <random>
 
 #include "accel/paper_tree.h"
-#include "sample/test_grids.h"
+#include "sample/sample_pattern.h"
+#include "sample/test_frame.h"
+#include "sample/visibility_method.h"
 
 namespace trapeze {
 namespace {
 
-using testing::Frame2D;
 using testing::GridMaker;
+using testing::TestFrame;
 
 enum Effects { kStill = 0, kMotion = 1, kDefocus = 2 };
 
@@ -53,7 +55,7 @@ void add_scene(GridMaker& maker, int micropolygons, bool motion) {
 }
 
 struct BenchScene {
-    Frame2D frame;
+    TestFrame frame;
     GridMaker maker;
 
     BenchScene(int micropolygons, int effects) : frame(1280, 720, 8, effects & kMotion, effects & kDefocus) {
@@ -102,7 +104,7 @@ void trace(benchmark::State& state) {
 }
 
 void make_samples(benchmark::State& state) {
-    const Frame2D frame(1280, 720, 8, state.range(0) & kMotion, state.range(0) & kDefocus);
+    const TestFrame frame(1280, 720, 8, state.range(0) & kMotion, state.range(0) & kDefocus);
     const SamplePattern pattern(frame.context);
     SampleTile tile;
     size_t samples = 0;

@@ -1,0 +1,164 @@
+#include "core/hit_micropolygon.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/test_grids.h"
+
+namespace trapeze {
+namespace {
+
+struct Noise {
+    std::mt19937 engine{3};
+    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
+    AxisRay ray() {
+        return {(*this)(-1, 1), (*this)(-1, 1), 0, (*this)(-1, 1), (*this)(-1, 1), (*this)(0, 1)};
+    }
+};
+
+Quad random_quad(Noise& noise) {
+    Quad q;
+    for (int i = 0; i < 4; ++i) q.x[i] = noise(-2, 2), q.y[i] = noise(-2, 2), q.z[i] = noise(0.5f, 3);
+    return q;
+}
+
+TEST(HitMicropolygon, HitsTheMiddleAndMissesBesides) {
+    const Quad q{{0, 1, 0, 1}, {0, 0, 1, 1}, {2, 2, 4, 4}};
+    float depth = 0;
+    EXPECT_TRUE(hit_micropolygon({0.25f, 0.5f, 0, 0, 0, 0}, q, Facing::Both, &depth));
+    EXPECT_FLOAT_EQ(depth, 3);
+    EXPECT_FALSE(hit_micropolygon({1.25f, 0.5f, 0, 0, 0, 0}, q, Facing::Both, &depth));
+    EXPECT_FALSE(hit_micropolygon({0.25f, -0.5f, 0, 0, 0, 0}, q, Facing::Both, &depth));
+}
+
+TEST(HitMicropolygon, FacingIsTheSignOfTheTurn) {
+    Quad q{{0, 1, 0, 1}, {0, 0, 1, 1}, {2, 2, 2, 2}};  // 00, 10, 11, 01 counter-clockwise
+    const AxisRay ray{0.3f, 0.6f, 0, 0, 0, 0};
+    float depth;
+    EXPECT_TRUE(hit_micropolygon(ray, q, Facing::PositiveOnly, &depth));
+    EXPECT_FALSE(hit_micropolygon(ray, q, Facing::NegativeOnly, &depth));
+    for (float& x : q.x) x = -x;
+    const AxisRay mirrored{-0.3f, 0.6f, 0, 0, 0, 0};
+    EXPECT_FALSE(hit_micropolygon(mirrored, q, Facing::PositiveOnly, &depth));
+    EXPECT_TRUE(hit_micropolygon(mirrored, q, Facing::NegativeOnly, &depth));
+}
+
+TEST(HitMicropolygon, AnEdgeDecidesAlikeWhateverWayItIsWalked) {
+    Noise noise;
+    int crossings = 0;
+    for (int round = 0; round < 100000; ++round) {
+        // Many edges through the very origin or with an end on the axis.
+        const float scale = round % 3 == 0 ? 1e-6f : 1.0f;
+        const float ai = noise(-1, 1) * scale, bi = round % 5 == 0 ? 0.0f : noise(-1, 1);
+        const float aj = round % 7 == 0 ? -ai : noise(-1, 1) * scale,
+                    bj = round % 7 == 0 ? -bi : noise(-1, 1);
+        namespace d = predicate_detail;
+        const bool forth = d::crosses(bi, bj, d::edge(ai, bi, aj, bj));
+        const bool back = d::crosses(bj, bi, d::edge(aj, bj, ai, bi));
+        ASSERT_EQ(forth, back) << ai << ' ' << bi << ' ' << aj << ' ' << bj;
+        crossings += forth;
+    }
+    EXPECT_GT(crossings, 10000);
+}
+
+TEST(HitMicropolygon, TheSameQuadFromAnyCornerInEitherTurn) {
+    Noise noise;
+    int hits = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const Quad q = random_quad(noise);
+        const AxisRay ray = noise.ray();
+        float depth, other_depth;
+        const bool hit = hit_micropolygon(ray, q, Facing::Both, &depth);
+        hits += hit;
+        constexpr int kOrders[7][4] = {{1, 3, 0, 2}, {3, 2, 1, 0}, {2, 0, 3, 1},                 // turned
+                                       {0, 2, 1, 3}, {1, 0, 3, 2}, {3, 1, 2, 0}, {2, 3, 0, 1}};  // mirrored
+        for (const auto& order : kOrders) {
+            Quad turned;
+            for (int i = 0; i < 4; ++i)
+                turned.x[i] = q.x[order[i]], turned.y[i] = q.y[order[i]], turned.z[i] = q.z[order[i]];
+            ASSERT_EQ(hit_micropolygon(ray, turned, Facing::Both, &other_depth), hit);
+        }
+    }
+    EXPECT_GT(hits, 1000);
+}
+
+/// Every line meets a closed surface an even number of times, and a chain of floats decides it: no leak and
+/// no double hit, on edges and vertices too.
+TEST(HitMicropolygon, ClosedMeshIsCrossedAnEvenNumberOfTimes) {
+    constexpr int kAround = 16, kAlong = 12;
+    Noise noise;
+    V3f vertex[kAlong][kAround];
+    for (auto& ring : vertex)
+        for (V3f& p : ring) p = V3f(noise(-1, 1), noise(-1, 1), noise(-1, 1));  // folded in any way
+    int hits = 0;
+    for (int round = 0; round < 20000; ++round) {
+        AxisRay ray = noise.ray();
+        if (round % 4 == 0) {  // through a vertex
+            const V3f& p = vertex[noise.engine() % kAlong][noise.engine() % kAround];
+            ray.ux = ray.uy = 0, ray.ox = p.x, ray.oy = p.y;
+        }
+        int count = 0;
+        for (int j = 0; j < kAlong; ++j)
+            for (int i = 0; i < kAround; ++i) {
+                const V3f* corner[4] = {&vertex[j][i], &vertex[j][(i + 1) % kAround],
+                                        &vertex[(j + 1) % kAlong][i],
+                                        &vertex[(j + 1) % kAlong][(i + 1) % kAround]};
+                Quad q;
+                for (int c = 0; c < 4; ++c)
+                    q.x[c] = corner[c]->x, q.y[c] = corner[c]->y, q.z[c] = corner[c]->z;
+                float depth;
+                count += hit_micropolygon(ray, q, Facing::Both, &depth);
+            }
+        ASSERT_EQ(count % 2, 0);
+        hits += count;
+    }
+    EXPECT_GT(hits, 20000);
+}
+
+TEST(HitMicropolygon, DepthIsWithinTheQuadAndWhereItsWeightsSay) {
+    Noise noise;
+    int hits = 0;
+    for (int round = 0; round < 50000; ++round) {
+        const Quad q = random_quad(noise);
+        const AxisRay ray = noise.ray();
+        float depth;
+        if (!hit_micropolygon(ray, q, Facing::Both, &depth)) continue;
+        ++hits;
+        ASSERT_GE(depth, *std::min_element(q.z, q.z + 4));
+        ASSERT_LE(depth, *std::max_element(q.z, q.z + 4));
+        const QuadWeights w = hit_weights(ray, q);
+        float sum = 0;
+        for (const float weight : w.w) {
+            ASSERT_GE(weight, 0);
+            sum += weight;
+        }
+        ASSERT_NEAR(sum, 1, 1e-5);
+    }
+    EXPECT_GT(hits, 2000);
+}
+
+TEST(HitMicropolygon, DepthOfAPlaneIsTheRaysOwn) {
+    Noise noise;
+    int hits = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const float a = noise(-0.3f, 0.3f), b = noise(-0.3f, 0.3f), c = noise(2, 4);
+        Quad q{{-2, 2, -2, 2}, {-2, -2, 2, 2}, {}};
+        for (int i = 0; i < 4; ++i) {
+            q.x[i] += noise(-0.5f, 0.5f), q.y[i] += noise(-0.5f, 0.5f);
+            q.z[i] = c + a * q.x[i] + b * q.y[i];
+        }
+        AxisRay ray = noise.ray();
+        ray.ux *= 0.2f, ray.uy *= 0.2f;
+        float depth;
+        if (!hit_micropolygon(ray, q, Facing::Both, &depth)) continue;
+        ++hits;
+        const float expected = (c + a * ray.ox + b * ray.oy) / (1 - a * ray.ux - b * ray.uy);
+        ASSERT_NEAR(depth, expected, 1e-5f * 8);
+    }
+    EXPECT_GT(hits, 10000);
+}
+
+}  // namespace
+}  // namespace trapeze

@@ -1,0 +1,123 @@
+#include "core/hyper_trapezoid.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace trapeze {
+namespace {
+
+struct Noise {
+    std::mt19937 engine{5};
+    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
+    V3f point(float reach) {
+        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
+    }
+};
+
+/// A point that moves linearly between keys, by the arithmetic of grids.
+struct MovingPoint {
+    std::vector<V3f> keys;
+
+    V3f at(float time) const {
+        if (keys.size() == 1) return keys[0];
+        const MotionSegment s = segment_at(time, static_cast<int>(keys.size()));
+        const V3f delta = keys[s.index + 1] - keys[s.index];
+        return keys[s.index] + delta * s.local;
+    }
+};
+
+struct Swarm {
+    std::vector<MovingPoint> points;
+
+    Swarm(Noise& noise, int keys, float reach) : points(8) {
+        for (MovingPoint& p : points)
+            for (int k = 0; k < keys; ++k) p.keys.push_back(noise.point(reach));
+    }
+    HyperTrapezoid bound(const Frame& frame) const {
+        HyperTrapezoid result{frame, {}};
+        for (size_t k = 0; k < points[0].keys.size(); ++k) {
+            Box3f box;
+            for (const MovingPoint& p : points) box.extendBy(frame.from_space(p.keys[k]));
+            result.keys.push_back(grown_for_rounding(box));
+        }
+        return result;
+    }
+};
+
+Frame random_frame(Noise& noise) {
+    return frame_of(V3d(noise.point(1)), V3d(noise.point(1)));
+}
+
+TEST(HyperTrapezoid, BoundsLinearMotionWhenItBoundsTheKeys) {
+    Noise noise;
+    for (const int keys : {1, 2, 5}) {
+        for (int round = 0; round < 200; ++round) {
+            const Swarm swarm(noise, keys, std::pow(10.0f, noise(-3, 4)));
+            const HyperTrapezoid bound = swarm.bound(random_frame(noise));
+            for (int i = 0; i < 20; ++i) {
+                const float time = noise(0, 1);
+                for (const MovingPoint& p : swarm.points) ASSERT_TRUE(bound.contains(p.at(time), time));
+            }
+        }
+    }
+}
+
+TEST(HyperTrapezoid, TellsWhatIsOutside) {
+    const HyperTrapezoid bound{Frame{}, {Box3f(V3f(0), V3f(1)), Box3f(V3f(10), V3f(11))}};
+    EXPECT_TRUE(bound.contains(V3f(5.5f), 0.5f));
+    EXPECT_FALSE(bound.contains(V3f(0.5f), 0.5f));
+    EXPECT_FALSE(bound.contains(V3f(5.5f), 0));
+}
+
+TEST(HyperTrapezoid, MergingHoldsBothInAnyFramesAndKeyCounts) {
+    Noise noise;
+    for (int round = 0; round < 300; ++round) {
+        const int counts[] = {1, 2, 3, 5};
+        const Swarm a(noise, counts[noise.engine() % 4], 3), b(noise, counts[noise.engine() % 4], 50);
+        HyperTrapezoid merged = a.bound(random_frame(noise));
+        const Frame frame = merged.frame;
+        merged.merge(b.bound(random_frame(noise)));
+        EXPECT_EQ(merged.frame, frame);
+        for (int i = 0; i < 20; ++i) {
+            const float time = noise(0, 1);
+            for (const Swarm* swarm : {&a, &b})
+                for (const MovingPoint& p : swarm->points) ASSERT_TRUE(merged.contains(p.at(time), time));
+        }
+    }
+}
+
+TEST(HyperTrapezoid, AreaIsTheMeanOverKeys) {
+    const HyperTrapezoid bound{Frame{}, {Box3f(V3f(0), V3f(1, 2, 3)), Box3f(V3f(5), V3f(5))}};
+    EXPECT_DOUBLE_EQ(bound.expected_half_area(), 11 / 2.0);
+}
+
+TEST(Frame, IsOrthonormalAndKeepsTheLongerDirection) {
+    Noise noise;
+    for (int round = 0; round < 300; ++round) {
+        const V3d first(noise.point(std::pow(10.0f, noise(-12, 12)))), second(noise.point(1));
+        const Frame frame = frame_of(first, second);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) ASSERT_NEAR(frame.axis[i].dot(frame.axis[j]), i == j ? 1 : 0, 1e-6);
+        const V3d longer = first.length2() >= second.length2() ? first : second;
+        ASSERT_NEAR(V3d(frame.axis[0]).dot(longer.normalized()), 1, 1e-6);
+    }
+}
+
+TEST(Frame, OfDirectionsThatVanishOrAreParallelIsStillOne) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const auto& [first, second] :
+         std::vector<std::pair<V3d, V3d>>{{V3d(0), V3d(0)},
+                                          {V3d(1, 2, 3), V3d(0)},
+                                          {V3d(1, 2, 3), V3d(2, 4, 6)},
+                                          {V3d(0, 0, 1e-300), V3d(1e-300, 0, 0)},
+                                          {V3d(1e300), V3d(-1e300, 1e299, 0)},
+                                          {V3d(infinite), V3d(1)}}) {
+        const Frame frame = frame_of(first, second);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) ASSERT_NEAR(frame.axis[i].dot(frame.axis[j]), i == j ? 1 : 0, 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace trapeze

@@ -1,0 +1,42 @@
+#include "core/motion_keys.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace trapeze {
+namespace {
+
+TEST(MotionKeys, CountsAreOneOrAPowerOfTwoPlusOne) {
+    for (const int good : {1, 2, 3, 5, 9, 17, 33, 65}) EXPECT_TRUE(is_key_count(good)) << good;
+    for (const int bad : {-1, 0, 4, 6, 7, 8, 10, 64, 66, 129}) EXPECT_FALSE(is_key_count(bad)) << bad;
+}
+
+TEST(MotionKeys, SegmentsMeetAtKeys) {
+    for (const int keys : {2, 3, 5, 65})
+        for (int key = 0; key < keys; ++key) {
+            const MotionSegment s = segment_at(static_cast<float>(key) / static_cast<float>(keys - 1), keys);
+            EXPECT_EQ(static_cast<float>(s.index) + s.local, static_cast<float>(key));
+            EXPECT_LE(s.index, keys - 2);
+        }
+}
+
+TEST(MotionKeys, TimeIsWithinItsSegment) {
+    for (const int keys : {2, 3, 5, 9, 65})
+        for (float t = 0; t <= 1; t += 0.001f) {
+            const MotionSegment s = segment_at(t, keys);
+            ASSERT_GE(s.local, 0);
+            ASSERT_LE(s.local, 1);
+            ASSERT_FLOAT_EQ((static_cast<float>(s.index) + s.local) / static_cast<float>(keys - 1), t);
+        }
+}
+
+TEST(MotionKeys, OutsideTheShutterTheEndSegmentsHold) {
+    EXPECT_EQ(segment_at(1.5f, 5).index, 3);
+    EXPECT_EQ(segment_at(-0.5f, 5).index, 0);
+    EXPECT_EQ(segment_at(0.7f, 1).index, 0);
+    EXPECT_EQ(segment_at(0.7f, 1).local, 0);
+}
+
+}  // namespace
+}  // namespace trapeze
