@@ -173,7 +173,6 @@ std::string reason_to_refuse(const SubdivisionMesh& mesh) {
         const int* v = mesh.vertices.data() + corner;
         for (int i = 0; i < size; ++i) {
             if (v[i] < 0 || v[i] >= mesh.vertex_count) return name + " has a vertex outside the mesh";
-            if (std::find(v, v + i, v[i]) != v + i) return name + " has a vertex twice";
             if (++valence[v[i]] > kMostFaces)
                 return "vertex " + std::to_string(v[i]) + " has more than " + std::to_string(kMostFaces) +
                        " faces";

@@ -74,7 +74,7 @@ inline Cage sheet_cage(int n, float height) {
     return cage;
 }
 
-/// Faces of random vertices, mostly without sense.
+/// Faces of random vertices, mostly without sense; some name a vertex twice.
 inline Cage random_cage(std::mt19937& random, bool triangles) {
     Cage cage;
     const int vertices = 4 + static_cast<int>(random() % 6);
@@ -86,6 +86,7 @@ inline Cage random_cage(std::mt19937& random, bool triangles) {
         const int size = triangles ? 3 : 3 + static_cast<int>(random() % (vertices - 3));
         cage.sizes.push_back(size);
         cage.vertices.insert(cage.vertices.end(), order.begin(), order.begin() + size);
+        if (random() % 4 == 0) cage.vertices.back() = cage.vertices.end()[-2];
     }
     return cage;
 }
