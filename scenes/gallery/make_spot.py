@@ -119,9 +119,9 @@ SPOTS = [
 # The leaping Spot, from left to right, at evenly spaced times of the shutter: centre, and pitch of its nose.
 LEAP_TIMES = [0, 0.25, 0.5, 0.75, 1]
 LEAP_HEADING = -68.0
-LEAP_START, LEAP_END = (-1.62, 8.0), (-1.12, 7.8)  # x and z
-LEAP_TOP, LEAP_DROP = 1.42, 0.10  # height of its centre at the top, and how much lower it is at either end
-LEAP_PITCH = (30.0, -14.0)
+LEAP_START, LEAP_END = (-1.36, 7.15), (-1.08, 7.05)  # x and z
+LEAP_TOP, LEAP_DROP = 1.34, 0.06  # height of its centre at the top, and how much lower it is at either end
+LEAP_PITCH = (24.0, 2.0)
 
 
 def leap_pose(time):
