@@ -1,0 +1,199 @@
+#include "sample/sample_pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "sample/magic_square.h"
+#include "sample/test_frame.h"
+
+namespace trapeze {
+namespace {
+
+using testing::TestFrame;
+
+TestFrame frame_of_samples(int nx, int ny, bool motion = true, bool defocus = true) {
+    TestFrame frame(64, 64, 1, motion, defocus);
+    frame.context.samples_x = nx, frame.context.samples_y = ny;
+    return frame;
+}
+
+SampleTile tile_of(const TestFrame& frame, const PixelRect& pixels) {
+    SampleTile tile;
+    SamplePattern(frame.context).make_tile(pixels, tile);
+    return tile;
+}
+
+/// Back from the disk to the square [0, 1)^2 [Shirley97].
+V2f square_from_disk(float x, float y) {
+    const float r = std::hypot(x, y);
+    if (r == 0) return {0.5f, 0.5f};
+    const float quarter = static_cast<float>(M_PI) / 4;
+    if (std::abs(x) >= std::abs(y)) {
+        const float a = std::copysign(r, x);
+        return {(a + 1) / 2, (r * std::atan2(y, std::abs(x)) / quarter + 1) / 2};
+    }
+    const float b = std::copysign(r, y);
+    return {(r * std::atan2(x, std::abs(y)) / quarter + 1) / 2, (b + 1) / 2};
+}
+
+TEST(MagicSquare, HasEqualSumsAndEveryNumberOnce) {
+    for (int n = 3; n <= 26; ++n) {
+        const std::vector<uint32_t> square = magic_square(n);
+        ASSERT_EQ(std::set<uint32_t>(square.begin(), square.end()).size(), static_cast<size_t>(n * n));
+        ASSERT_EQ(*std::max_element(square.begin(), square.end()), static_cast<uint32_t>(n * n - 1));
+        const auto magic = static_cast<uint32_t>(n * (n * n - 1) / 2);
+        uint32_t falling = 0, rising = 0;
+        for (int i = 0; i < n; ++i) {
+            uint32_t row = 0, column = 0;
+            for (int j = 0; j < n; ++j) row += square[i * n + j], column += square[j * n + i];
+            ASSERT_EQ(row, magic) << n;
+            ASSERT_EQ(column, magic) << n;
+            falling += square[i * n + i], rising += square[i * n + n - 1 - i];
+        }
+        ASSERT_EQ(falling, magic) << n;
+        ASSERT_EQ(rising, magic) << n;
+    }
+}
+
+TEST(SamplePattern, TakesOneSampleFromEachRegionOfEachDomain) {
+    for (const auto& [nx, ny] :
+         {std::pair{1, 1}, {2, 2}, {3, 3}, {4, 4}, {6, 6}, {8, 8}, {4, 2}, {1, 5}, {13, 13}}) {
+        const TestFrame frame = frame_of_samples(nx, ny);
+        const SampleTile tile = tile_of(frame, {-1, -2, 3, 2});
+        const int count = nx * ny;
+        ASSERT_EQ(tile.samples_per_pixel, count);
+        for (int py = -2; py < 2; ++py)
+            for (int px = -1; px < 3; ++px) {
+                std::set<int> places, lenses, times;
+                for (int i = 0; i < count; ++i) {
+                    const size_t at = tile.first_of_pixel(px, py) + static_cast<size_t>(i);
+                    const float fx = tile.x[at] - static_cast<float>(px),
+                                fy = tile.y[at] - static_cast<float>(py);
+                    places.insert(static_cast<int>(fy * static_cast<float>(ny)) * nx +
+                                  static_cast<int>(fx * static_cast<float>(nx)));
+                    const V2f lens = square_from_disk(tile.lens_u[at], tile.lens_v[at]);
+                    lenses.insert(static_cast<int>(lens.y * static_cast<float>(ny)) * nx +
+                                  static_cast<int>(lens.x * static_cast<float>(nx)));
+                    times.insert(static_cast<int>(tile.time[at] * static_cast<float>(count)));
+                }
+                // The map back from the disk rounds: a sample on a region's border may seem to be next door.
+                ASSERT_EQ(places.size(), static_cast<size_t>(count));
+                ASSERT_GE(lenses.size() + 1, static_cast<size_t>(count));
+                ASSERT_EQ(times.size(), static_cast<size_t>(count));
+            }
+    }
+}
+
+TEST(SamplePattern, StaysInThePixelTheDiskAndTheShutter) {
+    TestFrame frame = frame_of_samples(8, 8);
+    frame.options.width = 20000, frame.update();
+    for (const PixelRect& pixels : {PixelRect{-16, -16, 0, 0}, PixelRect{16384, 4096, 16400, 4112}}) {
+        const SampleTile tile = tile_of(frame, pixels);
+        for (size_t i = 0; i < tile.size(); ++i) {
+            const int pixel = static_cast<int>(i) / tile.samples_per_pixel;
+            ASSERT_EQ(std::floor(tile.x[i]), static_cast<float>(pixels.x0 + pixel % pixels.width()));
+            ASSERT_EQ(std::floor(tile.y[i]), static_cast<float>(pixels.y0 + pixel / pixels.width()));
+            ASSERT_LE(std::hypot(tile.lens_u[i], tile.lens_v[i]), 1.00001f);
+            ASSERT_GE(tile.time[i], 0);
+            ASSERT_LT(tile.time[i], 1);
+        }
+    }
+}
+
+TEST(SamplePattern, APixelsSamplesDoNotDependOnTheTile) {
+    const TestFrame frame = frame_of_samples(3, 3);
+    const SampleTile large = tile_of(frame, {-4, -4, 12, 12}), small = tile_of(frame, {5, -1, 7, 3});
+    for (int py = -1; py < 3; ++py)
+        for (int px = 5; px < 7; ++px)
+            for (size_t i = 0; i < 9; ++i) {
+                const size_t a = large.first_of_pixel(px, py) + i, b = small.first_of_pixel(px, py) + i;
+                ASSERT_EQ(large.x[a], small.x[b]);
+                ASSERT_EQ(large.y[a], small.y[b]);
+                ASSERT_EQ(large.lens_u[a], small.lens_u[b]);
+                ASSERT_EQ(large.lens_v[a], small.lens_v[b]);
+                ASSERT_EQ(large.time[a], small.time[b]);
+                ASSERT_EQ(large.rays[a].ux, small.rays[b].ux);
+            }
+}
+
+TEST(SamplePattern, RaysAreTheCameras) {
+    const TestFrame frame = frame_of_samples(2, 2);
+    const SampleTile tile = tile_of(frame, {3, 3, 5, 5});
+    for (size_t i = 0; i < tile.size(); ++i) {
+        const AxisRay ray =
+            frame.context.camera.ray(tile.x[i], tile.y[i], tile.lens_u[i], tile.lens_v[i], tile.time[i]);
+        ASSERT_EQ(tile.rays[i].ox, ray.ox);
+        ASSERT_EQ(tile.rays[i].uy, ray.uy);
+        ASSERT_EQ(tile.rays[i].time, tile.time[i]);
+    }
+}
+
+TEST(SamplePattern, WithoutMotionOrLensTheseAreZero) {
+    const TestFrame frame = frame_of_samples(4, 4, false, false);
+    const SampleTile tile = tile_of(frame, {0, 0, 8, 8});
+    for (size_t i = 0; i < tile.size(); ++i) {
+        ASSERT_EQ(tile.time[i], 0);
+        ASSERT_EQ(tile.lens_u[i], 0);
+        ASSERT_EQ(tile.lens_v[i], 0);
+    }
+}
+
+TEST(SamplePattern, SeedsGiveOtherSamples) {
+    TestFrame frame = frame_of_samples(4, 4);
+    const SampleTile first = tile_of(frame, {0, 0, 4, 4});
+    frame.context.seed = 8;
+    const SampleTile second = tile_of(frame, {0, 0, 4, 4});
+    size_t equal = 0;
+    for (size_t i = 0; i < first.size(); ++i) equal += first.x[i] == second.x[i];
+    EXPECT_LT(equal, first.size() / 20);
+}
+
+/// Over many pixels each lens region meets each time region alike.
+TEST(SamplePattern, TimeAndLensAreIndependent) {
+    constexpr int kSide = 4, kCount = kSide * kSide, kPixels = 128;
+    const TestFrame frame = frame_of_samples(kSide, kSide);
+    const SampleTile tile = tile_of(frame, {0, 0, kPixels, kPixels});
+    std::vector<int> bins(kCount * kCount);
+    double u_time = 0, v_time = 0;
+    for (size_t i = 0; i < tile.size(); ++i) {
+        const V2f lens = square_from_disk(tile.lens_u[i], tile.lens_v[i]);
+        const auto region = [](float at, int n) {
+            return std::min(static_cast<int>(at * static_cast<float>(n)), n - 1);
+        };
+        ++bins[(region(lens.y, kSide) * kSide + region(lens.x, kSide)) * kCount +
+               region(tile.time[i], kCount)];
+        u_time += tile.lens_u[i] * (tile.time[i] - 0.5f), v_time += tile.lens_v[i] * (tile.time[i] - 0.5f);
+    }
+    const double expected = static_cast<double>(tile.size()) / (kCount * kCount);
+    double chi_square = 0;
+    for (const int n : bins) chi_square += (n - expected) * (n - expected) / expected;
+    EXPECT_LT(chi_square, 330);  // at most 255 degrees of freedom, one in a thousand
+    const double scale = static_cast<double>(tile.size()) * 0.5 * std::sqrt(1 / 12.0);
+    EXPECT_LT(std::abs(u_time / scale), 0.01);
+    EXPECT_LT(std::abs(v_time / scale), 0.01);
+}
+
+TEST(SamplePattern, TheTimeShiftIsLeftOutWithoutDefocus) {
+    const TestFrame frame = frame_of_samples(4, 4, true, false);
+    const SampleTile tile = tile_of(frame, {0, 0, 8, 8});
+    for (size_t pixel = 1; pixel < 64; ++pixel)
+        for (size_t i = 0; i < 16; ++i)
+            ASSERT_EQ(static_cast<int>(tile.time[i] * 16), static_cast<int>(tile.time[pixel * 16 + i] * 16));
+}
+
+/// Each column and row of a pixel's regions spreads over the lens and the shutter: what magic squares are
+/// for.
+TEST(SamplePattern, RowsSpreadOverTime) {
+    const TestFrame frame = frame_of_samples(8, 8, true, false);
+    const SampleTile tile = tile_of(frame, {0, 0, 1, 1});
+    for (size_t row = 0; row < 8; ++row) {
+        double mean = 0;
+        for (size_t i = 0; i < 8; ++i) mean += tile.time[row * 8 + i] / 8;
+        EXPECT_NEAR(mean, 0.5, 0.02);
+    }
+}
+
+}  // namespace
+}  // namespace trapeze
