@@ -56,6 +56,19 @@ TEST(Seed, ChangesTheSamplesAndNothingElse) {
     EXPECT_EQ(a[0].stats.tessellate.micropolygons, c[0].stats.tessellate.micropolygons);
 }
 
+TEST(MemoryBudget, SplitsThePictureAndChangesNothingElse) {
+    for (const char* scene : {"defocus_motion.rib", "floor_under_camera.rib"}) {
+        RenderSettings settings;
+        const auto whole = render_scene(tiny_scene_path(scene), settings);
+        ASSERT_EQ(whole[0].stats.regions, 1);
+        settings.memory_bytes = whole[0].stats.peak_region_bytes / 2;
+        const auto parts = render_scene(tiny_scene_path(scene), settings);
+        EXPECT_GT(parts[0].stats.regions, 1) << scene;
+        EXPECT_LT(parts[0].stats.peak_region_bytes, whole[0].stats.peak_region_bytes) << scene;
+        expect_same(whole, parts, scene);
+    }
+}
+
 TEST(TwoRendersInOneProcess, DoNotSeeEachOther) {
     const auto scenes = tiny_scenes();
     RenderSettings settings;
