@@ -1,4 +1,9 @@
-/// The method of [Hou10]: one ray after another through the hyper-trapezoid tree.
+/// The method of [Hou10]: one ray after another through the hyper-trapezoid tree, in the order of
+/// section 3.4.
+///
+/// Departs from the paper: rays that follow each other first look together, as a beam, for what they may meet
+/// of the levels above grids, and then traverse that part only. It takes most of the steps above grids away
+/// and changes no hit. The nodes that a beam looks at count as visited.
 #include <algorithm>
 
 #include "accel/paper_tree.h"
@@ -9,8 +14,8 @@
 namespace trapeze {
 namespace {
 
-/// Rays that are consecutive in their order and look for what they may meet above grids together.
-constexpr size_t kGroupSize = 256;
+/// Rays of a beam. 64 to 512 are within 10 % of each other in tests/bench/trace_bench.cpp.
+constexpr size_t kGroupSize = 128;
 
 class RayTraced final : public Visibility {
   public:
