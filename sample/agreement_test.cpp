@@ -285,12 +285,13 @@ TEST_P(Agreement, RayTracerAndBruteForceFindWhatTestingEverythingFinds) {
     EXPECT_EQ(hit_count(truth) > 0, scene().must_hit);
     EXPECT_EQ(differing_samples(resolve(scene(), "bruteforce"), truth), 0u);
     const auto traced = resolve(scene(), "raytrace");
+    EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:bundle=off"), truth), 0u);
     EXPECT_EQ(differing_samples(traced, truth), 0u);
     EXPECT_TRUE(traced == truth);
 }
 
 TEST_P(Agreement, OfAnyNumberOfThreads) {
-    for (const char* method : {"raytrace", "bruteforce"}) {
+    for (const char* method : {"raytrace", "raytrace:bundle=off", "bruteforce"}) {
         std::vector<std::vector<HitBuffer>> results;
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);

@@ -1,9 +1,10 @@
 /// The method of [Hou10]: one ray after another through the hyper-trapezoid tree, in the order of
 /// section 3.4.
 ///
-/// Departs from the paper: rays that follow each other first look together, as a beam, for what they may meet
-/// of the levels above grids, and then traverse that part only. It takes most of the steps above grids away
-/// and changes no hit. The nodes that a beam looks at count as visited.
+/// With bundles, rays that follow each other first look together, as a beam, for what they may meet of the
+/// levels above grids, and then traverse that part only. It takes most of the steps above grids away and
+/// changes no hit. The nodes that a beam looks at count as visited. Without bundles it is the paper's own
+/// form: every ray from the root (docs/decisions/0001-interval-traversal.md).
 #include <algorithm>
 
 #include "accel/paper_tree.h"
@@ -19,8 +20,9 @@ constexpr size_t kGroupSize = 128;
 
 class RayTraced final : public Visibility {
   public:
-    RayTraced(const RenderContext& context, const Grids& grids)
-        : range_{context.camera.near_clip, context.camera.far_clip},
+    RayTraced(const RenderContext& context, const Grids& grids, bool bundles)
+        : bundles_(bundles),
+          range_{context.camera.near_clip, context.camera.far_clip},
           motion_(context.motion),
           defocus_(context.camera.has_lens()),
           all_opaque_(every_grid_is_opaque(grids)),
@@ -46,6 +48,10 @@ class RayTraced final : public Visibility {
                         TraceOne&& trace_one) const {
         const std::span<const uint32_t> order = scratch.order;
         if (order.empty()) return;
+        if (!bundles_) {
+            for (const uint32_t sample : order) trace_one(sample, tree_.top());
+            return;
+        }
         tree_.top().within(Beam(samples.rays, order, range_), scratch.tile_top, &stats.nodes_visited);
         for (size_t first = 0; first < order.size(); first += kGroupSize) {
             const auto group = order.subspan(first, std::min(kGroupSize, order.size() - first));
@@ -84,6 +90,7 @@ class RayTraced final : public Visibility {
         buffer_of_lists(scratch, samples.size(), hits);
     }
 
+    bool bundles_;
     DepthRange range_;
     bool motion_, defocus_, all_opaque_;
     PaperTree tree_;
@@ -92,7 +99,12 @@ class RayTraced final : public Visibility {
 }  // namespace
 
 std::unique_ptr<Visibility> prepare_raytrace(const RenderContext& context, const Grids& grids) {
-    return std::make_unique<RayTraced>(context, grids);
+    return std::make_unique<RayTraced>(context, grids, true);
+}
+
+std::unique_ptr<Visibility> prepare_raytrace_without_bundles(const RenderContext& context,
+                                                             const Grids& grids) {
+    return std::make_unique<RayTraced>(context, grids, false);
 }
 
 }  // namespace trapeze

@@ -7,6 +7,7 @@ namespace {
 
 constexpr VisibilityMethod kVisibilityMethods[] = {
     {"raytrace", prepare_raytrace},
+    {"raytrace:bundle=off", prepare_raytrace_without_bundles},
     {"bruteforce", prepare_brute_force},
 };
 

@@ -55,8 +55,11 @@ const VisibilityMethod* find_visibility_method(std::string_view name);
 /// The instruction set that the vector code runs on, as Highway names it.
 std::string_view simd_target_name();
 
-/// The rows. [Hou10] with one ray after another; every sample against every micropolygon that may cover it.
+/// The rows: [Hou10] with bundles of rays; the paper's own form, one ray after another; every sample against
+/// every micropolygon that may cover it.
 std::unique_ptr<Visibility> prepare_raytrace(const RenderContext& context, const Grids& grids);
+std::unique_ptr<Visibility> prepare_raytrace_without_bundles(const RenderContext& context,
+                                                             const Grids& grids);
 std::unique_ptr<Visibility> prepare_brute_force(const RenderContext& context, const Grids& grids);
 
 }  // namespace trapeze

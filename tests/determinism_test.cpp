@@ -38,9 +38,11 @@ TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
         // A picture this small may have fewer tiles than that.
         for (const FrameResult& result : results) EXPECT_GT(result.stats.regions, 1);
     }
-    RenderSettings brute = settings;
-    brute.sampler = "bruteforce";
-    expect_same(reference, render_scene(path, brute, 2), "bruteforce");
+    for (const char* method : {"raytrace:bundle=off", "bruteforce"}) {
+        RenderSettings other = settings;
+        other.sampler = method;
+        expect_same(reference, render_scene(path, other, 2), method);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(tiny_scenes()), test_name);
