@@ -103,6 +103,7 @@ void Reader::emit(const std::string& request, const std::vector<std::shared_ptr<
                   const AttributeState& state, SourceLocation at) {
     const float open = options_.shutter_open, close = options_.shutter_close;
     const bool shutter = close > open;
+    const std::string what = request == request_name_ ? "" : request + ": ";
     Primitive primitive;
     primitive.location = at;
 
@@ -110,7 +111,7 @@ void Reader::emit(const std::string& request, const std::vector<std::shared_ptr<
     for (const auto& shape : shapes)
         if (!can_deform(*shapes.front(), *shape)) {
             error(at,
-                  request + ": the shapes of the motion differ in topology or variables; the first is used");
+                  request + "the shapes of the motion differ in topology or variables; the first is used");
             deforms = false;
             primitive.shape_keys.push_back(shapes.front());
             break;
@@ -127,7 +128,7 @@ void Reader::emit(const std::string& request, const std::vector<std::shared_ptr<
     const M44f& space = primitive.camera_from_object.front();
     const double handedness = M44d(space).determinant();
     if (!(std::abs(handedness) > 0) || !std::isfinite(handedness)) {
-        error(at, request + ": the current transformation is singular; primitive skipped");
+        error(at, what + "the current transformation is singular; primitive skipped");
         return;
     }
     auto attributes = std::make_shared<Attributes>(state.attributes);
