@@ -110,8 +110,7 @@ void Reader::emit(const std::string& request, const std::vector<std::shared_ptr<
     bool deforms = shutter && shapes.size() > 1 && close > times.front() && open < times.back();
     for (const auto& shape : shapes)
         if (!can_deform(*shapes.front(), *shape)) {
-            error(at,
-                  request + "the shapes of the motion differ in topology or variables; the first is used");
+            error(at, what + "the shapes of the motion differ in topology or variables; the first is used");
             deforms = false;
             primitive.shape_keys.push_back(shapes.front());
             break;
