@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -91,7 +92,7 @@ void Terminal::progress(double fraction) {
     if (percent == last_percent_) return;
     last_percent_ = percent;
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-    const double remaining = fraction > 0 ? elapsed / fraction - elapsed : 0;
+    const double remaining = fraction > 0 ? std::max(0.0, elapsed / fraction - elapsed) : 0;
     switch (settings_.progress) {
         case ProgressStyle::None:
             break;
