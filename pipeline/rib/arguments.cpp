@@ -27,11 +27,11 @@ void read_array(Scanner& scanner, Argument& array, RequestText& request) {
                 scanner.skip();
                 break;
             case TokenKind::Close:
-                scanner.skip();
-                [[fallthrough]];
             case TokenKind::End:
             case TokenKind::Word:
-                if (token.kind != TokenKind::Close && scanner.peek().kind == TokenKind::End)
+                if (token.kind == TokenKind::Close)
+                    scanner.skip();
+                else
                     note_problem(request, array.at, "the array that begins here is never closed");
                 if (!array.numbers.empty() && !array.strings.empty())
                     note_problem(request, array.at, "an array holds both numbers and strings");
@@ -47,6 +47,14 @@ void read_array(Scanner& scanner, Argument& array, RequestText& request) {
     }
 }
 
+bool is_binary(const Token& token) {
+    return token.kind == TokenKind::Bad && static_cast<unsigned char>(token.text[0]) >= 0x80;
+}
+
+void report_binary(const Token& token, Diagnostics& diagnostics) {
+    diagnostics.error(token.at, "binary RIB is not supported; the encoded bytes are skipped", "binary-rib");
+}
+
 }  // namespace
 
 bool read_request(Scanner& scanner, RequestText& request, Diagnostics& diagnostics) {
@@ -57,12 +65,10 @@ bool read_request(Scanner& scanner, RequestText& request, Diagnostics& diagnosti
         if (token.kind == TokenKind::End) return false;
         if (token.kind == TokenKind::Word) break;
         if (!stray_reported) {
-            const bool binary =
-                token.kind == TokenKind::Bad && static_cast<unsigned char>(token.text[0]) >= 0x80;
-            diagnostics.error(token.at,
-                              binary ? "binary RIB is not supported; skipped to the next request"
-                                     : "a request is expected here; skipped to the next one",
-                              binary ? "binary-rib" : "");
+            if (is_binary(token))
+                report_binary(token, diagnostics);
+            else
+                diagnostics.error(token.at, "a request is expected here; skipped to the next one");
             stray_reported = true;
         }
     }
@@ -96,9 +102,12 @@ bool read_request(Scanner& scanner, RequestText& request, Diagnostics& diagnosti
                 scanner.skip();
                 break;
             case TokenKind::Bad:
-                note_problem(request, token.at,
-                             token.text == "\"" ? "a string that is never closed"
-                                                : "characters that RIB does not have");
+                if (is_binary(token))
+                    report_binary(token, diagnostics);
+                else
+                    note_problem(request, token.at,
+                                 token.text == "\"" ? "a string that is never closed"
+                                                    : "characters that RIB does not have");
                 scanner.skip();
                 break;
         }

@@ -1,0 +1,23 @@
+/// The RIB reader on bytes from strangers. With clang: -fsanitize=fuzzer,address,undefined and
+/// tests/fuzz/seeds/rib as corpus. With any compiler: linked with replay_main.cpp it runs the seeds and
+/// mutations of them.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pipeline/rib/read_rib.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    const int file = memfd_create("rib", 0);
+    if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) return 0;
+    const std::vector<std::string> files{"/proc/self/fd/" + std::to_string(file)};
+    trapeze::Diagnostics diagnostics;
+    trapeze::ReadOptions options;
+    options.max_source_bytes = size_t{1} << 20;  // gzip bombs end here
+    trapeze::read_rib(files, options, diagnostics, [](trapeze::Scene&&) {});
+    close(file);
+    return 0;
+}
