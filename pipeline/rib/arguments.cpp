@@ -1,7 +1,15 @@
 #include "pipeline/rib/arguments.h"
 
+#include <cmath>
+#include <cstdint>
+
 namespace trapeze::rib {
 namespace {
+
+constexpr double kLargestExactFloatInteger = 1 << 24;
+constexpr size_t kMostArguments = 100000;  ///< of one request; arrays count once
+constexpr size_t kLongestShown = 100;
+constexpr const char* kNotFinite = "a value is not a finite number";
 
 void note_problem(RequestText& request, SourceLocation at, std::string text) {
     if (!request.problem.empty()) return;
@@ -9,108 +17,145 @@ void note_problem(RequestText& request, SourceLocation at, std::string text) {
     request.problem_at = at;
 }
 
-void read_array(Scanner& scanner, Argument& array, RequestText& request) {
+void append_number(Argument& array, double value) {
+    if (std::abs(value) > kLargestExactFloatInteger && value == std::trunc(value)) [[unlikely]]
+        array.large_integers.push_back({array.floats.size(), value});
+    array.floats.push_back(static_cast<float>(value));
+}
+
+std::string what_is_bad(const Token& token) {
+    if (token.text == "\"") return "a string that is never closed";
+    return "characters that RIB does not have";
+}
+
+/// The elements of an array up to its end, or to the request that stands where the end should be.
+void read_array(Scanner& scanner, Argument& array, RequestText& request, IsRequest is_request) {
     array.kind = Argument::Kind::Array;
     array.at = scanner.peek().at;
     scanner.skip();
-    while (true) {
+    bool closed = false;
+    while (!closed) {
         const Token& token = scanner.peek();
+        const SourceLocation at = token.at;
         switch (token.kind) {
-            case TokenKind::Number: {
-                const SourceLocation at = token.at;
-                if (!scanner.scan_numbers([&](double v) { array.numbers.push_back(static_cast<float>(v)); }))
-                    note_problem(request, at, "a value is not a finite number");
-                break;
-            }
+            case TokenKind::Number:
+                if (const SourceLocation bad =
+                        scanner.scan_numbers([&](double v) { append_number(array, v); });
+                    bad.line > 0)
+                    note_problem(request, bad, kNotFinite);
+                continue;  // the scanner stands at what ended the numbers
             case TokenKind::String:
                 array.strings.push_back(token.string);
-                scanner.skip();
                 break;
             case TokenKind::Close:
-            case TokenKind::End:
+                closed = true;
+                break;
             case TokenKind::Word:
-                if (token.kind == TokenKind::Close)
-                    scanner.skip();
-                else
+                if (is_request(token.text)) {
                     note_problem(request, array.at, "the array that begins here is never closed");
-                if (!array.numbers.empty() && !array.strings.empty())
-                    note_problem(request, array.at, "an array holds both numbers and strings");
+                    return;
+                }
+                note_problem(request, at, in_quotes(token.text) + " stands within an array");
+                break;
+            case TokenKind::End:
+            case TokenKind::BinaryRequest:
+                note_problem(request, array.at, "the array that begins here is never closed");
                 return;
             case TokenKind::Open:
+                note_problem(request, at, "an array within an array");
+                break;
             case TokenKind::Bad:
-                note_problem(request, token.at,
-                             token.kind == TokenKind::Open ? "an array within an array"
-                                                           : "characters that RIB does not have");
-                scanner.skip();
+                note_problem(request, at, what_is_bad(token));
+                break;
+            case TokenKind::Binary:
+                request.is_binary = true;
                 break;
         }
+        scanner.skip();
     }
+    if (!array.floats.empty() && !array.strings.empty())
+        note_problem(request, array.at, "an array holds both numbers and strings");
 }
 
-bool is_binary(const Token& token) {
-    return token.kind == TokenKind::Bad && static_cast<unsigned char>(token.text[0]) >= 0x80;
-}
-
-void report_binary(const Token& token, Diagnostics& diagnostics) {
-    diagnostics.error(token.at, "binary RIB is not supported; the encoded bytes are skipped", "binary-rib");
+/// Passes over what stands before a request; false at the end of the text.
+bool find_request_name(Scanner& scanner, Diagnostics& diagnostics) {
+    for (bool reported = false;; scanner.skip()) {
+        const Token& token = scanner.peek();
+        if (token.kind == TokenKind::End) return false;
+        if (token.kind == TokenKind::Word) return true;
+        if (reported) continue;
+        reported = true;
+        if (token.kind == TokenKind::Binary || token.kind == TokenKind::BinaryRequest)
+            diagnostics.error(token.at, "binary RIB is not supported yet; what is encoded is skipped",
+                              kBinaryRib);
+        else
+            diagnostics.error(token.at, "a request is expected here; skipped to the next one");
+    }
 }
 
 }  // namespace
 
-bool read_request(Scanner& scanner, RequestText& request, Diagnostics& diagnostics) {
-    request = {};
-    bool stray_reported = false;
-    for (;; scanner.skip()) {
-        const Token& token = scanner.peek();
-        if (token.kind == TokenKind::End) return false;
-        if (token.kind == TokenKind::Word) break;
-        if (!stray_reported) {
-            if (is_binary(token))
-                report_binary(token, diagnostics);
-            else
-                diagnostics.error(token.at, "a request is expected here; skipped to the next one");
-            stray_reported = true;
-        }
-    }
+std::string clipped(std::string_view text) {
+    std::string shown(text.substr(0, kLongestShown));
+    for (char& c : shown)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    return text.size() > kLongestShown ? shown + "..." : shown;
+}
+
+std::string in_quotes(std::string_view text) {
+    return '"' + clipped(text) + '"';
+}
+
+std::vector<float> Argument::take_numbers() {
+    if (kind == Kind::Number) return {static_cast<float>(number)};
+    return std::move(floats);
+}
+
+bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, Diagnostics& diagnostics) {
+    request.arguments.clear();
+    request.problem.clear();
+    request.is_binary = false;
+    if (!find_request_name(scanner, diagnostics)) return false;
     request.name = scanner.peek().text;
     request.at = scanner.peek().at;
     scanner.skip();
     while (true) {
         const Token& token = scanner.peek();
+        if (request.arguments.size() > kMostArguments) {
+            note_problem(request, token.at, "more than " + std::to_string(kMostArguments) + " arguments");
+            request.arguments.clear();
+        }
         switch (token.kind) {
             case TokenKind::End:
             case TokenKind::Word:
+            case TokenKind::BinaryRequest:
                 return true;
+            case TokenKind::Open:
+                read_array(scanner, request.arguments.emplace_back(), request, is_request);
+                continue;
             case TokenKind::Number: {
-                if (!(token.number - token.number == 0))
-                    note_problem(request, token.at, "a value is not a finite number");
-                request.arguments.push_back(
-                    {Argument::Kind::Number, token.at, {static_cast<float>(token.number)}, {}});
-                scanner.skip();
+                if (!std::isfinite(token.number)) note_problem(request, token.at, kNotFinite);
+                Argument& argument = request.arguments.emplace_back();
+                argument.at = token.at, argument.number = token.number;
                 break;
             }
-            case TokenKind::String:
-                request.arguments.push_back({Argument::Kind::String, token.at, {}, {token.string}});
-                scanner.skip();
+            case TokenKind::String: {
+                Argument& argument = request.arguments.emplace_back();
+                argument.kind = Argument::Kind::String, argument.at = token.at;
+                argument.strings.push_back(token.string);
                 break;
-            case TokenKind::Open:
-                request.arguments.emplace_back();
-                read_array(scanner, request.arguments.back(), request);
-                break;
+            }
             case TokenKind::Close:
                 note_problem(request, token.at, "a ] without its [");
-                scanner.skip();
                 break;
             case TokenKind::Bad:
-                if (is_binary(token))
-                    report_binary(token, diagnostics);
-                else
-                    note_problem(request, token.at,
-                                 token.text == "\"" ? "a string that is never closed"
-                                                    : "characters that RIB does not have");
-                scanner.skip();
+                note_problem(request, token.at, what_is_bad(token));
+                break;
+            case TokenKind::Binary:
+                request.is_binary = true;
                 break;
         }
+        scanner.skip();
     }
 }
 
@@ -120,26 +165,38 @@ void ArgumentCursor::missing(const char* what) const {
 }
 
 float ArgumentCursor::number(const char* what) {
-    if (!next_is_number() || peek()->numbers.size() != 1) missing(what);
-    return request_.arguments[next_++].numbers[0];
+    if (!next_is_number() || peek()->number_count() != 1) missing(what);
+    return request_.arguments[next_++].take_numbers()[0];
 }
 
-std::vector<float> ArgumentCursor::numbers(size_t count, const char* what) {
+int ArgumentCursor::integer(const char* what, int lowest, int highest) {
+    const SourceLocation at = done() ? SourceLocation{} : peek()->at;
+    const std::vector<int> values = int_array(what);
+    if (values.size() != 1) throw RequestError{std::string(what) + " is expected here", at};
+    if (values[0] < lowest || values[0] > highest)
+        throw RequestError{std::string(what) + " is " + std::to_string(values[0]) + ", must be " +
+                               std::to_string(lowest) + " to " + std::to_string(highest),
+                           at};
+    return values[0];
+}
+
+std::vector<float> ArgumentCursor::numbers(size_t least, size_t most, const char* what) {
     if (!next_is_number()) missing(what);
-    if (peek()->kind == Argument::Kind::Array) {
-        if (peek()->numbers.size() != count)
-            throw RequestError{std::string(what) + " has " + std::to_string(peek()->numbers.size()) +
-                                   " numbers, needs " + std::to_string(count),
-                               peek()->at};
-        return std::move(request_.arguments[next_++].numbers);
-    }
+    const SourceLocation at = peek()->at;
     std::vector<float> values;
-    while (values.size() < count && !done() && peek()->kind == Argument::Kind::Number)
-        values.push_back(request_.arguments[next_++].numbers[0]);
-    if (values.size() != count)
+    while (values.size() < most && next_is_number()) {
+        Argument& argument = request_.arguments[next_++];
+        if (argument.kind == Argument::Kind::Number)
+            values.push_back(static_cast<float>(argument.number));
+        else if (values.empty())
+            values = std::move(argument.floats);
+        else
+            values.insert(values.end(), argument.floats.begin(), argument.floats.end());
+    }
+    if (values.size() < least || values.size() > most)
         throw RequestError{std::string(what) + " has " + std::to_string(values.size()) + " numbers, needs " +
-                               std::to_string(count),
-                           {}};
+                               std::to_string(most),
+                           at};
     return values;
 }
 
@@ -150,30 +207,37 @@ std::string ArgumentCursor::string(const char* what) {
 
 std::vector<float> ArgumentCursor::number_array(const char* what) {
     if (!next_is_number()) missing(what);
-    return std::move(request_.arguments[next_++].numbers);
+    return request_.arguments[next_++].take_numbers();
 }
 
 std::vector<int> ArgumentCursor::int_array(const char* what) {
-    const SourceLocation at = done() ? SourceLocation{} : peek()->at;
-    const std::vector<float> values = number_array(what);
-    std::vector<int> ints(values.size());
-    for (size_t i = 0; i < values.size(); ++i) {
-        if (!(std::abs(values[i]) < 2.1e9f) || values[i] != std::trunc(values[i]))
-            throw RequestError{std::string(what) + " holds a number that is not an integer", at};
-        ints[i] = static_cast<int>(values[i]);
+    if (!next_is_number()) missing(what);
+    const Argument& argument = request_.arguments[next_++];
+    const auto whole = [&](double value) {
+        if (value < INT32_MIN || value > INT32_MAX || value != std::trunc(value))
+            throw RequestError{std::string(what) + " holds a number that is no integer of 32 bits",
+                               argument.at};
+        return static_cast<int>(value);
+    };
+    if (argument.kind == Argument::Kind::Number) return {whole(argument.number)};
+    std::vector<int> ints(argument.floats.size());
+    size_t large = 0;
+    for (size_t i = 0; i < ints.size(); ++i) {
+        const bool is_large =
+            large < argument.large_integers.size() && argument.large_integers[large].first == i;
+        ints[i] = whole(is_large ? argument.large_integers[large++].second : argument.floats[i]);
     }
     return ints;
 }
 
 std::vector<std::string> ArgumentCursor::string_array(const char* what) {
-    if (done() || (!peek()->is_text() && !peek()->numbers.empty())) missing(what);
+    if (done() || (!peek()->is_text() && peek()->number_count() > 0)) missing(what);
     return std::move(request_.arguments[next_++].strings);
 }
 
 std::string ArgumentCursor::handle(const char* what) {
     if (next_is_string()) return string(what);
-    const float value = number(what);
-    return std::to_string(static_cast<long long>(value));
+    return std::to_string(integer(what, INT32_MIN, INT32_MAX));
 }
 
 Argument ArgumentCursor::take(const char* what) {

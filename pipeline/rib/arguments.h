@@ -2,10 +2,9 @@
 /// fixed number of values with or without brackets, then name and value pairs.
 #pragma once
 
-#include <cmath>
-#include <optional>
-#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/diagnostics.h"
@@ -19,10 +18,16 @@ struct Argument {
 
     Kind kind = Kind::Number;
     SourceLocation at;
-    std::vector<float> numbers;
-    std::vector<std::string> strings;
+    double number = 0;                 ///< Number
+    std::vector<float> floats;         ///< Array
+    std::vector<std::string> strings;  ///< Array; String: just one
+    /// Elements of `floats` that are integers too large to be floats, by their place.
+    std::vector<std::pair<size_t, double>> large_integers;
 
-    bool is_text() const { return !strings.empty(); }
+    bool is_text() const { return kind == Kind::String || !strings.empty(); }
+    size_t number_count() const { return kind == Kind::Number ? 1 : floats.size(); }
+    /// The numbers, moved out.
+    std::vector<float> take_numbers();
 };
 
 /// A request's name and all that follows up to the next word.
@@ -32,10 +37,23 @@ struct RequestText {
     std::vector<Argument> arguments;
     std::string problem;  ///< what is wrong with the arguments as text; empty when nothing
     SourceLocation problem_at;
+    bool is_binary = false;  ///< some of the arguments are encoded
 };
 
-/// Reads the next request; false at the end of the text. Stray tokens before it are reported through `stray`.
-bool read_request(Scanner& scanner, RequestText& request, Diagnostics& diagnostics);
+/// Words that begin a request. Any other word within brackets is an error there, and not the next request.
+using IsRequest = bool (*)(std::string_view word);
+
+/// Reads the next request; false at the end of the text. What stands between requests is reported and passed
+/// over.
+bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, Diagnostics& diagnostics);
+
+/// The kind under which binary RIB is reported: once.
+inline constexpr const char* kBinaryRib = "binary-rib";
+
+/// Text from a file as messages show it: in quotes, clipped, one line.
+std::string in_quotes(std::string_view text);
+/// The same without quotes, for names of requests.
+std::string clipped(std::string_view text);
 
 /// Thrown by handlers through the cursor below and caught by the reader of requests: the request is skipped.
 struct RequestError {
@@ -48,11 +66,19 @@ class ArgumentCursor {
     explicit ArgumentCursor(RequestText& request) : request_(request) {}
 
     bool done() const { return next_ >= request_.arguments.size(); }
-    const Argument* peek() const { return done() ? nullptr : &request_.arguments[next_]; }
+    /// The argument after `ahead` others, or null.
+    const Argument* peek(size_t ahead = 0) const {
+        return next_ + ahead < request_.arguments.size() ? &request_.arguments[next_ + ahead] : nullptr;
+    }
+    bool next_is_number() const { return !done() && !peek()->is_text(); }
+    bool next_is_string() const { return !done() && peek()->is_text(); }
+    bool next_is_array() const { return !done() && peek()->kind == Argument::Kind::Array; }
 
     float number(const char* what);
-    /// `count` numbers, as one array or one by one.
-    std::vector<float> numbers(size_t count, const char* what);
+    int integer(const char* what, int lowest, int highest);
+    /// `count` numbers, as arrays or one by one.
+    std::vector<float> numbers(size_t count, const char* what) { return numbers(count, count, what); }
+    std::vector<float> numbers(size_t least, size_t most, const char* what);
     std::string string(const char* what);
     /// An array of any length; a single number counts as an array of one.
     std::vector<float> number_array(const char* what);
@@ -61,12 +87,6 @@ class ArgumentCursor {
     /// A handle: a string, or an integer as text.
     std::string handle(const char* what);
     Argument take(const char* what);
-    bool next_is_number() const {
-        return !done() && !peek()->is_text() && peek()->kind != Argument::Kind::String;
-    }
-    bool next_is_string() const {
-        return !done() && (peek()->kind == Argument::Kind::String || peek()->is_text());
-    }
 
   private:
     [[noreturn]] void missing(const char* what) const;

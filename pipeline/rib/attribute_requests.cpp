@@ -35,12 +35,12 @@ void shading_rate(Reader& r, ArgumentCursor& c) {
 void shading_interpolation(Reader& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     if (type != "constant" && type != "smooth")
-        throw RequestError{"\"" + type + "\" is neither constant nor smooth", {}};
+        throw RequestError{in_quotes(type) + " is neither constant nor smooth", {}};
     change(r).smooth_shading = type == "smooth";
 }
 
 void matte(Reader& r, ArgumentCursor& c) {
-    change(r).matte = std::clamp(static_cast<int>(c.number("0 or 1")), 0, 2);
+    change(r).matte = c.integer("the flag", 0, 2);
 }
 
 void sides(Reader& r, ArgumentCursor& c) {
@@ -61,7 +61,7 @@ void orientation(Reader& r, ArgumentCursor& c) {
     else if (name == "rh")
         state.orientation = Orientation::RightHanded;
     else
-        throw RequestError{"\"" + name + "\" is none of outside, inside, lh, rh", {}};
+        throw RequestError{in_quotes(name) + " is none of outside, inside, lh, rh", {}};
     state.orientation_reversed = false;
 }
 
@@ -72,17 +72,16 @@ void reverse_orientation(Reader& r, ArgumentCursor&) {
 
 template <std::shared_ptr<const ShaderInstance> Attributes::*kWhere>
 void shader(Reader& r, ArgumentCursor& c, const char* kind) {
-    if (auto instance = r.shader(c, kind)) change(r).*kWhere = std::move(instance);
+    auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
+    instance->parameters = r.parameters(c);
+    change(r).*kWhere = std::move(instance);
 }
 
 void light_source(Reader& r, ArgumentCursor& c) {
     auto light = std::make_shared<LightInstance>();
-    light->shader.name = c.string("the shader's name");
+    light->shader = r.shader(c, "light");
     light->handle = c.handle("the handle");
-    light->shader.location = r.at();
     light->shader.parameters = r.parameters(c);
-    light->shader.camera_from_shader = r.camera_from_current();
-    ++r.summary().shaders["light " + light->shader.name];
     r.add_light(std::move(light));
 }
 
@@ -90,7 +89,7 @@ void illuminate(Reader& r, ArgumentCursor& c) {
     const std::string handle = c.handle("the light's handle");
     const bool on = c.done() || c.number("0 or 1") != 0;
     const auto light = r.light(handle);
-    if (!light) throw RequestError{"no light \"" + handle + "\"", {}};
+    if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
     auto& lights = change(r).lights;
     const auto place = std::find(lights.begin(), lights.end(), light);
     if (on && place == lights.end()) lights.push_back(light);
@@ -112,15 +111,13 @@ void basis(Reader& r, ArgumentCursor& c) {
             else if (name == "power")
                 matrix = M44f(), step = 4;
             else
-                throw RequestError{"no basis \"" + name + "\"", {}};
+                throw RequestError{"no basis " + in_quotes(name), {}};
         } else {
             const auto v = c.numbers(16, what);
             for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = v[i];
         }
-        if (c.next_is_number() && c.peek()->kind == Argument::Kind::Number) {
-            const float s = c.number("the step");
-            if (!(s >= 1 && s <= 4)) throw RequestError{"a step must be 1 to 4", {}};
-            step = static_cast<int>(s);
+        if (c.next_is_number() && !c.next_is_array()) {
+            step = c.integer("a step", 1, 4);
         }
     };
     M44f u, v;
@@ -133,7 +130,7 @@ void basis(Reader& r, ArgumentCursor& c) {
 
 void attribute(Reader& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
-    const ParameterList values = r.parameters(c);
+    const ParameterList values = r.parameters(c, Undeclared::Guess);
     AttributeState& state = r.change_attributes();
     for (const Parameter& value : values.values) {
         state.attributes.user[category].set(value);

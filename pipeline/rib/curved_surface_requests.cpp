@@ -1,5 +1,5 @@
 /// RISpec 5.2, 5.4: patches and quadrics.
-#include <cmath>
+#include <cstdint>
 
 #include "pipeline/rib/primitive_variables.h"
 #include "pipeline/rib/request_table.h"
@@ -8,11 +8,12 @@ namespace trapeze::rib {
 namespace {
 
 constexpr int kLargestMesh = 1 << 20;  ///< control points along a side
+constexpr int64_t kMostPoints = 1 << 28;
 
 PatchMesh mesh_of_type(Reader& r, const std::string& type) {
     PatchMesh mesh;
     if (type != "bilinear" && type != "bicubic")
-        throw RequestError{"\"" + type + "\" is neither bilinear nor bicubic; primitive skipped", {}};
+        throw RequestError{in_quotes(type) + " is neither bilinear nor bicubic", {}};
     mesh.bicubic = type == "bicubic";
     mesh.u_basis = r.attributes().u_basis, mesh.v_basis = r.attributes().v_basis;
     mesh.u_step = r.attributes().u_step, mesh.v_step = r.attributes().v_step;
@@ -21,8 +22,8 @@ PatchMesh mesh_of_type(Reader& r, const std::string& type) {
 
 void add_patches(Reader& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
     Shape shape{mesh, {}};
-    ParameterList list = r.parameters(c);
-    if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing; primitive skipped", {}};
+    ParameterList list = read_variables(r, c, PointForm::Patch);
+    if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
     shape.variables = checked_variables(r, std::move(list), shape.topology);
     r.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
 }
@@ -36,25 +37,21 @@ void patch(Reader& r, ArgumentCursor& c) {
 void patch_mesh(Reader& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
-        const float count = c.number("the number of points");
+        n = c.integer((std::string("the number of points along ") + axis).c_str(), 2, kLargestMesh);
         const std::string wrap = c.string("the wrap mode");
         if (wrap != "periodic" && wrap != "nonperiodic")
-            throw RequestError{"\"" + wrap + "\" is neither periodic nor nonperiodic; primitive skipped", {}};
+            throw RequestError{in_quotes(wrap) + " is neither periodic nor nonperiodic", {}};
         wraps = wrap == "periodic";
-        if (!(count >= 2 && count <= kLargestMesh) || count != std::trunc(count))
-            throw RequestError{
-                std::string("the number of points along ") + axis + " is out of range; primitive skipped",
-                {}};
-        n = static_cast<int>(count);
         if (!mesh.bicubic) return;
         if (wraps ? (n % step != 0 || n < 3) : (n < 4 || (n - 4) % step != 0))
             throw RequestError{std::to_string(n) + " points along " + axis +
-                                   " do not fit the basis' step of " + std::to_string(step) +
-                                   "; primitive skipped",
+                                   " do not fit the basis' step of " + std::to_string(step),
                                {}};
     };
     side("u", mesh.nu, mesh.u_wraps, mesh.u_step);
     side("v", mesh.nv, mesh.v_wraps, mesh.v_step);
+    if (int64_t{mesh.nu} * mesh.nv > kMostPoints)
+        throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
     add_patches(r, c, "PatchMesh", mesh);
 }
 
@@ -83,14 +80,12 @@ void quadric(Reader& r, ArgumentCursor& c) {
         values.insert(values.end(), more.begin(), more.end());
     }
     if (static_cast<int>(values.size()) != row.count)
-        throw RequestError{"has " + std::to_string(values.size()) + " numbers, needs " +
-                               std::to_string(row.count) + "; primitive skipped",
-                           {}};
+        throw RequestError{
+            "has " + std::to_string(values.size()) + " numbers, needs " + std::to_string(row.count), {}};
     std::copy(values.begin(), values.end(), q.values.begin());
-    if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0)
-        throw RequestError{"the radius is 0; primitive skipped", {}};
+    if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0) throw RequestError{"the radius is 0", {}};
     Shape shape{q, {}};
-    shape.variables = checked_variables(r, r.parameters(c), shape.topology);
+    shape.variables = checked_variables(r, read_variables(r, c, PointForm::None), shape.topology);
     r.add_shape(row.name, std::move(shape), 1);
 }
 

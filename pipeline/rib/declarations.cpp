@@ -68,7 +68,7 @@ std::optional<Declaration> declaration_of(const std::vector<std::string>& words)
         const std::string& w = words[i++];
         int length = 0;
         const auto [end, error] = std::from_chars(w.data() + 1, w.data() + w.size() - 1, length);
-        if (error != std::errc() || *end != ']' || length < 1 || length > 1000000) return {};
+        if (error != std::errc() || *end != ']' || length < 1 || length > kLongestArray) return {};
         declaration.array_length = length;
     }
     if (i != words.size()) return {};

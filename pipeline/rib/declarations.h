@@ -10,6 +10,9 @@
 
 namespace trapeze::rib {
 
+/// The longest array a declaration may have.
+inline constexpr int kLongestArray = 1000000;
+
 /// "[class] type[n]", words apart by spaces; nothing when it is not one.
 std::optional<Declaration> parse_declaration(std::string_view text);
 

@@ -16,6 +16,8 @@ namespace trapeze::rib {
 struct DisplacementBound {
     float sphere = 0;
     std::string coordinate_system = "object";
+
+    bool operator==(const DisplacementBound&) const = default;
 };
 
 /// Orientation as it was asked for; what it means for normals depends on the space of each primitive.
@@ -35,16 +37,47 @@ struct GraphicsState {
     std::shared_ptr<const AttributeState> attributes;
 };
 
-enum class Block { Frame, World, Attribute, Transform, Motion, Object, Solid, Archive };
+enum class Block { Frame, World, Attribute, Transform, Motion, Object };
+
+/// The request that opens it.
+const char* block_name(Block kind);
+
+/// A primitive as an object definition keeps it: placed by each instance.
+struct ObjectPrimitive {
+    std::string request;
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    std::vector<float> times;
+    MovingTransform object_from_shape;
+    std::shared_ptr<const AttributeState>
+        attributes;  ///< what changed since ObjectBegin outdoes the instance's
+    SourceLocation at;
+    /// `shapes` at the keys of the shutter, made by the first instance for all.
+    std::vector<std::shared_ptr<const Shape>> keys;
+    float keys_open = 0, keys_close = 0;
+};
+
+struct RetainedObject {
+    std::shared_ptr<const AttributeState> attributes;  ///< at ObjectBegin
+    std::vector<ObjectPrimitive> primitives;
+};
+
+/// What frames and worlds restore besides the graphics state: RISpec ends the life of lights, objects and
+/// options with them.
+struct Scope {
+    Options options;
+    std::map<std::string, MovingTransform> named_spaces;  ///< camera_from_space
+    std::map<std::string, std::shared_ptr<const LightInstance>> lights;
+    std::map<std::string, std::shared_ptr<RetainedObject>> objects;
+};
 
 struct OpenBlock {
     Block kind = Block::Attribute;
     SourceLocation at;
     GraphicsState saved;
-    Options saved_options;  ///< of frames and worlds
+    std::unique_ptr<Scope> scope;  ///< of frames and worlds
 };
 
-/// Geometry or transforms gathered between MotionBegin and MotionEnd.
+/// Geometry or transforms, gathered between MotionBegin and MotionEnd.
 struct MotionBlock {
     SourceLocation at;
     std::vector<float> times;
@@ -53,17 +86,7 @@ struct MotionBlock {
     bool absolute = false;  ///< Transform
     std::vector<TransformArguments> transforms;
     std::vector<std::shared_ptr<const Shape>> shapes;
-    int others = 0;  ///< requests of other kinds, of which the first counts
-};
-
-/// A primitive as an object definition keeps it: placed by each instance.
-struct ObjectPrimitive {
-    std::string request;
-    std::vector<std::shared_ptr<const Shape>> shapes;
-    std::vector<float> times;
-    MovingTransform object_from_shape;
-    std::shared_ptr<const AttributeState> attributes;  ///< null: the instance's
-    SourceLocation at;
+    int others = 0;  ///< requests of other kinds (colours, shaders), of which the first counts
 };
 
 }  // namespace trapeze::rib

@@ -96,46 +96,66 @@ bool MovingFactor::moves_between(float open, float close) const {
                        [&](const auto& a) { return a != arguments.front(); });
 }
 
-void MovingTransform::concat(const M44d& matrix) {
-    if (!factors_.empty() && !factors_.back().moves) {
-        factors_.back().fixed = matrix * factors_.back().fixed;
-        return;
+float MovingFactor::fastest_turn(float open, float close) const {
+    if (kind != TransformKind::Rotate) return 0;
+    float fastest = 0;
+    for (size_t i = 1; i < times.size(); ++i) {
+        if (times[i] <= open || times[i - 1] >= close) continue;
+        const float shutters = (times[i] - times[i - 1]) / (close - open);
+        fastest =
+            std::max(fastest, std::abs(arguments[i][0] - arguments[i - 1][0]) / std::max(shutters, 1e-6f));
     }
-    factors_.push_back({false, matrix, {}});
+    return fastest;
 }
 
-void MovingTransform::concat(MovingFactor factor) {
-    factors_.push_back({true, {}, std::move(factor)});
+void MovingTransform::concat(const M44d& matrix) {
+    auto factor = std::make_shared<Factor>();
+    factor->fixed = matrix;
+    if (newest_) {
+        factor->older = newest_;
+        factor->moving_factors = newest_->moving_factors;
+        if (!newest_->moving) factor->fixed = matrix * newest_->fixed, factor->older = newest_->older;
+    }
+    newest_ = std::move(factor);
+}
+
+void MovingTransform::concat(MovingFactor moving) {
+    auto factor = std::make_shared<Factor>();
+    factor->moving_factors = moving_factors() + 1;
+    factor->older = std::move(newest_);
+    factor->moving = std::move(moving);
+    newest_ = std::move(factor);
 }
 
 void MovingTransform::concat(const MovingTransform& newer) {
-    for (const Factor& factor : newer.factors_)
-        if (factor.moves)
-            factors_.push_back(factor);
+    std::vector<const Factor*> factors;
+    for (const Factor* f = newer.newest_.get(); f; f = f->older.get()) factors.push_back(f);
+    for (size_t i = factors.size(); i-- > 0;)
+        if (factors[i]->moving)
+            concat(*factors[i]->moving);
         else
-            concat(factor.fixed);
+            concat(factors[i]->fixed);
 }
 
 M44d MovingTransform::at(float time) const {
-    M44d m;
-    for (const Factor& factor : factors_) m = (factor.moves ? factor.moving.at(time) : factor.fixed) * m;
+    if (!newest_) return M44d();
+    M44d m = newest_->at(time);
+    for (const Factor* f = newest_->older.get(); f; f = f->older.get()) m = m * f->at(time);
     return m;
 }
 
 bool MovingTransform::moves_between(float open, float close) const {
-    return std::any_of(factors_.begin(), factors_.end(),
-                       [&](const Factor& f) { return f.moves && f.moving.moves_between(open, close); });
+    for (const Factor* f = newest_.get(); f; f = f->older.get())
+        if (f->moving && f->moving->moves_between(open, close)) return true;
+    return false;
 }
 
 int MovingTransform::wanted_keys(float open, float close) const {
     int keys = 1;
-    for (const Factor& factor : factors_) {
-        if (!factor.moves || !factor.moving.moves_between(open, close)) continue;
-        keys = std::max(keys, keys_meeting(factor.moving.times, open, close));
-        if (factor.moving.kind != TransformKind::Rotate) continue;
-        float degrees = 0;
-        for (size_t i = 1; i < factor.moving.times.size(); ++i)
-            degrees += std::abs(factor.moving.arguments[i][0] - factor.moving.arguments[i - 1][0]);
+    for (const Factor* f = newest_.get(); f; f = f->older.get()) {
+        if (!f->moving || !f->moving->moves_between(open, close)) continue;
+        keys = std::max(keys, keys_meeting(f->moving->times, open, close));
+        const float degrees = f->moving->fastest_turn(open, close);
         while (keys < kMaxKeyCount && degrees / static_cast<float>(keys - 1) > kDegreesPerSegment)
             keys = 2 * keys - 1;
     }

@@ -2,7 +2,8 @@
 /// rotation stays a rotation between its keys. Row vectors: p' = p * M.
 #pragma once
 
-#include <array>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/math.h"
@@ -26,9 +27,11 @@ struct MovingFactor {
 
     M44d at(float time) const;
     bool moves_between(float open, float close) const;
+    /// Degrees that the fastest part within the shutter would turn in a whole shutter; 0 unless it rotates.
+    float fastest_turn(float open, float close) const;
 };
 
-/// A chain of factors, the newest applied first.
+/// A chain of factors, the newest applied first. Copies share it: blocks nest deeply.
 class MovingTransform {
   public:
     void concat(const M44d& matrix);
@@ -39,15 +42,19 @@ class MovingTransform {
     /// Keys that the motion in the shutter wants: 1, or 2^m + 1 so that keys given on a dyadic division of
     /// the shutter are met and no segment turns by more than about ten degrees.
     int wanted_keys(float open, float close) const;
+    int moving_factors() const { return newest_ ? newest_->moving_factors : 0; }
 
   private:
     /// Either a fixed matrix or a moving factor.
     struct Factor {
-        bool moves = false;
+        std::shared_ptr<const Factor> older;
+        int moving_factors = 0;  ///< this and the older ones
         M44d fixed;
-        MovingFactor moving;
+        std::optional<MovingFactor> moving;
+
+        M44d at(float time) const { return moving ? moving->at(time) : fixed; }
     };
-    std::vector<Factor> factors_;  ///< oldest first
+    std::shared_ptr<const Factor> newest_;
 };
 
 /// The smallest 2^m + 1 (m <= 4) whose even keys meet all of the times within the shutter; 17 when none does.

@@ -56,21 +56,19 @@ void crop_window(Reader& r, ArgumentCursor& c) {
 }
 
 void projection(Reader& r, ArgumentCursor& c) {
-    const std::string name = c.string("the projection's name");
-    const ParameterList parameters = r.parameters(c);
     Options& o = changeable(r);
+    const std::string name = c.string("the projection's name");
+    const float fov = r.parameters(c).float_or("fov", 90);
+    require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
     if (name != "perspective" && name != "orthographic") {
         if (!name.empty() && name != "null")
-            r.warn_once("projection \"" + name + "\" is not supported; orthographic is used",
-                        "projection-" + name);
+            r.warn_once(in_quotes(name) + " is not supported; orthographic is used", "projection-" + name);
         o.projection = "orthographic";
     } else {
         o.projection = name;
     }
-    const float fov = parameters.float_or("fov", 90);
-    require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
     o.fov = fov;
-    // RISpec 4.1.1: what follows places the world in front of the camera.
+    // RISpec 4.1.1: what came before belongs to the screen; what follows places the world before the camera.
     r.state().transform = MovingTransform();
 }
 
@@ -98,6 +96,7 @@ void depth_of_field(Reader& r, ArgumentCursor& c) {
 void shutter(Reader& r, ArgumentCursor& c) {
     const float open = c.number("the opening time"), close = c.number("the closing time");
     require(open <= close, "closes before it opens");
+    require(std::isfinite(close - open), "is open for too long");
     changeable(r).shutter_open = open;
     r.options().shutter_close = close;
 }
@@ -134,20 +133,20 @@ void quantize(Reader& r, ArgumentCursor& c) {
 
 void imager(Reader& r, ArgumentCursor& c) {
     changeable(r).imager = c.string("the imager's name");
-    r.parameters(c);
+    r.parameters(c, Undeclared::Guess);
 }
 
 void hider(Reader& r, ArgumentCursor& c) {
-    const std::string name = c.string("the hider's name");
-    changeable(r).hider = name;
-    r.options().hider_parameters = r.parameters(c);
+    Options& o = changeable(r);
+    o.hider = c.string("the hider's name");
+    o.hider_parameters = r.parameters(c, Undeclared::Guess);
 }
 
 void display(Reader& r, ArgumentCursor& c) {
     Display d;
     d.location = r.at();
     d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
-    d.parameters = r.parameters(c);
+    d.parameters = r.parameters(c, Undeclared::Guess);
     Options& o = changeable(r);
     if (!d.name.empty() && d.name[0] == '+') {
         d.name.erase(0, 1);
@@ -158,19 +157,20 @@ void display(Reader& r, ArgumentCursor& c) {
 }
 
 void option(Reader& r, ArgumentCursor& c) {
+    Options& o = changeable(r);
     const std::string category = c.string("the category");
-    const ParameterList values = r.parameters(c);
+    const ParameterList values = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : values.values) {
         if (category == "searchpath" && !value.strings.empty())
             r.set_search_path(value.name, value.strings[0]);
-        r.options().user[category].set(value);
+        o.user[category].set(value);
     }
 }
 
-void kept(Reader& r, ArgumentCursor& c) {
-    Parameter value;
-    while (!c.done()) value.floats.push_back(c.number("a number"));
-    r.options().user["request"].set(value);
+/// Requests that change nothing here: RelativeDetail, PixelVariance.
+void without_effect(Reader& r, ArgumentCursor& c) {
+    changeable(r);
+    c.number("the value");
 }
 
 constexpr RequestRow kRows[] = {
@@ -184,14 +184,14 @@ constexpr RequestRow kRows[] = {
     {"Shutter", shutter},
     {"PixelSamples", pixel_samples},
     {"PixelFilter", pixel_filter},
-    {"PixelVariance", kept},
+    {"PixelVariance", without_effect},
     {"Exposure", exposure},
     {"Quantize", quantize},
     {"Imager", imager},
     {"Hider", hider},
     {"Display", display},
     {"Option", option},
-    {"RelativeDetail", kept},
+    {"RelativeDetail", without_effect},
 };
 
 }  // namespace

@@ -23,9 +23,9 @@ int64_t checked_sum(const std::vector<int>& counts, int smallest, const char* wh
 
 void expect_length(size_t got, int64_t wanted, const char* what) {
     if (static_cast<int64_t>(got) != wanted)
-        throw RequestError{std::string(what) + " has " + std::to_string(got) + " numbers, needs " +
-                               std::to_string(wanted) + "; primitive skipped",
-                           {}};
+        throw RequestError{
+            std::string(what) + " has " + std::to_string(got) + " numbers, needs " + std::to_string(wanted),
+            {}};
 }
 
 /// Points are counted from the list itself: the largest index decides how many are needed.
@@ -33,16 +33,17 @@ void check_indices(const std::vector<int>& indices, int points) {
     for (const int index : indices)
         if (index < 0 || index >= points)
             throw RequestError{"vertex " + std::to_string(index) + " is outside of the " +
-                                   std::to_string(points) + " points of \"P\"; primitive skipped",
+                                   std::to_string(points) + " points of \"P\"",
                                {}};
 }
 
 /// Reads the variables of a mesh whose points are counted by its "P".
 template <class Mesh>
 void add_mesh(Reader& r, ArgumentCursor& c, const char* request, Mesh mesh, uint64_t faces) {
-    ParameterList list = r.parameters(c);
+    if (faces == 0) throw RequestError{"has no faces", {}};
+    ParameterList list = read_variables(r, c, PointForm::Mesh);
     mesh.vertex_count = point_count_of(list);
-    if (mesh.vertex_count == 0) throw RequestError{"\"P\" is missing; primitive skipped", {}};
+    if (mesh.vertex_count == 0) throw RequestError{"\"P\" is missing", {}};
     check_indices(mesh.vertices, mesh.vertex_count);
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r, std::move(list), shape.topology);
@@ -60,11 +61,10 @@ PolygonMesh consecutive(std::vector<int> loops) {
 }
 
 void polygon(Reader& r, ArgumentCursor& c) {
-    ParameterList list = r.parameters(c);
+    ParameterList list = read_variables(r, c, PointForm::Mesh);
     const int points = point_count_of(list);
     if (points < 3)
-        throw RequestError{
-            "\"P\" has " + std::to_string(points) + " points, needs at least 3; primitive skipped", {}};
+        throw RequestError{"\"P\" has " + std::to_string(points) + " points, needs at least 3", {}};
     PolygonMesh mesh = consecutive({points});
     mesh.vertex_count = points;
     Shape shape{std::move(mesh), {}};
@@ -75,13 +75,12 @@ void polygon(Reader& r, ArgumentCursor& c) {
 void general_polygon(Reader& r, ArgumentCursor& c) {
     std::vector<int> loops = c.int_array("the loops");
     const int64_t sum = checked_sum(loops, 3, "a loop");
-    ParameterList list = r.parameters(c);
+    ParameterList list = read_variables(r, c, PointForm::Mesh);
     const int points = point_count_of(list);
     if (points != sum)
-        throw RequestError{"\"P\" has " + std::to_string(points) + " points, needs " + std::to_string(sum) +
-                               "; primitive skipped",
+        throw RequestError{"\"P\" has " + std::to_string(points) + " points, needs " + std::to_string(sum),
                            {}};
-    if (loops.empty()) throw RequestError{"has no loops; primitive skipped", {}};
+    if (loops.empty()) throw RequestError{"has no loops", {}};
     PolygonMesh mesh = consecutive(std::move(loops));
     mesh.vertex_count = points;
     Shape shape{std::move(mesh), {}};
@@ -122,11 +121,10 @@ std::vector<SubdivisionMesh::Tag> subdivision_tags(ArgumentCursor& c) {
     const size_t per_tag = names.empty() ? 2 : counts.size() / names.size();
     if (!names.empty() && (counts.size() % names.size() != 0 || (per_tag != 2 && per_tag != 3)))
         throw RequestError{"the tags' numbers of arguments has " + std::to_string(counts.size()) +
-                               " numbers, needs 2 or 3 for each of " + std::to_string(names.size()) +
-                               " tags; primitive skipped",
+                               " numbers, needs 2 or 3 for each of " + std::to_string(names.size()) + " tags",
                            {}};
     std::vector<std::string> strings;
-    if (per_tag == 3 && !c.done() && c.peek()->kind == Argument::Kind::Array && c.peek()->numbers.empty())
+    if (per_tag == 3 && !c.done() && c.peek()->kind == Argument::Kind::Array && c.peek()->floats.empty())
         strings = c.string_array("the tags' strings");
     size_t at[3] = {0, 0, 0};
     const size_t sizes[3] = {ints.size(), floats.size(), strings.size()};
@@ -137,8 +135,7 @@ std::vector<SubdivisionMesh::Tag> subdivision_tags(ArgumentCursor& c) {
         for (size_t k = 0; k < per_tag; ++k) {
             const int count = counts[i * per_tag + k];
             if (count < 0 || at[k] + static_cast<size_t>(count) > sizes[k])
-                throw RequestError{
-                    "tag \"" + names[i] + "\" wants more arguments than there are; primitive skipped", {}};
+                throw RequestError{"tag " + in_quotes(names[i]) + " wants more arguments than there are", {}};
             const auto from = static_cast<std::ptrdiff_t>(at[k]), to = from + count;
             if (k == 0) tag.ints.assign(ints.begin() + from, ints.begin() + to);
             if (k == 1) tag.floats.assign(floats.begin() + from, floats.begin() + to);
@@ -160,7 +157,7 @@ void subdivision_mesh(Reader& r, ArgumentCursor& c) {
     else if (scheme == "bilinear")
         mesh.scheme = SubdivisionMesh::Scheme::Bilinear;
     else
-        throw RequestError{"no scheme \"" + scheme + "\"; primitive skipped", {}};
+        throw RequestError{"no scheme " + in_quotes(scheme), {}};
     mesh.vertices_per_face = c.int_array("the numbers of vertices");
     mesh.vertices = c.int_array("the vertices");
     expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_face, 3, "a face"),
@@ -168,7 +165,7 @@ void subdivision_mesh(Reader& r, ArgumentCursor& c) {
     if (mesh.scheme == SubdivisionMesh::Scheme::Loop &&
         std::any_of(mesh.vertices_per_face.begin(), mesh.vertices_per_face.end(),
                     [](int n) { return n != 3; }))
-        throw RequestError{"scheme \"loop\" needs triangles; primitive skipped", {}};
+        throw RequestError{"scheme \"loop\" needs triangles", {}};
     const bool has_tags = !c.done() && c.peek()->kind == Argument::Kind::Array;
     if (has_tags) mesh.tags = subdivision_tags(c);
     const uint64_t faces = mesh.vertices_per_face.size();

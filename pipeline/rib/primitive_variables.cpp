@@ -5,64 +5,138 @@
 namespace trapeze::rib {
 namespace {
 
-void check_lengths(Reader& reader, ParameterList& list, const Topology& topology) {
-    const VariableCounts counts = variable_counts(topology);
-    std::erase_if(list.values, [&](const Parameter& p) {
-        const bool points = p.name == "P" || p.name == "Pw";
-        const size_t item = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();
-        const size_t got = (p.is_string() ? p.strings.size() : p.floats.size()) / item;
-        const size_t wanted = static_cast<size_t>(counts.of(p.declaration.storage));
-        if (got == wanted) return false;
-        const std::string text = "\"" + p.name + "\" has " + std::to_string(got) +
-                                 (points ? " points" : " values") + ", needs " + std::to_string(wanted);
-        if (points) throw RequestError{text + "; primitive skipped", {}};
-        reader.error(text + "; the variable is left out");
-        return true;
+struct StandardVariable {
+    const char* name;
+    ValueType type;
+    int array_length = 1;
+    bool is_points = false;
+};
+
+constexpr StandardVariable kStandard[] = {
+    {"P", ValueType::Point, 1, true},  {"Pw", ValueType::HPoint, 1, true},
+    {"Pz", ValueType::Float, 1, true}, {"N", ValueType::Normal},
+    {"Np", ValueType::Normal},         {"Cs", ValueType::Color},
+    {"Os", ValueType::Color},          {"s", ValueType::Float},
+    {"t", ValueType::Float},           {"st", ValueType::Float, 2},
+};
+
+void remove(ParameterList& list, std::string_view name) {
+    std::erase_if(list.values, [&](const Parameter& p) { return p.name == name; });
+}
+
+/// Later stages know RISpec's variables by name: scenes may not declare them as something else.
+void check_types(Reader& reader, ParameterList& list) {
+    std::erase_if(list.values, [&](Parameter& p) {
+        for (const StandardVariable& standard : kStandard) {
+            if (p.name != standard.name) continue;
+            Declaration own{p.declaration.storage, standard.type, standard.array_length};
+            if (standard.is_points) own.storage = StorageClass::Vertex;
+            if (p.is_string() || p.declaration.floats_per_item() != own.floats_per_item()) {
+                reader.error(in_quotes(p.name) + " is declared with another type than its own; left out");
+                return true;
+            }
+            p.declaration = own;
+        }
+        return false;
     });
 }
 
-/// Moves "st" apart.
 void split_st(ParameterList& list) {
     const Parameter* st = list.find("st");
-    if (!st || st->declaration.floats_per_item() != 2) return;
-    Parameter s{"s", st->declaration, {}, {}}, t{"t", st->declaration, {}, {}};
-    s.declaration.type = t.declaration.type = ValueType::Float;
-    s.declaration.array_length = t.declaration.array_length = 1;
+    if (!st) return;
+    Declaration declaration = st->declaration;
+    declaration.array_length = 1;
+    Parameter s{"s", declaration, {}, {}}, t{"t", declaration, {}, {}};
+    s.floats.reserve(st->floats.size() / 2), t.floats.reserve(st->floats.size() / 2);
     for (size_t i = 0; i + 1 < st->floats.size(); i += 2)
         s.floats.push_back(st->floats[i]), t.floats.push_back(st->floats[i + 1]);
-    std::erase_if(list.values, [](const Parameter& p) { return p.name == "st"; });
+    remove(list, "st");
     list.set(std::move(s));
     list.set(std::move(t));
+}
+
+void check_weights(const Parameter& pw) {
+    for (size_t i = 3; i < pw.floats.size(); i += 4)
+        if (pw.floats[i] == 0)
+            throw RequestError{"point " + std::to_string(i / 4) + " of \"Pw\" has the weight 0", {}};
+}
+
+Parameter divided_by_weights(const Parameter& pw) {
+    Parameter p{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
+    p.floats.reserve(pw.floats.size() / 4 * 3);
+    for (size_t i = 0; i + 3 < pw.floats.size(); i += 4)
+        for (size_t k = 0; k < 3; ++k) p.floats.push_back(pw.floats[i + k] / pw.floats[i + 3]);
+    return p;
+}
+
+void choose_points(Reader& reader, ParameterList& list, PointForm form) {
+    const auto leave_out = [&](const char* name) {
+        if (!list.find(name)) return;
+        reader.error(in_quotes(name) + " is not for this primitive; left out");
+        remove(list, name);
+    };
+    if (form == PointForm::None) leave_out("P"), leave_out("Pw");
+    if (form != PointForm::Patch) leave_out("Pz");
+    if (list.find("P")) remove(list, "Pw"), remove(list, "Pz");
+    const Parameter* pw = list.find("Pw");
+    if (!pw) return;
+    check_weights(*pw);
+    remove(list, "Pz");
+    if (form == PointForm::Patch) return;
+    Parameter p = divided_by_weights(*list.find("Pw"));
+    remove(list, "Pw");
+    list.set(std::move(p));
 }
 
 /// Heights over a regular grid of a patch mesh, which spans the unit square (RISpec 5.2).
 void expand_pz(ParameterList& list, const Topology& topology) {
     const Parameter* pz = list.find("Pz");
     const auto* mesh = std::get_if<PatchMesh>(&topology);
-    if (!pz || !mesh || list.find("P")) return;
+    if (!pz || !mesh) return;
     Parameter p{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
+    p.floats.reserve(pz->floats.size() * 3);
     for (size_t i = 0; i < pz->floats.size(); ++i) {
         const auto u = static_cast<float>(i % mesh->nu), v = static_cast<float>(i / mesh->nu);
-        p.floats.insert(p.floats.end(), {u / static_cast<float>(mesh->nu - 1),
-                                         v / static_cast<float>(mesh->nv - 1), pz->floats[i]});
+        p.floats.push_back(u / static_cast<float>(mesh->nu - 1));
+        p.floats.push_back(v / static_cast<float>(mesh->nv - 1));
+        p.floats.push_back(pz->floats[i]);
     }
-    std::erase_if(list.values, [](const Parameter& q) { return q.name == "Pz"; });
+    remove(list, "Pz");
     list.set(std::move(p));
 }
 
 }  // namespace
 
+ParameterList read_variables(Reader& reader, ArgumentCursor& cursor, PointForm form) {
+    ParameterList list = reader.parameters(cursor);
+    check_types(reader, list);
+    split_st(list);
+    choose_points(reader, list, form);
+    return list;
+}
+
 int point_count_of(const ParameterList& list) {
     for (const char* name : {"P", "Pw", "Pz"})
         if (const Parameter* p = list.find(name))
-            return static_cast<int>(p->floats.size() / p->declaration.floats_per_item());
+            return static_cast<int>(p->floats.size() / static_cast<size_t>(p->declaration.floats_per_item()));
     return 0;
 }
 
 ParameterList checked_variables(Reader& reader, ParameterList list, const Topology& topology) {
-    split_st(list);
     expand_pz(list, topology);
-    check_lengths(reader, list, topology);
+    const VariableCounts counts = variable_counts(topology);
+    std::erase_if(list.values, [&](const Parameter& p) {
+        const bool points = p.name == "P" || p.name == "Pw";
+        const int item = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();
+        const size_t got = (p.is_string() ? p.strings.size() : p.floats.size()) / static_cast<size_t>(item);
+        const auto wanted = static_cast<size_t>(counts.of(p.declaration.storage));
+        if (got == wanted) return false;
+        const std::string text = in_quotes(p.name) + " has " + std::to_string(got) +
+                                 (points ? " points" : " values") + ", needs " + std::to_string(wanted);
+        if (points) throw RequestError{text, {}};
+        reader.error(text + "; the variable is left out");
+        return true;
+    });
     return list;
 }
 

@@ -4,11 +4,19 @@
 
 namespace trapeze::rib {
 
-/// Checks a primitive's parameter list against its topology: points of a wrong number end the request; other
-/// variables of a wrong length are reported and left out. "st" becomes "s" and "t", "Pz" becomes "P".
-ParameterList checked_variables(Reader& reader, ParameterList list, const Topology& topology);
+/// How a primitive takes its points. Mesh: "P", or "Pw" divided by its weights. Patch: "P", "Pw", or heights
+/// "Pz" over a regular grid. None: a quadric.
+enum class PointForm { Mesh, Patch, None };
 
-/// Numbers of points that the list holds in "P", "Pw" or "Pz"; 0 when there is none.
+/// The parameter list at the end of a primitive. RISpec's own variables have their own types in it, "st" is
+/// "s" and "t", and of all forms of points only one is left.
+ParameterList read_variables(Reader& reader, ArgumentCursor& cursor, PointForm form);
+
+/// Number of points in such a list; 0 when there are none.
 int point_count_of(const ParameterList& list);
+
+/// Checks the list against its primitive: points of a wrong number end the request, other variables of a
+/// wrong length are reported and left out. "Pz" becomes "P".
+ParameterList checked_variables(Reader& reader, ParameterList list, const Topology& topology);
 
 }  // namespace trapeze::rib

@@ -21,6 +21,11 @@ struct ReadOptions {
         wants_frame;            ///< worlds of other FrameBegin blocks are not delivered; empty: all
     bool keep_geometry = true;  ///< false: primitives are validated and counted, not kept
     size_t max_source_bytes = size_t{8} << 30;  ///< of any one file, unpacked
+
+    // Small files can ask for much: archives that read archives, objects with many instances.
+    uint64_t most_archives_read = uint64_t{1} << 20;
+    uint64_t most_bytes_read = uint64_t{64} << 30;           ///< of all files and inline archives
+    uint64_t most_instanced_primitives = uint64_t{1} << 24;  ///< of a world
 };
 
 /// What was in the input.
@@ -31,7 +36,7 @@ struct ReadSummary {
     std::map<std::string, uint64_t> shaders;      ///< by kind and name: "surface plastic"
     uint64_t points = 0, faces = 0;               ///< control points and faces of those primitives
     uint64_t moving_primitives = 0, lights = 0;
-    uint64_t bytes = 0;  ///< unpacked
+    uint64_t bytes = 0;  ///< unpacked, archives as often as they are read
     int files = 0, frames = 0, worlds = 0;
 };
 

@@ -1,16 +1,21 @@
 /// The reader's state and what requests do to it. Requests are rows of tables (request_table.h), grouped by
-/// file.
+/// file. The members are in reader.cpp (streams), archives.cpp, blocks.cpp, motion_blocks.cpp, objects.cpp,
+/// parameters.cpp and reader_scene.cpp.
 #pragma once
 
 #include <map>
-#include <set>
 
 #include "pipeline/rib/arguments.h"
 #include "pipeline/rib/declarations.h"
+#include "pipeline/rib/deforming_shape.h"
 #include "pipeline/rib/graphics_state.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze::rib {
+
+/// What becomes of parameters that nobody declared: primitives and shaders leave them out, options and
+/// attributes keep them as what they look like.
+enum class Undeclared { LeaveOut, Guess };
 
 class Reader {
   public:
@@ -21,14 +26,13 @@ class Reader {
     void finish();
     ReadSummary& summary() { return summary_; }
 
-    // --- what requests use
-    // -------------------------------------------------------------------------------------------
+    // --- what requests use ---
     SourceLocation at() const { return at_; }
     void error(const std::string& text) { error(at_, text); }
     void error(SourceLocation at, const std::string& text);
     void warn_once(const std::string& text, const std::string& kind);
 
-    Options& options() { return options_; }
+    Options& options() { return scope_.options; }
     bool in_world() const { return in_world_; }
     Declarations& declarations() { return declarations_; }
 
@@ -37,26 +41,21 @@ class Reader {
     GraphicsState& state() { return state_; }
 
     /// Name and value pairs to the end of the request; wrong ones are reported and left out.
-    ParameterList parameters(ArgumentCursor& cursor);
+    ParameterList parameters(ArgumentCursor& cursor, Undeclared undeclared = Undeclared::LeaveOut);
 
     void begin_block(Block kind);
-    /// False, with an error, when the innermost block is another.
-    bool end_block(Block kind, const char* request);
-    void end_transform();
+    void end_block(Block kind);
 
     void begin_frame(int number);
-    void end_frame();
     void begin_world();
-    void end_world();
     void begin_motion(std::vector<float> times);
-    void end_motion();
     void begin_object(const std::string& handle);
-    void end_object();
     void instance(const std::string& handle);
     void read_archive(const std::string& name);
 
     void transform(TransformKind kind, TransformArguments arguments);
-    /// Identity and Transform: relative to the world (or to the camera before it).
+    /// Identity and Transform: relative to the world, to the camera before it, to the object in its
+    /// definition.
     void set_transform(const TransformArguments* matrix);
     void name_coordinate_system(const std::string& name);
     void use_coordinate_system(const std::string& name);
@@ -65,21 +64,38 @@ class Reader {
     void add_shape(std::string request, Shape shape, uint64_t faces);
     void add_light(std::shared_ptr<const LightInstance> light);
     std::shared_ptr<const LightInstance> light(const std::string& handle) const;
-    std::shared_ptr<const ShaderInstance> shader(ArgumentCursor& cursor, const char* kind);
+    /// The name of a shader, placed in the current space; its other arguments are still to come.
+    ShaderInstance shader(ArgumentCursor& cursor, const char* kind);
 
     void set_search_path(const std::string& category, const std::string& path);
 
   private:
-    void read_text(std::string_view text, uint32_t source);
+    void read_text(std::string_view text, SourceLocation first);
     void execute(RequestText& request);
-    bool recording_archive(RequestText& request, Scanner& scanner, std::string_view text, size_t begin);
-    void emit(const std::string& request, const std::vector<std::shared_ptr<const Shape>>& shapes,
-              const std::vector<float>& times, const MovingTransform& transform,
-              const AttributeState& attributes, SourceLocation at);
-    void close_all_blocks();
-    float displacement_length(const AttributeState& attributes, const M44f& camera_from_object) const;
     std::string current_file() const;  ///< the innermost that is a file on disk; may be empty
+    std::string current_folder() const;
+
+    void record_archive(RequestText& request, Scanner& scanner, std::string_view text);
     std::optional<std::string> find_archive(const std::string& name) const;
+    bool may_read_archive(const std::string& name, const std::string& key);
+
+    bool is_open(Block kind) const;
+    /// Closes the innermost block.
+    void close_block();
+    void open_scope();
+    void deliver_world();
+
+    /// Whether an attribute or option in a motion block is the one that counts.
+    bool is_first_in_motion(const std::string& request);
+    void finish_motion(MotionBlock block);
+    MovingTransform root_transform() const;
+
+    void emit(const std::string& request, const std::vector<ShapePointer>& keys,
+              const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
+              SourceLocation at);
+    std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
+                                                          const std::vector<M44f>& camera_from_object);
+    float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
 
     const ReadOptions& read_options_;
     Diagnostics& diagnostics_;
@@ -89,31 +105,45 @@ class Reader {
 
     SourceLocation at_;  ///< of the request being executed
     std::string request_name_;
-    Options options_;
+    Scope scope_;
     GraphicsState state_;
     std::vector<OpenBlock> blocks_;
     std::optional<MotionBlock> motion_;
     MovingTransform camera_;  ///< camera_from_world
     bool in_world_ = false, frame_wanted_ = true;
     Scene scene_;
-    std::map<std::string, MovingTransform> named_spaces_;
-    std::map<std::string, std::shared_ptr<const LightInstance>> lights_;
+    uint64_t instanced_primitives_ = 0;       ///< of this world
+    std::shared_ptr<RetainedObject> object_;  ///< being defined
 
-    std::map<std::string, std::vector<ObjectPrimitive>> objects_;
-    std::optional<std::string> object_being_defined_;
-    std::shared_ptr<const AttributeState> object_attributes_;  ///< at its beginning
+    /// The last primitive's, for the next ones that look alike.
+    struct {
+        std::shared_ptr<const AttributeState> state;
+        std::shared_ptr<const Attributes> attributes;
+    } resolved_;
 
     struct InlineArchive {
         std::shared_ptr<const std::string> text;
-        SourceLocation at;
+        SourceLocation first;  ///< the place of its first character
     };
     std::map<std::string, InlineArchive> inline_archives_;
     std::vector<std::string> open_files_;  ///< for recursion; the last is being read
+    uint64_t archives_read_ = 0;
 };
 
-/// Requests by name. Null for the known ones that are not supported; nothing for unknown names.
+/// Transforms and geometry have a motion of their own; of attributes and options the first in a motion block
+/// counts.
+enum class RequestGroup { Structure, Option, Attribute, Transform, Geometry, Unsupported };
+
 using RequestHandler = void (*)(Reader& reader, ArgumentCursor& cursor);
-std::optional<RequestHandler> find_request(const std::string& name);
+
+struct Request {
+    RequestHandler handler = nullptr;  ///< null: known, not supported
+    RequestGroup group = RequestGroup::Unsupported;
+};
+
+/// Null for unknown names.
+const Request* find_request(std::string_view name);
+bool is_request(std::string_view name);
 /// The known request most like a misspelt name, or nothing.
 std::string suggestion_for(const std::string& name);
 

@@ -77,15 +77,21 @@ constexpr const char* kUnsupported[] = {"AreaLightSource",
                                         "PixelVariance2",
                                         "OpacityThreshold"};
 
-using Table = std::map<std::string, RequestHandler, std::less<>>;
+using Table = std::map<std::string, Request, std::less<>>;
 
 const Table& table() {
     static const Table all = [] {
         Table rows;
-        for (const auto& group : {structure_requests(), option_requests(), attribute_requests(),
-                                  transform_requests(), polygon_requests(), curved_surface_requests()})
-            for (const RequestRow& row : group) rows[row.name] = row.handler;
-        for (const char* name : kUnsupported) rows.emplace(name, nullptr);
+        const auto add = [&](std::span<const RequestRow> requests, RequestGroup group) {
+            for (const RequestRow& row : requests) rows[row.name] = {row.handler, group};
+        };
+        add(structure_requests(), RequestGroup::Structure);
+        add(option_requests(), RequestGroup::Option);
+        add(attribute_requests(), RequestGroup::Attribute);
+        add(transform_requests(), RequestGroup::Transform);
+        add(polygon_requests(), RequestGroup::Geometry);
+        add(curved_surface_requests(), RequestGroup::Geometry);
+        for (const char* name : kUnsupported) rows.try_emplace(name);
         return rows;
     }();
     return all;
@@ -109,17 +115,20 @@ int distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::optional<RequestHandler> find_request(const std::string& name) {
+bool is_request(std::string_view name) {
+    return table().contains(name);
+}
+
+const Request* find_request(std::string_view name) {
     const auto row = table().find(name);
-    if (row == table().end()) return {};
-    return row->second;
+    return row == table().end() ? nullptr : &row->second;
 }
 
 std::string suggestion_for(const std::string& name) {
     if (name.size() > 40) return {};
     std::string best;
     int best_distance = 1 + static_cast<int>(name.size()) / 4;
-    for (const auto& [known, handler] : table())
+    for (const auto& [known, request] : table())
         if (const int d = distance(name, known); d < best_distance + (best.empty() ? 1 : 0))
             best = known, best_distance = d;
     return best;

@@ -9,7 +9,7 @@ namespace trapeze::rib {
 
 struct RequestRow {
     const char* name;
-    RequestHandler handler;  ///< null: known, not supported
+    RequestHandler handler;
 };
 
 std::span<const RequestRow> structure_requests();

@@ -1,8 +1,8 @@
 #include "pipeline/rib/scanner.h"
 
-#include <array>
+#include <algorithm>
+#include <bit>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -18,21 +18,45 @@ bool is_digit(char c) {
 bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
+bool is_high(char c) {
+    return static_cast<unsigned char>(c) >= 0x80;
+}
 bool ends_number(char c) {
-    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == ']' || c == '[' || c == '#' || c == '"' ||
-           c == ',';
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == ',' || c == ']' || c == '[' || c == '#' ||
+           c == '"';
 }
 
-/// The longest number at p, or null. Exact (one rounding to double) when it has at most 18 digits and a small
-/// exponent, which is where 64-bit integers and powers of ten are exact enough; otherwise the library reads
-/// it.
+/// Whether rounding to float what was rounded to double already may differ from rounding once: the double
+/// lies half-way between two floats.
+bool is_half_way(double value) {
+    return (std::bit_cast<uint64_t>(value) & 0x1fffffff) == 0x10000000;
+}
+
+/// Digits of the mantissa without leading zeros.
+int64_t significant_digits(const char* p, const char* end) {
+    int64_t digits = 0;
+    for (; p < end && *p != 'e' && *p != 'E'; ++p)
+        if (is_digit(*p) && (digits > 0 || *p != '0')) ++digits;
+    return digits;
+}
+
+/// A number without sign as the library reads it; infinite outside of float's range, 0 when it is too small.
+float library_number(const char* first, const char* end, int64_t exponent) {
+    float value = 0;
+    if (std::from_chars(first, end, value).ec == std::errc::result_out_of_range)
+        value = significant_digits(first, end) + exponent > 0 ? std::numeric_limits<float>::infinity() : 0;
+    return value;
+}
+
+/// The longest number at p, or null. With at most 15 digits and a power of ten up to 22 both are exact
+/// doubles and one operation rounds once (Clinger 1990); all else is left to the library. The value is such
+/// that its conversion to float is correctly rounded; it is infinite outside of float's range.
 const char* read_number(const char* p, const char* end, double* value) {
-    const char* const start = p;
     const bool negative = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+')) ++p;
     const char* const first = p;
     uint64_t mantissa = 0;
-    int digits = 0, exponent = 0;
+    int64_t digits = 0, exponent = 0;
     for (; p < end && is_digit(*p); ++p, ++digits) mantissa = mantissa * 10 + static_cast<uint64_t>(*p - '0');
     if (p < end && *p == '.') {
         ++p;
@@ -51,17 +75,15 @@ const char* read_number(const char* p, const char* end, double* value) {
             p = q;
         }
     }
-    if (digits <= 15 && exponent >= -22 && exponent <= 22) {
-        const double m = static_cast<double>(mantissa);
-        const double v = exponent < 0 ? m / kPowersOfTen[-exponent] : m * kPowersOfTen[exponent];
-        *value = negative ? -v : v;
-        return p;
-    }
     double v = 0;
-    const auto [stop, error] = std::from_chars(first, p, v);
-    if (error == std::errc::result_out_of_range)
-        v = exponent < 0 ? 0.0 : std::numeric_limits<double>::infinity();
-    *value = *start == '-' ? -v : v;
+    bool exact = digits <= 15 && exponent >= -22 && exponent <= 22;
+    if (exact) {
+        const double m = static_cast<double>(mantissa);
+        v = exponent < 0 ? m / kPowersOfTen[-exponent] : m * kPowersOfTen[exponent];
+        exact = exponent == 0 || !is_half_way(v);
+    }
+    if (!exact) v = library_number(first, p, exponent);
+    *value = negative ? -v : v;
     return p;
 }
 
@@ -71,18 +93,53 @@ bool is_non_finite_word(std::string_view word) {
     return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 
+/// What follows the first byte of RISpec's binary encoding, in bytes (table C.1); `left` is all there is.
+size_t binary_length(const unsigned char* p, size_t left) {
+    const auto big_endian = [&](size_t bytes) {
+        size_t value = 0;
+        for (size_t i = 1; i <= bytes && i < left; ++i) value = value << 8 | p[i];
+        return value;
+    };
+    const unsigned code = *p;
+    const size_t width = (code & 3) + 1;
+    if (code <= 0217) return width;                      // integer or fixed point
+    if (code <= 0237) return code & 15;                  // short string
+    if (code <= 0243) return width + big_endian(width);  // long string
+    if (code == 0244) return 4;                          // float
+    if (code == 0245) return 8;                          // double
+    if (code == 0246 || code == 0314) return 1;          // a request's code, its definition
+    if (code >= 0310 && code <= 0313) return width + 4 * big_endian(width);  // array of floats
+    if (code == 0315 || code == 0317) return 1;                              // a string's code of one byte
+    if (code == 0316 || code == 0320) return 2;                              // of two bytes
+    return 0;
+}
+
 }  // namespace
+
+Scanner::Scanner(std::string_view text, SourceLocation first)
+    : begin_(text.data()),
+      next_(text.data()),
+      end_(text.data() + text.size()),
+      line_start_(text.data()),
+      source_(first.source),
+      line_(first.line),
+      first_column_(first.column) {
+    if (text.starts_with("\xEF\xBB\xBF")) next_ += 3;  // UTF-8's byte order mark
+}
 
 void Scanner::skip_space() {
     while (next_ < end_) {
         const char c = *next_;
         if (c == '\n') {
-            ++line_;
-            line_start_ = ++next_;
-        } else if (c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == ',') {
+            ++next_;
+            new_line();
+        } else if (c == '\r') {
+            ++next_;
+            if (next_ >= end_ || *next_ != '\n') new_line();  // lines of the old Macintosh
+        } else if (c == ' ' || c == '\t' || c == ',' || c == '\f' || c == '\v') {
             ++next_;
         } else if (c == '#') {
-            while (next_ < end_ && *next_ != '\n') ++next_;
+            while (next_ < end_ && *next_ != '\n' && *next_ != '\r') ++next_;
         } else {
             return;
         }
@@ -93,13 +150,13 @@ bool Scanner::fast_number(double* value) {
     const char* p = next_;
     while (p < end_ && (*p == ' ' || *p == '\t')) ++p;
     if (p < end_ && *p == '\n') {
-        ++line_;
-        line_start_ = next_ = p + 1;
+        next_ = p + 1;
+        new_line();
         p = next_;
         while (p < end_ && (*p == ' ' || *p == '\t')) ++p;
     }
     p = read_number(p, end_, value);
-    if (!p || p >= end_ || !ends_number(*p) || !(*value - *value == 0)) return false;
+    if (!p || p >= end_ || !ends_number(*p) || !std::isfinite(*value)) return false;
     next_ = p;
     return true;
 }
@@ -118,6 +175,8 @@ void Scanner::scan() {
         ++next_;
     } else if (c == '"') {
         scan_string();
+    } else if (is_high(c)) {
+        scan_binary();
     } else if (!scan_number()) {
         const char* const start = next_;
         if (is_letter(c)) {
@@ -125,7 +184,9 @@ void Scanner::scan() {
             token_.kind = TokenKind::Word;
         } else {
             ++next_;
-            while (next_ < end_ && !is_letter(*next_) && !ends_number(*next_) && !is_digit(*next_)) ++next_;
+            while (next_ < end_ && !is_letter(*next_) && !ends_number(*next_) && !is_digit(*next_) &&
+                   !is_high(*next_))
+                ++next_;
             token_.kind = TokenKind::Bad;
         }
         token_.text = {start, static_cast<size_t>(next_ - start)};
@@ -157,13 +218,22 @@ bool Scanner::scan_number() {
     return false;
 }
 
+void Scanner::scan_binary() {
+    const auto code = static_cast<unsigned char>(*next_);
+    token_.kind =
+        code == 0246 || (code >= 0314 && code <= 0316) ? TokenKind::BinaryRequest : TokenKind::Binary;
+    const auto left = static_cast<size_t>(end_ - next_);
+    const size_t length = binary_length(reinterpret_cast<const unsigned char*>(next_), left);
+    next_ += 1 + std::min(length, left - 1);
+}
+
 void Scanner::scan_string() {
     token_.kind = TokenKind::String;
     token_.string.clear();
     const char* const open = next_++;
     while (next_ < end_ && *next_ != '"') {
         char c = *next_++;
-        if (c == '\n') ++line_, line_start_ = next_;
+        if (c == '\n') new_line();
         if (c == '\\' && next_ < end_) {
             c = *next_++;
             switch (c) {
@@ -183,7 +253,7 @@ void Scanner::scan_string() {
                     c = '\f';
                     break;
                 case '\n':  // a line continued
-                    ++line_, line_start_ = next_;
+                    new_line();
                     continue;
                 default:
                     if (c >= '0' && c <= '7') {

@@ -1,6 +1,7 @@
 /// Tokens of ASCII RIB (RISpec appendix C.1).
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -8,20 +9,22 @@
 
 namespace trapeze::rib {
 
-enum class TokenKind { End, Word, Number, String, Open, Close, Bad };
+/// Binary: a value in RISpec's binary encoding (appendix C.2); BinaryRequest: the code of a request, or a
+/// definition of codes. Both are passed over by their length.
+enum class TokenKind { End, Word, Number, String, Open, Close, Bad, Binary, BinaryRequest };
 
 struct Token {
     TokenKind kind = TokenKind::End;
     SourceLocation at;
-    double number = 0;      ///< Number; may be infinite or NaN, which the reader of arguments reports
+    double number = 0;      ///< Number; infinite or NaN when it is no finite float
     std::string_view text;  ///< Word, Bad
     std::string string;     ///< String, escapes undone
 };
 
 class Scanner {
   public:
-    Scanner(std::string_view text, uint32_t source)
-        : next_(text.data()), end_(text.data() + text.size()), line_start_(text.data()), source_(source) {}
+    /// `first` is the place of the text's first character.
+    Scanner(std::string_view text, SourceLocation first);
 
     const Token& peek() {
         if (!has_token_) scan(), has_token_ = true;
@@ -32,25 +35,25 @@ class Scanner {
         has_token_ = false;
     }
     /// Adds numbers up to the closing bracket or whatever else comes; the fast path of large arrays.
-    /// False when a number was not finite.
+    /// The place of the first one that is not finite; line 0 when there is none.
     template <class Append>
-    bool scan_numbers(Append&& append) {
-        bool finite = true;
+    SourceLocation scan_numbers(Append&& append) {
+        SourceLocation bad;
         while (peek().kind == TokenKind::Number) {
             append(token_.number);
-            finite &= token_.number - token_.number == 0;
+            if (!std::isfinite(token_.number) && bad.line == 0) bad = token_.at;
             has_token_ = false;
             // Numbers follow each other mostly: try to stay out of the general scanner.
             double value = 0;
             while (fast_number(&value)) append(value);
         }
-        return finite;
+        return bad;
     }
 
-    /// Where the next token begins, in the text.
-    const char* token_begin() {
+    /// Where the next token begins: bytes from the beginning of the text.
+    size_t offset() {
         peek();
-        return token_begin_;
+        return static_cast<size_t>(token_begin_ - begin_);
     }
 
   private:
@@ -59,15 +62,19 @@ class Scanner {
     bool scan_number();
     void scan_string();
     bool fast_number(double* value);
+    void scan_binary();
+    void new_line() { ++line_, line_start_ = next_, first_column_ = 1; }
     SourceLocation location(const char* p) const {
-        return {source_, line_, static_cast<uint32_t>(p - line_start_) + 1};
+        return {source_, line_, static_cast<uint32_t>(p - line_start_) + first_column_};
     }
 
+    const char* begin_;
     const char* next_;
     const char* end_;
     const char* line_start_;
     const char* token_begin_ = nullptr;
-    uint32_t source_, line_ = 1;
+    uint32_t source_, line_;
+    uint32_t first_column_;  ///< of the text's first line, which may begin within a line of the file
     Token token_;
     bool has_token_ = false;
 };

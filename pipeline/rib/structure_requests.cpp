@@ -1,4 +1,6 @@
 /// Blocks, archives, objects, declarations.
+#include <cstdint>
+
 #include "pipeline/rib/request_table.h"
 
 namespace trapeze::rib {
@@ -11,12 +13,12 @@ void version(Reader&, ArgumentCursor& c) {
 void declare(Reader& r, ArgumentCursor& c) {
     const std::string name = c.string("the name"), text = c.string("the declaration");
     const auto declaration = parse_declaration(text);
-    if (!declaration) throw RequestError{"\"" + text + "\" is no declaration", {}};
+    if (!declaration) throw RequestError{in_quotes(text) + " is no declaration", {}};
     r.declarations().declare(name, *declaration);
 }
 
 void frame_begin(Reader& r, ArgumentCursor& c) {
-    r.begin_frame(static_cast<int>(c.number("the frame's number")));
+    r.begin_frame(c.integer("the frame's number", INT32_MIN, INT32_MAX));
 }
 
 void motion_begin(Reader& r, ArgumentCursor& c) {
@@ -27,7 +29,7 @@ void motion_begin(Reader& r, ArgumentCursor& c) {
 
 void read_archive(Reader& r, ArgumentCursor& c) {
     const std::string name = c.string("the archive's name");
-    if (!c.done()) r.parameters(c);
+    r.parameters(c, Undeclared::Guess);
     r.read_archive(name);
 }
 
@@ -35,20 +37,20 @@ constexpr RequestRow kRows[] = {
     {"version", version},
     {"Declare", declare},
     {"FrameBegin", frame_begin},
-    {"FrameEnd", [](Reader& r, ArgumentCursor&) { r.end_frame(); }},
+    {"FrameEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Frame); }},
     {"WorldBegin", [](Reader& r, ArgumentCursor&) { r.begin_world(); }},
-    {"WorldEnd", [](Reader& r, ArgumentCursor&) { r.end_world(); }},
+    {"WorldEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::World); }},
     {"AttributeBegin", [](Reader& r, ArgumentCursor&) { r.begin_block(Block::Attribute); }},
-    {"AttributeEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Attribute, "AttributeEnd"); }},
+    {"AttributeEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Attribute); }},
     {"TransformBegin", [](Reader& r, ArgumentCursor&) { r.begin_block(Block::Transform); }},
-    {"TransformEnd", [](Reader& r, ArgumentCursor&) { r.end_transform(); }},
+    {"TransformEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Transform); }},
     {"MotionBegin", motion_begin},
-    {"MotionEnd", [](Reader& r, ArgumentCursor&) { r.end_motion(); }},
+    {"MotionEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Motion); }},
     {"ReadArchive", read_archive},
     {"ArchiveBegin", [](Reader&, ArgumentCursor&) { /* read as text before it gets here */ }},
     {"ArchiveEnd", [](Reader& r, ArgumentCursor&) { r.error("no ArchiveBegin is open; ignored"); }},
     {"ObjectBegin", [](Reader& r, ArgumentCursor& c) { r.begin_object(c.handle("the handle")); }},
-    {"ObjectEnd", [](Reader& r, ArgumentCursor&) { r.end_object(); }},
+    {"ObjectEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Object); }},
     {"ObjectInstance", [](Reader& r, ArgumentCursor& c) { r.instance(c.handle("the handle")); }},
 };
 

@@ -16,7 +16,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::vector<std::string> files{"/proc/self/fd/" + std::to_string(file)};
     trapeze::Diagnostics diagnostics;
     trapeze::ReadOptions options;
-    options.max_source_bytes = size_t{1} << 20;  // gzip bombs end here
+    // Bombs end here.
+    options.max_source_bytes = size_t{1} << 20;
+    options.most_archives_read = 1000;
+    options.most_bytes_read = uint64_t{1} << 22;
+    options.most_instanced_primitives = 10000;
     trapeze::read_rib(files, options, diagnostics, [](trapeze::Scene&&) {});
     close(file);
     return 0;

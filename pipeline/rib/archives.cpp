@@ -1,0 +1,108 @@
+/// ArchiveBegin, ArchiveEnd, ReadArchive.
+#include <algorithm>
+#include <filesystem>
+
+#include "pipeline/rib/reader.h"
+
+namespace trapeze::rib {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kDeepestInclude = 64;
+
+/// One name for each file, however it is reached.
+std::string canonical(const std::string& path) {
+    std::error_code problem;
+    const fs::path unique = fs::canonical(path, problem);
+    return problem ? path : unique.string();
+}
+
+}  // namespace
+
+/// Keeps the text up to ArchiveEnd, which is executed whenever the archive is read.
+void Reader::record_archive(RequestText& request, Scanner& scanner, std::string_view text) {
+    at_ = request.at, request_name_ = request.name;
+    ++summary_.requests[request.name];
+    std::optional<std::string> handle;
+    try {
+        handle = ArgumentCursor(request).handle("the archive's name");
+    } catch (const RequestError& problem) {
+        error(problem.at, problem.text + "; the archive is read past");
+    }
+    const SourceLocation first = scanner.peek().at;
+    const size_t begin = scanner.offset();
+    size_t end = begin;
+    for (int depth = 1; depth > 0;) {
+        end = scanner.offset();
+        if (!read_request(scanner, request, is_request, diagnostics_)) {
+            error("ArchiveEnd is missing; the archive ends with the file");
+            break;
+        }
+        depth += request.name == "ArchiveBegin" ? 1 : request.name == "ArchiveEnd" ? -1 : 0;
+    }
+    if (handle)
+        inline_archives_[*handle] = {std::make_shared<const std::string>(text.substr(begin, end - begin)),
+                                     first};
+}
+
+/// Beside the file that names it, along the search path, from the working folder.
+std::optional<std::string> Reader::find_archive(const std::string& name) const {
+    std::error_code ignored;
+    const fs::path path(name);
+    if (path.is_absolute())
+        return fs::is_regular_file(path, ignored) || fs::is_fifo(path, ignored) ? std::optional(name)
+                                                                                : std::nullopt;
+    std::vector<std::string> folders{current_folder()};
+    if (const auto paths = scope_.options.search_paths.find("archive");
+        paths != scope_.options.search_paths.end())
+        folders.insert(folders.end(), paths->second.begin(), paths->second.end());
+    folders.push_back("");
+    for (const std::string& folder : folders)
+        if (const fs::path candidate = fs::path(folder) / path; fs::is_regular_file(candidate, ignored))
+            return candidate.string();
+    return {};
+}
+
+bool Reader::may_read_archive(const std::string& name, const std::string& key) {
+    const char* problem = nullptr;
+    if (std::any_of(open_files_.begin(), open_files_.end(),
+                    [&](const std::string& open) { return open == key || canonical(open) == key; }))
+        problem = " reads itself; not read again";
+    else if (open_files_.size() >= kDeepestInclude)
+        problem = " lies in archives nested more than 64 deep; not read";
+    if (problem) {
+        error(in_quotes(name) + problem);
+        return false;
+    }
+    if (++archives_read_ <= read_options_.most_archives_read &&
+        summary_.bytes <= read_options_.most_bytes_read)
+        return true;
+    diagnostics_.error(at_,
+                       request_name_ + ": archives are read " + std::to_string(archives_read_) + " times, " +
+                           std::to_string(summary_.bytes >> 20) +
+                           " MiB in all, which is the limit; this and further ones are not read",
+                       "archive-limit");
+    return false;
+}
+
+void Reader::read_archive(const std::string& name) {
+    if (const auto archive = inline_archives_.find(name); archive != inline_archives_.end()) {
+        const std::string key = "<archive " + name + ">";
+        if (!may_read_archive(name, key)) return;
+        const auto text = archive->second.text;  // stays while it is read, whatever is defined meanwhile
+        SourceLocation first = archive->second.first;
+        first.source = diagnostics_.add_source(diagnostics_.source_name(first.source), at_);
+        open_files_.push_back(key);
+        read_text(*text, first);
+        open_files_.pop_back();
+        return;
+    }
+    const auto path = find_archive(name);
+    if (!path)
+        error(in_quotes(name) + " is not found; nothing read");
+    else if (may_read_archive(name, canonical(*path)))
+        read_file(*path);
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,134 @@
+/// Blocks: what they save and restore, and what becomes of unbalanced ones.
+#include <algorithm>
+
+#include "pipeline/rib/reader.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr size_t kDeepestBlock = 10000;
+
+}  // namespace
+
+const char* block_name(Block kind) {
+    switch (kind) {
+        case Block::Frame:
+            return "FrameBegin";
+        case Block::World:
+            return "WorldBegin";
+        case Block::Attribute:
+            return "AttributeBegin";
+        case Block::Transform:
+            return "TransformBegin";
+        case Block::Motion:
+            return "MotionBegin";
+        case Block::Object:
+            return "ObjectBegin";
+    }
+    return "";
+}
+
+void Reader::begin_block(Block kind) {
+    if (motion_) throw RequestError{"inside a motion block", {}};
+    if (blocks_.size() >= kDeepestBlock)
+        throw RequestError{"blocks are nested more than " + std::to_string(kDeepestBlock) + " deep", {}};
+    OpenBlock& block = blocks_.emplace_back();
+    block.kind = kind, block.at = at_, block.saved = state_;
+}
+
+bool Reader::is_open(Block kind) const {
+    return std::any_of(blocks_.begin(), blocks_.end(), [&](const OpenBlock& b) { return b.kind == kind; });
+}
+
+void Reader::end_block(Block kind) {
+    // Ends of blocks do not reach out of a world, but for FrameEnd.
+    const auto begin = std::find_if(blocks_.rbegin(), blocks_.rend(), [&](const OpenBlock& block) {
+        return block.kind == kind || (block.kind == Block::World && kind != Block::Frame);
+    });
+    if (begin == blocks_.rend() || begin->kind != kind) {
+        error(std::string("no ") + block_name(kind) + " is open; ignored");
+        return;
+    }
+    for (auto inner = blocks_.rbegin(); blocks_.back().kind != kind; inner = blocks_.rbegin()) {
+        error(std::string(block_name(inner->kind)) + " of line " + std::to_string(inner->at.line) +
+              " is still open; closed here");
+        close_block();
+    }
+    close_block();
+}
+
+void Reader::close_block() {
+    if (blocks_.back().kind == Block::World) deliver_world();
+    OpenBlock block = std::move(blocks_.back());
+    blocks_.pop_back();
+    if (block.scope) scope_ = std::move(*block.scope);
+    switch (block.kind) {
+        case Block::Motion: {
+            MotionBlock motion = std::move(*motion_);
+            motion_.reset();
+            finish_motion(std::move(motion));
+            return;
+        }
+        case Block::Transform:  // attributes that changed since stay
+            state_.transform = std::move(block.saved.transform);
+            return;
+        case Block::Frame:
+            frame_wanted_ = true;
+            break;
+        case Block::World:
+            in_world_ = false;
+            break;
+        case Block::Object:
+            object_ = nullptr;
+            break;
+        case Block::Attribute:
+            break;
+    }
+    state_ = std::move(block.saved);
+}
+
+void Reader::open_scope() {
+    blocks_.back().scope = std::make_unique<Scope>(scope_);
+}
+
+void Reader::begin_frame(int number) {
+    if (in_world_) throw RequestError{"inside a world", {}};
+    if (is_open(Block::Frame)) throw RequestError{"a frame is open already", {}};
+    begin_block(Block::Frame);
+    open_scope();
+    scope_.options.frame = number;
+    ++summary_.frames;
+    frame_wanted_ = !read_options_.wants_frame || read_options_.wants_frame(number);
+}
+
+void Reader::begin_world() {
+    if (in_world_) throw RequestError{"a world is open already", {}};
+    begin_block(Block::World);
+    open_scope();
+    camera_ = state_.transform;
+    in_world_ = true;
+    scene_ = Scene();
+    instanced_primitives_ = 0;
+    scope_.named_spaces["world"] = camera_;
+}
+
+void Reader::deliver_world() {
+    ++summary_.worlds;
+    Options& options = scope_.options;
+    const float open = options.shutter_open;
+    scene_.camera_from_world = M44f(camera_.at(open));
+    for (const auto& [name, space] : scope_.named_spaces)
+        scene_.camera_from_named[name] = M44f(space.at(open));
+    const std::string folder = current_folder();
+    for (const char* category : {"archive", "shader", "texture"})
+        options.search_paths[category].insert(options.search_paths[category].end(),
+                                              {folder.empty() ? "." : folder, ""});
+    const bool wanted =
+        frame_wanted_ && (options.frame != 0 || !read_options_.wants_frame || read_options_.wants_frame(0));
+    scene_.options = std::move(options);
+    resolved_ = {};
+    if (wanted) on_world_(std::move(scene_));
+    scene_ = Scene();
+}
+
+}  // namespace trapeze::rib

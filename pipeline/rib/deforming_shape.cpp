@@ -1,0 +1,91 @@
+#include "pipeline/rib/deforming_shape.h"
+
+#include <algorithm>
+
+#include "pipeline/rib/moving_transform.h"
+
+namespace trapeze::rib {
+namespace {
+
+bool same_variables(const Shape& a, const Shape& b) {
+    if (a.variables.values.size() != b.variables.values.size()) return false;
+    for (size_t i = 0; i < a.variables.values.size(); ++i) {
+        const Parameter &x = a.variables.values[i], &y = b.variables.values[i];
+        if (x.name != y.name || x.declaration != y.declaration || x.floats.size() != y.floats.size())
+            return false;
+    }
+    return true;
+}
+
+struct SameTopology {
+    bool operator()(const PolygonMesh& a, const PolygonMesh& b) const {
+        return a.loops_per_polygon == b.loops_per_polygon && a.vertices_per_loop == b.vertices_per_loop &&
+               a.vertices == b.vertices && a.vertex_count == b.vertex_count;
+    }
+    bool operator()(const SubdivisionMesh& a, const SubdivisionMesh& b) const {
+        return a.scheme == b.scheme && a.vertices_per_face == b.vertices_per_face &&
+               a.vertices == b.vertices && a.vertex_count == b.vertex_count && a.tags.size() == b.tags.size();
+    }
+    bool operator()(const Quadric& a, const Quadric& b) const {
+        return a.kind == b.kind && a.value_count == b.value_count;
+    }
+    bool operator()(const PatchMesh& a, const PatchMesh& b) const {
+        return a.bicubic == b.bicubic && a.nu == b.nu && a.nv == b.nv && a.u_wraps == b.u_wraps &&
+               a.v_wraps == b.v_wraps && a.u_step == b.u_step && a.v_step == b.v_step;
+    }
+    template <class A, class B>
+    bool operator()(const A&, const B&) const {
+        return false;
+    }
+};
+
+/// Everything that is a number, interpolated.
+ShapePointer between(const Shape& a, const Shape& b, float t) {
+    auto shape = std::make_shared<Shape>(a);
+    if (auto* quadric = std::get_if<Quadric>(&shape->topology)) {
+        const auto& end = std::get<Quadric>(b.topology);
+        for (int i = 0; i < quadric->value_count; ++i)
+            quadric->values[i] += t * (end.values[i] - quadric->values[i]);
+    }
+    for (size_t i = 0; i < shape->variables.values.size(); ++i) {
+        std::vector<float>& values = shape->variables.values[i].floats;
+        const std::vector<float>& end = b.variables.values[i].floats;
+        for (size_t k = 0; k < values.size(); ++k) values[k] += t * (end[k] - values[k]);
+    }
+    return shape;
+}
+
+ShapePointer shape_at(const std::vector<ShapePointer>& shapes, const std::vector<float>& times, float time) {
+    if (shapes.size() == 1 || time <= times.front()) return shapes.front();
+    if (time >= times.back()) return shapes.back();
+    const size_t next = std::upper_bound(times.begin(), times.end(), time) - times.begin();
+    const float t = (time - times[next - 1]) / (times[next] - times[next - 1]);
+    if (t == 0) return shapes[next - 1];
+    return between(*shapes[next - 1], *shapes[next], t);
+}
+
+}  // namespace
+
+float key_time(float open, float close, int key, int keys) {
+    return keys == 1 ? open
+                     : open + (close - open) * (static_cast<float>(key) / static_cast<float>(keys - 1));
+}
+
+bool can_deform(const std::vector<ShapePointer>& shapes) {
+    const Shape& first = *shapes.front();
+    return std::all_of(shapes.begin(), shapes.end(), [&](const ShapePointer& shape) {
+        return std::visit(SameTopology{}, first.topology, shape->topology) && same_variables(first, *shape);
+    });
+}
+
+std::vector<ShapePointer> shapes_at_keys(const std::vector<ShapePointer>& shapes,
+                                         const std::vector<float>& times, float open, float close) {
+    const bool moves = shapes.size() > 1 && close > open && close > times.front() && open < times.back();
+    const int keys = moves ? keys_meeting(times, open, close) : 1;
+    std::vector<ShapePointer> resolved;
+    for (int k = 0; k < keys; ++k)
+        resolved.push_back(shape_at(shapes, times, key_time(open, close, k, keys)));
+    return resolved;
+}
+
+}  // namespace trapeze::rib

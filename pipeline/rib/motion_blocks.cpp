@@ -1,0 +1,121 @@
+/// MotionBegin, MotionEnd, and transformations, which may move.
+#include "pipeline/rib/reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapeze::rib {
+namespace {
+
+constexpr size_t kMostTimes = 1000;
+constexpr int kMostMovingFactors = 1000;  ///< motion blocks that act on one transformation
+
+}  // namespace
+
+void Reader::begin_motion(std::vector<float> times) {
+    if (motion_) throw RequestError{"motion blocks do not nest", {}};
+    if (times.empty()) throw RequestError{"no times", {}};
+    if (times.size() > kMostTimes)
+        throw RequestError{"more than " + std::to_string(kMostTimes) + " times", {}};
+    if (!std::isfinite(times.back() - times.front())) throw RequestError{"times are too far apart", {}};
+    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
+        throw RequestError{"times must grow", {}};
+    begin_block(Block::Motion);
+    motion_.emplace();
+    motion_->at = at_;
+    motion_->times = std::move(times);
+}
+
+bool Reader::is_first_in_motion(const std::string& request) {
+    if (motion_->request.empty()) motion_->request = request;
+    if (motion_->request != request) throw RequestError{"this is a motion block of " + motion_->request, {}};
+    if (motion_->times.size() > 1)
+        warn_once("motion of this request is not supported; the first is used", "motion-of-" + request);
+    return motion_->others++ == 0;
+}
+
+void Reader::finish_motion(MotionBlock block) {
+    const size_t given = std::max(block.transforms.size(), block.shapes.size());
+    if (given == 0) return;
+    const bool complete = given == block.times.size();
+    if (!complete)
+        error(block.request + " occurs " + std::to_string(given) + " times for " +
+              std::to_string(block.times.size()) + " times of the motion; the first is used");
+    if (!block.transforms.empty()) {
+        if (block.absolute) state_.transform = root_transform();
+        if (!complete)
+            state_.transform.concat(transform_matrix(block.transform_kind, block.transforms[0]));
+        else if (state_.transform.moving_factors() >= kMostMovingFactors)
+            error("more than " + std::to_string(kMostMovingFactors) +
+                  " motion blocks act on one transformation; this one is ignored");
+        else
+            state_.transform.concat(
+                MovingFactor{block.transform_kind, std::move(block.times), std::move(block.transforms)});
+        return;
+    }
+    if (complete && !can_deform(block.shapes)) {
+        error("the shapes of the motion differ in topology or variables; the first is used");
+        block.shapes.resize(1);
+    }
+    if (!complete) block.shapes.resize(1);
+    block.times.resize(block.shapes.size());
+    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    if (object_)
+        object_->primitives.push_back({block.request,
+                                       std::move(block.shapes),
+                                       std::move(block.times),
+                                       state_.transform,
+                                       state_.attributes,
+                                       block.at,
+                                       {},
+                                       0,
+                                       0});
+    else
+        emit(block.request, shapes_at_keys(block.shapes, block.times, open, close), state_.transform,
+             state_.attributes, block.at);
+}
+
+MovingTransform Reader::root_transform() const {
+    return in_world_ && !object_ ? camera_ : MovingTransform();
+}
+
+void Reader::transform(TransformKind kind, TransformArguments arguments) {
+    if (!motion_) {
+        state_.transform.concat(transform_matrix(kind, arguments));
+        return;
+    }
+    if (motion_->request.empty()) motion_->request = request_name_, motion_->transform_kind = kind;
+    if (motion_->request != request_name_)
+        throw RequestError{"this is a motion block of " + motion_->request, {}};
+    motion_->transforms.push_back(std::move(arguments));
+}
+
+void Reader::set_transform(const TransformArguments* matrix) {
+    if (motion_) {
+        transform(TransformKind::Matrix,
+                  matrix ? *matrix : TransformArguments{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+        motion_->absolute = true;
+        return;
+    }
+    state_.transform = root_transform();
+    if (matrix) state_.transform.concat(transform_matrix(TransformKind::Matrix, *matrix));
+}
+
+void Reader::name_coordinate_system(const std::string& name) {
+    scope_.named_spaces[name] = state_.transform;
+}
+
+void Reader::use_coordinate_system(const std::string& name) {
+    if (motion_) throw RequestError{"inside a motion block", {}};
+    if (object_) throw RequestError{"inside an object definition", {}};
+    const auto space = scope_.named_spaces.find(name);
+    if (space == scope_.named_spaces.end() && name != "camera")
+        throw RequestError{"no coordinate system " + in_quotes(name), {}};
+    state_.transform = name == "camera" ? MovingTransform() : space->second;
+}
+
+M44f Reader::camera_from_current() const {
+    return M44f(state_.transform.at(scope_.options.shutter_open));
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,105 @@
+/// Retained geometry: ObjectBegin, ObjectEnd, ObjectInstance.
+#include "pipeline/rib/reader.h"
+
+namespace trapeze::rib {
+namespace {
+
+bool same(const ParameterList& a, const ParameterList& b) {
+    if (a.values.size() != b.values.size()) return false;
+    for (size_t i = 0; i < a.values.size(); ++i) {
+        const Parameter &x = a.values[i], &y = b.values[i];
+        if (x.name != y.name || x.floats != y.floats || x.strings != y.strings) return false;
+    }
+    return true;
+}
+
+/// The instance's attributes, but for those that the definition changed between ObjectBegin and its
+/// primitive. Shaders of the definition are placed with the object.
+std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& instance,
+                                                          const AttributeState& at_begin,
+                                                          const AttributeState& at_primitive,
+                                                          const M44f& camera_from_object) {
+    auto result = std::make_shared<AttributeState>(instance);
+    const Attributes &old = at_begin.attributes, &now = at_primitive.attributes;
+    const auto take = [&](auto... members) {
+        ((now.*members == old.*members ? void() : void(result->attributes.*members = now.*members)), ...);
+    };
+    take(&Attributes::color, &Attributes::opacity, &Attributes::texture_coordinates,
+         &Attributes::shading_rate, &Attributes::smooth_shading, &Attributes::matte, &Attributes::sides,
+         &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera,
+         &Attributes::cull_backfacing);
+    const auto take_shader = [&](auto... members) {
+        const auto placed = [&](const std::shared_ptr<const ShaderInstance>& shader) {
+            if (!shader) return shader;
+            auto copy = std::make_shared<ShaderInstance>(*shader);
+            copy->camera_from_shader = copy->camera_from_shader * camera_from_object;
+            return std::shared_ptr<const ShaderInstance>(std::move(copy));
+        };
+        ((now.*members == old.*members ? void() : void(result->attributes.*members = placed(now.*members))),
+         ...);
+    };
+    take_shader(&Attributes::surface, &Attributes::displacement, &Attributes::atmosphere,
+                &Attributes::interior, &Attributes::exterior);
+    for (const auto& [category, values] : now.user)
+        if (const auto before = old.user.find(category);
+            before == old.user.end() || !same(before->second, values))
+            for (const Parameter& value : values.values) result->attributes.user[category].set(value);
+    if (at_primitive.displacement_bound != at_begin.displacement_bound)
+        result->displacement_bound = at_primitive.displacement_bound;
+    if (at_primitive.orientation != at_begin.orientation) result->orientation = at_primitive.orientation;
+    if (at_primitive.orientation_reversed != at_begin.orientation_reversed)
+        result->orientation_reversed = at_primitive.orientation_reversed;
+    return result;
+}
+
+}  // namespace
+
+void Reader::begin_object(const std::string& handle) {
+    if (object_) throw RequestError{"object definitions do not nest", {}};
+    begin_block(Block::Object);
+    object_ = std::make_shared<RetainedObject>();
+    object_->attributes = state_.attributes;
+    scope_.objects[handle] = object_;
+    state_.transform = MovingTransform();
+}
+
+void Reader::instance(const std::string& handle) {
+    if (object_) throw RequestError{"inside an object definition", {}};
+    if (motion_) throw RequestError{"inside a motion block", {}};
+    const auto found = scope_.objects.find(handle);
+    if (found == scope_.objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
+    if (!in_world_) throw RequestError{"outside of a world", {}};
+    RetainedObject& object = *found->second;
+    instanced_primitives_ += object.primitives.size();
+    if (instanced_primitives_ > read_options_.most_instanced_primitives) {
+        diagnostics_.error(at_,
+                           request_name_ + ": instances make more than " +
+                               std::to_string(read_options_.most_instanced_primitives) +
+                               " primitives, which is the limit; this and further ones are left out",
+                           "instance-limit");
+        return;
+    }
+    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    const AttributeState* merged_from = nullptr;
+    std::shared_ptr<const AttributeState> merged;
+    for (ObjectPrimitive& primitive : object.primitives) {
+        if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
+            primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
+            primitive.keys_open = open, primitive.keys_close = close;
+        }
+        MovingTransform transform = state_.transform;
+        transform.concat(primitive.object_from_shape);
+        if (primitive.attributes == object.attributes) {
+            emit(primitive.request, primitive.keys, transform, state_.attributes, at_);
+            continue;
+        }
+        if (merged_from != primitive.attributes.get()) {
+            merged_from = primitive.attributes.get();
+            merged = instance_attributes(*state_.attributes, *object.attributes, *primitive.attributes,
+                                         camera_from_current());
+        }
+        emit(primitive.request, primitive.keys, transform, merged, at_);
+    }
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,63 @@
+/// Parameter lists: name and value pairs at the end of requests.
+#include <algorithm>
+
+#include "pipeline/rib/reader.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr size_t kMostParameters = 1000;  ///< of one request; lists are searched one by one
+
+/// What an undeclared value looks like.
+Declaration guessed(size_t numbers, size_t strings) {
+    const size_t length = strings > 0 ? strings : numbers;
+    return {StorageClass::Uniform, strings > 0 ? ValueType::String : ValueType::Float,
+            static_cast<int>(std::clamp<size_t>(length, 1, kLongestArray))};
+}
+
+}  // namespace
+
+ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) {
+    ParameterList list;
+    while (!cursor.done()) {
+        if (!cursor.next_is_string() || cursor.peek()->strings.size() != 1)
+            throw RequestError{"a parameter's name is expected", cursor.peek()->at};
+        const SourceLocation name_at = cursor.peek()->at;
+        const std::string token = cursor.string("a parameter's name");
+        if (cursor.done()) throw RequestError{in_quotes(token) + " has no value", name_at};
+        if (list.values.size() >= kMostParameters)
+            throw RequestError{"more than " + std::to_string(kMostParameters) + " parameters", name_at};
+        Argument value = cursor.take("a value");
+        std::vector<float> numbers = value.take_numbers();
+        // Several bare numbers may stand for an array of a fixed size (a colour, say).
+        while (value.kind == Argument::Kind::Number && cursor.next_is_number() && !cursor.next_is_array())
+            numbers.push_back(cursor.number("a value"));
+        auto declared = declarations_.resolve(token);
+        if (!declared && undeclared == Undeclared::Guess && token.find(' ') == std::string::npos)
+            declared = {token, guessed(numbers.size(), value.strings.size())};
+        if (!declared) {
+            diagnostics_.error(name_at,
+                               request_name_ + ": " + in_quotes(token) + " is not declared; left out",
+                               "undeclared-" + token);
+            continue;
+        }
+        const auto& [name, declaration] = *declared;
+        const bool is_string = declaration.type == ValueType::String;
+        if (is_string ? !numbers.empty() : !value.strings.empty()) {
+            error(name_at, in_quotes(name) + " wants " + (is_string ? "strings" : "numbers") + "; left out");
+            continue;
+        }
+        const size_t got = is_string ? value.strings.size() : numbers.size();
+        const auto item =
+            static_cast<size_t>(is_string ? declaration.array_length : declaration.floats_per_item());
+        if (got == 0 || got % item != 0) {
+            error(name_at, in_quotes(name) + " has " + std::to_string(got) + " values, needs a multiple of " +
+                               std::to_string(item) + "; left out");
+            continue;
+        }
+        list.set({name, declaration, std::move(numbers), std::move(value.strings)});
+    }
+    return list;
+}
+
+}  // namespace trapeze::rib

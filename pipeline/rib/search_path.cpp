@@ -1,0 +1,65 @@
+#include "pipeline/rib/search_path.h"
+
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+
+namespace trapeze::rib {
+namespace {
+
+bool is_name(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+std::string environment(const std::string& name) {
+    const char* value = std::getenv(name.c_str());
+    return value ? value : "";
+}
+
+std::string expand_variables(const std::string& text) {
+    std::string expanded;
+    for (size_t i = 0; i < text.size();) {
+        const bool braces = text[i] == '$' && i + 1 < text.size() && text[i + 1] == '{';
+        if (text[i] == '%' || braces) {
+            const size_t begin = i + (braces ? 2 : 1), end = text.find(braces ? '}' : '%', begin);
+            if (end != std::string::npos) {
+                expanded += environment(text.substr(begin, end - begin));
+                i = end + 1;
+                continue;
+            }
+        } else if (text[i] == '$') {
+            size_t end = i + 1;
+            while (end < text.size() && is_name(text[end])) ++end;
+            expanded += environment(text.substr(i + 1, end - i - 1));
+            i = end;
+            continue;
+        }
+        expanded += text[i++];
+    }
+    return expanded;
+}
+
+}  // namespace
+
+std::vector<std::string> expand_search_path(const std::string& path, const std::vector<std::string>& previous,
+                                            const std::string& folder_of_file) {
+    std::vector<std::string> folders;
+    for (size_t begin = 0; begin <= path.size();) {
+        const size_t end = std::min(path.find(':', begin), path.size());
+        const std::string entry = path.substr(begin, end - begin);
+        begin = end + 1;
+        if (entry == "&") folders.insert(folders.end(), previous.begin(), previous.end());
+        if (entry.empty() || entry == "@" || entry == "&") continue;
+        const std::string folder = expand_variables(entry);
+        if (folder.empty()) continue;
+        if (std::filesystem::path(folder).is_absolute()) {
+            folders.push_back(folder);
+        } else {
+            folders.push_back((std::filesystem::path(folder_of_file) / folder).string());
+            if (!folder_of_file.empty()) folders.push_back(folder);
+        }
+    }
+    return folders;
+}
+
+}  // namespace trapeze::rib
