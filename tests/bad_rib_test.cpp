@@ -90,7 +90,7 @@ TEST(MadeRib, BlocksNestedTooDeepEndWithAnError) {
 TEST(MadeRib, BinaryBytesAreSkippedToTheNextRequest) {
     size_t primitives = 0;
     const std::string said =
-        messages_for("WorldBegin\n\x80\x90\xff\xfe Sphere 1 -1 1 360\nWorldEnd\n", &primitives);
+        messages_for("WorldBegin\nColor 1\n\x80\x90\xff\xfe Sphere 1 -1 1 360\nWorldEnd\n", &primitives);
     EXPECT_NE(said.find("error"), std::string::npos);
     EXPECT_EQ(primitives, 1u);
 }
