@@ -84,6 +84,7 @@ void quadric(Reader& r, ArgumentCursor& c) {
             "has " + std::to_string(values.size()) + " numbers, needs " + std::to_string(row.count), {}};
     std::copy(values.begin(), values.end(), q.values.begin());
     if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0) throw RequestError{"the radius is 0", {}};
+    if (q.kind == Quadric::Kind::Paraboloid && q.values[2] == 0) throw RequestError{"zmax is 0", {}};
     Shape shape{q, {}};
     shape.variables = checked_variables(r, read_variables(r, c, PointForm::None), shape.topology);
     r.add_shape(row.name, std::move(shape), 1);

@@ -9,12 +9,10 @@ namespace {
 
 bool same_variables(const Shape& a, const Shape& b) {
     if (a.variables.values.size() != b.variables.values.size()) return false;
-    for (size_t i = 0; i < a.variables.values.size(); ++i) {
-        const Parameter &x = a.variables.values[i], &y = b.variables.values[i];
-        if (x.name != y.name || x.declaration != y.declaration || x.floats.size() != y.floats.size())
-            return false;
-    }
-    return true;
+    return std::all_of(a.variables.values.begin(), a.variables.values.end(), [&](const Parameter& x) {
+        const Parameter* y = b.variables.find(x.name);  // they may stand in another order
+        return y && x.declaration == y->declaration && x.floats.size() == y->floats.size();
+    });
 }
 
 struct SameTopology {
@@ -47,10 +45,9 @@ ShapePointer between(const Shape& a, const Shape& b, float t) {
         for (int i = 0; i < quadric->value_count; ++i)
             quadric->values[i] += t * (end.values[i] - quadric->values[i]);
     }
-    for (size_t i = 0; i < shape->variables.values.size(); ++i) {
-        std::vector<float>& values = shape->variables.values[i].floats;
-        const std::vector<float>& end = b.variables.values[i].floats;
-        for (size_t k = 0; k < values.size(); ++k) values[k] += t * (end[k] - values[k]);
+    for (Parameter& variable : shape->variables.values) {
+        const std::vector<float>& end = b.variables.find(variable.name)->floats;
+        for (size_t k = 0; k < end.size(); ++k) variable.floats[k] += t * (end[k] - variable.floats[k]);
     }
     return shape;
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kMostKeysForTimes = 17;
 constexpr float kDegreesPerSegment = 10;
+constexpr double kLinearTolerance = 0.004;  ///< 1 - cos(5 degrees): as far as a chord of ten degrees is off
 
 double radians(double degrees) {
     return degrees * (M_PI / 180);
@@ -150,15 +151,36 @@ bool MovingTransform::moves_between(float open, float close) const {
     return false;
 }
 
+bool MovingTransform::is_nearly_linear(float open, float close, int keys) const {
+    const auto segment = static_cast<double>(close - open) / (keys - 1);
+    M44d from = at(open);
+    for (int k = 0; k + 1 < keys; ++k) {
+        const M44d middle = at(static_cast<float>(open + (k + 0.5) * segment));
+        const M44d to = at(static_cast<float>(open + (k + 1) * segment));
+        double largest = 0, error = 0;
+        for (int i = 0; i < 16; ++i) {
+            const double exact = middle[i / 4][i % 4], linear = (from[i / 4][i % 4] + to[i / 4][i % 4]) / 2;
+            largest = std::max(largest, std::abs(exact));
+            error = std::max(error, std::abs(exact - linear));
+        }
+        if (error > kLinearTolerance * largest) return false;
+        from = to;
+    }
+    return true;
+}
+
 int MovingTransform::wanted_keys(float open, float close) const {
-    int keys = 1;
+    int keys = 1, moving = 0;
     for (const Factor* f = newest_.get(); f; f = f->older.get()) {
         if (!f->moving || !f->moving->moves_between(open, close)) continue;
+        ++moving;
         keys = std::max(keys, keys_meeting(f->moving->times, open, close));
         const float degrees = f->moving->fastest_turn(open, close);
         while (keys < kMaxKeyCount && degrees / static_cast<float>(keys - 1) > kDegreesPerSegment)
             keys = 2 * keys - 1;
     }
+    // The product of several motions bends even when each is straight.
+    while (moving > 1 && keys < kMaxKeyCount && !is_nearly_linear(open, close, keys)) keys = 2 * keys - 1;
     return keys;
 }
 

@@ -40,11 +40,14 @@ class MovingTransform {
     M44d at(float time) const;
     bool moves_between(float open, float close) const;
     /// Keys that the motion in the shutter wants: 1, or 2^m + 1 so that keys given on a dyadic division of
-    /// the shutter are met and no segment turns by more than about ten degrees.
+    /// the shutter are met and no segment turns by more than about ten degrees, or bends as much.
     int wanted_keys(float open, float close) const;
     int moving_factors() const { return newest_ ? newest_->moving_factors : 0; }
 
   private:
+    /// Whether a straight line between the keys is good enough, seen at the middle of each segment.
+    bool is_nearly_linear(float open, float close, int keys) const;
+
     /// Either a fixed matrix or a moving factor.
     struct Factor {
         std::shared_ptr<const Factor> older;

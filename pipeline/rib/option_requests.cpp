@@ -1,6 +1,8 @@
 /// RISpec 4.1: the camera, the display, the hider.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include "pipeline/rib/request_table.h"
 
@@ -9,6 +11,11 @@ namespace {
 
 constexpr int kLargestPicture = 65536;  ///< pixels along a side
 constexpr float kMostSamples = 64;      ///< along a side of a pixel
+
+/// RISpec's and the usual others; composite/filters.cpp has what they mean.
+constexpr std::string_view kFilters[] = {"gaussian", "box",     "triangle",        "catmull-rom",
+                                         "sinc",     "disk",    "bessel",          "mitchell",
+                                         "b-spline", "lanczos", "blackman-harris", "separable-catmull-rom"};
 
 /// Options are fixed within a world.
 Options& changeable(Reader& r) {
@@ -21,8 +28,8 @@ void require(bool holds, const char* text) {
 }
 
 void format(Reader& r, ArgumentCursor& c) {
-    const float width = c.number("the width"), height = c.number("the height");
-    const float aspect = c.done() ? 1.0f : c.number("the pixel aspect ratio");
+    const auto v = c.numbers(2, 3, "the format");
+    const float width = v[0], height = v[1], aspect = v.size() > 2 ? v[2] : 1;
     require(width <= kLargestPicture && height <= kLargestPicture,
             "the picture is larger than 65536 pixels along a side");
     Options& o = changeable(r);
@@ -73,7 +80,8 @@ void projection(Reader& r, ArgumentCursor& c) {
 }
 
 void clipping(Reader& r, ArgumentCursor& c) {
-    const float near = c.number("the near plane"), far = c.number("the far plane");
+    const auto v = c.numbers(2, "the planes");
+    const float near = v[0], far = v[1];
     require(near >= 0 && near < far, "needs 0 <= near < far");
     Options& o = changeable(r);
     o.near_clip = std::max(near, kEpsilon);
@@ -87,14 +95,15 @@ void depth_of_field(Reader& r, ArgumentCursor& c) {
         o.f_stop = kInfinity;
         return;
     }
-    const float f_stop = c.number("the f-stop"), length = c.number("the focal length"),
-                distance = c.number("the focal distance");
+    const auto v = c.numbers(3, "the lens");
+    const float f_stop = v[0], length = v[1], distance = v[2];
     require(f_stop > 0 && length >= 0 && distance > 0, "needs a positive f-stop and focal distance");
     o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
 }
 
 void shutter(Reader& r, ArgumentCursor& c) {
-    const float open = c.number("the opening time"), close = c.number("the closing time");
+    const auto v = c.numbers(2, "the shutter");
+    const float open = v[0], close = v[1];
     require(open <= close, "closes before it opens");
     require(std::isfinite(close - open), "is open for too long");
     changeable(r).shutter_open = open;
@@ -102,7 +111,8 @@ void shutter(Reader& r, ArgumentCursor& c) {
 }
 
 void pixel_samples(Reader& r, ArgumentCursor& c) {
-    const float x = c.number("samples along x"), y = c.number("samples along y");
+    const auto v = c.numbers(2, "the samples");
+    const float x = v[0], y = v[1];
     require(x >= 1 && y >= 1, "needs at least one sample along each side");
     if (x > kMostSamples || y > kMostSamples) r.error("more than 64 samples along a side; 64 are used");
     changeable(r).samples_x = std::min(x, kMostSamples);
@@ -110,14 +120,21 @@ void pixel_samples(Reader& r, ArgumentCursor& c) {
 }
 
 void pixel_filter(Reader& r, ArgumentCursor& c) {
-    const std::string name = c.string("the filter's name");
-    const float x = c.number("the width along x"), y = c.number("the width along y");
+    std::string name = c.string("the filter's name");
+    const auto v = c.numbers(2, "the widths");
+    const float x = v[0], y = v[1];
     require(x > 0 && y > 0 && x <= 64 && y <= 64, "widths must be positive and at most 64 pixels");
-    changeable(r).filter = {name, x, y};
+    Options& o = changeable(r);
+    if (std::find(std::begin(kFilters), std::end(kFilters), name) == std::end(kFilters)) {
+        r.warn_once(in_quotes(name) + " is not known; gaussian is used", "filter-" + name);
+        name = "gaussian";
+    }
+    o.filter = {name, x, y};
 }
 
 void exposure(Reader& r, ArgumentCursor& c) {
-    const float gain = c.number("the gain"), gamma = c.number("the gamma");
+    const auto v = c.numbers(2, "the exposure");
+    const float gain = v[0], gamma = v[1];
     require(gain >= 0 && gamma > 0, "needs a positive gamma");
     changeable(r).exposure_gain = gain;
     r.options().exposure_gamma = gamma;

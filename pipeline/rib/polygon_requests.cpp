@@ -1,6 +1,7 @@
 /// RISpec 5.1, 5.3: polygons and subdivision meshes.
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 
 #include "pipeline/rib/primitive_variables.h"
 #include "pipeline/rib/request_table.h"
@@ -37,6 +38,30 @@ void check_indices(const std::vector<int>& indices, int points) {
                                {}};
 }
 
+/// What is wrong with a tag; empty when nothing is.
+std::string problem_of(const SubdivisionMesh::Tag& tag, const SubdivisionMesh& mesh) {
+    const bool crease = tag.name == "crease", corner = tag.name == "corner", hole = tag.name == "hole";
+    if (!crease && !corner && !hole) return {};
+    if (crease && tag.ints.size() < 2) return "needs two vertices or more";
+    const size_t sharp = tag.ints.size() - (crease ? 1 : 0);
+    if (!hole && tag.floats.size() != 1 && tag.floats.size() != sharp)
+        return "has " + std::to_string(tag.floats.size()) + " floats, needs 1 or " + std::to_string(sharp);
+    const int count = hole ? static_cast<int>(mesh.vertices_per_face.size()) : mesh.vertex_count;
+    for (const int index : tag.ints)
+        if (index < 0 || index >= count)
+            return "names " + std::string(hole ? "face " : "vertex ") + std::to_string(index) + " of " +
+                   std::to_string(count);
+    return {};
+}
+
+void check_tags(Reader& r, SubdivisionMesh& mesh) {
+    std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
+        const std::string problem = problem_of(tag, mesh);
+        if (!problem.empty()) r.error("tag " + in_quotes(tag.name) + " " + problem + "; the tag is left out");
+        return !problem.empty();
+    });
+}
+
 /// Reads the variables of a mesh whose points are counted by its "P".
 template <class Mesh>
 void add_mesh(Reader& r, ArgumentCursor& c, const char* request, Mesh mesh, uint64_t faces) {
@@ -45,6 +70,7 @@ void add_mesh(Reader& r, ArgumentCursor& c, const char* request, Mesh mesh, uint
     mesh.vertex_count = point_count_of(list);
     if (mesh.vertex_count == 0) throw RequestError{"\"P\" is missing", {}};
     check_indices(mesh.vertices, mesh.vertex_count);
+    if constexpr (std::is_same_v<Mesh, SubdivisionMesh>) check_tags(r, mesh);
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r, std::move(list), shape.topology);
     r.add_shape(request, std::move(shape), faces);
@@ -124,8 +150,7 @@ std::vector<SubdivisionMesh::Tag> subdivision_tags(ArgumentCursor& c) {
                                " numbers, needs 2 or 3 for each of " + std::to_string(names.size()) + " tags",
                            {}};
     std::vector<std::string> strings;
-    if (per_tag == 3 && !c.done() && c.peek()->kind == Argument::Kind::Array && c.peek()->floats.empty())
-        strings = c.string_array("the tags' strings");
+    if (c.next_is_array() && c.peek()->floats.empty()) strings = c.string_array("the tags' strings");
     size_t at[3] = {0, 0, 0};
     const size_t sizes[3] = {ints.size(), floats.size(), strings.size()};
     std::vector<SubdivisionMesh::Tag> tags;
@@ -147,6 +172,13 @@ std::vector<SubdivisionMesh::Tag> subdivision_tags(ArgumentCursor& c) {
     return tags;
 }
 
+/// Tags may be left out altogether; a single one may stand without brackets. A parameter's name is never
+/// followed by two arrays.
+bool has_tags(const ArgumentCursor& c) {
+    const Argument* third = c.peek(2);
+    return c.next_is_array() || (third && third->kind == Argument::Kind::Array);
+}
+
 void subdivision_mesh(Reader& r, ArgumentCursor& c) {
     SubdivisionMesh mesh;
     const std::string scheme = c.string("the scheme");
@@ -166,8 +198,7 @@ void subdivision_mesh(Reader& r, ArgumentCursor& c) {
         std::any_of(mesh.vertices_per_face.begin(), mesh.vertices_per_face.end(),
                     [](int n) { return n != 3; }))
         throw RequestError{"scheme \"loop\" needs triangles", {}};
-    const bool has_tags = !c.done() && c.peek()->kind == Argument::Kind::Array;
-    if (has_tags) mesh.tags = subdivision_tags(c);
+    if (has_tags(c)) mesh.tags = subdivision_tags(c);
     const uint64_t faces = mesh.vertices_per_face.size();
     add_mesh(r, c, "SubdivisionMesh", std::move(mesh), faces);
 }
