@@ -110,7 +110,6 @@ void expand_pz(ParameterList& list, const Topology& topology) {
 ParameterList read_variables(Reader& reader, ArgumentCursor& cursor, PointForm form) {
     ParameterList list = reader.parameters(cursor);
     check_types(reader, list);
-    split_st(list);
     choose_points(reader, list, form);
     return list;
 }
@@ -137,6 +136,7 @@ ParameterList checked_variables(Reader& reader, ParameterList list, const Topolo
         reader.error(text + "; the variable is left out");
         return true;
     });
+    split_st(list);
     return list;
 }
 

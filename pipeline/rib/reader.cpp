@@ -91,8 +91,10 @@ void Reader::execute(RequestText& text) {
         return;
     }
     if (!text.problem.empty()) {
-        error(text.problem_at, text.problem + "; request skipped");
-        return;
+        // A stray character must not take a whole block with it.
+        const bool is_block = request->group == RequestGroup::Structure && text.arguments.empty();
+        error(text.problem_at, text.problem + (is_block ? "; ignored" : "; request skipped"));
+        if (!is_block) return;
     }
     try {
         if (motion_ &&

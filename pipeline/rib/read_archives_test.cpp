@@ -1,0 +1,184 @@
+/// Streams: archives, search paths, gzip, limits, and text that is hardly RIB.
+#include "pipeline/rib/test_reading.h"
+
+#include <zlib.h>
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string zipped(const std::string& text) {
+    const Folder folder;
+    const std::string path = folder.path() + "/z.gz";
+    gzFile file = gzopen(path.c_str(), "wb");
+    gzwrite(file, text.data(), static_cast<unsigned>(text.size()));
+    gzclose(file);
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST(ReadArchives, RelativeToTheFileThatNamesThem) {
+    const Folder folder;
+    folder.write("sub/b.rib", "ReadArchive \"deep/c.rib\"");
+    folder.write("sub/deep/c.rib", "\n " + kSphere + "\n Sphere 1");
+    const Outcome r = read_files(
+        folder, {folder.write("a.rib", "WorldBegin\nReadArchive \"sub/b.rib\"\n" + kSphere + "WorldEnd")});
+    EXPECT_EQ(r.count(), 2u);
+    EXPECT_THAT(r.messages,
+                ElementsAre("sub/deep/c.rib:3:2: error: Sphere: has 1 numbers, needs 4; primitive skipped"
+                            "\n    included from sub/b.rib:1:1\n    included from a.rib:2:1"));
+    EXPECT_EQ(r.summary.files, 3);
+}
+
+TEST(ReadArchives, AlongTheSearchPath) {
+    const Folder folder;
+    folder.write("one/x.rib", kSphere);
+    folder.write("two/y.rib", kSphere);
+    ASSERT_EQ(setenv("TRAPEZE_TEST_TWO", "two", 1), 0);
+    const Outcome r = read_files(
+        folder,
+        {folder.write("a.rib",
+                      "Option \"searchpath\" \"archive\" [\"one\"] Option \"searchpath\" \"string archive\" "
+                      "[\"@:&:$TRAPEZE_TEST_TWO\"] WorldBegin ReadArchive \"x.rib\" "
+                      "ReadArchive \"y.rib\" ReadArchive \"z.rib\" WorldEnd")});
+    EXPECT_EQ(r.count(), 2u);
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("ReadArchive: \"z.rib\" is not found; nothing read")));
+}
+
+TEST(ReadArchives, InlineOnesHaveTheirPlacesInTheFile) {
+    const Outcome r = read_text("ArchiveBegin \"ball\"\n" + kSphere +
+                                "\nSphere 1\nArchiveEnd\nWorldBegin\n"
+                                "Color 1 0 0 ReadArchive \"ball\"\nReadArchive \"ball\"\nWorldEnd");
+    EXPECT_EQ(r.count(), 2u);
+    EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
+    EXPECT_THAT(r.messages, ElementsAre("a.rib:3:1: error: Sphere: has 1 numbers, needs 4; primitive skipped"
+                                        "\n    included from a.rib:6:13",
+                                        "a.rib:3:1: error: Sphere: has 1 numbers, needs 4; primitive skipped"
+                                        "\n    included from a.rib:7:1"));
+}
+
+TEST(ReadArchives, InlineOnesNestAndMayBeRedefinedWhileRead) {
+    const Outcome r = read_world("ArchiveBegin \"a\" ArchiveBegin \"b\" " + kSphere +
+                                 "ArchiveEnd ReadArchive \"b\" "
+                                 "ArchiveBegin \"a\" ArchiveEnd " +
+                                 kSphere + "ArchiveEnd ReadArchive \"a\" ReadArchive \"a\"");
+    EXPECT_THAT(r.messages, IsEmpty());
+    EXPECT_EQ(r.count(), 2u);
+}
+
+TEST(ReadArchives, RecursionEnds) {
+    const Folder folder;
+    folder.write("b.rib", "ReadArchive \"./a.rib\" " + kSphere);
+    const Outcome r = read_files(
+        folder, {folder.write("a.rib", "WorldBegin ReadArchive \"b.rib\" ReadArchive \"../" +
+                                           std::filesystem::path(folder.path()).filename().string() +
+                                           "/a.rib\" WorldEnd")});
+    EXPECT_EQ(r.count(), 1u);
+    ASSERT_EQ(r.messages.size(), 2u);
+    for (const std::string& message : r.messages)
+        EXPECT_THAT(message, HasSubstr("reads itself; not read again"));
+}
+
+TEST(ReadArchives, BombsEndAtTheLimit) {
+    std::string text;
+    for (int i = 0; i < 40; ++i) {
+        const std::string next = "ReadArchive \"a" + std::to_string(i + 1) + "\" ";
+        text += "ArchiveBegin \"a" + std::to_string(i) + "\" " + next + next + "ArchiveEnd\n";
+    }
+    ReadOptions options;
+    options.most_archives_read = 1000;
+    const Outcome r = read_text(
+        text + "ArchiveBegin \"a40\" ArchiveEnd ReadArchive \"a0\" WorldBegin " + kSphere + "WorldEnd",
+        options);
+    EXPECT_EQ(r.count(), 1u);
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("which is the limit")));
+}
+
+TEST(ReadArchives, GzipIsUndone) {
+    const std::string text = "WorldBegin " + kSphere + "WorldEnd";
+    EXPECT_EQ(read_text(zipped(text)).count(), 1u);
+    EXPECT_EQ(read_text(zipped("WorldBegin " + kSphere) + zipped(kSphere + "WorldEnd")).count(), 2u);
+    const Outcome cut = read_text(zipped(text + std::string(1000, ' ')).substr(0, 30));
+    EXPECT_THAT(cut.messages[0], HasSubstr("gzip data is cut off"));
+}
+
+TEST(ReadArchives, FilesBeyondTheLimitAreCut) {
+    ReadOptions options;
+    options.max_source_bytes = 1000;
+    const Outcome r =
+        read_text(zipped("WorldBegin " + kSphere + std::string(5000000, ' ') + kSphere), options);
+    EXPECT_THAT(r.messages[0], HasSubstr("inflates to more than"));
+    EXPECT_EQ(r.count(), 1u);
+    EXPECT_EQ(read_text("WorldBegin " + kSphere + std::string(5000, ' ') + kSphere, options).count(), 1u);
+}
+
+TEST(ReadArchives, MissingFilesAreReported) {
+    const Folder folder;
+    const Outcome r =
+        read_files(folder, {folder.path() + "/no.rib", folder.write("a.rib", "WorldBegin WorldEnd")});
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("cannot read \"no.rib\": No such file")));
+    EXPECT_EQ(r.worlds.size(), 1u);
+}
+
+TEST(ReadText, ArraysEndBeforeTheNextRequest) {
+    const Outcome r =
+        read_world("Polygon \"P\" [0 0 0 1 0 0\n" + kSphere + "Polygon \"P\" [0 0 zero 1]\n" + kSphere);
+    EXPECT_THAT(
+        r.messages,
+        ElementsAre("a.rib:2:13: error: Polygon: the array that begins here is never closed; request skipped",
+                    "a.rib:3:36: error: Polygon: \"zero\" stands within an array; request skipped"));
+    EXPECT_EQ(r.count(), 2u);
+}
+
+TEST(ReadText, UnknownRequestsAreSkippedWithAnIdeaOfWhatWasMeant) {
+    const Outcome r = read_world("Spere 1 -1 1 360 " + kSphere + "sphere 1 Xyzzy [1 2] \"a\" " + kSphere);
+    EXPECT_THAT(
+        r.messages,
+        ElementsAre(
+            "a.rib:2:1: error: Spere: no such request (did you mean Sphere?); skipped to the next one",
+            HasSubstr("sphere: no such request (did you mean Sphere?)"),
+            HasSubstr("Xyzzy: no such request; skipped")));
+    EXPECT_EQ(r.count(), 2u);
+}
+
+TEST(ReadText, UnsupportedRequestsWarnOncePerKind) {
+    const Outcome r = read_world(
+        "Points \"P\" [0 0 0] Points \"P\" [0 0 0] Detail [0 1 0 1 0 1] Bound [0 1 0 1 0 1] "
+        "ErrorHandler \"print\" " +
+        kSphere);
+    EXPECT_EQ(r.messages.size(), 4u);
+    EXPECT_EQ(r.summary.unsupported.at("Points"), 2u);
+    EXPECT_EQ(r.count(), 1u);
+}
+
+TEST(ReadText, MessagesAreOneShortLine) {
+    const Outcome r = read_world("Surface \"a\" \"new\nline" + std::string(1000, 'x') + "\" [1]");
+    ASSERT_EQ(r.messages.size(), 1u);
+    EXPECT_EQ(r.messages[0].find('\n'), std::string::npos);
+    EXPECT_LT(r.messages[0].size(), 250u);
+}
+
+TEST(ReadText, BinaryRibIsReportedOnce) {
+    const Outcome r =
+        read_world("Color \xA4\x3f\x80\x41\x42 \xA4\x3f\x80\x41\x42 1\n\xA6\x01\x02 " + kSphere);
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("binary RIB is not supported yet")));
+    EXPECT_EQ(r.count(), 1u);
+}
+
+TEST(ReadText, BlocksThatStayOpenAreClosed) {
+    const Outcome r =
+        read_text("FrameBegin 1\nWorldBegin\nAttributeBegin\nObjectBegin 1\nMotionBegin [0 1]\n" + kSphere);
+    EXPECT_EQ(r.worlds.size(), 1u);
+    EXPECT_THAT(
+        r.messages,
+        ElementsAre("a.rib:5:1: error: MotionBegin: never closed; closed at the end of the input",
+                    HasSubstr("Sphere occurs 1 times"), HasSubstr("a.rib:4:1: error: ObjectBegin: never"),
+                    HasSubstr("AttributeBegin: never"), HasSubstr("WorldBegin: never"),
+                    HasSubstr("FrameBegin: never")));
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test

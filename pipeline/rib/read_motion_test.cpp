@@ -1,0 +1,141 @@
+/// Motion blocks round transformations, geometry and all else.
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Outcome read_shutter(const std::string& shutter, const std::string& text) {
+    return read_text("Shutter " + shutter + "\nWorldBegin\n" + text + "\nWorldEnd\n");
+}
+
+std::string moving_sphere(const std::string& times, std::initializer_list<int> radii) {
+    std::string text = "MotionBegin [" + times + "] ";
+    for (const int radius : radii) text += "Sphere " + std::to_string(radius) + " -1 1 360 ";
+    return text + "MotionEnd ";
+}
+
+std::vector<float> radii_of(const Primitive& primitive) {
+    std::vector<float> radii;
+    for (const auto& shape : primitive.shape_keys)
+        radii.push_back(std::get<Quadric>(shape->topology).values[0]);
+    return radii;
+}
+
+TEST(ReadMotion, TransformationsGetTheKeysTheyNeed) {
+    const Outcome r = read_shutter("0 1",
+                                   "MotionBegin [0 .25 1] Translate 0 0 0 Translate 1 0 0 Translate 2 0 0 "
+                                   "MotionEnd " +
+                                       kSphere);
+    EXPECT_THAT(r.messages, IsEmpty());
+    const auto& keys = r.primitive().camera_from_object;
+    ASSERT_EQ(keys.size(), 5u);
+    EXPECT_EQ(keys[0].translation().x, 0);
+    EXPECT_EQ(keys[1].translation().x, 1);
+    EXPECT_FLOAT_EQ(keys[2].translation().x, 1 + 1 / 3.0f);
+    EXPECT_EQ(keys[4].translation().x, 2);
+    EXPECT_EQ(r.summary.moving_primitives, 1u);
+}
+
+TEST(ReadMotion, RotationsAreSubdivided) {
+    const Outcome r = read_shutter(
+        "0 1", "MotionBegin [0 1] Rotate 0 0 0 1 Rotate 40 0 0 1 MotionEnd Translate 1 0 0 " + kSphere);
+    const auto& keys = r.primitive().camera_from_object;
+    ASSERT_EQ(keys.size(), 5u);
+    for (const M44f& key : keys) EXPECT_NEAR(key.translation().length(), 1, 1e-6);
+}
+
+TEST(ReadMotion, CamerasMoveTheWorld) {
+    const Outcome r = read_text(
+        "Shutter 0 1 MotionBegin [0 1] Translate 0 0 1 Translate 0 0 3 MotionEnd "
+        "WorldBegin MotionBegin [0 1] Translate 0 0 0 Translate 1 0 0 MotionEnd " +
+        kSphere + "WorldEnd");
+    ASSERT_EQ(r.primitive().camera_from_object.size(), 2u);
+    EXPECT_EQ(r.primitive().camera_from_object[1].translation(), V3f(1, 0, 3));
+    EXPECT_EQ(r.scene().camera_from_world.translation(), V3f(0, 0, 1));
+}
+
+TEST(ReadMotion, AClosedShutterSeesItsMoment) {
+    const Outcome r = read_shutter(".5 .5", "MotionBegin [0 1] Translate 0 0 0 Translate 2 0 0 MotionEnd " +
+                                                moving_sphere("0 1", {1, 3}));
+    ASSERT_EQ(r.primitive().key_count(), 1);
+    EXPECT_EQ(r.primitive().camera_from_object[0].translation().x, 1);
+    EXPECT_THAT(radii_of(r.primitive()), ElementsAre(2));
+}
+
+TEST(ReadMotion, ShapesAreResampledToEvenKeys) {
+    EXPECT_THAT(radii_of(read_shutter("0 1", moving_sphere("0 1", {1, 3})).primitive()), ElementsAre(1, 3));
+    EXPECT_THAT(radii_of(read_shutter("0 1", moving_sphere("0 .5 1", {1, 5, 6})).primitive()),
+                ElementsAre(1, 5, 6));
+    EXPECT_THAT(radii_of(read_shutter("0 1", moving_sphere("0 .25 1", {0 + 1, 4, 7})).primitive()),
+                ElementsAre(1, 4, 5, 6, 7));
+    EXPECT_THAT(radii_of(read_shutter("0 .5", moving_sphere("0 1", {1, 3})).primitive()), ElementsAre(1, 2));
+    EXPECT_THAT(radii_of(read_shutter("-1 1", moving_sphere("0 1", {1, 3})).primitive()),
+                ElementsAre(1, 1, 3));
+    EXPECT_THAT(radii_of(read_shutter("2 3", moving_sphere("0 1", {1, 3})).primitive()), ElementsAre(3));
+    EXPECT_EQ(radii_of(read_shutter("0 1", moving_sphere("0 .3 1", {1, 2, 3})).primitive()).size(), 17u);
+}
+
+TEST(ReadMotion, PointsDeform) {
+    const Outcome r = read_shutter("0 1",
+                                   "MotionBegin [0 1] Polygon \"P\" [0 0 0 1 0 0 0 1 0] "
+                                   "Polygon \"P\" [0 0 4 1 0 4 0 1 4] MotionEnd");
+    ASSERT_EQ(r.primitive().shape_keys.size(), 2u);
+    EXPECT_EQ(r.primitive().shape_keys[1]->variables.find("P")->floats[2], 4);
+}
+
+TEST(ReadMotion, MovingObjectsAreResolvedOnceForAllInstances) {
+    const Outcome r = read_shutter("0 1", "ObjectBegin 1 " + moving_sphere("0 .25 1", {1, 2, 3}) +
+                                              "ObjectEnd ObjectInstance 1 ObjectInstance 1");
+    ASSERT_EQ(r.count(), 2u);
+    ASSERT_EQ(r.primitive(0).shape_keys.size(), 5u);
+    EXPECT_EQ(r.primitive(0).shape_keys, r.primitive(1).shape_keys);
+}
+
+TEST(ReadMotion, OfColoursAndShadersTheFirstCounts) {
+    const Outcome r = read_shutter("0 1",
+                                   "MotionBegin [0 1] Color 1 0 0 Color 0 1 0 MotionEnd MotionBegin [0 1] "
+                                   "Surface \"matte\" Surface \"metal\" MotionEnd " +
+                                       kSphere);
+    EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
+    EXPECT_EQ(r.attributes().surface->name, "matte");
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("warning: Color: motion of this request is not supported"),
+                                        HasSubstr("warning: Surface: motion")));
+}
+
+TEST(ReadMotion, WrongBlocksAreReported) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"MotionBegin [0 1] Sphere 2 -1 1 360 MotionEnd", "Sphere occurs 1 times for 2 times"},
+        {"MotionBegin [0 1] Sphere 2 -1 1 360 Cone 1 1 360 Sphere 2 -1 1 360 MotionEnd",
+         "this is a motion block of Sphere"},
+        {"MotionBegin [1 0] MotionEnd", "times must grow"},
+        {"MotionBegin [] MotionEnd", "no times"},
+        {"MotionBegin [0 1] MotionBegin [0 1] MotionEnd", "do not nest"},
+        {"MotionBegin [0 1] AttributeBegin MotionEnd", "inside a motion block"},
+        {"MotionBegin [-3e38 3e38] MotionEnd", "too far apart"},
+        {"MotionBegin [0 1] Polygon \"P\" [0 0 0 1 0 0 0 1 0] Polygon \"P\" [0 0 4 1 0 4 0 1 4 0 0 5] "
+         "MotionEnd",
+         "differ in topology"},
+    };
+    for (const auto& [text, message] : cases) {
+        const Outcome r = read_shutter("0 1", text + std::string("\n") + kSphere);
+        ASSERT_FALSE(r.messages.empty()) << text;
+        EXPECT_THAT(r.messages[0], HasSubstr(message));
+        ASSERT_GE(r.count(), 1u) << text;
+        EXPECT_THAT(radii_of(r.scene().primitives.back()), ElementsAre(1)) << text;
+    }
+}
+
+TEST(ReadMotion, TransformationsDoNotPileUpWithoutEnd) {
+    std::string text;
+    for (int i = 0; i < 1001; ++i) text += "MotionBegin [0 1] Translate 0 0 0 Translate 0 0 1 MotionEnd\n";
+    const Outcome r = read_shutter("0 1", text + kSphere);
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("more than 1000 motion blocks act on one transformation")));
+    EXPECT_EQ(r.primitive().camera_from_object[1].translation().z, 1000);
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test

@@ -1,0 +1,297 @@
+/// Blocks, options, attributes, lights, objects.
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(ReadState, AttributesAreRestoredWithTheirBlocks) {
+    const Outcome r = read_world(
+        "Color 1 0 0 AttributeBegin Color [0 1 0] Opacity .5 .5 .5 Sides 1 Matte 1 ShadingRate 4 "
+        "ShadingInterpolation \"smooth\" Translate 1 2 3 Surface \"matte\" " +
+        kSphere + "AttributeEnd " + kSphere);
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.count(), 2u);
+    EXPECT_EQ(r.attributes(0).color, V3f(0, 1, 0));
+    EXPECT_EQ(r.attributes(0).opacity, V3f(0.5f));
+    EXPECT_EQ(r.attributes(0).sides, 1);
+    EXPECT_EQ(r.attributes(0).matte, 1);
+    EXPECT_EQ(r.attributes(0).shading_rate, 4);
+    EXPECT_TRUE(r.attributes(0).smooth_shading);
+    EXPECT_EQ(r.attributes(0).surface->name, "matte");
+    EXPECT_EQ(r.primitive(0).camera_from_object[0].translation(), V3f(1, 2, 3));
+    EXPECT_EQ(r.attributes(1).color, V3f(1, 0, 0));
+    EXPECT_EQ(r.attributes(1).sides, 2);
+    EXPECT_EQ(r.attributes(1).surface, nullptr);
+    EXPECT_EQ(r.primitive(1).camera_from_object[0], M44f());
+}
+
+TEST(ReadState, TransformBlocksRestoreTheTransformationAlone) {
+    const Outcome r = read_world("TransformBegin Translate 1 0 0 Color 1 0 0 TransformEnd " + kSphere);
+    EXPECT_EQ(r.primitive().camera_from_object[0], M44f());
+    EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
+}
+
+TEST(ReadState, PrimitivesThatLookAlikeShareTheirAttributes) {
+    const Outcome r = read_world(kSphere + kSphere + "Color 1 0 0 " + kSphere + "Scale -1 1 1 " + kSphere);
+    ASSERT_EQ(r.count(), 4u);
+    EXPECT_EQ(r.primitive(0).attributes, r.primitive(1).attributes);
+    EXPECT_NE(r.primitive(1).attributes, r.primitive(2).attributes);
+    EXPECT_NE(r.attributes(2).reverse_orientation, r.attributes(3).reverse_orientation);
+}
+
+TEST(ReadState, OptionsAreFrozenInWorlds) {
+    const Outcome r = read_world(
+        "Format 10 20 1 PixelSamples 9 9 Projection \"perspective\" "
+        "Option \"limits\" \"gridsize\" [4] " +
+        kSphere);
+    EXPECT_EQ(r.messages.size(), 4u);
+    for (const std::string& message : r.messages)
+        EXPECT_THAT(message, ::testing::HasSubstr("options cannot change inside a world; request skipped"));
+    EXPECT_EQ(r.scene().options.width, 640);
+    EXPECT_EQ(r.count(), 1u);
+}
+
+TEST(ReadState, CameraOptions) {
+    const Outcome r = read_text(
+        "Format 320 200 1.5 FrameAspectRatio 2 ScreenWindow -1 1 -.5 .5 CropWindow .25 .75 0 1\n"
+        "Clipping 1 100 DepthOfField 2.8 .1 5 Shutter 0 .5 PixelSamples 3 2 PixelFilter \"sinc\" 4 5\n"
+        "Exposure 2 2.2 Quantize \"rgba\" 255 0 255 .5 Display \"a.exr\" \"openexr\" \"rgba\"\n"
+        "Display \"+z.exr\" \"openexr\" \"z\" Hider \"raytrace\" \"jitter\" [0] Projection \"perspective\" "
+        "\"fov\" [40]\n"
+        "Translate 0 0 5 WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    const Options& o = r.scene().options;
+    EXPECT_EQ(o.width, 320);
+    EXPECT_EQ(o.height, 200);
+    EXPECT_EQ(o.pixel_aspect, 1.5f);
+    EXPECT_EQ(o.frame_aspect, 2.0f);
+    EXPECT_EQ(o.screen_window, (std::array<float, 4>{-1, 1, -0.5f, 0.5f}));
+    EXPECT_EQ(o.crop_window, (std::array<float, 4>{0.25f, 0.75f, 0, 1}));
+    EXPECT_EQ(o.near_clip, 1);
+    EXPECT_EQ(o.far_clip, 100);
+    EXPECT_EQ(o.f_stop, 2.8f);
+    EXPECT_EQ(o.focal_distance, 5);
+    EXPECT_EQ(o.shutter_close, 0.5f);
+    EXPECT_EQ(o.samples_x, 3);
+    EXPECT_EQ(o.samples_y, 2);
+    EXPECT_EQ(o.filter.name, "sinc");
+    EXPECT_EQ(o.filter.width_y, 5);
+    EXPECT_EQ(o.exposure_gamma, 2.2f);
+    EXPECT_EQ(o.projection, "perspective");
+    EXPECT_EQ(o.fov, 40);
+    ASSERT_EQ(o.displays.size(), 2u);
+    EXPECT_EQ(o.displays[1].name, "z.exr");
+    EXPECT_EQ(o.hider, "raytrace");
+    EXPECT_EQ(r.scene().camera_from_world.translation(), V3f(0, 0, 5));
+}
+
+TEST(ReadState, OptionsAreRestoredWithTheirFrames) {
+    const Outcome r = read_text(
+        "FrameBegin 3 Format 8 8 1 Translate 0 0 1 WorldBegin WorldEnd FrameEnd\n"
+        "FrameBegin 4 WorldBegin WorldEnd FrameEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.worlds.size(), 2u);
+    EXPECT_EQ(r.worlds[0].options.frame, 3);
+    EXPECT_EQ(r.worlds[0].options.width, 8);
+    EXPECT_EQ(r.worlds[1].options.frame, 4);
+    EXPECT_EQ(r.worlds[1].options.width, 640);
+    EXPECT_EQ(r.worlds[1].camera_from_world, M44f());
+    EXPECT_EQ(r.summary.frames, 2);
+}
+
+TEST(ReadState, OnlyWantedFramesAreDelivered) {
+    ReadOptions options;
+    options.wants_frame = [](int frame) { return frame == 2; };
+    const Outcome r =
+        read_text("FrameBegin 1 WorldBegin " + kSphere + "WorldEnd FrameEnd FrameBegin 2 WorldBegin " +
+                      kSphere + "WorldEnd FrameEnd",
+                  options);
+    ASSERT_EQ(r.worlds.size(), 1u);
+    EXPECT_EQ(r.worlds[0].options.frame, 2);
+    EXPECT_EQ(r.summary.worlds, 2);
+    EXPECT_EQ(r.summary.primitives.at("Sphere"), 2u);
+}
+
+TEST(ReadState, WorldsAreApart) {
+    const Outcome r = read_text("Translate 0 0 1 WorldBegin Color 1 0 0 Translate 1 0 0 " + kSphere +
+                                "WorldEnd WorldBegin " + kSphere + kSphere + "WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.worlds.size(), 2u);
+    EXPECT_EQ(r.worlds[0].primitives.size(), 1u);
+    EXPECT_EQ(r.worlds[1].primitives.size(), 2u);
+    EXPECT_EQ(r.worlds[1].primitives[0].attributes->color, V3f(1, 1, 1));
+    EXPECT_EQ(r.worlds[1].primitives[0].camera_from_object[0].translation(), V3f(0, 0, 1));
+}
+
+TEST(ReadState, SeveralFilesAreOneStream) {
+    const Folder folder;
+    const Outcome r = read_files(folder, {folder.write("a.rib", "WorldBegin Color 1 0 0"),
+                                          folder.write("b.rib", kSphere + "Sphere 1\nWorldEnd")});
+    EXPECT_THAT(r.messages,
+                ElementsAre("b.rib:1:19: error: Sphere: has 1 numbers, needs 4; primitive skipped"));
+    EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
+}
+
+TEST(ReadState, TransformAndIdentityAreRelativeToTheWorld) {
+    const Outcome r = read_text("Translate 0 0 9 WorldBegin Translate 1 0 0 Identity " + kSphere +
+                                "Transform [1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1] " + kSphere +
+                                "CoordinateSystem \"here\" Identity CoordSysTransform \"here\" " + kSphere +
+                                "CoordSysTransform \"nowhere\" " + kSphere + "WorldEnd");
+    EXPECT_EQ(r.primitive(0).camera_from_object[0].translation(), V3f(0, 0, 9));
+    EXPECT_EQ(r.primitive(1).camera_from_object[0].translation(), V3f(5, 0, 9));
+    EXPECT_EQ(r.primitive(2).camera_from_object[0].translation(), V3f(5, 0, 9));
+    EXPECT_EQ(r.count(), 4u);
+    EXPECT_EQ(r.messages.size(), 1u);
+    EXPECT_EQ(r.scene().camera_from_named.at("here").translation(), V3f(5, 0, 9));
+    EXPECT_EQ(r.scene().camera_from_named.at("world").translation(), V3f(0, 0, 9));
+}
+
+TEST(ReadState, OrientationAndMirroring) {
+    const std::string text = kSphere + "ReverseOrientation " + kSphere + "Orientation \"inside\" " + kSphere +
+                             "Orientation \"outside\" Scale -1 1 1 " + kSphere + "Orientation \"lh\" " +
+                             kSphere + "Orientation \"rh\" " + kSphere + "Orientation \"up\"";
+    const Outcome r = read_world(text);
+    const bool reversed[] = {false, true, true, true, false, true};
+    for (size_t i = 0; i < 6; ++i) EXPECT_EQ(r.attributes(i).reverse_orientation, reversed[i]) << i;
+    EXPECT_EQ(r.messages.size(), 1u);
+}
+
+TEST(ReadState, LightsAreSwitchedWithinBlocks) {
+    const Outcome r = read_world(
+        "LightSource \"pointlight\" 1 \"intensity\" [2] AttributeBegin LightSource \"ambientlight\" "
+        "\"fill\" " +
+        kSphere + "Illuminate 1 0 " + kSphere + "AttributeEnd " + kSphere + "Illuminate \"fill\" 1 " +
+        kSphere + "Illuminate 7 1 " + kSphere);
+    const auto handles = [&](size_t i) {
+        std::vector<std::string> names;
+        for (const auto& light : r.attributes(i).lights) names.push_back(light->handle);
+        return names;
+    };
+    EXPECT_THAT(handles(0), ElementsAre("1", "fill"));
+    EXPECT_THAT(handles(1), ElementsAre("fill"));
+    EXPECT_THAT(handles(2), ElementsAre("1"));
+    EXPECT_THAT(handles(3), ElementsAre("1", "fill"));
+    EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("Illuminate: no light \"7\"; request skipped")));
+    EXPECT_EQ(r.summary.lights, 2u);
+}
+
+TEST(ReadState, LightsEndWithTheirWorldAndNotBefore) {
+    const Outcome r = read_text(
+        "LightSource \"ambientlight\" 1 WorldBegin LightSource \"ambientlight\" 2 WorldEnd "
+        "WorldBegin Illuminate 1 0 Illuminate 2 0 " +
+        kSphere + "WorldEnd");
+    EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("no light \"2\"")));
+    EXPECT_THAT(r.worlds.at(1).primitives.at(0).attributes->lights, IsEmpty());
+}
+
+TEST(ReadState, DisplacementBoundsAreCameraSpaceLengths) {
+    const std::string bound = "Attribute \"displacementbound\" \"sphere\" [.5] \"coordinatesystem\" ";
+    const Outcome r =
+        read_text("Scale 3 3 3 WorldBegin Scale 2 2 2 CoordinateSystem \"two\" Scale 2 2 2 " + bound +
+                  "[\"object\"] " + kSphere + bound + "[\"world\"] " + kSphere + bound + "[\"camera\"] " +
+                  kSphere + bound + "[\"two\"] " + kSphere + bound + "[\"what\"] " + kSphere + "WorldEnd");
+    const float wanted[] = {6, 1.5f, 0.5f, 3, 6};
+    for (size_t i = 0; i < 5; ++i) EXPECT_FLOAT_EQ(r.attributes(i).displacement_bound, wanted[i]) << i;
+    EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("\"what\" is not known")));
+}
+
+TEST(ReadState, OtherAttributesAreKeptAsTheyLook) {
+    const Outcome r = read_world(
+        "Attribute \"identifier\" \"name\" [\"ball\"] Attribute \"visibility\" \"camera\" [0] "
+        "Attribute \"dice\" \"rasterorient\" 0 Attribute \"user\" \"string who\" \"me\" "
+        "\"unheard\" [1 2] " +
+        kSphere);
+    EXPECT_THAT(r.messages, IsEmpty());
+    EXPECT_EQ(r.attributes().name, "ball");
+    EXPECT_FALSE(r.attributes().visible_to_camera);
+    EXPECT_EQ(r.attributes().user.at("dice").float_or("rasterorient", 1), 0);
+    EXPECT_EQ(r.attributes().user.at("user").string_or("who", ""), "me");
+    EXPECT_EQ(r.attributes().user.at("user").find("unheard")->floats.size(), 2u);
+}
+
+TEST(ReadState, ShaderParameters) {
+    const Outcome r = read_world(
+        "Declare \"tint\" \"uniform color\" Translate 1 0 0 Surface \"plastic\" \"Kd\" .5 "
+        "\"tint\" 1 0 0 \"uniform float[2] pair\" [3 4] \"unknown\" [1] \"Kd\" \"text\" "
+        "\"specularcolor\" [1 2] " +
+        kSphere + "Surface \"x\" \"unknown\" [1]");
+    const ShaderInstance& shader = *r.attributes().surface;
+    EXPECT_EQ(shader.parameters.float_or("Kd", 0), 0.5f);
+    EXPECT_EQ(shader.parameters.find("tint")->floats, (std::vector<float>{1, 0, 0}));
+    EXPECT_EQ(shader.parameters.find("pair")->declaration.array_length, 2);
+    EXPECT_EQ(shader.camera_from_shader.translation(), V3f(1, 0, 0));
+    EXPECT_EQ(r.messages.size(), 3u);  // the second "unknown" is of the same kind
+}
+
+TEST(ReadState, InstancesTakeTheirOwnAttributes) {
+    const Outcome r =
+        read_text("WorldBegin ObjectBegin 1 Translate 1 0 0 " + kSphere + "Color 0 1 0 Surface \"metal\" " +
+                  kSphere + "ObjectEnd ObjectBegin \"two\" " + kSphere +
+                  "ObjectEnd Color 1 0 0 Opacity .5 .5 .5 Surface \"matte\" "
+                  "Translate 0 0 5 ObjectInstance 1 ObjectInstance \"two\" ObjectInstance 3 WorldEnd");
+    ASSERT_EQ(r.count(), 3u);
+    EXPECT_EQ(r.primitive(0).camera_from_object[0].translation(), V3f(1, 0, 5));
+    EXPECT_EQ(r.attributes(0).color, V3f(1, 0, 0));
+    EXPECT_EQ(r.attributes(1).color, V3f(0, 1, 0));
+    EXPECT_EQ(r.attributes(1).opacity, V3f(0.5f));
+    EXPECT_EQ(r.attributes(1).surface->name, "metal");
+    EXPECT_EQ(r.attributes(1).surface->camera_from_shader.translation(), V3f(1, 0, 5));
+    EXPECT_EQ(r.attributes(2).surface->name, "matte");
+    EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("no object \"3\"")));
+}
+
+TEST(ReadState, InstancesShareTheirShapes) {
+    const Outcome r = read_world("ObjectBegin 1 " + kSphere + "ObjectEnd ObjectInstance 1 ObjectInstance 1");
+    EXPECT_EQ(r.primitive(0).shape_keys[0], r.primitive(1).shape_keys[0]);
+}
+
+TEST(ReadState, InstancesBeyondTheLimitAreLeftOut) {
+    ReadOptions options;
+    options.most_instanced_primitives = 3;
+    const Outcome r = read_world("ObjectBegin 1 " + kSphere + kSphere +
+                                     "ObjectEnd ObjectInstance 1 ObjectInstance 1 "
+                                     "ObjectInstance 1 " +
+                                     kSphere,
+                                 options);
+    EXPECT_EQ(r.count(), 3u);
+    EXPECT_THAT(r.messages, ElementsAre(::testing::HasSubstr("instances make more than 3 primitives")));
+}
+
+TEST(ReadState, MisplacedRequestsAreSkipped) {
+    for (const char* text : {"WorldBegin",
+                             "FrameBegin 1",
+                             "ObjectInstance 5",
+                             "ArchiveEnd",
+                             "AttributeEnd",
+                             "MotionEnd",
+                             "ObjectEnd",
+                             "FrameEnd",
+                             "TransformEnd",
+                             "ObjectBegin 1 ObjectBegin 2 ObjectEnd",
+                             "ObjectBegin 1 LightSource \"ambientlight\" 1 ObjectEnd",
+                             "ObjectBegin 1 ObjectInstance 1 ObjectEnd",
+                             "Sphere 1 -1 1 360 7",
+                             "1 2 3",
+                             "] ",
+                             "Sphere [[1] -1 1 360]",
+                             "\"text\"",
+                             "Rotate 10 0 0 0",
+                             "Skew 90 1 0 0 1 1 0",
+                             "Scale 1 \"x\" 1",
+                             "Orientation 5",
+                             "Sides 3",
+                             "Basis \"foo\" 3 \"bezier\" 3",
+                             "Basis \"bezier\" 9 \"bezier\" 3",
+                             "ShadingRate -1",
+                             "Declare \"x\" \"uniform colour\""}) {
+        const Outcome r = read_world(std::string(text) + "\n" + kSphere);
+        EXPECT_EQ(r.messages.size(), 1u) << text << ::testing::PrintToString(r.messages);
+        EXPECT_EQ(r.count(), 1u) << text;
+    }
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test

@@ -1,0 +1,155 @@
+#include "pipeline/rib/scanner.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdlib>
+#include <random>
+
+namespace trapeze::rib {
+namespace {
+
+std::vector<Token> tokens_of(std::string_view text) {
+    Scanner scanner(text, {1, 1, 1});
+    std::vector<Token> tokens;
+    for (; scanner.peek().kind != TokenKind::End; scanner.skip()) tokens.push_back(scanner.peek());
+    return tokens;
+}
+
+Token only(std::string_view text) {
+    const auto tokens = tokens_of(text);
+    EXPECT_EQ(tokens.size(), 1u) << text;
+    return tokens.empty() ? Token{} : tokens[0];
+}
+
+double number(std::string_view text) {
+    const Token token = only(text);
+    EXPECT_EQ(token.kind, TokenKind::Number) << text;
+    return token.number;
+}
+
+TEST(Scanner, NumbersInEveryForm) {
+    EXPECT_EQ(number(".9"), 0.9);
+    EXPECT_EQ(number("1e-3"), 1e-3);
+    EXPECT_EQ(number("+1"), 1);
+    EXPECT_EQ(number("-.5E+2"), -50);
+    EXPECT_EQ(number("7."), 7);
+    EXPECT_EQ(number("000123"), 123);
+    EXPECT_EQ(number("-0"), 0);
+    EXPECT_TRUE(std::signbit(number("-0")));
+    EXPECT_EQ(number("16777217"), 16777217);
+    EXPECT_EQ(number("2147483648"), 2147483648.0);
+}
+
+TEST(Scanner, NumbersBeyondFloatAreInfiniteOrZero) {
+    EXPECT_EQ(number("1e999"), HUGE_VAL);
+    EXPECT_EQ(number("-1e99999999999999999999"), -HUGE_VAL);
+    EXPECT_EQ(number("1e-99999999999999999999"), 0);
+    EXPECT_EQ(number("0e999999"), 0);
+    EXPECT_EQ(number(std::string(500, '9')), HUGE_VAL);
+    EXPECT_EQ(number("0." + std::string(500, '0') + "1"), 0);
+    EXPECT_EQ(number("0." + std::string(500, '0') + "1e501"), 1);
+    EXPECT_TRUE(std::isnan(number("nan")));
+    EXPECT_TRUE(std::isnan(number("-NaN")));
+    EXPECT_FALSE(std::isfinite(number("-inf")));
+    EXPECT_FALSE(std::isfinite(number("Infinity")));
+}
+
+/// Random numbers, among them ones half-way between floats, as text of many forms.
+TEST(Scanner, FloatsAreRoundedAsTheLibraryRoundsThem) {
+    std::mt19937_64 random(1);
+    const char* const formats[] = {"%.3g", "%.6g", "%.9g", "%.12g", "%.15f", "%.17g", "%.4f", "%.25g"};
+    char text[512];
+    for (int i = 0; i < 1000000; ++i) {
+        const auto bits = static_cast<uint32_t>(random());
+        float f = std::bit_cast<float>(bits);
+        if (i % 2) f = static_cast<float>(static_cast<double>(bits) / 4294967296.0 * 20 - 10);
+        if (!std::isfinite(f)) continue;
+        double value = f;
+        if (i % 5 == 0) value = (value + static_cast<double>(std::nextafter(f, 1e38f))) / 2;
+        std::snprintf(text, sizeof text, formats[i % 8], value);
+        double scanned = 0;
+        Scanner scanner(text, {1, 1, 1});
+        scanner.scan_numbers([&](double v) { scanned = v; });
+        const float expected = std::strtof(text, nullptr), got = static_cast<float>(scanned);
+        ASSERT_EQ(std::bit_cast<uint32_t>(got), std::bit_cast<uint32_t>(expected)) << text;
+    }
+}
+
+TEST(Scanner, NumbersFollowEachOtherInArrays) {
+    Scanner scanner("1 2\n 3,4\t-5 # six\n6 7]8", {1, 1, 1});
+    std::vector<double> values;
+    EXPECT_EQ(scanner.scan_numbers([&](double v) { values.push_back(v); }).line, 0u);
+    EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4, -5, 6, 7}));
+    EXPECT_EQ(scanner.peek().kind, TokenKind::Close);
+    EXPECT_EQ(scanner.peek().at.line, 3u);
+    EXPECT_EQ(scanner.peek().at.column, 4u);
+}
+
+TEST(Scanner, TheFirstNumberThatIsNotFiniteHasItsPlace) {
+    Scanner scanner("1 2\n 3 nan 4 inf", {1, 1, 1});
+    const SourceLocation bad = scanner.scan_numbers([](double) {});
+    EXPECT_EQ(bad.line, 2u);
+    EXPECT_EQ(bad.column, 4u);
+}
+
+TEST(Scanner, StringsWithEscapes) {
+    EXPECT_EQ(only(R"("a\"b")").string, "a\"b");
+    EXPECT_EQ(only(R"("\n\r\t\b\f\\")").string, "\n\r\t\b\f\\");
+    EXPECT_EQ(only(R"("\101\60x\7")").string, "A0x\a");
+    EXPECT_EQ(only("\"one\\\ntwo\"").string, "onetwo");
+    EXPECT_EQ(only("\"# [no] comment\"").string, "# [no] comment");
+    EXPECT_EQ(only("\"\"").string, "");
+    EXPECT_EQ(only("\"\"").kind, TokenKind::String);
+    EXPECT_EQ(only("\"never closed").kind, TokenKind::Bad);
+    EXPECT_EQ(only("\"ends in an escape\\").kind, TokenKind::Bad);
+}
+
+TEST(Scanner, CommentsReachToTheEndOfTheLine) {
+    const auto tokens = tokens_of("##RenderMan RIB\nSphere#1 2\r\n[3]# 4");
+    ASSERT_EQ(tokens.size(), 4u);
+    EXPECT_EQ(tokens[0].text, "Sphere");
+    EXPECT_EQ(tokens[2].number, 3);
+}
+
+TEST(Scanner, PlacesCountFromOneInEveryKindOfLine) {
+    const auto tokens = tokens_of("A\n  B\r\n\tC\rD \"x\ny\" E");
+    ASSERT_EQ(tokens.size(), 6u);
+    const uint32_t lines[] = {1, 2, 3, 4, 4, 5}, columns[] = {1, 3, 2, 1, 3, 4};
+    for (size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(tokens[i].at.line, lines[i]) << i;
+        EXPECT_EQ(tokens[i].at.column, columns[i]) << i;
+    }
+}
+
+TEST(Scanner, TextMayBeginWithinAFile) {
+    Scanner scanner("A\nB", {3, 7, 20});
+    EXPECT_EQ(scanner.peek().at.line, 7u);
+    EXPECT_EQ(scanner.peek().at.column, 20u);
+    scanner.skip();
+    EXPECT_EQ(scanner.peek().at.line, 8u);
+    EXPECT_EQ(scanner.peek().at.column, 1u);
+    EXPECT_EQ(scanner.offset(), 2u);
+}
+
+TEST(Scanner, BinaryValuesAreOneTokenEach) {
+    // An array of two floats, a short string, a request's code; then text.
+    const std::string bytes = std::string("\xC8\x02", 2) + "12345678" +
+                              "\x93"
+                              "abc" +
+                              "\xA6\x05" + " Sphere";
+    const auto tokens = tokens_of(bytes);
+    ASSERT_EQ(tokens.size(), 4u);
+    EXPECT_EQ(tokens[0].kind, TokenKind::Binary);
+    EXPECT_EQ(tokens[1].kind, TokenKind::Binary);
+    EXPECT_EQ(tokens[2].kind, TokenKind::BinaryRequest);
+    EXPECT_EQ(tokens[3].text, "Sphere");
+}
+
+TEST(Scanner, BinaryLengthsBeyondTheTextEndWithIt) {
+    EXPECT_EQ(tokens_of("\xCB\xFF\xFF\xFF\xFF 1 2").size(), 1u);
+    EXPECT_EQ(tokens_of("\xA4").size(), 1u);
+}
+
+}  // namespace
+}  // namespace trapeze::rib
