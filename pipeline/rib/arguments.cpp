@@ -24,7 +24,7 @@ void append_number(Argument& array, double value) {
 }
 
 std::string what_is_bad(const Token& token) {
-    if (token.text == "\"") return "a string is never closed";
+    if (token.text == "\"") return "a string that is never closed";
     return "characters that RIB does not have";
 }
 

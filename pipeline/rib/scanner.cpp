@@ -88,6 +88,7 @@ const char* read_number(const char* p, const char* end, double* value) {
 }
 
 bool is_non_finite_word(std::string_view word) {
+    if ((word[0] | 0x20) != 'n' && (word[0] | 0x20) != 'i') return false;
     std::string lower;
     for (const char c : word.substr(0, 9)) lower += static_cast<char>(c | 0x20);
     return lower == "nan" || lower == "inf" || lower == "infinity";
