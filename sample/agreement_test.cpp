@@ -10,7 +10,7 @@
 
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
-#include "sample/sample_pattern.h"
+#include "sample/stratified_pattern.h"
 #include "sample/test_frame.h"
 #include "sample/visibility_method.h"
 
@@ -117,7 +117,7 @@ std::vector<TestScene> make_scenes() {
         TestScene& slivers = scene("edge-on slivers", false, false);
         Noise noise{std::mt19937(21)};
         SampleTile samples;
-        SamplePattern(slivers.frame.context).make_tile({12, 4, 28, 20}, samples);
+        StratifiedPattern(slivers.frame.context).make_tile({12, 4, 28, 20}, samples);
         for (size_t n = 0; n < 3 * samples.size(); ++n) {
             const AxisRay& ray = samples.rays[n / 3];
             const float middle = 5 + 0.01f * static_cast<float>(n % 3), thin = std::pow(10.0f, noise(-9, -6));
@@ -202,17 +202,20 @@ std::vector<TestScene> make_scenes() {
 }
 
 /// Samples of a frame with a border of filter pixels around, tile by tile in parallel.
-std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_name) {
-    const VisibilityMethod* method = find_visibility_method(method_name);
-    const std::unique_ptr<Visibility> visibility = method->prepare(scene.frame.context, scene.maker.grids());
-    const SamplePattern pattern(scene.frame.context);
+std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_name,
+                               std::string_view pattern_name = "stratified") {
+    std::string error;
+    const auto sampler = choose_sampler(method_name, pattern_name, &error);
+    EXPECT_TRUE(sampler) << error;
+    const auto pattern = sampler->make_pattern(scene.frame.context);
+    const auto visibility = sampler->prepare(scene.frame.context, scene.maker.grids(), *pattern);
     const auto tiles = tiles_of({-2, -2, scene.frame.options.width + 2, scene.frame.options.height + 2});
     std::vector<HitBuffer> buffers(tiles.size());
     tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
         SampleTile samples;
         SampleScratch scratch;
         SampleStats stats;
-        pattern.make_tile(tiles[i], samples);
+        pattern->make_tile(tiles[i], samples);
         visibility->resolve(samples, buffers[i], scratch, stats);
         EXPECT_EQ(stats.rays, samples.size());
     });
@@ -222,7 +225,7 @@ std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_n
 /// What no bound has a say in: every sample against every micropolygon, one by one.
 std::vector<HitBuffer> resolve_naively(const TestScene& scene) {
     const Camera& camera = scene.frame.context.camera;
-    const SamplePattern pattern(scene.frame.context);
+    const StratifiedPattern pattern(scene.frame.context);
     const auto tiles = tiles_of({-2, -2, scene.frame.options.width + 2, scene.frame.options.height + 2});
     std::vector<HitBuffer> buffers(tiles.size());
     for (size_t n = 0; n < tiles.size(); ++n) {

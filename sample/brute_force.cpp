@@ -136,8 +136,14 @@ class BruteForce final : public Visibility {
 
 }  // namespace
 
-std::unique_ptr<Visibility> prepare_brute_force(const RenderContext& context, const Grids& grids) {
-    return std::make_unique<BruteForce>(context, grids);
+VisibilityMethod brute_force_method() {
+    return {"bruteforce",
+            {},
+            stratified_pattern,
+            any_pattern,
+            [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
+                return std::make_unique<BruteForce>(input.context, input.grids);
+            }};
 }
 
 }  // namespace trapeze

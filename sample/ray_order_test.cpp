@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sample/sample_pattern.h"
+#include "sample/stratified_pattern.h"
 #include "sample/test_frame.h"
 
 namespace trapeze {
@@ -15,7 +15,7 @@ using testing::TestFrame;
 
 SampleTile tile_of(const TestFrame& frame, const PixelRect& pixels) {
     SampleTile tile;
-    SamplePattern(frame.context).make_tile(pixels, tile);
+    StratifiedPattern(frame.context).make_tile(pixels, tile);
     return tile;
 }
 

@@ -98,13 +98,14 @@ class RayTraced final : public Visibility {
 
 }  // namespace
 
-std::unique_ptr<Visibility> prepare_raytrace(const RenderContext& context, const Grids& grids) {
-    return std::make_unique<RayTraced>(context, grids, true);
-}
-
-std::unique_ptr<Visibility> prepare_raytrace_without_bundles(const RenderContext& context,
-                                                             const Grids& grids) {
-    return std::make_unique<RayTraced>(context, grids, false);
+VisibilityMethod raytrace_method() {
+    return {"raytrace",
+            {{"bundle", {"on", "off"}}},
+            stratified_pattern,
+            any_pattern,
+            [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
+                return std::make_unique<RayTraced>(input.context, input.grids, input.spec.is_on("bundle"));
+            }};
 }
 
 }  // namespace trapeze

@@ -1,31 +1,38 @@
-/// Where the samples of pixels lie [Hou10 sec. 3.4]: jittered stratified in subpixel position, on the lens
-/// and in time, each domain in as many regions as a pixel has samples.
+/// Where, when and through which point of the lens samples look. The pattern is chosen apart from the
+/// visibility method; every method has a natural one, and a method may honour only some.
 #pragma once
 
-#include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/render_context.h"
 #include "core/samples.h"
+#include "sample/method_spec.h"
 
 namespace trapeze {
 
 class SamplePattern {
   public:
-    explicit SamplePattern(const RenderContext& context);
+    virtual ~SamplePattern() = default;
 
     /// All samples of a rectangle of pixels. What a pixel gets depends on the pixel alone.
-    void make_tile(const PixelRect& pixels, SampleTile& tile) const;
-
-  private:
-    void make_pixel(int px, int py, size_t first, SampleTile& tile) const;
-
-    Camera camera_;
-    int nx_, ny_;
-    uint32_t seed_;
-    bool motion_;
-    std::vector<uint32_t> lens_of_;  ///< subpixel region -> lens region, the same in all pixels
-    std::vector<uint32_t> time_of_;  ///< subpixel region -> time region, before the pixel's shift
+    virtual void make_tile(const PixelRect& pixels, SampleTile& tile) const = 0;
 };
+
+/// A row of the table of patterns.
+struct PatternKind {
+    std::string_view name;
+    std::vector<SpecOption> options;
+    std::unique_ptr<SamplePattern> (*make)(const RenderContext& context, const MethodSpec& spec);
+};
+
+const std::vector<PatternKind>& sample_patterns();
+
+/// Reads the name of a pattern, as "stratified", against the table. Empty with *error set when it is wrong.
+std::optional<MethodSpec> parse_pattern(std::string_view text, std::string* error);
+
+/// `spec` is parse_pattern's.
+std::unique_ptr<SamplePattern> make_sample_pattern(const RenderContext& context, const MethodSpec& spec);
 
 }  // namespace trapeze

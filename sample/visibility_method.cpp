@@ -1,26 +1,37 @@
 #include "sample/visibility_method.h"
 
-#include <algorithm>
-
 namespace trapeze {
-namespace {
 
-constexpr VisibilityMethod kVisibilityMethods[] = {
-    {"raytrace", prepare_raytrace},
-    {"raytrace:bundle=off", prepare_raytrace_without_bundles},
-    {"bruteforce", prepare_brute_force},
-};
-
-}  // namespace
-
-std::span<const VisibilityMethod> visibility_methods() {
-    return kVisibilityMethods;
+const std::vector<VisibilityMethod>& visibility_methods() {
+    static const std::vector<VisibilityMethod> methods = {
+        raytrace_method(),
+        brute_force_method(),
+    };
+    return methods;
 }
 
-const VisibilityMethod* find_visibility_method(std::string_view name) {
-    const auto* found = std::find_if(std::begin(kVisibilityMethods), std::end(kVisibilityMethods),
-                                     [name](const VisibilityMethod& method) { return method.name == name; });
-    return found == std::end(kVisibilityMethods) ? nullptr : found;
+std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const Grids& grids,
+                                             const SamplePattern& made_pattern) const {
+    return find_named(visibility_methods(), method.name)->prepare({context, grids, made_pattern, method});
+}
+
+std::string Sampler::name() const {
+    return spec_text(method, find_named(visibility_methods(), method.name)->options);
+}
+
+std::optional<Sampler> choose_sampler(std::string_view method, std::string_view pattern, std::string* error) {
+    const auto method_spec = parse_spec_of(visibility_methods(), "visibility method", method, error);
+    if (!method_spec) return {};
+    const VisibilityMethod& row = *find_named(visibility_methods(), method_spec->name);
+    const auto pattern_spec =
+        parse_pattern(pattern.empty() ? row.natural_pattern(*method_spec) : std::string(pattern), error);
+    if (!pattern_spec) return {};
+    if (!row.honours(*method_spec, *pattern_spec)) {
+        *error = "\"" + std::string(method) + "\" cannot resolve samples of the pattern \"" +
+                 std::string(pattern) + "\"; its own is \"" + row.natural_pattern(*method_spec) + "\"";
+        return {};
+    }
+    return Sampler{*method_spec, *pattern_spec};
 }
 
 }  // namespace trapeze

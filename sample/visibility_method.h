@@ -13,11 +13,20 @@
 #include "core/render_context.h"
 #include "core/samples.h"
 #include "core/stats.h"
+#include "sample/method_spec.h"
+#include "sample/sample_pattern.h"
 
 namespace trapeze {
 
+/// What samples cost, for pictures of it: indexed by sample, set to zero by the caller.
+struct SampleHeat {
+    std::vector<uint32_t> tests;  ///< predicate tests
+    std::vector<uint32_t> nodes;  ///< nodes visited, or (rasterizers) boxes set up that reached the sample
+};
+
 /// What a thread needs while resolving; any method may use any of it. One per thread, reused.
 struct SampleScratch {
+    SampleHeat* heat = nullptr;               ///< when set, methods add what each sample cost
     std::vector<uint32_t> order;              ///< samples in the order of tracing
     std::vector<uint32_t> keys, sorted;       ///< of the sort that makes it
     TopLevel tile_top, group_top;             ///< what of a tree the tile, and a group of its rays, may meet
@@ -40,26 +49,63 @@ class Visibility {
     virtual void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const = 0;
     virtual BuildStats build_stats() const { return {}; }
+
+    /// Side in pixels, a multiple of kTileSide, of the tiles that the method likes to resolve. Any size is
+    /// right; this one is fast.
+    virtual int tile_side() const { return kTileSide; }
 };
 
+/// What a method is prepared with; all of it outlives what is prepared.
+struct VisibilityInput {
+    const RenderContext& context;
+    const Grids& grids;
+    const SamplePattern& pattern;  ///< one that the method honours
+    const MethodSpec& spec;        ///< parse_method's
+};
+
+/// A row of the table of methods.
 struct VisibilityMethod {
     std::string_view name;
-    std::unique_ptr<Visibility> (*prepare)(const RenderContext& context, const Grids& grids);
+    std::vector<SpecOption> options;
+    /// The pattern that the method, with these options, was made for.
+    std::string (*natural_pattern)(const MethodSpec& method);
+    /// Whether the method finds what samples of a pattern see.
+    bool (*honours)(const MethodSpec& method, const MethodSpec& pattern);
+    std::unique_ptr<Visibility> (*prepare)(const VisibilityInput& input);
 };
 
-std::span<const VisibilityMethod> visibility_methods();
+const std::vector<VisibilityMethod>& visibility_methods();
 
-/// Null when there is none of that name.
-const VisibilityMethod* find_visibility_method(std::string_view name);
+/// A method and a pattern, checked against the tables and each other.
+struct Sampler {
+    MethodSpec method, pattern;
+
+    std::unique_ptr<SamplePattern> make_pattern(const RenderContext& context) const {
+        return make_sample_pattern(context, pattern);
+    }
+    std::unique_ptr<Visibility> prepare(const RenderContext& context, const Grids& grids,
+                                        const SamplePattern& made_pattern) const;
+    /// The method as a user would name it, without options at their default.
+    std::string name() const;
+};
+
+/// Reads "raytrace:tree=paper" and the like, and a pattern's name (empty: the method's natural one). Empty
+/// with *error set when either is wrong or the method does not honour the pattern.
+std::optional<Sampler> choose_sampler(std::string_view method, std::string_view pattern, std::string* error);
 
 /// The instruction set that the vector code runs on, as Highway names it.
 std::string_view simd_target_name();
 
-/// The rows: [Hou10] with bundles of rays; the paper's own form, one ray after another; every sample against
-/// every micropolygon that may cover it.
-std::unique_ptr<Visibility> prepare_raytrace(const RenderContext& context, const Grids& grids);
-std::unique_ptr<Visibility> prepare_raytrace_without_bundles(const RenderContext& context,
-                                                             const Grids& grids);
-std::unique_ptr<Visibility> prepare_brute_force(const RenderContext& context, const Grids& grids);
+/// The rows of the table, one file each.
+VisibilityMethod raytrace_method();
+VisibilityMethod brute_force_method();
+
+/// For methods that take any sample as it comes.
+inline std::string stratified_pattern(const MethodSpec&) {
+    return "stratified";
+}
+inline bool any_pattern(const MethodSpec&, const MethodSpec&) {
+    return true;
+}
 
 }  // namespace trapeze

@@ -1,11 +1,12 @@
 #include "sample/visibility_method.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "core/test_grids.h"
-#include "sample/sample_pattern.h"
+#include "sample/stratified_pattern.h"
 #include "sample/swept_bound.h"
 #include "sample/test_frame.h"
 
@@ -26,9 +27,12 @@ void add_wall(GridMaker& maker, float z, int side = 4) {
 class EveryMethod : public ::testing::TestWithParam<std::string_view> {
   protected:
     HitBuffer resolve(const TestFrame& frame, const Grids& grids) {
-        const auto visibility = find_visibility_method(GetParam())->prepare(frame.context, grids);
+        std::string error;
+        const auto sampler = choose_sampler(GetParam(), "", &error);
+        const auto pattern = sampler->make_pattern(frame.context);
+        const auto visibility = sampler->prepare(frame.context, grids, *pattern);
         SampleTile samples;
-        SamplePattern(frame.context).make_tile({0, 0, 16, 16}, samples);
+        pattern->make_tile({0, 0, 16, 16}, samples);
         HitBuffer hits;
         visibility->resolve(samples, hits, scratch_, stats_);
         EXPECT_EQ(hits.size(), samples.size());
@@ -130,12 +134,30 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryMethod,
                              return name;
                          });
 
-TEST(VisibilityMethods, AreFoundByName) {
-    for (const VisibilityMethod& method : visibility_methods())
-        EXPECT_EQ(find_visibility_method(method.name), &method);
-    EXPECT_EQ(find_visibility_method("raytrac"), nullptr);
-    EXPECT_EQ(find_visibility_method(""), nullptr);
+TEST(VisibilityMethods, AreChosenByName) {
+    std::string error;
+    for (const VisibilityMethod& method : visibility_methods()) {
+        const auto sampler = choose_sampler(method.name, "", &error);
+        ASSERT_TRUE(sampler) << error;
+        EXPECT_EQ(sampler->name(), method.name);
+    }
+    EXPECT_EQ(choose_sampler("raytrace:bundle=off", "", &error)->name(), "raytrace:bundle=off");
+    EXPECT_EQ(choose_sampler("raytrace:bundle=on", "", &error)->name(), "raytrace");
     EXPECT_FALSE(simd_target_name().empty());
+}
+
+TEST(VisibilityMethods, WrongNamesAreExplained) {
+    const auto error_of = [](std::string_view method, std::string_view pattern) {
+        std::string error;
+        EXPECT_FALSE(choose_sampler(method, pattern, &error)) << method;
+        return error;
+    };
+    EXPECT_THAT(error_of("raytrac", ""), ::testing::HasSubstr("no visibility method \"raytrac\"; there are"));
+    EXPECT_THAT(error_of("", ""), ::testing::HasSubstr("no visibility method \"\""));
+    EXPECT_THAT(error_of("raytrace:bundle=maybe", ""), ::testing::HasSubstr("is one of on, off"));
+    EXPECT_THAT(error_of("raytrace:bundles=on", ""), ::testing::HasSubstr("no option \"bundles\""));
+    EXPECT_THAT(error_of("raytrace:bundle", ""), ::testing::HasSubstr("key=value"));
+    EXPECT_THAT(error_of("raytrace", "scattered"), ::testing::HasSubstr("no sample pattern \"scattered\""));
 }
 
 TEST(SweptBound, HoldsWhereAnyPartOfTheLensSeesAPointAtAnyTime) {

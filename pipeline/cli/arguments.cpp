@@ -49,10 +49,46 @@ void add_inputs(CLI::App& app, Arguments& a) {
     app.add_flag("--no-color{false}", a.color, "no colours in messages (also: NO_COLOR in the environment)");
 }
 
-void add_render_options(CLI::App& app, Arguments& a) {
-    std::vector<std::string> samplers;
-    for (const VisibilityMethod& method : visibility_methods()) samplers.emplace_back(method.name);
+/// " name:key=a|b,key=..." for each row of a table.
+template <class Row>
+std::string listed(const std::vector<Row>& table) {
+    std::string text;
+    for (const Row& row : table) {
+        text += " " + std::string(row.name);
+        char separator = ':';
+        for (const SpecOption& option : row.options) {
+            text += separator + std::string(option.name) + "=";
+            for (const std::string_view value : option.values)
+                text += (value == option.values.front() ? "" : "|") + std::string(value);
+            separator = ',';
+        }
+    }
+    return text;
+}
 
+void add_sampler_options(CLI::App& app, Arguments& a) {
+    const auto is_method = [](const std::string& text) {
+        std::string error;
+        choose_sampler(text, "", &error);
+        return error;
+    };
+    const auto is_pattern = [](const std::string& text) {
+        std::string error;
+        parse_pattern(text, &error);
+        return error;
+    };
+    app.add_option("--sampler", a.sampler, "visibility method, one of:" + listed(visibility_methods()))
+        ->check(is_method)
+        ->type_name("METHOD")
+        ->capture_default_str();
+    app.add_option(
+           "--pattern", a.pattern,
+           "sample pattern (default: what the method was made for), one of:" + listed(sample_patterns()))
+        ->check(is_pattern)
+        ->type_name("PATTERN");
+}
+
+void add_render_options(CLI::App& app, Arguments& a) {
     app.add_option("-o,--output", a.output, "replaces the first Display's name")->type_name("FILE");
     app.add_option("-d,--driver", a.driver, "replaces every Display's driver; null writes nothing")
         ->type_name("DRIVER");
@@ -64,9 +100,7 @@ void add_render_options(CLI::App& app, Arguments& a) {
     app.add_option("--shading-rate", a.shading_rate, "pixel area of a micropolygon, everywhere")
         ->check(CLI::Range(1e-4f, 1e6f))
         ->type_name("AREA");
-    app.add_option("--sampler", a.sampler, "visibility method")
-        ->check(CLI::IsMember(samplers))
-        ->capture_default_str();
+    add_sampler_options(app, a);
     app.add_option("-t,--threads", a.threads, "threads; 0: all, -N: all but N")
         ->check(CLI::Range(-1024, 1024))
         ->type_name("N");
@@ -152,6 +186,11 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     } catch (const CLI::ParseError& error) {
         const int code = app.exit(error, std::cout, std::cerr);
         return code == 0 ? kExitOk : kExitUsage;
+    }
+    std::string error;
+    if (!choose_sampler(arguments.sampler, arguments.pattern, &error)) {
+        std::cerr << "trapeze: error: " << error << "\n";
+        return kExitUsage;
     }
     if (check->parsed()) arguments.command = Command::Check;
     if (info->parsed()) arguments.command = Command::Info;

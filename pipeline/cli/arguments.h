@@ -22,6 +22,7 @@ struct Arguments {
     std::optional<float> shading_rate;
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
+    std::string pattern;  ///< empty: the sampler's natural one
     int threads = 0;  ///< 0: all; negative: all but so many
     uint32_t seed = 0;
     size_t memory_bytes = 0;

@@ -105,6 +105,7 @@ void RenderJob::render_world(Scene&& scene) {
 
     RenderSettings settings;
     settings.sampler = arguments_.sampler;
+    settings.pattern = arguments_.pattern;
     settings.memory_bytes = arguments_.memory_bytes;
     settings.regions_at_least = arguments_.regions_at_least;
     settings.seed = arguments_.seed;

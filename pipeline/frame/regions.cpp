@@ -12,8 +12,8 @@ namespace {
 constexpr size_t kTreeBytesPerMicropolygon = 20;
 constexpr size_t kTreeBytesPerGrid = 256;
 
-int floor_to_tile(int pixel) {
-    const int rest = ((pixel % kTileSide) + kTileSide) % kTileSide;
+int floor_to(int pixel, int side) {
+    const int rest = ((pixel % side) + side) % side;
     return pixel - rest;
 }
 
@@ -31,7 +31,8 @@ Region part_of(const Region& whole, const PixelRect& pixels, std::span<const Sub
 std::pair<PixelRect, PixelRect> halves(const PixelRect& r) {
     PixelRect low = r, high = r;
     const bool across = r.width() >= r.height();
-    const int middle = across ? floor_to_tile(r.x0 + r.width() / 2) : floor_to_tile(r.y0 + r.height() / 2);
+    const int middle =
+        across ? floor_to(r.x0 + r.width() / 2, kTileSide) : floor_to(r.y0 + r.height() / 2, kTileSide);
     if (across)
         low.x1 = high.x0 = middle;
     else
@@ -88,11 +89,12 @@ std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const 
     }
 }
 
-std::vector<PixelRect> tiles_of(const PixelRect& pixels) {
+std::vector<PixelRect> tiles_of(const PixelRect& pixels, int side) {
+    const auto first = [side](int at) { return floor_to(at, side); };
     std::vector<PixelRect> tiles;
-    for (int y = floor_to_tile(pixels.y0); y < pixels.y1; y += kTileSide)
-        for (int x = floor_to_tile(pixels.x0); x < pixels.x1; x += kTileSide) {
-            const PixelRect tile = intersection({x, y, x + kTileSide, y + kTileSide}, pixels);
+    for (int y = first(pixels.y0); y < pixels.y1; y += side)
+        for (int x = first(pixels.x0); x < pixels.x1; x += side) {
+            const PixelRect tile = intersection({x, y, x + side, y + side}, pixels);
             if (!tile.empty()) tiles.push_back(tile);
         }
     return tiles;

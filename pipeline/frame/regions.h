@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/samples.h"
 #include "tessellate/tessellate.h"
 
 namespace trapeze {
@@ -31,8 +32,8 @@ size_t estimated_bytes(const SubpatchInfo& subpatch);
 std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                                        const RegionLimits& limits);
 
-/// The tiles of a rectangle: kTileSide pixels wide, anchored at multiples of it (negative ones too), cut by
-/// the rectangle.
-std::vector<PixelRect> tiles_of(const PixelRect& pixels);
+/// The tiles of a rectangle: `side` pixels wide, anchored at multiples of it (negative ones too), cut by the
+/// rectangle.
+std::vector<PixelRect> tiles_of(const PixelRect& pixels, int side = kTileSide);
 
 }  // namespace trapeze

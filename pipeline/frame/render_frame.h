@@ -13,7 +13,8 @@
 namespace trapeze {
 
 struct RenderSettings {
-    std::string sampler = "raytrace";  ///< a row of the table of visibility methods
+    std::string sampler = "raytrace";  ///< visibility method, as choose_sampler() reads it
+    std::string pattern;               ///< sample pattern; empty: the method's natural one
     size_t memory_bytes = 0;           ///< for grids and tree together; 0: three quarters of the machine's
     int regions_at_least = 1;          ///< tests force a split that memory would not ask for
     uint32_t seed = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <utility>
 
 namespace trapeze {
 
@@ -18,5 +19,11 @@ class Stopwatch {
     using Clock = std::chrono::steady_clock;
     Clock::time_point start_ = Clock::now();
 };
+
+/// Shares a loop's wall time out in the proportion of what its threads spent on two kinds of work.
+inline std::pair<double, double> shared_out(double wall, double first, double second) {
+    const double sum = first + second;
+    return sum > 0 ? std::pair{wall * first / sum, wall * second / sum} : std::pair{wall, 0.0};
+}
 
 }  // namespace trapeze

@@ -1,13 +1,12 @@
-/// The ray tracer on a synthetic scene of a chosen number of micropolygons, 1280x720 at 8x8 samples, circles of
-/// confusion up to 30 pixels: build, trace, counts and memory.
-/// chosen number of micropolygons: build, trace, counts and memory.
+/// The ray tracer on a synthetic scene of a chosen number of micropolygons, 1280x720 at 8x8 samples, circles
+/// of confusion up to 30 pixels: build, trace, counts and memory.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 #include <random>
 
 #include "accel/paper_tree.h"
-#include "sample/sample_pattern.h"
+#include "sample/stratified_pattern.h"
 #include "sample/test_frame.h"
 #include "sample/visibility_method.h"
 
@@ -86,8 +85,10 @@ void build_tree(benchmark::State& state) {
 /// Every 37th tile of the picture on one thread, samples made before.
 void trace(benchmark::State& state) {
     const BenchScene scene(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-    const auto method = find_visibility_method("raytrace")->prepare(scene.frame.context, scene.maker.grids());
-    const SamplePattern pattern(scene.frame.context);
+    const StratifiedPattern pattern(scene.frame.context);
+    std::string error;
+    const auto method =
+        choose_sampler("raytrace", "", &error)->prepare(scene.frame.context, scene.maker.grids(), pattern);
     const auto all = testing::tiles_of({0, 0, 1280, 720});
     std::vector<SampleTile> tiles;
     for (size_t i = 0; i < all.size(); i += 37) pattern.make_tile(all[i], tiles.emplace_back());
@@ -107,7 +108,7 @@ void trace(benchmark::State& state) {
 
 void make_samples(benchmark::State& state) {
     const TestFrame frame(1280, 720, 8, state.range(0) & kMotion, state.range(0) & kDefocus);
-    const SamplePattern pattern(frame.context);
+    const StratifiedPattern pattern(frame.context);
     SampleTile tile;
     size_t samples = 0;
     for (auto _ : state) {

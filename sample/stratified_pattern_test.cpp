@@ -1,4 +1,4 @@
-#include "sample/sample_pattern.h"
+#include "sample/stratified_pattern.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TestFrame frame_of_samples(int nx, int ny, bool motion = true, bool defocus = tr
 
 SampleTile tile_of(const TestFrame& frame, const PixelRect& pixels) {
     SampleTile tile;
-    SamplePattern(frame.context).make_tile(pixels, tile);
+    StratifiedPattern(frame.context).make_tile(pixels, tile);
     return tile;
 }
 
@@ -57,7 +57,7 @@ TEST(MagicSquare, HasEqualSumsAndEveryNumberOnce) {
     }
 }
 
-TEST(SamplePattern, TakesOneSampleFromEachRegionOfEachDomain) {
+TEST(StratifiedPattern, TakesOneSampleFromEachRegionOfEachDomain) {
     for (const auto& [nx, ny] :
          {std::pair{1, 1}, {2, 2}, {3, 3}, {4, 4}, {6, 6}, {8, 8}, {4, 2}, {1, 5}, {13, 13}}) {
         const TestFrame frame = frame_of_samples(nx, ny);
@@ -86,7 +86,7 @@ TEST(SamplePattern, TakesOneSampleFromEachRegionOfEachDomain) {
     }
 }
 
-TEST(SamplePattern, StaysInThePixelTheDiskAndTheShutter) {
+TEST(StratifiedPattern, StaysInThePixelTheDiskAndTheShutter) {
     TestFrame frame = frame_of_samples(8, 8);
     frame.options.width = 20000, frame.update();
     for (const PixelRect& pixels : {PixelRect{-16, -16, 0, 0}, PixelRect{16384, 4096, 16400, 4112}}) {
@@ -102,7 +102,7 @@ TEST(SamplePattern, StaysInThePixelTheDiskAndTheShutter) {
     }
 }
 
-TEST(SamplePattern, APixelsSamplesDoNotDependOnTheTile) {
+TEST(StratifiedPattern, APixelsSamplesDoNotDependOnTheTile) {
     const TestFrame frame = frame_of_samples(3, 3);
     const SampleTile large = tile_of(frame, {-4, -4, 12, 12}), small = tile_of(frame, {5, -1, 7, 3});
     for (int py = -1; py < 3; ++py)
@@ -118,7 +118,7 @@ TEST(SamplePattern, APixelsSamplesDoNotDependOnTheTile) {
             }
 }
 
-TEST(SamplePattern, RaysAreTheCameras) {
+TEST(StratifiedPattern, RaysAreTheCameras) {
     const TestFrame frame = frame_of_samples(2, 2);
     const SampleTile tile = tile_of(frame, {3, 3, 5, 5});
     for (size_t i = 0; i < tile.size(); ++i) {
@@ -130,7 +130,7 @@ TEST(SamplePattern, RaysAreTheCameras) {
     }
 }
 
-TEST(SamplePattern, WithoutMotionOrLensTheseAreZero) {
+TEST(StratifiedPattern, WithoutMotionOrLensTheseAreZero) {
     const TestFrame frame = frame_of_samples(4, 4, false, false);
     const SampleTile tile = tile_of(frame, {0, 0, 8, 8});
     for (size_t i = 0; i < tile.size(); ++i) {
@@ -140,7 +140,7 @@ TEST(SamplePattern, WithoutMotionOrLensTheseAreZero) {
     }
 }
 
-TEST(SamplePattern, SeedsGiveOtherSamples) {
+TEST(StratifiedPattern, SeedsGiveOtherSamples) {
     TestFrame frame = frame_of_samples(4, 4);
     const SampleTile first = tile_of(frame, {0, 0, 4, 4});
     frame.context.seed = 8;
@@ -151,7 +151,7 @@ TEST(SamplePattern, SeedsGiveOtherSamples) {
 }
 
 /// Over many pixels each lens region meets each time region alike.
-TEST(SamplePattern, TimeAndLensAreIndependent) {
+TEST(StratifiedPattern, TimeAndLensAreIndependent) {
     constexpr int kSide = 4, kCount = kSide * kSide, kPixels = 128;
     const TestFrame frame = frame_of_samples(kSide, kSide);
     const SampleTile tile = tile_of(frame, {0, 0, kPixels, kPixels});
@@ -175,7 +175,7 @@ TEST(SamplePattern, TimeAndLensAreIndependent) {
     EXPECT_LT(std::abs(v_time / scale), 0.01);
 }
 
-TEST(SamplePattern, TheTimeShiftIsLeftOutWithoutDefocus) {
+TEST(StratifiedPattern, TheTimeShiftIsLeftOutWithoutDefocus) {
     const TestFrame frame = frame_of_samples(4, 4, true, false);
     const SampleTile tile = tile_of(frame, {0, 0, 8, 8});
     for (size_t pixel = 1; pixel < 64; ++pixel)
@@ -185,7 +185,7 @@ TEST(SamplePattern, TheTimeShiftIsLeftOutWithoutDefocus) {
 
 /// Each column and row of a pixel's regions spreads over the lens and the shutter: what magic squares are
 /// for.
-TEST(SamplePattern, RowsSpreadOverTime) {
+TEST(StratifiedPattern, RowsSpreadOverTime) {
     const TestFrame frame = frame_of_samples(8, 8, true, false);
     const SampleTile tile = tile_of(frame, {0, 0, 1, 1});
     for (size_t row = 0; row < 8; ++row) {

@@ -1,0 +1,29 @@
+/// Where the samples of pixels lie [Hou10 sec. 3.4]: jittered stratified in subpixel position, on the lens
+/// and in time, each domain in as many regions as a pixel has samples.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sample/sample_pattern.h"
+
+namespace trapeze {
+
+class StratifiedPattern final : public SamplePattern {
+  public:
+    explicit StratifiedPattern(const RenderContext& context);
+
+    void make_tile(const PixelRect& pixels, SampleTile& tile) const override;
+
+  private:
+    void make_pixel(int px, int py, size_t first, SampleTile& tile) const;
+
+    Camera camera_;
+    int nx_, ny_;
+    uint32_t seed_;
+    bool motion_;
+    std::vector<uint32_t> lens_of_;  ///< subpixel region -> lens region, the same in all pixels
+    std::vector<uint32_t> time_of_;  ///< subpixel region -> time region, before the pixel's shift
+};
+
+}  // namespace trapeze
