@@ -63,6 +63,25 @@ struct Textures::Impl {
     std::mutex mutex;
     std::map<std::string, std::unique_ptr<Picture>, std::less<>> pictures;  ///< null: cannot be read
 
+    /// Not get_perthread_info(): what that leaves behind in a thread outlives the cache and then touches it.
+    std::mutex idle_mutex;
+    std::vector<OIIO::TextureSystem::Perthread*> idle;  ///< threads' states that nobody uses now
+
+    ~Impl() {
+        for (OIIO::TextureSystem::Perthread* state : idle) system->destroy_thread_info(state);
+    }
+    OIIO::TextureSystem::Perthread* take_thread_state() {
+        const std::lock_guard lock(idle_mutex);
+        if (idle.empty()) return system->create_thread_info();
+        OIIO::TextureSystem::Perthread* state = idle.back();
+        idle.pop_back();
+        return state;
+    }
+    void give_back(OIIO::TextureSystem::Perthread* state) {
+        const std::lock_guard lock(idle_mutex);
+        idle.push_back(state);
+    }
+
     /// Makes the cache, which a render without textures goes without.
     void start();
     std::unique_ptr<Picture> open(const std::string& name, SourceLocation location);
@@ -104,11 +123,13 @@ std::unique_ptr<Textures::Picture> Textures::Impl::open(const std::string& name,
     picture->name = name;
     picture->location = location;
     const char* modes = nullptr;
-    if (!system->get_texture_info(picture->handle, nullptr, 0, OIIO::ustring("wrapmodes"),
+    OIIO::TextureSystem::Perthread* thread = take_thread_state();
+    if (!system->get_texture_info(picture->handle, thread, 0, OIIO::ustring("wrapmodes"),
                                   OIIO::TypeDesc::STRING, &modes)) {
         system->geterror();
         picture->options.swrap = picture->options.twrap = OIIO::TextureOpt::WrapPeriodic;
     }
+    give_back(thread);
     return picture;
 }
 
@@ -123,7 +144,7 @@ const Textures::Picture* Textures::find(std::string_view name, SourceLocation lo
 
 void Textures::lookup(const Picture& picture, const Lookup& at, size_t vertices, Plane3 out) const {
     OIIO::TextureSystem& system = *impl_->system;
-    OIIO::TextureSystem::Perthread* thread = system.get_perthread_info();
+    OIIO::TextureSystem::Perthread* thread = impl_->take_thread_state();
     OIIO::TextureOpt options = picture.options;
     for (size_t i = 0; i < vertices; ++i) {
         float color[3] = {1, 1, 1};
@@ -136,6 +157,7 @@ void Textures::lookup(const Picture& picture, const Lookup& at, size_t vertices,
                                       "texture read " + picture.name);
         for (int k = 0; k < 3; ++k) out[k][i] = good ? color[k] : 1;
     }
+    impl_->give_back(thread);
     for (int k = 0; k < 3; ++k) load(out[k], vertices, out[k]);
 }
 
