@@ -26,13 +26,29 @@ HWY_INLINE V edge(V ai, V bi, V aj, V bj) {
     return hn::Sub(hn::Mul(ai, bj), hn::Mul(aj, bi));
 }
 
-/// crosses() of the scalar form; above_i is b_i > 0.
-template <class V, class M>
-HWY_INLINE M crosses(M above_i, M above_j, V c) {
-    const V zero = hn::Zero(hn::DFromV<V>());
-    const M falls = hn::And(above_i, hn::Lt(c, zero));  // used where above_j is false
-    const M rises = hn::And(above_j, hn::Gt(c, zero));  // used where above_i is false
-    return hn::Or(hn::AndNot(above_j, falls), hn::AndNot(above_i, rises));
+/// Where the sign bit of `chooser` is set, that of `yes`, else of `no`; other bits mean nothing.
+template <class V>
+HWY_INLINE V sign_chosen(V chooser, V yes, V no) {
+#if HWY_TARGET <= HWY_AVX3
+    return hn::IfVecThenElse(chooser, yes, no);  // bit by bit, in one instruction
+#else
+    return hn::Or(hn::And(chooser, yes), hn::AndNot(chooser, no));
+#endif
+}
+
+/// crosses() of the scalar form, in the sign bits; the other bits mean nothing. *c becomes the edge function.
+template <class V>
+HWY_INLINE V crossing(V ai, V bi, V aj, V bj, V* c) {
+    const V x = hn::Mul(ai, bj), y = hn::Mul(aj, bi);
+    *c = hn::Sub(x, y);
+    return hn::And(hn::Xor(bi, bj), sign_chosen(bj, *c, hn::Sub(y, x)));
+}
+
+/// Lanes whose sign bit is set.
+template <class D, class V>
+HWY_INLINE hn::Mask<D> negative(D d, V v) {
+    const hn::RebindToSigned<D> di;
+    return hn::RebindMask(d, hn::Lt(hn::BitCast(di, v), hn::Zero(di)));
 }
 
 /// std::min and std::max: the first argument of equals, and where one is NaN.
@@ -71,12 +87,11 @@ HWY_INLINE hn::Mask<D> hit_micropolygon(D d, V ox, V oy, V oz, V ux, V uy, const
     const V a01 = offset(vertex(0, k01), ox, ux, dz01), b01 = offset(vertex(1, k01), oy, uy, dz01);
     const V a11 = offset(vertex(0, k11), ox, ux, dz11), b11 = offset(vertex(1, k11), oy, uy, dz11);
 
-    const V c_bottom = p::edge(a00, b00, a10, b10), c_right = p::edge(a10, b10, a11, b11);
-    const V c_top = p::edge(a11, b11, a01, b01), c_left = p::edge(a01, b01, a00, b00);
-    const M up00 = hn::Gt(b00, zero), up10 = hn::Gt(b10, zero);
-    const M up01 = hn::Gt(b01, zero), up11 = hn::Gt(b11, zero);
-    M hit = hn::Xor(hn::Xor(p::crosses(up00, up10, c_bottom), p::crosses(up10, up11, c_right)),
-                    hn::Xor(p::crosses(up11, up01, c_top), p::crosses(up01, up00, c_left)));
+    V c_bottom, c_right, c_top, c_left;
+    const V crossings = hn::Xor(
+        hn::Xor(p::crossing(a00, b00, a10, b10, &c_bottom), p::crossing(a10, b10, a11, b11, &c_right)),
+        hn::Xor(p::crossing(a11, b11, a01, b01, &c_top), p::crossing(a01, b01, a00, b00, &c_left)));
+    M hit = p::negative(d, crossings);
     if (facing != Facing::Both) {
         const V twice_area = hn::Add(hn::Add(c_bottom, c_right), hn::Add(c_top, c_left));
         hit = hn::And(hit,

@@ -9,10 +9,12 @@
 /// ray passes the quad when the origin of (a, b) is inside by the even-odd rule. A quad may be a bow-tie or
 /// degenerate.
 ///
-/// Edges are half-open, decided by `b > 0` of both ends and, when these differ, by the sign of
-///     c = a_i * b_j - a_j * b_i:
-/// multiply, multiply, subtract, never fused, hence exactly antisymmetric: both micropolygons at an edge
-/// decide alike, whatever way they walk it. So a mesh that is closed in its bits has no leaks.
+/// Edges are half-open, decided by the sign bits of b at both ends and, when these differ, by that of
+///     c = a_i * b_j - a_j * b_i    where b falls from i to j,
+///     a_j * b_i - a_i * b_j        where it rises:
+/// multiply, multiply, subtract, never fused. Walked the other way, an edge falls where it rose, and the very
+/// same difference decides: both micropolygons at an edge decide alike in every bit, zeros included. So a
+/// mesh that is closed in its bits has no leaks. (Sign bits, not comparisons with zero: they need no masks.)
 ///
 // clang-format off
 ///     v  01 ---- 11     The diagonal 00-11 makes two triangles; the depth is that of the point on the one
@@ -28,6 +30,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/rays.h"
 
@@ -80,14 +83,14 @@ inline Edges edges_of(const AxisRay& ray, const Quad& q) {
 }
 
 /// Whether the edge from i to j crosses the positive a axis. The same answer for j to i, bit for bit.
-inline bool crosses(float bi, float bj, float c) {
-    const bool above_i = bi > 0, above_j = bj > 0;
-    return above_i != above_j && (above_j ? c > 0 : c < 0);
+inline bool crosses(const Edges& e, int i, int j) {
+    const bool below_i = std::signbit(e.b[i]), below_j = std::signbit(e.b[j]);
+    return below_i != below_j && std::signbit(below_j ? edge(e.a[i], e.b[i], e.a[j], e.b[j])
+                                                      : edge(e.a[j], e.b[j], e.a[i], e.b[i]));
 }
 
 inline bool inside(const Edges& e) {
-    return crosses(e.b[k00], e.b[k10], e.c_bottom) ^ crosses(e.b[k10], e.b[k11], e.c_right) ^
-           crosses(e.b[k11], e.b[k01], e.c_top) ^ crosses(e.b[k01], e.b[k00], e.c_left);
+    return crosses(e, k00, k10) ^ crosses(e, k10, k11) ^ crosses(e, k11, k01) ^ crosses(e, k01, k00);
 }
 
 /// Twice the signed area.
@@ -113,8 +116,9 @@ inline QuadWeights weights(const Edges& e) {
 }  // namespace predicate_detail
 
 /// True when the ray's line passes the quad; then *depth is where, along the ray's axis. The caller compares
-/// the depth with its range and orders equal depths by micropolygon id. Coordinates are finite: pack_grid()
-/// sees to it.
+/// the depth with its range and orders equal depths by micropolygon id. Coordinates are numbers (pack_grid()
+/// sees to it): the sign of a NaN that came in would depend on the order of operands; those that come of
+/// overflow all have the same.
 inline bool hit_micropolygon(const AxisRay& ray, const Quad& q, Facing facing, float* depth) {
     namespace d = predicate_detail;
     const d::Edges e = d::edges_of(ray, q);

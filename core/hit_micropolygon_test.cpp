@@ -51,12 +51,14 @@ TEST(HitMicropolygon, AnEdgeDecidesAlikeWhateverWayItIsWalked) {
     for (int round = 0; round < 100000; ++round) {
         // Many edges through the very origin or with an end on the axis.
         const float scale = round % 3 == 0 ? 1e-6f : 1.0f;
-        const float ai = noise(-1, 1) * scale, bi = round % 5 == 0 ? 0.0f : noise(-1, 1);
+        const float zero = round % 2 == 0 ? 0.0f : -0.0f;
+        const float ai = round % 11 == 0 ? zero : noise(-1, 1) * scale,
+                    bi = round % 5 == 0 ? zero : noise(-1, 1);
         const float aj = round % 7 == 0 ? -ai : noise(-1, 1) * scale,
                     bj = round % 7 == 0 ? -bi : noise(-1, 1);
-        namespace d = predicate_detail;
-        const bool forth = d::crosses(bi, bj, d::edge(ai, bi, aj, bj));
-        const bool back = d::crosses(bj, bi, d::edge(aj, bj, ai, bi));
+        predicate_detail::Edges e{};
+        e.a[0] = ai, e.b[0] = bi, e.a[1] = aj, e.b[1] = bj;
+        const bool forth = predicate_detail::crosses(e, 0, 1), back = predicate_detail::crosses(e, 1, 0);
         ASSERT_EQ(forth, back) << ai << ' ' << bi << ' ' << aj << ' ' << bj;
         crossings += forth;
     }
