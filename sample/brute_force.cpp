@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "sample/hit_lists.h"
 #include "sample/moving_quad.h"
@@ -12,18 +11,6 @@
 
 namespace trapeze {
 namespace {
-
-/// The pixels of a tile that a box covers.
-PixelRect covered(const RasterBox& box, const PixelRect& tile) {
-    const auto floor_in = [](double at, int low, int high) {
-        return static_cast<int>(
-            std::clamp(std::floor(at), static_cast<double>(low), static_cast<double>(high)));
-    };
-    if (!(box.min_x <= box.max_x && box.min_y <= box.max_y)) return {};
-    if (box.max_x < tile.x0 || box.max_y < tile.y0 || box.min_x >= tile.x1 || box.min_y >= tile.y1) return {};
-    return {floor_in(box.min_x, tile.x0, tile.x1), floor_in(box.min_y, tile.y0, tile.y1),
-            floor_in(box.max_x, tile.x0, tile.x1 - 1) + 1, floor_in(box.max_y, tile.y0, tile.y1 - 1) + 1};
-}
 
 void fill_planes(const SampleTile& samples, SampleScratch& scratch) {
     const size_t n = samples.size(), padded = n + kRayPadding;
@@ -43,13 +30,8 @@ class BruteForce final : public Visibility {
           grids_(grids),
           all_opaque_(every_grid_is_opaque(grids)),
           boxes_(grids.grids.size()) {
-        tbb::parallel_for(size_t{0}, boxes_.size(), [this](size_t i) {
-            const Grid& grid = grids_.grids[i];
-            SweptBound bound;
-            for (int j = 0; j <= grid.shape.nv; ++j)
-                for (int k = 0; k <= grid.shape.nu; ++k) add_vertex(grid, k, j, bound);
-            boxes_[i] = bound.raster(camera_);
-        });
+        tbb::parallel_for(size_t{0}, boxes_.size(),
+                          [this](size_t i) { boxes_[i] = raster_bound(grids_.grids[i], camera_); });
     }
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
@@ -61,12 +43,12 @@ class BruteForce final : public Visibility {
         scratch.found.resize(samples.size());
         scratch.found_depth.resize(samples.size());
         for (size_t i = 0; i < boxes_.size(); ++i)
-            if (!covered(boxes_[i], samples.pixels).empty()) test_grid(i, samples, scratch, stats);
+            if (!pixels_within(boxes_[i], samples.pixels).empty()) test_grid(i, samples, scratch, stats);
         stats.rays += samples.size();
         if (all_opaque_)
             buffer_of_nearest(scratch, samples.size(), hits);
         else
-            group_by_sample(samples.size(), scratch, hits);
+            buffer_of_loose_hits(scratch, samples.size(), hits);
     }
 
   private:
@@ -78,7 +60,7 @@ class BruteForce final : public Visibility {
                 SweptBound bound;
                 for (int corner = 0; corner < 4; ++corner)
                     add_vertex(grid, u + (corner & 1), v + (corner >> 1), bound);
-                const PixelRect pixels = covered(bound.raster(camera_), samples.pixels);
+                const PixelRect pixels = pixels_within(bound.raster(camera_), samples.pixels);
                 if (pixels.empty()) continue;
                 const MicropolygonId id{static_cast<uint32_t>(index), static_cast<uint8_t>(u),
                                         static_cast<uint8_t>(v)};
@@ -108,24 +90,6 @@ class BruteForce final : public Visibility {
         if (all_opaque_) return;
         scratch.hits.push_back(hit);
         scratch.hit_sample.push_back(sample);
-    }
-
-    /// Lists of hits sorted and cut at the nearest opaque one.
-    static void group_by_sample(size_t sample_count, SampleScratch& scratch, HitBuffer& hits) {
-        const auto visible = [&](size_t i) {
-            return !in_front(scratch.nearest[scratch.hit_sample[i]], scratch.hits[i]);
-        };
-        hits.first.assign(sample_count + 1, 0);
-        for (size_t i = 0; i < scratch.hits.size(); ++i)
-            if (visible(i)) ++hits.first[scratch.hit_sample[i] + 1];
-        for (size_t sample = 0; sample < sample_count; ++sample) hits.first[sample + 1] += hits.first[sample];
-        hits.hits.resize(hits.first[sample_count]);
-        scratch.first.assign(hits.first.begin(), hits.first.end());
-        for (size_t i = 0; i < scratch.hits.size(); ++i)
-            if (visible(i)) hits.hits[scratch.first[scratch.hit_sample[i]]++] = scratch.hits[i];
-        for (size_t sample = 0; sample < sample_count; ++sample)
-            std::sort(hits.hits.begin() + hits.first[sample], hits.hits.begin() + hits.first[sample + 1],
-                      in_front);
     }
 
     const Camera& camera_;

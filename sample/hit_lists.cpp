@@ -29,4 +29,21 @@ void buffer_of_lists(const SampleScratch& scratch, size_t sample_count, HitBuffe
     hits.first[sample_count] = static_cast<uint32_t>(hits.hits.size());
 }
 
+void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
+    const auto visible = [&](size_t i) {
+        return !in_front(scratch.nearest[scratch.hit_sample[i]], scratch.hits[i]);
+    };
+    hits.first.assign(sample_count + 1, 0);
+    for (size_t i = 0; i < scratch.hits.size(); ++i)
+        if (visible(i)) ++hits.first[scratch.hit_sample[i] + 1];
+    for (size_t sample = 0; sample < sample_count; ++sample) hits.first[sample + 1] += hits.first[sample];
+    hits.hits.resize(hits.first[sample_count]);
+    scratch.first.assign(hits.first.begin(), hits.first.end());
+    for (size_t i = 0; i < scratch.hits.size(); ++i)
+        if (visible(i)) hits.hits[scratch.first[scratch.hit_sample[i]]++] = scratch.hits[i];
+    for (size_t sample = 0; sample < sample_count; ++sample)
+        std::sort(hits.hits.begin() + hits.first[sample], hits.hits.begin() + hits.first[sample + 1],
+                  in_front);
+}
+
 }  // namespace trapeze

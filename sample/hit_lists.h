@@ -15,4 +15,8 @@ void buffer_of_nearest(const SampleScratch& scratch, size_t sample_count, HitBuf
 /// Lists in scratch.hits, of scratch.count[sample] hits from scratch.first[sample], sorted and cut.
 void buffer_of_lists(const SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
 
+/// Hits in any order, scratch.hits[i] of sample scratch.hit_sample[i]: sorted, and cut at the nearest opaque
+/// one, scratch.nearest[sample].
+void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
+
 }  // namespace trapeze

@@ -92,4 +92,24 @@ void add_vertex(const Grid& grid, int i, int j, SweptBound& bound) {
     }
 }
 
+RasterBox raster_bound(const Grid& grid, const Camera& camera) {
+    SweptBound bound;
+    for (int j = 0; j <= grid.shape.nv; ++j)
+        for (int i = 0; i <= grid.shape.nu; ++i) add_vertex(grid, i, j, bound);
+    return bound.raster(camera);
+}
+
+PixelRect pixels_within(const RasterBox& box, const PixelRect& pixels) {
+    const auto floor_in = [](double at, int low, int high) {
+        return static_cast<int>(
+            std::clamp(std::floor(at), static_cast<double>(low), static_cast<double>(high)));
+    };
+    if (!(box.min_x <= box.max_x && box.min_y <= box.max_y)) return {};
+    if (box.max_x < pixels.x0 || box.max_y < pixels.y0) return {};
+    if (box.min_x >= pixels.x1 || box.min_y >= pixels.y1) return {};
+    return {floor_in(box.min_x, pixels.x0, pixels.x1), floor_in(box.min_y, pixels.y0, pixels.y1),
+            floor_in(box.max_x, pixels.x0, pixels.x1 - 1) + 1,
+            floor_in(box.max_y, pixels.y0, pixels.y1 - 1) + 1};
+}
+
 }  // namespace trapeze

@@ -33,4 +33,10 @@ class SweptBound {
 /// Adds a vertex of a grid at the ends of all its segments.
 void add_vertex(const Grid& grid, int i, int j, SweptBound& bound);
 
+/// The bound of a whole grid.
+RasterBox raster_bound(const Grid& grid, const Camera& camera);
+
+/// Those of some pixels whose samples may lie in a box; all zero when there are none.
+PixelRect pixels_within(const RasterBox& box, const PixelRect& pixels);
+
 }  // namespace trapeze
