@@ -1,5 +1,6 @@
 #include "sample/sample_pattern.h"
 
+#include "sample/interval_pattern.h"
 #include "sample/stratified_pattern.h"
 
 namespace trapeze {
@@ -15,6 +16,7 @@ std::unique_ptr<SamplePattern> make(const RenderContext& context, const MethodSp
 const std::vector<PatternKind>& sample_patterns() {
     static const std::vector<PatternKind> kinds = {
         {"stratified", {}, make<StratifiedPattern>},
+        {"interval", {}, make<IntervalPattern>},
     };
     return kinds;
 }

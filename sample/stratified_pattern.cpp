@@ -1,8 +1,6 @@
 #include "sample/stratified_pattern.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "core/random.h"
 #include "sample/magic_square.h"
@@ -10,19 +8,8 @@
 namespace trapeze {
 namespace {
 
-constexpr float kBelowOne = 0x1.fffffep-1f;
-
 /// Which number of an index; part of what is hashed.
 enum Dimension : uint32_t { kSubpixelX, kSubpixelY, kLensU, kLensV, kTime, kTimeShift, kShuffle };
-
-/// A permutation of 0 .. count - 1 by sorting hashes.
-std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed) {
-    std::vector<uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [seed](uint32_t a, uint32_t b) { return hash(seed, a) < hash(seed, b); });
-    return order;
-}
 
 /// Subpixel region -> lens region.
 std::vector<uint32_t> lens_permutation(int nx, int ny, uint32_t seed) {
@@ -42,28 +29,6 @@ std::vector<uint32_t> time_permutation(const std::vector<uint32_t>& lens_of, int
     return time_of;
 }
 
-/// The unit square to the unit disk, areas kept in proportion [Shirley97].
-V2f disk_from_square(float u, float v) {
-    const float a = 2 * u - 1, b = 2 * v - 1;
-    if (a == 0 && b == 0) return {0, 0};
-    constexpr auto kQuarterPi = static_cast<float>(M_PI / 4);
-    const bool wide = std::abs(a) > std::abs(b);
-    const float r = wide ? a : b;
-    const float angle = wide ? kQuarterPi * (b / a) : 2 * kQuarterPi - kQuarterPi * (a / b);
-    return {r * std::cos(angle), r * std::sin(angle)};
-}
-
-/// A jittered place in region `index` of `count` in [0, 1).
-float place(uint32_t index, float jitter, int count) {
-    return std::min((static_cast<float>(index) + jitter) / static_cast<float>(count), kBelowOne);
-}
-
-/// A place within a pixel; rounding may not move it into the next one.
-float within_pixel(int pixel, float fraction) {
-    const auto low = static_cast<float>(pixel), high = static_cast<float>(pixel + 1);
-    return std::min(low + fraction, std::nextafter(high, low));
-}
-
 }  // namespace
 
 StratifiedPattern::StratifiedPattern(const RenderContext& context)
@@ -74,6 +39,23 @@ StratifiedPattern::StratifiedPattern(const RenderContext& context)
       motion_(context.motion),
       lens_of_(lens_permutation(nx_, ny_, context.seed)),
       time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)) {}
+
+uint32_t StratifiedPattern::time_shift(int px, int py) const {
+    // Without defocus there is no correlation with the lens to break.
+    if (!camera_.has_lens()) return 0;
+    const uint32_t pixel_hash = hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
+    return hash(pixel_hash, kTimeShift) % static_cast<uint32_t>(sample_count());
+}
+
+TimeSpan StratifiedPattern::time_bounds(int sample, uint32_t shift) const {
+    if (!motion_) return {};
+    const auto count = static_cast<uint32_t>(sample_count());
+    return time_region((time_of_[sample] + shift) % count, sample_count());
+}
+
+LensBox StratifiedPattern::lens_bounds(int sample) const {
+    return camera_.has_lens() ? lens_region(lens_of_[sample], nx_, ny_) : LensBox{};
+}
 
 void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
     tile.pixels = pixels;
@@ -87,8 +69,7 @@ void StratifiedPattern::make_pixel(int px, int py, size_t first, SampleTile& til
     const auto count = static_cast<uint32_t>(nx_ * ny_);
     const uint32_t pixel_hash = hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
     const bool lens = camera_.has_lens();
-    // Without defocus there is no correlation with the lens to break.
-    const uint32_t time_shift = lens ? hash(pixel_hash, kTimeShift) % count : 0;
+    const uint32_t shift = time_shift(px, py);
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t sample_hash = hash(pixel_hash + i);
         const auto jitter = [sample_hash](Dimension d) { return unit_float(hash(sample_hash + d)); };
@@ -104,8 +85,7 @@ void StratifiedPattern::make_pixel(int px, int py, size_t first, SampleTile& til
         }
         tile.lens_u[at] = on_lens.x, tile.lens_v[at] = on_lens.y;
         tile.time[at] =
-            motion_ ? place((time_of_[i] + time_shift) % count, jitter(kTime), static_cast<int>(count))
-                    : 0.0f;
+            motion_ ? place((time_of_[i] + shift) % count, jitter(kTime), static_cast<int>(count)) : 0.0f;
         tile.rays[at] = camera_.ray(tile.x[at], tile.y[at], on_lens.x, on_lens.y, tile.time[at]);
     }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sample/sample_pattern.h"
+#include "sample/strata.h"
 
 namespace trapeze {
 
@@ -14,6 +15,13 @@ class StratifiedPattern final : public SamplePattern {
     explicit StratifiedPattern(const RenderContext& context);
 
     void make_tile(const PixelRect& pixels, SampleTile& tile) const override;
+
+    int sample_count() const { return nx_ * ny_; }
+    /// How far a pixel's times are moved along, in regions: what its neighbours do not share.
+    uint32_t time_shift(int px, int py) const;
+    /// Where sample `sample` of all pixels of a time shift looks.
+    TimeSpan time_bounds(int sample, uint32_t shift) const;
+    LensBox lens_bounds(int sample) const;
 
   private:
     void make_pixel(int px, int py, size_t first, SampleTile& tile) const;

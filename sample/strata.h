@@ -1,0 +1,44 @@
+/// Regions of a pixel, of the shutter and of the lens, jittered places in them, and bounds of what lies
+/// there.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math.h"
+
+namespace trapeze {
+
+/// Closed; holds for values bit for bit.
+struct TimeSpan {
+    float min = 0, max = 0;
+
+    bool operator==(const TimeSpan&) const = default;
+};
+
+/// In the unit disk; closed, and holds for values bit for bit.
+struct LensBox {
+    float min_u = 0, min_v = 0, max_u = 0, max_v = 0;
+
+    bool operator==(const LensBox&) const = default;
+};
+
+/// A permutation of 0 .. count - 1.
+std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed);
+
+/// The unit square to the unit disk, areas kept in proportion [Shirley97].
+V2f disk_from_square(float u, float v);
+
+/// A jittered place in region `index` of `count` in [0, 1).
+float place(uint32_t index, float jitter, int count);
+
+/// A place within a pixel; rounding may not move it into the next one.
+float within_pixel(int pixel, float fraction);
+
+/// Bounds place(index, jitter, count) for any jitter.
+TimeSpan time_region(uint32_t index, int count);
+
+/// Bounds the lens points of region `index` (rows of nx) of the square's nx * ny.
+LensBox lens_region(uint32_t index, int nx, int ny);
+
+}  // namespace trapeze
