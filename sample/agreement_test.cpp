@@ -288,13 +288,15 @@ TEST_P(Agreement, RayTracerAndBruteForceFindWhatTestingEverythingFinds) {
     EXPECT_EQ(hit_count(truth) > 0, scene().must_hit);
     EXPECT_EQ(differing_samples(resolve(scene(), "bruteforce"), truth), 0u);
     const auto traced = resolve(scene(), "raytrace");
-    EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:bundle=off"), truth), 0u);
+    EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=paper"), truth), 0u);
+    EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=paper,bundle=off"), truth), 0u);
     EXPECT_EQ(differing_samples(traced, truth), 0u);
     EXPECT_TRUE(traced == truth);
 }
 
 TEST_P(Agreement, OfAnyNumberOfThreads) {
-    for (const char* method : {"raytrace", "raytrace:bundle=off", "bruteforce"}) {
+    for (const char* method :
+         {"raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off", "bruteforce"}) {
         std::vector<std::vector<HitBuffer>> results;
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -307,12 +309,13 @@ TEST_P(Agreement, OfAnyNumberOfThreads) {
 }
 
 TEST_P(Agreement, OfAllInstructionSets) {
-    const auto traced = resolve(scene(), "raytrace");
+    const auto traced = resolve(scene(), "raytrace:tree=paper");
     int tried = 0;
     for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
         hwy::SetSupportedTargetsForTest(targets & -targets);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         EXPECT_TRUE(resolve(scene(), "bruteforce") == traced) << simd_target_name();
+        EXPECT_TRUE(resolve(scene(), "raytrace") == traced) << simd_target_name();
         ++tried;
     }
     hwy::SetSupportedTargetsForTest(0);

@@ -11,6 +11,7 @@
 #include "sample/hit_lists.h"
 #include "sample/ray_order.h"
 #include "sample/visibility_method.h"
+#include "sample/wide_raytrace.h"
 
 namespace trapeze {
 namespace {
@@ -100,10 +101,11 @@ class RayTraced final : public Visibility {
 
 VisibilityMethod raytrace_method() {
     return {"raytrace",
-            {{"bundle", {"on", "off"}}},
+            {{"tree", {"wide", "paper"}}, {"bundle", {"on", "off"}}},
             stratified_pattern,
             any_pattern,
             [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
+                if (input.spec["tree"] == "wide") return prepare_wide_raytrace(input);
                 return std::make_unique<RayTraced>(input.context, input.grids, input.spec.is_on("bundle"));
             }};
 }

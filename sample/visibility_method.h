@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "accel/bundle.h"
 #include "accel/top_level.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
@@ -37,6 +38,10 @@ struct SampleScratch {
     std::vector<float> ox, oy, ux, uy, time;  ///< rays in planes, padded to whole vectors
     std::vector<uint32_t> found;              ///< lanes that the predicate answered yes for
     std::vector<float> found_depth;
+    std::vector<uint32_t> starts, pixel_first;  ///< of the order of bundles
+    std::unique_ptr<RayBundle> bundle;          ///< made when first needed
+    BundleScratchPointer bundle_scratch;
+    std::vector<uint32_t> ray_tests, ray_nodes;  ///< what the rays of a bundle cost
 };
 
 /// A method with what it has prepared for some grids. Keeps references to the context and the grids.

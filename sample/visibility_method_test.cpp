@@ -127,10 +127,10 @@ TEST_P(EveryMethod, ScratchMayComeFromLargerTilesAndOtherGrids) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryMethod,
-                         ::testing::Values("raytrace", "raytrace:bundle=off", "bruteforce"),
+                         ::testing::Values("raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off", "bruteforce"),
                          [](const auto& tested) {
                              std::string name(tested.param);
-                             std::erase_if(name, [](char c) { return c == ':' || c == '='; });
+                             std::erase_if(name, [](char c) { return !std::isalnum(c); });
                              return name;
                          });
 
@@ -141,7 +141,8 @@ TEST(VisibilityMethods, AreChosenByName) {
         ASSERT_TRUE(sampler) << error;
         EXPECT_EQ(sampler->name(), method.name);
     }
-    EXPECT_EQ(choose_sampler("raytrace:bundle=off", "", &error)->name(), "raytrace:bundle=off");
+    EXPECT_EQ(choose_sampler("raytrace:tree=paper,bundle=off", "", &error)->name(),
+              "raytrace:tree=paper,bundle=off");
     EXPECT_EQ(choose_sampler("raytrace:bundle=on", "", &error)->name(), "raytrace");
     EXPECT_FALSE(simd_target_name().empty());
 }

@@ -39,7 +39,7 @@ TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
         // A picture this small may have fewer tiles than that.
         for (const FrameResult& result : results) EXPECT_GT(result.stats.regions, 1);
     }
-    for (const char* method : {"raytrace:bundle=off", "bruteforce"}) {
+    for (const char* method : {"raytrace:tree=paper,bundle=off", "bruteforce"}) {
         RenderSettings other = settings;
         other.sampler = method;
         expect_same(reference, render_scene(path, other, 2), method);

@@ -1,0 +1,215 @@
+#include "accel/builders/wide_top.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace trapeze {
+namespace {
+
+constexpr int kBins = 16;
+constexpr size_t kParallelFrom = 512;  ///< grids below which a subtree is one task
+/// Deeper subtrees are halved without looking: the depth of the tree stays bounded.
+constexpr int kSahDepthLimit = 60;
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+struct Box {
+    float low[3] = {kInfinite, kInfinite, kInfinite}, high[3] = {-kInfinite, -kInfinite, -kInfinite};
+
+    void add(const Box& o) {
+        for (int k = 0; k < 3; ++k)
+            low[k] = std::min(low[k], o.low[k]), high[k] = std::max(high[k], o.high[k]);
+    }
+    float half_area() const {
+        const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+        return x < 0 ? 0.0f : x * y + y * z + z * x;
+    }
+};
+
+/// A grid at mid-shutter.
+struct Item {
+    Box box;
+    uint32_t grid;
+
+    /// Twice the centroid.
+    float place(int axis) const { return box.low[axis] + box.high[axis]; }
+};
+
+struct BinaryNode {
+    EndBoxes box;
+    uint32_t child[2];  ///< links
+
+    float area() const {
+        float sum = 0;
+        for (int end = 0; end < 2; ++end) {
+            const float x = box.high[end][0] - box.low[end][0], y = box.high[end][1] - box.low[end][1],
+                        z = box.high[end][2] - box.low[end][2];
+            sum += x * y + y * z + z * x;
+        }
+        return sum;
+    }
+};
+
+EndBoxes both(const EndBoxes& a, const EndBoxes& b) {
+    EndBoxes out;
+    for (int end = 0; end < 2; ++end)
+        for (int k = 0; k < 3; ++k) {
+            out.low[end][k] = std::min(a.low[end][k], b.low[end][k]);
+            out.high[end][k] = std::max(a.high[end][k], b.high[end][k]);
+        }
+    return out;
+}
+
+/// Bins of centroids along one axis.
+struct Binning {
+    int axis = 0;
+    float from = 0, scale = 0;
+
+    int of(const Item& item) const {
+        const float at = (item.place(axis) - from) * scale;
+        return at > 0 ? static_cast<int>(std::min(at, kBins - 1.0f)) : 0;
+    }
+};
+
+struct Split {
+    float cost = kInfinite;
+    Binning binning;
+    int bin = 0;  ///< the first bin of the upper side
+};
+
+class Builder {
+  public:
+    Builder(std::span<const GridExtent> extents, std::span<const uint32_t> grids) : extents_(extents) {
+        items_.reserve(grids.size());
+        for (const uint32_t grid : grids) {
+            const EndBoxes& e = extents[grid].box;
+            Item item{{}, grid};
+            for (int k = 0; k < 3; ++k) {
+                item.box.low[k] = 0.5f * (e.low[0][k] + e.low[1][k]);
+                item.box.high[k] = 0.5f * (e.high[0][k] + e.high[1][k]);
+            }
+            items_.push_back(item);
+        }
+        nodes_.resize(grids.size() - 1);
+    }
+
+    std::vector<WideChildren> build() {
+        const uint32_t root = binary(items_, 0, 0);
+        std::vector<WideChildren> wide;
+        wide.reserve(items_.size() / 6 + 4);
+        collapse(root, wide);
+        return wide;
+    }
+
+  private:
+    const EndBoxes& box_of(uint32_t link) const {
+        return link & kGridLink ? extents_[link & ~kGridLink].box : nodes_[link].box;
+    }
+
+    /// The binary tree of some grids; a subtree of n grids has n - 1 nodes, numbered from `first`.
+    uint32_t binary(std::span<Item> part, uint32_t first, int depth) {
+        if (part.size() == 1) return part[0].grid | kGridLink;
+        const size_t middle = part_in_two(part, depth);
+        const auto low = part.first(middle), high = part.subspan(middle);
+        const auto high_first = first + static_cast<uint32_t>(middle);
+        BinaryNode& node = nodes_[first];
+        if (part.size() < kParallelFrom) {
+            node.child[0] = binary(low, first + 1, depth + 1);
+            node.child[1] = binary(high, high_first, depth + 1);
+        } else {
+            tbb::parallel_invoke([&] { node.child[0] = binary(low, first + 1, depth + 1); },
+                                 [&] { node.child[1] = binary(high, high_first, depth + 1); });
+        }
+        node.box = both(box_of(node.child[0]), box_of(node.child[1]));
+        return first;
+    }
+
+    /// Moves the lower part to the front and tells its size, which is neither 0 nor all.
+    static size_t part_in_two(std::span<Item> part, int depth) {
+        const Split split = depth < kSahDepthLimit ? best_split(part) : Split{};
+        if (split.cost == kInfinite) return part.size() / 2;
+        const auto middle = std::partition(
+            part.begin(), part.end(), [&](const Item& item) { return split.binning.of(item) < split.bin; });
+        return static_cast<size_t>(middle - part.begin());
+    }
+
+    static Split best_split(std::span<const Item> part) {
+        float from[3] = {kInfinite, kInfinite, kInfinite}, to[3] = {-kInfinite, -kInfinite, -kInfinite};
+        for (const Item& item : part)
+            for (int k = 0; k < 3; ++k)
+                from[k] = std::min(from[k], item.place(k)), to[k] = std::max(to[k], item.place(k));
+        Split best;
+        for (int axis = 0; axis < 3; ++axis)
+            if (to[axis] > from[axis])
+                consider(part, {axis, from[axis], kBins / (to[axis] - from[axis])}, best);
+        return best;
+    }
+
+    static void consider(std::span<const Item> part, const Binning& binning, Split& best) {
+        std::array<Box, kBins> bins;
+        std::array<uint32_t, kBins> counts{};
+        for (const Item& item : part) {
+            const int bin = binning.of(item);
+            bins[bin].add(item.box);
+            ++counts[bin];
+        }
+        std::array<float, kBins> cost_above{};  // of bins [b, kBins)
+        Box above, below;
+        uint32_t count = 0;
+        for (int b = kBins - 1; b > 0; --b) {
+            above.add(bins[b]);
+            count += counts[b];
+            cost_above[b] = above.half_area() * static_cast<float>(count);
+        }
+        count = 0;
+        for (int b = 1; b < kBins; ++b) {
+            below.add(bins[b - 1]);
+            count += counts[b - 1];
+            if (count == 0 || count == part.size()) continue;
+            const float cost = below.half_area() * static_cast<float>(count) + cost_above[b];
+            if (cost < best.cost) best = {cost, binning, b};
+        }
+    }
+
+    /// Opens the largest children until there are 16; the number of the node that this makes.
+    uint32_t collapse(uint32_t link, std::vector<WideChildren>& wide) const {
+        const auto number = static_cast<uint32_t>(wide.size());
+        wide.emplace_back();
+        std::array<uint32_t, WideNode::kChildren> links{link};
+        int count = 1;
+        while (count < WideNode::kChildren) {
+            int largest = -1;
+            float largest_area = -1;
+            for (int i = 0; i < count; ++i) {
+                if (links[i] & kGridLink) continue;
+                const float area = nodes_[links[i]].area();
+                if (area > largest_area) largest_area = area, largest = i;
+            }
+            if (largest < 0) break;
+            const BinaryNode& opened = nodes_[links[largest]];
+            links[largest] = opened.child[0];
+            links[count++] = opened.child[1];
+        }
+        for (int i = 0; i < count; ++i) {
+            const uint32_t below = links[i] & kGridLink ? links[i] : collapse(links[i], wide);
+            wide[number].child[i] = {box_of(links[i]), below};
+        }
+        wide[number].count = count;
+        return number;
+    }
+
+    std::span<const GridExtent> extents_;
+    std::vector<Item> items_;
+    std::vector<BinaryNode> nodes_;
+};
+
+}  // namespace
+
+std::vector<WideChildren> build_wide_top(std::span<const GridExtent> extents,
+                                         std::span<const uint32_t> grids) {
+    return Builder(extents, grids).build();
+}
+
+}  // namespace trapeze

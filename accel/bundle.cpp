@@ -1,0 +1,599 @@
+#include "accel/bundle.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "accel/bundle_scratch.h"
+#include "accel/grid_block.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/bundle.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+
+#include "accel/block_hits-inl.h"
+#include "accel/ray_intervals-inl.h"
+
+#ifndef TRAPEZE_ACCEL_BUNDLE_ONCE
+#define TRAPEZE_ACCEL_BUNDLE_ONCE
+namespace trapeze::bundle_detail {
+
+/// Directions nearer to a slab's plane than this are taken as this.
+inline constexpr float kLeastDirection = 1e-18f;
+
+/// Fewer active rays than this go through a grid one by one, lanes being blocks.
+inline constexpr size_t kFewInGrid = 4;
+/// Fewer rays than this are tested one by one, lanes being micropolygons.
+inline constexpr size_t kFewInBlock = 3;
+
+/// Unsigned integers in the order of the floats.
+inline uint32_t ordered_bits(float value) {
+    const auto bits = std::bit_cast<uint32_t>(value);
+    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+inline float from_ordered_bits(uint32_t bits) {
+    return std::bit_cast<float>(bits & 0x80000000u ? bits & 0x7fffffffu : ~bits);
+}
+
+struct TraceInput {
+    const WideTree& tree;
+    DepthRange range;
+    float inverse_focal;
+    RayBundle& rays;
+    BundleScratch& scratch;
+    SampleStats& stats;
+};
+
+}  // namespace trapeze::bundle_detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace bundle_detail;
+
+constexpr size_t kLanes = hn::MaxLanes(F32());
+
+HWY_INLINE uint32_t mask_bits(MF mask) {
+    uint8_t bytes[8] = {};
+    hn::StoreMaskBits(F32(), mask, bytes);
+    return static_cast<uint32_t>(bytes[0] | bytes[1] << 8);
+}
+
+HWY_INLINE VF reciprocal(VF v) {
+    const F32 d;
+    const VF least = hn::Set(d, kLeastDirection);
+    v = hn::IfThenElse(hn::Lt(hn::Abs(v), least), least, v);
+    const VF guess = hn::ApproximateReciprocal(v);
+    return hn::Mul(guess, hn::NegMulAdd(v, guess, hn::Set(d, 2.0f)));
+}
+
+HWY_INLINE float largest(VF v) {
+    return hn::GetLane(hn::MaxOfLanes(F32(), v));
+}
+HWY_INLINE float least(VF v) {
+    return hn::GetLane(hn::MinOfLanes(F32(), v));
+}
+
+/// The lanes of v where the mask is true, one after another; a whole vector is written.
+template <class D, class V>
+HWY_INLINE void append(V v, hn::Mask<D> mask, D d, hn::TFromD<D>* to) {
+    hn::StoreU(hn::Compress(v, mask), d, to);
+}
+
+/// One bundle's way through a tree. kMotion: something in the tree moves; kLens: rays do not start in one
+/// point.
+template <bool kMotion, bool kLens>
+class BundleTrace {
+  public:
+    explicit BundleTrace(const TraceInput& in)
+        : tree_(in.tree),
+          range_(in.range),
+          inverse_focal_(in.inverse_focal),
+          rays_(in.rays),
+          s_(in.scratch),
+          stats_(in.stats),
+          nearest_(in.range.min - in.tree.max_slack()),
+          packets_((in.rays.count + kLanes - 1) / kLanes) {}
+
+    void run() {
+        begin();
+        for (const uint32_t grid : tree_.unbounded_grids()) test_unbounded(grid);
+        for (size_t p = 0; p < packets_; ++p) refresh_packet(p);
+        refresh_farthest();
+        collect_candidates();
+        std::sort(s_.candidates.begin(), s_.candidates.end());
+        for (size_t i = 0; i < s_.candidates.size(); ++i) {
+            const float depth = from_ordered_bits(static_cast<uint32_t>(s_.candidates[i] >> 32));
+            if (depth > farthest_) break;
+            if (i + 1 < s_.candidates.size()) prefetch(static_cast<uint32_t>(s_.candidates[i + 1]));
+            visit_grid(static_cast<uint32_t>(s_.candidates[i]), depth);
+        }
+        stats_.rays += rays_.count;
+    }
+
+  private:
+    void prefetch(uint32_t grid) const {
+        const char* record = reinterpret_cast<const char*>(&tree_.grid(grid));
+        __builtin_prefetch(record);
+        __builtin_prefetch(record + 64);
+        __builtin_prefetch(&tree_.grid_box(grid));
+    }
+
+    /// Nothing is hit yet; packets' intervals. Lanes past the end repeat the last ray and never count.
+    void begin() {
+        const F32 d;
+        const hn::RebindToUnsigned<F32> du;
+        const size_t end = packets_ * kLanes;
+        for (size_t i = rays_.count; i < end; ++i) {
+            rays_.ox[i] = rays_.ox[rays_.count - 1], rays_.oy[i] = rays_.oy[rays_.count - 1];
+            rays_.ux[i] = rays_.ux[rays_.count - 1], rays_.uy[i] = rays_.uy[rays_.count - 1];
+            rays_.time[i] = rays_.time[rays_.count - 1];
+        }
+        const VF focal = hn::Set(d, inverse_focal_);
+        for (size_t p = 0; p < packets_; ++p) {
+            const size_t i = p * kLanes;
+            hn::Store(hn::Set(d, range_.max), d, rays_.depth + i);
+            hn::Store(hn::Set(du, RayBundle::kNone), du, rays_.id + i);
+            const VF ox = hn::Load(d, rays_.ox + i), oy = hn::Load(d, rays_.oy + i);
+            const VF dx = hn::MulAdd(ox, focal, hn::Load(d, rays_.ux + i));
+            const VF dy = hn::MulAdd(oy, focal, hn::Load(d, rays_.uy + i));
+            set_interval(RayIntervals::kDxMin, p, dx);
+            set_interval(RayIntervals::kDyMin, p, dy);
+            if constexpr (kLens) {
+                set_interval(RayIntervals::kOxMin, p, ox);
+                set_interval(RayIntervals::kOyMin, p, oy);
+            }
+            if constexpr (kMotion) set_interval(RayIntervals::kTimeMin, p, hn::Load(d, rays_.time + i));
+        }
+        for (size_t i = rays_.count; i < end; ++i) rays_.depth[i] = -HUGE_VALF;  // look at nothing
+        for (size_t p = packets_; p < packets_ + kLanes; ++p) {
+            for (auto& row : s_.intervals.row) row[p] = row[packets_ - 1];
+            s_.farthest[p] = -HUGE_VALF;
+        }
+        if constexpr (kMotion)
+            first_time_ = of_all(RayIntervals::kTimeMin), last_time_ = of_all(RayIntervals::kTimeMax);
+    }
+
+    void set_interval(int row, size_t packet, VF v) {
+        s_.intervals.row[row][packet] = least(v);
+        s_.intervals.row[row + 1][packet] = largest(v);
+    }
+
+    /// A row of the intervals of the bundle as a whole.
+    float of_all(int row) const {
+        const float* values = s_.intervals.row[row];
+        return row & 1 ? *std::max_element(values, values + packets_)
+                       : *std::min_element(values, values + packets_);
+    }
+
+    /// The grids that the bundle as a whole may meet, each with a lower bound of its depths.
+    void collect_candidates() {
+        s_.candidates.clear();
+        if (tree_.node_count() == 0) return;
+        const F32 d;
+        const auto q =
+            IntervalLanes::of<kMotion, kLens>([&](int row) HWY_ATTR { return hn::Set(d, of_all(row)); });
+        const VF nearest = hn::Set(d, nearest_), focal = hn::Set(d, inverse_focal_);
+        s_.stack.assign(1, 0);
+        while (!s_.stack.empty()) {
+            const uint32_t index = s_.stack.back();
+            s_.stack.pop_back();
+            ++stats_.nodes_visited;
+            const WideNode& node = tree_.nodes()[index];
+            for (size_t i = 0; i < WideNode::kChildren; i += kLanes) {
+                VF low[3], high[3];
+                for (int k = 0; k < 3; ++k) {
+                    low[k] = hn::Load(d, node.low[k] + i), high[k] = hn::Load(d, node.high[k] + i);
+                    if constexpr (kMotion) {
+                        const WideNodeMotion& motion = tree_.node_motions()[index];
+                        low[k] = lowest(low[k], hn::Load(d, motion.low[k] + i), q.time);
+                        high[k] = highest(high[k], hn::Load(d, motion.high[k] + i), q.time);
+                    }
+                }
+                uint32_t met = mask_bits(meets<kLens>(d, q, low, high, nearest, focal));
+                if (met == 0) continue;
+                HWY_ALIGN float depth[kLanes];
+                hn::Store(low[2], d, depth);
+                for (; met != 0; met &= met - 1) {
+                    const int lane = std::countr_zero(met);
+                    const uint32_t link = node.child[i + static_cast<size_t>(lane)];
+                    if (link & kGridLink)
+                        s_.candidates.push_back(uint64_t{ordered_bits(depth[lane])} << 32 |
+                                                (link & ~kGridLink));
+                    else
+                        s_.stack.push_back(link);
+                }
+            }
+        }
+    }
+
+    void visit_grid(uint32_t index, float depth) {
+        const WideGrid& grid = tree_.grid(index);
+        if (!grid.moves()) {
+            collect_active<false>(index, grid, 0, depth);
+            test_active<false>(index, grid, 0);
+            return;
+        }
+        if constexpr (kMotion) {
+            const int first = segment_at(first_time_, grid.key_count).index;
+            const int last = segment_at(last_time_, grid.key_count).index;
+            for (int segment = first; segment <= last; ++segment) {
+                collect_active<true>(index, grid, segment, depth);
+                test_active<true>(index, grid, segment);
+            }
+        }
+    }
+
+    /// Packets whose intervals meet the grid's axis-aligned box, then those of their rays that meet its
+    /// oriented one (and, of a moving grid, look in the segment).
+    template <bool kMoves>
+    void collect_active(uint32_t index, const WideGrid& grid, int segment, float depth) {
+        const F32 d;
+        const MovingBox& box = tree_.grid_box(index);
+        s_.active.count = 0;
+        s_.touched.clear();
+        for (size_t p = 0; p < packets_; p += kLanes) {
+            const auto q = IntervalLanes::of<kMoves, kLens>(
+                [&](int row) HWY_ATTR { return hn::Load(d, s_.intervals.row[row] + p); });
+            VF low[3], high[3];
+            for (int k = 0; k < 3; ++k) {
+                low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
+                if constexpr (kMoves) {
+                    low[k] = lowest(low[k], hn::Set(d, box.low_delta[k]), q.time);
+                    high[k] = highest(high[k], hn::Set(d, box.high_delta[k]), q.time);
+                }
+            }
+            const MF looks = hn::Ge(hn::Load(d, s_.farthest + p), low[2]);
+            uint32_t met = mask_bits(hn::And(
+                looks, meets<kLens>(d, q, low, high, hn::Set(d, nearest_), hn::Set(d, inverse_focal_))));
+            for (; met != 0; met &= met - 1)
+                collect_packet<kMoves>(grid, p + static_cast<size_t>(std::countr_zero(met)), segment, depth);
+        }
+    }
+
+    template <bool kMoves>
+    void collect_packet(const WideGrid& grid, size_t packet, int segment, float depth) {
+        const F32 d;
+        const size_t i = packet * kLanes;
+        const VF ox = kLens ? hn::Load(d, rays_.ox + i) : hn::Zero(d),
+                 oy = kLens ? hn::Load(d, rays_.oy + i) : hn::Zero(d);
+        const VF ux = hn::Load(d, rays_.ux + i), uy = hn::Load(d, rays_.uy + i);
+        const VF time = kMoves ? hn::Load(d, rays_.time + i) : hn::Zero(d);
+        const VF limit = hn::Add(hn::Load(d, rays_.depth + i), hn::Set(d, grid.slack));
+        VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
+        for (int k = 0; k < 3; ++k) {
+            const float* axis = grid.axis[k];
+            const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]);
+            inverse[k] = reciprocal(hn::MulAdd(x, ux, hn::MulAdd(y, uy, hn::Set(d, axis[2]))));
+            offset[k] = kLens ? hn::Mul(hn::MulAdd(x, ox, hn::Mul(y, oy)), inverse[k]) : hn::Zero(d);
+            VF low = hn::Set(d, grid.framed.low[k]), high = hn::Set(d, grid.framed.high[k]);
+            if constexpr (kMoves) {
+                low = hn::MulAdd(time, hn::Set(d, grid.framed.low_delta[k]), low);
+                high = hn::MulAdd(time, hn::Set(d, grid.framed.high_delta[k]), high);
+            }
+            const VF a = hn::MulSub(low, inverse[k], offset[k]), b = hn::MulSub(high, inverse[k], offset[k]);
+            near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
+        }
+        MF met = hn::Le(near, far);
+        VF local = time;
+        if constexpr (kMoves) {
+            if (grid.key_count > 2) met = hn::And(met, in_segment(time, grid.key_count, segment, local));
+        }
+        const size_t count = hn::CountTrue(d, met);
+        stats_.nodes_visited += kLanes;
+        if (rays_.nodes) count_packet(rays_.nodes, i);
+        if (count == 0) return;
+        ActiveRays& to = s_.active;
+        const size_t at = to.count;
+        if constexpr (kLens) append(ox, met, d, to.ox + at), append(oy, met, d, to.oy + at);
+        append(ux, met, d, to.ux + at), append(uy, met, d, to.uy + at);
+        if constexpr (kMoves) append(local, met, d, to.local + at);
+        for (int k = 0; k < 3; ++k) {
+            append(inverse[k], met, d, to.inverse[k] + at);
+            if constexpr (kLens) append(offset[k], met, d, to.offset[k] + at);
+        }
+        append(limit, met, d, to.limit + at);
+        const hn::RebindToUnsigned<F32> du;
+        append(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, met), du, to.ray + at);
+        to.count += count;
+        s_.touched.push_back(static_cast<uint32_t>(packet));
+    }
+
+    /// segment_at() in lanes: whether a time is in a segment, and where.
+    HWY_INLINE MF in_segment(VF time, int key_count, int segment, VF& local) const {
+        const F32 d;
+        const I32 di;
+        const VF scaled = hn::Mul(time, hn::Set(d, static_cast<float>(key_count - 1)));
+        const VI index =
+            hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Zero(di)), hn::Set(di, key_count - 2));
+        local = hn::Sub(scaled, hn::ConvertTo(d, index));
+        return hn::RebindMask(d, hn::Eq(index, hn::Set(di, segment)));
+    }
+
+    /// The blocks of a grid that active rays meet.
+    template <bool kMoves>
+    void test_active(uint32_t index, const WideGrid& grid, int segment) {
+        ActiveRays& active = s_.active;
+        if (active.count == 0) return;
+        const F32 d;
+        const float* planes = tree_.block_planes(grid, segment);
+        hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);  // lanes past the end
+        const int blocks_u = grid.blocks_u(), blocks = grid.block_count();
+        for (int b = 0; b < blocks; ++b) {
+            const size_t count = collect_block<kMoves>(planes + b, static_cast<size_t>(blocks));
+            if (count == 0) continue;
+            test_block_rays<kMoves>(block_of(grid, segment, b % blocks_u, b / blocks_u, index), count);
+        }
+        if (!grid.opaque) return;
+        for (const uint32_t packet : s_.touched) refresh_packet(packet);
+        refresh_farthest();
+    }
+
+    void refresh_packet(size_t packet) {
+        s_.farthest[packet] = largest(hn::Load(F32(), rays_.depth + packet * kLanes));
+    }
+    void refresh_farthest() {
+        const F32 d;
+        VF farthest = hn::Load(d, s_.farthest);
+        for (size_t p = kLanes; p < packets_; p += kLanes)
+            farthest = hn::Max(farthest, hn::Load(d, s_.farthest + p));
+        farthest_ = largest(farthest);
+    }
+
+    static void count_packet(uint32_t* counts, size_t first) {
+        for (size_t i = 0; i < kLanes; ++i) ++counts[first + i];
+    }
+
+    /// A block and what its hits are called.
+    struct Block {
+        BlockView view;
+        int columns;
+        Facing facing;
+        bool opaque;
+        uint32_t id;  ///< of its first micropolygon
+        float slack;
+    };
+
+    static Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
+        const int tiles_u = grid.tiles_u, tiles_v = (grid.nv + 4) / 4;
+        Block block;
+        block.view.plane = grid.plane_size;
+        block.view.tile = grid.planes + static_cast<size_t>(segment) * 6 * grid.plane_size +
+                          static_cast<size_t>(v * tiles_u + u) * 16;
+        block.view.right = u + 1 < tiles_u ? 16 : 3;
+        block.view.down = v + 1 < tiles_v ? tiles_u * 16 : 12;
+        block.view.rows = std::min(4, grid.nv - 4 * v);
+        block.columns = std::min(4, grid.nu - 4 * u);
+        block.facing = static_cast<Facing>(grid.facing);
+        block.opaque = grid.opaque != 0;
+        block.id = index << 8 | static_cast<uint32_t>(v) << 6 | static_cast<uint32_t>(u) << 2;
+        block.slack = grid.slack;
+        return block;
+    }
+
+    /// Lists the active rays that meet a block's box; how many.
+    template <bool kMoves>
+    size_t collect_block(const float* box, size_t stride) {
+        const F32 d;
+        const hn::RebindToUnsigned<F32> du;
+        const ActiveRays& active = s_.active;
+        BlockRays& to = s_.block;
+        size_t count = 0;
+        for (size_t i = 0; i < active.count; i += kLanes) {
+            const VF local = kMoves ? hn::Load(d, active.local + i) : hn::Zero(d);
+            VF near, far;
+            for (size_t k = 0; k < 3; ++k) {
+                VF low = hn::Set(d, box[k * stride]), high = hn::Set(d, box[(3 + k) * stride]);
+                if constexpr (kMoves) {
+                    low = hn::MulAdd(local, hn::Set(d, box[(6 + k) * stride]), low);
+                    high = hn::MulAdd(local, hn::Set(d, box[(9 + k) * stride]), high);
+                }
+                const VF inverse = hn::Load(d, active.inverse[k] + i);
+                const VF offset = kLens ? hn::Load(d, active.offset[k] + i) : hn::Zero(d);
+                const VF a = kLens ? hn::MulSub(low, inverse, offset) : hn::Mul(low, inverse);
+                const VF b = kLens ? hn::MulSub(high, inverse, offset) : hn::Mul(high, inverse);
+                near = k == 0 ? hn::Min(a, b) : hn::Max(near, hn::Min(a, b));
+                far = k == 0 ? hn::Max(a, b) : hn::Min(far, hn::Max(a, b));
+            }
+            const MF met = hn::Le(near, hn::Min(far, hn::Load(d, active.limit + i)));
+            const size_t here = hn::CountTrue(d, met);
+            if (here == 0) continue;
+            if constexpr (kLens) {
+                append(hn::Load(d, active.ox + i), met, d, to.ox + count);
+                append(hn::Load(d, active.oy + i), met, d, to.oy + count);
+            }
+            append(hn::Load(d, active.ux + i), met, d, to.ux + count);
+            append(hn::Load(d, active.uy + i), met, d, to.uy + count);
+            if constexpr (kMoves) append(local, met, d, to.local + count);
+            append(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, met), du, to.active + count);
+            count += here;
+        }
+        stats_.nodes_visited += active.count;
+        return count;
+    }
+
+    template <bool kMoves>
+    void test_block_rays(const Block& block, size_t count) {
+        const F32 d;
+        const BlockRays& from = s_.block;
+        const auto micropolygons = static_cast<uint64_t>(block.view.rows * block.columns);
+        stats_.leaves_visited += count;
+        stats_.predicate_tests += count * micropolygons;
+        if (rays_.tests)
+            for (size_t i = 0; i < count; ++i)
+                rays_.tests[s_.active.ray[from.active[i]]] += static_cast<uint32_t>(micropolygons);
+        for (size_t i = 0; i < count; i += kLanes) {
+            const size_t left = count - i;
+            if (left < kFewInBlock) {
+                for (size_t k = i; k < count; ++k) test_one_ray<kMoves>(block, k);
+                return;
+            }
+            RayLanes r;
+            if constexpr (kLens) r.ox = hn::Load(d, from.ox + i), r.oy = hn::Load(d, from.oy + i);
+            r.ux = hn::Load(d, from.ux + i), r.uy = hn::Load(d, from.uy + i);
+            if constexpr (kMoves) r.local = hn::Load(d, from.local + i);
+            const BlockBits bits = block.columns == 1 ? block_bits<kMoves, kLens, 1>(block.view, r)
+                                                      : block_bits<kMoves, kLens, 4>(block.view, r);
+            const MF valid = hn::FirstN(d, left);
+            const MF any = hn::And(predicate_lanes::negative(d, bits.any), valid);
+            if (hn::AllFalse(d, any)) continue;
+            const MF several = hn::And(predicate_lanes::negative(d, bits.several), valid);
+            VI u, v;
+            decode(bits, u, v);
+            VF depth = hn::Zero(d);
+            const MF hit = hn::AndNot(
+                several, hn::And(any, depth_at<kMoves, kLens>(block.view, r, u, v, block.facing, depth)));
+            settle(block, i, hit, u, v, depth);
+            for (uint32_t more = mask_bits(several); more != 0; more &= more - 1)
+                test_one_ray<kMoves>(block, i + static_cast<size_t>(std::countr_zero(more)));
+        }
+    }
+
+    /// Keeps the hits of lanes of rays, block rays from `first` on.
+    void settle(const Block& block, size_t first, MF hit, VI u, VI v, VF depth) {
+        const F32 d;
+        const I32 di;
+        hit = hn::And(hit,
+                      hn::And(hn::Ge(depth, hn::Set(d, range_.min)), hn::Le(depth, hn::Set(d, range_.max))));
+        uint32_t lanes = mask_bits(hit);
+        if (lanes == 0) return;
+        HWY_ALIGN float depths[kLanes];
+        HWY_ALIGN int32_t uv[kLanes];
+        hn::Store(depth, d, depths);
+        hn::Store(hn::Or(u, hn::ShiftLeft<4>(v)), di, uv);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto lane = static_cast<size_t>(std::countr_zero(lanes));
+            keep(block, s_.block.active[first + lane], depths[lane],
+                 block.id + static_cast<uint32_t>(uv[lane]));
+        }
+    }
+
+    HWY_INLINE void keep(const Block& block, uint32_t active, float depth, uint32_t id) {
+        if (keep_hit(s_.active.ray[active], depth, id, block.opaque))
+            s_.active.limit[active] = depth + block.slack;
+    }
+
+    /// Whether it is the nearest opaque hit now.
+    HWY_INLINE bool keep_hit(uint32_t ray, float depth, uint32_t id, bool opaque) {
+        ++stats_.predicate_hits;
+        float& nearest = rays_.depth[ray];
+        if (!opaque) {
+            if (depth <= nearest) rays_.layers.push_back({ray, depth, id});
+            return false;
+        }
+        if (!(depth < nearest || (depth == nearest && id < rays_.id[ray]))) return false;
+        nearest = depth;
+        rays_.id[ray] = id;
+        return true;
+    }
+
+    /// One block ray against all micropolygons of its block: lanes are micropolygons.
+    template <bool kMoves>
+    void test_one_ray(const Block& block, size_t which) {
+        const F32 d;
+        const I32 di;
+        const BlockRays& from = s_.block;
+        RayLanes r;
+        if constexpr (kLens) r.ox = hn::Set(d, from.ox[which]), r.oy = hn::Set(d, from.oy[which]);
+        r.ux = hn::Set(d, from.ux[which]), r.uy = hn::Set(d, from.uy[which]);
+        if constexpr (kMoves) r.local = hn::Set(d, from.local[which]);
+        for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
+            const VI number = hn::Iota(di, m), u = hn::And(number, hn::Set(di, 3)),
+                     v = hn::ShiftRight<2>(number);
+            VF depth = hn::Zero(d);
+            MF hit =
+                depth_at<kMoves, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)), block.facing, depth);
+            hit = hn::And(hit, hn::RebindMask(d, hn::And(hn::Lt(u, hn::Set(di, block.columns)),
+                                                         hn::Lt(v, hn::Set(di, block.view.rows)))));
+            hit = hn::And(
+                hit, hn::And(hn::Ge(depth, hn::Set(d, range_.min)), hn::Le(depth, hn::Set(d, range_.max))));
+            uint32_t lanes = mask_bits(hit);
+            if (lanes == 0) continue;
+            HWY_ALIGN float depths[kLanes];
+            hn::Store(depth, d, depths);
+            for (; lanes != 0; lanes &= lanes - 1) {
+                const int lane = std::countr_zero(lanes), micropolygon = m + lane;
+                keep(block, from.active[which], depths[lane],
+                     block.id + static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4));
+            }
+        }
+    }
+
+    /// A grid that no box can hold, by the scalar predicate.
+    void test_unbounded(uint32_t index) {
+        const Grid& grid = tree_.grids().grids[index];
+        for (size_t i = 0; i < rays_.count; ++i) {
+            const AxisRay ray{rays_.ox[i], rays_.oy[i], 0, rays_.ux[i], rays_.uy[i], rays_.time[i]};
+            for (int v = 0; v < grid.shape.nv; ++v)
+                for (int u = 0; u < grid.shape.nu; ++u) {
+                    ++stats_.predicate_tests;
+                    float depth;
+                    if (!hit_micropolygon(ray, grid.quad(u, v, ray.time), grid.facing, &depth)) continue;
+                    if (!(depth >= range_.min && depth <= range_.max)) continue;
+                    keep_hit(
+                        static_cast<uint32_t>(i), depth,
+                        static_cast<uint32_t>(
+                            MicropolygonId{index, static_cast<uint8_t>(u), static_cast<uint8_t>(v)}.packed()),
+                        grid.opaque);
+                }
+        }
+    }
+
+    const WideTree& tree_;
+    DepthRange range_;
+    float inverse_focal_;
+    RayBundle& rays_;
+    BundleScratch& s_;
+    SampleStats& stats_;
+    float nearest_;  ///< no box before this depth matters
+    size_t packets_;
+    float first_time_ = 0, last_time_ = 0;
+    float farthest_ = 0;  ///< some ray still looks as far as this
+};
+
+void trace(const TraceInput& in, bool motion, bool lens) {
+    if (motion) {
+        if (lens)
+            BundleTrace<true, true>(in).run();
+        else
+            BundleTrace<true, false>(in).run();
+    } else {
+        if (lens)
+            BundleTrace<false, true>(in).run();
+        else
+            BundleTrace<false, false>(in).run();
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze {
+
+HWY_EXPORT(trace);
+
+BundleScratchPointer make_bundle_scratch() {
+    return BundleScratchPointer(new BundleScratch);
+}
+void DeleteBundleScratch::operator()(BundleScratch* scratch) const {
+    delete scratch;
+}
+
+void trace_bundle(const WideTree& tree, DepthRange range, float focal_distance, RayBundle& rays,
+                  BundleScratch& scratch, SampleStats& stats) {
+    rays.layers.clear();
+    if (rays.count == 0) return;
+    float reach = 0;
+    for (size_t i = 0; i < rays.count; ++i)
+        reach = std::max({reach, std::abs(rays.ox[i]), std::abs(rays.oy[i])});
+    const bool lens = reach > 0;
+    const bundle_detail::TraceInput in{tree, range, lens ? 1 / focal_distance : 0.0f, rays, scratch, stats};
+    HWY_DYNAMIC_DISPATCH(trace)(in, tree.moves(), lens);
+}
+
+}  // namespace trapeze
+#endif  // HWY_ONCE

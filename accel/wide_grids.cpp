@@ -1,0 +1,239 @@
+#include "accel/wide_grids.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "accel/builders/grid_summary.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/wide_grids.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+
+#include <hwy/highway.h>
+
+#ifndef TRAPEZE_ACCEL_WIDE_GRIDS_ONCE
+#define TRAPEZE_ACCEL_WIDE_GRIDS_ONCE
+namespace trapeze::wide_grids_detail {
+
+inline constexpr int kMaxTiles = 25;  ///< of a grid of 16 x 16
+inline constexpr int kMaxBlocks = 16;
+
+/// The boxes of a grid's blocks at one key, in the grid's frame.
+struct BlockBoxes {
+    float low[3][kMaxBlocks], high[3][kMaxBlocks];
+};
+
+/// What a key adds to the whole grid's bounds: coordinates of camera space, then of the frame.
+struct KeyBox6 {
+    float low[6], high[6];
+};
+
+}  // namespace trapeze::wide_grids_detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace wide_grids_detail;
+
+/// Coordinates of all vertices, tile by tile, at a key: of camera space, then in the frame.
+struct TiledCoordinates {
+    HWY_ALIGN float c[6][kMaxTiles * 16];
+};
+
+HWY_INLINE void place_vertices(const Grid& grid, int key, const float (*axis)[3], TiledCoordinates& out,
+                               KeyBox6& box) {
+    const hn::ScalableTag<float> d;
+    const bool at_end = grid.moves() && key == grid.key_count - 1;
+    const int segment = at_end ? key - 1 : key;
+    const size_t count = grid.shape.plane_size(), lanes = hn::Lanes(d);
+    using V = hn::Vec<decltype(d)>;
+    V low[6], high[6];
+    for (int k = 0; k < 6; ++k) low[k] = hn::Set(d, HUGE_VALF), high[k] = hn::Set(d, -HUGE_VALF);
+    for (size_t i = 0; i < count; i += lanes) {
+        V c[6];
+        for (int k = 0; k < 3; ++k) {
+            c[k] = hn::Load(d, grid.plane(segment, k) + i);
+            if (at_end) c[k] = hn::Add(c[k], hn::Load(d, grid.plane(segment, 3 + k) + i));
+        }
+        for (int k = 0; k < 3; ++k)
+            c[3 + k] =
+                hn::MulAdd(hn::Set(d, axis[k][0]), c[0],
+                           hn::MulAdd(hn::Set(d, axis[k][1]), c[1], hn::Mul(hn::Set(d, axis[k][2]), c[2])));
+        for (int k = 0; k < 6; ++k) {
+            hn::Store(c[k], d, out.c[k] + i);
+            low[k] = hn::Min(low[k], c[k]), high[k] = hn::Max(high[k], c[k]);
+        }
+    }
+    for (int k = 0; k < 6; ++k) {
+        box.low[k] = hn::GetLane(hn::MinOfLanes(d, low[k]));
+        box.high[k] = hn::GetLane(hn::MaxOfLanes(d, high[k]));
+    }
+}
+
+/// Bounds of 4 x 4 micropolygons: their tile's vertices and the first row and column of the tiles behind.
+HWY_INLINE void bound_blocks(const GridShape& shape, const TiledCoordinates& at, BlockBoxes& boxes) {
+    const hn::CappedTag<float, 4> d4;
+    using V = hn::Vec<decltype(d4)>;
+    const size_t lanes = hn::Lanes(d4);
+    const int tiles_u = shape.tiles_u(), tiles_v = shape.tiles_v();
+    const int blocks_u = (shape.nu + 3) / 4, blocks_v = (shape.nv + 3) / 4;
+    for (int k = 0; k < 3; ++k) {
+        const float* c = at.c[3 + k];
+        // Columns' extremes of each tile: column 0 is what the block to the left needs.
+        HWY_ALIGN float column_low[kMaxTiles][4], column_high[kMaxTiles][4];
+        for (int tile = 0; tile < tiles_u * tiles_v; ++tile)
+            for (size_t i = 0; i < 4; i += lanes) {
+                const float* rows = c + tile * 16 + i;
+                const V a = hn::Load(d4, rows), b = hn::Load(d4, rows + 4);
+                const V e = hn::Load(d4, rows + 8), f = hn::Load(d4, rows + 12);
+                hn::Store(hn::Min(hn::Min(a, b), hn::Min(e, f)), d4, column_low[tile] + i);
+                hn::Store(hn::Max(hn::Max(a, b), hn::Max(e, f)), d4, column_high[tile] + i);
+            }
+        for (int v = 0; v < blocks_v; ++v)
+            for (int u = 0; u < blocks_u; ++u) {
+                const int tile = v * tiles_u + u;
+                const int right = u + 1 < tiles_u ? tile + 1 : tile;
+                const int down = v + 1 < tiles_v ? tile + tiles_u : tile;
+                const int corner = down + (right - tile);
+                const float *row = c + down * 16, *last = c + corner * 16;
+                float low = std::min(column_low[right][0], last[0]),
+                      high = std::max(column_high[right][0], last[0]);
+                for (int i = 0; i < 4; ++i) {
+                    low = std::min(low, std::min(column_low[tile][i], row[i]));
+                    high = std::max(high, std::max(column_high[tile][i], row[i]));
+                }
+                boxes.low[k][v * blocks_u + u] = low;
+                boxes.high[k][v * blocks_u + u] = high;
+            }
+    }
+}
+
+void bound_keys(const Grid& grid, const float (*axis)[3], KeyBox6* wholes, BlockBoxes* blocks) {
+    TiledCoordinates coordinates;
+    for (int key = 0; key < grid.key_count; ++key) {
+        place_vertices(grid, key, axis, coordinates, wholes[key]);
+        bound_blocks(grid.shape, coordinates, blocks[key]);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze {
+namespace {
+
+using wide_grids_detail::BlockBoxes;
+using wide_grids_detail::KeyBox6;
+
+HWY_EXPORT(bound_keys);
+
+/// From sums of edges along u and v at mid-shutter, to which interior vertices do not contribute
+/// [Hou10 sec. 3.3]; every fourth row and column tells enough.
+Frame frame_of_grid(const Grid& grid) {
+    const GridShape& shape = grid.shape;
+    V3f along_u(0), along_v(0);
+    int rows = 0, columns = 0;
+    for (int j = 0; j <= shape.nv; j += 4, ++rows)
+        along_u += grid.vertex(shape.nu, j, 0.5f) - grid.vertex(0, j, 0.5f);
+    for (int i = 0; i <= shape.nu; i += 4, ++columns)
+        along_v += grid.vertex(i, shape.nv, 0.5f) - grid.vertex(i, 0, 0.5f);
+    return frame_of(V3d(along_u) / (rows * shape.nu), V3d(along_v) / (columns * shape.nv));
+}
+
+/// The least line through the shutter above (sign 1) or below (sign -1) the values at all keys.
+void line_around(const KeyBox6* wholes, int key_count, bool low, int k, float ends[2]) {
+    const auto at = [&](int key) { return low ? wholes[key].low[k] : wholes[key].high[k]; };
+    const float first = at(0), last = at(key_count - 1);
+    float beyond = 0;
+    for (int key = 1; key + 1 < key_count; ++key) {
+        const float on_line =
+            first + (last - first) * (static_cast<float>(key) / static_cast<float>(key_count - 1));
+        beyond = std::max(beyond, low ? on_line - at(key) : at(key) - on_line);
+    }
+    ends[0] = low ? first - beyond : first + beyond;
+    ends[1] = low ? last - beyond : last + beyond;
+}
+
+/// Boxes of the blocks in every segment, grown; in the layout of WideGrid::block_stride().
+void write_blocks(const WideGrid& record, const BlockBoxes* keys, float grow, float* out) {
+    const int blocks = record.block_count();
+    const int segments = record.moves() ? record.key_count - 1 : 1;
+    for (int s = 0; s < segments; ++s, out += record.block_stride())
+        for (int k = 0; k < 3; ++k)
+            for (int b = 0; b < blocks; ++b) {
+                out[k * blocks + b] = keys[s].low[k][b] - grow;
+                out[(3 + k) * blocks + b] = keys[s].high[k][b] + grow;
+                if (!record.moves()) continue;
+                out[(6 + k) * blocks + b] = keys[s + 1].low[k][b] - keys[s].low[k][b];
+                out[(9 + k) * blocks + b] = keys[s + 1].high[k][b] - keys[s].high[k][b];
+            }
+}
+
+/// An upper bound of the extent of any micropolygon along each axis of space: of the block that holds it.
+void bound_extents(const WideGrid& record, const BlockBoxes* keys, float extent[3]) {
+    for (int c = 0; c < 3; ++c) extent[c] = 0;
+    for (int key = 0; key < record.key_count; ++key)
+        for (int b = 0; b < record.block_count(); ++b) {
+            float size[3];
+            for (int k = 0; k < 3; ++k) size[k] = keys[key].high[k][b] - keys[key].low[k][b];
+            for (int c = 0; c < 3; ++c)
+                extent[c] = std::max(extent[c], std::abs(record.axis[0][c]) * size[0] +
+                                                    std::abs(record.axis[1][c]) * size[1] +
+                                                    std::abs(record.axis[2][c]) * size[2]);
+        }
+}
+
+}  // namespace
+
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* block_planes,
+                GridExtent& extent) {
+    Frame frame = frame_of_grid(grid);
+    for (int k = 0; k < 3; ++k)
+        if (!std::isfinite(frame.axis[k].x + frame.axis[k].y + frame.axis[k].z)) frame = {};
+    for (int k = 0; k < 3; ++k)
+        for (int c = 0; c < 3; ++c) record.axis[k][c] = frame.axis[k][c];
+    record.planes = grid.positions;
+    record.plane_size = static_cast<uint16_t>(grid.shape.plane_size());
+    record.nu = grid.shape.nu, record.nv = grid.shape.nv;
+    record.tiles_u = static_cast<uint8_t>(grid.shape.tiles_u());
+    record.key_count = grid.key_count;
+    record.facing = static_cast<uint8_t>(grid.facing);
+    record.opaque = grid.opaque;
+
+    KeyBox6 wholes[kMaxKeyCount];
+    static thread_local std::vector<BlockBoxes> blocks;
+    blocks.resize(grid.key_count);
+    HWY_DYNAMIC_DISPATCH(bound_keys)(grid, record.axis, wholes, blocks.data());
+
+    float largest = 0;
+    for (int key = 0; key < grid.key_count; ++key)
+        for (int k = 0; k < 3; ++k)
+            largest = std::max({largest, std::abs(wholes[key].low[k]), std::abs(wholes[key].high[k])});
+    extent.absolute_max = largest <= kBoundableCoordinate ? largest : HUGE_VALF;
+    const float grow = scale * largest + base;
+    for (int k = 0; k < 3; ++k) {
+        float low[2], high[2];
+        line_around(wholes, grid.key_count, true, k, low);
+        line_around(wholes, grid.key_count, false, k, high);
+        for (int end = 0; end < 2; ++end) {
+            extent.box.low[end][k] = low[end] - grow;
+            extent.box.high[end][k] = high[end] + grow;
+        }
+        line_around(wholes, grid.key_count, true, 3 + k, low);
+        line_around(wholes, grid.key_count, false, 3 + k, high);
+        record.framed.low[k] = low[0] - grow, record.framed.low_delta[k] = low[1] - low[0];
+        record.framed.high[k] = high[0] + grow, record.framed.high_delta[k] = high[1] - high[0];
+    }
+    float extents[3];
+    bound_extents(record, blocks.data(), extents);
+    record.slack = extents[2] + grow;
+    record.extent = std::max({extents[0], extents[1], extents[2]}) + grow;
+    write_blocks(record, blocks.data(), grow, block_planes);
+}
+
+}  // namespace trapeze
+#endif  // HWY_ONCE

@@ -1,0 +1,25 @@
+/// The first pass of a WideTree's build: every grid's frame and boxes.
+#pragma once
+
+#include "accel/wide_tree.h"
+
+namespace trapeze {
+
+/// A box at both ends of the shutter, linear between.
+struct EndBoxes {
+    float low[2][3], high[2][3];
+};
+
+/// What the pass finds of a grid besides WideGrid and its block boxes.
+struct GridExtent {
+    EndBoxes box;  ///< camera space, grown for rounding; linear in time around all keys
+    float absolute_max;
+};
+
+/// Fills in a grid's record (all but first_block, which is set) and block boxes. `scale` and `base`: bounds
+/// grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an absolute_max of
+/// infinity, and boxes that mean nothing.
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* block_planes,
+                GridExtent& extent);
+
+}  // namespace trapeze

@@ -1,0 +1,243 @@
+#include "accel/wide_tree.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "accel/builders/wide_top.h"
+#include "accel/grid_block.h"
+#include "accel/hit_policies.h"
+#include "accel/slabs.h"
+#include "accel/wide_grids.h"
+
+namespace trapeze {
+namespace {
+
+/// Where no ray comes: the boxes of children that are not there.
+constexpr float kNowhere = 1e30f;
+
+/// What bounds grow by for each unit of the largest coordinate: as TraceRay::rounding().
+float rounding_scale(const RayReach& reach) {
+    return kTraceRounding * (1 + reach.slope);
+}
+
+MovingBox moving(const EndBoxes& ends) {
+    MovingBox box;
+    for (int k = 0; k < 3; ++k) {
+        box.low[k] = ends.low[0][k], box.low_delta[k] = ends.low[1][k] - ends.low[0][k];
+        box.high[k] = ends.high[0][k], box.high_delta[k] = ends.high[1][k] - ends.high[0][k];
+    }
+    return box;
+}
+
+}  // namespace
+
+WideTree::WideTree(const Grids& grids, const RayReach& reach) : grids_(grids), reach_(reach) {
+    moves_ = grids.max_key_count() > 1;
+    std::vector<GridExtent> extents(grids.grids.size());
+    bound_grids(extents);
+    std::vector<uint32_t> bounded;
+    bounded.reserve(extents.size());
+    for (uint32_t i = 0; i < extents.size(); ++i) {
+        if (!std::isfinite(extents[i].absolute_max)) {
+            unbounded_.push_back(i);
+            continue;
+        }
+        bounded.push_back(i);
+        absolute_max_ = std::max(absolute_max_, extents[i].absolute_max);
+        max_slack_ = std::max(max_slack_, wide_grids_[i].slack);
+        max_extent_ = std::max(max_extent_, wide_grids_[i].extent);
+    }
+    if (!bounded.empty()) write_nodes(build_wide_top(extents, bounded));
+    for (const uint32_t grid : bounded) stats_.tree_leaves += wide_grids_[grid].block_count();
+    stats_.tree_nodes = nodes_.size() + bounded.size();
+    stats_.tree_bytes = sizeof(*this) + wide_grids_.bytes() + boxes_.bytes() + block_planes_.bytes() +
+                        nodes_.bytes() + node_motions_.bytes();
+}
+
+void WideTree::bound_grids(std::vector<GridExtent>& extents) {
+    const size_t count = grids_.grids.size();
+    wide_grids_.allocate(count);
+    boxes_.allocate(count);
+    size_t floats = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const Grid& grid = grids_.grids[i];
+        WideGrid& record = wide_grids_[i];
+        record.nu = grid.shape.nu, record.nv = grid.shape.nv, record.key_count = grid.key_count;
+        record.first_block = floats;
+        floats += static_cast<size_t>(record.block_stride()) * segment_count(grid.key_count);
+    }
+    block_planes_.allocate(floats);
+    const float scale = rounding_scale(reach_), base = 2 * scale * reach_.origin + 0x1p-80f;
+    constexpr size_t kGrain = 32;
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kGrain), [&](const auto& range) {
+        for (size_t i = range.begin(); i != range.end(); ++i) {
+            WideGrid& record = wide_grids_[i];
+            bound_grid(grids_.grids[i], scale, base, record, block_planes_.data() + record.first_block,
+                       extents[i]);
+            boxes_[i] = moving(extents[i].box);
+        }
+    });
+}
+
+void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
+    nodes_.allocate(wide.size());
+    if (moves_) node_motions_.allocate(wide.size());
+    tbb::parallel_for(size_t{0}, wide.size(), [&](size_t n) {
+        WideNode& node = nodes_[n];
+        for (int i = 0; i < WideNode::kChildren; ++i) {
+            const bool used = i < wide[n].count;
+            node.child[i] = used ? wide[n].child[i].link : kNoLink;
+            const MovingBox box = used ? moving(wide[n].child[i].box) : MovingBox{};
+            for (int k = 0; k < 3; ++k) {
+                node.low[k][i] = used ? box.low[k] : kNowhere;
+                node.high[k][i] = used ? box.high[k] : -kNowhere;
+                if (!moves_) continue;
+                node_motions_[n].low[k][i] = box.low_delta[k];
+                node_motions_[n].high[k][i] = box.high_delta[k];
+            }
+        }
+    });
+}
+
+namespace {
+
+/// The depths between which a ray is inside a box at its time; all bounds grown by `pad`.
+DepthInterval slab_depths(const float* low, const float* high, const float* low_delta,
+                          const float* high_delta, size_t stride, float time, const float* origin,
+                          const float* inverse, float pad) {
+    DepthInterval inside{-HUGE_VALF, HUGE_VALF};
+    for (size_t k = 0; k < 3; ++k) {
+        const float l = low[k * stride] + (low_delta ? time * low_delta[k * stride] : 0.0f) - pad;
+        const float h = high[k * stride] + (high_delta ? time * high_delta[k * stride] : 0.0f) + pad;
+        const float a = (l - origin[k]) * inverse[k], b = (h - origin[k]) * inverse[k];
+        inside.near = std::max(inside.near, std::min(a, b));
+        inside.far = std::min(inside.far, std::max(a, b));
+    }
+    return inside;
+}
+
+float inverse_of(float direction) {
+    return 1.0f / (std::abs(direction) < kLeastDirection ? kLeastDirection : direction);
+}
+
+/// Tests a ray against some micropolygons of a grid and shows the policy what it hits.
+template <class Policy>
+void test_micropolygons(const Grid& grid, uint32_t index, const GridBlock& block, TraceRay& ray,
+                        Policy& policy) {
+    for (int v = block.v; v < block.v + block.nv; ++v)
+        for (int u = block.u; u < block.u + block.nu; ++u) {
+            const Quad quad = grid.quad(u, v, ray.axis.time, ray.planes[0], ray.planes[1], ray.planes[2]);
+            float z;
+            if (!hit_micropolygon(ray.axis, quad, facing_along(grid.facing, ray.sign), &z)) continue;
+            const Hit hit{ray.depth_of(z),
+                          MicropolygonId{index, static_cast<uint8_t>(u), static_cast<uint8_t>(v)}.packed()};
+            if (hit.depth >= ray.t_min && hit.depth <= ray.t_max) policy.consider(hit, grid.opaque, ray);
+        }
+}
+
+/// One ray through the tree, nearest children first.
+template <class Policy>
+class SingleRay {
+  public:
+    SingleRay(const WideTree& tree, float absolute_max, float extent, TraceRay& ray, Policy& policy)
+        : tree_(tree), ray_(ray), policy_(policy), pad_(ray.rounding(absolute_max)), slack_(extent + pad_) {
+        for (int k = 0; k < 3; ++k) origin_[k] = ray.origin[k], inverse_[k] = inverse_of(ray.direction[k]);
+    }
+
+    void run() {
+        for (const uint32_t grid : tree_.unbounded_grids()) {
+            const GridShape& shape = tree_.grids().grids[grid].shape;
+            test_micropolygons(tree_.grids().grids[grid], grid, {0, 0, shape.nu, shape.nv}, ray_, policy_);
+        }
+        if (tree_.node_count() > 0) visit(0);
+    }
+
+  private:
+    struct Child {
+        float depth;
+        uint32_t link;
+    };
+
+    void visit(uint32_t index) {
+        const WideNode& node = tree_.nodes()[index];
+        const WideNodeMotion* motion = tree_.moves() ? tree_.node_motions() + index : nullptr;
+        std::array<Child, WideNode::kChildren> met;
+        int count = 0;
+        for (int i = 0; i < WideNode::kChildren && node.child[i] != kNoLink; ++i) {
+            float depth;
+            if (slab_depths(&node.low[0][i], &node.high[0][i], motion ? &motion->low[0][i] : nullptr,
+                            motion ? &motion->high[0][i] : nullptr, WideNode::kChildren, ray_.axis.time,
+                            origin_, inverse_, pad_)
+                    .meets(ray_, slack_, depth))
+                met[count++] = {depth, node.child[i]};
+        }
+        std::sort(met.begin(), met.begin() + count, [](const Child& a, const Child& b) {
+            return a.depth < b.depth || (a.depth == b.depth && a.link < b.link);
+        });
+        for (int i = 0; i < count; ++i) {
+            if (met[i].depth > ray_.t_max) return;
+            if (met[i].link & kGridLink)
+                visit_grid(met[i].link & ~kGridLink);
+            else
+                visit(met[i].link);
+        }
+    }
+
+    void visit_grid(uint32_t index) {
+        const WideGrid& record = tree_.grid(index);
+        const MotionSegment segment = segment_at(ray_.axis.time, record.key_count);
+        const float* planes = tree_.block_planes(record, segment.index);
+        const size_t blocks = record.block_count();
+        float origin[3], inverse[3];
+        for (int k = 0; k < 3; ++k) {
+            const float* a = record.axis[k];
+            origin[k] = a[0] * ray_.origin.x + a[1] * ray_.origin.y + a[2] * ray_.origin.z;
+            inverse[k] =
+                inverse_of(a[0] * ray_.direction.x + a[1] * ray_.direction.y + a[2] * ray_.direction.z);
+        }
+        for (size_t b = 0; b < blocks; ++b) {
+            const float* at = planes + b;
+            float depth;
+            if (!slab_depths(at, at + 3 * blocks, record.moves() ? at + 6 * blocks : nullptr,
+                             record.moves() ? at + 9 * blocks : nullptr, blocks, segment.local, origin,
+                             inverse, pad_)
+                     .meets(ray_, slack_, depth))
+                continue;
+            const auto u = static_cast<uint8_t>(b % record.blocks_u() * 4),
+                       v = static_cast<uint8_t>(b / record.blocks_u() * 4);
+            test_micropolygons(tree_.grids().grids[index], index,
+                               {u, v, static_cast<uint8_t>(std::min(4, record.nu - u)),
+                                static_cast<uint8_t>(std::min(4, record.nv - v))},
+                               ray_, policy_);
+        }
+    }
+
+    const WideTree& tree_;
+    TraceRay& ray_;
+    Policy& policy_;
+    float pad_, slack_;
+    float origin_[3], inverse_[3];
+};
+
+}  // namespace
+
+std::optional<Hit> WideTree::closest(const SpaceRay& ray, DepthRange range) const {
+    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+    ClosestHit policy;
+    SingleRay<ClosestHit>(*this, absolute_max_, max_extent_, trace_ray, policy).run();
+    if (!policy.found()) return {};
+    return policy.best;
+}
+
+bool WideTree::any(const SpaceRay& ray, DepthRange range) const {
+    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+    AnyHit policy;
+    SingleRay<AnyHit>(*this, absolute_max_, max_extent_, trace_ray, policy).run();
+    return policy.found;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,147 @@
+/// The fast acceleration structure, for rays that go through it in bundles [docs/decisions/0006]:
+///
+///   top level     16-wide nodes of axis-aligned hyper-trapezoids, whose leaves are grids;
+///   in a grid     one implicit level: blocks of 4 x 4 micropolygons, the tiles in which vertices are stored,
+///                 each with an oriented hyper-trapezoid in the grid's own frame [Hou10 sec. 3.2 and 3.3].
+///
+/// Nothing is stored for micropolygons. Boxes are linear in time: above grids over the whole shutter (a
+/// conservative line where there are several motion segments), inside grids over each segment.
+///
+/// All boxes are grown once by what rounds away between a vertex and a slab test of a ray within RayReach.
+/// A hit's depth lies in its micropolygon's own range of depths, hence in axis-aligned boxes' range of z; the
+/// depth at which a ray enters an oriented box may exceed it by the micropolygon's extent (slack).
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "core/grid.h"
+#include "core/ray_query.h"
+#include "core/stats.h"
+
+namespace trapeze {
+
+/// What the rays of bundles stay within; origins are at z = 0.
+struct RayReach {
+    float slope = 2;   ///< |ux| + |uy|
+    float origin = 0;  ///< |ox| + |oy|
+};
+
+/// Memory aligned to cache lines, readable 64 bytes past its end. Not initialised.
+template <class T>
+class AlignedArray {
+  public:
+    void allocate(size_t count) {
+        count_ = count;
+        data_.reset(static_cast<T*>(::operator new (count * sizeof(T) + 128, std::align_val_t{64})));
+    }
+    size_t size() const { return count_; }
+    size_t bytes() const { return count_ * sizeof(T); }
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+    T& operator[](size_t i) { return data_.get()[i]; }
+    const T& operator[](size_t i) const { return data_.get()[i]; }
+
+  private:
+    struct Free {
+        void operator()(T* p) const { ::operator delete (p, std::align_val_t{64}); }
+    };
+    std::unique_ptr<T, Free> data_;
+    size_t count_ = 0;
+};
+
+/// A box that moves linearly: at time t its planes are at low + t * low_delta and high + t * high_delta.
+struct MovingBox {
+    float low[3], high[3], low_delta[3], high_delta[3];
+};
+
+/// Child links of nodes: a grid, a node, or none.
+inline constexpr uint32_t kGridLink = uint32_t{1} << 31;
+inline constexpr uint32_t kNoLink = ~uint32_t{0};
+
+struct alignas(64) WideNode {
+    static constexpr int kChildren = 16;
+    float low[3][kChildren], high[3][kChildren];  ///< at time 0; inverted where there is no child
+    uint32_t child[kChildren];
+};
+/// What nodes of moving scenes have besides.
+struct alignas(64) WideNodeMotion {
+    float low[3][WideNode::kChildren], high[3][WideNode::kChildren];
+};
+
+/// A grid as traversal reads it.
+struct alignas(64) WideGrid {
+    float axis[3][3];      ///< the grid's frame
+    MovingBox framed;      ///< the whole grid there, over the whole shutter
+    float slack;           ///< of depth: extent of the largest micropolygon along camera z
+    float extent;          ///< the same along any axis
+    const float* planes;   ///< Grid::positions
+    uint64_t first_block;  ///< its block boxes begin at block_planes[first_block]
+    uint16_t plane_size;
+    uint8_t nu, nv;
+    uint8_t tiles_u;
+    uint8_t key_count;
+    uint8_t facing;
+    uint8_t opaque;
+
+    bool moves() const { return key_count > 1; }
+    int blocks_u() const { return (nu + 3) / 4; }
+    int blocks_v() const { return (nv + 3) / 4; }
+    int block_count() const { return blocks_u() * blocks_v(); }
+    /// Floats of a segment's block boxes: planes low x, y, z, high x, y, z of all blocks; then, when the grid
+    /// moves, how far they go.
+    int block_stride() const { return block_count() * (moves() ? 12 : 6); }
+};
+
+struct GridExtent;
+struct WideChildren;
+
+class WideTree final : public RayQuery {
+  public:
+    /// Grids beyond this many cannot be told apart in the tree's 32-bit micropolygon ids.
+    static constexpr size_t kMaxGrids = size_t{1} << 24;
+
+    /// Keeps a reference to the grids, of which there are at most kMaxGrids.
+    WideTree(const Grids& grids, const RayReach& reach);
+
+    std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const override;
+    bool any(const SpaceRay& ray, DepthRange range) const override;
+
+    const Grids& grids() const { return grids_; }
+    const RayReach& reach() const { return reach_; }
+    BuildStats stats() const { return stats_; }
+    bool moves() const { return moves_; }
+
+    /// The extent along z of the largest micropolygon of all.
+    float max_slack() const { return max_slack_; }
+    const WideNode* nodes() const { return nodes_.data(); }
+    const WideNodeMotion* node_motions() const { return node_motions_.data(); }
+    size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
+    const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
+    const MovingBox& grid_box(uint32_t index) const { return boxes_[index]; }
+    const float* block_planes(const WideGrid& grid, int segment) const {
+        return block_planes_.data() + grid.first_block + static_cast<size_t>(segment) * grid.block_stride();
+    }
+    /// Grids too far out for bounds: every ray must look at them.
+    const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
+
+  private:
+    void bound_grids(std::vector<GridExtent>& extents);
+    void write_nodes(const std::vector<WideChildren>& wide);
+
+    const Grids& grids_;
+    RayReach reach_;
+    bool moves_ = false;
+    float max_slack_ = 0, max_extent_ = 0, absolute_max_ = 0;
+    AlignedArray<WideGrid> wide_grids_;
+    AlignedArray<MovingBox> boxes_;  ///< camera space, axis-aligned
+    AlignedArray<float> block_planes_;
+    AlignedArray<WideNode> nodes_;
+    AlignedArray<WideNodeMotion> node_motions_;
+    std::vector<uint32_t> unbounded_;
+    BuildStats stats_;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,22 @@
+/// The order in which rays go into bundles.
+#pragma once
+
+#include "core/samples.h"
+#include "sample/visibility_method.h"
+
+namespace trapeze {
+
+/// How finely rays are sorted. Too fine costs as much as too coarse: bundles should be compact in all of
+/// pixel, lens and time.
+struct BundleOrder {
+    int block_side = 8;  ///< pixels; blocks one after another
+    int lens_bits = 2;   ///< an axis, within a block
+    int time_bits = 3;   ///< within a cell of the lens
+};
+
+/// Sets scratch.order: block by block of pixels; within by cell of the lens, then by time, then by pixel
+/// along a Z-order curve. Without motion or a lens what tells them apart is left out.
+void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
+                   SampleScratch& scratch);
+
+}  // namespace trapeze

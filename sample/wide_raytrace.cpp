@@ -1,0 +1,130 @@
+#include "sample/wide_raytrace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "accel/bundle.h"
+#include "sample/bundle_order.h"
+#include "sample/hit_lists.h"
+
+namespace trapeze {
+namespace {
+
+/// Samples lie this far outside the image at most (filters).
+constexpr float kBorderPixels = 1024;
+
+/// The largest coordinate of the image plane, along one axis, that a sample may have.
+float plane_reach(float scale, float offset, int pixels) {
+    const float border = std::abs(scale) * kBorderPixels;
+    return std::max(std::abs(offset), std::abs(offset + scale * static_cast<float>(pixels))) + border;
+}
+
+RayReach reach_of(const Camera& camera) {
+    const float plane = plane_reach(camera.plane_scale_x, camera.plane_offset_x, camera.width) +
+                        plane_reach(camera.plane_scale_y, camera.plane_offset_y, camera.height);
+    const float lens = 2 * camera.lens_radius, lens_slope = lens / camera.focal_distance;
+    if (camera.perspective) return {plane + lens_slope, lens};
+    return {lens_slope, plane + lens};
+}
+
+class WideRayTraced final : public Visibility {
+  public:
+    explicit WideRayTraced(const VisibilityInput& input)
+        : camera_(input.context.camera),
+          motion_(input.context.motion),
+          all_opaque_(every_grid_is_opaque(input.grids)),
+          tree_(input.grids, reach_of(input.context.camera)) {}
+
+    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                 SampleStats& stats) const override {
+        if (!scratch.bundle) scratch.bundle = std::make_unique<RayBundle>();
+        if (!scratch.bundle_scratch) scratch.bundle_scratch = make_bundle_scratch();
+        order_bundles(samples, motion_, camera_.has_lens(), {}, scratch);
+        scratch.nearest.resize(samples.size());
+        scratch.hits.clear();
+        scratch.hit_sample.clear();
+        const std::span<const uint32_t> order = scratch.order;
+        for (size_t first = 0; first < order.size(); first += RayBundle::kRays)
+            resolve_bundle(samples, order.subspan(first, std::min(RayBundle::kRays, order.size() - first)),
+                           scratch, stats);
+        if (all_opaque_)
+            buffer_of_nearest(scratch, samples.size(), hits);
+        else
+            gather_layers(samples.size(), hits, scratch);
+    }
+
+    BuildStats build_stats() const override { return tree_.stats(); }
+
+  private:
+    void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
+                        SampleStats& stats) const {
+        RayBundle& rays = *scratch.bundle;
+        rays.count = order.size();
+        for (size_t i = 0; i < order.size(); ++i) {
+            const AxisRay& ray = samples.rays[order[i]];
+            rays.ox[i] = ray.ox, rays.oy[i] = ray.oy, rays.ux[i] = ray.ux, rays.uy[i] = ray.uy;
+            rays.time[i] = ray.time;
+        }
+        count_costs_from(rays, scratch);
+        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, camera_.focal_distance, rays,
+                     *scratch.bundle_scratch, stats);
+        for (size_t i = 0; i < order.size(); ++i)
+            scratch.nearest[order[i]] = {rays.depth[i],
+                                         rays.id[i] == RayBundle::kNone ? MicropolygonId::kNone : rays.id[i]};
+        for (const RayBundle::Layer& layer : rays.layers) {
+            scratch.hits.push_back({layer.depth, layer.id});
+            scratch.hit_sample.push_back(order[layer.ray]);
+        }
+        add_costs(rays, order, scratch);
+    }
+
+    static void count_costs_from(RayBundle& rays, SampleScratch& scratch) {
+        rays.tests = rays.nodes = nullptr;
+        if (!scratch.heat) return;
+        scratch.ray_tests.assign(RayBundle::kRoom, 0);
+        scratch.ray_nodes.assign(RayBundle::kRoom, 0);
+        rays.tests = scratch.ray_tests.data(), rays.nodes = scratch.ray_nodes.data();
+    }
+    static void add_costs(const RayBundle& rays, std::span<const uint32_t> order, SampleScratch& scratch) {
+        if (!scratch.heat) return;
+        for (size_t i = 0; i < order.size(); ++i) {
+            scratch.heat->tests[order[i]] += rays.tests[i];
+            scratch.heat->nodes[order[i]] += rays.nodes[i];
+        }
+    }
+
+    /// Each sample's layers before its nearest opaque hit, and that one.
+    static void gather_layers(size_t sample_count, HitBuffer& hits, SampleScratch& scratch) {
+        std::vector<uint32_t>& first = hits.first;
+        first.assign(sample_count + 1, 0);
+        const auto counts = [&](size_t i) {
+            return in_front(scratch.hits[i], scratch.nearest[scratch.hit_sample[i]]);
+        };
+        for (size_t i = 0; i < scratch.hits.size(); ++i)
+            if (counts(i)) ++first[scratch.hit_sample[i] + 1];
+        for (size_t s = 0; s < sample_count; ++s)
+            if (scratch.nearest[s].id != MicropolygonId::kNone) ++first[s + 1];
+        for (size_t s = 0; s < sample_count; ++s) first[s + 1] += first[s];
+        hits.hits.resize(first[sample_count]);
+        scratch.first.assign(first.begin(), first.end() - 1);
+        for (size_t i = 0; i < scratch.hits.size(); ++i)
+            if (counts(i)) hits.hits[scratch.first[scratch.hit_sample[i]]++] = scratch.hits[i];
+        for (size_t s = 0; s < sample_count; ++s) {
+            if (scratch.nearest[s].id != MicropolygonId::kNone)
+                hits.hits[scratch.first[s]++] = scratch.nearest[s];
+            std::sort(hits.hits.begin() + first[s], hits.hits.begin() + first[s + 1], in_front);
+        }
+    }
+
+    const Camera& camera_;
+    bool motion_, all_opaque_;
+    WideTree tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Visibility> prepare_wide_raytrace(const VisibilityInput& input) {
+    return std::make_unique<WideRayTraced>(input);
+}
+
+}  // namespace trapeze
