@@ -1,5 +1,5 @@
-/// The ray tracer finds what testing everything finds, bit for bit: on every scene, for any number of
-/// threads, on every instruction set of the machine.
+/// Every method finds what testing everything finds, bit for bit: on every scene, for any number of threads,
+/// on every instruction set of the machine.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 #include <tbb/global_control.h>
@@ -10,6 +10,7 @@
 
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
+#include "sample/interval_pattern.h"
 #include "sample/stratified_pattern.h"
 #include "sample/test_frame.h"
 #include "sample/visibility_method.h"
@@ -203,7 +204,7 @@ std::vector<TestScene> make_scenes() {
 
 /// Samples of a frame with a border of filter pixels around, tile by tile in parallel.
 std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_name,
-                               std::string_view pattern_name = "stratified") {
+                               std::string_view pattern_name = "") {
     std::string error;
     const auto sampler = choose_sampler(method_name, pattern_name, &error);
     EXPECT_TRUE(sampler) << error;
@@ -223,9 +224,8 @@ std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_n
 }
 
 /// What no bound has a say in: every sample against every micropolygon, one by one.
-std::vector<HitBuffer> resolve_naively(const TestScene& scene) {
+std::vector<HitBuffer> resolve_naively(const TestScene& scene, const SamplePattern& pattern) {
     const Camera& camera = scene.frame.context.camera;
-    const StratifiedPattern pattern(scene.frame.context);
     const auto tiles = tiles_of({-2, -2, scene.frame.options.width + 2, scene.frame.options.height + 2});
     std::vector<HitBuffer> buffers(tiles.size());
     for (size_t n = 0; n < tiles.size(); ++n) {
@@ -284,7 +284,7 @@ class Agreement : public ::testing::TestWithParam<size_t> {
 };
 
 TEST_P(Agreement, RayTracerAndBruteForceFindWhatTestingEverythingFinds) {
-    const auto truth = resolve_naively(scene());
+    const auto truth = resolve_naively(scene(), StratifiedPattern(scene().frame.context));
     EXPECT_EQ(hit_count(truth) > 0, scene().must_hit);
     EXPECT_EQ(differing_samples(resolve(scene(), "bruteforce"), truth), 0u);
     const auto traced = resolve(scene(), "raytrace");
@@ -294,9 +294,23 @@ TEST_P(Agreement, RayTracerAndBruteForceFindWhatTestingEverythingFinds) {
     EXPECT_TRUE(traced == truth);
 }
 
+TEST_P(Agreement, IntervalFindsWhatTestingEverythingFinds) {
+    const auto truth = resolve_naively(scene(), IntervalPattern(scene().frame.context));
+    EXPECT_EQ(differing_samples(resolve(scene(), "bruteforce", "interval"), truth), 0u);
+    EXPECT_EQ(differing_samples(resolve(scene(), "interval"), truth), 0u);
+    EXPECT_EQ(differing_samples(resolve(scene(), "interval:cull=on"), truth), 0u);
+    EXPECT_TRUE(resolve(scene(), "interval") == truth);
+}
+
+TEST_P(Agreement, IntervalWithShuffledPairingFindsWhatBruteForceFinds) {
+    const auto truth = resolve(scene(), "bruteforce");
+    EXPECT_EQ(differing_samples(resolve(scene(), "interval:pairing=shuffled"), truth), 0u);
+    EXPECT_EQ(differing_samples(resolve(scene(), "interval:pairing=shuffled,cull=on"), truth), 0u);
+}
+
 TEST_P(Agreement, OfAnyNumberOfThreads) {
-    for (const char* method :
-         {"raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off", "bruteforce"}) {
+    for (const char* method : {"raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off",
+                               "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
         std::vector<std::vector<HitBuffer>> results;
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -310,12 +324,16 @@ TEST_P(Agreement, OfAnyNumberOfThreads) {
 
 TEST_P(Agreement, OfAllInstructionSets) {
     const auto traced = resolve(scene(), "raytrace:tree=paper");
+    const auto interval_truth = resolve(scene(), "bruteforce", "interval");
     int tried = 0;
     for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
         hwy::SetSupportedTargetsForTest(targets & -targets);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         EXPECT_TRUE(resolve(scene(), "bruteforce") == traced) << simd_target_name();
         EXPECT_TRUE(resolve(scene(), "raytrace") == traced) << simd_target_name();
+        for (const char* method : {"interval", "interval:cull=on"})
+            EXPECT_TRUE(resolve(scene(), method) == interval_truth) << method << simd_target_name();
+        EXPECT_TRUE(resolve(scene(), "interval:pairing=shuffled") == traced) << simd_target_name();
         ++tried;
     }
     hwy::SetSupportedTargetsForTest(0);

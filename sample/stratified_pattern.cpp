@@ -48,9 +48,7 @@ uint32_t StratifiedPattern::time_shift(int px, int py) const {
 }
 
 TimeSpan StratifiedPattern::time_bounds(int sample, uint32_t shift) const {
-    if (!motion_) return {};
-    const auto count = static_cast<uint32_t>(sample_count());
-    return time_region((time_of_[sample] + shift) % count, sample_count());
+    return motion_ ? time_region(time_region_of(sample, shift), sample_count()) : TimeSpan{};
 }
 
 LensBox StratifiedPattern::lens_bounds(int sample) const {
@@ -85,7 +83,7 @@ void StratifiedPattern::make_pixel(int px, int py, size_t first, SampleTile& til
         }
         tile.lens_u[at] = on_lens.x, tile.lens_v[at] = on_lens.y;
         tile.time[at] =
-            motion_ ? place((time_of_[i] + shift) % count, jitter(kTime), static_cast<int>(count)) : 0.0f;
+            motion_ ? place(time_region_of(static_cast<int>(i), shift), jitter(kTime), sample_count()) : 0.0f;
         tile.rays[at] = camera_.ray(tile.x[at], tile.y[at], on_lens.x, on_lens.y, tile.time[at]);
     }
 }

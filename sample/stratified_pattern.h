@@ -19,6 +19,11 @@ class StratifiedPattern final : public SamplePattern {
     int sample_count() const { return nx_ * ny_; }
     /// How far a pixel's times are moved along, in regions: what its neighbours do not share.
     uint32_t time_shift(int px, int py) const;
+    /// Else it is 0 everywhere, or does not matter.
+    bool has_time_shifts() const { return motion_ && camera_.has_lens(); }
+    uint32_t time_region_of(int sample, uint32_t shift) const {
+        return (time_of_[static_cast<size_t>(sample)] + shift) % static_cast<uint32_t>(sample_count());
+    }
     /// Where sample `sample` of all pixels of a time shift looks.
     TimeSpan time_bounds(int sample, uint32_t shift) const;
     LensBox lens_bounds(int sample) const;

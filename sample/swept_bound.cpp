@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Beyond this the predicate's products may overflow, and nothing is known.
-constexpr double kBoundable = 1e15;
-
-/// Relative rounding of the predicate and of the rays, with much to spare.
-constexpr double kRounding = 0x1p-18;
-
 /// Samples lie this far outside the image at most (filters).
 constexpr double kBorderPixels = 1024;
 
@@ -28,16 +22,15 @@ Range raster_range(Range plane, double grow, double scale, double offset) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-/// The largest coordinate of the image plane that a sample may have.
-double plane_reach(const Camera& camera) {
+}  // namespace
+
+double ray_reach(const Camera& camera) {
     const double x =
         std::abs(camera.plane_scale_x) * (camera.width + kBorderPixels) + std::abs(camera.plane_offset_x);
     const double y =
         std::abs(camera.plane_scale_y) * (camera.height + kBorderPixels) + std::abs(camera.plane_offset_y);
-    return std::max(x, y);
+    return std::max(x, y) + camera.lens_radius * (1 + kRasterRounding) / camera.focal_distance;
 }
-
-}  // namespace
 
 RasterBox RasterBox::everything() {
     return {-kInfinite, -kInfinite, kInfinite, kInfinite};
@@ -61,18 +54,18 @@ void SweptBound::add(float xf, float yf, float zf) {
 RasterBox SweptBound::raster(const Camera& camera) const {
     if (z_max_ < camera.near_clip || z_min_ > camera.far_clip) return RasterBox::nothing();
     if (!(absolute_max_ < kBoundable)) return RasterBox::everything();
-    const double radius = camera.lens_radius * (1 + kRounding), in_focus = 1.0 / camera.focal_distance;
-    const double reach = plane_reach(camera) + radius * in_focus;
+    const double radius = camera.lens_radius * (1 + kRasterRounding), in_focus = 1.0 / camera.focal_distance;
+    const double reach = ray_reach(camera);
     Range x{x_min_, x_max_}, y{y_min_, y_max_};
     double grow;
     if (camera.perspective) {
         if (!(z_min_ > camera.near_clip && z_min_ > 0)) return RasterBox::everything();
         x = {px_min_, px_max_}, y = {py_min_, py_max_};
         grow = radius * std::max(std::abs(in_focus - 1 / z_min_), std::abs(in_focus - 1 / z_max_)) +
-               kRounding * ((absolute_max_ + radius + reach * z_max_) / z_min_ + reach);
+               kRasterRounding * ((absolute_max_ + radius + reach * z_max_) / z_min_ + reach);
     } else {
         grow = radius * std::max(std::abs(z_min_ * in_focus - 1), std::abs(z_max_ * in_focus - 1)) +
-               kRounding * (absolute_max_ * (1 + radius * in_focus) + reach);
+               kRasterRounding * (absolute_max_ * (1 + radius * in_focus) + reach);
     }
     const Range rx = raster_range(x, grow, camera.plane_scale_x, camera.plane_offset_x);
     const Range ry = raster_range(y, grow, camera.plane_scale_y, camera.plane_offset_y);

@@ -6,6 +6,15 @@
 
 namespace trapeze {
 
+/// Beyond this the predicate's products may overflow, and nothing is known.
+inline constexpr double kBoundable = 1e15;
+
+/// Relative rounding of the predicate and of the rays, with much to spare.
+inline constexpr double kRasterRounding = 0x1p-18;
+
+/// The largest coordinate of the image plane that a sample may have, the lens' part of slopes included.
+double ray_reach(const Camera& camera);
+
 /// Raster space; empty when min > max.
 struct RasterBox {
     double min_x, min_y, max_x, max_y;

@@ -6,6 +6,7 @@ const std::vector<VisibilityMethod>& visibility_methods() {
     static const std::vector<VisibilityMethod> methods = {
         raytrace_method(),
         brute_force_method(),
+        interval_method(),
     };
     return methods;
 }

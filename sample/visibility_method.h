@@ -14,6 +14,7 @@
 #include "core/render_context.h"
 #include "core/samples.h"
 #include "core/stats.h"
+#include "sample/interval_scratch.h"
 #include "sample/method_spec.h"
 #include "sample/sample_pattern.h"
 
@@ -42,6 +43,7 @@ struct SampleScratch {
     std::unique_ptr<RayBundle> bundle;          ///< made when first needed
     BundleScratchPointer bundle_scratch;
     std::vector<uint32_t> ray_tests, ray_nodes;  ///< what the rays of a bundle cost
+    IntervalScratch interval;
 };
 
 /// A method with what it has prepared for some grids. Keeps references to the context and the grids.
@@ -104,6 +106,7 @@ std::string_view simd_target_name();
 /// The rows of the table, one file each.
 VisibilityMethod raytrace_method();
 VisibilityMethod brute_force_method();
+VisibilityMethod interval_method();
 
 /// For methods that take any sample as it comes.
 inline std::string stratified_pattern(const MethodSpec&) {

@@ -127,7 +127,10 @@ TEST_P(EveryMethod, ScratchMayComeFromLargerTilesAndOtherGrids) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryMethod,
-                         ::testing::Values("raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off", "bruteforce"),
+                         ::testing::Values("raytrace", "raytrace:tree=paper",
+                                           "raytrace:tree=paper,bundle=off", "bruteforce", "interval",
+                                           "interval:cull=on", "interval:pairing=shuffled",
+                                           "interval:pairing=shuffled,cull=on"),
                          [](const auto& tested) {
                              std::string name(tested.param);
                              std::erase_if(name, [](char c) { return !std::isalnum(c); });

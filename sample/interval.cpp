@@ -1,0 +1,169 @@
+/// Pixar's stochastic rasterizer as [Hou10 sec. 5] rebuilt it, INTERVAL: the samples of a pixel are slots,
+/// each with a region of the shutter and of the lens; a micropolygon has a box on the raster for each slot,
+/// and is tested against the samples of that slot in the box. The samples of a slot lie side by side, so that
+/// vector lanes are pixels.
+///
+/// pairing=fixed is the paper's form, where all pixels pair times with lens points alike. pairing=shuffled is
+/// that of production renderers: pixels pair them in different ways, and there is a box for each region of
+/// the lens and each part of the shutter.
+///
+/// No occlusion culling, as in the paper; cull=on goes through grids front to back and leaves out what lies
+/// behind the hits found. What is still and seen through a pinhole has one box for all slots.
+#include <algorithm>
+
+#include "sample/hit_lists.h"
+#include "sample/slot_plan.h"
+#include "sample/slot_raster.h"
+#include "sample/tile_bins.h"
+#include "sample/visibility_method.h"
+
+namespace trapeze {
+namespace {
+
+constexpr int kIntervalTileSide = 64;
+
+/// Cells of 4 x 4 pixels: a block of each slot.
+constexpr int kSlotCellShift = 2;
+
+class Interval final : public Visibility {
+  public:
+    Interval(const VisibilityInput& input)
+        : context_(input.context),
+          grids_(input.grids),
+          cull_(input.spec.is_on("cull")),
+          all_opaque_(every_grid_is_opaque(input.grids)),
+          bins_(input.context.camera, input.grids, kIntervalTileSide),
+          bounds_(input.context.camera, input.grids) {
+        if (input.spec["pairing"] == "fixed") {
+            const auto& pattern = dynamic_cast<const IntervalPattern&>(input.pattern);
+            still_plan_ = still_plan(pattern.sample_count());
+            plan_ = fixed_plan(pattern);
+        } else {
+            shuffled_ = &dynamic_cast<const StratifiedPattern&>(input.pattern);
+            still_plan_ = still_plan(shuffled_->sample_count());
+            plan_ = shuffled_plan(*shuffled_, shuffled_->sample_count());
+        }
+    }
+
+    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                 SampleStats& stats) const override {
+        sort_out_grids(samples.pixels, scratch.interval);
+        scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
+        scratch.hits.clear();
+        scratch.hit_sample.clear();
+        resolve_still(samples, scratch, stats);
+        resolve_blurred(samples, scratch, stats);
+        stats.rays += samples.size();
+        if (all_opaque_)
+            buffer_of_nearest(scratch, samples.size(), hits);
+        else
+            buffer_of_loose_hits(scratch, samples.size(), hits);
+    }
+
+    BuildStats build_stats() const override {
+        BuildStats stats;
+        stats.tree_bytes = bins_.bytes() + bounds_.bytes();
+        return stats;
+    }
+    int tile_side() const override { return kIntervalTileSide; }
+
+  private:
+    /// The grids that the tile may see, in two lists.
+    void sort_out_grids(const PixelRect& pixels, IntervalScratch& scratch) const {
+        bins_.find(pixels, scratch.grids);
+        if (cull_)
+            std::stable_sort(scratch.grids.begin(), scratch.grids.end(),
+                             [this](uint32_t a, uint32_t b) { return bounds_[a].z_min < bounds_[b].z_min; });
+        scratch.still.clear();
+        scratch.blurred.clear();
+        const bool lens = context_.camera.has_lens();
+        for (const uint32_t grid : scratch.grids) {
+            const bool blurred = lens || (context_.motion && grids_.grids[grid].moves());
+            (blurred ? scratch.blurred : scratch.still).push_back(grid);
+        }
+    }
+
+    void resolve_still(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats) const {
+        if (scratch.interval.still.empty()) return;
+        // A block has the samples of one pixel, or of as few as fill it.
+        const int cell_shift = samples.samples_per_pixel > 4 ? 0 : samples.samples_per_pixel > 1 ? 1 : 2;
+        scratch.interval.slots.build(samples, still_plan_.table({}), cell_shift);
+        raster_slots(samples, still_plan_, scratch.interval.still, false, scratch, stats);
+    }
+
+    void resolve_blurred(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats) const {
+        if (scratch.interval.blurred.empty()) return;
+        std::vector<uint32_t>& keys = scratch.interval.key_of_pixel;
+        keys.clear();
+        const bool shifted = shuffled_ && shuffled_->has_time_shifts();
+        if (shifted)
+            for (int y = samples.pixels.y0; y < samples.pixels.y1; ++y)
+                for (int x = samples.pixels.x0; x < samples.pixels.x1; ++x)
+                    keys.push_back(shuffled_->time_shift(x, y));
+        const int cell_shift = shifted ? sparse_cell_shift(samples.samples_per_pixel) : kSlotCellShift;
+        scratch.interval.slots.build(samples, plan_.table(keys), cell_shift);
+        raster_slots(samples, plan_, scratch.interval.blurred, shifted, scratch, stats);
+    }
+
+    /// One of samples_per_pixel pixels has its time in a given region: cells of as many as fill a block.
+    static int sparse_cell_shift(int samples_per_pixel) {
+        int shift = kSlotCellShift;
+        while ((1 << (2 * (shift - kSlotCellShift))) < samples_per_pixel) ++shift;
+        return shift;
+    }
+
+    void raster_slots(const SampleTile& samples, const SlotPlan& plan, const std::vector<uint32_t>& grids,
+                      bool sparse, SampleScratch& scratch, SampleStats& stats) const {
+        SampleSlots& slots = scratch.interval.slots;
+        SlotRaster raster{context_.camera, slots,  samples.pixels.x0, samples.pixels.y0, all_opaque_, cull_,
+                          sparse,          scratch};
+        for (size_t slot = 0; slot < plan.slots.size(); ++slot) {
+            if (slots.is_empty(slot)) continue;
+            for (const uint32_t index : grids)
+                raster_grid_in_slot(raster, samples.pixels, index, plan.slots[slot], slot, stats);
+        }
+        slots.merge_into(scratch.nearest);
+    }
+
+    void raster_grid_in_slot(SlotRaster& raster, const PixelRect& tile, uint32_t index, const Slot& at,
+                             size_t slot, SampleStats& stats) const {
+        const Grid& grid = grids_.grids[index];
+        std::vector<SegmentPart>& parts = raster.scratch.interval.parts;
+        parts.clear();
+        segment_parts(at.time, grid.key_count, parts);
+        const SlotBound bound = bounds_.slot_bound(index, parts, at.lens);
+        PixelRect pixels = pixels_within(bound.box, tile);
+        if (pixels.empty()) return;
+        pixels.x0 -= tile.x0, pixels.x1 -= tile.x0, pixels.y0 -= tile.y0, pixels.y1 -= tile.y0;
+        raster_grid(raster, {grid, index, bounds_[index], slot, parts, at.lens, pixels, bound.z_min},
+                    raster.scratch.interval.grid, stats);
+    }
+
+    const RenderContext& context_;
+    const Grids& grids_;
+    bool cull_, all_opaque_;
+    TileBins bins_;
+    GridBounds bounds_;
+    const StratifiedPattern* shuffled_ = nullptr;  ///< pairing=shuffled
+    SlotPlan still_plan_, plan_;
+};
+
+std::string natural_pattern(const MethodSpec& method) {
+    return method["pairing"] == "fixed" ? "interval" : "stratified";
+}
+
+}  // namespace
+
+VisibilityMethod interval_method() {
+    return {"interval",
+            {{"pairing", {"fixed", "shuffled"}}, {"cull", {"off", "on"}}},
+            natural_pattern,
+            [](const MethodSpec& method, const MethodSpec& pattern) {
+                return pattern.name == natural_pattern(method);
+            },
+            [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
+                return std::make_unique<Interval>(input);
+            }};
+}
+
+}  // namespace trapeze

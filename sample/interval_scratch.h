@@ -1,0 +1,28 @@
+/// What a thread needs for the method "interval".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sample/grid_bounds.h"
+#include "sample/sample_slots.h"
+
+namespace trapeze {
+
+/// A grid's vertices in a slot, row by row, and its micropolygons' boxes.
+struct SlotGridScratch {
+    std::vector<float> vertices;                                  ///< [part][component][vertex]
+    std::vector<float> min_x, max_x, min_y, max_y, min_z, max_z;  ///< of vertices
+    std::vector<int32_t> x0, x1, y0, y1;  ///< pixels of micropolygons; none when x0 > x1
+    std::vector<float> depth;             ///< least depth of micropolygons
+};
+
+struct IntervalScratch {
+    std::vector<uint32_t> grids, still, blurred;  ///< of the tile
+    std::vector<uint32_t> key_of_pixel;
+    std::vector<SegmentPart> parts;
+    SampleSlots slots;
+    SlotGridScratch grid;
+};
+
+}  // namespace trapeze

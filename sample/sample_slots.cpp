@@ -1,0 +1,92 @@
+#include "sample/sample_slots.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace trapeze {
+namespace {
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr uint32_t kLanes = SampleBlock::kLanes;
+
+}  // namespace
+
+void SampleSlots::build(const SampleTile& samples, const SlotTable& table, int cell_shift) {
+    const auto cells_along = [cell_shift](int pixels) {
+        return (pixels + (1 << cell_shift) - 1) >> cell_shift;
+    };
+    cell_shift_ = cell_shift;
+    width_ = samples.pixels.width(), height_ = samples.pixels.height();
+    cells_x_ = cells_along(width_);
+    cell_count_ = static_cast<size_t>(cells_x_) * cells_along(height_);
+    count_blocks(samples, table);
+    fill_blocks(samples, table);
+}
+
+/// Calls visit(sample, x, y, index of its slot's cell) for all.
+template <class Visit>
+void SampleSlots::for_each_sample(const SampleTile& samples, const SlotTable& table, Visit&& visit) const {
+    const auto per_pixel = static_cast<size_t>(samples.samples_per_pixel);
+    size_t pixel = 0;
+    for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x, ++pixel) {
+            const size_t cell = static_cast<size_t>(y >> cell_shift_) * cells_x_ + (x >> cell_shift_);
+            const uint32_t key = table.key_of_pixel.empty() ? 0 : table.key_of_pixel[pixel];
+            const uint32_t* slot_of = table.slot_of.data() + key * per_pixel;
+            for (size_t s = 0; s < per_pixel; ++s)
+                visit(static_cast<uint32_t>(pixel * per_pixel + s), x, y, slot_of[s] * cell_count_ + cell);
+        }
+}
+
+void SampleSlots::count_blocks(const SampleTile& samples, const SlotTable& table) {
+    next_lane_.assign(table.slot_count * cell_count_, 0);
+    for_each_sample(samples, table, [&](uint32_t, int, int, size_t at) { ++next_lane_[at]; });
+    first_block_.resize(next_lane_.size() + 1);
+    lane_counts_.clear();
+    for (size_t at = 0; at < next_lane_.size(); ++at) {
+        first_block_[at] = static_cast<uint32_t>(lane_counts_.size());
+        for (uint32_t left = next_lane_[at]; left > 0; left -= std::min(left, kLanes))
+            lane_counts_.push_back(static_cast<uint8_t>(std::min(left, kLanes)));
+        next_lane_[at] = first_block_[at] * kLanes;
+    }
+    first_block_.back() = static_cast<uint32_t>(lane_counts_.size());
+}
+
+void SampleSlots::fill_blocks(const SampleTile& samples, const SlotTable& table) {
+    blocks_.resize(lane_counts_.size());
+    lanes_.resize(lane_counts_.size());
+    for_each_sample(samples, table, [&](uint32_t sample, int x, int y, size_t at) {
+        const uint32_t to = next_lane_[at]++, lane = to % kLanes;
+        SampleBlock& block = blocks_[to / kLanes];
+        const AxisRay& ray = samples.rays[sample];
+        block.ox[lane] = ray.ox, block.oy[lane] = ray.oy, block.ux[lane] = ray.ux, block.uy[lane] = ray.uy;
+        block.time[lane] = ray.time;
+        BlockSamples& whose = lanes_[to / kLanes];
+        whose.sample[lane] = sample, whose.x[lane] = x, whose.y[lane] = y;
+    });
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+        SampleBlock& block = blocks_[i];
+        const int count = lane_counts_[i];
+        std::fill_n(block.depth, count, kInfinite);
+        std::fill_n(block.grid, kLanes, ~uint32_t{0});
+        std::fill_n(block.micropolygon, kLanes, ~uint32_t{0});
+        for (uint32_t lane = static_cast<uint32_t>(count); lane < kLanes; ++lane) {
+            block.ox[lane] = block.oy[lane] = block.ux[lane] = block.uy[lane] = block.time[lane] = 0;
+            block.depth[lane] = -kInfinite;
+            lanes_[i].sample[lane] = BlockSamples::kNone, lanes_[i].x[lane] = lanes_[i].y[lane] = -1;
+        }
+    }
+}
+
+void SampleSlots::merge_into(std::vector<Hit>& nearest) const {
+    for (size_t i = 0; i < blocks_.size(); ++i)
+        for (int lane = 0; lane < lane_counts_[i]; ++lane) {
+            const SampleBlock& block = blocks_[i];
+            if (block.depth[lane] == kInfinite) continue;
+            const Hit hit{block.depth[lane], uint64_t{block.grid[lane]} << 8 | block.micropolygon[lane]};
+            Hit& best = nearest[lanes_[i].sample[lane]];
+            if (in_front(hit, best)) best = hit;
+        }
+}
+
+}  // namespace trapeze
