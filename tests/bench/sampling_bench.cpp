@@ -1,0 +1,158 @@
+/// Visibility methods on synthetic scenes, in turns in one run: build, trace, counts and memory, and the
+/// ratio of medians to the first method.
+///
+///   sampling_bench [--methods "raytrace embree ..."] [--scenes "0 3 5"] [--rounds N] [--threads N] [--tiles
+///   N]
+///
+/// Every Nth tile is sampled (N grows with the samples), and times scaled to the whole picture.
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "sample/visibility_method.h"
+#include "sampling_scenes.h"
+
+namespace trapeze {
+namespace {
+
+using testing::SamplingScene;
+using testing::SamplingSceneOptions;
+
+const SamplingSceneOptions kScenes[] = {
+    {false, 3e5, 0, 10, 8},    {false, 1.5e6, 0, 20, 4},  {false, 1.5e6, 0, 20, 8},
+    {false, 1.5e6, 0, 20, 13}, {false, 1.5e6, 0, 0, 8},   {false, 1.5e6, 60, 0, 8},
+    {false, 1.5e6, 60, 20, 4}, {false, 1.5e6, 60, 20, 8}, {false, 1.5e6, 60, 20, 13},
+    {false, 5e6, 0, 20, 8},    {false, 5e6, 100, 20, 8},  {true, 1.5e6, 0, 20, 8},
+    {true, 1.5e6, 60, 20, 8},
+};
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+struct Arguments {
+    std::vector<std::string> methods{"raytrace"};
+    std::vector<size_t> scenes;
+    int rounds = 5, threads = 2, tiles = 0;
+};
+
+std::vector<std::string> words(const char* text) {
+    std::istringstream in(text);
+    std::vector<std::string> found;
+    for (std::string word; in >> word;) found.push_back(word);
+    return found;
+}
+
+struct Thread {
+    HitBuffer hits;
+    SampleScratch scratch;
+    SampleStats stats;
+};
+
+struct Competitor {
+    std::string name;
+    Sampler sampler;
+    std::vector<double> build, trace;
+    SampleStats stats;
+    BuildStats built;
+    size_t hits = 0;
+};
+
+/// One turn of a method: prepare, resolve all tiles.
+void take_turn(const SamplingScene& scene, const SamplePattern& pattern, const std::vector<SampleTile>& tiles,
+               Competitor& c) {
+    const double begin = now();
+    const auto visibility = c.sampler.prepare(scene.frame.context, scene.maker.grids(), pattern);
+    const double built = now();
+    tbb::enumerable_thread_specific<Thread> threads;
+    std::atomic<size_t> hits{0};
+    tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+        Thread& thread = threads.local();
+        visibility->resolve(tiles[i], thread.hits, thread.scratch, thread.stats);
+        hits += thread.hits.hits.size();
+    });
+    c.trace.push_back(now() - built);
+    c.build.push_back(built - begin);
+    c.built = visibility->build_stats();
+    c.stats = {};
+    for (const Thread& thread : threads) c.stats += thread.stats;
+    c.hits = hits;
+}
+
+void run_scene(const SamplingSceneOptions& options, const Arguments& arguments) {
+    const SamplingScene scene(options);
+    const auto all = testing::tiles_of({0, 0, scene.frame.options.width, scene.frame.options.height});
+    const size_t skip =
+        arguments.tiles
+            ? static_cast<size_t>(arguments.tiles)
+            : std::max(1, options.samples * options.samples * (scene.frame.options.width / 640) * 3 / 8);
+    std::string error;
+    std::vector<Competitor> competitors;
+    for (const std::string& name : arguments.methods)
+        if (const auto sampler = choose_sampler(name, "stratified", &error))
+            competitors.push_back({name, *sampler, {}, {}, {}, {}, 0});
+        else
+            std::printf("%s\n", error.c_str());
+    const auto pattern = make_sample_pattern(scene.frame.context, *parse_pattern("stratified", &error));
+    std::vector<SampleTile> tiles;
+    for (size_t i = skip / 2; i < all.size(); i += skip) pattern->make_tile(all[i], tiles.emplace_back());
+    for (int round = 0; round < arguments.rounds; ++round)
+        for (Competitor& c : competitors) take_turn(scene, *pattern, tiles, c);
+
+    const auto micropolygons = static_cast<double>(scene.maker.grids().micropolygon_count());
+    std::printf("%s %.2fM, motion %.0f, coc %.0f, %dx%d\n", options.hair ? "hair" : "balls",
+                micropolygons / 1e6, options.motion_pixels, options.blur_pixels, options.samples,
+                options.samples);
+    const double scale = static_cast<double>(all.size()) / static_cast<double>(tiles.size());
+    double first_trace = 0, first_total = 0;
+    for (const Competitor& c : competitors) {
+        const double trace = median(c.trace), build = median(c.build), total = build + trace * scale;
+        if (&c == competitors.data()) first_trace = trace, first_total = total;
+        const auto rays = static_cast<double>(c.stats.rays);
+        std::printf(
+            "  %-34s build %7.2f ms  trace %7.2f Mray/s  total %7.3f s  ratio trace %5.2f total %5.2f  "
+            "%5.1f nodes %5.1f tests/ray  %5.2f B/mpoly  %zu hits\n",
+            c.name.c_str(), build * 1e3, rays / trace / 1e6, total, trace / first_trace, total / first_total,
+            static_cast<double>(c.stats.nodes_visited) / rays,
+            static_cast<double>(c.stats.predicate_tests) / rays,
+            static_cast<double>(c.built.tree_bytes) / micropolygons, c.hits);
+    }
+    std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace trapeze
+
+int main(int argc, char** argv) {
+    using namespace trapeze;
+    Arguments arguments;
+    for (int i = 1; i + 1 < argc; i += 2) {
+        const std::string key = argv[i];
+        if (key == "--methods") arguments.methods = words(argv[i + 1]);
+        if (key == "--scenes")
+            for (const std::string& word : words(argv[i + 1])) arguments.scenes.push_back(std::stoul(word));
+        if (key == "--rounds") arguments.rounds = std::stoi(argv[i + 1]);
+        if (key == "--threads") arguments.threads = std::stoi(argv[i + 1]);
+        if (key == "--tiles") arguments.tiles = std::stoi(argv[i + 1]);
+    }
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<size_t>(arguments.threads));
+    tbb::task_arena arena(arguments.threads);
+    std::printf("%d threads, %s\n", arguments.threads, std::string(simd_target_name()).c_str());
+    arena.execute([&] {
+        for (size_t i = 0; i < std::size(kScenes); ++i)
+            if (arguments.scenes.empty() || std::count(arguments.scenes.begin(), arguments.scenes.end(), i))
+                run_scene(kScenes[i], arguments);
+    });
+}
