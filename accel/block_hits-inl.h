@@ -136,29 +136,75 @@ HWY_INLINE void decode(const BlockBits& bits, VI& u, VI& v) {
     v = hn::BitCast(di, hn::Or(top(bits.row0), hn::ShiftLeft<1>(top(bits.row1))));
 }
 
+/// Looks up a block's vertices for lanes of micropolygons (u, v): corner 00, 10, 01, 11 of each.
+class CornerLookup {
+  public:
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    // The 25 vertices of a plane are in two registers: the tile, then the fifth column, row and corner.
+    CornerLookup(const BlockView& block, VI u, VI v) : block_(block) {
+        alignas(64) static constexpr int32_t kCorners[3][16] = {
+            {1, 2, 3, 16, 5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19},
+            {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 22, 23},
+            {5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19, 21, 22, 23, 24},
+        };
+        at_[0] = hn::Add(hn::ShiftLeft<2>(v), u).raw;
+        for (int c = 0; c < 3; ++c)
+            at_[1 + c] = _mm512_permutexvar_epi32(at_[0], _mm512_load_si512(kCorners[c]));
+    }
+    HWY_INLINE void get(int plane, VF* corners) const {
+        const __m512i kBehind = _mm512_setr_epi32(0, 4, 8, 12, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0);
+        const float* tile = block_.tile + static_cast<size_t>(plane) * block_.plane;
+        const __m512 own = _mm512_load_ps(tile);
+        const __m512 down = _mm512_castps128_ps512(_mm_loadu_ps(tile + block_.down));
+        __m512 behind = _mm512_permutex2var_ps(_mm512_loadu_ps(tile + block_.right), kBehind, down);
+        behind = _mm512_mask_mov_ps(behind, 1 << 8, _mm512_set1_ps(tile[block_.down + block_.right]));
+        corners[0] = VF{_mm512_permutexvar_ps(at_[0], own)};
+        for (int c = 1; c < 4; ++c) corners[c] = VF{_mm512_permutex2var_ps(own, at_[c], behind)};
+    }
+
+  private:
+    const BlockView& block_;
+    __m512i at_[4];
+#else
+    CornerLookup(const BlockView& block, VI u, VI v) : block_(block) {
+        const I32 di;
+        const VI three = hn::Set(di, 3), row = hn::ShiftLeft<2>(v);
+        const VI next_row =
+            hn::IfThenElse(hn::Eq(v, three), hn::Set(di, block.down), hn::Add(row, hn::Set(di, 4)));
+        const VI next_column =
+            hn::IfThenElse(hn::Eq(u, three), hn::Set(di, block.right), hn::Add(u, hn::Set(di, 1)));
+        at_[0] = hn::Add(row, u), at_[1] = hn::Add(row, next_column);
+        at_[2] = hn::Add(next_row, u), at_[3] = hn::Add(next_row, next_column);
+    }
+    HWY_INLINE void get(int plane, VF* corners) const {
+        const float* tile = block_.tile + static_cast<size_t>(plane) * block_.plane;
+        for (int c = 0; c < 4; ++c) corners[c] = hn::GatherIndex(F32(), tile, at_[c]);
+    }
+
+  private:
+    const BlockView& block_;
+    VI at_[4];
+#endif
+};
+
 /// Depths of the rays' hits on micropolygon (u, v) of the block, each lane its own; true where the predicate
 /// confirms.
 template <bool kMoves, bool kLens>
 HWY_INLINE MF depth_at(const BlockView& block, const RayLanes& r, VI u, VI v, Facing facing, VF& depth) {
     const F32 d;
-    const I32 di;
-    const VI three = hn::Set(di, 3), one = hn::Set(di, 1), four = hn::Set(di, 4);
-    const VI row = hn::ShiftLeft<2>(v);
-    const VI next_row = hn::IfThenElse(hn::Eq(v, three), hn::Set(di, block.down), hn::Add(row, four));
-    const VI next_column = hn::IfThenElse(hn::Eq(u, three), hn::Set(di, block.right), hn::Add(u, one));
-    const VI at[4] = {hn::Add(row, u), hn::Add(row, next_column), hn::Add(next_row, u),
-                      hn::Add(next_row, next_column)};
+    const CornerLookup lookup(block, u, v);
     VF c[3][4];
 #pragma GCC unroll 3
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
+        lookup.get(k, c[k]);
+        if constexpr (kMoves) {
+            VF delta[4];
+            lookup.get(3 + k, delta);
 #pragma GCC unroll 4
-        for (int corner = 0; corner < 4; ++corner) {
-            const float* plane = block.tile + static_cast<size_t>(k) * block.plane;
-            c[k][corner] = hn::GatherIndex(d, plane, at[corner]);
-            if constexpr (kMoves)
-                c[k][corner] = position_at(c[k][corner],
-                                           hn::GatherIndex(d, plane + 3 * block.plane, at[corner]), r.local);
+            for (int corner = 0; corner < 4; ++corner)
+                c[k][corner] = position_at(c[k][corner], delta[corner], r.local);
         }
+    }
     const auto vertex = [&c](int k, int corner) HWY_ATTR { return c[k][corner]; };
     const VF zero = hn::Zero(d);
     return hit_micropolygon(d, kLens ? r.ox : zero, kLens ? r.oy : zero, zero, r.ux, r.uy, vertex, facing,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "accel/bundle_scratch.h"
 #include "accel/grid_block.h"
@@ -54,6 +55,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace bundle_detail;
 
 constexpr size_t kLanes = hn::MaxLanes(F32());
+constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
+constexpr size_t kMaskBytes = (kLanes + 7) / 8;
+constexpr size_t kMetStride = BundleScratch::kMetStride;
 
 HWY_INLINE uint32_t mask_bits(MF mask) {
     uint8_t bytes[8] = {};
@@ -321,8 +325,9 @@ class BundleTrace {
         const float* planes = tree_.block_planes(grid, segment);
         hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);  // lanes past the end
         const int blocks_u = grid.blocks_u(), blocks = grid.block_count();
+        meet_blocks<kMoves>(planes, blocks);
         for (int b = 0; b < blocks; ++b) {
-            const size_t count = collect_block<kMoves>(planes + b, static_cast<size_t>(blocks));
+            const size_t count = collect_block<kMoves>(s_.met + static_cast<size_t>(b) * kMetStride);
             if (count == 0) continue;
             test_block_rays<kMoves>(block_of(grid, segment, b % blocks_u, b / blocks_u, index), count);
         }
@@ -373,44 +378,91 @@ class BundleTrace {
         return block;
     }
 
-    /// Lists the active rays that meet a block's box; how many.
+    /// Which active rays meet which blocks' boxes: a bit for each ray in a row for each block.
     template <bool kMoves>
-    size_t collect_block(const float* box, size_t stride) {
+    void meet_blocks(const float* planes, int blocks) {
+        const F32 d;
+        const ActiveRays& active = s_.active;
+        for (size_t i = 0; i < active.count; i += kLanes) {
+            const uint32_t valid = active.count - i < kLanes ? (1u << (active.count - i)) - 1 : kAllLanes;
+            int sides[3];
+            bool alike = true;
+            for (int k = 0; k < 3; ++k) {
+                const VF inverse = hn::Load(d, active.inverse[k] + i);
+                const uint32_t backward = mask_bits(predicate_lanes::negative(d, inverse)) & valid;
+                sides[k] = backward != 0;
+                alike = alike && (backward == 0 || backward == valid);
+            }
+            uint8_t* met = s_.met + i / kLanes * kMaskBytes;
+            if (alike)
+                meet_blocks_of<kMoves, true>(i, planes, blocks, sides, met);
+            else
+                meet_blocks_of<kMoves, false>(i, planes, blocks, sides, met);
+        }
+        stats_.nodes_visited += active.count * static_cast<size_t>(blocks);
+    }
+
+    /// Those of a vector of rays. kAlike: along each axis all look to the same side, so that it is known
+    /// which plane of a box comes first.
+    template <bool kMoves, bool kAlike>
+    void meet_blocks_of(size_t i, const float* planes, int blocks, const int* sides, uint8_t* met) {
+        const F32 d;
+        const ActiveRays& active = s_.active;
+        const auto stride = static_cast<size_t>(blocks);
+        const VF local = kMoves ? hn::Load(d, active.local + i) : hn::Zero(d);
+        const VF limit = hn::Load(d, active.limit + i);
+        VF inverse[3], offset[3];
+        const float *first[3], *last[3];
+        for (size_t k = 0; k < 3; ++k) {
+            inverse[k] = hn::Load(d, active.inverse[k] + i);
+            offset[k] = kLens ? hn::Load(d, active.offset[k] + i) : hn::Zero(d);
+            first[k] = planes + (k + (kAlike && sides[k] ? 3 : 0)) * stride;
+            last[k] = planes + (k + (kAlike && sides[k] ? 0 : 3)) * stride;
+        }
+        for (int b = 0; b < blocks; ++b, met += kMetStride) {
+            VF near, far;
+            for (int k = 0; k < 3; ++k) {
+                VF from = hn::Set(d, first[k][b]), to = hn::Set(d, last[k][b]);
+                if constexpr (kMoves) {
+                    from = hn::MulAdd(local, hn::Set(d, first[k][b + 6 * blocks]), from);
+                    to = hn::MulAdd(local, hn::Set(d, last[k][b + 6 * blocks]), to);
+                }
+                VF enter = kLens ? hn::MulSub(from, inverse[k], offset[k]) : hn::Mul(from, inverse[k]);
+                VF leave = kLens ? hn::MulSub(to, inverse[k], offset[k]) : hn::Mul(to, inverse[k]);
+                if constexpr (!kAlike) {
+                    const VF a = enter;
+                    enter = hn::Min(a, leave), leave = hn::Max(a, leave);
+                }
+                near = k == 0 ? enter : hn::Max(near, enter);
+                far = k == 0 ? hn::Min(leave, limit) : hn::Min(far, leave);
+            }
+            hn::StoreMaskBits(d, hn::Le(near, far), met);
+        }
+    }
+
+    /// Lists the active rays whose bits are set in a block's row; how many.
+    template <bool kMoves>
+    size_t collect_block(const uint8_t* met) {
         const F32 d;
         const hn::RebindToUnsigned<F32> du;
         const ActiveRays& active = s_.active;
         BlockRays& to = s_.block;
         size_t count = 0;
-        for (size_t i = 0; i < active.count; i += kLanes) {
-            const VF local = kMoves ? hn::Load(d, active.local + i) : hn::Zero(d);
-            VF near, far;
-            for (size_t k = 0; k < 3; ++k) {
-                VF low = hn::Set(d, box[k * stride]), high = hn::Set(d, box[(3 + k) * stride]);
-                if constexpr (kMoves) {
-                    low = hn::MulAdd(local, hn::Set(d, box[(6 + k) * stride]), low);
-                    high = hn::MulAdd(local, hn::Set(d, box[(9 + k) * stride]), high);
-                }
-                const VF inverse = hn::Load(d, active.inverse[k] + i);
-                const VF offset = kLens ? hn::Load(d, active.offset[k] + i) : hn::Zero(d);
-                const VF a = kLens ? hn::MulSub(low, inverse, offset) : hn::Mul(low, inverse);
-                const VF b = kLens ? hn::MulSub(high, inverse, offset) : hn::Mul(high, inverse);
-                near = k == 0 ? hn::Min(a, b) : hn::Max(near, hn::Min(a, b));
-                far = k == 0 ? hn::Max(a, b) : hn::Min(far, hn::Max(a, b));
-            }
-            const MF met = hn::Le(near, hn::Min(far, hn::Load(d, active.limit + i)));
-            const size_t here = hn::CountTrue(d, met);
-            if (here == 0) continue;
+        for (size_t i = 0; i < active.count; i += kLanes, met += kMaskBytes) {
+            uint32_t bits = 0;
+            std::memcpy(&bits, met, kMaskBytes);
+            if (bits == 0) continue;
+            const MF here = hn::LoadMaskBits(d, met);
             if constexpr (kLens) {
-                append(hn::Load(d, active.ox + i), met, d, to.ox + count);
-                append(hn::Load(d, active.oy + i), met, d, to.oy + count);
+                append(hn::Load(d, active.ox + i), here, d, to.ox + count);
+                append(hn::Load(d, active.oy + i), here, d, to.oy + count);
             }
-            append(hn::Load(d, active.ux + i), met, d, to.ux + count);
-            append(hn::Load(d, active.uy + i), met, d, to.uy + count);
-            if constexpr (kMoves) append(local, met, d, to.local + count);
-            append(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, met), du, to.active + count);
-            count += here;
+            append(hn::Load(d, active.ux + i), here, d, to.ux + count);
+            append(hn::Load(d, active.uy + i), here, d, to.uy + count);
+            if constexpr (kMoves) append(hn::Load(d, active.local + i), here, d, to.local + count);
+            append(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, here), du, to.active + count);
+            count += static_cast<size_t>(std::popcount(bits));
         }
-        stats_.nodes_visited += active.count;
         return count;
     }
 
@@ -567,6 +619,30 @@ void trace(const TraceInput& in, bool motion, bool lens) {
     }
 }
 
+/// Gathers from the rays as they lie.
+void fill(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBundle& bundle) {
+    static_assert(sizeof(AxisRay) == 6 * sizeof(float));
+    const F32 d;
+    const I32 di;
+    const auto* floats = reinterpret_cast<const float*>(rays.data());
+    const size_t count = order.size(), whole = count / kLanes * kLanes;
+    bundle.count = count;
+    for (size_t i = 0; i < whole; i += kLanes) {
+        const VI ray = hn::LoadU(di, reinterpret_cast<const int32_t*>(order.data() + i));
+        const VI at = hn::Mul(ray, hn::Set(di, 6));
+        hn::Store(hn::GatherIndex(d, floats, at), d, bundle.ox + i);
+        hn::Store(hn::GatherIndex(d, floats + 1, at), d, bundle.oy + i);
+        hn::Store(hn::GatherIndex(d, floats + 3, at), d, bundle.ux + i);
+        hn::Store(hn::GatherIndex(d, floats + 4, at), d, bundle.uy + i);
+        hn::Store(hn::GatherIndex(d, floats + 5, at), d, bundle.time + i);
+    }
+    for (size_t i = whole; i < count; ++i) {
+        const AxisRay& ray = rays[order[i]];
+        bundle.ox[i] = ray.ox, bundle.oy[i] = ray.oy, bundle.ux[i] = ray.ux, bundle.uy[i] = ray.uy;
+        bundle.time[i] = ray.time;
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace trapeze
 HWY_AFTER_NAMESPACE();
@@ -575,6 +651,7 @@ HWY_AFTER_NAMESPACE();
 namespace trapeze {
 
 HWY_EXPORT(trace);
+HWY_EXPORT(fill);
 
 BundleScratchPointer make_bundle_scratch() {
     return BundleScratchPointer(new BundleScratch);
@@ -583,14 +660,14 @@ void DeleteBundleScratch::operator()(BundleScratch* scratch) const {
     delete scratch;
 }
 
-void trace_bundle(const WideTree& tree, DepthRange range, float focal_distance, RayBundle& rays,
+void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBundle& bundle) {
+    HWY_DYNAMIC_DISPATCH(fill)(rays, order, bundle);
+}
+
+void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal_distance, RayBundle& rays,
                   BundleScratch& scratch, SampleStats& stats) {
     rays.layers.clear();
     if (rays.count == 0) return;
-    float reach = 0;
-    for (size_t i = 0; i < rays.count; ++i)
-        reach = std::max({reach, std::abs(rays.ox[i]), std::abs(rays.oy[i])});
-    const bool lens = reach > 0;
     const bundle_detail::TraceInput in{tree, range, lens ? 1 / focal_distance : 0.0f, rays, scratch, stats};
     HWY_DYNAMIC_DISPATCH(trace)(in, tree.moves(), lens);
 }

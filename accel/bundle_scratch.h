@@ -43,6 +43,8 @@ struct BundleScratch {
     std::vector<uint32_t> stack;
     std::vector<uint32_t> touched;  ///< packets that have active rays
     ActiveRays active;
+    static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst
+    alignas(64) uint8_t met[16 * kMetStride + 64];  ///< per block, a bit for each active ray that meets it
     BlockRays block;
 };
 

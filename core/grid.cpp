@@ -7,6 +7,7 @@ namespace trapeze {
 namespace {
 
 constexpr size_t kAlignment = 64;
+constexpr size_t kReadable = 64;  // past the end of every grid, for whole vectors
 constexpr size_t kChunkBytes = size_t{1} << 20;
 
 size_t aligned(size_t size) {
@@ -23,7 +24,8 @@ std::byte* GridArena::take(size_t size) {
     size = aligned(size);
     if (size > left_) {
         const size_t chunk = std::max(size, kChunkBytes);
-        chunks_.emplace_back(static_cast<std::byte*>(::operator new (chunk, std::align_val_t{kAlignment})));
+        chunks_.emplace_back(
+            static_cast<std::byte*>(::operator new (chunk + kReadable, std::align_val_t{kAlignment})));
         next_ = chunks_.back().get();
         left_ = chunk;
         bytes_ += chunk;

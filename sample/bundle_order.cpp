@@ -4,30 +4,83 @@
 #include <bit>
 #include <cmath>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sample/bundle_order.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The cell on an axis of a coordinate in [-1, 1].
+template <class V>
+HWY_INLINE auto cell(V square, int bits) {
+    const hn::DFromV<V> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const V at = hn::MulAdd(square, hn::Set(d, 0.5f * static_cast<float>(1 << bits)),
+                            hn::Set(d, 0.5f * static_cast<float>(1 << bits)));
+    return hn::ConvertTo(di,
+                         hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, static_cast<float>((1 << bits) - 1))));
+}
+
+/// keys = block | cell of the lens | cell of time, of `count` samples; u, v or time null: left out.
+void add_keys(const float* u, const float* v, const float* time, size_t count, uint32_t block, int lens_bits,
+              int time_bits, uint32_t* keys) {
+    const hn::CappedTag<float, 16> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::RebindToUnsigned<decltype(d)> du;
+    const size_t lanes = hn::Lanes(d);
+    // The last vector overlaps the one before where there is one, else is a part.
+    for (size_t i = 0; i < count; i += lanes) {
+        const size_t at = i + lanes <= count || count < lanes ? i : count - lanes;
+        const auto load = [&](const float* from) HWY_ATTR {
+            if (count >= lanes) return hn::LoadU(d, from + at);
+            HWY_ALIGN float part[hn::MaxLanes(d)] = {};
+            std::copy_n(from, count, part);
+            return hn::Load(d, part);
+        };
+        auto key = hn::Set(di, static_cast<int32_t>(block));
+        if (time) {
+            const auto last = hn::Set(d, static_cast<float>((1 << time_bits) - 1));
+            const auto t = hn::Mul(load(time), hn::Set(d, static_cast<float>(1 << time_bits)));
+            key = hn::Or(key, hn::ConvertTo(di, hn::Min(t, last)));
+        }
+        if (u) {
+            // From the disk back to the square [Shirley97], nearly: this is for sorting only.
+            const auto x = load(u), y = load(v), ax = hn::Abs(x), ay = hn::Abs(y);
+            const auto radius = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+            const auto wide = hn::Gt(ax, ay);
+            const auto ratio = hn::Div(hn::Min(ax, ay), hn::Max(hn::Max(ax, ay), hn::Set(d, 1e-9f)));
+            const auto arc = hn::NegMulAdd(ratio, hn::Set(d, 0.273f), hn::Set(d, 1.273f));  // atan * 4 / pi
+            const auto minor = hn::Mul(radius, hn::Mul(ratio, arc));
+            const auto a = hn::CopySign(hn::IfThenElse(wide, radius, minor), x);
+            const auto b = hn::CopySign(hn::IfThenElse(wide, minor, radius), y);
+            const auto lens = hn::Or(hn::ShiftLeftSame(cell(b, lens_bits), lens_bits), cell(a, lens_bits));
+            key = hn::Or(key, hn::ShiftLeftSame(lens, time_bits));
+        }
+        if (count >= lanes) {
+            hn::StoreU(hn::BitCast(du, key), du, keys + at);
+        } else {
+            HWY_ALIGN uint32_t part[hn::MaxLanes(d)];
+            hn::Store(hn::BitCast(du, key), du, part);
+            std::copy_n(part, count, keys);
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze {
+
+HWY_EXPORT(add_keys);
+
 namespace {
-
-/// The cell of a point of the disk on an axis of the square that was mapped to the disk [Shirley97], nearly;
-/// for sorting only.
-struct LensCells {
-    float scale, last;
-
-    explicit LensCells(int bits)
-        : scale(0.5f * static_cast<float>(1 << bits)), last(static_cast<float>((1 << bits) - 1)) {}
-
-    uint32_t cell(float square) const {
-        return static_cast<uint32_t>(std::min(std::max((square + 1) * scale, 0.0f), last));
-    }
-    uint32_t operator()(float u, float v, int bits) const {
-        const float au = std::abs(u), av = std::abs(v);
-        const float radius = std::sqrt(u * u + v * v);
-        const bool wide = au > av;
-        const float ratio = (wide ? av : au) / std::max(wide ? au : av, 1e-9f);
-        const float minor = radius * ratio * (1.273f - 0.273f * ratio);  // 4 / pi * atan, roughly
-        const float a = std::copysign(wide ? radius : minor, u), b = std::copysign(wide ? minor : radius, v);
-        return cell(b) << bits | cell(a);
-    }
-};
 
 uint32_t even_bits(uint32_t code) {
     uint32_t value = 0;
@@ -61,19 +114,15 @@ void order_bundles(const SampleTile& samples, bool motion, bool defocus, const B
               blocks_y = (height + side - 1) / side;
 
     scratch.keys.resize(samples.size());
-    const LensCells lens(order.lens_bits);
-    const auto time_cells = static_cast<float>(1 << time_bits);
+    const float* lens_u = defocus ? samples.lens_u.data() : nullptr;
+    const float* time = motion ? samples.time.data() : nullptr;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const auto block = static_cast<uint32_t>(y / side * blocks_x + x / side) << bits;
             const size_t first = samples.first_of_pixel(samples.pixels.x0 + x, samples.pixels.y0 + y);
-            for (size_t i = first; i < first + per_pixel; ++i) {
-                uint32_t key = block;
-                if (motion)
-                    key |= static_cast<uint32_t>(std::min(samples.time[i] * time_cells, time_cells - 1));
-                if (defocus) key |= lens(samples.lens_u[i], samples.lens_v[i], order.lens_bits) << time_bits;
-                scratch.keys[i] = key;
-            }
+            HWY_DYNAMIC_DISPATCH(add_keys)
+            (lens_u ? lens_u + first : nullptr, samples.lens_v.data() + first, time ? time + first : nullptr,
+             per_pixel, block, lens_bits, time_bits, scratch.keys.data() + first);
         }
 
     scratch.starts.assign((static_cast<size_t>(blocks_x) * blocks_y << bits) + 1, 0);
@@ -87,3 +136,4 @@ void order_bundles(const SampleTile& samples, bool motion, bool defocus, const B
 }
 
 }  // namespace trapeze
+#endif  // HWY_ONCE

@@ -59,15 +59,10 @@ class WideRayTraced final : public Visibility {
     void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
                         SampleStats& stats) const {
         RayBundle& rays = *scratch.bundle;
-        rays.count = order.size();
-        for (size_t i = 0; i < order.size(); ++i) {
-            const AxisRay& ray = samples.rays[order[i]];
-            rays.ox[i] = ray.ox, rays.oy[i] = ray.oy, rays.ux[i] = ray.ux, rays.uy[i] = ray.uy;
-            rays.time[i] = ray.time;
-        }
+        fill_bundle(samples.rays, order, rays);
         count_costs_from(rays, scratch);
-        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, camera_.focal_distance, rays,
-                     *scratch.bundle_scratch, stats);
+        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, camera_.has_lens(), camera_.focal_distance,
+                     rays, *scratch.bundle_scratch, stats);
         for (size_t i = 0; i < order.size(); ++i)
             scratch.nearest[order[i]] = {rays.depth[i],
                                          rays.id[i] == RayBundle::kNone ? MicropolygonId::kNone : rays.id[i]};
