@@ -1,5 +1,6 @@
 #include "sample/sample_pattern.h"
 
+#include "sample/interleaved_pattern.h"
 #include "sample/interval_pattern.h"
 #include "sample/stratified_pattern.h"
 
@@ -11,12 +12,17 @@ std::unique_ptr<SamplePattern> make(const RenderContext& context, const MethodSp
     return std::make_unique<Pattern>(context);
 }
 
+std::unique_ptr<SamplePattern> make_interleaved(const RenderContext& context, const MethodSpec& spec) {
+    return std::make_unique<InterleavedPattern>(context, spec.number("k"));
+}
+
 }  // namespace
 
 const std::vector<PatternKind>& sample_patterns() {
     static const std::vector<PatternKind> kinds = {
         {"stratified", {}, make<StratifiedPattern>},
         {"interval", {}, make<IntervalPattern>},
+        {"interleaved", {{"k", {"2", "1", "4"}}}, make_interleaved},
     };
     return kinds;
 }
