@@ -36,12 +36,11 @@ HWY_INLINE V sign_chosen(V chooser, V yes, V no) {
 #endif
 }
 
-/// crosses() of the scalar form, in the sign bits; the other bits mean nothing. *c becomes the edge function.
+/// crosses() of the scalar form, in the sign bits; the other bits mean nothing.
 template <class V>
-HWY_INLINE V crossing(V ai, V bi, V aj, V bj, V* c) {
+HWY_INLINE V crossing(V ai, V bi, V aj, V bj) {
     const V x = hn::Mul(ai, bj), y = hn::Mul(aj, bi);
-    *c = hn::Sub(x, y);
-    return hn::And(hn::Xor(bi, bj), sign_chosen(bj, *c, hn::Sub(y, x)));
+    return hn::And(hn::Xor(bi, bj), sign_chosen(bj, hn::Sub(x, y), hn::Sub(y, x)));
 }
 
 /// Lanes whose sign bit is set.
@@ -69,36 +68,21 @@ HWY_INLINE M alike(M a, M b) {
 
 }  // namespace predicate_lanes
 
-/// `vertex(component, corner)` gives lanes of coordinate 0, 1, 2 (x, y, z in the rays' turned axes) of a
-/// corner at the rays' times. Depths are meaningful where the mask is true.
-template <class D, class V, class Vertex>
-HWY_INLINE hn::Mask<D> hit_micropolygon(D d, V ox, V oy, V oz, V ux, V uy, const Vertex& vertex,
-                                        Facing facing, V& depth) {
+/// Of lanes that pass a micropolygon, those that see a side that can be hit, and their depths. The corners
+/// are moved along the rays to their plane (a, b), z is from before.
+template <class D, class V>
+HWY_INLINE hn::Mask<D> hit_depth(D d, V a00, V b00, V a10, V b10, V a01, V b01, V a11, V b11, V z00, V z10,
+                                 V z01, V z11, Facing facing, hn::Mask<D> hit, V& depth) {
     namespace p = predicate_lanes;
     using M = hn::Mask<D>;
     const V zero = hn::Zero(d);
-
-    const V z00 = vertex(2, k00), z10 = vertex(2, k10), z01 = vertex(2, k01), z11 = vertex(2, k11);
-    const auto offset = [](V x, V o, V u, V dz) HWY_ATTR { return hn::Sub(hn::Sub(x, o), hn::Mul(u, dz)); };
-    const V dz00 = hn::Sub(z00, oz), dz10 = hn::Sub(z10, oz), dz01 = hn::Sub(z01, oz),
-            dz11 = hn::Sub(z11, oz);
-    const V a00 = offset(vertex(0, k00), ox, ux, dz00), b00 = offset(vertex(1, k00), oy, uy, dz00);
-    const V a10 = offset(vertex(0, k10), ox, ux, dz10), b10 = offset(vertex(1, k10), oy, uy, dz10);
-    const V a01 = offset(vertex(0, k01), ox, ux, dz01), b01 = offset(vertex(1, k01), oy, uy, dz01);
-    const V a11 = offset(vertex(0, k11), ox, ux, dz11), b11 = offset(vertex(1, k11), oy, uy, dz11);
-
-    V c_bottom, c_right, c_top, c_left;
-    const V crossings = hn::Xor(
-        hn::Xor(p::crossing(a00, b00, a10, b10, &c_bottom), p::crossing(a10, b10, a11, b11, &c_right)),
-        hn::Xor(p::crossing(a11, b11, a01, b01, &c_top), p::crossing(a01, b01, a00, b00, &c_left)));
-    M hit = p::negative(d, crossings);
+    const V c_bottom = p::edge(a00, b00, a10, b10), c_right = p::edge(a10, b10, a11, b11);
+    const V c_top = p::edge(a11, b11, a01, b01), c_left = p::edge(a01, b01, a00, b00);
     if (facing != Facing::Both) {
         const V twice_area = hn::Add(hn::Add(c_bottom, c_right), hn::Add(c_top, c_left));
         hit = hn::And(hit,
                       facing == Facing::PositiveOnly ? hn::Ge(twice_area, zero) : hn::Lt(twice_area, zero));
     }
-    if (hn::AllFalse(d, hit)) return hit;
-
     const V c_diagonal = p::edge(a00, b00, a11, b11);
     const M bottom_below = hn::Lt(c_bottom, zero);
     const M lower = hn::And(p::alike(bottom_below, hn::Lt(c_right, zero)),
@@ -114,6 +98,28 @@ HWY_INLINE hn::Mask<D> hit_micropolygon(D d, V ox, V oy, V oz, V ux, V uy, const
     const V z = hn::Div(weighted, sum);
     depth = hn::IfThenElse(hn::Ge(z, z_min), hn::IfThenElse(hn::Le(z, z_max), z, z_max), z_min);
     return hit;
+}
+
+/// `vertex(component, corner)` gives lanes of coordinate 0, 1, 2 (x, y, z in the rays' turned axes) of a
+/// corner at the rays' times. Depths are meaningful where the mask is true.
+template <class D, class V, class Vertex>
+HWY_INLINE hn::Mask<D> hit_micropolygon(D d, V ox, V oy, V oz, V ux, V uy, const Vertex& vertex,
+                                        Facing facing, V& depth) {
+    namespace p = predicate_lanes;
+    const V z00 = vertex(2, k00), z10 = vertex(2, k10), z01 = vertex(2, k01), z11 = vertex(2, k11);
+    const auto offset = [](V x, V o, V u, V dz) HWY_ATTR { return hn::Sub(hn::Sub(x, o), hn::Mul(u, dz)); };
+    const V dz00 = hn::Sub(z00, oz), dz10 = hn::Sub(z10, oz), dz01 = hn::Sub(z01, oz),
+            dz11 = hn::Sub(z11, oz);
+    const V a00 = offset(vertex(0, k00), ox, ux, dz00), b00 = offset(vertex(1, k00), oy, uy, dz00);
+    const V a10 = offset(vertex(0, k10), ox, ux, dz10), b10 = offset(vertex(1, k10), oy, uy, dz10);
+    const V a01 = offset(vertex(0, k01), ox, ux, dz01), b01 = offset(vertex(1, k01), oy, uy, dz01);
+    const V a11 = offset(vertex(0, k11), ox, ux, dz11), b11 = offset(vertex(1, k11), oy, uy, dz11);
+
+    const V crossings = hn::Xor(hn::Xor(p::crossing(a00, b00, a10, b10), p::crossing(a10, b10, a11, b11)),
+                                hn::Xor(p::crossing(a11, b11, a01, b01), p::crossing(a01, b01, a00, b00)));
+    const hn::Mask<D> hit = p::negative(d, crossings);
+    if (hn::AllFalse(d, hit)) return hit;
+    return hit_depth(d, a00, b00, a10, b10, a01, b01, a11, b11, z00, z10, z01, z11, facing, hit, depth);
 }
 
 /// Lanes of position_at().

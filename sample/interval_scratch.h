@@ -15,6 +15,7 @@ struct SlotGridScratch {
     std::vector<float> min_x, max_x, min_y, max_y, min_z, max_z;  ///< of vertices
     std::vector<int32_t> x0, x1, y0, y1;  ///< pixels of micropolygons; none when x0 > x1
     std::vector<float> depth;             ///< least depth of micropolygons
+    std::vector<uint32_t> rows_of_cell;   ///< bits of the rows of micropolygons that may reach a cell
 };
 
 struct IntervalScratch {

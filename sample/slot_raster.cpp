@@ -1,187 +1,27 @@
 #include "sample/slot_raster.h"
 
+#include <algorithm>
+
 #include "sample/visibility_method.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sample/slot_raster.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
-#include "core/hit_micropolygon-inl.h"
+#include "sample/block_rows-inl.h"
 #include "sample/slot_boxes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 
-/// Where the corners of a micropolygon are at the samples' times.
-enum class Motion { None, OneSegment, Segments };
-
-/// Tests micropolygons of a grid against blocks of samples.
-template <Motion kMotion, bool kLens>
-class BlockTester {
-  public:
-    BlockTester(SlotRaster& raster, const GridInSlot& in, const VertexRows& rows, SampleStats& stats)
-        : raster_(raster), in_(in), rows_(rows), stats_(stats) {}
-
-    /// `at` is the index of vertex 00; `wanted` are lanes worth testing.
-    template <class D, class M>
-    HWY_INLINE void test(D d, SampleBlock& block, size_t index, size_t lane, int at, M wanted) {
-        using V = hn::Vec<D>;
-        const V zero = hn::Zero(d);
-        V local = zero;
-        auto segment = hn::Zero(hn::RebindToSigned<D>());
-        if constexpr (kMotion != Motion::None)
-            place_in_time(d, hn::Load(d, block.time + lane), &local, &segment);
-        const auto vertex = [&](int component, int corner) HWY_ATTR {
-            const int v = at + (corner & 1) + (corner >> 1) * rows_.row_length;
-            const float* start = rows_.plane(0, component) + v;
-            if constexpr (kMotion == Motion::None) return hn::Set(d, *start);
-            if constexpr (kMotion == Motion::OneSegment)
-                return position_at(hn::Set(d, *start), hn::Set(d, rows_.plane(0, 3 + component)[v]), local);
-            return position_at(hn::GatherIndex(d, start, segment),
-                               hn::GatherIndex(d, rows_.plane(0, 3 + component) + v, segment), local);
-        };
-        const V ox = kLens ? hn::Load(d, block.ox + lane) : zero;
-        const V oy = kLens ? hn::Load(d, block.oy + lane) : zero;
-        V depth = zero;
-        const auto passed = hit_micropolygon(d, ox, oy, zero, hn::Load(d, block.ux + lane),
-                                             hn::Load(d, block.uy + lane), vertex, in_.grid.facing, depth);
-        const auto hit = hn::And(passed, wanted);
-        stats_.predicate_tests += hn::CountTrue(d, wanted);
-        if (raster_.scratch.heat) count_heat(d, index, lane, wanted);
-        if (hn::AllFalse(d, hit)) return;
-        stats_.predicate_hits += hn::CountTrue(d, hit);
-        keep(d, block, index, lane, at, hit, depth);
-    }
-
-  private:
-    /// segment_at(), of the grid's segments that the slot covers.
-    template <class D, class V, class VI>
-    HWY_INLINE void place_in_time(D d, V time, V* local, VI* segment) const {
-        const hn::RebindToSigned<D> di;
-        const V scaled = hn::Mul(time, hn::Set(d, static_cast<float>(in_.grid.key_count - 1)));
-        const int first = in_.parts.front().segment;
-        if constexpr (kMotion == Motion::OneSegment) {
-            *local = hn::Sub(scaled, hn::Set(d, static_cast<float>(first)));
-            return;
-        }
-        const auto at = hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Set(di, first)),
-                                hn::Set(di, in_.parts.back().segment));
-        *local = hn::Sub(scaled, hn::ConvertTo(d, at));
-        *segment = hn::Mul(hn::Sub(at, hn::Set(di, first)), hn::Set(di, rows_.components * rows_.padded));
-    }
-
-    template <class D, class M, class V>
-    HWY_NOINLINE void keep(D d, SampleBlock& block, size_t index, size_t lane, int at, M hit, V depth) {
-        const hn::RebindToUnsigned<D> du;
-        const auto v = static_cast<uint32_t>(at / rows_.row_length),
-                   u = static_cast<uint32_t>(at % rows_.row_length);
-        const auto grid = hn::Set(du, in_.index), micropolygon = hn::Set(du, v << 4 | u);
-        const V nearest = hn::Load(d, block.depth + lane);
-        const auto old_grid = hn::Load(du, block.grid + lane),
-                   old_micropolygon = hn::Load(du, block.micropolygon + lane);
-        const auto smaller_id = hn::Or(
-            hn::Lt(grid, old_grid), hn::And(hn::Eq(grid, old_grid), hn::Lt(micropolygon, old_micropolygon)));
-        const auto in_range = hn::And(hn::Ge(depth, hn::Set(d, raster_.camera.near_clip)),
-                                      hn::Le(depth, hn::Set(d, raster_.camera.far_clip)));
-        const auto in_front =
-            hn::Or(hn::Lt(depth, nearest), hn::And(hn::Eq(depth, nearest), hn::RebindMask(d, smaller_id)));
-        const auto kept = hn::And(hit, hn::And(in_range, in_front));
-        if (hn::AllFalse(d, kept)) return;
-        if (in_.grid.opaque) {
-            const auto kept_id = hn::RebindMask(du, kept);
-            hn::Store(hn::IfThenElse(kept, depth, nearest), d, block.depth + lane);
-            hn::Store(hn::IfThenElse(kept_id, grid, old_grid), du, block.grid + lane);
-            hn::Store(hn::IfThenElse(kept_id, micropolygon, old_micropolygon), du, block.micropolygon + lane);
-        }
-        if (!raster_.all_opaque) list(d, index, lane, kept, depth, uint64_t{in_.index} << 8 | v << 4 | u);
-    }
-
-    template <class D, class M, class V>
-    void list(D d, size_t index, size_t lane, M kept, V depth, uint64_t id) {
-        HWY_ALIGN float depths[SampleBlock::kLanes], is_kept[SampleBlock::kLanes];
-        hn::Store(depth, d, depths);
-        hn::Store(hn::IfThenElseZero(kept, hn::Set(d, 1.0f)), d, is_kept);
-        for (size_t i = 0; i < hn::Lanes(d); ++i) {
-            if (is_kept[i] == 0) continue;
-            raster_.scratch.hits.push_back({depths[i], id});
-            raster_.scratch.hit_sample.push_back(raster_.slots.lanes(index).sample[lane + i]);
-        }
-    }
-
-    template <class D, class M>
-    void count_heat(D d, size_t index, size_t lane, M wanted) {
-        HWY_ALIGN float is_wanted[SampleBlock::kLanes];
-        hn::Store(hn::IfThenElseZero(wanted, hn::Set(d, 1.0f)), d, is_wanted);
-        for (size_t i = 0; i < hn::Lanes(d); ++i) {
-            if (is_wanted[i] == 0) continue;
-            const uint32_t sample = raster_.slots.lanes(index).sample[lane + i];
-            ++raster_.scratch.heat->tests[sample], ++raster_.scratch.heat->nodes[sample];
-        }
-    }
-
-    SlotRaster& raster_;
-    const GridInSlot& in_;
-    const VertexRows& rows_;
-    SampleStats& stats_;
-};
-
-/// The pixels of a micropolygon's box.
-struct PixelBox {
-    int x0, y0, x1, y1;  ///< inclusive
-};
-
-/// Lanes of a block whose pixel lies in a box.
-template <class D>
-HWY_INLINE hn::Mask<D> lanes_within(D d, const BlockSamples& lanes, size_t lane, const PixelBox& box) {
-    const hn::RebindToSigned<D> di;
-    const auto x = hn::Load(di, lanes.x + lane), y = hn::Load(di, lanes.y + lane);
-    const auto outside = hn::Or(hn::Or(hn::Lt(x, hn::Set(di, box.x0)), hn::Gt(x, hn::Set(di, box.x1))),
-                                hn::Or(hn::Lt(y, hn::Set(di, box.y0)), hn::Gt(y, hn::Set(di, box.y1))));
-    return hn::RebindMask(d, hn::Not(outside));
-}
-
-/// Nothing at least this deep can be in front of any of a block's samples.
-HWY_INLINE bool is_hidden(const SampleBlock& block, float depth) {
-    const hn::CappedTag<float, SampleBlock::kLanes> d;
+/// The deepest of the nearest hits of a block.
+HWY_INLINE float farthest_depth(const SampleBlock& block) {
+    const BlockTag d;
     auto farthest = hn::Load(d, block.depth);
     for (size_t lane = hn::Lanes(d); lane < SampleBlock::kLanes; lane += hn::Lanes(d))
         farthest = hn::Max(farthest, hn::Load(d, block.depth + lane));
-    return hn::AllTrue(d, hn::Lt(farthest, hn::Set(d, depth)));
-}
-
-template <Motion kMotion, bool kLens>
-void raster_micropolygons(SlotRaster& raster, const GridInSlot& in, const VertexRows& rows,
-                          const SlotGridScratch& boxes, SampleStats& stats) {
-    const hn::CappedTag<float, SampleBlock::kLanes> d;
-    SampleSlots& slots = raster.slots;
-    BlockTester<kMotion, kLens> tester(raster, in, rows, stats);
-    const uint32_t* cells = slots.cells(in.slot);
-    const int shift = slots.cell_shift(), cells_x = slots.cells_x();
-    for (int v = 0; v < in.grid.shape.nv; ++v)
-        for (int u = 0; u < in.grid.shape.nu; ++u) {
-            const int at = v * rows.row_length + u;
-            const PixelBox box{boxes.x0[at], boxes.y0[at], boxes.x1[at], boxes.y1[at]};
-            if (box.x0 > box.x1) continue;
-            ++stats.nodes_visited;
-            for (int y = box.y0 >> shift; y <= box.y1 >> shift; ++y) {
-                // The cells of a row follow each other, and so do their blocks.
-                const size_t last = cells[y * cells_x + (box.x1 >> shift) + 1];
-                for (size_t i = cells[y * cells_x + (box.x0 >> shift)]; i < last; ++i) {
-                    SampleBlock& block = slots.block(i);
-                    if (raster.cull && is_hidden(block, boxes.depth[at])) continue;
-                    const auto count = static_cast<size_t>(slots.lane_count(i));
-                    for (size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
-                        auto wanted = hn::FirstN(d, count - lane);
-                        if (raster.sparse) {
-                            wanted = lanes_within(d, slots.lanes(i), lane, box);
-                            if (hn::AllFalse(d, wanted)) continue;
-                        }
-                        tester.test(d, block, i, lane, at, wanted);
-                    }
-                }
-            }
-        }
+    return hn::GetLane(hn::MaxOfLanes(d, farthest));
 }
 
 /// Whether nothing of a grid can be in front of the samples of the pixels that it may cover.
@@ -193,10 +33,180 @@ HWY_INLINE bool is_hidden(SlotRaster& raster, const GridInSlot& in) {
         const uint32_t* row = cells + y * slots.cells_x();
         const size_t last = row[((in.pixels.x1 - 1) >> shift) + 1];
         for (size_t i = row[in.pixels.x0 >> shift]; i < last; ++i)
-            if (!is_hidden(slots.block(i), in.z_min)) return false;
+            if (farthest_depth(slots.block(i)) >= in.z_min) return false;
     }
     return true;
 }
+
+/// Micropolygons into a slot, cell by cell.
+template <Motion kMotion, bool kLens>
+class CellRaster {
+  public:
+    CellRaster(SlotRaster& raster, const GridInSlot& in, const VertexRows& rows, SlotGridScratch& boxes,
+               SampleStats& stats)
+        : raster_(raster),
+          in_(in),
+          boxes_(boxes),
+          stats_(stats),
+          rows_(raster, in, rows, stats),
+          row_length_(rows.row_length),
+          shift_(raster.slots.cell_shift()) {}
+
+    void run() {
+        const PixelRect cells = mark_rows();
+        const uint32_t* first_block = raster_.slots.cells(in_.slot);
+        const int width = cells.width();
+        for (int y = cells.y0; y < cells.y1; ++y)
+            for (int x = cells.x0; x < cells.x1; ++x) {
+                const uint32_t rows = boxes_.rows_of_cell[(y - cells.y0) * width + (x - cells.x0)];
+                if (rows == 0) continue;
+                const int cell = y * raster_.slots.cells_x() + x;
+                for (size_t i = first_block[cell]; i < first_block[cell + 1]; ++i) test_block(i, x, y, rows);
+            }
+    }
+
+  private:
+    /// Which rows of micropolygons reach which cells, by the box of the whole row; for the cells returned.
+    PixelRect mark_rows() {
+        PixelRect of_row[kMaxGridSide], all{1 << 30, 1 << 30, 0, 0};
+        for (int v = 0; v < in_.grid.shape.nv; ++v) {
+            of_row[v] = cells_of_row(v);
+            if (of_row[v].empty()) continue;
+            all = {std::min(all.x0, of_row[v].x0), std::min(all.y0, of_row[v].y0),
+                   std::max(all.x1, of_row[v].x1), std::max(all.y1, of_row[v].y1)};
+        }
+        boxes_.rows_of_cell.assign(static_cast<size_t>(all.width()) * all.height(), 0);
+        for (int v = 0; v < in_.grid.shape.nv; ++v)
+            for (int y = of_row[v].y0; y < of_row[v].y1; ++y)
+                for (int x = of_row[v].x0; x < of_row[v].x1; ++x)
+                    boxes_.rows_of_cell[(y - all.y0) * all.width() + (x - all.x0)] |= uint32_t{1} << v;
+        return all;
+    }
+
+    PixelRect cells_of_row(int v) {
+        PixelRect pixels{1 << 30, 1 << 30, -1, -1};  // inclusive
+        for (int at = v * row_length_; at < v * row_length_ + in_.grid.shape.nu; ++at) {
+            if (boxes_.x0[at] > boxes_.x1[at]) continue;
+            ++stats_.nodes_visited;
+            pixels = {std::min(pixels.x0, boxes_.x0[at]), std::min(pixels.y0, boxes_.y0[at]),
+                      std::max(pixels.x1, boxes_.x1[at]), std::max(pixels.y1, boxes_.y1[at])};
+        }
+        if (pixels.x1 < 0) return {};
+        return {pixels.x0 >> shift_, pixels.y0 >> shift_, (pixels.x1 >> shift_) + 1,
+                (pixels.y1 >> shift_) + 1};
+    }
+
+    void test_block(size_t index, int x, int y, uint32_t rows) {
+        const BlockTag d;
+        const auto count = static_cast<size_t>(raster_.slots.lane_count(index));
+        const float farthest = raster_.cull ? farthest_depth(raster_.slots.block(index)) : 0;
+        for (size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
+            rows_.begin(index, lane);
+            for (uint32_t left = rows; left != 0; left &= left - 1) {
+                const int v = std::countr_zero(left);
+                uint32_t columns = columns_in_cell(v, x, y);
+                if (raster_.cull) columns &= columns_before(v, farthest);
+                if (columns != 0) test_row(index, lane, count, v, columns);
+            }
+        }
+    }
+
+    /// Bits of the micropolygons of a row whose boxes reach a cell.
+    HWY_INLINE uint32_t columns_in_cell(int v, int cell_x, int cell_y) const {
+        const hn::RebindToSigned<BlockTag> di;
+        const int size = 1 << shift_, x = cell_x << shift_, y = cell_y << shift_;
+        const auto left = hn::Set(di, x), right = hn::Set(di, x + size - 1);
+        const auto top = hn::Set(di, y), bottom = hn::Set(di, y + size - 1);
+        return row_bits(v, [&](int at) HWY_ATTR {
+            const auto beside = hn::Or(hn::Gt(hn::LoadU(di, &boxes_.x0[at]), right),
+                                       hn::Lt(hn::LoadU(di, &boxes_.x1[at]), left));
+            const auto above = hn::Or(hn::Gt(hn::LoadU(di, &boxes_.y0[at]), bottom),
+                                      hn::Lt(hn::LoadU(di, &boxes_.y1[at]), top));
+            return hn::RebindMask(BlockTag(), hn::Not(hn::Or(beside, above)));
+        });
+    }
+
+    /// Bits of those that may be in front of something at a depth.
+    HWY_INLINE uint32_t columns_before(int v, float depth) const {
+        const BlockTag d;
+        return row_bits(
+            v, [&](int at) HWY_ATTR { return hn::Le(hn::LoadU(d, &boxes_.depth[at]), hn::Set(d, depth)); });
+    }
+
+    /// Bits of a row's micropolygons for which lanes(index of the first) is true.
+    template <class Lanes>
+    HWY_INLINE uint32_t row_bits(int v, const Lanes& lanes) const {
+        const int step = static_cast<int>(hn::Lanes(BlockTag()));
+        uint32_t bits = 0;
+        for (int u = 0; u < in_.grid.shape.nu; u += step) {
+            uint8_t bytes[8] = {};
+            const BlockMask mask = lanes(v * row_length_ + u);
+            hn::StoreMaskBits(BlockTag(), mask, bytes);
+            bits |= (uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8) << u;
+        }
+        return bits & ((uint32_t{1} << in_.grid.shape.nu) - 1);
+    }
+
+    void test_row(size_t index, size_t lane, size_t count, int v, uint32_t columns) {
+        const BlockTag d;
+        if (raster_.sparse) {
+            const BlockSamples& lanes = raster_.slots.lanes(index);
+            const auto within = [&](int u)
+                                    HWY_ATTR { return lanes_within(lanes, lane, v * row_length_ + u); };
+            for (uint32_t left = columns; left != 0; left &= left - 1) {
+                const int u = std::countr_zero(left);
+                const size_t tested = hn::CountTrue(d, within(u));
+                if (tested == 0) columns &= ~(uint32_t{1} << u);
+                stats_.predicate_tests += tested;
+            }
+            if (columns != 0) finish_row(index, lane, v, columns, within);
+            return;
+        }
+        const auto valid = hn::FirstN(d, count - lane);
+        stats_.predicate_tests += std::min(count - lane, hn::Lanes(d)) * std::popcount(columns);
+        finish_row(index, lane, v, columns, [&](int) HWY_ATTR { return valid; });
+    }
+
+    template <class Wanted>
+    HWY_INLINE void finish_row(size_t index, size_t lane, int v, uint32_t columns, const Wanted& wanted) {
+        if (raster_.scratch.heat) count_heat(index, lane, columns, wanted);
+        rows_.test(v, columns, wanted);
+    }
+
+    /// Lanes of a block whose pixel lies in a micropolygon's box.
+    HWY_INLINE BlockMask lanes_within(const BlockSamples& lanes, size_t lane, int at) const {
+        const BlockTag d;
+        const hn::RebindToSigned<BlockTag> di;
+        const auto x = hn::Load(di, lanes.x + lane), y = hn::Load(di, lanes.y + lane);
+        const auto beside =
+            hn::Or(hn::Lt(x, hn::Set(di, boxes_.x0[at])), hn::Gt(x, hn::Set(di, boxes_.x1[at])));
+        const auto above =
+            hn::Or(hn::Lt(y, hn::Set(di, boxes_.y0[at])), hn::Gt(y, hn::Set(di, boxes_.y1[at])));
+        return hn::RebindMask(d, hn::Not(hn::Or(beside, above)));
+    }
+
+    template <class Wanted>
+    HWY_NOINLINE void count_heat(size_t index, size_t lane, uint32_t columns, const Wanted& wanted) {
+        const BlockTag d;
+        SampleHeat& heat = *raster_.scratch.heat;
+        for (; columns != 0; columns &= columns - 1) {
+            HWY_ALIGN float is_wanted[SampleBlock::kLanes];
+            hn::Store(hn::IfThenElseZero(wanted(std::countr_zero(columns)), hn::Set(d, 1.0f)), d, is_wanted);
+            for (size_t i = 0; i < hn::Lanes(d); ++i) {
+                if (is_wanted[i] == 0) continue;
+                const uint32_t sample = raster_.slots.lanes(index).sample[lane + i];
+                ++heat.tests[sample], ++heat.nodes[sample];
+            }
+        }
+    }
+
+    SlotRaster& raster_;
+    const GridInSlot& in_;
+    SlotGridScratch& boxes_;
+    SampleStats& stats_;
+    BlockRows<kMotion, kLens> rows_;
+    int row_length_, shift_;
+};
 
 void raster_grid(SlotRaster& raster, const GridInSlot& in, SlotGridScratch& scratch, SampleStats& stats) {
     if (raster.cull && is_hidden(raster, in)) return;
@@ -211,9 +221,9 @@ void raster_grid(SlotRaster& raster, const GridInSlot& in, SlotGridScratch& scra
     SampleStats counted;
     const auto run = [&](auto motion) HWY_ATTR {
         if (lens)
-            raster_micropolygons<motion(), true>(raster, in, rows, scratch, counted);
+            CellRaster<motion(), true>(raster, in, rows, scratch, counted).run();
         else
-            raster_micropolygons<motion(), false>(raster, in, rows, scratch, counted);
+            CellRaster<motion(), false>(raster, in, rows, scratch, counted).run();
     };
     if (!in.grid.moves())
         run(std::integral_constant<Motion, Motion::None>());
