@@ -88,43 +88,31 @@ class BlockRows {
                   segment_);
     }
 
-    HWY_INLINE V coordinate(int component, int i, int j, V local) const {
+    /// Two rows of vertices and the rays, in locals: stores of vectors may alias whatever is in memory.
+    struct Run {
+        const float* lower;  ///< the row below: plane x, segment 0
+        size_t row, plane;   ///< floats to the row above, and from plane to plane
+        const int32_t* segment;
+    };
+
+    static HWY_INLINE V coordinate(const Run& run, size_t at, int component, V local) {
         const D d;
-        const int v = j * rows_.row_length + i;
-        const float* start = rows_.plane(0, component) + v;
+        const float* start = run.lower + static_cast<size_t>(component) * run.plane + at;
         if constexpr (kMotion == Motion::None) return hn::Set(d, *start);
-        const float* delta = rows_.plane(0, 3 + component) + v;
+        const float* delta = start + 3 * run.plane;
         if constexpr (kMotion == Motion::OneSegment)
             return position_at(hn::Set(d, *start), hn::Set(d, *delta), local);
-        const auto segment = hn::Load(hn::RebindToSigned<D>(), segment_);
+        const auto segment = hn::Load(hn::RebindToSigned<D>(), run.segment);
         return position_at(hn::GatherIndex(d, start, segment), hn::GatherIndex(d, delta, segment), local);
     }
 
-    HWY_INLINE V local() const { return kMotion == Motion::None ? hn::Zero(D()) : hn::Load(D(), local_); }
-
-    HWY_INLINE void move_to_plane(int i, int j, V* a, V* b) const {
-        const D d;
-        const V time = local(), z = coordinate(2, i, j, time);
-        V x = coordinate(0, i, j, time), y = coordinate(1, i, j, time);
-        if constexpr (kLens)
-            x = hn::Sub(x, hn::Load(d, block_->ox + lane_)), y = hn::Sub(y, hn::Load(d, block_->oy + lane_));
-        *a = hn::Sub(x, hn::Mul(hn::Load(d, block_->ux + lane_), z));
-        *b = hn::Sub(y, hn::Mul(hn::Load(d, block_->uy + lane_), z));
-    }
-
-    HWY_INLINE void lower_vertex(int i, int v, V* a, V* b) {
-        const D d;
-        if (vertices_ >> i & 1) {
-            *a = hn::Load(d, lower_->a[i]), *b = hn::Load(d, lower_->b[i]);
-            return;
-        }
-        move_to_plane(i, v, a, b);
-    }
-
-    HWY_INLINE void upper_vertex(int i, int v, V* a, V* b) {
-        const D d;
-        move_to_plane(i, v + 1, a, b);
-        hn::Store(*a, d, upper_->a[i]), hn::Store(*b, d, upper_->b[i]);
+    static HWY_INLINE void move_to_plane(const Run& run, size_t at, V ox, V oy, V ux, V uy, V local, V* a,
+                                         V* b) {
+        const V z = coordinate(run, at, 2, local);
+        V x = coordinate(run, at, 0, local), y = coordinate(run, at, 1, local);
+        if constexpr (kLens) x = hn::Sub(x, ox), y = hn::Sub(y, oy);
+        *a = hn::Sub(x, hn::Mul(ux, z));
+        *b = hn::Sub(y, hn::Mul(uy, z));
     }
 
     /// Tests micropolygons from u on as far as bits follow each other; returns the first past them.
@@ -132,38 +120,56 @@ class BlockRows {
     HWY_INLINE int test_run(int u, int v, uint32_t columns, const Wanted& wanted) {
         namespace p = predicate_lanes;
         const D d;
+        const Run run{rows_.first + static_cast<size_t>(v) * static_cast<size_t>(rows_.row_length),
+                      static_cast<size_t>(rows_.row_length), static_cast<size_t>(rows_.padded), segment_};
+        const V zero = hn::Zero(d), ux = hn::Load(d, block_->ux + lane_),
+                uy = hn::Load(d, block_->uy + lane_);
+        const V ox = kLens ? hn::Load(d, block_->ox + lane_) : zero,
+                oy = kLens ? hn::Load(d, block_->oy + lane_) : zero,
+                local = kMotion == Motion::None ? zero : hn::Load(d, local_);
+        const uint32_t known_vertices = vertices_, known_edges = edges_;
+        const Row& below = *lower_;
+        Row& above = *upper_;
+        const auto lower_vertex = [&](int i, V* a, V* b) HWY_ATTR {
+            if (known_vertices >> i & 1) {
+                *a = hn::Load(d, below.a[i]), *b = hn::Load(d, below.b[i]);
+                return;
+            }
+            move_to_plane(run, static_cast<size_t>(i), ox, oy, ux, uy, local, a, b);
+        };
+        const auto upper_vertex = [&](int i, V* a, V* b) HWY_ATTR {
+            move_to_plane(run, run.row + static_cast<size_t>(i), ox, oy, ux, uy, local, a, b);
+            hn::Store(*a, d, above.a[i]), hn::Store(*b, d, above.b[i]);
+        };
         V a00, b00, a01, b01;
-        lower_vertex(u, v, &a00, &b00);
-        upper_vertex(u, v, &a01, &b01);
+        lower_vertex(u, &a00, &b00);
+        upper_vertex(u, &a01, &b01);
         V left = p::crossing(a01, b01, a00, b00);
         for (; columns >> u & 1; ++u) {
             V a10, b10, a11, b11;
-            lower_vertex(u + 1, v, &a10, &b10);
-            upper_vertex(u + 1, v, &a11, &b11);
+            lower_vertex(u + 1, &a10, &b10);
+            upper_vertex(u + 1, &a11, &b11);
             const V right = p::crossing(a10, b10, a11, b11), top = p::crossing(a11, b11, a01, b01);
             const V bottom =
-                edges_ >> u & 1 ? hn::Load(d, lower_->crossing[u]) : p::crossing(a00, b00, a10, b10);
-            hn::Store(top, d, upper_->crossing[u]);
+                known_edges >> u & 1 ? hn::Load(d, below.crossing[u]) : p::crossing(a00, b00, a10, b10);
+            hn::Store(top, d, above.crossing[u]);
             const BlockMask passed = p::negative(d, hn::Xor(hn::Xor(bottom, right), hn::Xor(top, left)));
             if (!hn::AllFalse(d, passed)) {
-                const BlockMask hit = hn::And(passed, wanted(u));
-                if (!hn::AllFalse(d, hit)) settle(u, v, hit, a00, b00, a10, b10, a01, b01, a11, b11);
+                const BlockMask wanted_passed = hn::And(passed, wanted(u));
+                if (!hn::AllFalse(d, wanted_passed)) {
+                    const auto at = static_cast<size_t>(u);
+                    V depth = zero;
+                    const BlockMask hit = hit_depth(
+                        d, a00, b00, a10, b10, a01, b01, a11, b11, coordinate(run, at, 2, local),
+                        coordinate(run, at + 1, 2, local), coordinate(run, run.row + at, 2, local),
+                        coordinate(run, run.row + at + 1, 2, local), in_.grid.facing, wanted_passed, depth);
+                    stats_.predicate_hits += hn::CountTrue(d, hit);
+                    keep(static_cast<uint32_t>(v << 4 | u), hit, depth);
+                }
             }
             a00 = a10, b00 = b10, a01 = a11, b01 = b11, left = right;
         }
         return u;
-    }
-
-    HWY_INLINE void settle(int u, int v, BlockMask passed, V a00, V b00, V a10, V b10, V a01, V b01, V a11,
-                           V b11) {
-        const D d;
-        const V time = local();
-        V depth = hn::Zero(d);
-        const BlockMask hit = hit_depth(d, a00, b00, a10, b10, a01, b01, a11, b11, coordinate(2, u, v, time),
-                                        coordinate(2, u + 1, v, time), coordinate(2, u, v + 1, time),
-                                        coordinate(2, u + 1, v + 1, time), in_.grid.facing, passed, depth);
-        stats_.predicate_hits += hn::CountTrue(d, hit);
-        keep(static_cast<uint32_t>(v << 4 | u), hit, depth);
     }
 
     HWY_INLINE void keep(uint32_t micropolygon_index, BlockMask hit, V depth) {
@@ -198,7 +204,7 @@ class BlockRows {
         for (size_t i = 0; i < hn::Lanes(d); ++i) {
             if (is_kept[i] == 0) continue;
             raster_.scratch.hits.push_back({depths[i], id});
-            raster_.scratch.hit_sample.push_back(raster_.slots.lanes(index_).sample[lane_ + i]);
+            raster_.scratch.hit_sample.push_back(raster_.slots.sample(index_, lane_ + i));
         }
     }
 

@@ -87,7 +87,7 @@ class Interval final : public Visibility {
         if (scratch.interval.still.empty()) return;
         // A block has the samples of one pixel, or of as few as fill it.
         const int cell_shift = samples.samples_per_pixel > 4 ? 0 : samples.samples_per_pixel > 1 ? 1 : 2;
-        scratch.interval.slots.build(samples, still_plan_.table({}), cell_shift);
+        scratch.interval.slots.build(samples, still_plan_.table({}), cell_shift, false);
         raster_slots(samples, still_plan_, scratch.interval.still, false, scratch, stats);
     }
 
@@ -101,7 +101,7 @@ class Interval final : public Visibility {
                 for (int x = samples.pixels.x0; x < samples.pixels.x1; ++x)
                     keys.push_back(shuffled_->time_shift(x, y));
         const int cell_shift = shifted ? sparse_cell_shift(samples.samples_per_pixel) : kSlotCellShift;
-        scratch.interval.slots.build(samples, plan_.table(keys), cell_shift);
+        scratch.interval.slots.build(samples, plan_.table(keys), cell_shift, shifted);
         raster_slots(samples, plan_, scratch.interval.blurred, shifted, scratch, stats);
     }
 

@@ -11,16 +11,17 @@ constexpr uint32_t kLanes = SampleBlock::kLanes;
 
 }  // namespace
 
-void SampleSlots::build(const SampleTile& samples, const SlotTable& table, int cell_shift) {
+void SampleSlots::build(const SampleTile& samples, const SlotTable& table, int cell_shift, bool places) {
     const auto cells_along = [cell_shift](int pixels) {
         return (pixels + (1 << cell_shift) - 1) >> cell_shift;
     };
     cell_shift_ = cell_shift;
     width_ = samples.pixels.width(), height_ = samples.pixels.height();
     cells_x_ = cells_along(width_);
-    cell_count_ = static_cast<size_t>(cells_x_) * cells_along(height_);
+    cell_count_ = static_cast<size_t>(cells_x_) * cells_along(height_) + 1;
     count_blocks(samples, table);
-    fill_blocks(samples, table);
+    fill_blocks(samples, table, places);
+    fill_rest();
 }
 
 /// Calls visit(sample, x, y, index of its slot's cell) for all.
@@ -47,44 +48,50 @@ void SampleSlots::count_blocks(const SampleTile& samples, const SlotTable& table
         first_block_[at] = static_cast<uint32_t>(lane_counts_.size());
         for (uint32_t left = next_lane_[at]; left > 0; left -= std::min(left, kLanes))
             lane_counts_.push_back(static_cast<uint8_t>(std::min(left, kLanes)));
+        // A block apart, lest equal cells of all slots fall on the same lines of a cache.
+        if (at % cell_count_ == cell_count_ - 1) lane_counts_.push_back(0);
         next_lane_[at] = first_block_[at] * kLanes;
     }
     first_block_.back() = static_cast<uint32_t>(lane_counts_.size());
 }
 
-void SampleSlots::fill_blocks(const SampleTile& samples, const SlotTable& table) {
+void SampleSlots::fill_blocks(const SampleTile& samples, const SlotTable& table, bool places) {
     blocks_.resize(lane_counts_.size());
-    lanes_.resize(lane_counts_.size());
+    samples_.resize(lane_counts_.size() * kLanes);
+    places_.assign(places ? lane_counts_.size() : 0, BlockPlaces{});
+    for (BlockPlaces& place : places_) std::fill_n(place.x, kLanes, -1), std::fill_n(place.y, kLanes, -1);
     for_each_sample(samples, table, [&](uint32_t sample, int x, int y, size_t at) {
         const uint32_t to = next_lane_[at]++, lane = to % kLanes;
         SampleBlock& block = blocks_[to / kLanes];
         const AxisRay& ray = samples.rays[sample];
         block.ox[lane] = ray.ox, block.oy[lane] = ray.oy, block.ux[lane] = ray.ux, block.uy[lane] = ray.uy;
         block.time[lane] = ray.time;
-        BlockSamples& whose = lanes_[to / kLanes];
-        whose.sample[lane] = sample, whose.x[lane] = x, whose.y[lane] = y;
+        samples_[to] = sample;
+        if (places) places_[to / kLanes].x[lane] = x, places_[to / kLanes].y[lane] = y;
     });
+}
+
+/// Hits, and lanes without samples.
+void SampleSlots::fill_rest() {
     for (size_t i = 0; i < blocks_.size(); ++i) {
         SampleBlock& block = blocks_[i];
-        const int count = lane_counts_[i];
-        std::fill_n(block.depth, count, kInfinite);
+        std::fill_n(block.depth, kLanes, kInfinite);
         std::fill_n(block.grid, kLanes, ~uint32_t{0});
         std::fill_n(block.micropolygon, kLanes, ~uint32_t{0});
-        for (uint32_t lane = static_cast<uint32_t>(count); lane < kLanes; ++lane) {
+        for (size_t lane = lane_counts_[i]; lane < kLanes; ++lane) {
             block.ox[lane] = block.oy[lane] = block.ux[lane] = block.uy[lane] = block.time[lane] = 0;
             block.depth[lane] = -kInfinite;
-            lanes_[i].sample[lane] = BlockSamples::kNone, lanes_[i].x[lane] = lanes_[i].y[lane] = -1;
         }
     }
 }
 
 void SampleSlots::merge_into(std::vector<Hit>& nearest) const {
     for (size_t i = 0; i < blocks_.size(); ++i)
-        for (int lane = 0; lane < lane_counts_[i]; ++lane) {
+        for (size_t lane = 0; lane < lane_counts_[i]; ++lane) {
             const SampleBlock& block = blocks_[i];
             if (block.depth[lane] == kInfinite) continue;
             const Hit hit{block.depth[lane], uint64_t{block.grid[lane]} << 8 | block.micropolygon[lane]};
-            Hit& best = nearest[lanes_[i].sample[lane]];
+            Hit& best = nearest[samples_[i * kLanes + lane]];
             if (in_front(hit, best)) best = hit;
         }
 }

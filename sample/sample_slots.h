@@ -23,12 +23,9 @@ struct alignas(64) SampleBlock {
     uint32_t grid[kLanes], micropolygon[kLanes];  ///< halves of the id: MicropolygonId
 };
 
-/// Whose the lanes of a block are.
-struct alignas(64) BlockSamples {
-    static constexpr uint32_t kNone = ~uint32_t{0};
-
-    uint32_t sample[SampleBlock::kLanes];                    ///< index in the tile
-    int32_t x[SampleBlock::kLanes], y[SampleBlock::kLanes];  ///< pixel, from the tile's corner
+/// The pixels of a block's lanes, from the tile's corner; -1 where there is no sample.
+struct alignas(64) BlockPlaces {
+    int32_t x[SampleBlock::kLanes], y[SampleBlock::kLanes];
 };
 
 /// Which slot each sample of a tile goes to.
@@ -41,19 +38,22 @@ struct SlotTable {
 /// Cells are squares of 2^cell_shift pixels anchored at the tile's corner.
 class SampleSlots {
   public:
-    void build(const SampleTile& samples, const SlotTable& table, int cell_shift);
+    /// Places of lanes are kept only when asked for.
+    void build(const SampleTile& samples, const SlotTable& table, int cell_shift, bool places);
 
     int cell_shift() const { return cell_shift_; }
     int cells_x() const { return cells_x_; }
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// The blocks of a slot's cell c are cells[c] .. cells[c + 1].
+    /// The blocks of a slot's cell c are cells[c] .. cells[c + 1]. Blocks of cells side by side follow.
     const uint32_t* cells(size_t slot) const { return first_block_.data() + slot * cell_count_; }
-    bool is_empty(size_t slot) const { return cells(slot)[0] == cells(slot)[cell_count_]; }
+    bool is_empty(size_t slot) const { return cells(slot)[0] == cells(slot)[cell_count_ - 1]; }
 
     SampleBlock& block(size_t index) { return blocks_[index]; }
-    const BlockSamples& lanes(size_t index) const { return lanes_[index]; }
+    const BlockPlaces& places(size_t index) const { return places_[index]; }
+    /// Index in the tile of a lane's sample.
+    uint32_t sample(size_t index, size_t lane) const { return samples_[index * SampleBlock::kLanes + lane]; }
     int lane_count(size_t index) const { return lane_counts_[index]; }
 
     /// Replaces hits of samples, by index, that are behind those found here.
@@ -61,16 +61,18 @@ class SampleSlots {
 
   private:
     void count_blocks(const SampleTile& samples, const SlotTable& table);
-    void fill_blocks(const SampleTile& samples, const SlotTable& table);
+    void fill_blocks(const SampleTile& samples, const SlotTable& table, bool places);
+    void fill_rest();
     template <class Visit>
     void for_each_sample(const SampleTile& samples, const SlotTable& table, Visit&& visit) const;
 
     int cell_shift_ = 0, cells_x_ = 0, width_ = 0, height_ = 0;
-    size_t cell_count_ = 0;
+    size_t cell_count_ = 0;              ///< and one past, that takes no samples
     std::vector<uint32_t> first_block_;  ///< [slot * cell_count_ + cell], and the end
     std::vector<uint32_t> next_lane_;    ///< [slot * cell_count_ + cell]
     std::vector<SampleBlock> blocks_;
-    std::vector<BlockSamples> lanes_;
+    std::vector<uint32_t> samples_;  ///< [block * kLanes + lane]
+    std::vector<BlockPlaces> places_;
     std::vector<uint8_t> lane_counts_;
 };
 

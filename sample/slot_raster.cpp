@@ -150,9 +150,9 @@ class CellRaster {
     void test_row(size_t index, size_t lane, size_t count, int v, uint32_t columns) {
         const BlockTag d;
         if (raster_.sparse) {
-            const BlockSamples& lanes = raster_.slots.lanes(index);
+            const BlockPlaces& places = raster_.slots.places(index);
             const auto within = [&](int u)
-                                    HWY_ATTR { return lanes_within(lanes, lane, v * row_length_ + u); };
+                                    HWY_ATTR { return lanes_within(places, lane, v * row_length_ + u); };
             for (uint32_t left = columns; left != 0; left &= left - 1) {
                 const int u = std::countr_zero(left);
                 const size_t tested = hn::CountTrue(d, within(u));
@@ -174,10 +174,10 @@ class CellRaster {
     }
 
     /// Lanes of a block whose pixel lies in a micropolygon's box.
-    HWY_INLINE BlockMask lanes_within(const BlockSamples& lanes, size_t lane, int at) const {
+    HWY_INLINE BlockMask lanes_within(const BlockPlaces& places, size_t lane, int at) const {
         const BlockTag d;
         const hn::RebindToSigned<BlockTag> di;
-        const auto x = hn::Load(di, lanes.x + lane), y = hn::Load(di, lanes.y + lane);
+        const auto x = hn::Load(di, places.x + lane), y = hn::Load(di, places.y + lane);
         const auto beside =
             hn::Or(hn::Lt(x, hn::Set(di, boxes_.x0[at])), hn::Gt(x, hn::Set(di, boxes_.x1[at])));
         const auto above =
@@ -194,7 +194,7 @@ class CellRaster {
             hn::Store(hn::IfThenElseZero(wanted(std::countr_zero(columns)), hn::Set(d, 1.0f)), d, is_wanted);
             for (size_t i = 0; i < hn::Lanes(d); ++i) {
                 if (is_wanted[i] == 0) continue;
-                const uint32_t sample = raster_.slots.lanes(index).sample[lane + i];
+                const uint32_t sample = raster_.slots.sample(index, lane + i);
                 ++heat.tests[sample], ++heat.nodes[sample];
             }
         }
