@@ -39,31 +39,17 @@ struct RayLanes {
     VF ox, oy, ux, uy, local;
 };
 
-/// (bi ^ bj) & chosen, in the sign bits.
-HWY_INLINE VF crossing_bits(VF bi, VF bj, VF chosen) {
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-    return VF{_mm512_castsi512_ps(_mm512_ternarylogic_epi32(
-        _mm512_castps_si512(bi.raw), _mm512_castps_si512(bj.raw), _mm512_castps_si512(chosen.raw), 0x28))};
-#else
-    return hn::And(hn::Xor(bi, bj), chosen);
-#endif
-}
-
-HWY_INLINE VF edge_bits(VF ai, VF bi, VF aj, VF bj) {
-    const VF x = hn::Mul(ai, bj), y = hn::Mul(aj, bi);
-    return crossing_bits(bi, bj, predicate_lanes::sign_chosen(bj, hn::Sub(x, y), hn::Sub(y, x)));
-}
-
-HWY_INLINE VF or3(VF a, VF b, VF c) {
-    return hn::Or3(a, b, c);
-}
-HWY_INLINE VF xor3(VF a, VF b, VF c) {
-    return hn::Xor3(a, b, c);
-}
-
 /// A vertex along the rays to their plane.
+struct Offset {
+    VF a, b, abs_b;
+};
+
+HWY_INLINE VF edge_bits(const Offset& p, const Offset& q) {
+    return predicate_lanes::crossing(p.a, p.b, p.abs_b, q.a, q.b, q.abs_b);
+}
+
 template <bool kMoves, bool kLens>
-HWY_INLINE void vertex_offset(const BlockView& block, int i, int j, const RayLanes& r, VF& a, VF& b) {
+HWY_INLINE Offset vertex_offset(const BlockView& block, int i, int j, const RayLanes& r) {
     const F32 d;
     const float* p = block.tile + block.offset(i, j);
     const size_t s = block.plane;
@@ -74,8 +60,8 @@ HWY_INLINE void vertex_offset(const BlockView& block, int i, int j, const RayLan
         z = position_at(z, hn::Set(d, p[5 * s]), r.local);
     }
     if constexpr (kLens) x = hn::Sub(x, r.ox), y = hn::Sub(y, r.oy);
-    a = hn::Sub(x, hn::Mul(r.ux, z));
-    b = hn::Sub(y, hn::Mul(r.uy, z));
+    const VF a = hn::Sub(x, hn::Mul(r.ux, z)), b = hn::Sub(y, hn::Mul(r.uy, z));
+    return {a, b, hn::Abs(b)};
 }
 
 /// What rays hit in a block, in sign bits.
@@ -87,40 +73,44 @@ struct BlockBits {
 template <bool kMoves, bool kLens, int kColumns>
 HWY_INLINE BlockBits block_bits(const BlockView& block, const RayLanes& r) {
     const VF zero = hn::Zero(F32());
-    VF a[kColumns + 1], b[kColumns + 1], bottom[kColumns];
+    Offset p[kColumns + 1];
+    VF bottom[kColumns];
 #pragma GCC unroll 5
-    for (int i = 0; i <= kColumns; ++i) vertex_offset<kMoves, kLens>(block, i, 0, r, a[i], b[i]);
+    for (int i = 0; i <= kColumns; ++i) p[i] = vertex_offset<kMoves, kLens>(block, i, 0, r);
 #pragma GCC unroll 4
-    for (int i = 0; i < kColumns; ++i) bottom[i] = edge_bits(a[i], b[i], a[i + 1], b[i + 1]);
+    for (int i = 0; i < kColumns; ++i) bottom[i] = edge_bits(p[i], p[i + 1]);
 
     BlockBits bits{zero, zero, zero, zero, zero, zero};
 #pragma GCC unroll 4
     for (int j = 0; j < 4; ++j) {
         if (j >= block.rows) break;
-        VF na[kColumns + 1], nb[kColumns + 1], side[kColumns + 1], top[kColumns], hit[kColumns];
+        Offset q[kColumns + 1];
+        VF side[kColumns + 1], top[kColumns], hit[kColumns];
 #pragma GCC unroll 5
         for (int i = 0; i <= kColumns; ++i) {
-            vertex_offset<kMoves, kLens>(block, i, j + 1, r, na[i], nb[i]);
-            side[i] = edge_bits(a[i], b[i], na[i], nb[i]);
+            q[i] = vertex_offset<kMoves, kLens>(block, i, j + 1, r);
+            side[i] = edge_bits(p[i], q[i]);
         }
 #pragma GCC unroll 4
-        for (int i = 0; i < kColumns; ++i) top[i] = edge_bits(na[i], nb[i], na[i + 1], nb[i + 1]);
+        for (int i = 0; i < kColumns; ++i) top[i] = edge_bits(q[i], q[i + 1]);
 #pragma GCC unroll 4
-        for (int i = 0; i < kColumns; ++i) {
-            hit[i] = hn::Xor(xor3(bottom[i], top[i], side[i]), side[i + 1]);
-            bits.several = hn::OrAnd(bits.several, bits.any, hit[i]);
-            bits.any = hn::Or(bits.any, hit[i]);
-        }
+        for (int i = 0; i < kColumns; ++i)
+            hit[i] = hn::Xor(hn::Xor3(bottom[i], top[i], side[i]), side[i + 1]);
         VF row = hit[0];
         if constexpr (kColumns == 4) {
-            bits.column0 = or3(bits.column0, hit[1], hit[3]);
-            bits.column1 = or3(bits.column1, hit[2], hit[3]);
-            row = hn::Or(or3(hit[0], hit[1], hit[2]), hit[3]);
+            const VF low = hn::Or(hit[0], hit[1]), high = hn::Or(hit[2], hit[3]);
+            row = hn::Or(low, high);
+            bits.several = hn::OrAnd(hn::OrAnd(bits.several, hit[0], hit[1]), hit[2], hit[3]);
+            bits.several = hn::OrAnd(bits.several, low, high);
+            bits.column0 = hn::Or3(bits.column0, hit[1], hit[3]);
+            bits.column1 = hn::Or(bits.column1, high);
         }
+        bits.several = hn::OrAnd(bits.several, bits.any, row);
+        bits.any = hn::Or(bits.any, row);
         if (j & 1) bits.row0 = hn::Or(bits.row0, row);
         if (j & 2) bits.row1 = hn::Or(bits.row1, row);
 #pragma GCC unroll 5
-        for (int i = 0; i <= kColumns; ++i) a[i] = na[i], b[i] = nb[i];
+        for (int i = 0; i <= kColumns; ++i) p[i] = q[i];
 #pragma GCC unroll 4
         for (int i = 0; i < kColumns; ++i) bottom[i] = top[i];
     }
@@ -187,10 +177,9 @@ class CornerLookup {
 #endif
 };
 
-/// Depths of the rays' hits on micropolygon (u, v) of the block, each lane its own; true where the predicate
-/// confirms.
+/// Micropolygons (u, v) of the block, each lane its own, along the rays.
 template <bool kMoves, bool kLens>
-HWY_INLINE MF depth_at(const BlockView& block, const RayLanes& r, VI u, VI v, Facing facing, VF& depth) {
+HWY_INLINE QuadLanes<VF> quads_at(const BlockView& block, const RayLanes& r, VI u, VI v) {
     const F32 d;
     const CornerLookup lookup(block, u, v);
     VF c[3][4];
@@ -207,8 +196,7 @@ HWY_INLINE MF depth_at(const BlockView& block, const RayLanes& r, VI u, VI v, Fa
     }
     const auto vertex = [&c](int k, int corner) HWY_ATTR { return c[k][corner]; };
     const VF zero = hn::Zero(d);
-    return hit_micropolygon(d, kLens ? r.ox : zero, kLens ? r.oy : zero, zero, r.ux, r.uy, vertex, facing,
-                            depth);
+    return quad_lanes(kLens ? r.ox : zero, kLens ? r.oy : zero, zero, r.ux, r.uy, vertex);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -495,8 +495,9 @@ class BundleTrace {
             VI u, v;
             decode(bits, u, v);
             VF depth = hn::Zero(d);
-            const MF hit = hn::AndNot(
-                several, hn::And(any, depth_at<kMoves, kLens>(block.view, r, u, v, block.facing, depth)));
+            const MF faces =
+                depth_inside(d, quads_at<kMoves, kLens>(block.view, r, u, v), block.facing, depth);
+            const MF hit = hn::AndNot(several, hn::And(any, faces));
             settle(block, i, hit, u, v, depth);
             for (uint32_t more = mask_bits(several); more != 0; more &= more - 1)
                 test_one_ray<kMoves>(block, i + static_cast<size_t>(std::countr_zero(more)));
@@ -555,8 +556,10 @@ class BundleTrace {
             const VI number = hn::Iota(di, m), u = hn::And(number, hn::Set(di, 3)),
                      v = hn::ShiftRight<2>(number);
             VF depth = hn::Zero(d);
-            MF hit =
-                depth_at<kMoves, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)), block.facing, depth);
+            const QuadLanes<VF> q = quads_at<kMoves, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)));
+            MF hit = inside(d, q);
+            if (hn::AllFalse(d, hit)) continue;
+            hit = hn::And(hit, depth_inside(d, q, block.facing, depth));
             hit = hn::And(hit, hn::RebindMask(d, hn::And(hn::Lt(u, hn::Set(di, block.columns)),
                                                          hn::Lt(v, hn::Set(di, block.view.rows)))));
             hit = hn::And(

@@ -53,8 +53,8 @@ struct Camera {
 /// Format, FrameAspectRatio, ScreenWindow, CropWindow, Projection, Clipping, DepthOfField (RISpec 4.1.1).
 Camera make_camera(const Options& options);
 
-/// The pixels whose samples reach the crop through the filter: the crop grown by half the filter's support. May reach
-/// past the image.
+/// The pixels whose samples reach the crop through the filter: the crop grown by half the filter's support.
+/// May reach past the image.
 PixelRect sampled_pixels(const Camera& camera, const Options& options);
 
 /// The matrix that takes camera-space points to screen or NDC space, for files' metadata (row vectors).

@@ -26,21 +26,22 @@ HWY_INLINE V edge(V ai, V bi, V aj, V bj) {
     return hn::Sub(hn::Mul(ai, bj), hn::Mul(aj, bi));
 }
 
-/// Where the sign bit of `chooser` is set, that of `yes`, else of `no`; other bits mean nothing.
+/// crosses() of the scalar form, in the sign bits; the other bits mean nothing. |b| comes along.
 template <class V>
-HWY_INLINE V sign_chosen(V chooser, V yes, V no) {
-#if HWY_TARGET <= HWY_AVX3
-    return hn::IfVecThenElse(chooser, yes, no);  // bit by bit, in one instruction
+HWY_INLINE V crossing(V ai, V bi, V abs_bi, V aj, V bj, V abs_bj) {
+    const V t = hn::Add(hn::Mul(ai, abs_bj), hn::Mul(aj, abs_bi));
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    // In one instruction, which the compiler does not find.
+    return V{_mm512_castsi512_ps(_mm512_ternarylogic_epi32(
+        _mm512_castps_si512(bi.raw), _mm512_castps_si512(bj.raw), _mm512_castps_si512(t.raw), 0x28))};
 #else
-    return hn::Or(hn::And(chooser, yes), hn::AndNot(chooser, no));
+    return hn::And(hn::Xor(bi, bj), t);
 #endif
 }
 
-/// crosses() of the scalar form, in the sign bits; the other bits mean nothing.
 template <class V>
 HWY_INLINE V crossing(V ai, V bi, V aj, V bj) {
-    const V x = hn::Mul(ai, bj), y = hn::Mul(aj, bi);
-    return hn::And(hn::Xor(bi, bj), sign_chosen(bj, hn::Sub(x, y), hn::Sub(y, x)));
+    return crossing(ai, bi, hn::Abs(bi), aj, bj, hn::Abs(bj));
 }
 
 /// Lanes whose sign bit is set.
@@ -68,22 +69,54 @@ HWY_INLINE M alike(M a, M b) {
 
 }  // namespace predicate_lanes
 
-/// Of lanes that pass a micropolygon, those that see a side that can be hit, and their depths. The corners
-/// are moved along the rays to their plane (a, b), z is from before.
+/// A quad along lanes of rays to their plane.
+template <class V>
+struct QuadLanes {
+    V a00, a10, a01, a11, b00, b10, b01, b11;
+    V z00, z10, z01, z11;
+};
+
+/// `vertex(component, corner)` gives lanes of coordinate 0, 1, 2 (x, y, z in the rays' turned axes) of a
+/// corner at the rays' times.
+template <class V, class Vertex>
+HWY_INLINE QuadLanes<V> quad_lanes(V ox, V oy, V oz, V ux, V uy, const Vertex& vertex) {
+    const auto offset = [](V x, V o, V u, V dz) HWY_ATTR { return hn::Sub(hn::Sub(x, o), hn::Mul(u, dz)); };
+    QuadLanes<V> q;
+    q.z00 = vertex(2, k00), q.z10 = vertex(2, k10), q.z01 = vertex(2, k01), q.z11 = vertex(2, k11);
+    const V dz00 = hn::Sub(q.z00, oz), dz10 = hn::Sub(q.z10, oz), dz01 = hn::Sub(q.z01, oz),
+            dz11 = hn::Sub(q.z11, oz);
+    q.a00 = offset(vertex(0, k00), ox, ux, dz00), q.b00 = offset(vertex(1, k00), oy, uy, dz00);
+    q.a10 = offset(vertex(0, k10), ox, ux, dz10), q.b10 = offset(vertex(1, k10), oy, uy, dz10);
+    q.a01 = offset(vertex(0, k01), ox, ux, dz01), q.b01 = offset(vertex(1, k01), oy, uy, dz01);
+    q.a11 = offset(vertex(0, k11), ox, ux, dz11), q.b11 = offset(vertex(1, k11), oy, uy, dz11);
+    return q;
+}
+
+/// Lanes whose rays pass inside, whatever way the quad faces.
 template <class D, class V>
-HWY_INLINE hn::Mask<D> hit_depth(D d, V a00, V b00, V a10, V b10, V a01, V b01, V a11, V b11, V z00, V z10,
-                                 V z01, V z11, Facing facing, hn::Mask<D> hit, V& depth) {
+HWY_INLINE hn::Mask<D> inside(D d, const QuadLanes<V>& q) {
+    namespace p = predicate_lanes;
+    const V abs00 = hn::Abs(q.b00), abs10 = hn::Abs(q.b10), abs01 = hn::Abs(q.b01), abs11 = hn::Abs(q.b11);
+    return p::negative(d, hn::Xor(hn::Xor(p::crossing(q.a00, q.b00, abs00, q.a10, q.b10, abs10),
+                                          p::crossing(q.a10, q.b10, abs10, q.a11, q.b11, abs11)),
+                                  hn::Xor(p::crossing(q.a11, q.b11, abs11, q.a01, q.b01, abs01),
+                                          p::crossing(q.a01, q.b01, abs01, q.a00, q.b00, abs00))));
+}
+
+/// Depths of rays that pass inside; false where the quad faces the wrong way.
+template <class D, class V>
+HWY_INLINE hn::Mask<D> depth_inside(D d, const QuadLanes<V>& q, Facing facing, V& depth) {
     namespace p = predicate_lanes;
     using M = hn::Mask<D>;
     const V zero = hn::Zero(d);
-    const V c_bottom = p::edge(a00, b00, a10, b10), c_right = p::edge(a10, b10, a11, b11);
-    const V c_top = p::edge(a11, b11, a01, b01), c_left = p::edge(a01, b01, a00, b00);
+    const V c_bottom = p::edge(q.a00, q.b00, q.a10, q.b10), c_right = p::edge(q.a10, q.b10, q.a11, q.b11);
+    const V c_top = p::edge(q.a11, q.b11, q.a01, q.b01), c_left = p::edge(q.a01, q.b01, q.a00, q.b00);
+    M hit = hn::Not(hn::FirstN(d, 0));
     if (facing != Facing::Both) {
         const V twice_area = hn::Add(hn::Add(c_bottom, c_right), hn::Add(c_top, c_left));
-        hit = hn::And(hit,
-                      facing == Facing::PositiveOnly ? hn::Ge(twice_area, zero) : hn::Lt(twice_area, zero));
+        hit = facing == Facing::PositiveOnly ? hn::Ge(twice_area, zero) : hn::Lt(twice_area, zero);
     }
-    const V c_diagonal = p::edge(a00, b00, a11, b11);
+    const V c_diagonal = p::edge(q.a00, q.b00, q.a11, q.b11);
     const M bottom_below = hn::Lt(c_bottom, zero);
     const M lower = hn::And(p::alike(bottom_below, hn::Lt(c_right, zero)),
                             hn::Xor(bottom_below, hn::Lt(c_diagonal, zero)));
@@ -91,35 +124,23 @@ HWY_INLINE hn::Mask<D> hit_depth(D d, V a00, V b00, V a10, V b10, V a01, V b01, 
             w10 = hn::IfThenElse(lower, hn::Neg(c_diagonal), zero);
     const V w01 = hn::IfThenElse(lower, zero, c_diagonal), w11 = hn::IfThenElse(lower, c_bottom, c_left);
     const V sum = hn::Add(hn::Add(w00, w10), hn::Add(w01, w11));
-    const V weighted =
-        hn::Add(hn::Add(hn::Mul(w00, z00), hn::Mul(w10, z10)), hn::Add(hn::Mul(w01, z01), hn::Mul(w11, z11)));
-    const V z_min = p::min_of(p::min_of(z00, z10), p::min_of(z01, z11));
-    const V z_max = p::max_of(p::max_of(z00, z10), p::max_of(z01, z11));
+    const V weighted = hn::Add(hn::Add(hn::Mul(w00, q.z00), hn::Mul(w10, q.z10)),
+                               hn::Add(hn::Mul(w01, q.z01), hn::Mul(w11, q.z11)));
+    const V z_min = p::min_of(p::min_of(q.z00, q.z10), p::min_of(q.z01, q.z11));
+    const V z_max = p::max_of(p::max_of(q.z00, q.z10), p::max_of(q.z01, q.z11));
     const V z = hn::Div(weighted, sum);
     depth = hn::IfThenElse(hn::Ge(z, z_min), hn::IfThenElse(hn::Le(z, z_max), z, z_max), z_min);
     return hit;
 }
 
-/// `vertex(component, corner)` gives lanes of coordinate 0, 1, 2 (x, y, z in the rays' turned axes) of a
-/// corner at the rays' times. Depths are meaningful where the mask is true.
+/// hit_micropolygon() in lanes. Depths are meaningful where the mask is true.
 template <class D, class V, class Vertex>
 HWY_INLINE hn::Mask<D> hit_micropolygon(D d, V ox, V oy, V oz, V ux, V uy, const Vertex& vertex,
                                         Facing facing, V& depth) {
-    namespace p = predicate_lanes;
-    const V z00 = vertex(2, k00), z10 = vertex(2, k10), z01 = vertex(2, k01), z11 = vertex(2, k11);
-    const auto offset = [](V x, V o, V u, V dz) HWY_ATTR { return hn::Sub(hn::Sub(x, o), hn::Mul(u, dz)); };
-    const V dz00 = hn::Sub(z00, oz), dz10 = hn::Sub(z10, oz), dz01 = hn::Sub(z01, oz),
-            dz11 = hn::Sub(z11, oz);
-    const V a00 = offset(vertex(0, k00), ox, ux, dz00), b00 = offset(vertex(1, k00), oy, uy, dz00);
-    const V a10 = offset(vertex(0, k10), ox, ux, dz10), b10 = offset(vertex(1, k10), oy, uy, dz10);
-    const V a01 = offset(vertex(0, k01), ox, ux, dz01), b01 = offset(vertex(1, k01), oy, uy, dz01);
-    const V a11 = offset(vertex(0, k11), ox, ux, dz11), b11 = offset(vertex(1, k11), oy, uy, dz11);
-
-    const V crossings = hn::Xor(hn::Xor(p::crossing(a00, b00, a10, b10), p::crossing(a10, b10, a11, b11)),
-                                hn::Xor(p::crossing(a11, b11, a01, b01), p::crossing(a01, b01, a00, b00)));
-    const hn::Mask<D> hit = p::negative(d, crossings);
+    const QuadLanes<V> q = quad_lanes(ox, oy, oz, ux, uy, vertex);
+    const hn::Mask<D> hit = inside(d, q);
     if (hn::AllFalse(d, hit)) return hit;
-    return hit_depth(d, a00, b00, a10, b10, a01, b01, a11, b11, z00, z10, z01, z11, facing, hit, depth);
+    return hn::And(hit, depth_inside(d, q, facing, depth));
 }
 
 /// Lanes of position_at().

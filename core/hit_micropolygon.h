@@ -9,12 +9,13 @@
 /// ray passes the quad when the origin of (a, b) is inside by the even-odd rule. A quad may be a bow-tie or
 /// degenerate.
 ///
-/// Edges are half-open, decided by the sign bits of b at both ends and, when these differ, by that of
-///     c = a_i * b_j - a_j * b_i    where b falls from i to j,
-///     a_j * b_i - a_i * b_j        where it rises:
-/// multiply, multiply, subtract, never fused. Walked the other way, an edge falls where it rose, and the very
-/// same difference decides: both micropolygons at an edge decide alike in every bit, zeros included. So a
-/// mesh that is closed in its bits has no leaks. (Sign bits, not comparisons with zero: they need no masks.)
+/// An edge counts where it crosses the negative a axis: where the sign bits of b at its ends differ and that
+/// of
+///     t = a_i * |b_j| + a_j * |b_i|
+/// is set, which is the crossing's a but for a positive factor: multiply, multiply, add, never fused. Walked
+/// the other way it is the same sum: both micropolygons at an edge decide alike in every bit, zeros included.
+/// So a mesh that is closed in its bits has no leaks. (Sign bits, not comparisons with zero: vector units do
+/// them by and, or and xor, without masks.)
 ///
 // clang-format off
 ///     v  01 ---- 11     The diagonal 00-11 makes two triangles; the depth is that of the point on the one
@@ -35,6 +36,10 @@
 #include "core/rays.h"
 
 namespace trapeze {
+
+/// No coordinate of a grid is larger. Products may overflow, but a and b are numbers: where they were not,
+/// signs would depend on the order of operands.
+inline constexpr float kLargestCoordinate = 1e30f;
 
 /// Corners in the order 00, 10, 01, 11, at the ray's time, in the ray's turned axes.
 struct Quad {
@@ -82,11 +87,10 @@ inline Edges edges_of(const AxisRay& ray, const Quad& q) {
     return e;
 }
 
-/// Whether the edge from i to j crosses the positive a axis. The same answer for j to i, bit for bit.
+/// Whether the edge between i and j crosses the negative a axis. The same answer for j and i, bit for bit.
 inline bool crosses(const Edges& e, int i, int j) {
-    const bool below_i = std::signbit(e.b[i]), below_j = std::signbit(e.b[j]);
-    return below_i != below_j && std::signbit(below_j ? edge(e.a[i], e.b[i], e.a[j], e.b[j])
-                                                      : edge(e.a[j], e.b[j], e.a[i], e.b[i]));
+    return std::signbit(e.b[i]) != std::signbit(e.b[j]) &&
+           std::signbit(e.a[i] * std::abs(e.b[j]) + e.a[j] * std::abs(e.b[i]));
 }
 
 inline bool inside(const Edges& e) {
@@ -116,9 +120,8 @@ inline QuadWeights weights(const Edges& e) {
 }  // namespace predicate_detail
 
 /// True when the ray's line passes the quad; then *depth is where, along the ray's axis. The caller compares
-/// the depth with its range and orders equal depths by micropolygon id. Coordinates are numbers (pack_grid()
-/// sees to it): the sign of a NaN that came in would depend on the order of operands; those that come of
-/// overflow all have the same.
+/// the depth with its range and orders equal depths by micropolygon id. Coordinates are within
+/// kLargestCoordinate: pack_grid() sees to it.
 inline bool hit_micropolygon(const AxisRay& ray, const Quad& q, Facing facing, float* depth) {
     namespace d = predicate_detail;
     const d::Edges e = d::edges_of(ray, q);

@@ -62,11 +62,11 @@ class Awkward {
             case 1:
                 return std::nextafter(static_cast<float>(static_cast<int>(engine_() % 3) - 1), 5.0f);
             case 8:
-                return -3e38f;  // products overflow, differences of infinities are not numbers
+                return -kLargestCoordinate;  // products overflow, differences of infinities are not numbers
             case 9:
-                return std::numeric_limits<float>::infinity();
+                return kLargestCoordinate;
             case 10:
-                return 3e38f;
+                return 1e25f;
             case 11:
                 return -1e-40f;
             case 12:

@@ -14,8 +14,12 @@ float finite_or(float value, float fallback, int64_t* not_finite) {
     return fallback;
 }
 
-/// One plane in tiles, lanes past the end repeating the last row and column. Where a value is not finite the
-/// last finite one holds, so that a bad vertex collapses onto a neighbour.
+float coordinate_or(float value, float fallback, int64_t* not_finite) {
+    return finite_or(std::abs(value) <= kLargestCoordinate ? value : HUGE_VALF, fallback, not_finite);
+}
+
+/// One plane in tiles, lanes past the end repeating the last row and column. Where a value is not finite, or
+/// farther out than the predicate allows, the last good one holds: a bad vertex collapses onto a neighbour.
 void pack_plane(const GridShape& shape, const float* rows, float* tiles, int64_t* not_finite) {
     float last = 0;
     for (int tv = 0; tv < shape.tiles_v(); ++tv)
@@ -23,7 +27,7 @@ void pack_plane(const GridShape& shape, const float* rows, float* tiles, int64_t
             for (int lane = 0; lane < 16; ++lane, ++tiles) {
                 const int i = std::min<int>(tu * 4 + (lane & 3), shape.nu);
                 const int j = std::min<int>(tv * 4 + (lane >> 2), shape.nv);
-                last = *tiles = finite_or(rows[shape.row_index(i, j)], last, not_finite);
+                last = *tiles = coordinate_or(rows[shape.row_index(i, j)], last, not_finite);
             }
 }
 

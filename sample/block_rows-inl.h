@@ -159,10 +159,20 @@ class BlockRows {
                 if (!hn::AllFalse(d, wanted_passed)) {
                     const auto at = static_cast<size_t>(u);
                     V depth = zero;
-                    const BlockMask hit = hit_depth(
-                        d, a00, b00, a10, b10, a01, b01, a11, b11, coordinate(run, at, 2, local),
-                        coordinate(run, at + 1, 2, local), coordinate(run, run.row + at, 2, local),
-                        coordinate(run, run.row + at + 1, 2, local), in_.grid.facing, wanted_passed, depth);
+                    const QuadLanes<V> quad{a00,
+                                            a10,
+                                            a01,
+                                            a11,
+                                            b00,
+                                            b10,
+                                            b01,
+                                            b11,
+                                            coordinate(run, at, 2, local),
+                                            coordinate(run, at + 1, 2, local),
+                                            coordinate(run, run.row + at, 2, local),
+                                            coordinate(run, run.row + at + 1, 2, local)};
+                    const BlockMask hit =
+                        hn::And(wanted_passed, depth_inside(d, quad, in_.grid.facing, depth));
                     stats_.predicate_hits += hn::CountTrue(d, hit);
                     keep(static_cast<uint32_t>(v << 4 | u), hit, depth);
                 }
