@@ -24,19 +24,23 @@ void SampleSlots::build(const SampleTile& samples, const SlotTable& table, int c
     fill_rest();
 }
 
-/// Calls visit(sample, x, y, index of its slot's cell) for all.
+/// Calls visit(sample, x, y, index of its slot's cell) for all, cell by cell.
 template <class Visit>
 void SampleSlots::for_each_sample(const SampleTile& samples, const SlotTable& table, Visit&& visit) const {
     const auto per_pixel = static_cast<size_t>(samples.samples_per_pixel);
-    size_t pixel = 0;
-    for (int y = 0; y < height_; ++y)
-        for (int x = 0; x < width_; ++x, ++pixel) {
-            const size_t cell = static_cast<size_t>(y >> cell_shift_) * cells_x_ + (x >> cell_shift_);
-            const uint32_t key = table.key_of_pixel.empty() ? 0 : table.key_of_pixel[pixel];
-            const uint32_t* slot_of = table.slot_of.data() + key * per_pixel;
-            for (size_t s = 0; s < per_pixel; ++s)
-                visit(static_cast<uint32_t>(pixel * per_pixel + s), x, y, slot_of[s] * cell_count_ + cell);
-        }
+    const auto visit_pixel = [&](int x, int y, size_t cell) {
+        const size_t pixel = static_cast<size_t>(y) * width_ + x;
+        const uint32_t key = table.key_of_pixel.empty() ? 0 : table.key_of_pixel[pixel];
+        const uint32_t* slot_of = table.slot_of.data() + key * per_pixel;
+        for (size_t s = 0; s < per_pixel; ++s)
+            visit(static_cast<uint32_t>(pixel * per_pixel + s), x, y, slot_of[s] * cell_count_ + cell);
+    };
+    const int side = 1 << cell_shift_;
+    size_t cell = 0;
+    for (int cell_y = 0; cell_y < height_; cell_y += side)
+        for (int cell_x = 0; cell_x < width_; cell_x += side, ++cell)
+            for (int y = cell_y; y < std::min(cell_y + side, height_); ++y)
+                for (int x = cell_x; x < std::min(cell_x + side, width_); ++x) visit_pixel(x, y, cell);
 }
 
 void SampleSlots::count_blocks(const SampleTile& samples, const SlotTable& table) {
@@ -86,14 +90,20 @@ void SampleSlots::fill_rest() {
 }
 
 void SampleSlots::merge_into(std::vector<Hit>& nearest) const {
-    for (size_t i = 0; i < blocks_.size(); ++i)
-        for (size_t lane = 0; lane < lane_counts_[i]; ++lane) {
-            const SampleBlock& block = blocks_[i];
-            if (block.depth[lane] == kInfinite) continue;
-            const Hit hit{block.depth[lane], uint64_t{block.grid[lane]} << 8 | block.micropolygon[lane]};
-            Hit& best = nearest[samples_[i * kLanes + lane]];
-            if (in_front(hit, best)) best = hit;
-        }
+    // Cell by cell: what all slots have of some pixels goes to one place.
+    for (size_t cell = 0; cell + 1 < cell_count_; ++cell)
+        for (size_t at = cell; at < next_lane_.size(); at += cell_count_)
+            for (size_t i = first_block_[at]; i < first_block_[at + 1]; ++i) merge_block(i, nearest);
+}
+
+void SampleSlots::merge_block(size_t index, std::vector<Hit>& nearest) const {
+    const SampleBlock& block = blocks_[index];
+    for (size_t lane = 0; lane < lane_counts_[index]; ++lane) {
+        if (block.depth[lane] == kInfinite) continue;
+        const Hit hit{block.depth[lane], uint64_t{block.grid[lane]} << 8 | block.micropolygon[lane]};
+        Hit& best = nearest[sample(index, lane)];
+        if (in_front(hit, best)) best = hit;
+    }
 }
 
 }  // namespace trapeze

@@ -63,6 +63,7 @@ class SampleSlots {
     void count_blocks(const SampleTile& samples, const SlotTable& table);
     void fill_blocks(const SampleTile& samples, const SlotTable& table, bool places);
     void fill_rest();
+    void merge_block(size_t index, std::vector<Hit>& nearest) const;
     template <class Visit>
     void for_each_sample(const SampleTile& samples, const SlotTable& table, Visit&& visit) const;
 
