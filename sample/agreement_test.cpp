@@ -308,9 +308,21 @@ TEST_P(Agreement, IntervalWithShuffledPairingFindsWhatBruteForceFinds) {
     EXPECT_EQ(differing_samples(resolve(scene(), "interval:pairing=shuffled,cull=on"), truth), 0u);
 }
 
+TEST_P(Agreement, InterleaveUvtFindsWhatBruteForceFinds) {
+    for (const std::string k : {"k=1", "k=2", "k=4"}) {
+        const auto truth = resolve(scene(), "bruteforce", "interleaved:" + k);
+        EXPECT_EQ(hit_count(truth) > 0, scene().must_hit);
+        EXPECT_EQ(differing_samples(resolve(scene(), "interleaveuvt:" + k), truth), 0u) << k;
+        EXPECT_EQ(differing_samples(resolve(scene(), "interleaveuvt:cull=on," + k), truth), 0u) << k;
+    }
+    const auto truth = resolve(scene(), "bruteforce", "interleaved");
+    EXPECT_TRUE(resolve(scene(), "interleaveuvt") == truth);
+}
+
 TEST_P(Agreement, OfAnyNumberOfThreads) {
-    for (const char* method : {"raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off",
-                               "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
+    for (const char* method :
+         {"interleaveuvt:cull=on", "raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off",
+          "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
         std::vector<std::vector<HitBuffer>> results;
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -325,6 +337,7 @@ TEST_P(Agreement, OfAnyNumberOfThreads) {
 TEST_P(Agreement, OfAllInstructionSets) {
     const auto traced = resolve(scene(), "raytrace:tree=paper");
     const auto interval_truth = resolve(scene(), "bruteforce", "interval");
+    const auto interleaved_truth = resolve(scene(), "bruteforce", "interleaved");
     int tried = 0;
     for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
         hwy::SetSupportedTargetsForTest(targets & -targets);
@@ -333,6 +346,8 @@ TEST_P(Agreement, OfAllInstructionSets) {
         EXPECT_TRUE(resolve(scene(), "raytrace") == traced) << simd_target_name();
         for (const char* method : {"interval", "interval:cull=on"})
             EXPECT_TRUE(resolve(scene(), method) == interval_truth) << method << simd_target_name();
+        for (const char* method : {"interleaveuvt", "interleaveuvt:cull=on"})
+            EXPECT_TRUE(resolve(scene(), method) == interleaved_truth) << method << simd_target_name();
         EXPECT_TRUE(resolve(scene(), "interval:pairing=shuffled") == traced) << simd_target_name();
         ++tried;
     }

@@ -43,10 +43,20 @@ struct SlotBound {
 
 class GridBounds {
   public:
+    /// Camera space, at the two ends of a segment.
+    struct SegmentBox {
+        V3f min[2], max[2];
+    };
+
     /// In parallel; the same for any number of threads.
     GridBounds(const Camera& camera, const Grids& grids);
 
     const GridBound& operator[](size_t grid) const { return bounds_[grid]; }
+
+    /// The boxes of a grid's segments follow each other.
+    const SegmentBox& segment_box(size_t grid, int segment) const {
+        return segments_[first_segment_[grid] + static_cast<size_t>(segment)];
+    }
 
     /// Conservative for samples of all times in `parts` and lens points in `lens`.
     SlotBound slot_bound(size_t grid, const std::vector<SegmentPart>& parts, const LensBox& lens) const;
@@ -54,10 +64,6 @@ class GridBounds {
     size_t bytes() const;
 
   private:
-    /// Camera space, at the two ends of a segment.
-    struct SegmentBox {
-        V3f min[2], max[2];
-    };
     void bound_grid(const Grid& grid, size_t index);
 
     const Camera& camera_;

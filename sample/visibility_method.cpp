@@ -7,6 +7,7 @@ const std::vector<VisibilityMethod>& visibility_methods() {
         raytrace_method(),
         brute_force_method(),
         interval_method(),
+        interleave_uvt_method(),
     };
     return methods;
 }

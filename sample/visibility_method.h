@@ -17,6 +17,7 @@
 #include "sample/interval_scratch.h"
 #include "sample/method_spec.h"
 #include "sample/sample_pattern.h"
+#include "sample/uvt_raster.h"
 
 namespace trapeze {
 
@@ -44,6 +45,7 @@ struct SampleScratch {
     BundleScratchPointer bundle_scratch;
     std::vector<uint32_t> ray_tests, ray_nodes;  ///< what the rays of a bundle cost
     IntervalScratch interval;
+    UvtScratch uvt;
 };
 
 /// A method with what it has prepared for some grids. Keeps references to the context and the grids.
@@ -107,6 +109,7 @@ std::string_view simd_target_name();
 VisibilityMethod raytrace_method();
 VisibilityMethod brute_force_method();
 VisibilityMethod interval_method();
+VisibilityMethod interleave_uvt_method();
 
 /// For methods that take any sample as it comes.
 inline std::string stratified_pattern(const MethodSpec&) {

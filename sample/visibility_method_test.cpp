@@ -130,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryMethod,
                          ::testing::Values("raytrace", "raytrace:tree=paper",
                                            "raytrace:tree=paper,bundle=off", "bruteforce", "interval",
                                            "interval:cull=on", "interval:pairing=shuffled",
-                                           "interval:pairing=shuffled,cull=on"),
+                                           "interval:pairing=shuffled,cull=on", "interleaveuvt",
+                                           "interleaveuvt:k=1", "interleaveuvt:k=4,cull=on"),
                          [](const auto& tested) {
                              std::string name(tested.param);
                              std::erase_if(name, [](char c) { return !std::isalnum(c); });
@@ -147,6 +148,7 @@ TEST(VisibilityMethods, AreChosenByName) {
     EXPECT_EQ(choose_sampler("raytrace:tree=paper,bundle=off", "", &error)->name(),
               "raytrace:tree=paper,bundle=off");
     EXPECT_EQ(choose_sampler("raytrace:bundle=on", "", &error)->name(), "raytrace");
+    EXPECT_EQ(choose_sampler("interleaveuvt:k=4", "", &error)->pattern["k"], "4");
     EXPECT_FALSE(simd_target_name().empty());
 }
 
@@ -161,6 +163,10 @@ TEST(VisibilityMethods, WrongNamesAreExplained) {
     EXPECT_THAT(error_of("raytrace:bundle=maybe", ""), ::testing::HasSubstr("is one of on, off"));
     EXPECT_THAT(error_of("raytrace:bundles=on", ""), ::testing::HasSubstr("no option \"bundles\""));
     EXPECT_THAT(error_of("raytrace:bundle", ""), ::testing::HasSubstr("key=value"));
+    EXPECT_THAT(error_of("interleaveuvt:k=4", "interleaved:k=2"),
+                ::testing::HasSubstr("cannot resolve samples"));
+    EXPECT_THAT(error_of("interleaveuvt", "stratified"),
+                ::testing::HasSubstr("its own is \"interleaved:k=2\""));
     EXPECT_THAT(error_of("raytrace", "scattered"), ::testing::HasSubstr("no sample pattern \"scattered\""));
 }
 
