@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "accel/bundle_scratch.h"
@@ -58,6 +59,7 @@ constexpr size_t kLanes = hn::MaxLanes(F32());
 constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
 constexpr size_t kMaskBytes = (kLanes + 7) / 8;
 constexpr size_t kMetStride = BundleScratch::kMetStride;
+constexpr int kRayFloats = sizeof(AxisRay) / sizeof(float);
 
 HWY_INLINE uint32_t mask_bits(MF mask) {
     uint8_t bytes[8] = {};
@@ -622,28 +624,32 @@ void trace(const TraceInput& in, bool motion, bool lens) {
     }
 }
 
-/// Gathers from the rays as they lie.
-void fill(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBundle& bundle) {
-    static_assert(sizeof(AxisRay) == 6 * sizeof(float));
+/// Gathers a component of rays as they lie; 0 when it is not wanted.
+void fill_component(const float* component, std::span<const uint32_t> order, bool wanted, float* to) {
     const F32 d;
     const I32 di;
-    const auto* floats = reinterpret_cast<const float*>(rays.data());
-    const size_t count = order.size(), whole = count / kLanes * kLanes;
-    bundle.count = count;
-    for (size_t i = 0; i < whole; i += kLanes) {
+    const size_t count = order.size();
+    size_t i = 0;
+    for (; i + kLanes <= count; i += kLanes) {
+        if (!wanted) {
+            hn::Store(hn::Zero(d), d, to + i);
+            continue;
+        }
         const VI ray = hn::LoadU(di, reinterpret_cast<const int32_t*>(order.data() + i));
-        const VI at = hn::Mul(ray, hn::Set(di, 6));
-        hn::Store(hn::GatherIndex(d, floats, at), d, bundle.ox + i);
-        hn::Store(hn::GatherIndex(d, floats + 1, at), d, bundle.oy + i);
-        hn::Store(hn::GatherIndex(d, floats + 3, at), d, bundle.ux + i);
-        hn::Store(hn::GatherIndex(d, floats + 4, at), d, bundle.uy + i);
-        hn::Store(hn::GatherIndex(d, floats + 5, at), d, bundle.time + i);
+        hn::Store(hn::GatherIndex(d, component, hn::Mul(ray, hn::Set(di, kRayFloats))), d, to + i);
     }
-    for (size_t i = whole; i < count; ++i) {
-        const AxisRay& ray = rays[order[i]];
-        bundle.ox[i] = ray.ox, bundle.oy[i] = ray.oy, bundle.ux[i] = ray.ux, bundle.uy[i] = ray.uy;
-        bundle.time[i] = ray.time;
-    }
+    for (; i < count; ++i) to[i] = wanted ? component[order[i] * size_t{kRayFloats}] : 0.0f;
+}
+
+void fill(std::span<const AxisRay> rays, std::span<const uint32_t> order, bool lens, bool motion,
+          RayBundle& bundle) {
+    const auto* floats = reinterpret_cast<const float*>(rays.data());
+    bundle.count = order.size();
+    fill_component(floats + offsetof(AxisRay, ox) / sizeof(float), order, lens, bundle.ox);
+    fill_component(floats + offsetof(AxisRay, oy) / sizeof(float), order, lens, bundle.oy);
+    fill_component(floats + offsetof(AxisRay, ux) / sizeof(float), order, true, bundle.ux);
+    fill_component(floats + offsetof(AxisRay, uy) / sizeof(float), order, true, bundle.uy);
+    fill_component(floats + offsetof(AxisRay, time) / sizeof(float), order, motion, bundle.time);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -663,8 +669,9 @@ void DeleteBundleScratch::operator()(BundleScratch* scratch) const {
     delete scratch;
 }
 
-void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBundle& bundle) {
-    HWY_DYNAMIC_DISPATCH(fill)(rays, order, bundle);
+void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, bool lens, bool motion,
+                 RayBundle& bundle) {
+    HWY_DYNAMIC_DISPATCH(fill)(rays, order, lens, motion, bundle);
 }
 
 void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal_distance, RayBundle& rays,

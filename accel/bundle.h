@@ -45,13 +45,15 @@ struct DeleteBundleScratch {
 using BundleScratchPointer = std::unique_ptr<BundleScratch, DeleteBundleScratch>;
 BundleScratchPointer make_bundle_scratch();
 
-/// Takes rays[order[0]], rays[order[1]] and so on into the bundle; at most RayBundle::kRays.
-void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBundle& bundle);
+/// Takes rays[order[0]], rays[order[1]] and so on into the bundle; at most RayBundle::kRays. Without `lens`
+/// or `motion` origins or times are not read.
+void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, bool lens, bool motion,
+                 RayBundle& bundle);
 
 /// Sets what the rays see within some depths. The bounds of the rays are taken as intervals in
 /// (x, y) at depth z = d * z + o * (1 - z / focal_distance): rays of one lens that meet at the focal distance
-/// have intervals as narrow as can be; any others are right, too. No `lens`: all origins are 0. The rays are
-/// within the tree's reach.
+/// have intervals as narrow as can be; any others are right, too. Without `lens` all origins are 0. The rays
+/// are within the tree's reach.
 void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal_distance, RayBundle& rays,
                   BundleScratch& scratch, SampleStats& stats);
 

@@ -102,6 +102,16 @@ void z_order_of_pixels(const SampleTile& samples, std::vector<uint32_t>& first) 
     }
 }
 
+/// Pixel by pixel; a pixel's samples one after another.
+void order_by_pixels(const SampleTile& samples, SampleScratch& scratch) {
+    z_order_of_pixels(samples, scratch.pixel_first);
+    scratch.order.resize(samples.size());
+    uint32_t* next = scratch.order.data();
+    for (const uint32_t first : scratch.pixel_first)
+        for (uint32_t i = first; i < first + static_cast<uint32_t>(samples.samples_per_pixel); ++i)
+            *next++ = i;
+}
+
 }  // namespace
 
 void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
@@ -113,6 +123,10 @@ void order_bundles(const SampleTile& samples, bool motion, bool defocus, const B
     const int side = order.block_side, blocks_x = (width + side - 1) / side,
               blocks_y = (height + side - 1) / side;
 
+    if (bits == 0) {  // blocks of any side follow each other along the curve, too
+        order_by_pixels(samples, scratch);
+        return;
+    }
     scratch.keys.resize(samples.size());
     const float* lens_u = defocus ? samples.lens_u.data() : nullptr;
     const float* time = motion ? samples.time.data() : nullptr;

@@ -31,15 +31,16 @@ class WideRayTraced final : public Visibility {
   public:
     explicit WideRayTraced(const VisibilityInput& input)
         : camera_(input.context.camera),
-          motion_(input.context.motion),
+          lens_(camera_.has_lens()),
           all_opaque_(every_grid_is_opaque(input.grids)),
-          tree_(input.grids, reach_of(input.context.camera)) {}
+          tree_(input.grids, reach_of(input.context.camera)),
+          motion_(tree_.moves()) {}
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
         if (!scratch.bundle) scratch.bundle = std::make_unique<RayBundle>();
         if (!scratch.bundle_scratch) scratch.bundle_scratch = make_bundle_scratch();
-        order_bundles(samples, motion_, camera_.has_lens(), {}, scratch);
+        order_bundles(samples, motion_, lens_, {}, scratch);
         scratch.nearest.resize(samples.size());
         scratch.hits.clear();
         scratch.hit_sample.clear();
@@ -59,7 +60,7 @@ class WideRayTraced final : public Visibility {
     void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
                         SampleStats& stats) const {
         RayBundle& rays = *scratch.bundle;
-        fill_bundle(samples.rays, order, rays);
+        fill_bundle(samples.rays, order, lens_, motion_, rays);
         count_costs_from(rays, scratch);
         trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, camera_.has_lens(), camera_.focal_distance,
                      rays, *scratch.bundle_scratch, stats);
@@ -112,8 +113,9 @@ class WideRayTraced final : public Visibility {
     }
 
     const Camera& camera_;
-    bool motion_, all_opaque_;
+    bool lens_, all_opaque_;
     WideTree tree_;
+    bool motion_;  ///< of grids; samples may have times all the same
 };
 
 }  // namespace
