@@ -42,21 +42,19 @@ class BlockRows {
         if constexpr (kMotion != Motion::None) place_in_time();
     }
 
-    /// Tests the micropolygons (u, v) of the bits u of `columns`. wanted(u) gives the lanes worth testing;
-    /// `tests` is how many these are together. Rows ascend.
+    /// Tests the micropolygons (u, v) of the bits u of `columns`. wanted(u) gives the lanes worth testing.
+    /// Rows ascend.
     template <class Wanted>
     void test(int v, uint32_t columns, const Wanted& wanted) {
         if (v != row_) vertices_ = edges_ = 0;
-        uint32_t new_vertices = 0, new_edges = 0;
+        const Run run = run_of_row(v);
+        const uint32_t needed = columns | columns << 1;
+        complete_lower(run, needed & ~vertices_, columns & ~edges_);
         for (uint32_t left = columns; left != 0;) {
-            int u = std::countr_zero(left);
-            const int first = u;
-            u = test_run(u, v, columns, wanted);
-            const uint32_t run = ((uint32_t{2} << (u - first)) - 1) << first;  // vertices of the run
-            new_vertices |= run, new_edges |= run & (run >> 1);
-            left &= ~run;
+            const int first = std::countr_zero(left), last = test_run(run, first, v, columns, wanted);
+            left &= ~((uint32_t{1} << last) - 1);
         }
-        row_ = v + 1, vertices_ = new_vertices, edges_ = new_edges;
+        row_ = v + 1, vertices_ = needed, edges_ = columns;
         std::swap(lower_, upper_);
     }
 
@@ -88,98 +86,122 @@ class BlockRows {
                   segment_);
     }
 
-    /// Two rows of vertices and the rays, in locals: stores of vectors may alias whatever is in memory.
+    /// Two rows of vertices and the rays. Locals: stores of vectors may alias whatever is in memory.
     struct Run {
-        const float* lower;  ///< the row below: plane x, segment 0
+        const float* lower;  ///< the row below: plane x, first segment
         size_t row, plane;   ///< floats to the row above, and from plane to plane
         const int32_t* segment;
+        V ox, oy, ux, uy, local;
     };
 
-    static HWY_INLINE V coordinate(const Run& run, size_t at, int component, V local) {
+    HWY_INLINE Run run_of_row(int v) const {
+        const D d;
+        const V zero = hn::Zero(d);
+        return {rows_.first + static_cast<size_t>(v) * static_cast<size_t>(rows_.row_length),
+                static_cast<size_t>(rows_.row_length),
+                static_cast<size_t>(rows_.padded),
+                segment_,
+                kLens ? hn::Load(d, block_->ox + lane_) : zero,
+                kLens ? hn::Load(d, block_->oy + lane_) : zero,
+                hn::Load(d, block_->ux + lane_),
+                hn::Load(d, block_->uy + lane_),
+                kMotion == Motion::None ? zero : hn::Load(d, local_)};
+    }
+
+    static HWY_INLINE V coordinate(const Run& run, size_t at, int component) {
         const D d;
         const float* start = run.lower + static_cast<size_t>(component) * run.plane + at;
         if constexpr (kMotion == Motion::None) return hn::Set(d, *start);
         const float* delta = start + 3 * run.plane;
         if constexpr (kMotion == Motion::OneSegment)
-            return position_at(hn::Set(d, *start), hn::Set(d, *delta), local);
+            return position_at(hn::Set(d, *start), hn::Set(d, *delta), run.local);
         const auto segment = hn::Load(hn::RebindToSigned<D>(), run.segment);
-        return position_at(hn::GatherIndex(d, start, segment), hn::GatherIndex(d, delta, segment), local);
+        return position_at(hn::GatherIndex(d, start, segment), hn::GatherIndex(d, delta, segment), run.local);
     }
 
-    static HWY_INLINE void move_to_plane(const Run& run, size_t at, V ox, V oy, V ux, V uy, V local, V* a,
-                                         V* b) {
-        const V z = coordinate(run, at, 2, local);
-        V x = coordinate(run, at, 0, local), y = coordinate(run, at, 1, local);
-        if constexpr (kLens) x = hn::Sub(x, ox), y = hn::Sub(y, oy);
-        *a = hn::Sub(x, hn::Mul(ux, z));
-        *b = hn::Sub(y, hn::Mul(uy, z));
+    static HWY_INLINE void move_to_plane(const Run& run, size_t at, V* a, V* b) {
+        const V z = coordinate(run, at, 2);
+        V x = coordinate(run, at, 0), y = coordinate(run, at, 1);
+        if constexpr (kLens) x = hn::Sub(x, run.ox), y = hn::Sub(y, run.oy);
+        *a = hn::Sub(x, hn::Mul(run.ux, z));
+        *b = hn::Sub(y, hn::Mul(run.uy, z));
+    }
+
+    /// What the row before has not left behind.
+    HWY_INLINE void complete_lower(const Run& run, uint32_t vertices, uint32_t edges) {
+        const D d;
+        Row& below = *lower_;
+        for (; vertices != 0; vertices &= vertices - 1) {
+            const int i = std::countr_zero(vertices);
+            V a, b;
+            move_to_plane(run, static_cast<size_t>(i), &a, &b);
+            hn::Store(a, d, below.a[i]), hn::Store(b, d, below.b[i]);
+        }
+        for (; edges != 0; edges &= edges - 1) {
+            const int i = std::countr_zero(edges);
+            const V crossed =
+                predicate_lanes::crossing(hn::Load(d, below.a[i]), hn::Load(d, below.b[i]),
+                                          hn::Load(d, below.a[i + 1]), hn::Load(d, below.b[i + 1]));
+            hn::Store(crossed, d, below.crossing[i]);
+        }
     }
 
     /// Tests micropolygons from u on as far as bits follow each other; returns the first past them.
     template <class Wanted>
-    HWY_INLINE int test_run(int u, int v, uint32_t columns, const Wanted& wanted) {
+    HWY_INLINE int test_run(const Run& run, int u, int v, uint32_t columns, const Wanted& wanted) {
         namespace p = predicate_lanes;
         const D d;
-        const Run run{rows_.first + static_cast<size_t>(v) * static_cast<size_t>(rows_.row_length),
-                      static_cast<size_t>(rows_.row_length), static_cast<size_t>(rows_.padded), segment_};
-        const V zero = hn::Zero(d), ux = hn::Load(d, block_->ux + lane_),
-                uy = hn::Load(d, block_->uy + lane_);
-        const V ox = kLens ? hn::Load(d, block_->ox + lane_) : zero,
-                oy = kLens ? hn::Load(d, block_->oy + lane_) : zero,
-                local = kMotion == Motion::None ? zero : hn::Load(d, local_);
-        const uint32_t known_vertices = vertices_, known_edges = edges_;
         const Row& below = *lower_;
         Row& above = *upper_;
-        const auto lower_vertex = [&](int i, V* a, V* b) HWY_ATTR {
-            if (known_vertices >> i & 1) {
-                *a = hn::Load(d, below.a[i]), *b = hn::Load(d, below.b[i]);
-                return;
-            }
-            move_to_plane(run, static_cast<size_t>(i), ox, oy, ux, uy, local, a, b);
-        };
-        const auto upper_vertex = [&](int i, V* a, V* b) HWY_ATTR {
-            move_to_plane(run, run.row + static_cast<size_t>(i), ox, oy, ux, uy, local, a, b);
-            hn::Store(*a, d, above.a[i]), hn::Store(*b, d, above.b[i]);
-        };
-        V a00, b00, a01, b01;
-        lower_vertex(u, &a00, &b00);
-        upper_vertex(u, &a01, &b01);
-        V left = p::crossing(a01, b01, a00, b00);
+        V a00 = hn::Load(d, below.a[u]), b00 = hn::Load(d, below.b[u]), a01, b01;
+        move_to_plane(run, run.row + static_cast<size_t>(u), &a01, &b01);
+        hn::Store(a01, d, above.a[u]), hn::Store(b01, d, above.b[u]);
+        V abs00 = hn::Abs(b00), abs01 = hn::Abs(b01);
+        V left = p::crossing(a01, b01, abs01, a00, b00, abs00);
         for (; columns >> u & 1; ++u) {
-            V a10, b10, a11, b11;
-            lower_vertex(u + 1, &a10, &b10);
-            upper_vertex(u + 1, &a11, &b11);
-            const V right = p::crossing(a10, b10, a11, b11), top = p::crossing(a11, b11, a01, b01);
-            const V bottom =
-                known_edges >> u & 1 ? hn::Load(d, below.crossing[u]) : p::crossing(a00, b00, a10, b10);
+            const V a10 = hn::Load(d, below.a[u + 1]), b10 = hn::Load(d, below.b[u + 1]);
+            V a11, b11;
+            move_to_plane(run, run.row + static_cast<size_t>(u) + 1, &a11, &b11);
+            hn::Store(a11, d, above.a[u + 1]), hn::Store(b11, d, above.b[u + 1]);
+            const V abs10 = hn::Abs(b10), abs11 = hn::Abs(b11);
+            const V right = p::crossing(a10, b10, abs10, a11, b11, abs11),
+                    top = p::crossing(a11, b11, abs11, a01, b01, abs01);
             hn::Store(top, d, above.crossing[u]);
-            const BlockMask passed = p::negative(d, hn::Xor(hn::Xor(bottom, right), hn::Xor(top, left)));
+            const V crossings = hn::Xor(hn::Xor(hn::Load(d, below.crossing[u]), right), hn::Xor(top, left));
+            const BlockMask passed = p::negative(d, crossings);
             if (!hn::AllFalse(d, passed)) {
-                const BlockMask wanted_passed = hn::And(passed, wanted(u));
-                if (!hn::AllFalse(d, wanted_passed)) {
-                    const auto at = static_cast<size_t>(u);
-                    V depth = zero;
-                    const QuadLanes<V> quad{a00,
-                                            a10,
-                                            a01,
-                                            a11,
-                                            b00,
-                                            b10,
-                                            b01,
-                                            b11,
-                                            coordinate(run, at, 2, local),
-                                            coordinate(run, at + 1, 2, local),
-                                            coordinate(run, run.row + at, 2, local),
-                                            coordinate(run, run.row + at + 1, 2, local)};
-                    const BlockMask hit =
-                        hn::And(wanted_passed, depth_inside(d, quad, in_.grid.facing, depth));
-                    stats_.predicate_hits += hn::CountTrue(d, hit);
-                    keep(static_cast<uint32_t>(v << 4 | u), hit, depth);
-                }
+                const QuadLanes<V> quad = with_depths(run, u, a00, a10, a01, a11, b00, b10, b01, b11);
+                settle(static_cast<uint32_t>(v << 4 | u), quad, hn::And(passed, wanted(u)));
             }
-            a00 = a10, b00 = b10, a01 = a11, b01 = b11, left = right;
+            a00 = a10, b00 = b10, a01 = a11, b01 = b11, left = right, abs01 = abs11;
         }
         return u;
+    }
+
+    static HWY_INLINE QuadLanes<V> with_depths(const Run& run, int u, V a00, V a10, V a01, V a11, V b00,
+                                               V b10, V b01, V b11) {
+        const auto at = static_cast<size_t>(u);
+        return {a00,
+                a10,
+                a01,
+                a11,
+                b00,
+                b10,
+                b01,
+                b11,
+                coordinate(run, at, 2),
+                coordinate(run, at + 1, 2),
+                coordinate(run, run.row + at, 2),
+                coordinate(run, run.row + at + 1, 2)};
+    }
+
+    HWY_INLINE void settle(uint32_t micropolygon, const QuadLanes<V>& quad, BlockMask passed) {
+        const D d;
+        if (hn::AllFalse(d, passed)) return;
+        V depth = hn::Zero(d);
+        const BlockMask hit = hn::And(passed, depth_inside(d, quad, in_.grid.facing, depth));
+        stats_.predicate_hits += hn::CountTrue(d, hit);
+        keep(micropolygon, hit, depth);
     }
 
     HWY_INLINE void keep(uint32_t micropolygon_index, BlockMask hit, V depth) {

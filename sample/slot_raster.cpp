@@ -102,21 +102,36 @@ class CellRaster {
         const float farthest = raster_.cull ? farthest_depth(raster_.slots.block(index)) : 0;
         for (size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
             rows_.begin(index, lane);
+            const PixelBox pixels = pixels_of_lanes(x, y, lane, count);
             for (uint32_t left = rows; left != 0; left &= left - 1) {
                 const int v = std::countr_zero(left);
-                uint32_t columns = columns_in_cell(v, x, y);
+                uint32_t columns = columns_within(v, pixels);
                 if (raster_.cull) columns &= columns_before(v, farthest);
                 if (columns != 0) test_row(index, lane, count, v, columns);
             }
         }
     }
 
-    /// Bits of the micropolygons of a row whose boxes reach a cell.
-    HWY_INLINE uint32_t columns_in_cell(int v, int cell_x, int cell_y) const {
-        const hn::RebindToSigned<BlockTag> di;
+    /// Inclusive.
+    struct PixelBox {
+        int x0, y0, x1, y1;
+    };
+
+    /// The pixels of a cell, or those rows of them that lanes from `lane` on have: known of full blocks of
+    /// 4 x 4 pixels.
+    HWY_INLINE PixelBox pixels_of_lanes(int cell_x, int cell_y, size_t lane, size_t count) const {
         const int size = 1 << shift_, x = cell_x << shift_, y = cell_y << shift_;
-        const auto left = hn::Set(di, x), right = hn::Set(di, x + size - 1);
-        const auto top = hn::Set(di, y), bottom = hn::Set(di, y + size - 1);
+        if (raster_.sparse || shift_ != 2 || count != SampleBlock::kLanes)
+            return {x, y, x + size - 1, y + size - 1};
+        const int lanes = static_cast<int>(hn::Lanes(BlockTag())), first = static_cast<int>(lane);
+        return {x, y + (first >> 2), x + 3, y + ((first + lanes - 1) >> 2)};
+    }
+
+    /// Bits of the micropolygons of a row whose boxes reach some pixels.
+    HWY_INLINE uint32_t columns_within(int v, const PixelBox& pixels) const {
+        const hn::RebindToSigned<BlockTag> di;
+        const auto left = hn::Set(di, pixels.x0), right = hn::Set(di, pixels.x1);
+        const auto top = hn::Set(di, pixels.y0), bottom = hn::Set(di, pixels.y1);
         return row_bits(v, [&](int at) HWY_ATTR {
             const auto beside = hn::Or(hn::Gt(hn::LoadU(di, &boxes_.x0[at]), right),
                                        hn::Lt(hn::LoadU(di, &boxes_.x1[at]), left));
