@@ -145,5 +145,20 @@ TEST(Interval, CullingSkipsWhatLiesBehind) {
     EXPECT_LT(culled.stats.predicate_tests, plain.stats.predicate_tests / 2);
 }
 
+/// Front to back is not the order of ids: what ties with all that has been found may still come first.
+TEST(Interval, CullingLeavesTiesToTheSmallerId) {
+    GridMaker maker;
+    maker.add(8, 8, 1, [](int i, int j, float) { return V3f(2.0f * i - 8, 2.0f * j - 8, 4); });
+    maker.add(8, 8, 1, [](int i, int j, float) {
+        return V3f(2.0f * i - 8, 2.0f * j - 8, i == 8 && j == 8 ? 3.5f : 4.0f);
+    });
+    for (const bool defocus : {false, true}) {
+        const TestFrame frame = frame_of_samples(4, 4, false, defocus);
+        const auto found = resolve(frame, maker.grids(), "interval:cull=on", "interval", {30, 30, 94, 94});
+        ASSERT_FALSE(found.hits.hits.empty());
+        for (const Hit& hit : found.hits.hits) ASSERT_EQ(MicropolygonId::unpack(hit.id).grid, 0u);
+    }
+}
+
 }  // namespace
 }  // namespace trapeze
