@@ -318,20 +318,22 @@ class BundleTrace {
         return hn::RebindMask(d, hn::Eq(index, hn::Set(di, segment)));
     }
 
-    /// The blocks of a grid that active rays meet.
+    /// The boxes of a grid that active rays meet, and the blocks in them.
     template <bool kMoves>
     void test_active(uint32_t index, const WideGrid& grid, int segment) {
         ActiveRays& active = s_.active;
         if (active.count == 0) return;
         const F32 d;
-        const float* planes = tree_.block_planes(grid, segment);
+        const float* planes = tree_.box_planes(grid, segment);
         hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);  // lanes past the end
-        const int blocks_u = grid.blocks_u(), blocks = grid.block_count();
-        meet_blocks<kMoves>(planes, blocks);
-        for (int b = 0; b < blocks; ++b) {
-            const size_t count = collect_block<kMoves>(s_.met + static_cast<size_t>(b) * kMetStride);
+        const int blocks_u = grid.blocks_u(), boxes = grid.box_count(), per_box = grid.blocks_per_box();
+        meet_boxes<kMoves>(planes, boxes);
+        for (int box = 0; box < boxes; ++box) {
+            const size_t count = collect_box<kMoves>(s_.met + static_cast<size_t>(box) * kMetStride);
             if (count == 0) continue;
-            test_block_rays<kMoves>(block_of(grid, segment, b % blocks_u, b / blocks_u, index), count);
+            const int first = box * per_box, last = std::min(first + per_box, grid.block_count());
+            for (int b = first; b < last; ++b)
+                test_block_rays<kMoves>(block_of(grid, segment, b % blocks_u, b / blocks_u, index), count);
         }
         if (!grid.opaque) return;
         for (const uint32_t packet : s_.touched) refresh_packet(packet);
@@ -380,9 +382,9 @@ class BundleTrace {
         return block;
     }
 
-    /// Which active rays meet which blocks' boxes: a bit for each ray in a row for each block.
+    /// Which active rays meet which boxes: a bit for each ray in a row for each box.
     template <bool kMoves>
-    void meet_blocks(const float* planes, int blocks) {
+    void meet_boxes(const float* planes, int boxes) {
         const F32 d;
         const ActiveRays& active = s_.active;
         for (size_t i = 0; i < active.count; i += kLanes) {
@@ -397,20 +399,20 @@ class BundleTrace {
             }
             uint8_t* met = s_.met + i / kLanes * kMaskBytes;
             if (alike)
-                meet_blocks_of<kMoves, true>(i, planes, blocks, sides, met);
+                meet_boxes_of<kMoves, true>(i, planes, boxes, sides, met);
             else
-                meet_blocks_of<kMoves, false>(i, planes, blocks, sides, met);
+                meet_boxes_of<kMoves, false>(i, planes, boxes, sides, met);
         }
-        stats_.nodes_visited += active.count * static_cast<size_t>(blocks);
+        stats_.nodes_visited += active.count * static_cast<size_t>(boxes);
     }
 
     /// Those of a vector of rays. kAlike: along each axis all look to the same side, so that it is known
     /// which plane of a box comes first.
     template <bool kMoves, bool kAlike>
-    void meet_blocks_of(size_t i, const float* planes, int blocks, const int* sides, uint8_t* met) {
+    void meet_boxes_of(size_t i, const float* planes, int boxes, const int* sides, uint8_t* met) {
         const F32 d;
         const ActiveRays& active = s_.active;
-        const auto stride = static_cast<size_t>(blocks);
+        const auto stride = static_cast<size_t>(boxes);
         const VF local = kMoves ? hn::Load(d, active.local + i) : hn::Zero(d);
         const VF limit = hn::Load(d, active.limit + i);
         VF inverse[3], offset[3];
@@ -421,13 +423,13 @@ class BundleTrace {
             first[k] = planes + (k + (kAlike && sides[k] ? 3 : 0)) * stride;
             last[k] = planes + (k + (kAlike && sides[k] ? 0 : 3)) * stride;
         }
-        for (int b = 0; b < blocks; ++b, met += kMetStride) {
+        for (int b = 0; b < boxes; ++b, met += kMetStride) {
             VF near, far;
             for (int k = 0; k < 3; ++k) {
                 VF from = hn::Set(d, first[k][b]), to = hn::Set(d, last[k][b]);
                 if constexpr (kMoves) {
-                    from = hn::MulAdd(local, hn::Set(d, first[k][b + 6 * blocks]), from);
-                    to = hn::MulAdd(local, hn::Set(d, last[k][b + 6 * blocks]), to);
+                    from = hn::MulAdd(local, hn::Set(d, first[k][b + 6 * boxes]), from);
+                    to = hn::MulAdd(local, hn::Set(d, last[k][b + 6 * boxes]), to);
                 }
                 VF enter = kLens ? hn::MulSub(from, inverse[k], offset[k]) : hn::Mul(from, inverse[k]);
                 VF leave = kLens ? hn::MulSub(to, inverse[k], offset[k]) : hn::Mul(to, inverse[k]);
@@ -442,9 +444,9 @@ class BundleTrace {
         }
     }
 
-    /// Lists the active rays whose bits are set in a block's row; how many.
+    /// Lists the active rays whose bits are set in a box's row; how many.
     template <bool kMoves>
-    size_t collect_block(const uint8_t* met) {
+    size_t collect_box(const uint8_t* met) {
         const F32 d;
         const hn::RebindToUnsigned<F32> du;
         const ActiveRays& active = s_.active;

@@ -20,7 +20,7 @@ struct ActiveRays {
     alignas(64) uint32_t ray[kRoom];
 };
 
-/// Those of them that may meet a block.
+/// Those of them that may meet a box of blocks.
 struct BlockRays {
     alignas(64) float ox[ActiveRays::kRoom], oy[ActiveRays::kRoom], ux[ActiveRays::kRoom],
         uy[ActiveRays::kRoom], local[ActiveRays::kRoom];
@@ -44,7 +44,7 @@ struct BundleScratch {
     std::vector<uint32_t> touched;  ///< packets that have active rays
     ActiveRays active;
     static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst
-    alignas(64) uint8_t met[16 * kMetStride + 64];  ///< per block, a bit for each active ray that meets it
+    alignas(64) uint8_t met[16 * kMetStride + 64];  ///< per box, a bit for each active ray that meets it
     BlockRays block;
 };
 

@@ -158,18 +158,29 @@ void line_around(const KeyBox6* wholes, int key_count, bool low, int k, float en
     ends[1] = low ? last - beyond : last + beyond;
 }
 
-/// Boxes of the blocks in every segment, grown; in the layout of WideGrid::block_stride().
-void write_blocks(const WideGrid& record, const BlockBoxes* keys, float grow, float* out) {
-    const int blocks = record.block_count();
+/// Joins the boxes of blocks that share one, in place.
+void join_blocks(const WideGrid& record, BlockBoxes& boxes) {
+    const int per_box = record.blocks_per_box(), blocks = record.block_count();
+    for (int k = 0; k < 3; ++k)
+        for (int box = 0; box < record.box_count(); ++box) {
+            const int first = box * per_box, last = std::min(first + per_box, blocks);
+            boxes.low[k][box] = *std::min_element(boxes.low[k] + first, boxes.low[k] + last);
+            boxes.high[k][box] = *std::max_element(boxes.high[k] + first, boxes.high[k] + last);
+        }
+}
+
+/// Boxes in every segment, grown; in the layout of WideGrid::box_stride().
+void write_boxes(const WideGrid& record, const BlockBoxes* keys, float grow, float* out) {
+    const int boxes = record.box_count();
     const int segments = record.moves() ? record.key_count - 1 : 1;
-    for (int s = 0; s < segments; ++s, out += record.block_stride())
+    for (int s = 0; s < segments; ++s, out += record.box_stride())
         for (int k = 0; k < 3; ++k)
-            for (int b = 0; b < blocks; ++b) {
-                out[k * blocks + b] = keys[s].low[k][b] - grow;
-                out[(3 + k) * blocks + b] = keys[s].high[k][b] + grow;
+            for (int b = 0; b < boxes; ++b) {
+                out[k * boxes + b] = keys[s].low[k][b] - grow;
+                out[(3 + k) * boxes + b] = keys[s].high[k][b] + grow;
                 if (!record.moves()) continue;
-                out[(6 + k) * blocks + b] = keys[s + 1].low[k][b] - keys[s].low[k][b];
-                out[(9 + k) * blocks + b] = keys[s + 1].high[k][b] - keys[s].high[k][b];
+                out[(6 + k) * boxes + b] = keys[s + 1].low[k][b] - keys[s].low[k][b];
+                out[(9 + k) * boxes + b] = keys[s + 1].high[k][b] - keys[s].high[k][b];
             }
 }
 
@@ -189,7 +200,7 @@ void bound_extents(const WideGrid& record, const BlockBoxes* keys, float extent[
 
 }  // namespace
 
-void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* block_planes,
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* box_planes,
                 GridExtent& extent) {
     Frame frame = frame_of_grid(grid);
     for (int k = 0; k < 3; ++k)
@@ -232,7 +243,9 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, flo
     bound_extents(record, blocks.data(), extents);
     record.slack = extents[2] + grow;
     record.extent = std::max({extents[0], extents[1], extents[2]}) + grow;
-    write_blocks(record, blocks.data(), grow, block_planes);
+    if (record.blocks_per_box() > 1)
+        for (BlockBoxes& boxes : blocks) join_blocks(record, boxes);
+    write_boxes(record, blocks.data(), grow, box_planes);
 }
 
 }  // namespace trapeze

@@ -16,10 +16,10 @@ struct GridExtent {
     float absolute_max;
 };
 
-/// Fills in a grid's record (all but first_block, which is set) and block boxes. `scale` and `base`: bounds
+/// Fills in a grid's record (all but first_box, which is set) and its boxes. `scale` and `base`: bounds
 /// grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an absolute_max of
 /// infinity, and boxes that mean nothing.
-void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* block_planes,
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* box_planes,
                 GridExtent& extent);
 
 }  // namespace trapeze

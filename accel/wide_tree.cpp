@@ -54,7 +54,7 @@ WideTree::WideTree(const Grids& grids, const RayReach& reach) : grids_(grids), r
     if (!bounded.empty()) write_nodes(build_wide_top(extents, bounded));
     for (const uint32_t grid : bounded) stats_.tree_leaves += wide_grids_[grid].block_count();
     stats_.tree_nodes = nodes_.size() + bounded.size();
-    stats_.tree_bytes = sizeof(*this) + wide_grids_.bytes() + boxes_.bytes() + block_planes_.bytes() +
+    stats_.tree_bytes = sizeof(*this) + wide_grids_.bytes() + boxes_.bytes() + box_planes_.bytes() +
                         nodes_.bytes() + node_motions_.bytes();
 }
 
@@ -67,16 +67,16 @@ void WideTree::bound_grids(std::vector<GridExtent>& extents) {
         const Grid& grid = grids_.grids[i];
         WideGrid& record = wide_grids_[i];
         record.nu = grid.shape.nu, record.nv = grid.shape.nv, record.key_count = grid.key_count;
-        record.first_block = floats;
-        floats += static_cast<size_t>(record.block_stride()) * segment_count(grid.key_count);
+        record.first_box = static_cast<uint32_t>(floats);
+        floats += static_cast<size_t>(record.box_stride()) * segment_count(grid.key_count);
     }
-    block_planes_.allocate(floats);
+    box_planes_.allocate(floats);
     const float scale = rounding_scale(reach_), base = 2 * scale * reach_.origin + 0x1p-80f;
     constexpr size_t kGrain = 32;
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kGrain), [&](const auto& range) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
             WideGrid& record = wide_grids_[i];
-            bound_grid(grids_.grids[i], scale, base, record, block_planes_.data() + record.first_block,
+            bound_grid(grids_.grids[i], scale, base, record, box_planes_.data() + record.first_box,
                        extents[i]);
             boxes_[i] = moving(extents[i].box);
         }
@@ -190,8 +190,8 @@ class SingleRay {
     void visit_grid(uint32_t index) {
         const WideGrid& record = tree_.grid(index);
         const MotionSegment segment = segment_at(ray_.axis.time, record.key_count);
-        const float* planes = tree_.block_planes(record, segment.index);
-        const size_t blocks = record.block_count();
+        const float* planes = tree_.box_planes(record, segment.index);
+        const size_t boxes = record.box_count();
         float origin[3], inverse[3];
         for (int k = 0; k < 3; ++k) {
             const float* a = record.axis[k];
@@ -199,20 +199,24 @@ class SingleRay {
             inverse[k] =
                 inverse_of(a[0] * ray_.direction.x + a[1] * ray_.direction.y + a[2] * ray_.direction.z);
         }
-        for (size_t b = 0; b < blocks; ++b) {
-            const float* at = planes + b;
+        for (size_t box = 0; box < boxes; ++box) {
+            const float* at = planes + box;
             float depth;
-            if (!slab_depths(at, at + 3 * blocks, record.moves() ? at + 6 * blocks : nullptr,
-                             record.moves() ? at + 9 * blocks : nullptr, blocks, segment.local, origin,
-                             inverse, pad_)
+            if (!slab_depths(at, at + 3 * boxes, record.moves() ? at + 6 * boxes : nullptr,
+                             record.moves() ? at + 9 * boxes : nullptr, boxes, segment.local, origin, inverse,
+                             pad_)
                      .meets(ray_, slack_, depth))
                 continue;
-            const auto u = static_cast<uint8_t>(b % record.blocks_u() * 4),
-                       v = static_cast<uint8_t>(b / record.blocks_u() * 4);
-            test_micropolygons(tree_.grids().grids[index], index,
-                               {u, v, static_cast<uint8_t>(std::min(4, record.nu - u)),
-                                static_cast<uint8_t>(std::min(4, record.nv - v))},
-                               ray_, policy_);
+            const int first = static_cast<int>(box) * record.blocks_per_box();
+            const int last = std::min(first + record.blocks_per_box(), record.block_count());
+            for (int block = first; block < last; ++block) {
+                const auto u = static_cast<uint8_t>(block % record.blocks_u() * 4),
+                           v = static_cast<uint8_t>(block / record.blocks_u() * 4);
+                test_micropolygons(tree_.grids().grids[index], index,
+                                   {u, v, static_cast<uint8_t>(std::min(4, record.nu - u)),
+                                    static_cast<uint8_t>(std::min(4, record.nv - v))},
+                                   ray_, policy_);
+            }
         }
     }
 

@@ -72,13 +72,13 @@ struct alignas(64) WideNodeMotion {
 };
 
 /// A grid as traversal reads it.
-struct alignas(64) WideGrid {
-    float axis[3][3];      ///< the grid's frame
-    MovingBox framed;      ///< the whole grid there, over the whole shutter
-    float slack;           ///< of depth: extent of the largest micropolygon along camera z
-    float extent;          ///< the same along any axis
-    const float* planes;   ///< Grid::positions
-    uint64_t first_block;  ///< its block boxes begin at block_planes[first_block]
+struct WideGrid {
+    const float* planes;  ///< Grid::positions
+    float axis[3][3];     ///< the grid's frame
+    MovingBox framed;     ///< the whole grid there, over the whole shutter
+    float slack;          ///< of depth: extent of the largest micropolygon along camera z
+    float extent;         ///< the same along any axis
+    uint32_t first_box;   ///< its boxes begin at box_planes[first_box]
     uint16_t plane_size;
     uint8_t nu, nv;
     uint8_t tiles_u;
@@ -90,10 +90,16 @@ struct alignas(64) WideGrid {
     int blocks_u() const { return (nu + 3) / 4; }
     int blocks_v() const { return (nv + 3) / 4; }
     int block_count() const { return blocks_u() * blocks_v(); }
-    /// Floats of a segment's block boxes: planes low x, y, z, high x, y, z of all blocks; then, when the grid
-    /// moves, how far they go.
-    int block_stride() const { return block_count() * (moves() ? 12 : 6); }
+    /// A ribbon's blocks, four micropolygons each, share boxes: memory counts there.
+    int blocks_per_box() const { return nu == 1 || nv == 1 ? kRibbonBlocksPerBox : 1; }
+    int box_count() const { return (block_count() + blocks_per_box() - 1) / blocks_per_box(); }
+    /// Floats of a segment's boxes: planes low x, y, z, high x, y, z of all; then, when the grid moves, how
+    /// far they go.
+    int box_stride() const { return box_count() * (moves() ? 12 : 6); }
+
+    static constexpr int kRibbonBlocksPerBox = 4;
 };
+static_assert(sizeof(WideGrid) <= 112, "hair has one for every 16 micropolygons");
 
 struct GridExtent;
 struct WideChildren;
@@ -121,8 +127,8 @@ class WideTree final : public RayQuery {
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
     const MovingBox& grid_box(uint32_t index) const { return boxes_[index]; }
-    const float* block_planes(const WideGrid& grid, int segment) const {
-        return block_planes_.data() + grid.first_block + static_cast<size_t>(segment) * grid.block_stride();
+    const float* box_planes(const WideGrid& grid, int segment) const {
+        return box_planes_.data() + grid.first_box + static_cast<size_t>(segment) * grid.box_stride();
     }
     /// Grids too far out for bounds: every ray must look at them.
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
@@ -136,8 +142,8 @@ class WideTree final : public RayQuery {
     bool moves_ = false;
     float max_slack_ = 0, max_extent_ = 0, absolute_max_ = 0;
     AlignedArray<WideGrid> wide_grids_;
-    AlignedArray<MovingBox> boxes_;  ///< camera space, axis-aligned
-    AlignedArray<float> block_planes_;
+    AlignedArray<MovingBox> boxes_;   ///< camera space, axis-aligned
+    AlignedArray<float> box_planes_;  ///< in grids
     AlignedArray<WideNode> nodes_;
     AlignedArray<WideNodeMotion> node_motions_;
     std::vector<uint32_t> unbounded_;
