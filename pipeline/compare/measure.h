@@ -1,0 +1,62 @@
+/// What visibility methods cost on the same grids: times of interleaved rounds, counts, bytes. Prints nothing
+/// and writes no files.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pipeline/compare/shared_frame.h"
+#include "sample/visibility_method.h"
+
+namespace trapeze {
+
+/// The middle one, or the mean of the two in the middle; 0 of none.
+double median(std::vector<double> values);
+
+/// What one method did at one sample rate. Sampling time is what the paper calls so: building what the method
+/// needs, and resolving all samples; neither making the samples nor filtering them.
+struct MethodResult {
+    Sampler sampler;
+    std::string method, pattern;  ///< as a user would name them
+    SampleRate rate;
+    std::vector<double> build_seconds, resolve_seconds;  ///< wall clock, by round
+    BuildStats build;
+    SampleStats sample;  ///< counts of one round; every round's are the same
+    uint64_t hits = 0;   ///< found and kept: to the first opaque one of each sample
+    uint64_t micropolygons = 0;
+    int tile_side = kTileSide;  ///< pixels
+
+    /// Medians, in seconds; the total is the median of the rounds' sums.
+    double build_median() const { return median(build_seconds); }
+    double resolve_median() const { return median(resolve_seconds); }
+    double total_median() const;
+
+    double samples_per_second() const { return ratio(static_cast<double>(sample.rays), resolve_median()); }
+    double tests_per_sample() const { return ratio(sample.predicate_tests, sample.rays); }
+    /// Of the tests, per one that the predicate answers with yes.
+    double tests_per_hit() const { return ratio(sample.predicate_tests, sample.predicate_hits); }
+    double nodes_per_sample() const { return ratio(sample.nodes_visited, sample.rays); }
+    double bytes_per_micropolygon() const { return ratio(build.tree_bytes, micropolygons); }
+
+  private:
+    /// 0 where there is nothing to divide by.
+    static double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+    static double ratio(uint64_t a, uint64_t b) {
+        return ratio(static_cast<double>(a), static_cast<double>(b));
+    }
+};
+
+struct MeasureSettings {
+    int rounds = 3;
+    size_t sample_bytes = size_t{2} << 30;         ///< samples made ahead may take this much
+    std::function<void(double)> on_progress = {};  ///< part done in [0, 1], after every turn
+};
+
+/// At each sample rate, `rounds` times: every sampler in turn prepares and resolves the whole picture, with
+/// the threads of the calling task arena. The results are in the order of the rates, then of the samplers.
+/// Empty when cancelled.
+std::vector<MethodResult> measure(const SharedFrame& frame, const std::vector<Sampler>& samplers,
+                                  const std::vector<SampleRate>& rates, const MeasureSettings& settings);
+
+}  // namespace trapeze

@@ -1,0 +1,123 @@
+#include "pipeline/compare/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "pipeline/compare/compare_harness.h"
+#include "pipeline/compare/results_json.h"
+#include "pipeline/compare/sample_groups.h"
+
+namespace trapeze {
+namespace {
+
+using testing::samplers_of;
+using testing::SharedScene;
+
+TEST(Median, IsTheMiddleOrTheMeanOfTwo) {
+    EXPECT_EQ(median({}), 0);
+    EXPECT_EQ(median({3}), 3);
+    EXPECT_EQ(median({9, 1, 2}), 2);
+    EXPECT_EQ(median({4, 1, 2, 9}), 3);
+}
+
+TEST(MethodResult, TheTotalIsTheMedianOfTheRoundsSums) {
+    MethodResult r;
+    r.build_seconds = {1, 5, 2};
+    r.resolve_seconds = {9, 1, 3};
+    EXPECT_EQ(r.build_median(), 2);
+    EXPECT_EQ(r.resolve_median(), 3);
+    EXPECT_EQ(r.total_median(), 6);  // of 10, 6, 5
+    EXPECT_EQ(r.tests_per_sample(), 0) << "nothing was sampled";
+}
+
+TEST(Measure, EveryMethodAtEveryRateInOrder) {
+    const SharedScene shared("defocus_motion.rib");
+    const auto samplers = samplers_of({"raytrace", "interval", "bruteforce"});
+    const auto results = measure(*shared.frame, samplers, {{1, 1}, {2, 2}}, {2, 1 << 30});
+    ASSERT_EQ(results.size(), 6u);
+    EXPECT_EQ(results[0].method, "raytrace");
+    EXPECT_EQ(results[1].method, "interval");
+    EXPECT_EQ(results[1].pattern, "interval");
+    EXPECT_EQ(results[5].method, "bruteforce");
+    EXPECT_EQ(results[3].rate, (SampleRate{2, 2}));
+    const PixelRect& pixels = shared.frame->pixels;
+    for (const MethodResult& r : results) {
+        EXPECT_EQ(r.build_seconds.size(), 2u);
+        EXPECT_EQ(r.resolve_seconds.size(), 2u);
+        EXPECT_GT(r.total_median(), 0);
+        EXPECT_EQ(r.sample.rays,
+                  static_cast<uint64_t>(pixels.width()) * pixels.height() * r.rate.per_pixel());
+        EXPECT_GT(r.hits, 0u);
+        EXPECT_EQ(r.micropolygons, shared.frame->grids.micropolygon_count());
+    }
+    // Same pattern, same samples: the same hits.
+    EXPECT_EQ(results[3].hits, results[5].hits);
+    EXPECT_LT(results[3].tests_per_sample(), results[5].tests_per_sample());
+}
+
+TEST(Measure, SmallGroupsOfTilesChangeNothingButTime) {
+    const SharedScene shared("defocus_motion.rib");
+    const auto samplers = samplers_of({"raytrace", "interval"});
+    const auto whole = measure(*shared.frame, samplers, {{2, 2}}, {1, 1 << 30});
+    const auto groups = measure(*shared.frame, samplers, {{2, 2}}, {1, 1});
+    ASSERT_EQ(whole.size(), groups.size());
+    for (size_t i = 0; i < whole.size(); ++i) {
+        EXPECT_EQ(whole[i].hits, groups[i].hits);
+        EXPECT_EQ(whole[i].sample.rays, groups[i].sample.rays);
+        EXPECT_EQ(whole[i].sample.predicate_hits, groups[i].sample.predicate_hits);
+    }
+}
+
+TEST(Measure, ProgressEndsAtOneAndCancellationLeavesNothing) {
+    SharedScene shared("quadric_sphere.rib");
+    std::vector<double> progress;
+    measure(*shared.frame, samplers_of({"raytrace"}), {{1, 1}},
+            {2, 1 << 30, [&](double part) { progress.push_back(part); }});
+    EXPECT_EQ(progress, (std::vector<double>{0.5, 1}));
+    const std::atomic<bool> cancelled{true};
+    shared.frame->context.cancelled = &cancelled;
+    EXPECT_TRUE(measure(*shared.frame, samplers_of({"raytrace"}), {{1, 1}}, {}).empty());
+}
+
+TEST(SampleGroups, CoverEveryPixelOnce) {
+    const SharedScene shared("quadric_sphere.rib");
+    const auto sampler = samplers_of({"raytrace"}).front();
+    const auto pattern = sampler.make_pattern(shared.frame->context_at({1, 1}));
+    const PixelRect pixels{-3, -2, 70, 50};
+    SampleGroups groups(pixels, 16, 1, 7 * 16 * 16 * kBytesPerSample);
+    EXPECT_GT(groups.count(), 2u);
+    std::vector<int> seen(static_cast<size_t>(pixels.width() * pixels.height()), 0);
+    for (size_t g = 0; g < groups.count(); ++g) {
+        const auto tiles = groups.make(g, *pattern);
+        EXPECT_LE(tiles.size(), 7u);
+        for (const SampleTile& tile : tiles)
+            for (int y = tile.pixels.y0; y < tile.pixels.y1; ++y)
+                for (int x = tile.pixels.x0; x < tile.pixels.x1; ++x)
+                    ++seen[static_cast<size_t>((y - pixels.y0) * pixels.width() + (x - pixels.x0))];
+    }
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<long>(seen.size()));
+}
+
+TEST(SharedFrame, TooLittleMemoryIsAnErrorThatSaysWhatHelps) {
+    RenderSettings settings;
+    settings.memory_bytes = 1;
+    const SharedScene shared("quadric_sphere.rib", settings);
+    EXPECT_FALSE(shared.frame);
+    EXPECT_EQ(shared.diagnostics.count(Severity::Error), 1u);
+    EXPECT_NE(shared.messages.find("--memory"), std::string::npos) << shared.messages;
+}
+
+TEST(ResultsJson, HasWhatTheResultSays) {
+    const SharedScene shared("quadric_sphere.rib");
+    const auto results = measure(*shared.frame, samplers_of({"raytrace"}), {{2, 2}}, {3});
+    const auto json = to_json(results.at(0));
+    EXPECT_EQ(json["method"], "raytrace");
+    EXPECT_EQ(json["build_seconds_by_round"].size(), 3u);
+    EXPECT_EQ(json["total_seconds"].get<double>(), results[0].total_median());
+    EXPECT_EQ(json["predicate_tests"].get<uint64_t>(), results[0].sample.predicate_tests);
+    EXPECT_GT(json["bytes_per_micropolygon"].get<double>(), 0);
+}
+
+}  // namespace
+}  // namespace trapeze

@@ -1,0 +1,33 @@
+#include "pipeline/compare/results_json.h"
+
+namespace trapeze {
+
+nlohmann::ordered_json to_json(const MethodResult& r) {
+    return {{"method", r.method},
+            {"pattern", r.pattern},
+            {"samples_x", r.rate.x},
+            {"samples_y", r.rate.y},
+            {"build_seconds", r.build_median()},
+            {"resolve_seconds", r.resolve_median()},
+            {"total_seconds", r.total_median()},
+            {"build_seconds_by_round", r.build_seconds},
+            {"resolve_seconds_by_round", r.resolve_seconds},
+            {"samples", r.sample.rays},
+            {"samples_per_second", r.samples_per_second()},
+            {"hits", r.hits},
+            {"predicate_tests", r.sample.predicate_tests},
+            {"predicate_hits", r.sample.predicate_hits},
+            {"nodes_visited", r.sample.nodes_visited},
+            {"leaves_visited", r.sample.leaves_visited},
+            {"tests_per_sample", r.tests_per_sample()},
+            {"tests_per_hit", r.tests_per_hit()},
+            {"nodes_per_sample", r.nodes_per_sample()},
+            {"tree_bytes", r.build.tree_bytes},
+            {"tree_nodes", r.build.tree_nodes},
+            {"tree_leaves", r.build.tree_leaves},
+            {"bytes_per_micropolygon", r.bytes_per_micropolygon()},
+            {"micropolygons", r.micropolygons},
+            {"tile_side", r.tile_side}};
+}
+
+}  // namespace trapeze

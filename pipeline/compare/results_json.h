@@ -1,0 +1,12 @@
+/// Results as JSON values: seconds, counts and bytes, with the unit in the name.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/compare/measure.h"
+
+namespace trapeze {
+
+nlohmann::ordered_json to_json(const MethodResult& result);
+
+}  // namespace trapeze

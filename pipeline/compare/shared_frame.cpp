@@ -1,0 +1,62 @@
+#include "pipeline/compare/shared_frame.h"
+
+#include <tbb/task_arena.h>
+
+#include "pipeline/frame/make_grids.h"
+#include "pipeline/frame/stopwatch.h"
+#include "sample/visibility_method.h"
+
+namespace trapeze {
+namespace {
+
+/// The whole picture as a region, or nothing (reported) when it has no pixels or does not fit.
+std::optional<Region> whole_region(const SharedFrame& frame, const Tessellation& tessellation,
+                                   size_t budget) {
+    if (frame.pixels.empty()) {
+        frame.context.diagnostics->error({}, "the crop window holds no pixels");
+        return {};
+    }
+    Region region = split_into_regions(frame.pixels, tessellation.subpatches(), {~size_t{0}, 1}).front();
+    if (region.estimated_bytes <= budget) return region;
+    const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
+    frame.context.diagnostics->error({}, "the grids and trees of the whole picture may take " +
+                                             mib(region.estimated_bytes) + ", more than the budget of " +
+                                             mib(budget) +
+                                             "; a smaller --crop or --resolution, a larger --shading-rate "
+                                             "or --memory helps");
+    return {};
+}
+
+}  // namespace
+
+std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& settings,
+                                       Diagnostics& diagnostics) {
+    SharedFrame frame;
+    frame.scene = std::make_unique<const Scene>(std::move(scene));
+    frame.context = make_context(*frame.scene, settings, diagnostics);
+    frame.pixels = sampled_pixels(frame.context.camera, frame.scene->options);
+
+    Stopwatch watch;
+    const Tessellation tessellation(frame.context);
+    frame.stats.tessellate = tessellation.stats();
+    frame.stats.tessellate.grids = frame.stats.tessellate.micropolygons = 0;  // counted as they are made
+    frame.stats.seconds.tessellate = watch.lap();
+    const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
+    const auto region = whole_region(frame, tessellation, budget);
+    if (!region) return {};
+
+    const Shading shading(frame.context);
+    Progress progress(settings.on_progress);
+    progress.begin_part(0, 1, region->subpatches.size());
+    frame.grids = make_grids(frame.context, *region, tessellation, shading, frame.stats, progress);
+    if (frame.context.is_cancelled()) return {};
+    shading.report_displacement_bounds();
+    frame.stats.grid_bytes = frame.grids.bytes();
+    frame.stats.threads = tbb::this_task_arena::max_concurrency();
+    frame.stats.width = frame.context.camera.width, frame.stats.height = frame.context.camera.height;
+    frame.stats.frame = frame.scene->options.frame;
+    frame.stats.simd_target = simd_target_name();
+    return frame;
+}
+
+}  // namespace trapeze
