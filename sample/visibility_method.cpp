@@ -8,6 +8,9 @@ const std::vector<VisibilityMethod>& visibility_methods() {
         brute_force_method(),
         interval_method(),
         interleave_uvt_method(),
+#ifdef TRAPEZE_HAVE_EMBREE
+        embree_method(),
+#endif
     };
     return methods;
 }

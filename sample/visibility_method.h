@@ -110,6 +110,7 @@ VisibilityMethod raytrace_method();
 VisibilityMethod brute_force_method();
 VisibilityMethod interval_method();
 VisibilityMethod interleave_uvt_method();
+VisibilityMethod embree_method();  ///< in the table where Embree was found at build time
 
 /// For methods that take any sample as it comes.
 inline std::string stratified_pattern(const MethodSpec&) {

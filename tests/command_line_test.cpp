@@ -1,6 +1,7 @@
 /// The program from outside: exit codes, messages, outputs that appear whole or not at all, interruption.
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "tests/program.h"
@@ -109,6 +110,30 @@ TEST(CommandLine, ExitCodesSayWhatWentWrong) {
     EXPECT_EQ(run_program(folder, "check wrong.rib").exit_code, 1);
     EXPECT_EQ(run_program(folder, "--version").exit_code, 0);
     EXPECT_EQ(run_program(folder, "--help").exit_code, 0);
+}
+
+TEST(CommandLine, TheInstructionSetCanBeLimited) {
+    WorkFolder folder;
+    folder.write("a.rib", kSphere);
+    std::set<std::string> targets;
+    int usable = 0;
+    for (const char* name : {"sse4", "avx2", "avx512", "neon"}) {
+        const Outcome outcome =
+            run_program(folder, std::string("render a.rib --stats s.json --simd ") + name);
+        if (outcome.exit_code != 0) {  // another kind of machine, or an older one
+            EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+            EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+            continue;
+        }
+        ++usable;
+        targets.insert(nlohmann::json::parse(text_of(folder / "s.json"))["simd_target"].get<std::string>());
+    }
+    EXPECT_GT(usable, 0);
+    EXPECT_EQ(targets.size(), static_cast<size_t>(usable)) << "the limit limits nothing";
+    EXPECT_EQ(run_program(folder, "render a.rib --simd best").exit_code, 0);
+    const Outcome wrong = run_program(folder, "render a.rib --simd avx9");
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_NE(wrong.err.find("no instruction set"), std::string::npos) << wrong.err;
 }
 
 TEST(CommandLine, AMissingShaderIsSaidOnce) {

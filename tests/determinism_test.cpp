@@ -2,6 +2,9 @@
 /// crop.
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "core/simd_limit.h"
 #include "tests/program.h"
 #include "tests/scene_harness.h"
 
@@ -44,6 +47,24 @@ TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
         other.sampler = method;
         expect_same(reference, render_scene(path, other, 2), method);
     }
+}
+
+TEST_P(TinyScene, IsTheSameOnEveryInstructionSet) {
+    const std::string path = tiny_scene_path(GetParam());
+    const auto reference = render_scene(path, {}, 2);
+    std::set<std::string> targets;
+    int usable = 0;
+    std::string error;
+    for (const std::string_view name : simd_names()) {
+        if (name == "best" || !limit_simd(name, &error)) continue;
+        ++usable;
+        const auto limited = render_scene(path, {}, 2);
+        expect_same(reference, limited, std::string(name));
+        targets.insert(std::string(limited[0].stats.simd_target));
+    }
+    limit_simd("best", &error);
+    EXPECT_GT(usable, 0);
+    EXPECT_EQ(targets.size(), static_cast<size_t>(usable)) << "the limit limits nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(tiny_scenes()), test_name);

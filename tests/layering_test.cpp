@@ -30,6 +30,7 @@ const std::map<std::string, Names> kConfinedLibraries = {
     {"OpenImageIO/", {"shade", "composite"}},
     {"OpenEXR/", {"composite"}},
     {"OpenColorIO/", {"composite"}},
+    {"embree3/", {"sample"}},
     {"nlohmann/", {"pipeline"}},
     {"CLI/", {"pipeline"}},
     {"tbb/", {"tessellate", "shade", "accel", "sample", "composite", "pipeline"}},

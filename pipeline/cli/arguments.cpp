@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "core/simd_limit.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/version.h"
 #include "sample/visibility_method.h"
@@ -88,6 +89,14 @@ void add_sampler_options(CLI::App& app, Arguments& a) {
         ->type_name("PATTERN");
 }
 
+void add_simd_option(CLI::App& app, Arguments& a) {
+    std::string names;
+    for (const std::string_view name : simd_names()) names += " " + std::string(name);
+    app.add_option("--simd", a.simd, "the best instruction set to use, one of:" + names)
+        ->type_name("NAME")
+        ->capture_default_str();
+}
+
 void add_render_options(CLI::App& app, Arguments& a) {
     app.add_option("-o,--output", a.output, "replaces the first Display's name")->type_name("FILE");
     app.add_option("-d,--driver", a.driver, "replaces every Display's driver; null writes nothing")
@@ -101,6 +110,7 @@ void add_render_options(CLI::App& app, Arguments& a) {
         ->check(CLI::Range(1e-4f, 1e6f))
         ->type_name("AREA");
     add_sampler_options(app, a);
+    add_simd_option(app, a);
     app.add_option("-t,--threads", a.threads, "threads; 0: all, -N: all but N")
         ->check(CLI::Range(-1024, 1024))
         ->type_name("N");

@@ -22,8 +22,9 @@ struct Arguments {
     std::optional<float> shading_rate;
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
-    std::string pattern;  ///< empty: the sampler's natural one
-    int threads = 0;  ///< 0: all; negative: all but so many
+    std::string pattern;        ///< empty: the sampler's natural one
+    std::string simd = "best";  ///< as limit_simd() reads it
+    int threads = 0;            ///< 0: all; negative: all but so many
     uint32_t seed = 0;
     size_t memory_bytes = 0;
     int regions_at_least = 1;

@@ -1,6 +1,7 @@
 #include <exception>
 #include <new>
 
+#include "core/simd_limit.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 
@@ -32,6 +33,11 @@ int main(int argc, char** argv) {
     Arguments arguments;
     if (const auto code = parse_arguments(argc, argv, arguments)) return *code;
     Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet});
+    std::string wrong;
+    if (!limit_simd(arguments.simd, &wrong)) {
+        terminal.show({Severity::Error, "--simd: " + wrong, {}, {}, {}});
+        return kExitUsage;
+    }
     try {
         return run(arguments, terminal);
     } catch (const std::bad_alloc&) {

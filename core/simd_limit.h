@@ -1,0 +1,23 @@
+/// Which instruction sets the vector code may use. Highway keeps this choice for the whole process, and so
+/// this is the one thing that is not passed in a context: it is set once, at the start of a program, before
+/// any other work. No result depends on it, only time.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trapeze {
+
+/// "best" and the instruction sets that limit_simd() knows on this kind of machine, narrowest first.
+std::vector<std::string_view> simd_names();
+
+/// Vector code uses nothing better than the named instruction set from now on. False with *error set, and
+/// nothing changed, when there is no such name or the machine lacks it. Not while other threads work.
+bool limit_simd(std::string_view name, std::string* error);
+
+/// The best instruction set that vector code may use now, as limit_simd() names it; "best" where it has no
+/// name for it.
+std::string_view simd_limit();
+
+}  // namespace trapeze

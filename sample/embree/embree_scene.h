@@ -1,0 +1,67 @@
+/// The grids as Embree sees them: vertex buffers, geometries and its tree.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "core/grid.h"
+#include "core/stats.h"
+
+namespace trapeze {
+
+/// Grids that are one geometry: Embree wants equal numbers of time steps in it, and calls filters for all of
+/// it or for none.
+struct EmbreeMesh {
+    int key_count = 1;
+    bool filtered = false;         ///< has layers or one-sided grids
+    std::vector<uint32_t> grids;   ///< indices in Grids
+    std::vector<RTCGrid> windows;  ///< where each grid's vertices are, rows of falling u
+    size_t vertex_count = 0;
+    std::unique_ptr<float[]> positions;   ///< x y z of all vertices, key after key
+    std::unique_ptr<uint32_t[]> corners;  ///< of quads: four vertices each
+    std::unique_ptr<uint64_t[]> quads;    ///< of quads: MicropolygonId::packed()
+    size_t quad_count = 0;
+    const Grids* all_grids = nullptr;
+
+    const Grid& grid(size_t i) const { return all_grids->grids[grids[i]]; }
+};
+
+struct EmbreeChoices {
+    bool quads = false;  ///< else grids
+    RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
+    RTCFilterFunctionN filter = nullptr;  ///< of the meshes that are `filtered`; gets the EmbreeMesh
+};
+
+/// Built with the threads of the calling task arena. Keeps a reference to the grids.
+class EmbreeScene {
+  public:
+    EmbreeScene(const Grids& grids, const EmbreeChoices& choices);
+    ~EmbreeScene();
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    RTCScene scene() const { return scene_; }
+    const BuildStats& stats() const { return stats_; }
+
+    /// MicropolygonId::packed() of a hit.
+    uint64_t micropolygon(unsigned mesh, unsigned primitive, float u, float v) const {
+        return micropolygon(meshes_[mesh], primitive, u, v);
+    }
+    static uint64_t micropolygon(const EmbreeMesh& mesh, unsigned primitive, float u, float v);
+
+  private:
+    void gather_meshes(const Grids& grids, bool quads);
+    void commit(const EmbreeChoices& choices);
+    void attach(EmbreeMesh& mesh, const EmbreeChoices& choices);
+
+    std::atomic<int64_t> bytes_{0};  ///< what Embree has allocated
+    std::vector<EmbreeMesh> meshes_;
+    RTCDevice device_ = nullptr;
+    RTCScene scene_ = nullptr;
+    BuildStats stats_;
+};
+
+}  // namespace trapeze
