@@ -4,7 +4,8 @@
 ///   sampling_bench [--methods "raytrace embree ..."] [--scenes "0 3 5"] [--rounds N] [--threads N] [--tiles
 ///   N]
 ///
-/// Every Nth tile is sampled (N grows with the samples), and times scaled to the whole picture.
+/// Every Nth area of 64x64 pixels is sampled (N grows with the samples), and times are scaled to the whole
+/// picture. Each method has its natural pattern and size of tile; samples are made before the clock runs.
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -44,7 +45,7 @@ double median(std::vector<double> values) {
 struct Arguments {
     std::vector<std::string> methods{"raytrace"};
     std::vector<size_t> scenes;
-    int rounds = 5, threads = 2, tiles = 0;
+    int rounds = 5, threads = 2, areas = 0;
 };
 
 std::vector<std::string> words(const char* text) {
@@ -63,23 +64,35 @@ struct Thread {
 struct Competitor {
     std::string name;
     Sampler sampler;
+    std::unique_ptr<SamplePattern> pattern;
+    std::vector<SampleTile> tiles;
     std::vector<double> build, trace;
     SampleStats stats;
     BuildStats built;
     size_t hits = 0;
 };
 
+/// The samples of a method, in tiles of its size.
+void make_tiles(const SamplingScene& scene, const std::vector<PixelRect>& areas, Competitor& c) {
+    c.pattern = c.sampler.make_pattern(scene.frame.context);
+    const int side = c.sampler.prepare(scene.frame.context, scene.maker.grids(), *c.pattern)->tile_side();
+    for (const PixelRect& area : areas)
+        for (int y = area.y0; y < area.y1; y += side)
+            for (int x = area.x0; x < area.x1; x += side)
+                c.pattern->make_tile({x, y, std::min(x + side, area.x1), std::min(y + side, area.y1)},
+                                     c.tiles.emplace_back());
+}
+
 /// One turn of a method: prepare, resolve all tiles.
-void take_turn(const SamplingScene& scene, const SamplePattern& pattern, const std::vector<SampleTile>& tiles,
-               Competitor& c) {
+void take_turn(const SamplingScene& scene, Competitor& c) {
     const double begin = now();
-    const auto visibility = c.sampler.prepare(scene.frame.context, scene.maker.grids(), pattern);
+    const auto visibility = c.sampler.prepare(scene.frame.context, scene.maker.grids(), *c.pattern);
     const double built = now();
     tbb::enumerable_thread_specific<Thread> threads;
     std::atomic<size_t> hits{0};
-    tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+    tbb::parallel_for(size_t{0}, c.tiles.size(), [&](size_t i) {
         Thread& thread = threads.local();
-        visibility->resolve(tiles[i], thread.hits, thread.scratch, thread.stats);
+        visibility->resolve(c.tiles[i], thread.hits, thread.scratch, thread.stats);
         hits += thread.hits.hits.size();
     });
     c.trace.push_back(now() - built);
@@ -92,29 +105,37 @@ void take_turn(const SamplingScene& scene, const SamplePattern& pattern, const s
 
 void run_scene(const SamplingSceneOptions& options, const Arguments& arguments) {
     const SamplingScene scene(options);
-    const auto all = testing::tiles_of({0, 0, scene.frame.options.width, scene.frame.options.height});
-    const size_t skip =
-        arguments.tiles
-            ? static_cast<size_t>(arguments.tiles)
-            : std::max(1, options.samples * options.samples * (scene.frame.options.width / 640) * 3 / 8);
+    constexpr int kArea = 64;
+    std::vector<PixelRect> all, areas;
+    for (int y = 0; y < scene.frame.options.height; y += kArea)
+        for (int x = 0; x < scene.frame.options.width; x += kArea)
+            all.push_back({x, y, std::min(x + kArea, scene.frame.options.width),
+                           std::min(y + kArea, scene.frame.options.height)});
+    const size_t skip = arguments.areas
+                            ? static_cast<size_t>(arguments.areas)
+                            : std::max<size_t>(1, all.size() * options.samples * options.samples / 3000);
+    size_t pixels = 0;
+    for (size_t i = skip / 2; i < all.size(); i += skip) {
+        areas.push_back(all[i]);
+        pixels += static_cast<size_t>(all[i].width()) * all[i].height();
+    }
     std::string error;
     std::vector<Competitor> competitors;
     for (const std::string& name : arguments.methods)
-        if (const auto sampler = choose_sampler(name, "stratified", &error))
-            competitors.push_back({name, *sampler, {}, {}, {}, {}, 0});
+        if (const auto sampler = choose_sampler(name, "", &error))
+            competitors.push_back({name, *sampler, {}, {}, {}, {}, {}, {}, 0});
         else
             std::printf("%s\n", error.c_str());
-    const auto pattern = make_sample_pattern(scene.frame.context, *parse_pattern("stratified", &error));
-    std::vector<SampleTile> tiles;
-    for (size_t i = skip / 2; i < all.size(); i += skip) pattern->make_tile(all[i], tiles.emplace_back());
+    for (Competitor& c : competitors) make_tiles(scene, areas, c);
     for (int round = 0; round < arguments.rounds; ++round)
-        for (Competitor& c : competitors) take_turn(scene, *pattern, tiles, c);
+        for (Competitor& c : competitors) take_turn(scene, c);
 
     const auto micropolygons = static_cast<double>(scene.maker.grids().micropolygon_count());
     std::printf("%s %.2fM, motion %.0f, coc %.0f, %dx%d\n", options.hair ? "hair" : "balls",
                 micropolygons / 1e6, options.motion_pixels, options.blur_pixels, options.samples,
                 options.samples);
-    const double scale = static_cast<double>(all.size()) / static_cast<double>(tiles.size());
+    const double scale = static_cast<double>(scene.frame.options.width) * scene.frame.options.height /
+                         static_cast<double>(pixels);
     double first_trace = 0, first_total = 0;
     for (const Competitor& c : competitors) {
         const double trace = median(c.trace), build = median(c.build), total = build + trace * scale;
@@ -144,7 +165,7 @@ int main(int argc, char** argv) {
             for (const std::string& word : words(argv[i + 1])) arguments.scenes.push_back(std::stoul(word));
         if (key == "--rounds") arguments.rounds = std::stoi(argv[i + 1]);
         if (key == "--threads") arguments.threads = std::stoi(argv[i + 1]);
-        if (key == "--tiles") arguments.tiles = std::stoi(argv[i + 1]);
+        if (key == "--areas") arguments.areas = std::stoi(argv[i + 1]);
     }
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                       static_cast<size_t>(arguments.threads));
