@@ -132,27 +132,40 @@ class CornerLookup {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
     // The 25 vertices of a plane are in two registers: the tile, then the fifth column, row and corner.
     CornerLookup(const BlockView& block, VI u, VI v) : block_(block) {
-        alignas(64) static constexpr int32_t kCorners[3][16] = {
-            {1, 2, 3, 16, 5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19},
-            {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 22, 23},
-            {5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19, 21, 22, 23, 24},
-        };
         at_[0] = hn::Add(hn::ShiftLeft<2>(v), u).raw;
         for (int c = 0; c < 3; ++c)
             at_[1 + c] = _mm512_permutexvar_epi32(at_[0], _mm512_load_si512(kCorners[c]));
     }
-    HWY_INLINE void get(int plane, VF* corners) const {
+    /// Every lane its own micropolygon, v * 4 + u.
+    explicit CornerLookup(const BlockView& block) : block_(block) {
+        at_[0] = hn::Iota(I32(), 0).raw;
+        for (int c = 0; c < 3; ++c) at_[1 + c] = _mm512_load_si512(kCorners[c]);
+    }
+    HWY_INLINE void load(int plane, VF& own, VF& behind) const {
         const __m512i kBehind = _mm512_setr_epi32(0, 4, 8, 12, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0);
         const float* tile = block_.tile + static_cast<size_t>(plane) * block_.plane;
-        const __m512 own = _mm512_load_ps(tile);
         const __m512 down = _mm512_castps128_ps512(_mm_loadu_ps(tile + block_.down));
-        __m512 behind = _mm512_permutex2var_ps(_mm512_loadu_ps(tile + block_.right), kBehind, down);
-        behind = _mm512_mask_mov_ps(behind, 1 << 8, _mm512_set1_ps(tile[block_.down + block_.right]));
-        corners[0] = VF{_mm512_permutexvar_ps(at_[0], own)};
-        for (int c = 1; c < 4; ++c) corners[c] = VF{_mm512_permutex2var_ps(own, at_[c], behind)};
+        const __m512 last = _mm512_permutex2var_ps(_mm512_loadu_ps(tile + block_.right), kBehind, down);
+        own = VF{_mm512_load_ps(tile)};
+        behind = VF{_mm512_mask_mov_ps(last, 1 << 8, _mm512_set1_ps(tile[block_.down + block_.right]))};
+    }
+    HWY_INLINE VF corner(int corner, VF own, VF behind) const {
+        return VF{_mm512_permutex2var_ps(own.raw, at_[corner], behind.raw)};
+    }
+    HWY_INLINE void get(int plane, VF* corners) const {
+        VF own, behind;
+        load(plane, own, behind);
+        corners[0] = VF{_mm512_permutexvar_ps(at_[0], own.raw)};
+        for (int c = 1; c < 4; ++c) corners[c] = corner(c, own, behind);
     }
 
   private:
+    alignas(64) static constexpr int32_t kCorners[3][16] = {
+        {1, 2, 3, 16, 5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19},
+        {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 22, 23},
+        {5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19, 21, 22, 23, 24},
+    };
+
     const BlockView& block_;
     __m512i at_[4];
 #else

@@ -13,9 +13,6 @@
 #define HWY_TARGET_INCLUDE "accel/bundle.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
-#include "accel/block_hits-inl.h"
-#include "accel/ray_intervals-inl.h"
-
 #ifndef TRAPEZE_ACCEL_BUNDLE_ONCE
 #define TRAPEZE_ACCEL_BUNDLE_ONCE
 namespace trapeze::bundle_detail {
@@ -48,6 +45,10 @@ struct TraceInput {
 
 }  // namespace trapeze::bundle_detail
 #endif
+
+#include "accel/block_hits-inl.h"
+#include "accel/ray_intervals-inl.h"
+#include "accel/sharp_packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -215,8 +216,22 @@ class BundleTrace {
         }
     }
 
+    /// A block and what its hits are called.
+    struct Block {
+        BlockView view;
+        int columns;
+        Facing facing;
+        bool opaque;
+        uint32_t id;  ///< of its first micropolygon
+        float slack;
+    };
+
     void visit_grid(uint32_t index, float depth) {
         const WideGrid& grid = tree_.grid(index);
+        if constexpr (kHasSharpPackets && !kLens && !kMotion) {
+            visit_sharp(index, grid);
+            return;
+        }
         if (!grid.moves()) {
             collect_active<false>(index, grid, 0, depth);
             test_active<false>(index, grid, 0);
@@ -231,6 +246,102 @@ class BundleTrace {
             }
         }
     }
+
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    /// Packets whose intervals meet the grid's axis-aligned box, one by one as they lie.
+    void visit_sharp(uint32_t index, const WideGrid& grid) {
+        const F32 d;
+        const MovingBox& box = tree_.grid_box(index);
+        VF low[3], high[3];
+        for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
+        bool nearer = false;
+        for (size_t p = 0; p < packets_; p += kLanes) {
+            const auto q = IntervalLanes::of<false, false>(
+                [&](int row) HWY_ATTR { return hn::Load(d, s_.intervals.row[row] + p); });
+            const MF looks = hn::Ge(hn::Load(d, s_.farthest + p), low[2]);
+            uint32_t met = mask_bits(hn::And(
+                looks, meets<false>(d, q, low, high, hn::Set(d, nearest_), hn::Set(d, inverse_focal_))));
+            for (; met != 0; met &= met - 1)
+                nearer |= visit_packet(index, grid, box, p + static_cast<size_t>(std::countr_zero(met)));
+        }
+        if (nearer) refresh_farthest();
+    }
+
+    /// Whether the packet's farthest depth may have become nearer.
+    bool visit_packet(uint32_t index, const WideGrid& grid, const MovingBox& box, size_t packet) {
+        const auto& row = s_.intervals.row;
+        const PacketSlopes slopes{row[RayIntervals::kDxMin][packet], row[RayIntervals::kDxMax][packet],
+                                  row[RayIntervals::kDyMin][packet], row[RayIntervals::kDyMax][packet]};
+        uint32_t boxes = boxes_met(grid, tree_.box_planes(grid, 0), slopes, std::max(box.low[2], nearest_),
+                                   box.high[2], s_.farthest[packet]);
+        const auto rays = std::min(kLanes, rays_.count - packet * kLanes);
+        stats_.nodes_visited += rays;
+        if (rays_.nodes) count_packet(rays_.nodes, packet * kLanes, 1);
+        bool nearer = false;
+        const int blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
+        for (; boxes != 0; boxes &= boxes - 1) {
+            const int first = std::countr_zero(boxes) * per_box,
+                      last = std::min(first + per_box, grid.block_count());
+            for (int b = first; b < last; ++b) {
+                stats_.leaves_visited += rays;
+                nearer |= test_packet(block_of(grid, 0, b % blocks_u, b / blocks_u, index), packet, slopes);
+            }
+        }
+        if (nearer) refresh_packet(packet);
+        return nearer;
+    }
+
+    /// A packet against the micropolygons of a block that it may hit; whether something nearer was found.
+    bool test_packet(const Block& block, size_t packet, const PacketSlopes& slopes) {
+        const F32 d;
+        const hn::RebindToUnsigned<F32> du;
+        const size_t i = packet * kLanes, rays = std::min(kLanes, rays_.count - i);
+        const VF ux = hn::Load(d, rays_.ux + i), uy = hn::Load(d, rays_.uy + i);
+        const MF valid = hn::FirstN(d, rays);
+        bool nearer = false;
+        for (uint32_t met = micropolygons_met(block.view, slopes); met != 0; met &= met - 1) {
+            const int m = std::countr_zero(met), u = m & 3, v = m >> 2;
+            stats_.predicate_tests += rays;
+            if (rays_.tests) count_packet(rays_.tests, i, 1);
+            const QuadLanes<VF> quad = quad_from_origin(block.view, u, v, ux, uy);
+            MF hit = hn::And(inside(d, quad), valid);
+            if (hn::AllFalse(d, hit)) continue;
+            VF depth;
+            hit = hn::And(hit, depth_inside(d, quad, block.facing, depth));
+            hit = hn::And(
+                hit, hn::And(hn::Ge(depth, hn::Set(d, range_.min)), hn::Le(depth, hn::Set(d, range_.max))));
+            stats_.predicate_hits += hn::CountTrue(d, hit);
+            const VF nearest = hn::Load(d, rays_.depth + i);
+            const auto ids = hn::Load(du, rays_.id + i),
+                       id = hn::Set(du, block.id + static_cast<uint32_t>(v << 4 | u));
+            const MF kept =
+                hn::And(hit, hn::Or(hn::Lt(depth, nearest),
+                                    hn::And(hn::Eq(depth, nearest), hn::RebindMask(d, hn::Lt(id, ids)))));
+            if (!block.opaque) {
+                add_layers(i, hn::And(hit, hn::Le(depth, nearest)), depth,
+                           block.id + static_cast<uint32_t>(v << 4 | u));
+                continue;
+            }
+            if (hn::AllFalse(d, kept)) continue;
+            hn::Store(hn::IfThenElse(kept, depth, nearest), d, rays_.depth + i);
+            hn::Store(hn::IfThenElse(hn::RebindMask(du, kept), id, ids), du, rays_.id + i);
+            nearer = true;
+        }
+        return nearer;
+    }
+
+    void add_layers(size_t first, MF hit, VF depth, uint32_t id) {
+        HWY_ALIGN float depths[kLanes];
+        hn::Store(depth, F32(), depths);
+        for (uint32_t lanes = mask_bits(hit); lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            rays_.layers.push_back(
+                {static_cast<uint32_t>(first) + static_cast<uint32_t>(lane), depths[lane], id});
+        }
+    }
+#else
+    void visit_sharp(uint32_t, const WideGrid&) {}
+#endif
 
     /// Packets whose intervals meet the grid's axis-aligned box, then those of their rays that meet its
     /// oriented one (and, of a moving grid, look in the segment).
@@ -289,7 +400,7 @@ class BundleTrace {
         }
         const size_t count = hn::CountTrue(d, met);
         stats_.nodes_visited += kLanes;
-        if (rays_.nodes) count_packet(rays_.nodes, i);
+        if (rays_.nodes) count_packet(rays_.nodes, i, 1);
         if (count == 0) return;
         ActiveRays& to = s_.active;
         const size_t at = to.count;
@@ -351,19 +462,9 @@ class BundleTrace {
         farthest_ = largest(farthest);
     }
 
-    static void count_packet(uint32_t* counts, size_t first) {
-        for (size_t i = 0; i < kLanes; ++i) ++counts[first + i];
+    static void count_packet(uint32_t* counts, size_t first, uint32_t count) {
+        for (size_t i = 0; i < kLanes; ++i) counts[first + i] += count;
     }
-
-    /// A block and what its hits are called.
-    struct Block {
-        BlockView view;
-        int columns;
-        Facing facing;
-        bool opaque;
-        uint32_t id;  ///< of its first micropolygon
-        float slack;
-    };
 
     static Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
         const int tiles_u = grid.tiles_u, tiles_v = (grid.nv + 4) / 4;
