@@ -1,113 +1,39 @@
-/// The method of [Hou10]: one ray after another through the hyper-trapezoid tree, in the order of
-/// section 3.4.
-///
-/// With bundles, rays that follow each other first look together, as a beam, for what they may meet of the
-/// levels above grids, and then traverse that part only. It takes most of the steps above grids away and
-/// changes no hit. The nodes that a beam looks at count as visited. Without bundles it is the paper's own
-/// form: every ray from the root (docs/decisions/0001-interval-traversal.md).
-#include <algorithm>
-
-#include "accel/paper_tree.h"
-#include "sample/hit_lists.h"
-#include "sample/ray_order.h"
-#include "sample/visibility_method.h"
+/// The row "raytrace": rays through a tree of grids, the fast one or the paper's.
+#include "sample/paper_raytrace.h"
 #include "sample/wide_raytrace.h"
 
 namespace trapeze {
 namespace {
 
-/// Rays of a beam. 64 to 512 are within 10 % of each other in tests/bench/trace_bench.cpp.
-constexpr size_t kGroupSize = 128;
+const std::vector<SpecOption>& raytrace_options() {
+    static const std::vector<SpecOption> options = {
+        {"tree", {"wide", "paper"}},
+        {"bundle", {"on", "off"}},
+    };
+    return options;
+}
 
-class RayTraced final : public Visibility {
-  public:
-    RayTraced(const RenderContext& context, const Grids& grids, bool bundles)
-        : bundles_(bundles),
-          range_{context.camera.near_clip, context.camera.far_clip},
-          motion_(context.motion),
-          defocus_(context.camera.has_lens()),
-          all_opaque_(every_grid_is_opaque(grids)),
-          tree_(grids) {}
-
-    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
-                 SampleStats& stats) const override {
-        order_rays(samples, motion_, defocus_, scratch);
-        SampleStats counted;  // on the stack, so that counting stays in registers
-        if (all_opaque_)
-            resolve_closest(samples, hits, scratch, counted);
-        else
-            resolve_layers(samples, hits, scratch, counted);
-        stats += counted;
-    }
-
-    BuildStats build_stats() const override { return tree_.stats(); }
-
-  private:
-    /// Calls trace_one(sample, part of the tree) for all samples in order.
-    template <class TraceOne>
-    void trace_in_order(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats,
-                        TraceOne&& trace_one) const {
-        const std::span<const uint32_t> order = scratch.order;
-        if (order.empty()) return;
-        if (!bundles_) {
-            for (const uint32_t sample : order) trace_one(sample, tree_.top());
-            return;
-        }
-        tree_.top().within(Beam(samples.rays, order, range_), scratch.tile_top, &stats.nodes_visited);
-        for (size_t first = 0; first < order.size(); first += kGroupSize) {
-            const auto group = order.subspan(first, std::min(kGroupSize, order.size() - first));
-            scratch.tile_top.within(Beam(samples.rays, group, range_), scratch.group_top,
-                                    &stats.nodes_visited);
-            for (const uint32_t sample : group) trace_one(sample, scratch.group_top);
-        }
-    }
-
-    void resolve_closest(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
-                         SampleStats& stats) const {
-        scratch.nearest.resize(samples.size());
-        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
-            TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
-            ClosestHit policy;
-            tree_.trace(part, ray, policy, stats);
-            scratch.nearest[sample] = policy.best;
-        });
-        buffer_of_nearest(scratch, samples.size(), hits);
-    }
-
-    void resolve_layers(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
-                        SampleStats& stats) const {
-        scratch.hits.clear();
-        scratch.first.resize(samples.size());
-        scratch.count.resize(samples.size());
-        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
-            TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
-            const size_t first = scratch.hits.size();
-            HitsUntilOpaque policy{scratch.hits};
-            tree_.trace(part, ray, policy, stats);
-            policy.finish(first);
-            scratch.first[sample] = static_cast<uint32_t>(first);
-            scratch.count[sample] = static_cast<uint32_t>(scratch.hits.size() - first);
-        });
-        buffer_of_lists(scratch, samples.size(), hits);
-    }
-
-    bool bundles_;
-    DepthRange range_;
-    bool motion_, defocus_, all_opaque_;
-    PaperTree tree_;
-};
+/// All options but "tree" choose what the paper's tree is like.
+std::string check_raytrace(const MethodSpec& spec) {
+    if (spec["tree"] == "paper") return {};
+    for (const SpecOption& option : raytrace_options())
+        if (option.name != "tree" && spec[option.name] != option.values.front())
+            return "option \"" + std::string(option.name) + "\" is for tree=paper";
+    return {};
+}
 
 }  // namespace
 
 VisibilityMethod raytrace_method() {
     return {"raytrace",
-            {{"tree", {"wide", "paper"}}, {"bundle", {"on", "off"}}},
+            raytrace_options(),
             stratified_pattern,
             any_pattern,
-            [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
-                if (input.spec["tree"] == "wide") return prepare_wide_raytrace(input);
-                return std::make_unique<RayTraced>(input.context, input.grids, input.spec.is_on("bundle"));
-            }};
+            [](const VisibilityInput& input) {
+                return input.spec["tree"] == "paper" ? prepare_paper_raytrace(input)
+                                                     : prepare_wide_raytrace(input);
+            },
+            check_raytrace};
 }
 
 }  // namespace trapeze

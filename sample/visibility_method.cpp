@@ -28,6 +28,10 @@ std::optional<Sampler> choose_sampler(std::string_view method, std::string_view 
     const auto method_spec = parse_spec_of(visibility_methods(), "visibility method", method, error);
     if (!method_spec) return {};
     const VisibilityMethod& row = *find_named(visibility_methods(), method_spec->name);
+    if (const std::string wrong = row.check ? row.check(*method_spec) : ""; !wrong.empty()) {
+        *error = "\"" + std::string(method) + "\": " + wrong;
+        return {};
+    }
     const auto pattern_spec =
         parse_pattern(pattern.empty() ? row.natural_pattern(*method_spec) : std::string(pattern), error);
     if (!pattern_spec) return {};

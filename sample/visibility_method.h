@@ -81,6 +81,8 @@ struct VisibilityMethod {
     /// Whether the method finds what samples of a pattern see.
     bool (*honours)(const MethodSpec& method, const MethodSpec& pattern);
     std::unique_ptr<Visibility> (*prepare)(const VisibilityInput& input);
+    /// What is wrong with options that do not go together; empty when nothing is. May be null.
+    std::string (*check)(const MethodSpec& method) = nullptr;
 };
 
 const std::vector<VisibilityMethod>& visibility_methods();

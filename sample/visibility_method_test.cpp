@@ -163,6 +163,8 @@ TEST(VisibilityMethods, WrongNamesAreExplained) {
     EXPECT_THAT(error_of("raytrace:bundle=maybe", ""), ::testing::HasSubstr("is one of on, off"));
     EXPECT_THAT(error_of("raytrace:bundles=on", ""), ::testing::HasSubstr("no option \"bundles\""));
     EXPECT_THAT(error_of("raytrace:bundle", ""), ::testing::HasSubstr("key=value"));
+    EXPECT_THAT(error_of("raytrace:bundle=off", ""),
+                ::testing::HasSubstr("option \"bundle\" is for tree=paper"));
     EXPECT_THAT(error_of("interleaveuvt:k=4", "interleaved:k=2"),
                 ::testing::HasSubstr("cannot resolve samples"));
     EXPECT_THAT(error_of("interleaveuvt", "stratified"),
