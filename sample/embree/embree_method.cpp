@@ -1,16 +1,16 @@
 /// Embree as a visibility method: the reference from outside [Wald14]. The same grids and rays, in the
-/// order of rays of [Hou10]; its own hits. Its edges, depths and ties are not the predicate's: it is not
-/// among the methods that agree bit for bit, and pictures differ where edges of micropolygons pass samples.
-/// Threads may break its ties either way.
+/// order in which raytrace takes them, which is faster for Embree too than that of [Hou10]; its own hits. Its
+/// edges, depths and ties are not the predicate's: it is not among the methods that agree bit for bit, and
+/// pictures differ where edges of micropolygons pass samples. Threads may break its ties either way.
 ///
 /// Its BuildStats::setup_seconds is the time to copy grids to buffers that Embree can read. It does not say
 /// what it tests and visits: those counts stay 0.
 #include <algorithm>
 #include <cmath>
 
+#include "sample/bundle_order.h"
 #include "sample/embree/embree_scene.h"
 #include "sample/hit_lists.h"
-#include "sample/ray_order.h"
 #include "sample/visibility_method.h"
 
 namespace trapeze {
@@ -70,23 +70,30 @@ void drop_repeated(HitBuffer& hits) {
     hits.hits.resize(kept);
 }
 
-enum class Mode { Single, Packet8, Packet16, Stream };
+enum class Mode { Fastest, Single, Packet8, Packet16, Stream };
+
+/// As tests/bench/trace_bench measures: streams, which Embree turns into packets of its own, are the fastest
+/// everywhere with quads; with grids that is so for packets of 16 without motion, and packets of 8 are else.
+Mode chosen_mode(Mode asked, const EmbreeScene& scene, bool quads, bool motion) {
+    if (asked != Mode::Fastest) return asked;
+    return quads || (scene.has_wide_packets() && !motion) ? Mode::Stream : Mode::Packet8;
+}
 
 class EmbreeTraced final : public Visibility {
   public:
     EmbreeTraced(const VisibilityInput& input, const EmbreeChoices& choices, Mode mode)
-        : mode_(mode),
-          motion_(input.context.motion),
+        : motion_(input.context.motion),
           defocus_(input.context.camera.has_lens()),
           all_opaque_(every_grid_is_opaque(input.grids)),
           // Embree's range is open at its near end, ours is closed.
           near_(std::nextafter(input.context.camera.near_clip, -kInfinity)),
           far_(input.context.camera.far_clip),
-          scene_(input.grids, choices) {}
+          scene_(input.grids, choices),
+          mode_(chosen_mode(mode, scene_, choices.quads, input.grids.max_key_count() > 1)) {}
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        order_rays(samples, motion_, defocus_, scratch);
+        order_bundles(samples, motion_, defocus_, {}, scratch);
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
         scratch.hits.clear();
         scratch.hit_sample.clear();
@@ -120,7 +127,7 @@ class EmbreeTraced final : public Visibility {
                 return trace_packets<8, RTCRayHit8>(samples, scratch, &collector.context, rtcIntersect8);
             case Mode::Packet16:
                 return trace_packets<16, RTCRayHit16>(samples, scratch, &collector.context, rtcIntersect16);
-            case Mode::Stream:
+            default:
                 return trace_streams(samples, scratch, &collector.context);
         }
     }
@@ -191,22 +198,17 @@ class EmbreeTraced final : public Visibility {
         to.hit.geomID[lane] = to.hit.primID[lane] = to.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
 
-    Mode mode_;
     bool motion_, defocus_, all_opaque_;
     float near_, far_;
     EmbreeScene scene_;
+    Mode mode_;
 };
 
-/// The fastest for the scene's kind, as tests/bench/trace_bench measures.
-Mode fastest_mode(const Grids& grids) {
-    return grids.max_key_count() > 1 ? Mode::Single : Mode::Packet16;
-}
-
-Mode mode_of(std::string_view name, const Grids& grids) {
+Mode mode_of(std::string_view name) {
     if (name == "1") return Mode::Single;
     if (name == "8") return Mode::Packet8;
     if (name == "16") return Mode::Packet16;
-    return name == "stream" ? Mode::Stream : fastest_mode(grids);
+    return name == "stream" ? Mode::Stream : Mode::Fastest;
 }
 
 RTCBuildQuality quality_of(std::string_view name) {
@@ -226,8 +228,7 @@ VisibilityMethod embree_method() {
             [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
                 const EmbreeChoices choices{input.spec["geometry"] == "quad",
                                             quality_of(input.spec["quality"]), filter_hits};
-                return std::make_unique<EmbreeTraced>(input, choices,
-                                                      mode_of(input.spec["mode"], input.grids));
+                return std::make_unique<EmbreeTraced>(input, choices, mode_of(input.spec["mode"]));
             }};
 }
 

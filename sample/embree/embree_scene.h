@@ -44,6 +44,10 @@ class EmbreeScene {
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     RTCScene scene() const { return scene_; }
+    /// Packets of 16 rays in one register.
+    bool has_wide_packets() const {
+        return rtcGetDeviceProperty(device_, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+    }
     const BuildStats& stats() const { return stats_; }
 
     /// MicropolygonId::packed() of a hit.

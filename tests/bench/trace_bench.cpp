@@ -2,10 +2,10 @@
 /// of confusion up to 30 pixels: build, trace, counts and memory.
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cmath>
 #include <random>
 
-#include "accel/paper_tree.h"
 #include "sample/stratified_pattern.h"
 #include "sample/test_frame.h"
 #include "sample/visibility_method.h"
@@ -68,27 +68,37 @@ struct BenchScene {
     }
 };
 
-void build_tree(benchmark::State& state) {
+/// Seconds of the tree alone, on all threads.
+void build(benchmark::State& state, const char* method_name) {
     const BenchScene scene(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    const StratifiedPattern pattern(scene.frame.context);
+    std::string error;
+    const auto sampler = choose_sampler(method_name, "", &error);
+    if (!sampler) return state.SkipWithError(error.c_str());
     const auto count = static_cast<double>(scene.maker.grids().micropolygon_count());
-    double bytes = 0;
+    BuildStats stats;
     for (auto _ : state) {
-        const PaperTree tree(scene.maker.grids());
-        bytes = static_cast<double>(tree.stats().tree_bytes);
+        const auto start = std::chrono::steady_clock::now();
+        const auto method = sampler->prepare(scene.frame.context, scene.maker.grids(), pattern);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        stats = method->build_stats();
+        state.SetIterationTime(taken.count() - stats.setup_seconds);
     }
     state.counters["mpolys"] = count;
-    state.counters["tree_bytes/mpoly"] = bytes / count;
+    state.counters["setup_ms"] = 1000 * stats.setup_seconds;
+    state.counters["tree_bytes/mpoly"] = static_cast<double>(stats.tree_bytes) / count;
     state.counters["grid_bytes/mpoly"] = static_cast<double>(scene.maker.grids().bytes()) / count;
     state.counters["mpolys/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 /// Every 37th tile of the picture on one thread, samples made before.
-void trace(benchmark::State& state) {
+void trace(benchmark::State& state, const char* method_name) {
     const BenchScene scene(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
     const StratifiedPattern pattern(scene.frame.context);
     std::string error;
-    const auto method =
-        choose_sampler("raytrace", "", &error)->prepare(scene.frame.context, scene.maker.grids(), pattern);
+    const auto sampler = choose_sampler(method_name, "", &error);
+    if (!sampler) return state.SkipWithError(error.c_str());
+    const auto method = sampler->prepare(scene.frame.context, scene.maker.grids(), pattern);
     const auto all = testing::tiles_of({0, 0, 1280, 720});
     std::vector<SampleTile> tiles;
     for (size_t i = 0; i < all.size(); i += 37) pattern.make_tile(all[i], tiles.emplace_back());
@@ -120,15 +130,31 @@ void make_samples(benchmark::State& state) {
         benchmark::Counter(static_cast<double>(samples), benchmark::Counter::kIsRate);
 }
 
-BENCHMARK(build_tree)
-    ->ArgsProduct({{2'000'000}, {kStill, kMotion}})
-    ->ArgNames({"mpolys", "effects"})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(trace)
-    ->ArgsProduct({{500'000, 2'000'000}, {kStill, kMotion, kDefocus, kMotion | kDefocus}})
-    ->ArgNames({"mpolys", "effects"})
-    ->Unit(benchmark::kMillisecond);
+void build_arguments(benchmark::internal::Benchmark* bench) {
+    bench->ArgsProduct({{2'000'000}, {kStill, kMotion}})
+        ->ArgNames({"mpolys", "effects"})
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(build, raytrace, "raytrace")->Apply(build_arguments);
+BENCHMARK_CAPTURE(build, raytrace_paper, "raytrace:tree=paper")->Apply(build_arguments);
+BENCHMARK_CAPTURE(build, embree, "embree")->Apply(build_arguments);
+BENCHMARK_CAPTURE(build, embree_quad, "embree:geometry=quad")->Apply(build_arguments);
+BENCHMARK_CAPTURE(build, embree_low, "embree:quality=low")->Apply(build_arguments);
+
+void trace_arguments(benchmark::internal::Benchmark* bench) {
+    bench->ArgsProduct({{500'000, 2'000'000}, {kStill, kMotion, kDefocus, kMotion | kDefocus}})
+        ->ArgNames({"mpolys", "effects"})
+        ->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(trace, raytrace, "raytrace")->Apply(trace_arguments);
+BENCHMARK_CAPTURE(trace, embree_1, "embree:mode=1")->Apply(trace_arguments);
+BENCHMARK_CAPTURE(trace, embree_8, "embree:mode=8")->Apply(trace_arguments);
+BENCHMARK_CAPTURE(trace, embree_16, "embree:mode=16")->Apply(trace_arguments);
+BENCHMARK_CAPTURE(trace, embree_stream, "embree:mode=stream")->Apply(trace_arguments);
+BENCHMARK_CAPTURE(trace, embree_quad_1, "embree:geometry=quad,mode=1")->Apply(trace_arguments);
+BENCHMARK_CAPTURE(trace, embree_quad_16, "embree:geometry=quad,mode=16")->Apply(trace_arguments);
+BENCHMARK_CAPTURE(trace, embree_quad_stream, "embree:geometry=quad,mode=stream")->Apply(trace_arguments);
 BENCHMARK(make_samples)->Arg(kStill)->Arg(kMotion | kDefocus)->ArgName("effects");
 
 }  // namespace
