@@ -436,7 +436,12 @@ class BundleTrace {
         if (active.count == 0) return;
         const F32 d;
         const float* planes = tree_.box_planes(grid, segment);
-        hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);  // lanes past the end
+        // Lanes past the end meet nothing, whatever an earlier bundle has left there: infinities would.
+        hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);
+        for (int k = 0; k < 3; ++k) {
+            hn::StoreU(hn::Zero(d), d, active.inverse[k] + active.count);
+            if constexpr (kLens) hn::StoreU(hn::Zero(d), d, active.offset[k] + active.count);
+        }
         const int blocks_u = grid.blocks_u(), boxes = grid.box_count(), per_box = grid.blocks_per_box();
         meet_boxes<kMoves>(planes, boxes);
         for (int box = 0; box < boxes; ++box) {
