@@ -30,4 +30,40 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
             {"tile_side", r.tile_side}};
 }
 
+nlohmann::ordered_json to_json(const Comparison& c) {
+    using json = nlohmann::ordered_json;
+    json results = json::array();
+    for (const ComparedMethod& method : c.methods) {
+        json result = to_json(method.result);
+        result["ratio_to_baseline"] = method.ratio;
+        result["rmse"] = method.rmse;
+        results.push_back(std::move(result));
+    }
+    const auto pixels = [](const BlurSize& blur) {
+        return json{{"largest_pixels", blur.largest}, {"median_pixels", blur.median}};
+    };
+    return {{"scene", c.scene},
+            {"machine",
+             {{"cpu", c.machine.cpu},
+              {"threads", c.machine.threads},
+              {"simd_target", c.machine.simd},
+              {"system", c.machine.system},
+              {"compiler", c.machine.compiler},
+              {"trapeze", c.machine.trapeze}}},
+            {"width", c.frame.width},
+            {"height", c.frame.height},
+            {"grids", c.frame.tessellate.grids},
+            {"micropolygons", c.frame.tessellate.micropolygons},
+            {"grid_bytes", c.frame.grid_bytes},
+            {"tessellate_seconds", c.frame.seconds.tessellate},
+            {"shade_seconds", c.frame.seconds.shade},
+            {"circle_of_confusion", pixels(c.blur.defocus)},
+            {"motion", pixels(c.blur.motion)},
+            {"rounds", c.rounds},
+            {"reference_samples", c.reference_side * c.reference_side},
+            {"baseline", c.baseline},
+            {"results", results},
+            {"verdict", c.verdict}};
+}
+
 }  // namespace trapeze

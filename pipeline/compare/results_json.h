@@ -3,10 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipeline/compare/measure.h"
+#include "pipeline/compare/comparison.h"
 
 namespace trapeze {
 
 nlohmann::ordered_json to_json(const MethodResult& result);
+/// Every figure, without the pictures.
+nlohmann::ordered_json to_json(const Comparison& comparison);
 
 }  // namespace trapeze

@@ -14,6 +14,7 @@ struct TileResolver {
     SampleTile samples, part_samples;
     HitBuffer hits, part_hits;
     SampleScratch scratch;
+    SampleHeat heat;
     SampleStats stats;
     double trace_seconds = 0, composite_seconds = 0;
 };
@@ -56,11 +57,34 @@ void add_to_film(TileResolver& resolver, const Grids& grids, int tile_side, Film
     }
 }
 
+void clear_heat(TileResolver& resolver) {
+    resolver.heat.tests.assign(resolver.samples.size(), 0);
+    resolver.heat.nodes.assign(resolver.samples.size(), 0);
+    resolver.scratch.heat = &resolver.heat;
+}
+
+/// Means over pixels; no two tiles write to the same one.
+void take_heat(const TileResolver& resolver, HeatMap& heat) {
+    const SampleTile& samples = resolver.samples;
+    const auto count = static_cast<size_t>(samples.samples_per_pixel);
+    const auto mean = [count](const std::vector<uint32_t>& costs, size_t first) {
+        uint64_t sum = 0;
+        for (size_t s = first; s < first + count; ++s) sum += costs[s];
+        return static_cast<float>(static_cast<double>(sum) / static_cast<double>(count));
+    };
+    for (int y = samples.pixels.y0; y < samples.pixels.y1; ++y)
+        for (int x = samples.pixels.x0; x < samples.pixels.x1; ++x) {
+            const size_t first = samples.first_of_pixel(x, y), at = heat.index(x, y);
+            heat.tests[at] = mean(resolver.heat.tests, first);
+            heat.nodes[at] = mean(resolver.heat.nodes, first);
+        }
+}
+
 }  // namespace
 
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,
-                   const std::function<void()>& on_step) {
+                   const std::function<void()>& on_step, HeatMap* heat) {
     Stopwatch wall;
     const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
     tbb::enumerable_thread_specific<TileResolver> resolvers;
@@ -69,8 +93,10 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
         TileResolver& resolver = resolvers.local();
         Stopwatch watch;
         pattern.make_tile(tiles[i], resolver.samples);
+        if (heat) clear_heat(resolver);
         visibility.resolve(resolver.samples, resolver.hits, resolver.scratch, resolver.stats);
         resolver.trace_seconds += watch.lap();
+        if (heat) take_heat(resolver, *heat);
         add_to_film(resolver, grids, visibility.tile_side(), film);
         resolver.composite_seconds += watch.lap();
         on_step();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "composite/film.h"
 #include "core/render_context.h"
@@ -10,10 +11,25 @@
 
 namespace trapeze {
 
+/// What the samples of each pixel cost a method, means over the pixel's samples. All zero for a method that
+/// does not say.
+struct HeatMap {
+    PixelRect pixels;
+    std::vector<float> tests, nodes;  ///< row by row; see SampleHeat
+
+    HeatMap() = default;
+    explicit HeatMap(const PixelRect& of)
+        : pixels(of), tests(static_cast<size_t>(of.width()) * of.height()), nodes(tests.size()) {}
+    size_t index(int x, int y) const {
+        return static_cast<size_t>(y - pixels.y0) * pixels.width() + static_cast<size_t>(x - pixels.x0);
+    }
+};
+
 /// Finds what every sample of some pixels sees and adds it to the film, with the threads of the calling task
 /// arena. Adds to the stats; calls `on_step` once for each rectangle of tiles_of(pixels, side of a tile).
+/// Fills `heat` (of those pixels) when there is one.
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,
-                   const std::function<void()>& on_step);
+                   const std::function<void()>& on_step, HeatMap* heat = nullptr);
 
 }  // namespace trapeze

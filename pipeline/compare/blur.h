@@ -1,0 +1,26 @@
+/// How much a frame blurs: the sizes, in pixels, of circles of confusion and of ways through the picture.
+#pragma once
+
+#include <vector>
+
+#include "core/camera.h"
+#include "core/grid.h"
+
+namespace trapeze {
+
+struct BlurSize {
+    float largest = 0, median = 0;  ///< pixels; the median is over micropolygons
+};
+
+struct FrameBlur {
+    BlurSize defocus;  ///< diameter of the circle of confusion
+    BlurSize motion;   ///< length of the way in raster space while the shutter is open
+};
+
+/// From a few vertices of each grid. What is nearer than the near clipping plane does not count.
+FrameBlur measure_blur(const Camera& camera, const Grids& grids);
+
+/// The value that half of the weight lies at or below; 0 of none.
+float weighted_median(std::vector<std::pair<float, uint64_t>> values);
+
+}  // namespace trapeze

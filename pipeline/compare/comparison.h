@@ -1,0 +1,60 @@
+/// All that there is to say about visibility methods on one frame: a value for the terminal's table, the JSON
+/// and the HTML report.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/compare/blur.h"
+#include "pipeline/compare/machine.h"
+#include "pipeline/compare/measure.h"
+#include "pipeline/compare/pictures.h"
+
+namespace trapeze {
+
+/// A method at a sample rate.
+struct ComparedMethod {
+    MethodResult result;
+    double ratio = 0;  ///< of its median total to the baseline's at the same rate
+    double rmse = 0;   ///< to the reference, linear
+    MethodPicture picture;
+};
+
+struct Comparison {
+    std::string scene;  ///< as the user named it
+    Machine machine;
+    FrameStats frame;  ///< of tessellation and shading
+    FrameBlur blur;
+    int rounds = 0;
+    int reference_side = 0;  ///< samples of the reference's pixels along each axis
+    std::string baseline;    ///< the method that ratios are to
+    std::vector<SampleRate> rates;
+    std::vector<ComparedMethod> methods;  ///< by rate, then in the order asked for
+    Image reference;
+    std::vector<std::string> verdict;  ///< sentences
+
+    std::vector<const ComparedMethod*> at(SampleRate rate) const;
+};
+
+struct CompareSettings {
+    std::vector<Sampler> samplers;
+    std::vector<SampleRate> rates;
+    MeasureSettings measure;  ///< its on_progress is not used
+    int reference_side = 32;
+    std::function<void(const std::string& what)> on_stage = {};
+    std::function<void(double)> on_progress = {};  ///< of the stage
+};
+
+/// Measures, makes the pictures and judges. Empty when cancelled. Verdict included.
+std::optional<Comparison> compare(const SharedFrame& frame, const CompareSettings& settings);
+
+/// The method that ratios are to: "raytrace" as it is by default, else the first of its kind, else the first.
+std::string baseline_of(const std::vector<Sampler>& samplers);
+
+/// "8x8"
+std::string rate_text(SampleRate rate);
+
+}  // namespace trapeze

@@ -1,0 +1,111 @@
+#include "pipeline/compare/comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/compare/compare_harness.h"
+#include "pipeline/compare/results_json.h"
+#include "pipeline/compare/table.h"
+#include "pipeline/compare/value_text.h"
+
+namespace trapeze {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::samplers_of;
+using testing::SharedScene;
+
+CompareSettings settings_of(const std::vector<std::string>& names, std::vector<SampleRate> rates) {
+    CompareSettings settings;
+    settings.samplers = samplers_of(names);
+    settings.rates = std::move(rates);
+    settings.measure.rounds = 1;
+    settings.reference_side = 8;
+    return settings;
+}
+
+TEST(Compare, MorePictureSamplesMeanLessError) {
+    const SharedScene shared("defocus_motion.rib");
+    const auto c = compare(*shared.frame, settings_of({"raytrace", "interval"}, {{1, 1}, {4, 4}}));
+    ASSERT_TRUE(c);
+    ASSERT_EQ(c->methods.size(), 4u);
+    EXPECT_EQ(c->baseline, "raytrace");
+    EXPECT_EQ(c->methods[0].ratio, 1);
+    EXPECT_GT(c->methods[1].ratio, 0);
+    EXPECT_LT(c->methods[2].rmse, 0.7 * c->methods[0].rmse);
+    EXPECT_LT(c->methods[3].rmse, 0.7 * c->methods[1].rmse);
+    EXPECT_GT(c->blur.motion.largest, 1);
+    EXPECT_GT(c->blur.defocus.largest, 1);
+    EXPECT_FALSE(c->verdict.empty());
+}
+
+TEST(Compare, TheReferenceTakesOtherSamplesThanTheMethods) {
+    const SharedScene shared("defocus_motion.rib");
+    const auto c = compare(*shared.frame, settings_of({"raytrace"}, {{8, 8}}));
+    ASSERT_TRUE(c);
+    EXPECT_GT(c->methods[0].rmse, 0) << "the same picture has no error to show";
+}
+
+TEST(Compare, HeatMapsAddUpToTheCounts) {
+    // A box filter of a pixel takes no samples beyond the picture.
+    const SharedScene shared("filter_box.rib");
+    const auto c = compare(*shared.frame, settings_of({"raytrace", "interval"}, {{2, 2}}));
+    ASSERT_TRUE(c);
+    for (const ComparedMethod& m : c->methods) {
+        const HeatMap& heat = m.picture.heat;
+        ASSERT_EQ(heat.pixels, m.picture.image.window);
+        double tests = 0;
+        for (const float t : heat.tests) tests += static_cast<double>(t) * m.result.rate.per_pixel();
+        EXPECT_EQ(shared.frame->pixels, heat.pixels);
+        EXPECT_NEAR(tests, static_cast<double>(m.result.sample.predicate_tests), 0.5) << m.result.method;
+    }
+}
+
+TEST(Compare, TheBaselineIsTheDefaultRayTracerIfItIsThere) {
+    EXPECT_EQ(baseline_of(samplers_of({"interval", "raytrace:tree=paper", "raytrace"})), "raytrace");
+    EXPECT_EQ(baseline_of(samplers_of({"interval", "raytrace:tree=paper"})), "raytrace:tree=paper");
+    EXPECT_EQ(baseline_of(samplers_of({"interval", "bruteforce"})), "interval");
+}
+
+TEST(ValueText, ThreeDigitsAndTheUnitThatFits) {
+    EXPECT_EQ(seconds_text(0.0123456), "12.3 ms");
+    EXPECT_EQ(seconds_text(0.99999), "1.00 s");
+    EXPECT_EQ(seconds_text(123.4), "123 s");
+    EXPECT_EQ(number_text(0), "0");
+    EXPECT_EQ(number_text(0.01234), "0.0123");
+    EXPECT_EQ(number_text(12345), "12345");
+    EXPECT_EQ(number_text(0.000123), "1.23e-04");
+    EXPECT_EQ(count_text(2.5e6), "2.50 million");
+}
+
+TEST(Table, HasEveryFigureOfEveryMethod) {
+    const SharedScene shared("quadric_sphere.rib");
+    const auto c =
+        compare(*shared.frame, settings_of({"raytrace:tree=paper,bundle=off", "interval"}, {{2, 1}}));
+    ASSERT_TRUE(c);
+    const std::string text = table_text(*c);
+    for (const ComparedMethod& m : c->methods) {
+        EXPECT_THAT(text, HasSubstr(m.result.method));
+        for (const TableColumn& column : table_columns())
+            EXPECT_THAT(text, HasSubstr(column.text(column.value(m)))) << column.title;
+    }
+    EXPECT_THAT(text, HasSubstr("2x1"));
+}
+
+TEST(ComparisonJson, HasTheFiguresAndTheVerdict) {
+    const SharedScene shared("quadric_sphere.rib");
+    auto c = compare(*shared.frame, settings_of({"raytrace"}, {{2, 2}}));
+    ASSERT_TRUE(c);
+    c->scene = "a \"name\"";
+    const auto json = nlohmann::json::parse(to_json(*c).dump());
+    EXPECT_EQ(json["scene"], c->scene);
+    EXPECT_EQ(json["results"][0]["rmse"].get<double>(), c->methods[0].rmse);
+    EXPECT_EQ(json["results"][0]["ratio_to_baseline"].get<double>(), 1);
+    EXPECT_EQ(json["reference_samples"], 64);
+    EXPECT_EQ(json["verdict"].size(), c->verdict.size());
+    EXPECT_EQ(json["machine"]["threads"], c->machine.threads);
+    EXPECT_GT(json["micropolygons"].get<int>(), 100);
+}
+
+}  // namespace
+}  // namespace trapeze

@@ -1,0 +1,20 @@
+/// Where figures were measured.
+#pragma once
+
+#include <string>
+
+namespace trapeze {
+
+struct Machine {
+    std::string cpu;       ///< model, as the operating system names it
+    std::string simd;      ///< instruction set that the vector code runs on
+    std::string system;    ///< operating system and its release
+    std::string compiler;  ///< that built the program
+    std::string trapeze;   ///< version
+    int threads = 1;       ///< that the work ran on
+};
+
+/// Of this process, but for `trapeze`; the threads are the calling task arena's.
+Machine this_machine();
+
+}  // namespace trapeze

@@ -1,0 +1,15 @@
+/// Figures as people read them.
+#pragma once
+
+#include <string>
+
+namespace trapeze {
+
+/// "0.412 ms", "41.2 ms", "4.12 s": three digits.
+std::string seconds_text(double seconds);
+/// Three digits, without exponents between a thousandth and ten million.
+std::string number_text(double value);
+/// "1.31 million"
+std::string count_text(double count);
+
+}  // namespace trapeze

@@ -1,0 +1,198 @@
+#include "pipeline/compare/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pipeline/compare/value_text.h"
+
+namespace trapeze {
+namespace {
+
+/// Times closer than this, or than the spread of their rounds, are called equal.
+constexpr double kEqualTimes = 1.03;
+/// Misses per hit that differ by less do not explain a difference of times.
+constexpr double kMoreMisses = 1.5;
+/// A build that takes more of the sampling time than this is a reason of its own.
+constexpr double kLargeBuild = 0.35;
+constexpr float kBlurredPixels = 2;  ///< blur that rasterizers' boxes notice
+
+bool traces(const MethodResult& r) {
+    return r.sampler.method.name == "raytrace" || r.sampler.method.name == "embree";
+}
+
+double misses_per_hit(const MethodResult& r) {
+    return std::max(0.0, r.tests_per_hit() - 1);
+}
+
+std::string time_of(const MethodResult& r) {
+    return seconds_text(r.total_median());
+}
+
+std::string with_time(const MethodResult& r) {
+    return r.method + " (" + time_of(r) + ")";
+}
+
+/// Whether the rounds' totals of two methods cannot be told apart.
+bool equal_times(const MethodResult& fast, const MethodResult& slow) {
+    if (slow.total_median() <= kEqualTimes * fast.total_median()) return true;
+    double longest = 0, shortest = 0;
+    for (size_t i = 0; i < fast.build_seconds.size(); ++i)
+        longest = std::max(longest, fast.build_seconds[i] + fast.resolve_seconds[i]);
+    for (size_t i = 0; i < slow.build_seconds.size(); ++i) {
+        const double seconds = slow.build_seconds[i] + slow.resolve_seconds[i];
+        shortest = i == 0 ? seconds : std::min(shortest, seconds);
+    }
+    return shortest <= longest;
+}
+
+/// The contest at one sample rate; null where a kind is not there.
+struct Standing {
+    const MethodResult* fastest = nullptr;
+    const MethodResult* tracer = nullptr;      ///< fastest ray tracer
+    const MethodResult* rasterizer = nullptr;  ///< fastest rasterizer
+};
+
+Standing standing_at(const Comparison& comparison, SampleRate rate) {
+    Standing s;
+    const auto take = [](const MethodResult*& best, const MethodResult& r) {
+        if (!best || r.total_median() < best->total_median()) best = &r;
+    };
+    for (const ComparedMethod* m : comparison.at(rate)) {
+        const MethodResult& r = m->result;
+        if (r.sampler.method.name == "bruteforce") continue;
+        take(s.fastest, r);
+        take(traces(r) ? s.tracer : s.rasterizer, r);
+    }
+    return s;
+}
+
+std::string blur_sentence(const Comparison& c) {
+    const auto& [defocus, motion] = c.blur;
+    std::string text = fmt::format("The frame has {} micropolygons. ",
+                                   count_text(static_cast<double>(c.frame.tessellate.micropolygons)));
+    const auto size = [](const char* what, const BlurSize& blur) {
+        return fmt::format("{} up to {} pixels (median {})", what, number_text(blur.largest),
+                           number_text(blur.median));
+    };
+    const std::string circles = size("circles of confusion are", defocus);
+    const std::string ways =
+        size(defocus.largest > 0 ? "ways while the shutter is open" : "points move", motion);
+    if (defocus.largest > 0 && motion.largest > 0) return text + "Its " + circles + ", " + ways + ".";
+    if (defocus.largest > 0) return text + "Its " + circles + "; nothing moves.";
+    if (motion.largest > 0) return text + "Its " + ways + "; everything is in focus.";
+    return text + "Nothing moves and everything is in focus.";
+}
+
+std::string why_tracer_wins(const Comparison& c, const MethodResult& tracer, const MethodResult& raster) {
+    const double traced = misses_per_hit(tracer), rastered = misses_per_hit(raster);
+    if (rastered <= kMoreMisses * traced)
+        return fmt::format(
+            "Misses do not explain it ({} against {} for each hit): what is done besides the tests does.",
+            number_text(rastered), number_text(traced));
+    const float blur = std::max(c.blur.defocus.largest, c.blur.motion.largest);
+    return fmt::format(
+        "For each hit, {} tests {} micropolygons that miss, {} {}{}.", raster.method, number_text(rastered),
+        tracer.method, number_text(traced),
+        blur >= kBlurredPixels ? ": what is blurred may be met at many samples and covers few of them" : "");
+}
+
+std::string why_rasterizer_wins(const MethodResult& tracer, const MethodResult& raster) {
+    const double share = tracer.total_median() > 0 ? tracer.build_median() / tracer.total_median() : 0;
+    if (share > kLargeBuild)
+        return fmt::format("Building takes {:.0f}% of the time of {}; {} samples a pixel do not repay it.",
+                           share * 100, tracer.method, tracer.rate.per_pixel());
+    const double traced = misses_per_hit(tracer), rastered = misses_per_hit(raster);
+    const char* form = rastered <= kMoreMisses * traced
+                           ? "Its tests seldom miss: {} times for each hit, those of {} {} times."
+                           : "It does so although it misses more often ({} times for each hit, {} {} times): "
+                             "its tests cost less.";
+    return fmt::format(fmt::runtime(form), number_text(rastered), tracer.method, number_text(traced));
+}
+
+std::string rate_sentence(const Comparison& c, SampleRate rate) {
+    const Standing s = standing_at(c, rate);
+    if (!s.fastest) return {};
+    const std::string at = "At " + rate_text(rate) + " samples a pixel ";
+    if (!s.tracer || !s.rasterizer) return at + with_time(*s.fastest) + " is the fastest.";
+    const bool tracer_wins = s.fastest == s.tracer;
+    const MethodResult& other = tracer_wins ? *s.rasterizer : *s.tracer;
+    if (equal_times(*s.fastest, other))
+        return at + with_time(*s.fastest) + " and " + with_time(other) +
+               " cannot be told apart by their times.";
+    return fmt::format("{}{} is the fastest, {} times as fast as {}, the fastest {}. {}", at,
+                       with_time(*s.fastest), number_text(other.total_median() / s.fastest->total_median()),
+                       with_time(other), tracer_wins ? "rasterizer" : "ray tracer",
+                       tracer_wins ? why_tracer_wins(c, *s.tracer, *s.rasterizer)
+                                   : why_rasterizer_wins(*s.tracer, *s.rasterizer));
+}
+
+/// How times grow from the fewest to the most samples.
+std::string growth_sentence(const Comparison& c) {
+    const auto [low, high] = std::minmax_element(
+        c.rates.begin(), c.rates.end(),
+        [](const SampleRate& a, const SampleRate& b) { return a.per_pixel() < b.per_pixel(); });
+    if (low == c.rates.end() || low->per_pixel() == high->per_pixel()) return {};
+    std::string text =
+        fmt::format("From {} to {} samples, {} times as many, the times grow ", rate_text(*low),
+                    rate_text(*high), number_text(static_cast<double>(high->per_pixel()) / low->per_pixel()));
+    const auto few = c.at(*low), many = c.at(*high);
+    for (size_t i = 0; i < few.size() && i < many.size(); ++i)
+        text += fmt::format("{}{} times for {}",
+                            i == 0                ? ""
+                            : i + 1 == few.size() ? " and "
+                                                  : ", ",
+                            number_text(many[i]->result.total_median() / few[i]->result.total_median()),
+                            few[i]->result.method);
+    return text + ".";
+}
+
+/// Of the most samples; patterns differ, and so do their errors.
+std::string error_sentence(const Comparison& c) {
+    if (c.rates.empty()) return {};
+    const auto methods = c.at(c.rates.back());
+    if (methods.size() < 2) return {};
+    const auto by_error = [](const ComparedMethod* a, const ComparedMethod* b) { return a->rmse < b->rmse; };
+    const auto [least, most] = std::minmax_element(methods.begin(), methods.end(), by_error);
+    std::string text = "At " + rate_text(c.rates.back()) + " samples ";
+    if ((*most)->rmse <= 1.05 * (*least)->rmse) return text + "the errors of all differ by less than 5%.";
+    return text +
+           fmt::format("the error is least with {} (RMSE {}, pattern {}) and largest with {} ({}, {}).",
+                       (*least)->result.method, number_text((*least)->rmse), (*least)->result.pattern,
+                       (*most)->result.method, number_text((*most)->rmse), (*most)->result.pattern);
+}
+
+/// The winners by rate, neighbours of one winner together.
+std::string conclusion(const Comparison& c) {
+    std::vector<SampleRate> rates = c.rates;
+    std::stable_sort(rates.begin(), rates.end(),
+                     [](const SampleRate& a, const SampleRate& b) { return a.per_pixel() < b.per_pixel(); });
+    std::vector<std::pair<std::string, SampleRate>> winners;  // and the first rate at which they win
+    for (const SampleRate& rate : rates) {
+        const Standing s = standing_at(c, rate);
+        if (s.fastest && (winners.empty() || winners.back().first != s.fastest->method))
+            winners.emplace_back(s.fastest->method, rate);
+    }
+    if (winners.empty()) return "Nothing was compared that one would render with.";
+    std::string text = "For this scene take " + winners.front().first;
+    if (winners.size() == 1)
+        return text + (rates.size() == 1 ? "." : fmt::format(" at all {} sample rates.", rates.size()));
+    text += " at " + rate_text(winners.front().second);
+    for (size_t i = 1; i < winners.size(); ++i)
+        text += fmt::format(", {} from {} on", winners[i].first, rate_text(winners[i].second));
+    return text + ".";
+}
+
+}  // namespace
+
+std::vector<std::string> judge(const Comparison& comparison) {
+    std::vector<std::string> sentences{blur_sentence(comparison)};
+    for (const SampleRate& rate : comparison.rates) sentences.push_back(rate_sentence(comparison, rate));
+    sentences.push_back(growth_sentence(comparison));
+    sentences.push_back(error_sentence(comparison));
+    sentences.push_back(conclusion(comparison));
+    std::erase_if(sentences, [](const std::string& sentence) { return sentence.empty(); });
+    return sentences;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,14 @@
+/// Which method suits a scene, and why, in words; from the figures alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/compare/comparison.h"
+
+namespace trapeze {
+
+/// Sentences; the last one says which method to take. Brute force takes no part.
+std::vector<std::string> judge(const Comparison& comparison);
+
+}  // namespace trapeze
