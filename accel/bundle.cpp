@@ -84,9 +84,9 @@ HWY_INLINE float least(VF v) {
 }
 
 /// The lanes of v where the mask is true, one after another; a whole vector is written.
-template <class D, class V>
+template <bool kAll = false, class D, class V>
 HWY_INLINE void append(V v, hn::Mask<D> mask, D d, hn::TFromD<D>* to) {
-    hn::StoreU(hn::Compress(v, mask), d, to);
+    hn::StoreU(kAll ? v : hn::Compress(v, mask), d, to);
 }
 
 /// One bundle's way through a tree. kMotion: something in the tree moves; kLens: rays do not start in one

@@ -105,8 +105,8 @@ void z_order_of_pixels(const SampleTile& samples, std::vector<uint32_t>& first) 
 /// Pixel by pixel; a pixel's samples one after another.
 void order_by_pixels(const SampleTile& samples, SampleScratch& scratch) {
     z_order_of_pixels(samples, scratch.pixel_first);
-    scratch.order.resize(samples.size());
-    uint32_t* next = scratch.order.data();
+    scratch.bundle_order.resize(samples.size());
+    uint32_t* next = scratch.bundle_order.data();
     for (const uint32_t first : scratch.pixel_first)
         for (uint32_t i = first; i < first + static_cast<uint32_t>(samples.samples_per_pixel); ++i)
             *next++ = i;
@@ -143,10 +143,10 @@ void order_bundles(const SampleTile& samples, bool motion, bool defocus, const B
     for (const uint32_t key : scratch.keys) ++scratch.starts[key + 1];
     for (size_t i = 1; i < scratch.starts.size(); ++i) scratch.starts[i] += scratch.starts[i - 1];
     z_order_of_pixels(samples, scratch.pixel_first);
-    scratch.order.resize(samples.size());
+    scratch.bundle_order.resize(samples.size());
     for (const uint32_t first : scratch.pixel_first)
         for (uint32_t i = first; i < first + per_pixel; ++i)
-            scratch.order[scratch.starts[scratch.keys[i]]++] = i;
+            scratch.bundle_order[scratch.starts[scratch.keys[i]]++] = i;
 }
 
 }  // namespace trapeze

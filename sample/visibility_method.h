@@ -2,6 +2,7 @@
 /// all give the same hits, bit for bit.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -27,6 +28,8 @@ struct SampleHeat {
     std::vector<uint32_t> nodes;  ///< nodes visited, or (rasterizers) boxes set up that reached the sample
 };
 
+class Visibility;
+
 /// What a thread needs while resolving; any method may use any of it. One per thread, reused.
 struct SampleScratch {
     SampleHeat* heat = nullptr;               ///< when set, methods add what each sample cost
@@ -41,7 +44,10 @@ struct SampleScratch {
     std::vector<uint32_t> found;              ///< lanes that the predicate answered yes for
     std::vector<float> found_depth;
     std::vector<uint32_t> starts, pixel_first;  ///< of the order of bundles
-    std::unique_ptr<RayBundle> bundle;          ///< made when first needed
+    std::vector<uint32_t> bundle_order;         ///< samples in the order in which bundles take them
+    const Visibility* order_owner = nullptr;    ///< who made it, for tiles of what width, height, samples
+    std::array<int, 3> order_shape{};
+    std::unique_ptr<RayBundle> bundle;  ///< made when first needed
     BundleScratchPointer bundle_scratch;
     std::vector<uint32_t> ray_tests, ray_nodes;  ///< what the rays of a bundle cost
     IntervalScratch interval;

@@ -40,33 +40,45 @@ class WideRayTraced final : public Visibility {
                  SampleStats& stats) const override {
         if (!scratch.bundle) scratch.bundle = std::make_unique<RayBundle>();
         if (!scratch.bundle_scratch) scratch.bundle_scratch = make_bundle_scratch();
-        order_bundles(samples, motion_, lens_, {}, scratch);
-        scratch.nearest.resize(samples.size());
+        order(samples, scratch);
+        // Where every grid is opaque the hits need no list: they are written to their places.
+        std::vector<Hit>& nearest = all_opaque_ ? hits.hits : scratch.nearest;
+        nearest.resize(samples.size());
         scratch.hits.clear();
         scratch.hit_sample.clear();
-        const std::span<const uint32_t> order = scratch.order;
-        for (size_t first = 0; first < order.size(); first += RayBundle::kRays)
-            resolve_bundle(samples, order.subspan(first, std::min(RayBundle::kRays, order.size() - first)),
-                           scratch, stats);
+        const std::span<const uint32_t> all = scratch.bundle_order;
+        for (size_t first = 0; first < all.size(); first += RayBundle::kRays)
+            resolve_bundle(samples, all.subspan(first, std::min(RayBundle::kRays, all.size() - first)),
+                           nearest, scratch, stats);
         if (all_opaque_)
-            buffer_of_nearest(scratch, samples.size(), hits);
+            close_gaps(samples.size(), hits);
         else
-            gather_layers(samples.size(), hits, scratch);
+            join_layers(hits, scratch);
     }
 
     BuildStats build_stats() const override { return tree_.stats(); }
 
   private:
-    void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
-                        SampleStats& stats) const {
+    /// Through a lens alone, the order of one tile serves all of the same shape: strata of the lens are the
+    /// same in all pixels (where a pattern's are not, it is only less good).
+    void order(const SampleTile& samples, SampleScratch& scratch) const {
+        const std::array shape{samples.pixels.width(), samples.pixels.height(), samples.samples_per_pixel};
+        const bool known = !motion_ && lens_ && scratch.order_owner == this && scratch.order_shape == shape;
+        if (!known) order_bundles(samples, motion_, lens_, {}, scratch);
+        scratch.order_owner = this;
+        scratch.order_shape = shape;
+    }
+
+    void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, std::vector<Hit>& nearest,
+                        SampleScratch& scratch, SampleStats& stats) const {
         RayBundle& rays = *scratch.bundle;
         fill_bundle(samples.rays, order, lens_, motion_, rays);
         count_costs_from(rays, scratch);
         trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, camera_.has_lens(), camera_.focal_distance,
                      rays, *scratch.bundle_scratch, stats);
         for (size_t i = 0; i < order.size(); ++i)
-            scratch.nearest[order[i]] = {rays.depth[i],
-                                         rays.id[i] == RayBundle::kNone ? MicropolygonId::kNone : rays.id[i]};
+            nearest[order[i]] = {rays.depth[i],
+                                 rays.id[i] == RayBundle::kNone ? MicropolygonId::kNone : rays.id[i]};
         for (const RayBundle::Layer& layer : rays.layers) {
             scratch.hits.push_back({layer.depth, layer.id});
             scratch.hit_sample.push_back(order[layer.ray]);
@@ -89,27 +101,28 @@ class WideRayTraced final : public Visibility {
         }
     }
 
-    /// Each sample's layers before its nearest opaque hit, and that one.
-    static void gather_layers(size_t sample_count, HitBuffer& hits, SampleScratch& scratch) {
-        std::vector<uint32_t>& first = hits.first;
-        first.assign(sample_count + 1, 0);
-        const auto counts = [&](size_t i) {
-            return in_front(scratch.hits[i], scratch.nearest[scratch.hit_sample[i]]);
-        };
-        for (size_t i = 0; i < scratch.hits.size(); ++i)
-            if (counts(i)) ++first[scratch.hit_sample[i] + 1];
-        for (size_t s = 0; s < sample_count; ++s)
-            if (scratch.nearest[s].id != MicropolygonId::kNone) ++first[s + 1];
-        for (size_t s = 0; s < sample_count; ++s) first[s + 1] += first[s];
-        hits.hits.resize(first[sample_count]);
-        scratch.first.assign(first.begin(), first.end() - 1);
-        for (size_t i = 0; i < scratch.hits.size(); ++i)
-            if (counts(i)) hits.hits[scratch.first[scratch.hit_sample[i]]++] = scratch.hits[i];
+    /// From a hit for every sample, some of them none, to a list.
+    static void close_gaps(size_t sample_count, HitBuffer& hits) {
+        hits.first.resize(sample_count + 1);
+        uint32_t next = 0;
         for (size_t s = 0; s < sample_count; ++s) {
-            if (scratch.nearest[s].id != MicropolygonId::kNone)
-                hits.hits[scratch.first[s]++] = scratch.nearest[s];
-            std::sort(hits.hits.begin() + first[s], hits.hits.begin() + first[s + 1], in_front);
+            hits.first[s] = next;
+            const Hit hit = hits.hits[s];
+            hits.hits[next] = hit;
+            next += hit.id != MicropolygonId::kNone;
         }
+        hits.first[sample_count] = next;
+        hits.hits.resize(next);
+    }
+
+    /// Layers and nearest opaque hits together.
+    static void join_layers(HitBuffer& hits, SampleScratch& scratch) {
+        for (size_t s = 0; s < scratch.nearest.size(); ++s)
+            if (scratch.nearest[s].id != MicropolygonId::kNone) {
+                scratch.hits.push_back(scratch.nearest[s]);
+                scratch.hit_sample.push_back(static_cast<uint32_t>(s));
+            }
+        buffer_of_loose_hits(scratch, scratch.nearest.size(), hits);
     }
 
     const Camera& camera_;
