@@ -146,17 +146,17 @@ class GridRaster {
                                       hn::And(hn::Ge(sample_y, y0), hn::Le(sample_y, y1)));
                 wanted = hn::And(wanted, hn::RebindMask(d, in_row));
                 if (raster_.cull) wanted = hn::And(wanted, hn::Le(z0, hn::GatherIndex(d, depths, cell)));
-                if (!hn::AllFalse(d, wanted)) queue(at, first, hn::RebindMask(di, wanted), pixel, cell);
+                queue(at, first, hn::RebindMask(di, wanted), pixel);
             }
         }
     }
 
-    HWY_INLINE void queue(const Tuple& at, int first, hn::Mask<DI> wanted, VI pixel, VI cell) {
+    /// Without a branch on whether there is any: that is hard to predict.
+    HWY_INLINE void queue(const Tuple& at, int first, hn::Mask<DI> wanted, VI pixel) {
         const DI di;
         UvtQueue& queue = scratch_.queue;
         hn::StoreU(hn::Compress(hn::Iota(di, first), wanted), di, queue.quad + queue.count);
         hn::StoreU(hn::Compress(pixel, wanted), di, queue.pixel + queue.count);
-        hn::StoreU(hn::Compress(cell, wanted), di, queue.cell + queue.count);
         queue.count += hn::CountTrue(di, wanted);
         if (queue.count >= UvtQueue::kFull) test_queue(at);
     }
@@ -206,7 +206,7 @@ class GridRaster {
         uint64_t* ids = tile_.ids(at.index);
         for (; left != 0; left &= left - 1) {
             const auto lane = static_cast<size_t>(__builtin_ctz(left)), i = first + lane;
-            const int32_t cell = scratch_.queue.cell[i];
+            const size_t cell = tile_.cell_of(scratch_.queue.pixel[i]);
             const Hit found{
                 depths[lane],
                 uint64_t{grid_.index} << 8 | static_cast<uint64_t>(rows_.quad_ids()[scratch_.queue.quad[i]])};

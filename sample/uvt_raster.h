@@ -42,7 +42,6 @@ struct UvtQueue {
     size_t count = 0;
     int32_t quad[kFull + 2 * kPadding];   ///< its 00
     int32_t pixel[kFull + 2 * kPadding];  ///< as cell_pixels()
-    int32_t cell[kFull + 2 * kPadding];
 };
 
 struct UvtScratch {

@@ -1,6 +1,7 @@
 #include "sample/uvt_tile.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace trapeze {
@@ -28,7 +29,7 @@ UvtTuples::UvtTuples(const InterleavedPattern& pattern, const Camera& camera)
 
 void UvtTile::build(const PixelRect& pixels, const InterleavedPattern& pattern, const Camera& camera) {
     pixels_ = pixels;
-    side_ = pattern.side();
+    side_ = pattern.side(), side_shift_ = std::countr_zero(static_cast<unsigned>(side_));
     samples_per_pixel_ = static_cast<size_t>(pattern.sample_count());
     x0_ = floor_to_multiple(pixels.x0, side_), y0_ = floor_to_multiple(pixels.y0, side_);
     width_ = pixels.x1 - x0_, height_ = pixels.y1 - y0_;

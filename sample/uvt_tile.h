@@ -44,6 +44,12 @@ class UvtTile {
     /// Cell -> the pixel that has a group's tuples, x in the low half, y in the high.
     const int32_t* cell_pixels(int group) const { return cell_pixels_.data() + group * cell_count_; }
 
+    /// The cell that holds a pixel, as cell_pixels() has it.
+    size_t cell_of(int32_t pixel) const {
+        return static_cast<size_t>((pixel >> 16 >> side_shift_) * cells_x_ +
+                                   ((pixel & 0xffff) >> side_shift_));
+    }
+
     /// Column or row -> what depends on it of the rays of a tuple: slope for perspective cameras, else
     /// origin.
     const float* columns(size_t tuple) const { return columns_.data() + tuple * static_cast<size_t>(width_); }
@@ -61,7 +67,7 @@ class UvtTile {
     void clear_hits(const InterleavedPattern& pattern);
     void build_rays(const InterleavedPattern& pattern, const Camera& camera);
 
-    int side_ = 1, x0_ = 0, y0_ = 0, width_ = 0, height_ = 0, cells_x_ = 0, cells_y_ = 0;
+    int side_shift_ = 0, side_ = 1, x0_ = 0, y0_ = 0, width_ = 0, height_ = 0, cells_x_ = 0, cells_y_ = 0;
     size_t cell_count_ = 0, plane_size_ = 0, samples_per_pixel_ = 1;
     PixelRect pixels_;
     std::vector<int32_t> cell_pixels_;   ///< [group][cell]
