@@ -40,16 +40,7 @@ struct Item {
 struct BinaryNode {
     EndBoxes box;
     uint32_t child[2];  ///< links
-
-    float area() const {
-        float sum = 0;
-        for (int end = 0; end < 2; ++end) {
-            const float x = box.high[end][0] - box.low[end][0], y = box.high[end][1] - box.low[end][1],
-                        z = box.high[end][2] - box.low[end][2];
-            sum += x * y + y * z + z * x;
-        }
-        return sum;
-    }
+    uint32_t count;     ///< grids below
 };
 
 EndBoxes both(const EndBoxes& a, const EndBoxes& b) {
@@ -123,6 +114,7 @@ class Builder {
                                  [&] { node.child[1] = binary(high, high_first, depth + 1); });
         }
         node.box = both(box_of(node.child[0]), box_of(node.child[1]));
+        node.count = static_cast<uint32_t>(part.size());
         return first;
     }
 
@@ -173,23 +165,30 @@ class Builder {
         }
     }
 
-    /// Opens the largest children until there are 16; the number of the node that this makes.
+    uint32_t count_of(uint32_t link) const { return link & kGridLink ? 1 : nodes_[link].count; }
+
+    /// The most grids below a child that let a tree of `count` grids have the fewest levels.
+    static uint32_t capacity(uint32_t count) {
+        uint32_t below = 1;
+        while (below * WideNode::kChildren < count) below *= WideNode::kChildren;
+        return below;
+    }
+
+    /// Opens the fullest children until none holds more than it should or there are 16, so that nodes are
+    /// well filled: their memory counts where grids are small. The number of the node that this makes.
     uint32_t collapse(uint32_t link, std::vector<WideChildren>& wide) const {
         const auto number = static_cast<uint32_t>(wide.size());
         wide.emplace_back();
         std::array<uint32_t, WideNode::kChildren> links{link};
         int count = 1;
+        const uint32_t most = capacity(count_of(link));
         while (count < WideNode::kChildren) {
-            int largest = -1;
-            float largest_area = -1;
-            for (int i = 0; i < count; ++i) {
-                if (links[i] & kGridLink) continue;
-                const float area = nodes_[links[i]].area();
-                if (area > largest_area) largest_area = area, largest = i;
-            }
-            if (largest < 0) break;
-            const BinaryNode& opened = nodes_[links[largest]];
-            links[largest] = opened.child[0];
+            const auto fullest =
+                std::max_element(links.begin(), links.begin() + count,
+                                 [this](uint32_t a, uint32_t b) { return count_of(a) < count_of(b); });
+            if (count_of(*fullest) <= most) break;
+            const BinaryNode& opened = nodes_[*fullest];
+            *fullest = opened.child[0];
             links[count++] = opened.child[1];
         }
         for (int i = 0; i < count; ++i) {

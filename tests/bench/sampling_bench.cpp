@@ -27,11 +27,22 @@ using testing::SamplingScene;
 using testing::SamplingSceneOptions;
 
 const SamplingSceneOptions kScenes[] = {
-    {false, 3e5, 0, 10, 8},    {false, 1.5e6, 0, 20, 4},  {false, 1.5e6, 0, 20, 8},
-    {false, 1.5e6, 0, 20, 13}, {false, 1.5e6, 0, 0, 8},   {false, 1.5e6, 60, 0, 8},
-    {false, 1.5e6, 60, 20, 4}, {false, 1.5e6, 60, 20, 8}, {false, 1.5e6, 60, 20, 13},
-    {false, 5e6, 0, 20, 8},    {false, 5e6, 100, 20, 8},  {true, 1.5e6, 0, 20, 8},
-    {true, 1.5e6, 60, 20, 8},
+    // hair, micropolygons, motion and circle of confusion in pixels, samples an axis
+    {false, 3e5, 0, 10, 8},      // 0
+    {false, 1.5e6, 0, 20, 4},    // 1
+    {false, 1.5e6, 0, 20, 8},    // 2
+    {false, 1.5e6, 0, 20, 13},   // 3
+    {false, 1.5e6, 0, 0, 8},     // 4
+    {false, 1.5e6, 60, 0, 8},    // 5
+    {false, 1.5e6, 60, 20, 4},   // 6
+    {false, 1.5e6, 60, 20, 8},   // 7
+    {false, 1.5e6, 60, 20, 13},  // 8
+    {false, 5e6, 0, 20, 8},      // 9
+    {false, 5e6, 100, 20, 8},    // 10
+    {false, 5e6, 100, 20, 13},   // 11
+    {true, 1.5e6, 0, 20, 8},     // 12
+    {true, 1.5e6, 60, 20, 8},    // 13
+    {false, 20e6, 60, 20, 8},    // 14
 };
 
 double now() {
