@@ -7,12 +7,13 @@
 #include "core/simd_limit.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/version.h"
+#include "pipeline/compare/sampler_list.h"
 #include "sample/visibility_method.h"
 
 namespace trapeze {
 namespace {
 
-const std::vector<std::string> kCommands = {"render", "check", "info"};
+const std::vector<std::string> kCommands = {"render", "check", "info", "compare"};
 
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
@@ -67,21 +68,24 @@ std::string listed(const std::vector<Row>& table) {
     return text;
 }
 
-void add_sampler_options(CLI::App& app, Arguments& a) {
+void add_sampler_option(CLI::App& app, Arguments& a) {
     const auto is_method = [](const std::string& text) {
         std::string error;
         choose_sampler(text, "", &error);
-        return error;
-    };
-    const auto is_pattern = [](const std::string& text) {
-        std::string error;
-        parse_pattern(text, &error);
         return error;
     };
     app.add_option("--sampler", a.sampler, "visibility method, one of:" + listed(visibility_methods()))
         ->check(is_method)
         ->type_name("METHOD")
         ->capture_default_str();
+}
+
+void add_pattern_option(CLI::App& app, Arguments& a) {
+    const auto is_pattern = [](const std::string& text) {
+        std::string error;
+        parse_pattern(text, &error);
+        return error;
+    };
     app.add_option(
            "--pattern", a.pattern,
            "sample pattern (default: what the method was made for), one of:" + listed(sample_patterns()))
@@ -97,38 +101,76 @@ void add_simd_option(CLI::App& app, Arguments& a) {
         ->capture_default_str();
 }
 
-void add_render_options(CLI::App& app, Arguments& a) {
-    app.add_option("-o,--output", a.output, "replaces the first Display's name")->type_name("FILE");
-    app.add_option("-d,--driver", a.driver, "replaces every Display's driver; null writes nothing")
-        ->type_name("DRIVER");
+/// What says how a frame is made, for all commands that make one.
+void add_frame_options(CLI::App& app, Arguments& a) {
     add_parsed(app, "-r,--resolution", a.resolution, parse_resolution, "size of the whole picture", "WxH");
     app.add_option("--crop", a.crop, "part of the picture to make, as fractions: x0 x1 y0 y1")
         ->check(CLI::Range(0.0f, 1.0f))
         ->type_name("X0 X1 Y0 Y1");
-    add_parsed(app, "--samples", a.samples, parse_samples, "samples per pixel", "N|NxM");
     app.add_option("--shading-rate", a.shading_rate, "pixel area of a micropolygon, everywhere")
         ->check(CLI::Range(1e-4f, 1e6f))
         ->type_name("AREA");
-    add_sampler_options(app, a);
+    add_pattern_option(app, a);
     add_simd_option(app, a);
     app.add_option("-t,--threads", a.threads, "threads; 0: all, -N: all but N")
         ->check(CLI::Range(-1024, 1024))
         ->type_name("N");
     app.add_option("--seed", a.seed, "of all random numbers")->type_name("N");
-    add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20");
     app.add_option("--progress", a.progress, "how to show progress")
         ->check(CLI::IsMember({"auto", "bar", "lines", "json", "prman", "none"}))
         ->capture_default_str();
-    app.add_option("--stats", a.stats_file, "writes statistics as JSON")->type_name("FILE.json");
     add_parsed(app, "--memory", a.memory_bytes, parse_size,
                "for grids and tree (default: 3/4 of the machine's)", "SIZE like 4G");
+    app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+}
+
+void add_render_options(CLI::App& app, Arguments& a) {
+    app.add_option("-o,--output", a.output, "replaces the first Display's name")->type_name("FILE");
+    app.add_option("-d,--driver", a.driver, "replaces every Display's driver; null writes nothing")
+        ->type_name("DRIVER");
+    add_sampler_option(app, a);
+    add_parsed(app, "--samples", a.samples, parse_samples, "samples per pixel", "N|NxM");
+    add_frame_options(app, a);
+    add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20");
+    app.add_option("--stats", a.stats_file, "writes statistics as JSON")->type_name("FILE.json");
     app.add_option("--regions", a.regions_at_least, "split the picture into at least so many regions")
         ->check(CLI::Range(1, 100000))
         ->type_name("N");
-    app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
-    app.add_flag("-q,--quiet", a.quiet, "only errors");
     // PRMan's -recover: there is nothing to resume yet; accepted so that farm scripts run.
     static_cast<void>(app.add_option("--recover")->group(""));
+}
+
+void add_compare_options(CLI::App& app, Arguments& a) {
+    CompareArguments& c = a.compare;
+    app.add_option("--samplers", c.samplers,
+                   "visibility methods, separated by spaces or semicolons (commas are part of a method: "
+                   "\"raytrace interval raytrace:tree=paper,bundle=off\"); default: every method as it is by "
+                   "default, bruteforce only where the scene is small. There are:" +
+                       listed(visibility_methods()))
+        ->type_name("LIST");
+    add_parsed(app, "--samples", c.samples, parse_samples_list,
+               "samples per pixel to compare at (default: the scene's)", "LIST like 1x1,4x4,8x8");
+    app.add_option("--reference", c.reference_side, "NxN samples per pixel of the picture that errors are to")
+        ->check(CLI::Range(1, 64))
+        ->type_name("N")
+        ->capture_default_str();
+    app.add_option("--repeat", c.rounds, "rounds in which every method takes its turn; medians are reported")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("R")
+        ->capture_default_str();
+    app.add_option("--report", c.report, "writes a report with pictures and charts, one file")
+        ->type_name("FILE.html");
+    app.add_option("--json", c.json, "writes every figure as JSON")->type_name("FILE.json");
+    app.add_option("-o,--output", c.folder, "writes pictures and heat maps as OpenEXR into a folder")
+        ->type_name("DIR");
+    add_frame_options(app, a);
+}
+
+/// Whether the methods and patterns asked for go together; says what is wrong.
+bool samplers_are_right(const Arguments& a, std::string* error) {
+    if (a.command != Command::Compare) return choose_sampler(a.sampler, a.pattern, error).has_value();
+    return a.compare.samplers.empty() || parse_samplers(a.compare.samplers, a.pattern, error);
 }
 
 }  // namespace
@@ -182,11 +224,14 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     CLI::App* check = app.add_subcommand(
         "check", "reads scenes and reports all that is wrong or not supported; renders nothing");
     CLI::App* info = app.add_subcommand("info", "says what is in scenes");
-    for (CLI::App* command : {render, check, info}) {
+    CLI::App* compare = app.add_subcommand(
+        "compare", "measures visibility methods side by side on a scene: times, counts, errors");
+    for (CLI::App* command : {render, check, info, compare}) {
         add_inputs(*command, arguments);
         command->footer(kExitCodeHelp);
     }
     add_render_options(*render, arguments);
+    add_compare_options(*compare, arguments);
     check->add_flag("--strict", arguments.strict, "warnings count as errors for the exit code");
 
     std::vector<std::string> words = modern_spelling({argv + 1, argv + argc});
@@ -197,13 +242,14 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
         const int code = app.exit(error, std::cout, std::cerr);
         return code == 0 ? kExitOk : kExitUsage;
     }
+    if (check->parsed()) arguments.command = Command::Check;
+    if (info->parsed()) arguments.command = Command::Info;
+    if (compare->parsed()) arguments.command = Command::Compare;
     std::string error;
-    if (!choose_sampler(arguments.sampler, arguments.pattern, &error)) {
+    if (!samplers_are_right(arguments, &error)) {
         std::cerr << "trapeze: error: " << error << "\n";
         return kExitUsage;
     }
-    if (check->parsed()) arguments.command = Command::Check;
-    if (info->parsed()) arguments.command = Command::Info;
     return {};
 }
 

@@ -10,7 +10,17 @@
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info };
+enum class Command { Render, Check, Info, Compare };
+
+/// What `trapeze compare` alone has.
+struct CompareArguments {
+    std::string samplers;                      ///< as parse_samplers() reads it; empty: all
+    std::vector<std::pair<int, int>> samples;  ///< rates to compare at; empty: the scene's own
+    int reference_side = 32;
+    int rounds = 3;
+    std::string report, json;  ///< files; empty: none
+    std::string folder;        ///< for pictures; empty: none
+};
 
 struct Arguments {
     Command command = Command::Render;
@@ -30,6 +40,7 @@ struct Arguments {
     int regions_at_least = 1;
     std::string progress = "auto";
     std::string stats_file;
+    CompareArguments compare;
     bool strict = false, quiet = false, color = true;
 };
 

@@ -75,13 +75,38 @@ TEST(Arguments, AllRenderOptionsArrive) {
     EXPECT_TRUE(a.strict);
 }
 
+TEST(Arguments, AllCompareOptionsArrive) {
+    Arguments a;
+    ASSERT_FALSE(parse({"compare",   "a.rib",   "--samplers",  "raytrace:tree=paper,bundle=off; interval",
+                        "--samples", "1x1,4x2", "--reference", "8",
+                        "--repeat",  "5",       "--report",    "r.html",
+                        "--json",    "r.json",  "-o",          "out",
+                        "-r",        "64x48",   "--seed",      "3",
+                        "-t",        "1"},
+                       a));
+    EXPECT_EQ(a.command, Command::Compare);
+    EXPECT_EQ(a.compare.samplers, "raytrace:tree=paper,bundle=off; interval");
+    EXPECT_EQ(a.compare.samples, (std::vector<std::pair<int, int>>{{1, 1}, {4, 2}}));
+    EXPECT_EQ(a.compare.reference_side, 8);
+    EXPECT_EQ(a.compare.rounds, 5);
+    EXPECT_EQ(a.compare.report, "r.html");
+    EXPECT_EQ(a.compare.json, "r.json");
+    EXPECT_EQ(a.compare.folder, "out");
+    EXPECT_EQ(a.resolution, (std::pair{64, 48}));
+    EXPECT_EQ(a.seed, 3u);
+}
+
 TEST(Arguments, BadOnesAreUsageErrors) {
     for (const Words& words : {Words{},
                                {"render"},
                                {"render", "a.rib", "--sampler", "magic"},
                                {"render", "a.rib", "-r", "5"},
                                {"render", "a.rib", "--memory", "lots"},
-                               {"render", "a.rib", "--frobnicate"}}) {
+                               {"render", "a.rib", "--frobnicate"},
+                               {"compare", "a.rib", "--samplers", "raytrace magic"},
+                               {"compare", "a.rib", "--samplers", "interleaveuvt", "--pattern", "stratified"},
+                               {"compare", "a.rib", "--samples", "4x4,many"},
+                               {"compare", "a.rib", "--reference", "0"}}) {
         Arguments a;
         EXPECT_EQ(parse(words, a), kExitUsage);
     }

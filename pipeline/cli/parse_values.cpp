@@ -1,5 +1,6 @@
 #include "pipeline/cli/parse_values.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 
@@ -54,6 +55,21 @@ std::optional<std::pair<int, int>> parse_samples(std::string_view text) {
     if (const auto n = number<int>(text))
         return *n >= 1 && *n <= 64 ? std::optional(std::pair{*n, *n}) : std::nullopt;
     return pair_of(text, 1, 64);
+}
+
+std::optional<std::vector<std::pair<int, int>>> parse_samples_list(std::string_view text) {
+    constexpr std::string_view kSeparators = ",; ";
+    std::vector<std::pair<int, int>> list;
+    for (size_t begin = text.find_first_not_of(kSeparators); begin != std::string_view::npos;
+         begin = text.find_first_not_of(kSeparators, begin)) {
+        const size_t end = std::min(text.find_first_of(kSeparators, begin), text.size());
+        const auto samples = parse_samples(text.substr(begin, end - begin));
+        if (!samples) return {};
+        if (std::find(list.begin(), list.end(), *samples) == list.end()) list.push_back(*samples);
+        begin = end;
+    }
+    if (list.empty()) return {};
+    return list;
 }
 
 std::optional<std::vector<FrameRange>> parse_frames(std::string_view text) {

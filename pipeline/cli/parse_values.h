@@ -20,6 +20,9 @@ std::optional<std::pair<int, int>> parse_resolution(std::string_view text);
 /// "8" or "8x4": samples along x and y, 1 to 64.
 std::optional<std::pair<int, int>> parse_samples(std::string_view text);
 
+/// "1x1,4x4,8": one or more of these, separated by commas, semicolons or spaces.
+std::optional<std::vector<std::pair<int, int>>> parse_samples_list(std::string_view text);
+
 /// Frames to render: ranges with an optional step, "1-10,20" or "1-9x2".
 struct FrameRange {
     int first = 0, last = 0, step = 1;

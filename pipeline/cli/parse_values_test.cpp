@@ -26,6 +26,14 @@ TEST(ParseSamples, OneNumberIsForBothAxes) {
     for (const char* bad : {"0", "65", "8x", "x", "8x0"}) EXPECT_FALSE(parse_samples(bad)) << bad;
 }
 
+TEST(ParseSamplesList, KeepsTheOrderAndLeavesOutRepetitions) {
+    using List = std::vector<std::pair<int, int>>;
+    EXPECT_EQ(parse_samples_list("1x1,4x4,8"), (List{{1, 1}, {4, 4}, {8, 8}}));
+    EXPECT_EQ(parse_samples_list("8; 2x3 8x8"), (List{{8, 8}, {2, 3}}));
+    for (const char* bad : {"", ",", "4x4,", "0", "4x4,x", "65"})
+        EXPECT_EQ(parse_samples_list(bad).has_value(), std::string_view(bad) == "4x4,") << bad;
+}
+
 TEST(ParseFrames, ReadsListsRangesAndSteps) {
     const auto frames = parse_frames("1-10x3,20,-2--1");
     ASSERT_TRUE(frames);

@@ -21,12 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int thread_count(int asked) {
-    const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    if (asked > 0) return asked;
-    return std::max(1, all + asked);
-}
-
 /// "shot.exr" and 3: "shot.3.exr".
 std::string numbered(const std::string& name, int number) {
     const fs::path path(name);
@@ -194,6 +188,12 @@ int RenderJob::run() {
 }
 
 }  // namespace
+
+int thread_count(int asked) {
+    const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    if (asked > 0) return asked;
+    return std::max(1, all + asked);
+}
 
 int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;

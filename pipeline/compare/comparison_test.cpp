@@ -75,6 +75,8 @@ TEST(ValueText, ThreeDigitsAndTheUnitThatFits) {
     EXPECT_EQ(number_text(0.01234), "0.0123");
     EXPECT_EQ(number_text(12345), "12345");
     EXPECT_EQ(number_text(0.000123), "1.23e-04");
+    EXPECT_EQ(counted_text(0), "-");
+    EXPECT_EQ(counted_text(2), "2.00");
     EXPECT_EQ(count_text(2.5e6), "2.50 million");
 }
 

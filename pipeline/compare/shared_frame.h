@@ -33,6 +33,9 @@ struct SharedFrame {
     }
 };
 
+/// The kind of the error of a frame that does not fit the memory.
+inline constexpr const char* kTooLittleMemory = "memory-budget";
+
 /// Tessellates and shades with the threads of the calling task arena; of the settings, memory, seed, progress
 /// and cancellation count. Empty when cancelled, or (reported) when the picture has no pixels or its grids
 /// do not fit the memory.

@@ -28,6 +28,10 @@ std::string number_text(double value) {
     return three_digits(value);
 }
 
+std::string counted_text(double value) {
+    return value == 0 ? "-" : number_text(value);
+}
+
 std::string count_text(double count) {
     return count < 1e6 ? three_digits(count) : three_digits(count * 1e-6) + " million";
 }

@@ -21,6 +21,11 @@ bool traces(const MethodResult& r) {
     return r.sampler.method.name == "raytrace" || r.sampler.method.name == "embree";
 }
 
+/// Embree's tests are its own affair.
+bool counts_tests(const MethodResult& r) {
+    return r.sample.predicate_tests > 0;
+}
+
 double misses_per_hit(const MethodResult& r) {
     return std::max(0.0, r.tests_per_hit() - 1);
 }
@@ -85,6 +90,7 @@ std::string blur_sentence(const Comparison& c) {
 }
 
 std::string why_tracer_wins(const Comparison& c, const MethodResult& tracer, const MethodResult& raster) {
+    if (!counts_tests(tracer) || !counts_tests(raster)) return {};
     const double traced = misses_per_hit(tracer), rastered = misses_per_hit(raster);
     if (rastered <= kMoreMisses * traced)
         return fmt::format(
@@ -102,6 +108,7 @@ std::string why_rasterizer_wins(const MethodResult& tracer, const MethodResult& 
     if (share > kLargeBuild)
         return fmt::format("Building takes {:.0f}% of the time of {}; {} samples a pixel do not repay it.",
                            share * 100, tracer.method, tracer.rate.per_pixel());
+    if (!counts_tests(tracer) || !counts_tests(raster)) return {};
     const double traced = misses_per_hit(tracer), rastered = misses_per_hit(raster);
     const char* form = rastered <= kMoreMisses * traced
                            ? "Its tests seldom miss: {} times for each hit, those of {} {} times."
@@ -120,11 +127,12 @@ std::string rate_sentence(const Comparison& c, SampleRate rate) {
     if (equal_times(*s.fastest, other))
         return at + with_time(*s.fastest) + " and " + with_time(other) +
                " cannot be told apart by their times.";
-    return fmt::format("{}{} is the fastest, {} times as fast as {}, the fastest {}. {}", at,
+    const std::string why = tracer_wins ? why_tracer_wins(c, *s.tracer, *s.rasterizer)
+                                        : why_rasterizer_wins(*s.tracer, *s.rasterizer);
+    return fmt::format("{}{} is the fastest, {} times as fast as {}, the fastest {}.{}{}", at,
                        with_time(*s.fastest), number_text(other.total_median() / s.fastest->total_median()),
-                       with_time(other), tracer_wins ? "rasterizer" : "ray tracer",
-                       tracer_wins ? why_tracer_wins(c, *s.tracer, *s.rasterizer)
-                                   : why_rasterizer_wins(*s.tracer, *s.rasterizer));
+                       with_time(other), tracer_wins ? "rasterizer" : "ray tracer", why.empty() ? "" : " ",
+                       why);
 }
 
 /// How times grow from the fewest to the most samples.

@@ -76,6 +76,11 @@ TEST(Verdict, GivesNoReasonThatTheFiguresDoNotHold) {
     EXPECT_THAT(joined(raster), Not(HasSubstr("Building takes")));
 }
 
+TEST(Verdict, WhatIsNotCountedIsNotNamed) {
+    const auto c = comparison_of({method("raytrace", kMany, 0, 1, 0), method("interval", kMany, 0, 2, 9000)});
+    EXPECT_THAT(joined(c), HasSubstr("the fastest rasterizer.\n"));
+}
+
 TEST(Verdict, TimesWithinTheirSpreadAreNotToldApart) {
     auto c = comparison_of({method("raytrace", kMany, 0, 1, 3000), method("interval", kMany, 0, 1.2, 9000)});
     c.methods[0].result.resolve_seconds = {0.8, 1, 1.3};

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "composite/output_file.h"
+#include "composite/write_displays.h"
+#include "pipeline/cli/commands.h"
+#include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/version.h"
+#include "pipeline/compare/results_json.h"
+#include "pipeline/compare/sampler_list.h"
+#include "pipeline/compare/table.h"
+#include "pipeline/compare/write_pictures.h"
+#include "pipeline/rib/read_rib.h"
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Brute force is compared by default where its tests, all micropolygons for every sample, are so few.
+constexpr double kFewTests = 2e9;
+
+/// Compares methods on the first world of the input.
+class CompareJob {
+  public:
+    CompareJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
+        : arguments_(arguments),
+          options_(arguments.compare),
+          terminal_(terminal),
+          diagnostics_(diagnostics),
+          interrupt_(remove_partial_outputs) {}
+
+    int run();
+
+  private:
+    bool outputs_are_possible();
+    void take_world(Scene&& scene);
+    CompareSettings settings_for(const SharedFrame& frame);
+    void write_outputs(const Comparison& comparison, const SharedFrame& frame);
+    bool write_file(const std::string& path, const std::string& text);
+    void print(const Comparison& comparison) const;
+    int exit_code() const;
+
+    const Arguments& arguments_;
+    const CompareArguments& options_;
+    Terminal& terminal_;
+    Diagnostics& diagnostics_;
+    Interrupt interrupt_;
+    int worlds_ = 0;
+    bool compared_ = false, output_failed_ = false;
+};
+
+/// Before minutes are spent on figures that cannot be written.
+bool CompareJob::outputs_are_possible() {
+    for (const std::string& path : {options_.report, options_.json}) {
+        if (path.empty()) continue;
+        OutputFile file(path);
+        if (file.open()) continue;
+        diagnostics_.error({}, fmt::format("cannot write \"{}\": {}", path, file.error()));
+        return false;
+    }
+    if (options_.folder.empty()) return true;
+    std::error_code error;
+    fs::create_directories(options_.folder, error);
+    if (!error && fs::is_directory(options_.folder, error)) return true;
+    diagnostics_.error({}, fmt::format("cannot make the folder \"{}\": {}", options_.folder,
+                                       error ? error.message() : "a file is in its place"));
+    return false;
+}
+
+CompareSettings CompareJob::settings_for(const SharedFrame& frame) {
+    CompareSettings settings;
+    for (const auto& [x, y] : options_.samples) settings.rates.push_back({x, y});
+    if (settings.rates.empty()) settings.rates = {{frame.context.samples_x, frame.context.samples_y}};
+    if (options_.samplers.empty()) {
+        double samples = 0;
+        for (const SampleRate& rate : settings.rates)
+            samples += static_cast<double>(rate.per_pixel()) * frame.pixels.width() * frame.pixels.height();
+        const double tests = samples * static_cast<double>(frame.grids.micropolygon_count());
+        settings.samplers = default_samplers(arguments_.pattern, tests <= kFewTests);
+    } else {
+        std::string error;  // the command line was checked
+        settings.samplers = *parse_samplers(options_.samplers, arguments_.pattern, &error);
+    }
+    settings.measure.rounds = options_.rounds;
+    settings.reference_side = options_.reference_side;
+    settings.on_stage = [this](const std::string& what) { terminal_.begin_progress(what); };
+    settings.on_progress = [this](double part) { terminal_.progress(part); };
+    return settings;
+}
+
+void CompareJob::take_world(Scene&& scene) {
+    if (interrupt_.requested() || ++worlds_ > 1) return;
+    Options& options = scene.options;
+    if (arguments_.resolution) std::tie(options.width, options.height) = *arguments_.resolution;
+    if (arguments_.crop) options.crop_window = *arguments_.crop;
+    options.exposure_gamma = 1;  // errors are of linear values
+
+    RenderSettings settings;
+    settings.memory_bytes = arguments_.memory_bytes;
+    settings.seed = arguments_.seed;
+    settings.cancelled = &interrupt_.requested();
+    settings.on_progress = [this](double part) { terminal_.progress(part); };
+    terminal_.begin_progress("shading");
+    const auto frame = share_frame(std::move(scene), settings, diagnostics_);
+    auto comparison = frame ? compare(*frame, settings_for(*frame)) : std::nullopt;
+    terminal_.end_progress();
+    if (!comparison) return;
+    compared_ = true;
+    comparison->scene = arguments_.inputs.front();
+    comparison->machine.trapeze = kVersion;
+    print(*comparison);
+    write_outputs(*comparison, *frame);
+}
+
+void CompareJob::print(const Comparison& comparison) const {
+    fmt::print("{}\n", table_text(comparison));
+    for (const std::string& sentence : comparison.verdict) fmt::print("{}\n", sentence);
+}
+
+bool CompareJob::write_file(const std::string& path, const std::string& text) {
+    OutputFile file(path);
+    if (file.open() && file.write(text.data(), text.size()) && file.commit()) return true;
+    if (!interrupt_.requested())
+        diagnostics_.error({}, fmt::format("cannot write \"{}\": {}", path, file.error()));
+    return false;
+}
+
+void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& frame) {
+    bool good = true;
+    if (!options_.json.empty()) good = write_file(options_.json, to_json(comparison).dump(2) + "\n") && good;
+    if (!options_.folder.empty())
+        good = write_pictures(comparison, frame, options_.folder, std::string("Trapeze ") + kVersion) && good;
+    output_failed_ = !good;
+}
+
+int CompareJob::exit_code() const {
+    if (interrupt_.requested()) return interrupt_.exit_code();
+    if (output_failed_) return kExitNoOutput;
+    if (diagnostics_.kinds().contains(kTooLittleMemory)) return kExitNoMemory;
+    if (!compared_) return kExitNothingRendered;
+    const bool warned = diagnostics_.count(Severity::Warning) > 0;
+    return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
+}
+
+int CompareJob::run() {
+    if (!outputs_are_possible()) return kExitNoOutput;
+    ReadOptions options;
+    options.shading_rate = arguments_.shading_rate;
+    const int threads = thread_count(arguments_.threads);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<size_t>(threads));
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        read_rib(arguments_.inputs, options, diagnostics_,
+                 [&](Scene&& scene) { take_world(std::move(scene)); });
+    });
+    if (!interrupt_.requested()) {
+        if (worlds_ == 0) diagnostics_.error({}, "no WorldBegin block was found in the input");
+        if (worlds_ > 1) diagnostics_.note({}, fmt::format("the first of {} worlds was compared", worlds_));
+    }
+    return exit_code();
+}
+
+}  // namespace
+
+int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
+    return CompareJob(arguments, terminal, diagnostics).run();
+}
+
+}  // namespace trapeze

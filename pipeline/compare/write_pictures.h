@@ -1,0 +1,20 @@
+/// The pictures and heat maps of a comparison as OpenEXR files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/compare/comparison.h"
+
+namespace trapeze {
+
+/// Writes into a folder: METHOD_8x8.exr, METHOD_8x8_tests.exr and METHOD_8x8_nodes.exr (per sample, in
+/// floats; not of methods that do not say), reference_32x32.exr; each file whole or not at all. What goes
+/// wrong is reported, and the others are still written; then it returns false. `frame` is the comparison's.
+bool write_pictures(const Comparison& comparison, const SharedFrame& frame, const std::string& folder,
+                    const std::string& software);
+
+/// A method's name for a file: letters, digits, '-' and '.'.
+std::string file_name_of(const std::string& method);
+
+}  // namespace trapeze
