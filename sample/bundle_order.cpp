@@ -103,10 +103,10 @@ void z_order_of_pixels(const SampleTile& samples, std::vector<uint32_t>& first) 
 }
 
 /// Pixel by pixel; a pixel's samples one after another.
-void order_by_pixels(const SampleTile& samples, SampleScratch& scratch) {
+void order_by_pixels(const SampleTile& samples, SampleScratch& scratch, std::vector<uint32_t>& result) {
     z_order_of_pixels(samples, scratch.pixel_first);
-    scratch.bundle_order.resize(samples.size());
-    uint32_t* next = scratch.bundle_order.data();
+    result.resize(samples.size());
+    uint32_t* next = result.data();
     for (const uint32_t first : scratch.pixel_first)
         for (uint32_t i = first; i < first + static_cast<uint32_t>(samples.samples_per_pixel); ++i)
             *next++ = i;
@@ -115,7 +115,7 @@ void order_by_pixels(const SampleTile& samples, SampleScratch& scratch) {
 }  // namespace
 
 void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
-                   SampleScratch& scratch) {
+                   SampleScratch& scratch, std::vector<uint32_t>& result) {
     const int width = samples.pixels.width(), height = samples.pixels.height();
     const auto per_pixel = static_cast<uint32_t>(samples.samples_per_pixel);
     const int lens_bits = defocus ? order.lens_bits : 0, time_bits = motion ? order.time_bits : 0;
@@ -124,7 +124,7 @@ void order_bundles(const SampleTile& samples, bool motion, bool defocus, const B
               blocks_y = (height + side - 1) / side;
 
     if (bits == 0) {  // blocks of any side follow each other along the curve, too
-        order_by_pixels(samples, scratch);
+        order_by_pixels(samples, scratch, result);
         return;
     }
     scratch.keys.resize(samples.size());
@@ -143,10 +143,9 @@ void order_bundles(const SampleTile& samples, bool motion, bool defocus, const B
     for (const uint32_t key : scratch.keys) ++scratch.starts[key + 1];
     for (size_t i = 1; i < scratch.starts.size(); ++i) scratch.starts[i] += scratch.starts[i - 1];
     z_order_of_pixels(samples, scratch.pixel_first);
-    scratch.bundle_order.resize(samples.size());
+    result.resize(samples.size());
     for (const uint32_t first : scratch.pixel_first)
-        for (uint32_t i = first; i < first + per_pixel; ++i)
-            scratch.bundle_order[scratch.starts[scratch.keys[i]]++] = i;
+        for (uint32_t i = first; i < first + per_pixel; ++i) result[scratch.starts[scratch.keys[i]]++] = i;
 }
 
 }  // namespace trapeze

@@ -14,9 +14,9 @@ struct BundleOrder {
     int time_bits = 3;   ///< within a cell of the lens
 };
 
-/// Sets scratch.bundle_order: block by block of pixels; within by cell of the lens, then by time, then by pixel
-/// along a Z-order curve. Without motion or a lens what tells them apart is left out.
+/// Sets `result`, indices of samples: block by block of pixels; within by cell of the lens, then by time,
+/// then by pixel along a Z-order curve. Without motion or a lens what tells them apart is left out.
 void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
-                   SampleScratch& scratch);
+                   SampleScratch& scratch, std::vector<uint32_t>& result);
 
 }  // namespace trapeze

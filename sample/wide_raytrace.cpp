@@ -64,7 +64,7 @@ class WideRayTraced final : public Visibility {
     void order(const SampleTile& samples, SampleScratch& scratch) const {
         const std::array shape{samples.pixels.width(), samples.pixels.height(), samples.samples_per_pixel};
         const bool known = !motion_ && lens_ && scratch.order_owner == this && scratch.order_shape == shape;
-        if (!known) order_bundles(samples, motion_, lens_, {}, scratch);
+        if (!known) order_bundles(samples, motion_, lens_, {}, scratch, scratch.bundle_order);
         scratch.order_owner = this;
         scratch.order_shape = shape;
     }

@@ -93,7 +93,7 @@ class EmbreeTraced final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        order_bundles(samples, motion_, defocus_, {}, scratch);
+        order_bundles(samples, motion_, defocus_, {}, scratch, scratch.order);
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
         scratch.hits.clear();
         scratch.hit_sample.clear();
