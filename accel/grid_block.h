@@ -18,12 +18,8 @@ struct GridBlock {
     int count() const { return nu * nv; }
 };
 
-/// Parametric midpoint splits end at fewer micropolygons than this [Hou10 sec. 3.3].
-inline constexpr int kSplitFrom = 8;
-
-constexpr bool is_leaf_block(int nu, int nv) {
-    return nu * nv < kSplitFrom;
-}
+/// The largest number of micropolygons below which parametric midpoint splits may be made to end.
+inline constexpr int kMostSplitFrom = 32;
 
 /// The halves of a block at the midpoint of its longer parametric axis.
 struct BlockHalves {
@@ -50,7 +46,8 @@ namespace grid_block_detail {
 
 /// The vertices of a leaf block at the ray's time, in its turned axes, by Grid::vertex()'s arithmetic.
 struct Vertices {
-    static constexpr int kMaxVertices = 2 * kSplitFrom;  ///< 1 x 7 micropolygons
+    static constexpr int kMaxVertices =
+        2 * kMostSplitFrom;  ///< of n x 1 micropolygons, the most for their number
     float x[kMaxVertices], y[kMaxVertices], z[kMaxVertices];
 };
 
@@ -77,7 +74,27 @@ inline void gather(const Grid& grid, const GridBlock& block, const TraceRay& ray
         }
 }
 
+/// Tests a ray against one micropolygon and shows the policy what it hits.
+template <class Policy>
+inline void test_quad(const Grid& grid, const MicropolygonId& id, const Quad& quad, Facing facing,
+                      TraceRay& ray, Policy& policy, SampleStats& stats) {
+    float z;
+    if (!hit_micropolygon(ray.axis, quad, facing, &z)) return;
+    ++stats.predicate_hits;
+    const Hit hit{ray.depth_of(z), id.packed()};
+    if (hit.depth >= ray.t_min && hit.depth <= ray.t_max) policy.consider(hit, grid.opaque, ray);
+}
+
 }  // namespace grid_block_detail
+
+/// Tests a ray against one micropolygon, without what neighbours share.
+template <class Policy>
+inline void test_micropolygon(const Grid& grid, const MicropolygonId& id, TraceRay& ray, Policy& policy,
+                              SampleStats& stats) {
+    ++stats.predicate_tests;
+    const Quad quad = grid.quad(id.u, id.v, ray.axis.time, ray.planes[0], ray.planes[1], ray.planes[2]);
+    grid_block_detail::test_quad(grid, id, quad, facing_along(grid.facing, ray.sign), ray, policy, stats);
+}
 
 /// Tests a ray against every micropolygon of a leaf block and shows the policy what it hits.
 template <class Policy>
@@ -97,13 +114,9 @@ inline void test_block(const Grid& grid, uint32_t grid_index, const GridBlock& b
             const Quad quad{{p.x[a], p.x[a + 1], p.x[b], p.x[b + 1]},
                             {p.y[a], p.y[a + 1], p.y[b], p.y[b + 1]},
                             {p.z[a], p.z[a + 1], p.z[b], p.z[b + 1]}};
-            float z;
-            if (!hit_micropolygon(ray.axis, quad, facing, &z)) continue;
-            ++stats.predicate_hits;
-            const Hit hit{ray.depth_of(z), MicropolygonId{grid_index, static_cast<uint8_t>(block.u + u),
-                                                          static_cast<uint8_t>(block.v + v)}
-                                               .packed()};
-            if (hit.depth >= ray.t_min && hit.depth <= ray.t_max) policy.consider(hit, grid.opaque, ray);
+            const MicropolygonId id{grid_index, static_cast<uint8_t>(block.u + u),
+                                    static_cast<uint8_t>(block.v + v)};
+            grid_block_detail::test_quad(grid, id, quad, facing, ray, policy, stats);
         }
 }
 

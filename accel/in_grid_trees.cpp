@@ -9,37 +9,44 @@
 namespace trapeze {
 namespace {
 
-/// Bounds of all nodes of one grid's tree at one key.
-class KeyBounds {
+/// Bounds of all nodes of one grid's tree in some poses.
+class PoseBounds {
   public:
-    KeyBounds(const FramedVertices& vertices, int vertices_u) : vertices_(vertices), row_(vertices_u) {}
+    PoseBounds(const ParametricSplits& splits, int vertices_u) : splits_(splits), row_(vertices_u) {}
 
-    /// The bound of a block; those of the children of inner nodes go to pairs(), by number of the parent.
-    Box3f bound(const GridBlock& block, uint32_t inner) {
-        if (is_leaf_block(block.nu, block.nv)) return leaf_bound(block);
-        const BlockHalves parts = halves(block);
-        const Box3f low = bound(parts.low, inner + 1);
-        const Box3f high = bound(parts.high, inner + 1 + inner_node_count(parts.low));
-        pairs_[inner] = {low, high};
-        Box3f both = low;
-        both.extendBy(high);
-        return both;
+    /// Adds a pose. The bounds of the children of inner nodes go to pairs(), by number of the parent; that
+    /// of the whole grid is returned.
+    Box3f add(const FramedVertices& vertices, const GridBlock& all) {
+        vertices_ = &vertices;
+        return bound(all, 0);
     }
     const std::array<Box3f, 2>& pair(uint32_t inner) const { return pairs_[inner]; }
 
   private:
+    Box3f bound(const GridBlock& block, uint32_t inner) {
+        if (splits_.is_leaf(block)) return leaf_bound(block);
+        const BlockHalves parts = halves(block);
+        const Box3f low = bound(parts.low, inner + 1);
+        const Box3f high = bound(parts.high, inner + 1 + splits_.inner_nodes(parts.low));
+        pairs_[inner][0].extendBy(low);
+        pairs_[inner][1].extendBy(high);
+        Box3f both = low;
+        both.extendBy(high);
+        return both;
+    }
     Box3f leaf_bound(const GridBlock& block) const {
         Box3f box;
         for (int j = block.v; j <= block.v + block.nv; ++j)
             for (int i = block.u; i <= block.u + block.nu; ++i) {
                 const int at = j * row_ + i;
-                box.extendBy(V3f(vertices_.c[0][at], vertices_.c[1][at], vertices_.c[2][at]));
+                box.extendBy(V3f(vertices_->c[0][at], vertices_->c[1][at], vertices_->c[2][at]));
             }
         return box;
     }
 
-    const FramedVertices& vertices_;
+    const ParametricSplits& splits_;
     int row_;
+    const FramedVertices* vertices_ = nullptr;
     std::array<std::array<Box3f, 2>, 256> pairs_;
 };
 
@@ -61,16 +68,29 @@ Box3f point_box() {
 
 }  // namespace
 
+ParametricSplits::ParametricSplits(int leaf_below) : leaf_below_(leaf_below) {
+    for (int sum = 2; sum <= 2 * kMaxGridSide; ++sum)  // halves have a smaller nu + nv
+        for (int nu = std::max(1, sum - kMaxGridSide); nu < std::min(sum, kSides); ++nu) {
+            const GridBlock block{0, 0, static_cast<uint8_t>(nu), static_cast<uint8_t>(sum - nu)};
+            if (is_leaf(block)) continue;
+            const BlockHalves parts = halves(block);
+            inner_nodes_[nu * kSides + sum - nu] =
+                static_cast<uint8_t>(1 + inner_nodes(parts.low) + inner_nodes(parts.high));
+        }
+}
+
 InGridTrees::InGridTrees(std::span<const Grid> grids, std::span<const GridSummary> summaries,
-                         std::vector<HyperTrapezoid>& bounds)
-    : entries_(grids.size()) {
+                         const PaperTreeOptions& options, std::vector<HyperTrapezoid>& bounds)
+    : splits_(options.leaf),
+      whole_motion_(options.bounds == PaperTreeOptions::Bounds::WholeMotion),
+      entries_(grids.size()) {
     uint32_t records = 0, references = 0;
     for (size_t i = 0; i < grids.size(); ++i) {
-        const uint32_t inner = inner_node_count({0, 0, grids[i].shape.nu, grids[i].shape.nv});
+        const uint32_t inner = splits_.inner_nodes({0, 0, grids[i].shape.nu, grids[i].shape.nv});
         entries_[i] = {FrameColumns(summaries[i].frame), summaries[i].absolute_max, summaries[i].quad_extent,
                        records, references};
-        records += inner * grids[i].key_count;
-        references += grids[i].key_count;
+        records += inner * box_keys(grids[i]);
+        references += box_keys(grids[i]);
         inner_nodes_ += inner;
     }
     records_.resize(size_t{records} * kRecordSize);
@@ -83,15 +103,20 @@ InGridTrees::InGridTrees(std::span<const Grid> grids, std::span<const GridSummar
 void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const Entry& entry,
                              HyperTrapezoid& bound) {
     const GridShape& shape = grid.shape;
-    const uint32_t inner = inner_node_count({0, 0, shape.nu, shape.nv});
+    const GridBlock all{0, 0, shape.nu, shape.nv};
+    const uint32_t inner = splits_.inner_nodes(all);
+    const int keys = box_keys(grid), poses = grid.key_count / keys;  // poses in a box: one or all
     const bool boundable = std::isfinite(summary.absolute_max);
     bound.frame = summary.frame;
     bound.keys.clear();
     FramedVertices vertices;
-    for (int key = 0; key < grid.key_count; ++key) {
-        vertices_in_frame(grid, key, summary.frame, vertices);
-        KeyBounds bounds(vertices, shape.vertices_u());
-        const Box3f root = bounds.bound({0, 0, shape.nu, shape.nv}, 0);
+    for (int key = 0; key < keys; ++key) {
+        PoseBounds bounds(splits_, shape.vertices_u());
+        Box3f root;
+        for (int pose = key * poses; pose < (key + 1) * poses; ++pose) {
+            vertices_in_frame(grid, pose, summary.frame, vertices);
+            root.extendBy(bounds.add(vertices, all));
+        }
         const V3f pad(boundable ? kBoundRounding * summary.absolute_max + 0x1p-80f : 0.0f);
         bound.keys.push_back(boundable ? Box3f(root.min - pad, root.max + pad) : point_box());
         if (!boundable) continue;  // quanta and steps stay 0
@@ -104,7 +129,7 @@ void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const
         }
         for (uint32_t node = 0; node < inner; ++node) {
             uint16_t* record =
-                records_.data() + (size_t{entry.first_record} + node * grid.key_count + key) * kRecordSize;
+                records_.data() + (size_t{entry.first_record} + node * keys + key) * kRecordSize;
             for (int k = 0; k < 3; ++k)
                 for (int child = 0; child < 2; ++child) {
                     const Box3f& box = bounds.pair(node)[child];
@@ -116,8 +141,11 @@ void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const
     }
 }
 
-InGridTree::InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid_index, const TraceRay& ray)
-    : key_count_(grid.key_count), root_(pack({0, 0, grid.shape.nu, grid.shape.nv}, 0)) {
+InGridTree::InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid_index, const TraceRay& ray,
+                       const FrameRay* along_axes)
+    : splits_(trees.splits_),
+      key_count_(trees.box_keys(grid)),
+      root_(pack({0, 0, grid.shape.nu, grid.shape.nv}, 0)) {
     const InGridTrees::Entry& entry = trees.entries_[grid_index];
     const MotionSegment segment = segment_at(ray.axis.time, key_count_);
     records_ = trees.records_.data() +
@@ -126,7 +154,7 @@ InGridTree::InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid
     slack_ = entry.quad_extent + rounding;
     // A slab's plane is low(t) + quantum(t) * step(t), and its depth (plane - origin) / direction: linear
     // in the quanta of both keys.
-    const FrameRay local(entry.frame, ray);
+    const FrameRay local = along_axes ? *along_axes : FrameRay(entry.frame, ray);
     const InGridTrees::Reference& from = trees.references_[entry.first_reference + segment.index];
     const InGridTrees::Reference& to = key_count_ > 1 ? (&from)[1] : from;
     for (int k = 0; k < 4; ++k) {
@@ -159,7 +187,7 @@ Visits InGridTree::step(const Visit& at, const TraceRay& ray) const {
         }
     }
     const BlockHalves parts = halves(leaf(at.node));
-    const uint32_t low_inner = inner + 1, high_inner = low_inner + inner_node_count(parts.low);
+    const uint32_t low_inner = inner + 1, high_inner = low_inner + splits_.inner_nodes(parts.low);
     std::array<Visit, 2> children{Visit{0, pack(parts.low, low_inner)},
                                   Visit{0, pack(parts.high, high_inner)}};
     const bool met_low = DepthInterval{near[0], far[0]}.meets(ray, slack_, children[0].depth);

@@ -9,23 +9,29 @@
 namespace trapeze {
 namespace {
 
-uint32_t counted(const GridBlock& block, int depth, int& deepest) {
+uint32_t counted(const GridBlock& block, int leaf_below, int depth, int& deepest) {
     deepest = std::max(deepest, depth);
-    if (block.count() < 8) return 0;
+    if (block.count() < leaf_below) return 0;
     const BlockHalves parts = halves(block);
     EXPECT_EQ(parts.low.count() + parts.high.count(), block.count());
-    return 1 + counted(parts.low, depth + 1, deepest) + counted(parts.high, depth + 1, deepest);
+    return 1 + counted(parts.low, leaf_below, depth + 1, deepest) +
+           counted(parts.high, leaf_below, depth + 1, deepest);
 }
 
 TEST(InGridTrees, TopologyFollowsFromTheShape) {
-    for (int nu = 1; nu <= kMaxGridSide; ++nu)
-        for (int nv = 1; nv <= kMaxGridSide; ++nv) {
-            const GridBlock block{0, 0, static_cast<uint8_t>(nu), static_cast<uint8_t>(nv)};
-            int deepest = 0;
-            EXPECT_EQ(counted(block, 0, deepest), inner_node_count(block));
-            EXPECT_LT(deepest + 1, InGridTree::kStackSize);
-        }
-    EXPECT_EQ(inner_node_count({0, 0, 16, 16}), 63u);
+    for (const int leaf_below : {4, 8, 16, 32}) {
+        const ParametricSplits splits(leaf_below);
+        for (int nu = 1; nu <= kMaxGridSide; ++nu)
+            for (int nv = 1; nv <= kMaxGridSide; ++nv) {
+                const GridBlock block{0, 0, static_cast<uint8_t>(nu), static_cast<uint8_t>(nv)};
+                int deepest = 0;
+                EXPECT_EQ(counted(block, leaf_below, 0, deepest), splits.inner_nodes(block));
+                EXPECT_LT(deepest + 1, InGridTree::kStackSize);
+            }
+    }
+    EXPECT_EQ(ParametricSplits(4).inner_nodes({0, 0, 16, 16}), 127u);
+    EXPECT_EQ(ParametricSplits(8).inner_nodes({0, 0, 16, 16}), 63u);
+    EXPECT_EQ(ParametricSplits(32).inner_nodes({0, 0, 16, 16}), 15u);
 }
 
 TEST(InGridTrees, SplitsTheLongerSideInTheMiddle) {

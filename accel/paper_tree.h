@@ -1,7 +1,7 @@
 /// The acceleration structure of [Hou10 sec. 3.2 to 3.5]: a binary tree of OBB hyper-trapezoids. At the top
 /// one grid a leaf, by the centroid SAH at mid-shutter with the orientation-aware fallback; inside grids
 /// parametric midpoint splits. A grid's orientation holds for all nodes in it; a node above takes the
-/// orientation of that child which makes it smaller.
+/// orientation of that child which makes it smaller. Of axis-aligned bounds the topology is the same.
 ///
 /// Departs from the paper: boxes inside grids are 16-bit numbers; any number of motion keys; bounds are grown
 /// for rounding, and the depth at which a box is entered is taken less by the size of its largest
@@ -13,6 +13,7 @@
 
 #include "accel/hit_policies.h"
 #include "accel/in_grid_trees.h"
+#include "accel/paper_options.h"
 #include "accel/top_level.h"
 #include "accel/traverse.h"
 #include "core/grid.h"
@@ -24,7 +25,8 @@ namespace trapeze {
 class PaperTree final : public RayQuery {
   public:
     /// Keeps a reference to the grids.
-    explicit PaperTree(const Grids& grids) : PaperTree(grids, summaries_of(grids)) {}
+    explicit PaperTree(const Grids& grids, const PaperTreeOptions& options = {})
+        : PaperTree(grids, options, framed_summaries(grids, options)) {}
 
     /// Shows the policy the hits of a ray, near ones first as far as bounds tell.
     template <class Policy>
@@ -44,16 +46,7 @@ class PaperTree final : public RayQuery {
     BuildStats stats() const { return stats_; }
 
   private:
-    struct NodeBound {
-        HyperTrapezoid box;
-        float absolute_max = 0, quad_extent = 0;
-    };
-
-    static std::vector<GridSummary> summaries_of(const Grids& grids);
-    PaperTree(const Grids& grids, const std::vector<GridSummary>& summaries);
-    NodeBound build_bounds(const TopTopology& topology, const std::vector<GridSummary>& summaries,
-                           TopLink link, int depth);
-    void set_node(size_t index, TopLink link, const NodeBound& bound);
+    PaperTree(const Grids& grids, const PaperTreeOptions& options, const std::vector<GridSummary>& summaries);
 
     const Grids& grids_;
     std::vector<HyperTrapezoid> grid_bounds_;  ///< while building only
@@ -65,9 +58,10 @@ class PaperTree final : public RayQuery {
 template <class Policy>
 void PaperTree::trace(const TopLevel& part, TraceRay& ray, Policy& policy, SampleStats& stats) const {
     TraversalStats in_top, in_grids;
-    traverse(TopLevelView(part, ray), ray, in_top, [&](uint32_t grid_index, TraceRay&) {
+    const TopLevelView view(part, ray);
+    traverse(view, ray, in_top, [&](uint32_t grid_index, TraceRay&) {
         const Grid& grid = grids_.grids[grid_index];
-        traverse(InGridTree(in_grid_, grid, grid_index, ray), ray, in_grids,
+        traverse(InGridTree(in_grid_, grid, grid_index, ray, view.along_axes()), ray, in_grids,
                  [&](const GridBlock& block, TraceRay&) {
                      test_block(grid, grid_index, block, ray, policy, stats);
                  });

@@ -9,35 +9,15 @@
 #include <random>
 #include <set>
 
-#include "core/test_grids.h"
+#include "accel/test_rays.h"
 
 namespace trapeze {
 namespace {
 
+using testing::add_sheets;
+using testing::closest_naively;
 using testing::GridMaker;
-
-struct Noise {
-    std::mt19937 engine{9};
-    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
-    V3f point(float reach) {
-        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
-    }
-};
-
-void add_sheets(GridMaker& maker, int count, int keys, Noise& noise) {
-    for (int n = 0; n < count; ++n) {
-        const V3f origin = noise.point(4), along_u = noise.point(2), along_v = noise.point(2),
-                  shift = noise.point(1);
-        const int nu = 1 + static_cast<int>(noise.engine() % 16),
-                  nv = 1 + static_cast<int>(noise.engine() % 16);
-        maker.add(nu, nv, keys, [=](int i, int j, float t) {
-            const float u = static_cast<float>(i) / static_cast<float>(nu),
-                        v = static_cast<float>(j) / static_cast<float>(nv);
-            return origin + along_u * u + along_v * v + V3f(0, 0.2f * std::sin(8 * u + 5 * v), 0) +
-                   shift * (t * t);
-        });
-    }
-}
+using testing::Noise;
 
 /// A closed, bumpy, moving torus whose shared vertices are the same bits on both sides.
 void add_torus(GridMaker& maker, int keys) {
@@ -54,26 +34,6 @@ void add_torus(GridMaker& maker, int keys) {
         for (int gv = 0; gv < kAcross; ++gv)
             maker.add(16, 16, keys,
                       [&](int i, int j, float t) { return vertex(16 * gu + i, 16 * gv + j, t); });
-}
-
-/// The truth, for rays in any direction.
-Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange range) {
-    const TurnedRay turned = axis_ray(ray);
-    Hit best = kNoHit;
-    for (size_t g = 0; g < grids.grids.size(); ++g) {
-        const Grid& grid = grids.grids[g];
-        for (int v = 0; v < grid.shape.nv; ++v)
-            for (int u = 0; u < grid.shape.nu; ++u) {
-                const Quad quad = grid.quad(u, v, ray.time, turned.x_plane, turned.y_plane, turned.z_plane);
-                float z;
-                if (!hit_micropolygon(turned.ray, quad, Facing::Both, &z)) continue;
-                const MicropolygonId id{static_cast<uint32_t>(g), static_cast<uint8_t>(u),
-                                        static_cast<uint8_t>(v)};
-                const Hit hit{(z - turned.ray.oz) * turned.depth_sign, id.packed()};
-                if (hit.depth >= range.min && hit.depth <= range.max && in_front(hit, best)) best = hit;
-            }
-    }
-    return best;
 }
 
 TEST(PaperTree, ClosestAndAnyInAllDirectionsEqualTestingEverything) {
@@ -205,7 +165,7 @@ TEST(PaperTree, EveryNodeHoldsTheVerticesBelowAtAnyTime) {
     size_t nodes = 0;
     const auto all = walk(top, top.nodes.size() - 1, [&](size_t index, const std::vector<uint32_t>& below) {
         ++nodes;
-        const auto& column = top.nodes[index].frame.column;
+        const auto& column = top.frame_of(index).column;
         for (int round = 0; round < 30; ++round) {
             const float time = noise(0, 1);
             const MotionSegment s = segment_at(time, top.key_count);

@@ -33,18 +33,27 @@ inline constexpr float kLeastDirection = 1e-18f;
 struct alignas(16) FrameRay {
     float origin[4], inverse_direction[4];
 
+    FrameRay() = default;
+
+    /// In the axes of space.
+    explicit FrameRay(const TraceRay& ray) {
+        for (int k = 0; k < 3; ++k)
+            origin[k] = ray.origin[k], inverse_direction[k] = inverse(ray.direction[k]);
+        origin[3] = 0, inverse_direction[3] = inverse(0);
+    }
     FrameRay(const FrameColumns& frame, const TraceRay& ray) {
         const auto& c = frame.column;
         for (int k = 0; k < 4; ++k)
             origin[k] = (c[0][k] * ray.origin.x + c[1][k] * ray.origin.y) + c[2][k] * ray.origin.z;
         float direction[4];
-        for (int k = 0; k < 4; ++k) {
-            const float d =
+        for (int k = 0; k < 4; ++k)
+            direction[k] =
                 (c[0][k] * ray.direction.x + c[1][k] * ray.direction.y) + c[2][k] * ray.direction.z;
-            direction[k] = std::abs(d) < kLeastDirection ? kLeastDirection : d;
-        }
-        for (int k = 0; k < 4; ++k) inverse_direction[k] = 1.0f / direction[k];
+        for (int k = 0; k < 4; ++k) inverse_direction[k] = inverse(direction[k]);
     }
+
+  private:
+    static float inverse(float d) { return 1.0f / (std::abs(d) < kLeastDirection ? kLeastDirection : d); }
 };
 
 /// Depths between which a ray is inside a box; empty when near > far. A NaN makes no bound.

@@ -41,7 +41,7 @@ class Pruning {
         ++looked_at;
         const TopLevel::Node& node = from_.nodes[index];
         const KeyBox box = box_during(from_.boxes_of(index), from_.key_count, beam_.time_min, beam_.time_max);
-        if (!beam_.meets(node.frame, box, node.absolute_max, node.quad_extent)) return {};
+        if (!beam_.meets(from_.frame_of(index), box, node.absolute_max, node.quad_extent)) return {};
         if (node.link.is_leaf()) return Kept{index, node.link};
         const size_t first = 2 * size_t{node.link.index()};
         const std::optional<Kept> low = visit(first), high = visit(first + 1);
@@ -55,6 +55,7 @@ class Pruning {
     void copy(const Kept& kept) {
         to_.nodes.push_back(from_.nodes[kept.source]);
         to_.nodes.back().link = kept.link;
+        if (from_.oriented) to_.frames.push_back(from_.frames[kept.source]);
         const KeyBox* boxes = from_.boxes_of(kept.source);
         to_.boxes.insert(to_.boxes.end(), boxes, boxes + from_.key_count);
     }
@@ -71,7 +72,9 @@ class Pruning {
 
 void TopLevel::within(const Beam& beam, TopLevel& part, uint64_t* looked_at) const {
     part.key_count = key_count;
+    part.oriented = oriented;
     part.nodes.clear();
+    part.frames.clear();
     part.boxes.clear();
     if (nodes.empty()) return;
     Pruning pruning(*this, beam, part);
@@ -85,7 +88,9 @@ inline bool TopLevelView::meet(size_t index, const TraceRay& ray, Visit& visit) 
     const KeyBox* from = tree_.boxes_of(index) + segment_.index;
     const KeyBox* to = tree_.key_count > 1 ? from + 1 : from;
     const float rounding = ray.rounding(node.absolute_max);
-    const DepthInterval inside = clip(FrameRay(node.frame, ray), *from, *to, segment_.local, rounding);
+    const DepthInterval inside =
+        tree_.oriented ? clip(FrameRay(tree_.frames[index], ray), *from, *to, segment_.local, rounding)
+                       : clip(along_axes_, *from, *to, segment_.local, rounding);
     visit.node = node.link.value;
     return inside.meets(ray, node.quad_extent + rounding, visit.depth);
 }

@@ -294,6 +294,17 @@ TEST_P(Agreement, RayTracerAndBruteForceFindWhatTestingEverythingFinds) {
     EXPECT_TRUE(traced == truth);
 }
 
+TEST_P(Agreement, EveryChoiceOfThePapersTreeFindsWhatBruteForceFinds) {
+    const auto truth = resolve(scene(), "bruteforce");
+    for (const std::string options :
+         {"bounds=aabb", "bounds=aabb4d", "bounds=aabb4d,bundle=off,leaf=32", "orient_split=off,leaf=4",
+          "orient_propagation=off,bundle=off", "ray_sort=off,leaf=16", "split=sah", "split=sah,bundle=off",
+          "split=sah,bounds=aabb,leaf=4", "split=sah,bounds=aabb4d,leaf=32",
+          "split=sah,orient_split=off,orient_propagation=off"})
+        EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=paper," + options), truth), 0u)
+            << options;
+}
+
 TEST_P(Agreement, IntervalFindsWhatTestingEverythingFinds) {
     const auto truth = resolve_naively(scene(), IntervalPattern(scene().frame.context));
     EXPECT_EQ(differing_samples(resolve(scene(), "bruteforce", "interval"), truth), 0u);
@@ -322,7 +333,7 @@ TEST_P(Agreement, InterleaveUvtFindsWhatBruteForceFinds) {
 TEST_P(Agreement, OfAnyNumberOfThreads) {
     for (const char* method :
          {"interleaveuvt:cull=on", "raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off",
-          "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
+          "raytrace:tree=paper,split=sah", "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
         std::vector<std::vector<HitBuffer>> results;
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);

@@ -7,8 +7,10 @@ namespace {
 
 const std::vector<SpecOption>& raytrace_options() {
     static const std::vector<SpecOption> options = {
-        {"tree", {"wide", "paper"}},
-        {"bundle", {"on", "off"}},
+        {"tree", {"wide", "paper"}},           {"bundle", {"on", "off"}},
+        {"bounds", {"obb", "aabb", "aabb4d"}}, {"split", {"parametric", "sah"}},
+        {"orient_split", {"on", "off"}},       {"orient_propagation", {"on", "off"}},
+        {"ray_sort", {"on", "off"}},           {"leaf", {"8", "4", "16", "32"}},
     };
     return options;
 }

@@ -128,8 +128,10 @@ TEST_P(EveryMethod, ScratchMayComeFromLargerTilesAndOtherGrids) {
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryMethod,
                          ::testing::Values("raytrace", "raytrace:tree=paper",
-                                           "raytrace:tree=paper,bundle=off", "bruteforce", "interval",
-                                           "interval:cull=on", "interval:pairing=shuffled",
+                                           "raytrace:tree=paper,bundle=off",
+                                           "raytrace:tree=paper,split=sah,bounds=aabb4d",
+                                           "raytrace:tree=paper,bounds=aabb,leaf=32", "bruteforce",
+                                           "interval", "interval:cull=on", "interval:pairing=shuffled",
                                            "interval:pairing=shuffled,cull=on", "interleaveuvt",
                                            "interleaveuvt:k=1", "interleaveuvt:k=4,cull=on"),
                          [](const auto& tested) {
@@ -165,6 +167,8 @@ TEST(VisibilityMethods, WrongNamesAreExplained) {
     EXPECT_THAT(error_of("raytrace:bundle", ""), ::testing::HasSubstr("key=value"));
     EXPECT_THAT(error_of("raytrace:bundle=off", ""),
                 ::testing::HasSubstr("option \"bundle\" is for tree=paper"));
+    EXPECT_THAT(error_of("raytrace:bounds=aabb", ""),
+                ::testing::HasSubstr("option \"bounds\" is for tree=paper"));
     EXPECT_THAT(error_of("interleaveuvt:k=4", "interleaved:k=2"),
                 ::testing::HasSubstr("cannot resolve samples"));
     EXPECT_THAT(error_of("interleaveuvt", "stratified"),

@@ -1,5 +1,7 @@
 #include "accel/builders/grid_summary.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,6 +53,14 @@ bool is_curve(const GridShape& shape) {
 
 }  // namespace
 
+V3f vertex_of_key(const Grid& grid, int key, int i, int j) {
+    const KeyPlanes planes = planes_at(grid, key);
+    const int at = grid.shape.tiled_index(i, j);
+    V3f p;
+    for (int k = 0; k < 3; ++k) p[k] = planes.start[k][at] + (planes.delta[k] ? planes.delta[k][at] : 0);
+    return p;
+}
+
 void vertices_in_frame(const Grid& grid, int key, const Frame& frame, FramedVertices& out) {
     const KeyPlanes planes = planes_at(grid, key);
     int n = 0;
@@ -96,6 +106,15 @@ GridSummary summarise(const Grid& grid) {
     if (is_curve(shape) && boundable)
         summary.main_direction = frame_of(long_u ? along_u : along_v, V3d(0)).axis[0];
     return summary;
+}
+
+std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOptions& options) {
+    std::vector<GridSummary> summaries(grids.grids.size());
+    tbb::parallel_for(size_t{0}, summaries.size(), [&](size_t i) {
+        summaries[i] = summarise(grids.grids[i]);
+        if (!options.oriented()) summaries[i].frame = Frame{};
+    });
+    return summaries;
 }
 
 }  // namespace trapeze

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "accel/paper_options.h"
 #include "core/grid.h"
 #include "core/hyper_trapezoid.h"
 
@@ -23,6 +24,12 @@ struct GridSummary {
 };
 
 GridSummary summarise(const Grid& grid);
+
+/// Of all grids, with the frames that a tree's bounds have: all axis-aligned unless it is oriented.
+std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOptions& options);
+
+/// A vertex at one of the grid's own keys.
+V3f vertex_of_key(const Grid& grid, int key, int i, int j);
 
 /// Coordinates in a frame of all vertices at one of the grid's own keys; row by row, u fastest.
 struct FramedVertices {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace trapeze {
 namespace {
@@ -41,9 +42,8 @@ V2f square_from_direction(const V3f& unit) {
     return {square.x * 0.5f + 0.5f, square.y * 0.5f + 0.5f};
 }
 
-uint64_t orientation_morton_code(const GridSummary& grid, const Box3f& centroids) {
-    const V2f orientation = square_from_direction(grid.main_direction);
-    const V3f centroid = grid.centroid();
+uint64_t orientation_morton_code(const V3f& direction, const V3f& centroid, const Box3f& centroids) {
+    const V2f orientation = square_from_direction(direction);
     uint32_t dimension[5] = {quantised(orientation.x), quantised(orientation.y)};
     for (int k = 0; k < 3; ++k)
         dimension[2 + k] =
@@ -54,15 +54,21 @@ uint64_t orientation_morton_code(const GridSummary& grid, const Box3f& centroids
     return code;
 }
 
-void sort_by_orientation(std::span<uint32_t> order, std::span<const GridSummary> grids) {
+void sort_by_orientation(std::span<SahItem> items, const std::function<V3f(uint32_t id)>& direction) {
     Box3f centroids;
-    for (const uint32_t grid : order) centroids.extendBy(grids[grid].centroid());
-    std::vector<std::pair<uint64_t, uint32_t>> coded;
-    coded.reserve(order.size());
-    for (const uint32_t grid : order)
-        coded.emplace_back(orientation_morton_code(grids[grid], centroids), grid);
-    std::sort(coded.begin(), coded.end());
-    for (size_t i = 0; i < order.size(); ++i) order[i] = coded[i].second;
+    for (const SahItem& item : items) centroids.extendBy(item.centroid());
+    struct Coded {
+        uint64_t code;
+        SahItem item;
+    };
+    std::vector<Coded> coded;
+    coded.reserve(items.size());
+    for (const SahItem& item : items)
+        coded.push_back({orientation_morton_code(direction(item.id), item.centroid(), centroids), item});
+    std::sort(coded.begin(), coded.end(), [](const Coded& a, const Coded& b) {
+        return std::pair(a.code, a.item.id) < std::pair(b.code, b.item.id);
+    });
+    for (size_t i = 0; i < items.size(); ++i) items[i] = coded[i].item;
 }
 
 }  // namespace trapeze

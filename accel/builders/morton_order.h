@@ -1,11 +1,11 @@
-/// The orientation-aware order of grids: 5D Morton codes of orientation and centroid [Hou10 sec. 3.3].
+/// The orientation-aware order: 5D Morton codes of orientation and centroid [Hou10 sec. 3.3].
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
-#include <vector>
 
-#include "accel/builders/grid_summary.h"
+#include "accel/builders/sah_topology.h"
 
 namespace trapeze {
 
@@ -14,9 +14,10 @@ namespace trapeze {
 V2f square_from_direction(const V3f& unit);
 
 /// 12 bits a dimension, interleaved, orientation in the more significant place of every five.
-uint64_t orientation_morton_code(const GridSummary& grid, const Box3f& centroids);
+uint64_t orientation_morton_code(const V3f& direction, const V3f& centroid, const Box3f& centroids);
 
-/// Sorts indices of grids by their codes within the box of their centroids, equal codes by index.
-void sort_by_orientation(std::span<uint32_t> order, std::span<const GridSummary> grids);
+/// Sorts items by their codes within the box of their centroids, equal codes by id. Where all directions are
+/// equal it is the order of space alone.
+void sort_by_orientation(std::span<SahItem> items, const std::function<V3f(uint32_t id)>& direction);
 
 }  // namespace trapeze

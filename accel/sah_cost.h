@@ -1,0 +1,22 @@
+/// How well parametric splits approximate the SAH inside a grid [Hou10 sec. 5.2, figure 9].
+#pragma once
+
+#include "core/grid.h"
+
+namespace trapeze {
+
+/// What a random line that meets the grid's box is expected to cost: nodes by the ratio of their area to the
+/// box's, an inner one as much as the test of a micropolygon.
+struct SahCosts {
+    double parametric;  ///< midpoint splits, as in InGridTrees
+    double greedy;      ///< at each node the best of all splits along the axes of the grid's orientation
+
+    /// Negative where the parametric splits are the better ones.
+    double relative_difference() const { return greedy > 0 ? parametric / greedy - 1 : 0; }
+};
+
+/// Of a grid at mid-shutter, boxes in its orientation, both with leaves of fewer than `leaf_below`
+/// micropolygons. Both are 0 when the grid's box has no area.
+SahCosts sah_costs(const Grid& grid, int leaf_below = 8);
+
+}  // namespace trapeze
