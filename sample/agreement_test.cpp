@@ -330,10 +330,17 @@ TEST_P(Agreement, InterleaveUvtFindsWhatBruteForceFinds) {
     EXPECT_TRUE(resolve(scene(), "interleaveuvt") == truth);
 }
 
+TEST_P(Agreement, DualSpaceFindsWhatBruteForceFinds) {
+    for (const char* pattern : {"stratified", "interval", "interleaved"}) {
+        const auto truth = resolve(scene(), "bruteforce", pattern);
+        EXPECT_EQ(differing_samples(resolve(scene(), "dualspace", pattern), truth), 0u) << pattern;
+    }
+}
+
 TEST_P(Agreement, OfAnyNumberOfThreads) {
-    for (const char* method :
-         {"interleaveuvt:cull=on", "raytrace", "raytrace:tree=paper", "raytrace:tree=paper,bundle=off",
-          "raytrace:tree=paper,split=sah", "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
+    for (const char* method : {"interleaveuvt:cull=on", "dualspace", "raytrace", "raytrace:tree=paper",
+                               "raytrace:tree=paper,bundle=off", "raytrace:tree=paper,split=sah",
+                               "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
         std::vector<std::vector<HitBuffer>> results;
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -360,6 +367,7 @@ TEST_P(Agreement, OfAllInstructionSets) {
         for (const char* method : {"interleaveuvt", "interleaveuvt:cull=on"})
             EXPECT_TRUE(resolve(scene(), method) == interleaved_truth) << method << simd_target_name();
         EXPECT_TRUE(resolve(scene(), "interval:pairing=shuffled") == traced) << simd_target_name();
+        EXPECT_TRUE(resolve(scene(), "dualspace") == traced) << simd_target_name();
         ++tried;
     }
     hwy::SetSupportedTargetsForTest(0);

@@ -40,8 +40,7 @@ class InterleaveUvt final : public Visibility {
         uvt.tile.build(samples.pixels, pattern_, context_.camera);
         scratch.hits.clear();
         scratch.hit_sample.clear();
-        UvtRaster raster{context_.camera, pattern_,    tuples_, samples.pixels,
-                         context_.motion, all_opaque_, cull_,   scratch};
+        UvtRaster raster{context_.camera, pattern_, tuples_, samples.pixels, all_opaque_, cull_, scratch};
         for (const uint32_t index : uvt.grids)
             raster_grid_uvt(raster, {grids_.grids[index], index, bounds_}, stats);
         stats.rays += samples.size();

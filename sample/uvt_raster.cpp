@@ -30,7 +30,7 @@ class GridRaster {
     void run() {
         find_tuples<kPerspective>(raster_, grid_, tile_, scratch_.tuples);
         if (scratch_.tuples.count == 0) return;
-        const bool moves = grid_.grid.moves() && raster_.moves;
+        const bool moves = grid_.grid.moves();
         mesh_.load(grid_.grid, moves);
         if (!moves && !raster_.camera.has_lens())
             raster_still();

@@ -63,7 +63,6 @@ struct UvtRaster {
     const InterleavedPattern& pattern;
     const UvtTuples& tuples;
     PixelRect pixels;        ///< the tile's
-    bool moves = false;      ///< else samples' times are all 0
     bool all_opaque = true;  ///< else hits are also listed, as buffer_of_loose_hits() takes them
     bool cull = false;       ///< skip what lies behind the nearest opaque hits
     SampleScratch& scratch;

@@ -8,6 +8,7 @@ const std::vector<VisibilityMethod>& visibility_methods() {
         brute_force_method(),
         interval_method(),
         interleave_uvt_method(),
+        dual_space_method(),
 #ifdef TRAPEZE_HAVE_EMBREE
         embree_method(),
 #endif

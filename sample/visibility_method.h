@@ -15,6 +15,7 @@
 #include "core/render_context.h"
 #include "core/samples.h"
 #include "core/stats.h"
+#include "sample/dual_raster.h"
 #include "sample/interval_scratch.h"
 #include "sample/method_spec.h"
 #include "sample/sample_pattern.h"
@@ -52,6 +53,7 @@ struct SampleScratch {
     std::vector<uint32_t> ray_tests, ray_nodes;  ///< what the rays of a bundle cost
     IntervalScratch interval;
     UvtScratch uvt;
+    DualScratch dual;
 };
 
 /// A method with what it has prepared for some grids. Keeps references to the context and the grids.
@@ -118,6 +120,7 @@ VisibilityMethod raytrace_method();
 VisibilityMethod brute_force_method();
 VisibilityMethod interval_method();
 VisibilityMethod interleave_uvt_method();
+VisibilityMethod dual_space_method();
 VisibilityMethod embree_method();  ///< in the table where Embree was found at build time
 
 /// For methods that take any sample as it comes.

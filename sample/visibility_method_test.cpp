@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryMethod,
                                            "raytrace:tree=paper,bounds=aabb,leaf=32", "bruteforce",
                                            "interval", "interval:cull=on", "interval:pairing=shuffled",
                                            "interval:pairing=shuffled,cull=on", "interleaveuvt",
-                                           "interleaveuvt:k=1", "interleaveuvt:k=4,cull=on"),
+                                           "interleaveuvt:k=1", "dualspace", "interleaveuvt:k=4,cull=on"),
                          [](const auto& tested) {
                              std::string name(tested.param);
                              std::erase_if(name, [](char c) { return !std::isalnum(c); });

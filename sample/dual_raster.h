@@ -1,0 +1,58 @@
+/// Micropolygons into samples through bounds in (u, v, time) for each pixel.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/grid.h"
+#include "core/samples.h"
+#include "core/stats.h"
+#include "sample/grid_bounds.h"
+#include "sample/sample_masks.h"
+#include "sample/vertex_rows.h"
+
+namespace trapeze {
+
+struct SampleScratch;
+
+/// For each column (or row) of pixels of a tile, when and through what part of an axis of the lens (of the
+/// pixel, without a lens) a micropolygon may be seen there: bins of SampleMasks, first to last.
+struct DualIntervals {
+    static constexpr int kPadding = 16;
+
+    std::vector<float> low, high;  ///< the image plane at the pixels' sides
+    std::vector<int32_t> first_s, last_s, first_t, last_t;
+
+    /// `count` pixels from `first`.
+    void set_pixels(int first, int count, float plane_scale, float plane_offset);
+    /// Everything, everywhere.
+    void see_all();
+};
+
+struct DualScratch {
+    std::vector<uint32_t> grids;
+    SampleMasks masks;
+    DualIntervals columns, rows;
+    VertexRows vertices;
+    std::vector<uint32_t> candidates;  ///< samples to test
+};
+
+/// A tile, and where what its samples see goes.
+struct DualRaster {
+    const Camera& camera;
+    const SampleTile& samples;
+    bool all_opaque;  ///< else hits are also listed, as buffer_of_loose_hits() takes them
+    SampleScratch& scratch;
+};
+
+struct DualGrid {
+    const Grid& grid;
+    uint32_t index;
+    const GridBound& bound;
+};
+
+/// Runs on the best instruction set at hand.
+void raster_grid_dual(DualRaster& raster, const DualGrid& grid, SampleStats& stats);
+
+}  // namespace trapeze
