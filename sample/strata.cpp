@@ -1,15 +1,15 @@
 #include "sample/strata.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/random.h"
 
 namespace trapeze {
 namespace {
-
-constexpr float kBelowOne = 0x1.fffffep-1f;
 
 /// disk_from_square() rounds by less than this.
 constexpr double kDiskRounding = 2e-6;
@@ -51,21 +51,29 @@ std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed) {
 
 V2f disk_from_square(float u, float v) {
     const float a = 2 * u - 1, b = 2 * v - 1;
-    if (a == 0 && b == 0) return {0, 0};
-    constexpr auto kQuarterPi = static_cast<float>(M_PI / 4);
     const bool wide = std::abs(a) > std::abs(b);
-    const float r = wide ? a : b;
-    const float angle = wide ? kQuarterPi * (b / a) : 2 * kQuarterPi - kQuarterPi * (a / b);
-    return {r * std::cos(angle), r * std::sin(angle)};
+    const float r = wide ? a : b, other = wide ? b : a;
+    const float angle = kQuarterPi * (other / (r == 0 ? 1 : r));  // from the nearer axis
+    const float z = angle * angle;
+    const float sine = (((kSine[0] * z + kSine[1]) * z + kSine[2]) * z + kSine[3]) * angle;
+    const float cosine = (((kCosine[0] * z + kCosine[1]) * z + kCosine[2]) * z + kCosine[3]) * z + kCosine[4];
+    const float along = r * cosine, across = r * sine;
+    return wide ? V2f(along, across) : V2f(across, along);
 }
 
 float place(uint32_t index, float jitter, int count) {
     return std::min((static_cast<float>(index) + jitter) / static_cast<float>(count), kBelowOne);
 }
 
+float last_place_of(int pixel) {
+    // nextafter(pixel + 1, pixel), which takes a library's call for each pixel.
+    if (pixel == -1) return -std::numeric_limits<float>::denorm_min();
+    const auto bits = std::bit_cast<uint32_t>(static_cast<float>(pixel + 1));
+    return std::bit_cast<float>(pixel < 0 ? bits + 1 : bits - 1);
+}
+
 float within_pixel(int pixel, float fraction) {
-    const auto low = static_cast<float>(pixel), high = static_cast<float>(pixel + 1);
-    return std::min(low + fraction, std::nextafter(high, low));
+    return std::min(static_cast<float>(pixel) + fraction, last_place_of(pixel));
 }
 
 TimeSpan time_region(uint32_t index, int count) {

@@ -23,6 +23,16 @@ struct LensBox {
     bool operator==(const LensBox&) const = default;
 };
 
+inline constexpr float kBelowOne = 0x1.fffffep-1f;
+
+inline constexpr float kQuarterPi = 0.785398163f;
+/// Sine divided by its angle, and cosine, as polynomials in the angle's square, highest power first; within
+/// 1e-7 on [-kQuarterPi, kQuarterPi] [Cephes, sinf.c]. Multiplied and added one by one they round alike
+/// everywhere, which the library's functions do not.
+inline constexpr float kSine[] = {-1.9515295891e-4f, 8.3321608736e-3f, -1.6666654611e-1f, 1.0f};
+inline constexpr float kCosine[] = {2.443315711809948e-5f, -1.388731625493765e-3f, 4.166664568298827e-2f,
+                                    -0.5f, 1.0f};
+
 /// A permutation of 0 .. count - 1.
 std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed);
 
@@ -31,6 +41,9 @@ V2f disk_from_square(float u, float v);
 
 /// A jittered place in region `index` of `count` in [0, 1).
 float place(uint32_t index, float jitter, int count);
+
+/// The greatest place of a pixel: the next one's is just above.
+float last_place_of(int pixel);
 
 /// A place within a pixel; rounding may not move it into the next one.
 float within_pixel(int pixel, float fraction);

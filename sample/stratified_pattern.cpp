@@ -8,9 +8,6 @@
 namespace trapeze {
 namespace {
 
-/// Which number of an index; part of what is hashed.
-enum Dimension : uint32_t { kSubpixelX, kSubpixelY, kLensU, kLensV, kTime, kTimeShift, kShuffle };
-
 /// Subpixel region -> lens region.
 std::vector<uint32_t> lens_permutation(int nx, int ny, uint32_t seed) {
     if (nx == ny && nx >= 3) return magic_square(nx);
@@ -38,13 +35,21 @@ StratifiedPattern::StratifiedPattern(const RenderContext& context)
       seed_(context.seed),
       motion_(context.motion),
       lens_of_(lens_permutation(nx_, ny_, context.seed)),
-      time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)) {}
+      time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)),
+      regions_(nx_, ny_, camera_.has_lens(), motion_, lens_of_, time_of_) {}
 
-uint32_t StratifiedPattern::time_shift(int px, int py) const {
+uint32_t StratifiedPattern::pixel_hash(int px, int py) const {
+    return hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
+}
+
+uint32_t StratifiedPattern::time_shift_of(uint32_t pixel_hash) const {
     // Without defocus there is no correlation with the lens to break.
     if (!camera_.has_lens()) return 0;
-    const uint32_t pixel_hash = hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
     return hash(pixel_hash, kTimeShift) % static_cast<uint32_t>(sample_count());
+}
+
+uint32_t StratifiedPattern::time_shift(int px, int py) const {
+    return time_shift_of(pixel_hash(px, py));
 }
 
 TimeSpan StratifiedPattern::time_bounds(int sample, uint32_t shift) const {
@@ -59,32 +64,35 @@ void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) con
     tile.pixels = pixels;
     tile.samples_per_pixel = nx_ * ny_;
     tile.resize(static_cast<size_t>(pixels.width()) * pixels.height() * tile.samples_per_pixel);
-    for (int py = pixels.y0; py < pixels.y1; ++py)
-        for (int px = pixels.x0; px < pixels.x1; ++px) make_pixel(px, py, tile.first_of_pixel(px, py), tile);
+    RunPixels run;
+    RunSamples made;
+    const auto longest = static_cast<int>(regions_.pixels);
+    for (int py = pixels.y0; py < pixels.y1; ++py) {
+        run.y = static_cast<float>(py), run.y_limit = last_place_of(py);
+        for (int px = pixels.x0; px < pixels.x1; px += longest) {
+            const int width = std::min(longest, pixels.x1 - px);
+            for (int i = 0; i < width; ++i) {
+                run.x[i] = static_cast<float>(px + i), run.x_limit[i] = last_place_of(px + i);
+                run.hash[i] = pixel_hash(px + i, py);
+                run.time_shift[i] = time_shift_of(run.hash[i]);
+            }
+            make_run(run, static_cast<size_t>(width) * tile.samples_per_pixel, tile.first_of_pixel(px, py),
+                     made, tile);
+        }
+    }
 }
 
-void StratifiedPattern::make_pixel(int px, int py, size_t first, SampleTile& tile) const {
-    const auto count = static_cast<uint32_t>(nx_ * ny_);
-    const uint32_t pixel_hash = hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
-    const bool lens = camera_.has_lens();
-    const uint32_t shift = time_shift(px, py);
-    for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t sample_hash = hash(pixel_hash + i);
-        const auto jitter = [sample_hash](Dimension d) { return unit_float(hash(sample_hash + d)); };
-        const size_t at = first + i;
-        const uint32_t column = i % static_cast<uint32_t>(nx_), row = i / static_cast<uint32_t>(nx_);
-        tile.x[at] = within_pixel(px, place(column, jitter(kSubpixelX), nx_));
-        tile.y[at] = within_pixel(py, place(row, jitter(kSubpixelY), ny_));
-        V2f on_lens(0, 0);
-        if (lens) {
-            const uint32_t region = lens_of_[i];
-            on_lens = disk_from_square(place(region % static_cast<uint32_t>(nx_), jitter(kLensU), nx_),
-                                       place(region / static_cast<uint32_t>(nx_), jitter(kLensV), ny_));
-        }
-        tile.lens_u[at] = on_lens.x, tile.lens_v[at] = on_lens.y;
-        tile.time[at] =
-            motion_ ? place(time_region_of(static_cast<int>(i), shift), jitter(kTime), sample_count()) : 0.0f;
-        tile.rays[at] = camera_.ray(tile.x[at], tile.y[at], on_lens.x, on_lens.y, tile.time[at]);
+void StratifiedPattern::make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made,
+                                 SampleTile& tile) const {
+    for (size_t first = 0; first < count; first += RunSamples::kCount, to += RunSamples::kCount) {
+        const size_t n = std::min(count - first, RunSamples::kCount);
+        make_run_samples(regions_, run, camera_, first, n, made);
+        std::copy_n(made.x, n, tile.x.data() + to);
+        std::copy_n(made.y, n, tile.y.data() + to);
+        std::copy_n(made.lens_u, n, tile.lens_u.data() + to);
+        std::copy_n(made.lens_v, n, tile.lens_v.data() + to);
+        std::copy_n(made.time, n, tile.time.data() + to);
+        interleave_rays(made, n, tile.rays.data() + to);
     }
 }
 

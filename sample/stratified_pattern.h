@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sample/jittered_run.h"
 #include "sample/sample_pattern.h"
 #include "sample/strata.h"
 
@@ -24,12 +25,15 @@ class StratifiedPattern final : public SamplePattern {
     uint32_t time_region_of(int sample, uint32_t shift) const {
         return (time_of_[static_cast<size_t>(sample)] + shift) % static_cast<uint32_t>(sample_count());
     }
+    uint32_t lens_region_of(int sample) const { return lens_of_[static_cast<size_t>(sample)]; }
     /// Where sample `sample` of all pixels of a time shift looks.
     TimeSpan time_bounds(int sample, uint32_t shift) const;
     LensBox lens_bounds(int sample) const;
 
   private:
-    void make_pixel(int px, int py, size_t first, SampleTile& tile) const;
+    uint32_t pixel_hash(int px, int py) const;
+    uint32_t time_shift_of(uint32_t pixel_hash) const;
+    void make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made, SampleTile& tile) const;
 
     Camera camera_;
     int nx_, ny_;
@@ -37,6 +41,7 @@ class StratifiedPattern final : public SamplePattern {
     bool motion_;
     std::vector<uint32_t> lens_of_;  ///< subpixel region -> lens region, the same in all pixels
     std::vector<uint32_t> time_of_;  ///< subpixel region -> time region, before the pixel's shift
+    RunRegions regions_;
 };
 
 }  // namespace trapeze

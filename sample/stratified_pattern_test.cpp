@@ -2,9 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <random>
 #include <set>
 
+#include "core/random.h"
+#include "core/simd_limit.h"
+#include "sample/jittered_run.h"
 #include "sample/magic_square.h"
 #include "sample/test_frame.h"
 
@@ -127,6 +133,97 @@ TEST(StratifiedPattern, RaysAreTheCameras) {
         ASSERT_EQ(tile.rays[i].ox, ray.ox);
         ASSERT_EQ(tile.rays[i].uy, ray.uy);
         ASSERT_EQ(tile.rays[i].time, tile.time[i]);
+    }
+}
+
+/// One sample, as strata.h says it.
+struct ScalarSample {
+    float x = 0, y = 0, time = 0;
+    V2f lens{0, 0};
+
+    ScalarSample(const TestFrame& frame, const StratifiedPattern& pattern, int px, int py, int sample) {
+        const auto nx = static_cast<uint32_t>(frame.context.samples_x);
+        const int ny = frame.context.samples_y;
+        const auto i = static_cast<uint32_t>(sample);
+        const uint32_t pixel = hash(frame.context.seed, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
+        const auto jitter = [own = hash(pixel + i)](SampleDimension d) { return unit_float(hash(own + d)); };
+        x = within_pixel(px, place(i % nx, jitter(kSubpixelX), static_cast<int>(nx)));
+        y = within_pixel(py, place(i / nx, jitter(kSubpixelY), ny));
+        const uint32_t region = pattern.lens_region_of(sample);
+        if (frame.context.camera.has_lens())
+            lens = disk_from_square(place(region % nx, jitter(kLensU), static_cast<int>(nx)),
+                                    place(region / nx, jitter(kLensV), ny));
+        if (frame.context.motion)
+            time = place(pattern.time_region_of(sample, pattern.time_shift(px, py)), jitter(kTime),
+                         pattern.sample_count());
+    }
+};
+
+TEST(StratifiedPattern, EqualsTheScalarFormOnEveryInstructionSet) {
+    std::string error;
+    int tried = 0;
+    for (const std::string_view limit : simd_names()) {
+        if (!limit_simd(limit, &error)) continue;
+        ++tried;
+        for (const auto& [nx, ny] :
+             {std::pair{1, 1}, {2, 2}, {3, 3}, {2, 4}, {5, 4}, {8, 8}, {13, 13}, {17, 16}})
+            for (int kind = 0; kind < 8; ++kind) {
+                TestFrame frame = frame_of_samples(nx, ny, kind & 1, kind & 2);
+                if (kind & 4) frame.options.projection = "orthographic", frame.update();
+                const StratifiedPattern pattern(frame.context);
+                for (const PixelRect& pixels : {PixelRect{-5, -2, 14, 1}, PixelRect{60, 4, 61, 5}}) {
+                    const SampleTile tile = tile_of(frame, pixels);
+                    size_t at = 0;
+                    for (int py = pixels.y0; py < pixels.y1; ++py)
+                        for (int px = pixels.x0; px < pixels.x1; ++px)
+                            for (int i = 0; i < nx * ny; ++i, ++at) {
+                                const ScalarSample s(frame, pattern, px, py, i);
+                                const AxisRay ray =
+                                    frame.context.camera.ray(s.x, s.y, s.lens.x, s.lens.y, s.time);
+                                const auto bits = [](auto... values) {
+                                    return std::array{std::bit_cast<uint32_t>(values)...};
+                                };
+                                const AxisRay& made = tile.rays[at];
+                                ASSERT_EQ(bits(tile.x[at], tile.y[at], tile.lens_u[at], tile.lens_v[at],
+                                               tile.time[at]),
+                                          bits(s.x, s.y, s.lens.x, s.lens.y, s.time))
+                                    << limit << " " << nx << "x" << ny << " pixel " << px << " " << py;
+                                ASSERT_EQ(bits(made.ox, made.oy, made.oz, made.ux, made.uy, made.time),
+                                          bits(ray.ox, ray.oy, ray.oz, ray.ux, ray.uy, ray.time))
+                                    << limit << " " << nx << "x" << ny << " pixel " << px << " " << py;
+                            }
+                    ASSERT_EQ(at, tile.size());
+                }
+            }
+    }
+    EXPECT_GT(tried, 1);
+    limit_simd("best", &error);
+}
+
+TEST(Strata, TheDiskIsShirleysWithinAFewUlps) {
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> unit(0, 1);
+    double worst = 0;
+    for (int n = 0; n < 100000; ++n) {
+        // Edges, diagonals and the middle of the square among them.
+        const float u = n % 11 == 0 ? 0.0f : (n % 13 == 0 ? 0.5f : unit(engine));
+        const float v = n % 7 == 0 ? u : (n % 17 == 0 ? 1 - u : (n % 19 == 0 ? 0.5f : unit(engine)));
+        const double a = 2 * u - 1, b = 2 * v - 1;
+        double x = 0, y = 0;
+        if (std::abs(a) > std::abs(b))
+            x = a * std::cos(M_PI / 4 * (b / a)), y = a * std::sin(M_PI / 4 * (b / a));
+        else if (b != 0)
+            x = b * std::sin(M_PI / 4 * (a / b)), y = b * std::cos(M_PI / 4 * (a / b));
+        const V2f found = disk_from_square(u, v);
+        worst = std::max({worst, std::abs(found.x - x), std::abs(found.y - y)});
+    }
+    EXPECT_LT(worst, 3e-7);  // five ulps at the rim
+}
+
+TEST(Strata, TheLastPlaceOfAPixelIsJustBeforeTheNext) {
+    for (const int pixel : {-100000, -3, -2, -1, 0, 1, 2, 63, 64, 16384, 100000}) {
+        const auto low = static_cast<float>(pixel), high = static_cast<float>(pixel + 1);
+        EXPECT_EQ(last_place_of(pixel), std::nextafter(high, low)) << pixel;
     }
 }
 
