@@ -93,6 +93,13 @@ std::vector<TestScene> make_scenes() {
     add_sheets(scene("static", false, false).maker, 30, 1, 1);
     add_sheets(scene("motion", true, false).maker, 30, 2, 2);
     add_sheets(scene("defocus", false, true).maker, 30, 1, 3);
+    {
+        TestScene& parallel = scene("orthographic without a lens", false, false);
+        parallel.frame.options.projection = "orthographic";
+        parallel.frame.options.screen_window = {-4, 4, -3, 3};
+        parallel.frame.update();
+        add_sheets(parallel.maker, 30, 1, 35);
+    }
     add_sheets(scene("motion and defocus", true, true).maker, 30, 2, 4);
     add_sheets(scene("five keys", true, true).maker, 20, 5, 5, 2);
     {

@@ -39,7 +39,7 @@ HWY_INLINE bool is_hidden(SlotRaster& raster, const GridInSlot& in) {
 }
 
 /// Micropolygons into a slot, cell by cell.
-template <Motion kMotion, bool kLens>
+template <Motion kMotion, bool kOrigins>
 class CellRaster {
   public:
     CellRaster(SlotRaster& raster, const GridInSlot& in, const VertexRows& rows, SlotGridScratch& boxes,
@@ -219,7 +219,7 @@ class CellRaster {
     const GridInSlot& in_;
     SlotGridScratch& boxes_;
     SampleStats& stats_;
-    BlockRows<kMotion, kLens> rows_;
+    BlockRows<kMotion, kOrigins> rows_;
     int row_length_, shift_;
 };
 
@@ -234,8 +234,9 @@ void raster_grid(SlotRaster& raster, const GridInSlot& in, SlotGridScratch& scra
         bound_vertices<false>(constants, in, rows, scratch);
     if (!bound_micropolygons(raster, in, rows, scratch)) return;
     SampleStats counted;
+    const bool origins = lens || !raster.camera.perspective;  // else all rays start in one point
     const auto run = [&](auto motion) HWY_ATTR {
-        if (lens)
+        if (origins)
             CellRaster<motion(), true>(raster, in, rows, scratch, counted).run();
         else
             CellRaster<motion(), false>(raster, in, rows, scratch, counted).run();

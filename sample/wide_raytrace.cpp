@@ -72,10 +72,12 @@ class WideRayTraced final : public Visibility {
     void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, std::vector<Hit>& nearest,
                         SampleScratch& scratch, SampleStats& stats) const {
         RayBundle& rays = *scratch.bundle;
-        fill_bundle(samples.rays, order, lens_, motion_, rays);
+        // Rays start in one point only where they all pass a pinhole.
+        const bool origins = lens_ || !camera_.perspective;
+        fill_bundle(samples.rays, order, origins, motion_, rays);
         count_costs_from(rays, scratch);
-        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, camera_.has_lens(), camera_.focal_distance,
-                     rays, *scratch.bundle_scratch, stats);
+        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, camera_.focal_distance, rays,
+                     *scratch.bundle_scratch, stats);
         for (size_t i = 0; i < order.size(); ++i)
             nearest[order[i]] = {rays.depth[i],
                                  rays.id[i] == RayBundle::kNone ? MicropolygonId::kNone : rays.id[i]};
