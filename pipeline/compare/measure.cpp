@@ -49,8 +49,9 @@ class RateRun {
         const SamplePattern& pattern = *patterns_[result.pattern];
         Stopwatch watch;
         const auto visibility = result.sampler.prepare(context_, frame_.grids, pattern);
-        result.build_seconds.push_back(watch.lap());
+        const double prepared = watch.lap();
         result.build = visibility->build_stats();
+        result.build_seconds.push_back(prepared - result.build.setup_seconds);
         result.tile_side = visibility->tile_side();
 
         SampleGroups& groups = groups_of(result);
