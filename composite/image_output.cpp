@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "composite/srgb.h"
 #include "core/random.h"
 
 namespace trapeze {
@@ -28,13 +29,6 @@ const char* format_name(FileFormat format) {
             return "bmp";
     }
     return "";
-}
-
-/// IEC 61966-2-1.
-float srgb_encoded(float linear) {
-    if (!(linear > 0)) return 0;
-    if (linear <= 0.0031308f) return 12.92f * linear;
-    return static_cast<float>(1.055 * std::pow(static_cast<double>(linear), 1 / 2.4) - 0.055);
 }
 
 /// How the picture's pixels become the file's.

@@ -11,6 +11,7 @@
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/version.h"
+#include "pipeline/compare/report/html_report.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sampler_list.h"
 #include "pipeline/compare/table.h"
@@ -134,6 +135,7 @@ bool CompareJob::write_file(const std::string& path, const std::string& text) {
 void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& frame) {
     bool good = true;
     if (!options_.json.empty()) good = write_file(options_.json, to_json(comparison).dump(2) + "\n") && good;
+    if (!options_.report.empty()) good = write_file(options_.report, html_report(comparison)) && good;
     if (!options_.folder.empty())
         good = write_pictures(comparison, frame, options_.folder, std::string("Trapeze ") + kVersion) && good;
     output_failed_ = !good;

@@ -28,6 +28,12 @@ std::vector<const ComparedMethod*> Comparison::at(SampleRate rate) const {
     return found;
 }
 
+MethodKind kind_of(const MethodResult& result) {
+    const std::string& name = result.sampler.method.name;
+    if (name == "bruteforce") return MethodKind::BruteForce;
+    return name == "raytrace" || name == "embree" ? MethodKind::RayTracer : MethodKind::Rasterizer;
+}
+
 std::string rate_text(SampleRate rate) {
     return std::to_string(rate.x) + "x" + std::to_string(rate.y);
 }

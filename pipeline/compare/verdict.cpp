@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/compare/value_text.h"
 
@@ -16,10 +17,6 @@ constexpr double kMoreMisses = 1.5;
 /// A build that takes more of the sampling time than this is a reason of its own.
 constexpr double kLargeBuild = 0.35;
 constexpr float kBlurredPixels = 2;  ///< blur that rasterizers' boxes notice
-
-bool traces(const MethodResult& r) {
-    return r.sampler.method.name == "raytrace" || r.sampler.method.name == "embree";
-}
 
 /// Embree's tests are its own affair.
 bool counts_tests(const MethodResult& r) {
@@ -51,6 +48,35 @@ bool equal_times(const MethodResult& fast, const MethodResult& slow) {
     return shortest <= longest;
 }
 
+/// On the same samples methods see the same, or (other code than ours) nearly so.
+constexpr double kEqualHits = 0.01;
+
+/// The method that a method disagrees with: the baseline, or the first, of its pattern at its rate. Null when
+/// they see about the same.
+const MethodResult* opponent_of(const Comparison& c, const MethodResult& r) {
+    const MethodResult* judge = nullptr;
+    for (const ComparedMethod* m : c.at(r.rate)) {
+        if (m->result.pattern != r.pattern) continue;
+        if (!judge || m->result.method == c.baseline) judge = &m->result;
+    }
+    const auto wanted = static_cast<double>(judge->hits), found = static_cast<double>(r.hits);
+    return std::abs(found - wanted) > kEqualHits * std::max(found, wanted) ? judge : nullptr;
+}
+
+/// Methods whose figures cannot be held against the others': they solved another problem.
+std::string disagreement_sentences(const Comparison& c) {
+    std::string text;
+    for (const ComparedMethod& m : c.methods)
+        if (const MethodResult* opponent = opponent_of(c, m.result))
+            text += fmt::format(
+                "{}At {} samples {} finds {} hits where {} finds {} with the same samples; it takes no part "
+                "in "
+                "what follows.",
+                text.empty() ? "" : " ", rate_text(m.result.rate), m.result.method, m.result.hits,
+                opponent->method, opponent->hits);
+    return text;
+}
+
 /// The contest at one sample rate; null where a kind is not there.
 struct Standing {
     const MethodResult* fastest = nullptr;
@@ -58,16 +84,16 @@ struct Standing {
     const MethodResult* rasterizer = nullptr;  ///< fastest rasterizer
 };
 
-Standing standing_at(const Comparison& comparison, SampleRate rate) {
+Standing standing_at(const Comparison& c, SampleRate rate) {
     Standing s;
     const auto take = [](const MethodResult*& best, const MethodResult& r) {
         if (!best || r.total_median() < best->total_median()) best = &r;
     };
-    for (const ComparedMethod* m : comparison.at(rate)) {
+    for (const ComparedMethod* m : c.at(rate)) {
         const MethodResult& r = m->result;
-        if (r.sampler.method.name == "bruteforce") continue;
+        if (kind_of(r) == MethodKind::BruteForce || opponent_of(c, r)) continue;
         take(s.fastest, r);
-        take(traces(r) ? s.tracer : s.rasterizer, r);
+        take(kind_of(r) == MethodKind::RayTracer ? s.tracer : s.rasterizer, r);
     }
     return s;
 }
@@ -158,7 +184,8 @@ std::string growth_sentence(const Comparison& c) {
 /// Of the most samples; patterns differ, and so do their errors.
 std::string error_sentence(const Comparison& c) {
     if (c.rates.empty()) return {};
-    const auto methods = c.at(c.rates.back());
+    auto methods = c.at(c.rates.back());
+    std::erase_if(methods, [&](const ComparedMethod* m) { return opponent_of(c, m->result) != nullptr; });
     if (methods.size() < 2) return {};
     const auto by_error = [](const ComparedMethod* a, const ComparedMethod* b) { return a->rmse < b->rmse; };
     const auto [least, most] = std::minmax_element(methods.begin(), methods.end(), by_error);
@@ -184,7 +211,7 @@ std::string conclusion(const Comparison& c) {
     if (winners.empty()) return "Nothing was compared that one would render with.";
     std::string text = "For this scene take " + winners.front().first;
     if (winners.size() == 1)
-        return text + (rates.size() == 1 ? "." : fmt::format(" at all {} sample rates.", rates.size()));
+        return text + (rates.size() == 1 ? "." : " at every sample rate.");
     text += " at " + rate_text(winners.front().second);
     for (size_t i = 1; i < winners.size(); ++i)
         text += fmt::format(", {} from {} on", winners[i].first, rate_text(winners[i].second));
@@ -194,7 +221,7 @@ std::string conclusion(const Comparison& c) {
 }  // namespace
 
 std::vector<std::string> judge(const Comparison& comparison) {
-    std::vector<std::string> sentences{blur_sentence(comparison)};
+    std::vector<std::string> sentences{blur_sentence(comparison), disagreement_sentences(comparison)};
     for (const SampleRate& rate : comparison.rates) sentences.push_back(rate_sentence(comparison, rate));
     sentences.push_back(growth_sentence(comparison));
     sentences.push_back(error_sentence(comparison));

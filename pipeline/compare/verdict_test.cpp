@@ -95,6 +95,17 @@ TEST(Verdict, BruteForceTakesNoPart) {
     EXPECT_THAT(joined(alone), HasSubstr("Nothing was compared"));
 }
 
+TEST(Verdict, AMethodThatSeesOtherThingsTakesNoPart) {
+    auto c = comparison_of({method("raytrace", kMany, 0, 1, 3000), method("bruteforce", kMany, 0, 9, 3000),
+                            method("raytrace:tree=paper", kMany, 0, 0.1, 3000)});
+    c.baseline = "raytrace";
+    for (ComparedMethod& m : c.methods) m.result.hits = 1000;
+    EXPECT_THAT(joined(c), HasSubstr("For this scene take raytrace:tree=paper."));
+    c.methods[2].result.hits = 0;
+    EXPECT_THAT(joined(c), HasSubstr("raytrace:tree=paper finds 0 hits where raytrace finds 1000"));
+    EXPECT_THAT(joined(c), HasSubstr("For this scene take raytrace."));
+}
+
 TEST(Verdict, ErrorsAreComparedWithTheirPatterns) {
     auto c = comparison_of({method("raytrace", kMany, 0, 1, 3000), method("interval", kMany, 0, 2, 9000)});
     EXPECT_THAT(joined(c), HasSubstr("differ by less than 5%"));
