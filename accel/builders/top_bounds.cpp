@@ -9,45 +9,46 @@ namespace {
 
 constexpr int kParallelDepth = 7;  ///< levels whose subtrees are bounded in parallel
 
-/// The bound of two in a given orientation.
-HyperTrapezoid union_in(const Frame& frame, const HyperTrapezoid& a, const HyperTrapezoid& b) {
-    HyperTrapezoid both = a.in(frame, a.key_count());
-    both.merge(b);
-    return both;
-}
-
-/// The bound of two, in the orientation of that one which makes it smaller; the first one's of equals.
-HyperTrapezoid smaller_union(const HyperTrapezoid& a, const HyperTrapezoid& b) {
-    HyperTrapezoid in_a = union_in(a.frame, a, b);
-    if (a.frame == b.frame) return in_a;
-    HyperTrapezoid in_b = union_in(b.frame, b, a);
-    return in_b.expected_half_area() < in_a.expected_half_area() ? in_b : in_a;
-}
+/// Nodes of up to this many leaves are bounded from their leaves' bounds, larger ones from their children's:
+/// a box that is turned into another orientation grows, so it should be turned once and not at every level.
+constexpr size_t kFromLeavesUpTo = 1024;
 
 class Bounding {
   public:
     Bounding(const TopTopology& topology, const PaperTreeOptions& options,
              const std::function<NodeBound(uint32_t)>& bound_of, TopLevel& top)
-        : topology_(topology), options_(options), bound_of_(bound_of), top_(top) {}
+        : topology_(topology),
+          options_(options),
+          bound_of_(bound_of),
+          top_(top),
+          leaves_(topology.inner.size() + 1) {}
 
-    NodeBound bound(TopLink link, int depth) const {
-        if (link.is_leaf()) {
-            NodeBound leaf = bound_of_(link.index());
+    /// Leaves from left to right. Inner nodes are in preorder, so that a subtree's are those from its root's
+    /// on; it has a leaf more than inner nodes.
+    struct Part {
+        TopLink link;
+        size_t first_leaf, leaf_count;
+    };
+    Part all() const { return {topology_.root, 0, leaves_.size()}; }
+
+    NodeBound bound(const Part& part, int depth) {
+        if (part.link.is_leaf()) {
+            NodeBound leaf = bound_of_(part.link.index());
             leaf.box = leaf.box.in(leaf.box.frame, top_.key_count);
+            leaves_[part.first_leaf] = leaf.box;
             return leaf;
         }
         NodeBound child[2];
         const auto build = [&](int side) {
-            const TopLink below = topology_.inner[link.index()][side];
+            const Part below = child_of(part, side);
             child[side] = bound(below, depth + 1);
-            set_node(2 * size_t{link.index()} + side, below, child[side]);
+            set_node(2 * size_t{part.link.index()} + side, below.link, child[side]);
         };
         if (depth < kParallelDepth)
             tbb::parallel_invoke([&] { build(0); }, [&] { build(1); });
         else
             build(0), build(1);
-        return {options_.orient_propagation ? smaller_union(child[0].box, child[1].box)
-                                            : union_in(Frame{}, child[0].box, child[1].box),
+        return {union_of(part, child[0].box, child[1].box),
                 std::max(child[0].absolute_max, child[1].absolute_max),
                 std::max(child[0].quad_extent, child[1].quad_extent)};
     }
@@ -65,10 +66,40 @@ class Bounding {
     }
 
   private:
+    Part child_of(const Part& part, int side) const {
+        const auto& [low, high] = topology_.inner[part.link.index()];
+        size_t low_leaves = part.leaf_count - 1;  // when the high one is a leaf
+        if (!high.is_leaf()) low_leaves = high.index() - part.link.index();
+        if (side == 0) return {low, part.first_leaf, low_leaves};
+        return {high, part.first_leaf + low_leaves, part.leaf_count - low_leaves};
+    }
+
+    /// Without propagation axis-aligned; else in the orientation of that child which makes it smaller, the
+    /// first one's of equals.
+    HyperTrapezoid union_of(const Part& part, const HyperTrapezoid& a, const HyperTrapezoid& b) const {
+        if (!options_.orient_propagation) return union_in(Frame{}, part, a, b);
+        HyperTrapezoid in_a = union_in(a.frame, part, a, b);
+        if (a.frame == b.frame) return in_a;
+        HyperTrapezoid in_b = union_in(b.frame, part, a, b);
+        return in_b.expected_half_area() < in_a.expected_half_area() ? in_b : in_a;
+    }
+    HyperTrapezoid union_in(const Frame& frame, const Part& part, const HyperTrapezoid& a,
+                            const HyperTrapezoid& b) const {
+        HyperTrapezoid both{frame, std::vector<Box3f>(static_cast<size_t>(top_.key_count))};
+        if (part.leaf_count > kFromLeavesUpTo || (a.frame == frame && b.frame == frame)) {
+            both.merge(a);
+            both.merge(b);
+        } else {
+            for (size_t i = 0; i < part.leaf_count; ++i) both.merge(leaves_[part.first_leaf + i]);
+        }
+        return both;
+    }
+
     const TopTopology& topology_;
     const PaperTreeOptions& options_;
     const std::function<NodeBound(uint32_t)>& bound_of_;
     TopLevel& top_;
+    std::vector<HyperTrapezoid> leaves_;
 };
 
 }  // namespace
@@ -83,8 +114,8 @@ TopLevel bound_top_level(const TopTopology& topology, size_t leaf_count, int key
     top.nodes.resize(2 * leaf_count - 1);
     if (top.oriented) top.frames.resize(top.nodes.size());
     top.boxes.resize(top.nodes.size() * top.key_count);
-    const Bounding bounding(topology, options, bound_of, top);
-    bounding.set_node(top.nodes.size() - 1, topology.root, bounding.bound(topology.root, 0));
+    Bounding bounding(topology, options, bound_of, top);
+    bounding.set_node(top.nodes.size() - 1, topology.root, bounding.bound(bounding.all(), 0));
     return top;
 }
 
