@@ -126,7 +126,9 @@ TEST(PaperTreeOptions, SmallerLeavesAreMoreLeavesAndFewerTests) {
             tree.trace(ray, policy, stats);
         }
         EXPECT_GT(stats.predicate_tests, tests);
-        if (leaves > 0) EXPECT_LT(tree.stats().tree_leaves, leaves);
+        if (leaves > 0) {
+            EXPECT_LT(tree.stats().tree_leaves, leaves);
+        }
         tests = stats.predicate_tests, leaves = tree.stats().tree_leaves;
     }
 }
