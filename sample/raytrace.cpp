@@ -1,4 +1,5 @@
 /// The row "raytrace": rays through a tree of grids, the fast one or the paper's.
+#include "accel/wide_tree.h"
 #include "sample/paper_raytrace.h"
 #include "sample/wide_raytrace.h"
 
@@ -32,8 +33,10 @@ VisibilityMethod raytrace_method() {
             stratified_pattern,
             any_pattern,
             [](const VisibilityInput& input) {
-                return input.spec["tree"] == "paper" ? prepare_paper_raytrace(input)
-                                                     : prepare_wide_raytrace(input);
+                // The wide tree's ids are of 32 bits; the hits are the same.
+                const bool fits = input.grids.grids.size() <= WideTree::kMaxGrids;
+                return input.spec["tree"] == "wide" && fits ? prepare_wide_raytrace(input)
+                                                            : prepare_paper_raytrace(input);
             },
             check_raytrace};
 }
