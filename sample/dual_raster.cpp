@@ -36,7 +36,8 @@ class GridDual {
 
     void run() {
         vertices_.load(grid_.grid);
-        scratch_.candidates.resize(kFull + 64);
+        // A word of samples may come when one less than kFull are there, and a vector is read past the end.
+        scratch_.candidates.resize(kFull + 64 + DualIntervals::kPadding);
         const int32_t* ids = vertices_.quad_ids();
         for (int quad = 0; quad < vertices_.quad_end(); ++quad)
             if (ids[quad] >= 0)
