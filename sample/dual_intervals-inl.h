@@ -30,7 +30,8 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A micropolygon's corners at both ends of a motion segment (the same when it does not move), along an axis.
+/// A micropolygon's corners at both ends of a part of the shutter (at one, when it does not move), along an
+/// axis.
 struct DualCorners {
     float at[2][4], w[2][4];
     float lens[2][4];  ///< rim of the lens times 1 - z / F
@@ -38,9 +39,8 @@ struct DualCorners {
 
 /// What does not depend on the micropolygon.
 struct DualConstants {
-    float slack;     ///< of a, by rounding
-    float lens_rim;  ///< on the axis of the unit disk; more than any sample has
-    int segment, segments;
+    float slack;      ///< of a, by rounding
+    int part, parts;  ///< of the shutter
 };
 
 /// Places in [0, 1] where a function that is `start` at 0 and `end` at 1 is not positive: min to max.
@@ -77,16 +77,16 @@ HWY_INLINE void seen_places(D d, const V (&least)[2], const V (&greatest)[2], V 
     *min = hn::Max(low_min, high_min), *max = hn::Min(low_max, high_max);
 }
 
-/// Sets the intervals of `count` columns; false where the micropolygon is in none.
+/// Sets the intervals of columns first to last; false where the micropolygon is in none.
 template <bool kMoves, bool kLens>
-HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& c, int count,
+HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& c, int first, int last,
                                DualIntervals& to) {
     const hn::CappedTag<float, DualIntervals::kPadding> d;
     using V = hn::Vec<decltype(d)>;
     const V infinite = hn::Set(d, std::numeric_limits<float>::infinity()), slack = hn::Set(d, c.slack);
     constexpr int kEnds = kMoves ? 2 : 1;
     bool any = false;
-    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+    for (int i = first; i <= last; i += static_cast<int>(hn::Lanes(d))) {
         const V low = hn::LoadU(d, &to.low[i]), high = hn::LoadU(d, &to.high[i]);
         V s_least[2] = {infinite, infinite}, s_greatest[2] = {hn::Neg(infinite), hn::Neg(infinite)};
         V t_least[2] = {infinite, infinite}, t_greatest[2] = {hn::Neg(infinite), hn::Neg(infinite)};
@@ -118,19 +118,19 @@ HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& 
             V t_min, t_max;
             seen_places(d, t_least, t_greatest, slack, &t_min, &t_max);
             seen = hn::And(seen, hn::Le(t_min, t_max));
-            const V per_segment = hn::Set(d, 1 / static_cast<float>(c.segments)),
-                    from = hn::Set(d, static_cast<float>(c.segment));
-            t_min = hn::IfThenElse(seen, hn::Mul(hn::Add(t_min, from), per_segment), infinite);
-            store_bins(d, t_min, hn::Mul(hn::Add(t_max, from), per_segment), &to.first_t[i], &to.last_t[i]);
+            const V per_part = hn::Set(d, 1 / static_cast<float>(c.parts)),
+                    from = hn::Set(d, static_cast<float>(c.part));
+            t_min = hn::IfThenElse(seen, hn::Mul(hn::Add(t_min, from), per_part), infinite);
+            store_bins(d, t_min, hn::Mul(hn::Add(t_max, from), per_part), &to.first_t[i], &to.last_t[i]);
         }
         if constexpr (kLens) {  // from [0, 1] of the corners' lens to that of the unit disk
-            const V half = hn::Set(d, 0.5f), rim = hn::Set(d, c.lens_rim);
+            const V half = hn::Set(d, 0.5f), rim = hn::Set(d, DualIntervals::kLensRim);
             s_min = hn::MulAdd(hn::Sub(s_min, half), rim, half),
             s_max = hn::MulAdd(hn::Sub(s_max, half), rim, half);
         }
         s_min = hn::IfThenElse(seen, s_min, infinite);
         store_bins(d, s_min, s_max, &to.first_s[i], &to.last_s[i]);
-        any = any || !hn::AllFalse(d, hn::And(seen, hn::FirstN(d, static_cast<size_t>(count - i))));
+        any = any || !hn::AllFalse(d, hn::And(seen, hn::FirstN(d, static_cast<size_t>(last + 1 - i))));
     }
     return any;
 }

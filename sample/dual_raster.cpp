@@ -1,5 +1,6 @@
 #include "sample/dual_raster.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "sample/visibility_method.h"
@@ -10,6 +11,7 @@
 
 #include "core/hit_micropolygon-inl.h"
 #include "sample/dual_intervals-inl.h"
+#include "sample/dual_mesh-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -23,25 +25,24 @@ class GridDual {
         : raster_(raster),
           camera_(raster.camera),
           grid_(grid),
+          bound_(grid.bounds[grid.index]),
+          segments_(segment_count(grid.grid.key_count)),
           scratch_(raster.scratch.dual),
           vertices_(scratch_.vertices),
           masks_(scratch_.masks),
           width_(raster.samples.pixels.width()),
-          height_(raster.samples.pixels.height()),
           stats_(stats) {
         // A perspective slack's far part counts per depth, which is no more than what `near` has.
-        constants_ = {camera_.perspective ? 3 * grid.bound.slack.near : grid.bound.slack.far, kLensRim, 0,
-                      segment_count(grid.grid.key_count)};
+        constants_.slack = camera_.perspective ? 3 * bound_.slack.near : bound_.slack.far;
+        constants_.parts = kMoves ? std::max(segments_, kLens ? raster.parts : 1) : 1;
     }
 
     void run() {
         vertices_.load(grid_.grid);
         // A word of samples may come when one less than kFull are there, and a vector is read past the end.
         scratch_.candidates.resize(kFull + 64 + DualIntervals::kPadding);
-        const int32_t* ids = vertices_.quad_ids();
-        for (int quad = 0; quad < vertices_.quad_end(); ++quad)
-            if (ids[quad] >= 0)
-                for (int segment = 0; segment < constants_.segments; ++segment) raster_segment(quad, segment);
+        for (constants_.part = 0; constants_.part < constants_.parts; ++constants_.part)
+            if (set_part()) raster_part();
     }
 
   private:
@@ -52,63 +53,75 @@ class GridDual {
 
     /// Candidates are tested when there are so many.
     static constexpr size_t kFull = 512;
-    /// Lens samples lie in the unit disk, but for rounding.
-    static constexpr float kLensRim = 1 + 0x1p-16f;
 
     int corner_of(int quad, int corner) const {
         return quad + (corner & 1) + (corner >> 1) * vertices_.row_length();
     }
 
-    /// A micropolygon during a motion segment.
-    void raster_segment(int quad, int segment) {
-        quad_ = quad, constants_.segment = segment;
-        DualCorners x, y;
-        if (!set_corners(&x, &y)) return;
+    /// False when the grid shows nothing in the tile during the part of the shutter.
+    bool set_part() {
+        const int part = constants_.part, parts = constants_.parts;
+        segment_ = part * segments_ / parts;
+        // Bins have the same bounds as parts, where these are no more: no sample is in two of them.
+        first_bin_ = part * SampleMasks::kBins / parts;
+        last_bin_ = std::max(first_bin_, (part + 1) * SampleMasks::kBins / parts - 1);
+        const auto local = [&](int at) {  // exact: all are powers of two
+            return static_cast<float>(at * segments_) / static_cast<float>(parts) -
+                   static_cast<float>(segment_);
+        };
+        const SegmentPart within{segment_, local(part), local(part + 1)};
+        scratch_.part.assign(1, within);
+        constexpr float kRim = kLens ? DualIntervals::kLensRim : 0;
+        const SlotBound bound =
+            grid_.bounds.slot_bound(grid_.index, scratch_.part, {-kRim, -kRim, kRim, kRim});
+        if (pixels_within(bound.box, raster_.samples.pixels).empty()) return false;
+        return DualMesh<kMoves, kLens>(raster_, bound_).place(within);
+    }
+
+    void raster_part() {
+        const DualMeshScratch& mesh = scratch_.mesh;
+        for (quad_ = 0; quad_ < vertices_.quad_end(); ++quad_)
+            if (mesh.x1[quad_] >= 0)
+                raster_quad({mesh.x0[quad_], mesh.y0[quad_], mesh.x1[quad_] + 1, mesh.y1[quad_] + 1});
+    }
+
+    void raster_quad(const PixelRect& box) {
         DualIntervals &columns = scratch_.columns, &rows = scratch_.rows;
-        if (grid_.bound.boundable) {
-            if (!find_intervals<kMoves, kLens>(x, constants_, width_, columns)) return;
-            if (!find_intervals<kMoves, kLens>(y, constants_, height_, rows)) return;
+        if (bound_.boundable) {
+            if (!find_intervals<kMoves, kLens>(corners(0), constants_, box.x0, box.x1 - 1, columns)) return;
+            if (!find_intervals<kMoves, kLens>(corners(1), constants_, box.y0, box.y1 - 1, rows)) return;
         } else {
-            columns.see_all(), rows.see_all();
+            columns.see_all(box.x0, box.x1 - 1), rows.see_all(box.y0, box.y1 - 1);
         }
-        for (int row = 0; row < height_; ++row)
-            if (rows.first_s[row] <= rows.last_s[row]) collect_row(row);
+        for (int row = box.y0; row < box.y1; ++row)
+            if (rows.first_s[row] <= rows.last_s[row]) collect_row(row, box.x0, box.x1);
         test_candidates();
     }
 
-    /// False when nothing is within the clipping range. Depths between the ends are between theirs, bit for
-    /// bit.
-    bool set_corners(DualCorners* x, DualCorners* y) const {
-        const float rim = camera_.lens_radius * kLensRim, in_focus = 1 / camera_.focal_distance;
-        float z_min = std::numeric_limits<float>::infinity(), z_max = -z_min;
-        for (int end = 0; end < (kMoves ? 2 : 1); ++end)
+    DualCorners corners(int axis) const {
+        const DualMeshScratch& mesh = scratch_.mesh;
+        DualCorners c;
+        for (int end = 0; end < DualMesh<kMoves, kLens>::kEnds; ++end)
             for (int corner = 0; corner < 4; ++corner) {
-                float p[3];
-                for (int axis = 0; axis < 3; ++axis) {
-                    const int at = corner_of(quad_, corner);
-                    p[axis] = vertices_.plane(constants_.segment, axis)[at];
-                    if constexpr (kMoves)
-                        p[axis] = position_at(p[axis], vertices_.plane(constants_.segment, 3 + axis)[at],
-                                              static_cast<float>(end));
-                }
-                z_min = std::min(z_min, p[2]), z_max = std::max(z_max, p[2]);
-                x->at[end][corner] = p[0], y->at[end][corner] = p[1];
-                x->w[end][corner] = y->w[end][corner] = camera_.perspective ? p[2] : 1.0f;
-                x->lens[end][corner] = y->lens[end][corner] = rim * (1 - p[2] * in_focus);
+                const auto at = static_cast<size_t>(corner_of(quad_, corner));
+                c.at[end][corner] = mesh.at[end][axis][at];
+                c.w[end][corner] = camera_.perspective ? mesh.at[end][2][at] : 1.0f;
+                c.lens[end][corner] = mesh.lens[end][at];
             }
-        return z_max >= camera_.near_clip && z_min <= camera_.far_clip;
+        return c;
     }
 
     /// The samples of a row of pixels that lie within both their column's and their row's intervals.
-    void collect_row(int row) {
+    void collect_row(int row, int begin, int end) {
         const DualIntervals &columns = scratch_.columns, &rows = scratch_.rows;
         const size_t words = masks_.words();
         const auto first_v = static_cast<size_t>(rows.first_s[row]) * words,
                    end_v = static_cast<size_t>(rows.last_s[row] + 1) * words;
         const size_t pixel_of_row = static_cast<size_t>(row) * static_cast<size_t>(width_);
-        for (int column = 0; column < width_; ++column) {
-            const int first_t = kMoves ? std::max(columns.first_t[column], rows.first_t[row]) : 0,
-                      last_t = kMoves ? std::min(columns.last_t[column], rows.last_t[row]) : 0;
+        for (int column = begin; column < end; ++column) {
+            const int first_t =
+                          kMoves ? std::max({first_bin_, columns.first_t[column], rows.first_t[row]}) : 0,
+                      last_t = kMoves ? std::min({last_bin_, columns.last_t[column], rows.last_t[row]}) : 0;
             if (first_t > last_t || columns.first_s[column] > columns.last_s[column]) continue;
             ++stats_.nodes_visited;
             const size_t pixel = pixel_of_row + static_cast<size_t>(column);
@@ -150,19 +163,19 @@ class GridDual {
             V local = hn::Zero(d);
             if constexpr (kMoves) {
                 // segment_at(); neighbours of the segment are tested in their own.
-                const V scaled = hn::Mul(hn::GatherIndex(d, &rays->time, ray),
-                                         hn::Set(d, static_cast<float>(constants_.segments)));
-                const VI segment = hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Zero(di)),
-                                           hn::Set(di, constants_.segments - 1));
-                wanted = hn::And(wanted, hn::RebindMask(d, hn::Eq(segment, hn::Set(di, constants_.segment))));
+                const V scaled =
+                    hn::Mul(hn::GatherIndex(d, &rays->time, ray), hn::Set(d, static_cast<float>(segments_)));
+                const VI segment =
+                    hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Zero(di)), hn::Set(di, segments_ - 1));
+                wanted = hn::And(wanted, hn::RebindMask(d, hn::Eq(segment, hn::Set(di, segment_))));
                 local = hn::Sub(scaled, hn::ConvertTo(d, segment));
             }
             const auto vertex = [&](int component, int corner) HWY_ATTR {
                 const int at = corner_of(quad_, corner);
-                const V start = hn::Set(d, vertices_.plane(constants_.segment, component)[at]);
+                const V start = hn::Set(d, vertices_.plane(segment_, component)[at]);
                 if constexpr (kMoves)
-                    return position_at(
-                        start, hn::Set(d, vertices_.plane(constants_.segment, 3 + component)[at]), local);
+                    return position_at(start, hn::Set(d, vertices_.plane(segment_, 3 + component)[at]),
+                                       local);
                 else
                     return start;
             };
@@ -215,14 +228,17 @@ class GridDual {
     DualRaster& raster_;
     const Camera& camera_;
     const DualGrid& grid_;
+    const GridBound& bound_;
+    const int segments_;
     DualScratch& scratch_;
     VertexRows& vertices_;
     const SampleMasks& masks_;
-    const int width_, height_;
+    const int width_;
     DualConstants constants_{};
     SampleStats& stats_;
-    int quad_ = 0;      ///< its vertex 00
-    size_t count_ = 0;  ///< candidates
+    int segment_ = 0, first_bin_ = 0, last_bin_ = 0;  ///< of the part of the shutter
+    int quad_ = 0;                                    ///< its vertex 00
+    size_t count_ = 0;                                ///< candidates
 };
 
 void raster_grid_dual(DualRaster& raster, const DualGrid& grid, SampleStats& stats) {
@@ -254,9 +270,19 @@ void DualIntervals::set_pixels(int first, int count, float plane_scale, float pl
     }
 }
 
-void DualIntervals::see_all() {
-    for (auto* plane : {&first_s, &first_t}) std::fill(plane->begin(), plane->end(), 0);
-    for (auto* plane : {&last_s, &last_t}) std::fill(plane->begin(), plane->end(), SampleMasks::kBins - 1);
+void DualIntervals::see_all(int first, int last) {
+    for (auto* plane : {&first_s, &first_t}) std::fill(plane->begin() + first, plane->begin() + last + 1, 0);
+    for (auto* plane : {&last_s, &last_t})
+        std::fill(plane->begin() + first, plane->begin() + last + 1, SampleMasks::kBins - 1);
+}
+
+void DualMeshScratch::resize(size_t count) {
+    for (auto& end : at)
+        for (auto& plane : end) plane.resize(count);
+    for (auto& plane : lens) plane.resize(count);
+    for (auto& plane : min) plane.resize(count);
+    for (auto& plane : max) plane.resize(count);
+    for (auto* plane : {&x0, &x1, &y0, &y1}) plane->resize(count);
 }
 
 void raster_grid_dual(DualRaster& raster, const DualGrid& grid, SampleStats& stats) {

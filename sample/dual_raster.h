@@ -20,14 +20,28 @@ struct SampleScratch;
 /// pixel, without a lens) a micropolygon may be seen there: bins of SampleMasks, first to last.
 struct DualIntervals {
     static constexpr int kPadding = 16;
+    /// Lens samples lie in the unit disk, but for rounding: within this on each axis.
+    static constexpr float kLensRim = 1 + 0x1p-16f;
 
     std::vector<float> low, high;  ///< the image plane at the pixels' sides
     std::vector<int32_t> first_s, last_s, first_t, last_t;
 
     /// `count` pixels from `first`.
     void set_pixels(int first, int count, float plane_scale, float plane_offset);
-    /// Everything, everywhere.
-    void see_all();
+    /// Everything, in pixels first to last.
+    void see_all(int first, int last);
+};
+
+/// A grid during a part of the shutter.
+struct DualMeshScratch {
+    std::vector<float> at[2][3];  ///< vertices at its ends; component
+    std::vector<float> lens[2];   ///< camera-space radius of the lens times 1 - z / F there
+    std::vector<float> min[3],
+        max[3];  ///< of vertices, in the image plane through any part of the lens; depth
+    std::vector<int32_t> x0, x1, y0,
+        y1;  ///< pixels of micropolygons from the tile's corner; none where x1 < 0
+
+    void resize(size_t count);
 };
 
 struct DualScratch {
@@ -35,6 +49,8 @@ struct DualScratch {
     SampleMasks masks;
     DualIntervals columns, rows;
     VertexRows vertices;
+    DualMeshScratch mesh;
+    std::vector<SegmentPart> part;
     std::vector<uint32_t> candidates;  ///< samples to test
 };
 
@@ -42,6 +58,7 @@ struct DualScratch {
 struct DualRaster {
     const Camera& camera;
     const SampleTile& samples;
+    int parts;        ///< of the shutter, at least, that are bounded apart; a power of two
     bool all_opaque;  ///< else hits are also listed, as buffer_of_loose_hits() takes them
     SampleScratch& scratch;
 };
@@ -49,7 +66,7 @@ struct DualRaster {
 struct DualGrid {
     const Grid& grid;
     uint32_t index;
-    const GridBound& bound;
+    const GridBounds& bounds;
 };
 
 /// Runs on the best instruction set at hand.

@@ -97,6 +97,42 @@ TEST(DualSpace, FewSamplesAreTested) {
     }
 }
 
+/// Pixels that add nearly a word's worth to a queue that is nearly full; the address sanitizer looks on.
+TEST(DualSpace, OneMicropolygonMayHoldAllSamples) {
+    TestFrame frame(40, 30, 1, true, true);
+    frame.context.samples_x = 9, frame.context.samples_y = 7;
+    GridMaker maker;
+    for (const int keys : {1, 2})
+        maker.add(1, 1, keys, [=](int i, int j, float t) {
+            return V3f(20 * static_cast<float>(i) - 10 + t, 20 * static_cast<float>(j) - 10,
+                       4 + static_cast<float>(keys));
+        });
+    Resolved truth, found;
+    resolve(frame, maker.grids(), "bruteforce", {0, 0, 40, 30}, truth);
+    resolve(frame, maker.grids(), "dualspace", {0, 0, 40, 30}, found);
+    EXPECT_TRUE(found.hits == truth.hits);
+    EXPECT_EQ(found.hits.hits.size(), found.samples.size());
+}
+
+/// More parts than segments, and fewer.
+TEST(DualSpace, PartsOfTheShutterChangeNoHit) {
+    const TestFrame frame(90, 70, 4, true, true);
+    for (const int keys : {1, 2, 5, 65}) {
+        GridMaker maker;
+        maker.opaque = false;
+        add_flying_sheet(maker, keys);
+        Resolved truth, found;
+        resolve(frame, maker.grids(), "bruteforce", {0, 0, 90, 70}, truth);
+        uint64_t tests = ~uint64_t{0};
+        for (const std::string parts : {"1", "2", "4", "8"}) {
+            resolve(frame, maker.grids(), "dualspace:parts=" + parts, {0, 0, 90, 70}, found);
+            EXPECT_TRUE(found.hits == truth.hits) << keys << " " << parts;
+            EXPECT_LE(found.stats.predicate_tests, tests);
+            tests = found.stats.predicate_tests;
+        }
+    }
+}
+
 TEST(DualSpace, WithoutALensThePlaceInThePixelIsBounded) {
     const TestFrame frame(90, 70, 8, false, false);
     GridMaker maker;
