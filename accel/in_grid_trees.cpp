@@ -117,8 +117,7 @@ void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const
             vertices_in_frame(grid, pose, summary.frame, vertices);
             root.extendBy(bounds.add(vertices, all));
         }
-        const V3f pad(boundable ? kBoundRounding * summary.absolute_max + 0x1p-80f : 0.0f);
-        bound.keys.push_back(boundable ? Box3f(root.min - pad, root.max + pad) : point_box());
+        bound.keys.push_back(boundable ? grown_for_frame(root, summary.absolute_max) : point_box());
         if (!boundable) continue;  // quanta and steps stay 0
 
         const Box3f& outer = bound.keys.back();

@@ -15,6 +15,10 @@ namespace {
 /// Parts of up to this many micropolygons are split at the best of all places.
 constexpr size_t kSweepUpTo = 64;
 
+/// Nodes of up to this many leaves are bounded from the vertices. With 8, rays visit twice the nodes where
+/// things fly past each other.
+constexpr size_t kBoundFromVerticesUpTo = 32;
+
 /// The bound in a frame of some micropolygons of one grid at the grid's keys, or at all times.
 HyperTrapezoid bound_in(const Frame& frame, const Grid& grid, std::span<const MicropolygonId> part,
                         float absolute_max, bool whole_motion) {
@@ -23,14 +27,13 @@ HyperTrapezoid bound_in(const Frame& frame, const Grid& grid, std::span<const Mi
         bound.keys = {Box3f(V3f(0), V3f(0))};
         return bound;
     }
-    const V3f pad(kBoundRounding * absolute_max + 0x1p-80f);
     for (int key = 0; key < grid.key_count; ++key) {
         Box3f box;
         for (const MicropolygonId& id : part)
             for (int corner = 0; corner < 4; ++corner)
                 box.extendBy(
                     frame.from_space(vertex_of_key(grid, key, id.u + (corner & 1), id.v + (corner >> 1))));
-        box = {box.min - pad, box.max + pad};
+        box = grown_for_frame(box, absolute_max);
         if (whole_motion && key > 0)
             bound.keys[0].extendBy(box);
         else
@@ -47,6 +50,19 @@ void for_each_grid(std::span<const MicropolygonId> list, OfGrid&& of_grid) {
         while (last < list.size() && list[last].grid == list[first].grid) ++last;
         of_grid(list.subspan(first, last - first));
     }
+}
+
+/// The orientation of some micropolygons, from their averaged edges at mid-shutter as for a grid.
+Frame frame_of_micropolygons(const Grids& grids, std::span<const MicropolygonId> list) {
+    V3d along_u(0), along_v(0);
+    for (const MicropolygonId& id : list) {
+        const Grid& grid = grids.grids[id.grid];
+        V3d corner[4];
+        for (int c = 0; c < 4; ++c) corner[c] = V3d(grid.vertex(id.u + (c & 1), id.v + (c >> 1), 0.5f));
+        along_u += (corner[1] - corner[0]) + (corner[3] - corner[2]);
+        along_v += (corner[2] - corner[0]) + (corner[3] - corner[1]);
+    }
+    return frame_of(along_u, along_v);
 }
 
 }  // namespace
@@ -81,33 +97,44 @@ void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
                   [](const MicropolygonId& a, const MicropolygonId& b) { return a.packed() < b.packed(); });
     });
 
-    top_ = bound_top_level(topology.tree, leaf_count, grids_.max_key_count(), options,
-                           [&](uint32_t index) { return leaf_bound(index, summaries, options); });
+    const LeafBounds bounds{
+        [&](uint32_t index) { return leaf_bound(index, summaries, options); },
+        [&](uint32_t index, const Frame& frame) { return leaf_bound_in(frame, index, summaries, options); },
+        kBoundFromVerticesUpTo};
+    top_ = bound_top_level(topology.tree, leaf_count, grids_.max_key_count(), options, bounds);
     stats_.tree_bytes = sizeof(*this) + top_.bytes() + micropolygons_.capacity() * sizeof(MicropolygonId) +
                         leaf_first_.capacity() * sizeof(uint32_t);
     stats_.tree_nodes = top_.nodes.size();
     stats_.tree_leaves = leaf_count;
 }
 
+HyperTrapezoid MicropolygonTree::leaf_bound_in(const Frame& frame, uint32_t index,
+                                               const std::vector<GridSummary>& summaries,
+                                               const PaperTreeOptions& options) const {
+    const bool whole_motion = options.bounds == PaperTreeOptions::Bounds::WholeMotion;
+    HyperTrapezoid all{frame, {}};
+    for_each_grid(leaf(index), [&](std::span<const MicropolygonId> part) {
+        const uint32_t grid = part[0].grid;
+        const HyperTrapezoid bound =
+            bound_in(frame, grids_.grids[grid], part, summaries[grid].absolute_max, whole_motion);
+        if (all.keys.empty())
+            all = bound;
+        else
+            all.merge(bound);
+    });
+    return all;
+}
+
 NodeBound MicropolygonTree::leaf_bound(uint32_t index, const std::vector<GridSummary>& summaries,
                                        const PaperTreeOptions& options) const {
-    const bool whole_motion = options.bounds == PaperTreeOptions::Bounds::WholeMotion;
     const std::span<const MicropolygonId> list = leaf(index);
     NodeBound smallest;
     double least_area = std::numeric_limits<double>::infinity();
     const auto consider = [&](const Frame& frame) {
-        HyperTrapezoid all{frame, {}};
-        for_each_grid(list, [&](std::span<const MicropolygonId> part) {
-            const uint32_t grid = part[0].grid;
-            const HyperTrapezoid bound =
-                bound_in(frame, grids_.grids[grid], part, summaries[grid].absolute_max, whole_motion);
-            if (all.keys.empty())
-                all = bound;
-            else
-                all.merge(bound);
-        });
-        const double area = all.expected_half_area();
-        if (smallest.box.keys.empty() || area < least_area) smallest.box = std::move(all), least_area = area;
+        HyperTrapezoid bound = leaf_bound_in(frame, index, summaries, options);
+        const double area = bound.expected_half_area();
+        if (smallest.box.keys.empty() || area < least_area)
+            smallest.box = std::move(bound), least_area = area;
     };
     for_each_grid(list, [&](std::span<const MicropolygonId> part) {
         const GridSummary& grid = summaries[part[0].grid];
@@ -115,6 +142,8 @@ NodeBound MicropolygonTree::leaf_bound(uint32_t index, const std::vector<GridSum
         smallest.absolute_max = std::max(smallest.absolute_max, grid.absolute_max);
         smallest.quad_extent = std::max(smallest.quad_extent, grid.quad_extent);
     });
+    if (options.oriented() && std::isfinite(smallest.absolute_max))
+        consider(frame_of_micropolygons(grids_, list));
     return smallest;
 }
 

@@ -1,6 +1,6 @@
 /// The paper's tree without its parametric splits [Hou10 table 4]: a greedy SAH build over single
-/// micropolygons at mid-shutter, bounded as in PaperTree. The grids' structure is not used but for
-/// orientations: a leaf takes that of one of its micropolygons' grids, the one that makes it smallest.
+/// micropolygons at mid-shutter, bounded as in PaperTree. A leaf takes that orientation which makes it
+/// smallest: from the averaged edges of its own micropolygons, or that of one of their grids.
 #pragma once
 
 #include <vector>
@@ -39,6 +39,9 @@ class MicropolygonTree {
         return std::span(micropolygons_)
             .subspan(leaf_first_[index], leaf_first_[index + 1] - leaf_first_[index]);
     }
+    HyperTrapezoid leaf_bound_in(const Frame& frame, uint32_t index,
+                                 const std::vector<GridSummary>& summaries,
+                                 const PaperTreeOptions& options) const;
     NodeBound leaf_bound(uint32_t index, const std::vector<GridSummary>& summaries,
                          const PaperTreeOptions& options) const;
 

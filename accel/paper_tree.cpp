@@ -4,16 +4,28 @@
 #include "accel/builders/top_topology.h"
 
 namespace trapeze {
+namespace {
+
+/// Nodes of up to this many grids are bounded from the vertices. 32 saves a further hundredth of the nodes
+/// visited, for a third more time to build.
+constexpr size_t kBoundFromVerticesUpTo = 8;
+
+}  // namespace
 
 PaperTree::PaperTree(const Grids& grids, const PaperTreeOptions& options,
                      const std::vector<GridSummary>& summaries)
     : grids_(grids), in_grid_(grids.grids, summaries, options, grid_bounds_) {
     const size_t count = grids.grids.size();
-    top_ = bound_top_level(
-        build_top_topology(summaries, options.orient_split), count, grids.max_key_count(), options,
+    const LeafBounds bounds{
         [&](uint32_t grid) {
             return NodeBound{grid_bounds_[grid], summaries[grid].absolute_max, summaries[grid].quad_extent};
-        });
+        },
+        [&](uint32_t grid, const Frame& frame) {
+            return bound_in_frame(grids.grids[grid], summaries[grid].absolute_max, frame);
+        },
+        kBoundFromVerticesUpTo};
+    top_ = bound_top_level(build_top_topology(summaries, options.orient_split), count, grids.max_key_count(),
+                           options, bounds);
     grid_bounds_ = {};
     stats_.tree_bytes = sizeof(*this) + in_grid_.bytes() + top_.bytes();
     stats_.tree_nodes = top_.nodes.size() + 2 * in_grid_.inner_nodes();

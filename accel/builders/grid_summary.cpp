@@ -117,4 +117,27 @@ std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOpt
     return summaries;
 }
 
+Box3f grown_for_frame(const Box3f& box, float absolute_max) {
+    const V3f pad(kBoundRounding * absolute_max + 0x1p-80f);
+    return {box.min - pad, box.max + pad};
+}
+
+HyperTrapezoid bound_in_frame(const Grid& grid, float absolute_max, const Frame& frame) {
+    HyperTrapezoid bound{frame, {}};
+    FramedVertices p;
+    for (int key = 0; key < grid.key_count; ++key) {
+        Box3f box(V3f(0), V3f(0));
+        if (std::isfinite(absolute_max)) {
+            vertices_in_frame(grid, key, frame, p);
+            for (int k = 0; k < 3; ++k) {
+                const auto [low, high] = std::minmax_element(p.c[k], p.c[k] + grid.shape.vertex_count());
+                box.min[k] = *low, box.max[k] = *high;
+            }
+            box = grown_for_frame(box, absolute_max);
+        }
+        bound.keys.push_back(box);
+    }
+    return bound;
+}
+
 }  // namespace trapeze

@@ -28,8 +28,15 @@ GridSummary summarise(const Grid& grid);
 /// Of all grids, with the frames that a tree's bounds have: all axis-aligned unless it is oriented.
 std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOptions& options);
 
+/// A grid's bound in any frame, at its own keys. What has no bound is a point: its rounding makes it
+/// infinite.
+HyperTrapezoid bound_in_frame(const Grid& grid, float absolute_max, const Frame& frame);
+
 /// A vertex at one of the grid's own keys.
 V3f vertex_of_key(const Grid& grid, int key, int i, int j);
+
+/// Grows a box of coordinates in a frame for the rounding of a rotation and of a lerp in time.
+Box3f grown_for_frame(const Box3f& box, float absolute_max);
 
 /// Coordinates in a frame of all vertices at one of the grid's own keys; row by row, u fastest.
 struct FramedVertices {

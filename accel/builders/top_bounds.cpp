@@ -3,23 +3,24 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <span>
 
 namespace trapeze {
 namespace {
 
 constexpr int kParallelDepth = 7;  ///< levels whose subtrees are bounded in parallel
 
-/// Nodes of up to this many leaves are bounded from their leaves' bounds, larger ones from their children's:
-/// a box that is turned into another orientation grows, so it should be turned once and not at every level.
+/// Nodes of up to this many leaves are bounded from the leaves' bounds, turned once; larger ones from their
+/// children's.
 constexpr size_t kFromLeavesUpTo = 1024;
 
 class Bounding {
   public:
-    Bounding(const TopTopology& topology, const PaperTreeOptions& options,
-             const std::function<NodeBound(uint32_t)>& bound_of, TopLevel& top)
+    Bounding(const TopTopology& topology, const PaperTreeOptions& options, const LeafBounds& leaf_bounds,
+             TopLevel& top)
         : topology_(topology),
           options_(options),
-          bound_of_(bound_of),
+          leaf_bounds_(leaf_bounds),
           top_(top),
           leaves_(topology.inner.size() + 1) {}
 
@@ -33,9 +34,9 @@ class Bounding {
 
     NodeBound bound(const Part& part, int depth) {
         if (part.link.is_leaf()) {
-            NodeBound leaf = bound_of_(part.link.index());
+            NodeBound leaf = leaf_bounds_.own(part.link.index());
             leaf.box = leaf.box.in(leaf.box.frame, top_.key_count);
-            leaves_[part.first_leaf] = leaf.box;
+            leaves_[part.first_leaf] = {part.link.index(), leaf.box};
             return leaf;
         }
         NodeBound child[2];
@@ -89,24 +90,31 @@ class Bounding {
         if (part.leaf_count > kFromLeavesUpTo || (a.frame == frame && b.frame == frame)) {
             both.merge(a);
             both.merge(b);
-        } else {
-            for (size_t i = 0; i < part.leaf_count; ++i) both.merge(leaves_[part.first_leaf + i]);
+            return both;
         }
+        const bool from_contents = part.leaf_count <= leaf_bounds_.in_up_to;
+        for (const Leaf& leaf : std::span(leaves_).subspan(part.first_leaf, part.leaf_count))
+            both.merge(from_contents && !(leaf.box.frame == frame) ? leaf_bounds_.in(leaf.index, frame)
+                                                                   : leaf.box);
         return both;
     }
 
+    struct Leaf {
+        uint32_t index = 0;
+        HyperTrapezoid box;
+    };
+
     const TopTopology& topology_;
     const PaperTreeOptions& options_;
-    const std::function<NodeBound(uint32_t)>& bound_of_;
+    const LeafBounds& leaf_bounds_;
     TopLevel& top_;
-    std::vector<HyperTrapezoid> leaves_;
+    std::vector<Leaf> leaves_;
 };
 
 }  // namespace
 
 TopLevel bound_top_level(const TopTopology& topology, size_t leaf_count, int key_count,
-                         const PaperTreeOptions& options,
-                         const std::function<NodeBound(uint32_t leaf)>& bound_of) {
+                         const PaperTreeOptions& options, const LeafBounds& leaves) {
     TopLevel top;
     top.key_count = options.bounds == PaperTreeOptions::Bounds::WholeMotion ? 1 : key_count;
     top.oriented = options.oriented();
@@ -114,7 +122,7 @@ TopLevel bound_top_level(const TopTopology& topology, size_t leaf_count, int key
     top.nodes.resize(2 * leaf_count - 1);
     if (top.oriented) top.frames.resize(top.nodes.size());
     top.boxes.resize(top.nodes.size() * top.key_count);
-    Bounding bounding(topology, options, bound_of, top);
+    Bounding bounding(topology, options, leaves, top);
     bounding.set_node(top.nodes.size() - 1, topology.root, bounding.bound(bounding.all(), 0));
     return top;
 }
