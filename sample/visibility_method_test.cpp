@@ -176,6 +176,34 @@ TEST(VisibilityMethods, WrongNamesAreExplained) {
     EXPECT_THAT(error_of("raytrace", "scattered"), ::testing::HasSubstr("no sample pattern \"scattered\""));
 }
 
+TEST(PaperRayTraced, HeatIsWhatSamplesCost) {
+    GridMaker maker;
+    add_wall(maker, 4, 16);
+    const TestFrame frame(16, 16, 2, true, true);
+    for (const char* method :
+         {"raytrace:tree=paper,bundle=off", "raytrace:tree=paper,bundle=off,split=sah,leaf=4"}) {
+        std::string error;
+        const auto sampler = choose_sampler(method, "", &error);
+        const auto pattern = sampler->make_pattern(frame.context);
+        const auto visibility = sampler->prepare(frame.context, maker.grids(), *pattern);
+        SampleTile samples;
+        pattern->make_tile({0, 0, 16, 16}, samples);
+        SampleHeat heat{std::vector<uint32_t>(samples.size()), std::vector<uint32_t>(samples.size())};
+        SampleScratch scratch;
+        scratch.heat = &heat;
+        SampleStats stats;
+        HitBuffer hits;
+        visibility->resolve(samples, hits, scratch, stats);
+        uint64_t tests = 0, nodes = 0;
+        for (size_t s = 0; s < samples.size(); ++s) {
+            EXPECT_GE(heat.tests[s], 1u);
+            tests += heat.tests[s], nodes += heat.nodes[s];
+        }
+        EXPECT_EQ(tests, stats.predicate_tests) << method;
+        EXPECT_EQ(nodes, stats.nodes_visited) << method;
+    }
+}
+
 TEST(SweptBound, HoldsWhereAnyPartOfTheLensSeesAPointAtAnyTime) {
     std::mt19937 engine(8);
     const auto noise = [&](float from, float to) {
