@@ -182,7 +182,7 @@ TEST(CommandLine, CompareShowsTheTableAndTheVerdictAndWritesTheFigures) {
     folder.write("a.rib", kSphere);
     const Outcome outcome = run_program(folder,
                                         "compare a.rib --samplers 'raytrace;interval' --samples 1x1,2x2 "
-                                        "--reference 4 --repeat 2 --json c.json "
+                                        "--reference 4 --repeat 2 --json c.json --report r.html "
                                         "-o made/here");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("tests/sample"), std::string::npos) << outcome.out;
@@ -197,6 +197,7 @@ TEST(CommandLine, CompareShowsTheTableAndTheVerdictAndWritesTheFigures) {
     for (const char* file :
          {"reference_4x4.exr", "raytrace_1x1.exr", "interval_2x2.exr", "raytrace_2x2_tests.exr"})
         EXPECT_TRUE(fs::exists(folder / "made/here" / file)) << file;
+    EXPECT_TRUE(text_of(folder / "r.html").ends_with("</html>\n"));
     EXPECT_FALSE(fs::exists(folder / "sphere.exr")) << "the scene's own Display is not written";
 }
 

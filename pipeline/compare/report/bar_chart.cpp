@@ -14,7 +14,7 @@ namespace {
 // In the units of the SVG's view box.
 constexpr double kWidth = 580, kTexts = 140, kBars = kWidth - kTexts;
 constexpr double kRow = 46, kLabelHeight = 19, kBarHeight = 16, kAxis = 46;
-constexpr double kMargin = 4;  ///< left of the bars: half of the first tick's text
+constexpr double kMargin = 4;  ///< left of the bars
 constexpr double kLogarithmicFrom = 25;
 
 /// From values to places along the bars.
@@ -83,8 +83,8 @@ std::string bar_chart(const std::vector<Bar>& bars, const std::string& axis_titl
     for (const double tick : axis.ticks()) {
         const double x = kMargin + axis.place(tick);
         out += fmt::format(R"(<line class="grid" x1="{0:.1f}" y1="0" x2="{0:.1f}" y2="{1}"/>)"
-                           R"(<text class="tick" x="{0:.1f}" y="{2}">{3}</text>)",
-                           x, bottom, bottom + 16, tick_text(tick));
+                           R"(<text class="tick{4}" x="{0:.1f}" y="{2}">{3}</text>)",
+                           x, bottom, bottom + 16, tick_text(tick), x < 2 * kMargin ? " start" : "");
     }
     out += "\n";
     for (size_t i = 0; i < bars.size(); ++i) out += row(bars[i], axis, i);

@@ -69,11 +69,12 @@ TEST(ScreenPictures, DifferencesAreScaledByAPowerOfTwoThatHoldsThem) {
     Comparison c;
     c.reference = grey(10, 10, 0.5f);
     c.methods.resize(1);
+    c.methods[0].result.rate = {2, 2};
     c.methods[0].picture.image = grey(10, 10, 0.6f);
-    EXPECT_EQ(difference_scale(c), 8);
+    EXPECT_EQ(difference_scale(c, {2, 2}), 8);
     EXPECT_NEAR(difference_of(c.methods[0].picture.image, c.reference, 8).rgb[5], 0.8f, 1e-5f);
     c.methods[0].picture.image = c.reference;
-    EXPECT_EQ(difference_scale(c), 64);
+    EXPECT_EQ(difference_scale(c, {2, 2}), 64);
 }
 
 TEST(ScreenPictures, HeatIsLogarithmic) {

@@ -20,7 +20,7 @@ constexpr double kPixelBudget = 16e6;
 /// What whole pictures share.
 struct Scales {
     int shrink = 1;
-    float difference = 1;
+    std::vector<float> differences;  ///< by sample rate
     HeatScale tests, nodes;
 };
 
@@ -29,7 +29,7 @@ Scales scales_of(const Comparison& c) {
     const double pixels =
         static_cast<double>(c.reference.z.size()) * (1 + 4.0 * static_cast<double>(c.methods.size()));
     while (pixels / (scales.shrink * scales.shrink) > kPixelBudget) ++scales.shrink;
-    scales.difference = difference_scale(c);
+    for (const SampleRate& rate : c.rates) scales.differences.push_back(difference_scale(c, rate));
     std::vector<const std::vector<float>*> tests, nodes;
     for (const ComparedMethod& method : c.methods) {
         tests.push_back(&method.picture.heat.tests);
@@ -53,12 +53,14 @@ std::string heat_image(const std::vector<float>& map, const PixelRect& window, i
 }
 
 std::string method_figure(const ComparedMethod& m, const Comparison& c, const Scales& scales) {
+    const auto rate = std::find(c.rates.begin(), c.rates.end(), m.result.rate);
+    const float difference = scales.differences[static_cast<size_t>(rate - c.rates.begin())];
     const Image& picture = m.picture.image;
     const std::string& name = m.result.method;
     return fmt::format("<figure data-rate=\"{}\">\n", rate_text(m.result.rate)) +
            image(png_url(shrunk(part_of(picture, picture.window), scales.shrink)), "picture",
                  "picture of " + name) +
-           image(png_url(shrunk(difference_of(picture, c.reference, scales.difference), scales.shrink)),
+           image(png_url(shrunk(difference_of(picture, c.reference, difference), scales.shrink)),
                  "difference", "difference of " + name + " to the reference") +
            heat_image(m.picture.heat.tests, picture.window, scales.shrink, scales.tests, "tests", name) +
            heat_image(m.picture.heat.nodes, picture.window, scales.shrink, scales.nodes, "nodes", name) +
@@ -77,8 +79,8 @@ std::string toolbar(const Comparison& c, const Scales& scales) {
     std::string out = "<div class=\"toolbar\">\n<div class=\"choice\"><span>Samples</span>";
     for (const SampleRate& rate : c.rates) out += button("rate", rate_text(rate), rate_text(rate));
     out += "</div>\n<div class=\"choice\"><span>Show</span>" + button("kind", "picture", "Picture") +
-           button("kind", "difference", fmt::format("Difference \u00d7{}", scales.difference)) +
-           button("kind", "tests", "Tests") + button("kind", "nodes", "Nodes");
+           button("kind", "difference", "Difference") + button("kind", "tests", "Tests") +
+           button("kind", "nodes", "Nodes");
     return out + "</div>\n</div>\n";
 }
 
@@ -103,8 +105,10 @@ std::string legend(const HeatScale& scale, const char* kind, const char* what) {
 std::string whole_pictures(const Comparison& c, const Scales& scales) {
     std::string out =
         "<section id=\"pictures\">\n<h2>Pictures</h2>\n<p>Linear values encoded by the sRGB curve, "
-        "clipped at white. Differences to the reference are absolute and linear, times " +
-        fmt::format("{}, then encoded the same way.", scales.difference);
+        "clipped at white. Differences to the reference are absolute and linear, times";
+    for (size_t i = 0; i < c.rates.size(); ++i)
+        out += fmt::format("{} {} at {} samples", i ? "," : "", scales.differences[i], rate_text(c.rates[i]));
+    out += ", then encoded the same way.";
     if (scales.shrink > 1) out += fmt::format(" Shown at 1/{} of their size.", scales.shrink);
     out += " Click one to enlarge it.</p>\n" + toolbar(c, scales) +
            legend(scales.tests, "tests", "Exact tests") +

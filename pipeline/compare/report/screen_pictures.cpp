@@ -64,10 +64,10 @@ LinearPicture shrunk(const LinearPicture& picture, int factor) {
             means(picture.rgb, picture.width, picture.height, 3, factor)};
 }
 
-float difference_scale(const Comparison& comparison) {
+float difference_scale(const Comparison& comparison, SampleRate rate) {
     std::vector<float> differences;
-    for (const ComparedMethod& method : comparison.methods) {
-        const LinearPicture picture = difference_of(method.picture.image, comparison.reference, 1);
+    for (const ComparedMethod* method : comparison.at(rate)) {
+        const LinearPicture picture = difference_of(method->picture.image, comparison.reference, 1);
         differences.insert(differences.end(), picture.rgb.begin(), picture.rgb.end());
     }
     const float large = quantile(differences, 0.995);

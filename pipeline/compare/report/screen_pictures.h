@@ -23,9 +23,9 @@ LinearPicture difference_of(const Image& a, const Image& b, float scale);
 /// Means of squares of factor x factor pixels; what is left over at the far borders is cut off.
 LinearPicture shrunk(const LinearPicture& picture, int factor);
 
-/// The largest power of two, up to 64, by which nearly all (99.5%) differences of a comparison can be
+/// The largest power of two, up to 64, by which nearly all (99.5%) differences at a sample rate can be
 /// multiplied and stay below 1.
-float difference_scale(const Comparison& comparison);
+float difference_scale(const Comparison& comparison, SampleRate rate);
 
 /// How the counts of heat maps become colours: logarithmic from 1 to `top`, below 1 as 1.
 struct HeatScale {
