@@ -27,7 +27,8 @@ struct ShadeStats {
 
 struct BuildStats {
     uint64_t tree_bytes = 0, tree_nodes = 0, tree_leaves = 0;
-    double setup_seconds = 0;  ///< of the build: spent on copying to another library's buffers, not on the tree
+    double setup_seconds =
+        0;  ///< of the build: spent on copying to another library's buffers, not on the tree
 
     BuildStats& operator+=(const BuildStats& o) {
         tree_bytes += o.tree_bytes, tree_nodes += o.tree_nodes, tree_leaves += o.tree_leaves;

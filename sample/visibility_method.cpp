@@ -4,11 +4,8 @@ namespace trapeze {
 
 const std::vector<VisibilityMethod>& visibility_methods() {
     static const std::vector<VisibilityMethod> methods = {
-        raytrace_method(),
-        brute_force_method(),
-        interval_method(),
-        interleave_uvt_method(),
-        dual_space_method(),
+        raytrace_method(),       brute_force_method(), interval_method(),
+        interleave_uvt_method(), dual_space_method(),
 #ifdef TRAPEZE_HAVE_EMBREE
         embree_method(),
 #endif

@@ -210,8 +210,7 @@ std::string conclusion(const Comparison& c) {
     }
     if (winners.empty()) return "Nothing was compared that one would render with.";
     std::string text = "For this scene take " + winners.front().first;
-    if (winners.size() == 1)
-        return text + (rates.size() == 1 ? "." : " at every sample rate.");
+    if (winners.size() == 1) return text + (rates.size() == 1 ? "." : " at every sample rate.");
     text += " at " + rate_text(winners.front().second);
     for (size_t i = 1; i < winners.size(); ++i)
         text += fmt::format(", {} from {} on", winners[i].first, rate_text(winners[i].second));

@@ -75,7 +75,7 @@ std::string button(const char* group, const std::string& value, const std::strin
     return fmt::format("<button data-{}=\"{}\">{}</button>", group, escaped(value), escaped(text));
 }
 
-std::string toolbar(const Comparison& c, const Scales& scales) {
+std::string toolbar(const Comparison& c) {
     std::string out = "<div class=\"toolbar\">\n<div class=\"choice\"><span>Samples</span>";
     for (const SampleRate& rate : c.rates) out += button("rate", rate_text(rate), rate_text(rate));
     out += "</div>\n<div class=\"choice\"><span>Show</span>" + button("kind", "picture", "Picture") +
@@ -110,7 +110,7 @@ std::string whole_pictures(const Comparison& c, const Scales& scales) {
         out += fmt::format("{} {} at {} samples", i ? "," : "", scales.differences[i], rate_text(c.rates[i]));
     out += ", then encoded the same way.";
     if (scales.shrink > 1) out += fmt::format(" Shown at 1/{} of their size.", scales.shrink);
-    out += " Click one to enlarge it.</p>\n" + toolbar(c, scales) +
+    out += " Click one to enlarge it.</p>\n" + toolbar(c) +
            legend(scales.tests, "tests", "Exact tests") +
            legend(scales.nodes, "nodes", "Nodes visited (rasterizers: boxes met)") +
            "<div class=\"pictures\">\n";
