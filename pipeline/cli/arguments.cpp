@@ -13,7 +13,7 @@
 namespace trapeze {
 namespace {
 
-const std::vector<std::string> kCommands = {"render", "check", "info", "compare"};
+const std::vector<std::string> kCommands = {"render", "check", "info", "compare", "scene"};
 
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
@@ -167,6 +167,32 @@ void add_compare_options(CLI::App& app, Arguments& a) {
     add_frame_options(app, a);
 }
 
+void add_scene_options(CLI::App& app, Arguments& a) {
+    std::string names;
+    std::vector<std::string> known;
+    for (const std::string_view name : scene_names()) known.emplace_back(name), names += " " + known.back();
+    SceneParameters& p = a.scene.parameters;
+    app.add_option("name", a.scene.name, "one of:" + names)
+        ->required()
+        ->check(CLI::IsMember(known))
+        ->type_name("NAME");
+    app.add_option("--scale", p.scale, "multiplies the number of micropolygons")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->type_name("S")
+        ->capture_default_str();
+    app.add_option("--motion", p.motion, "multiplies the motion; 0: none")
+        ->check(CLI::Range(0.0, 1e3))
+        ->type_name("M")
+        ->capture_default_str();
+    app.add_option("--defocus", p.defocus, "multiplies the lens; 0: a pinhole")
+        ->check(CLI::Range(0.0, 1e3))
+        ->type_name("D")
+        ->capture_default_str();
+    add_parsed(app, "-r,--resolution", a.resolution, parse_resolution, "size of the picture", "WxH");
+    app.add_option("-o,--output", a.output, "writes to a file instead of standard output")
+        ->type_name("FILE.rib");
+}
+
 /// Whether the methods and patterns asked for go together; says what is wrong.
 bool samplers_are_right(const Arguments& a, std::string* error) {
     if (a.command != Command::Compare) return choose_sampler(a.sampler, a.pattern, error).has_value();
@@ -226,12 +252,16 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     CLI::App* info = app.add_subcommand("info", "says what is in scenes");
     CLI::App* compare = app.add_subcommand(
         "compare", "measures visibility methods side by side on a scene: times, counts, errors");
+    CLI::App* scene =
+        app.add_subcommand("scene", "writes a scene made for measurements, of any size, as RIB");
     for (CLI::App* command : {render, check, info, compare}) {
         add_inputs(*command, arguments);
         command->footer(kExitCodeHelp);
     }
     add_render_options(*render, arguments);
     add_compare_options(*compare, arguments);
+    add_scene_options(*scene, arguments);
+    scene->footer(kExitCodeHelp);
     check->add_flag("--strict", arguments.strict, "warnings count as errors for the exit code");
 
     std::vector<std::string> words = modern_spelling({argv + 1, argv + argc});
@@ -245,6 +275,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     if (check->parsed()) arguments.command = Command::Check;
     if (info->parsed()) arguments.command = Command::Info;
     if (compare->parsed()) arguments.command = Command::Compare;
+    if (scene->parsed()) arguments.command = Command::Scene;
     std::string error;
     if (!samplers_are_right(arguments, &error)) {
         std::cerr << "trapeze: error: " << error << "\n";

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "pipeline/cli/parse_values.h"
+#include "pipeline/study/scenes/scenes.h"
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info, Compare };
+enum class Command { Render, Check, Info, Compare, Scene };
 
 /// What `trapeze compare` alone has.
 struct CompareArguments {
@@ -20,6 +21,12 @@ struct CompareArguments {
     int rounds = 3;
     std::string report, json;  ///< files; empty: none
     std::string folder;        ///< for pictures; empty: none
+};
+
+/// What `trapeze scene` alone has; the picture's size is Arguments::resolution.
+struct SceneArguments {
+    std::string name;
+    SceneParameters parameters;
 };
 
 struct Arguments {
@@ -41,6 +48,7 @@ struct Arguments {
     std::string progress = "auto";
     std::string stats_file;
     CompareArguments compare;
+    SceneArguments scene;
     bool strict = false, quiet = false, color = true;
 };
 

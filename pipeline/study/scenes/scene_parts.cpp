@@ -1,0 +1,57 @@
+#include "pipeline/study/scenes/scene_parts.h"
+
+#include <fmt/format.h>
+
+namespace trapeze::scenes {
+
+namespace {
+
+void write_frame(RibWriter& rib, const Shot& shot, const SceneParameters& p) {
+    for (const std::string& line : shot.comments) rib.comment(line);
+    rib.comment(fmt::format("Written by: trapeze scene {} --scale {:g} --motion {:g} --defocus {:g}",
+                            shot.name, p.scale, p.motion, p.defocus));
+    rib.blank_line();
+    rib.request("Display", shot.name + ".exr", "openexr", "rgba");
+    rib.request("Format", p.width, p.height, 1);
+    rib.request("PixelSamples", 8, 8);
+    rib.request("PixelFilter", "gaussian", 2, 2);
+    rib.request("Projection", "perspective", "fov", Numbers{shot.fov});
+    rib.request("Clipping", .05, 10000);
+    if (p.defocus > 0)
+        rib.request("DepthOfField", shot.f_stop / p.defocus, shot.focal_length, shot.focal_distance);
+    if (p.motion > 0) rib.request("Shutter", 0, 1);
+    rib.request("ShadingRate", shot.shading_rate);
+    rib.request("ShadingInterpolation", "smooth");
+    if (shot.pitch != 0) rib.request("Rotate", -shot.pitch, 1, 0, 0);
+    if (shot.eye != V3d(0)) rib.request("Translate", -shot.eye.x, -shot.eye.y, -shot.eye.z);
+    rib.blank_line();
+}
+
+}  // namespace
+
+std::string scene_of(const Shot& shot, void (*write_world)(RibWriter&, const SceneParameters&),
+                     const SceneParameters& parameters) {
+    RibWriter rib;
+    write_frame(rib, shot, parameters);
+    {
+        const auto world = rib.block("World");
+        write_world(rib, parameters);
+    }
+    return rib.text();
+}
+
+void write_moving(RibWriter& rib, std::string_view request, const Numbers& middle, const Numbers& change,
+                  const SceneParameters& p) {
+    Numbers open = middle, close = middle;
+    for (size_t i = 0; i < middle.size(); ++i) {
+        open[i] -= .5 * p.motion * change[i];
+        close[i] += .5 * p.motion * change[i];
+    }
+    rib.moving(request, open, close);
+}
+
+void write_bilinear(RibWriter& rib, const V3d (&corners)[4]) {
+    rib.request("Patch", "bilinear", "P", flattened(corners));
+}
+
+}  // namespace trapeze::scenes

@@ -1,0 +1,58 @@
+/// What the scenes' generators share: chance by index, the frame's requests, the table's functions.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "pipeline/study/scenes/rib_writer.h"
+#include "pipeline/study/scenes/scenes.h"
+
+namespace trapeze::scenes {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+/// Numbers of one thing, by its index: what one thing draws changes nothing for another.
+class Chance {
+  public:
+    Chance(uint32_t kind, uint32_t index) : seed_(hash(kind, index)) {}
+
+    double unit() { return static_cast<double>(unit_float(hash(seed_, count_++))); }
+    double between(double low, double high) { return low + (high - low) * unit(); }
+    /// Uniform on the sphere.
+    V3d direction() {
+        const double z = between(-1, 1), angle = between(0, 2 * kPi), r = std::sqrt(1 - z * z);
+        return {r * std::cos(angle), r * std::sin(angle), z};
+    }
+
+  private:
+    uint32_t seed_, count_ = 0;
+};
+
+/// The camera's part of a scene.
+struct Shot {
+    std::string name;
+    std::vector<std::string> comments;  ///< lines for the reader of the file
+    V3d eye{0, 0, 0};
+    double pitch = 0;  ///< degrees, downwards
+    double fov = 30;
+    double f_stop = 0, focal_length = 1, focal_distance = 1;  ///< f_stop at defocus 1
+    double shading_rate = 1;
+};
+
+/// A whole file: what is in the world is written by a function.
+std::string scene_of(const Shot& shot, void (*write_world)(RibWriter&, const SceneParameters&),
+                     const SceneParameters& parameters);
+
+/// A transformation whose numbers change by `change` while the shutter is open, `middle` in between.
+void write_moving(RibWriter& rib, std::string_view request, const Numbers& middle, const Numbers& change,
+                  const SceneParameters& parameters);
+
+/// A plane or sky in one piece: the corners in the order of a bilinear patch.
+void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
+
+std::string hair_scene(const SceneParameters& parameters);
+
+}  // namespace trapeze::scenes

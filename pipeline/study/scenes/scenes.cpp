@@ -1,0 +1,31 @@
+#include "pipeline/study/scenes/scenes.h"
+
+#include "pipeline/study/scenes/scene_parts.h"
+
+namespace trapeze {
+namespace {
+
+struct SceneRow {
+    std::string_view name;
+    std::string (*text)(const SceneParameters&);
+};
+
+constexpr SceneRow kScenes[] = {
+    {"hair", scenes::hair_scene},
+};
+
+}  // namespace
+
+std::vector<std::string_view> scene_names() {
+    std::vector<std::string_view> names;
+    for (const SceneRow& row : kScenes) names.push_back(row.name);
+    return names;
+}
+
+std::string scene_text(std::string_view name, const SceneParameters& parameters) {
+    for (const SceneRow& row : kScenes)
+        if (row.name == name) return row.text(parameters);
+    return {};
+}
+
+}  // namespace trapeze

@@ -1,0 +1,26 @@
+/// Scenes made by programs, for measurements that need a picture of any size: RIB as text, the same on every
+/// machine and for every order of work.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trapeze {
+
+struct SceneParameters {
+    /// Multiplies the number of micropolygons: through the number of hairs or flowers in the scenes of that
+    /// name, through ShadingRate in the others.
+    double scale = 1;
+    double motion = 1;   ///< multiplies the distances moved while the shutter is open; 0: nothing moves
+    double defocus = 1;  ///< multiplies the lens; 0: a pinhole
+    int width = 1280, height = 720;
+};
+
+/// The names that scene_text() knows.
+std::vector<std::string_view> scene_names();
+
+/// Empty for an unknown name. Numbers of `parameters` are finite, scale is positive, the others not negative.
+std::string scene_text(std::string_view name, const SceneParameters& parameters);
+
+}  // namespace trapeze
