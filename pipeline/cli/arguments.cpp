@@ -8,12 +8,13 @@
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/version.h"
 #include "pipeline/compare/sampler_list.h"
+#include "pipeline/study/study.h"
 #include "sample/visibility_method.h"
 
 namespace trapeze {
 namespace {
 
-const std::vector<std::string> kCommands = {"render", "check", "info", "compare", "scene"};
+const std::vector<std::string> kCommands = {"render", "check", "info", "compare", "scene", "study"};
 
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
@@ -101,6 +102,20 @@ void add_simd_option(CLI::App& app, Arguments& a) {
         ->capture_default_str();
 }
 
+/// How the machine is used, and what is said meanwhile.
+void add_work_options(CLI::App& app, Arguments& a) {
+    add_simd_option(app, a);
+    app.add_option("-t,--threads", a.threads, "threads; 0: all, -N: all but N")
+        ->check(CLI::Range(-1024, 1024))
+        ->type_name("N");
+    app.add_option("--progress", a.progress, "how to show progress")
+        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "prman", "none"}))
+        ->capture_default_str();
+    add_parsed(app, "--memory", a.memory_bytes, parse_size,
+               "for grids and tree (default: 3/4 of the machine's)", "SIZE like 4G");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+}
+
 /// What says how a frame is made, for all commands that make one.
 void add_frame_options(CLI::App& app, Arguments& a) {
     add_parsed(app, "-r,--resolution", a.resolution, parse_resolution, "size of the whole picture", "WxH");
@@ -111,18 +126,9 @@ void add_frame_options(CLI::App& app, Arguments& a) {
         ->check(CLI::Range(1e-4f, 1e6f))
         ->type_name("AREA");
     add_pattern_option(app, a);
-    add_simd_option(app, a);
-    app.add_option("-t,--threads", a.threads, "threads; 0: all, -N: all but N")
-        ->check(CLI::Range(-1024, 1024))
-        ->type_name("N");
     app.add_option("--seed", a.seed, "of all random numbers")->type_name("N");
-    app.add_option("--progress", a.progress, "how to show progress")
-        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "prman", "none"}))
-        ->capture_default_str();
-    add_parsed(app, "--memory", a.memory_bytes, parse_size,
-               "for grids and tree (default: 3/4 of the machine's)", "SIZE like 4G");
     app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
-    app.add_flag("-q,--quiet", a.quiet, "only errors");
+    add_work_options(app, a);
 }
 
 void add_render_options(CLI::App& app, Arguments& a) {
@@ -188,9 +194,36 @@ void add_scene_options(CLI::App& app, Arguments& a) {
         ->check(CLI::Range(0.0, 1e3))
         ->type_name("D")
         ->capture_default_str();
+    app.add_option("--shading-factor", p.shading_rate, "multiplies the scene's ShadingRate")
+        ->check(CLI::Range(1e-3, 1e3))
+        ->type_name("F")
+        ->capture_default_str();
     add_parsed(app, "-r,--resolution", a.resolution, parse_resolution, "size of the picture", "WxH");
     app.add_option("-o,--output", a.output, "writes to a file instead of standard output")
         ->type_name("FILE.rib");
+}
+
+void add_study_options(CLI::App& app, Arguments& a) {
+    StudyArguments& s = a.study;
+    std::string names;
+    std::vector<std::string> known;
+    for (const StudyName& study : study_names()) {
+        known.emplace_back(study.name);
+        names += "\n  " + known.back() + ": " + std::string(study.about);
+    }
+    app.add_option("name", s.name, "one of:" + names)
+        ->required()
+        ->check(CLI::IsMember(known))
+        ->type_name("NAME");
+    app.add_flag("--quick", s.quick, "a quarter of the pixels and fewer samples: minutes instead of an hour");
+    app.add_option("--repeat", s.rounds, "rounds in which every method takes its turn; medians are reported")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("R")
+        ->capture_default_str();
+    app.add_option("--report", s.report, "writes a report with tables, plots and checks, one file")
+        ->type_name("FILE.html");
+    app.add_option("--json", s.json, "writes every figure as JSON")->type_name("FILE.json");
+    add_work_options(app, a);
 }
 
 /// Whether the methods and patterns asked for go together; says what is wrong.
@@ -254,6 +287,8 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
         "compare", "measures visibility methods side by side on a scene: times, counts, errors");
     CLI::App* scene =
         app.add_subcommand("scene", "writes a scene made for measurements, of any size, as RIB");
+    CLI::App* study = app.add_subcommand(
+        "study", "repeats a table or figure of the micropolygon ray tracing paper on this machine");
     for (CLI::App* command : {render, check, info, compare}) {
         add_inputs(*command, arguments);
         command->footer(kExitCodeHelp);
@@ -261,7 +296,9 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     add_render_options(*render, arguments);
     add_compare_options(*compare, arguments);
     add_scene_options(*scene, arguments);
+    add_study_options(*study, arguments);
     scene->footer(kExitCodeHelp);
+    study->footer(kExitCodeHelp);
     check->add_flag("--strict", arguments.strict, "warnings count as errors for the exit code");
 
     std::vector<std::string> words = modern_spelling({argv + 1, argv + argc});
@@ -276,6 +313,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     if (info->parsed()) arguments.command = Command::Info;
     if (compare->parsed()) arguments.command = Command::Compare;
     if (scene->parsed()) arguments.command = Command::Scene;
+    if (study->parsed()) arguments.command = Command::Study;
     std::string error;
     if (!samplers_are_right(arguments, &error)) {
         std::cerr << "trapeze: error: " << error << "\n";

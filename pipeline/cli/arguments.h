@@ -11,7 +11,7 @@
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info, Compare, Scene };
+enum class Command { Render, Check, Info, Compare, Scene, Study };
 
 /// What `trapeze compare` alone has.
 struct CompareArguments {
@@ -27,6 +27,14 @@ struct CompareArguments {
 struct SceneArguments {
     std::string name;
     SceneParameters parameters;
+};
+
+/// What `trapeze study` alone has.
+struct StudyArguments {
+    std::string name;
+    bool quick = false;
+    int rounds = 3;
+    std::string report, json;  ///< files; empty: none
 };
 
 struct Arguments {
@@ -49,6 +57,7 @@ struct Arguments {
     std::string stats_file;
     CompareArguments compare;
     SceneArguments scene;
+    StudyArguments study;
     bool strict = false, quiet = false, color = true;
 };
 

@@ -11,6 +11,7 @@ int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& 
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int info_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 
 /// How many threads "-t N" asks for: 0 is all of the machine's, -N all but N.

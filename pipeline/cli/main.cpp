@@ -24,6 +24,9 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
         case Command::Compare:
             code = compare_command(arguments, terminal, diagnostics);
             break;
+        case Command::Study:
+            code = study_command(arguments, terminal, diagnostics);
+            break;
         case Command::Scene:
             code = scene_command(arguments, terminal, diagnostics);
             break;

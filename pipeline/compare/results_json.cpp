@@ -30,6 +30,11 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
             {"tile_side", r.tile_side}};
 }
 
+nlohmann::ordered_json to_json(const Machine& machine) {
+    return {{"cpu", machine.cpu},       {"threads", machine.threads},   {"simd_target", machine.simd},
+            {"system", machine.system}, {"compiler", machine.compiler}, {"trapeze", machine.trapeze}};
+}
+
 nlohmann::ordered_json to_json(const Comparison& c) {
     using json = nlohmann::ordered_json;
     json results = json::array();
@@ -43,13 +48,7 @@ nlohmann::ordered_json to_json(const Comparison& c) {
         return json{{"largest_pixels", blur.largest}, {"median_pixels", blur.median}};
     };
     return {{"scene", c.scene},
-            {"machine",
-             {{"cpu", c.machine.cpu},
-              {"threads", c.machine.threads},
-              {"simd_target", c.machine.simd},
-              {"system", c.machine.system},
-              {"compiler", c.machine.compiler},
-              {"trapeze", c.machine.trapeze}}},
+            {"machine", to_json(c.machine)},
             {"width", c.frame.width},
             {"height", c.frame.height},
             {"grids", c.frame.tessellate.grids},

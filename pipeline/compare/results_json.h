@@ -8,6 +8,7 @@
 namespace trapeze {
 
 nlohmann::ordered_json to_json(const MethodResult& result);
+nlohmann::ordered_json to_json(const Machine& machine);
 /// Every figure, without the pictures.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/diagnostics.h"
 #include "core/scene.h"
@@ -44,5 +45,9 @@ struct ReadSummary {
 /// world.
 ReadSummary read_rib(std::span<const std::string> files, const ReadOptions& options, Diagnostics& diagnostics,
                      const std::function<void(Scene&&)>& on_world);
+
+/// The same of a text; messages name it `name`. Relative names in it are looked for in the current folder.
+ReadSummary read_rib_text(std::string_view text, const std::string& name, const ReadOptions& options,
+                          Diagnostics& diagnostics, const std::function<void(Scene&&)>& on_world);
 
 }  // namespace trapeze

@@ -56,6 +56,13 @@ void Reader::read_file(const std::string& path) {
     open_files_.pop_back();
 }
 
+void Reader::read_memory(std::string_view text, const std::string& name) {
+    const uint32_t id = diagnostics_.add_source("<" + name + ">", {});
+    open_files_.push_back("<" + name + ">");
+    read_text(text, {id, 1, 1});
+    open_files_.pop_back();
+}
+
 void Reader::read_text(std::string_view text, SourceLocation first) {
     summary_.bytes += text.size();
     Scanner scanner(text, first);
@@ -142,6 +149,14 @@ ReadSummary read_rib(std::span<const std::string> files, const ReadOptions& opti
                      const std::function<void(Scene&&)>& on_world) {
     rib::Reader reader(options, diagnostics, on_world);
     for (const std::string& file : files) reader.read_file(file);
+    reader.finish();
+    return std::move(reader.summary());
+}
+
+ReadSummary read_rib_text(std::string_view text, const std::string& name, const ReadOptions& options,
+                          Diagnostics& diagnostics, const std::function<void(Scene&&)>& on_world) {
+    rib::Reader reader(options, diagnostics, on_world);
+    reader.read_memory(text, name);
     reader.finish();
     return std::move(reader.summary());
 }

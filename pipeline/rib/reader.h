@@ -23,6 +23,7 @@ class Reader {
            const std::function<void(Scene&&)>& on_world);
 
     void read_file(const std::string& path);
+    void read_memory(std::string_view text, const std::string& name);
     void finish();
     ReadSummary& summary() { return summary_; }
 

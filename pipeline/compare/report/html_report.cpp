@@ -4,6 +4,7 @@
 
 #include "pipeline/compare/report/bar_chart.h"
 #include "pipeline/compare/report/encoded_text.h"
+#include "pipeline/compare/report/html_page.h"
 #include "pipeline/compare/report/report_pictures.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/table.h"
@@ -11,9 +12,7 @@
 
 namespace trapeze {
 
-// report.css and report.js, embedded by CMake.
-extern const char* const kReportStyle;
-extern const char* const kReportScript;
+extern const char* const kReportScript;  // report.js, embedded by CMake
 
 namespace {
 
@@ -29,33 +28,17 @@ const char* style_class(const MethodResult& result) {
     return "";
 }
 
-std::string head(const Comparison& c) {
-    // The policy keeps the promise that nothing is loaded from anywhere.
-    return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<meta name=\"color-scheme\" content=\"light dark\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-        "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
-        "<title>Trapeze compare: {}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
-        escaped(c.scene), kReportStyle);
-}
-
-std::string fact(const std::string& value, const std::string& name) {
-    return fmt::format("<div><strong>{}</strong><span>{}</span></div>\n", escaped(value), escaped(name));
-}
-
 std::string title(const Comparison& c) {
     std::string out = fmt::format(
         "<header>\n<p class=\"kicker\">Trapeze {} &middot; compare</p>\n<h1>{}</h1>\n<p "
         "class=\"lead\">{}</p>\n"
         "<div class=\"facts\">\n",
         escaped(c.machine.trapeze), escaped(c.scene), c.verdict.empty() ? "" : escaped(c.verdict.back()));
-    out += fact(fmt::format("{} \u00d7 {}", c.frame.width, c.frame.height), "pixels");
-    out += fact(count_text(static_cast<double>(c.frame.tessellate.micropolygons)), "micropolygons");
-    out += fact(number_text(c.blur.defocus.largest) + " px", "largest circle of confusion");
-    out += fact(number_text(c.blur.motion.largest) + " px", "longest motion");
-    out += fact(std::to_string(c.rounds), c.rounds == 1 ? "round" : "interleaved rounds, medians");
+    out += html_fact(fmt::format("{} \u00d7 {}", c.frame.width, c.frame.height), "pixels");
+    out += html_fact(count_text(static_cast<double>(c.frame.tessellate.micropolygons)), "micropolygons");
+    out += html_fact(number_text(c.blur.defocus.largest) + " px", "largest circle of confusion");
+    out += html_fact(number_text(c.blur.motion.largest) + " px", "longest motion");
+    out += html_fact(std::to_string(c.rounds), c.rounds == 1 ? "round" : "interleaved rounds, medians");
     return out +
            "</div>\n<nav><a href=\"#times\">Times</a><a href=\"#table\">Table</a><a "
            "href=\"#pictures\">Pictures</a><a href=\"#places\">Worst places</a><a "
@@ -136,16 +119,11 @@ std::string table(const Comparison& c) {
 }
 
 std::string machine(const Comparison& c) {
-    const auto entry = [](const char* name, const std::string& value) {
-        return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escaped(value));
-    };
-    return "<section id=\"machine\">\n<h2>Machine</h2>\n<dl class=\"machine\">\n" +
-           entry("Processor", c.machine.cpu) + entry("Threads", std::to_string(c.machine.threads)) +
-           entry("Vector instructions", c.machine.simd) + entry("System", c.machine.system) +
-           entry("Compiler", c.machine.compiler) + entry("Trapeze", c.machine.trapeze) +
-           entry("Tessellation", seconds_text(c.frame.seconds.tessellate)) +
-           entry("Shading", seconds_text(c.frame.seconds.shade)) +
-           entry("Grids", fmt::format("{} ({} MiB)", c.frame.tessellate.grids, c.frame.grid_bytes >> 20)) +
+    return "<section id=\"machine\">\n<h2>Machine</h2>\n<dl class=\"machine\">\n" + html_machine(c.machine) +
+           html_entry("Tessellation", seconds_text(c.frame.seconds.tessellate)) +
+           html_entry("Shading", seconds_text(c.frame.seconds.shade)) +
+           html_entry("Grids",
+                      fmt::format("{} ({} MiB)", c.frame.tessellate.grids, c.frame.grid_bytes >> 20)) +
            "</dl>\n</section>\n";
 }
 
@@ -160,8 +138,8 @@ std::string verdict(const Comparison& c) {
 }  // namespace
 
 std::string html_report(const Comparison& c) {
-    return head(c) + title(c) + times(c) + tests(c) + table(c) + report_pictures(c) + machine(c) +
-           verdict(c) +
+    return html_head("Trapeze compare: " + c.scene) + title(c) + times(c) + tests(c) + table(c) +
+           report_pictures(c) + machine(c) + verdict(c) +
            "</main>\n<dialog><img alt=\"\"><p></p></dialog>\n"
            "<script type=\"application/json\" id=\"figures\">" +
            script_safe(to_json(c).dump()) + "</script>\n<script>\n" + kReportScript +

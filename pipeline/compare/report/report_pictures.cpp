@@ -110,8 +110,7 @@ std::string whole_pictures(const Comparison& c, const Scales& scales) {
         out += fmt::format("{} {} at {} samples", i ? "," : "", scales.differences[i], rate_text(c.rates[i]));
     out += ", then encoded the same way.";
     if (scales.shrink > 1) out += fmt::format(" Shown at 1/{} of their size.", scales.shrink);
-    out += " Click one to enlarge it.</p>\n" + toolbar(c) +
-           legend(scales.tests, "tests", "Exact tests") +
+    out += " Click one to enlarge it.</p>\n" + toolbar(c) + legend(scales.tests, "tests", "Exact tests") +
            legend(scales.nodes, "nodes", "Nodes visited (rasterizers: boxes met)") +
            "<div class=\"pictures\">\n";
     const SampleRate reference{c.reference_side, c.reference_side};

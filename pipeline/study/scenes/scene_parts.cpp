@@ -8,8 +8,10 @@ namespace {
 
 void write_frame(RibWriter& rib, const Shot& shot, const SceneParameters& p) {
     for (const std::string& line : shot.comments) rib.comment(line);
-    rib.comment(fmt::format("Written by: trapeze scene {} --scale {:g} --motion {:g} --defocus {:g}",
-                            shot.name, p.scale, p.motion, p.defocus));
+    rib.comment(
+        fmt::format("Written by: trapeze scene {} --scale {:g} --motion {:g} --defocus {:g} --shading-factor "
+                    "{:g} -r {}x{}",
+                    shot.name, p.scale, p.motion, p.defocus, p.shading_rate, p.width, p.height));
     rib.blank_line();
     rib.request("Display", shot.name + ".exr", "openexr", "rgba");
     rib.request("Format", p.width, p.height, 1);
@@ -20,7 +22,7 @@ void write_frame(RibWriter& rib, const Shot& shot, const SceneParameters& p) {
     if (p.defocus > 0)
         rib.request("DepthOfField", shot.f_stop / p.defocus, shot.focal_length, shot.focal_distance);
     if (p.motion > 0) rib.request("Shutter", 0, 1);
-    rib.request("ShadingRate", shot.shading_rate);
+    rib.request("ShadingRate", shot.shading_rate * p.shading_rate);
     rib.request("ShadingInterpolation", "smooth");
     if (shot.pitch != 0) rib.request("Rotate", -shot.pitch, 1, 0, 0);
     if (shot.eye != V3d(0)) rib.request("Translate", -shot.eye.x, -shot.eye.y, -shot.eye.z);

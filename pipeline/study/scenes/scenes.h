@@ -14,6 +14,7 @@ struct SceneParameters {
     double scale = 1;
     double motion = 1;   ///< multiplies the distances moved while the shutter is open; 0: nothing moves
     double defocus = 1;  ///< multiplies the lens; 0: a pinhole
+    double shading_rate = 1;  ///< multiplies the scene's own
     int width = 1280, height = 720;
 };
 

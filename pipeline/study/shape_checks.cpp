@@ -1,0 +1,143 @@
+#include "pipeline/study/shape_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/compare/value_text.h"
+
+namespace trapeze {
+namespace {
+
+// Rows of paper::kMethods.
+constexpr size_t kRaytrace = 0, kInterval = 1, kUvt2 = 2, kUvt4 = 3;
+
+/// How far from 1 the exponent of something linear may measure.
+constexpr double kLinear = .15;
+
+std::string times(double ratio) {
+    return number_text(ratio) + "x";
+}
+
+/// Between the two rates given; one sample a pixel is mostly set-up.
+double exponent_of(const RateSeries& series, size_t method, size_t from, size_t to) {
+    return growth_exponent(series.samples[from], series.seconds[method][from], series.samples[to],
+                           series.seconds[method][to]);
+}
+
+std::string exponent_text(double exponent) {
+    return fmt::format("time ~ samples^{:.2f}", exponent);
+}
+
+bool is_complete(const RateSeries& series) {
+    for (const auto& row : series.seconds)
+        for (const double seconds : row)
+            if (seconds <= 0) return false;
+    return true;
+}
+
+/// The same words of both, or "-" of an illegible paper.
+template <class Text>
+void set_texts(StudyCheck& check, const RateSeries& here, const RateSeries& paper, Text text) {
+    check.here = text(here);
+    check.paper = is_complete(paper) ? text(paper) : "-";
+}
+
+StudyCheck uvt_is_linear(const RateSeries& here, const RateSeries& paper) {
+    StudyCheck check{here.scene + ": INTERLEAVEUVT costs in proportion to samples", "", ""};
+    const size_t last = here.samples.size() - 1;
+    set_texts(check, here, paper,
+              [&](const RateSeries& s) { return exponent_text(exponent_of(s, kUvt2, 1, last)); });
+    check.held = std::abs(exponent_of(here, kUvt2, 1, last) - 1) <= kLinear;
+    return check;
+}
+
+StudyCheck interval_is_sublinear(const RateSeries& here, const RateSeries& paper) {
+    StudyCheck check{here.scene + ": INTERVAL costs less than in proportion to samples", "", ""};
+    const size_t last = here.samples.size() - 1;
+    set_texts(check, here, paper,
+              [&](const RateSeries& s) { return exponent_text(exponent_of(s, kInterval, 0, last)); });
+    check.held = exponent_of(here, kInterval, 0, last) < 1 - kLinear;
+    return check;
+}
+
+StudyCheck larger_tiles_cost_more(const RateSeries& here, const RateSeries& paper) {
+    StudyCheck check{here.scene + ": k = 4 costs more than k = 2, by less than its four times as many tuples",
+                     "", ""};
+    const auto ratio = [](const RateSeries& s) { return s.seconds[kUvt4].back() / s.seconds[kUvt2].back(); };
+    set_texts(check, here, paper, [&](const RateSeries& s) { return times(ratio(s)); });
+    check.held = ratio(here) > 1 && ratio(here) < 4;
+    return check;
+}
+
+StudyCheck samples_favour_tracing(const RateSeries& here, const RateSeries& paper) {
+    StudyCheck check{
+        here.scene + ": INTERLEAVEUVT k = 2 is ahead of ray tracing at 1x1, and falls back with samples", "",
+        ""};
+    const auto ratio = [](const RateSeries& s, size_t rate) {
+        return s.seconds[kUvt2][rate] / s.seconds[kRaytrace][rate];
+    };
+    const size_t last = here.samples.size() - 1;
+    set_texts(check, here, paper, [&](const RateSeries& s) {
+        return fmt::format("{} its time at 1x1, {} at most samples", times(ratio(s, 0)),
+                           times(ratio(s, last)));
+    });
+    check.held = ratio(here, 0) < 1 && ratio(here, last) > ratio(here, 0);
+    return check;
+}
+
+}  // namespace
+
+double growth_exponent(double x0, double y0, double x1, double y1) {
+    return std::log(y1 / y0) / std::log(x1 / x0);
+}
+
+double spread(const std::vector<double>& values) {
+    if (values.empty()) return 0;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return *high / *low;
+}
+
+std::string paper_seconds(double seconds) {
+    return seconds < 0 ? "-" : number_text(seconds) + " s";
+}
+
+std::vector<StudyCheck> checks_of_rates(const RateSeries& here, const RateSeries& paper) {
+    return {uvt_is_linear(here, paper), interval_is_sublinear(here, paper),
+            larger_tiles_cost_more(here, paper), samples_favour_tracing(here, paper)};
+}
+
+StudyCheck check_of_coarser_shading(const std::string& scene, const std::vector<double>& reference,
+                                    const std::vector<double>& coarser,
+                                    const std::vector<double>& paper_reference,
+                                    const std::vector<double>& paper_coarser) {
+    StudyCheck check{scene + ": micropolygons 16 times as large help rasterizers more than ray tracing", "",
+                     ""};
+    const auto text = [](const std::vector<double>& before, const std::vector<double>& after) {
+        return fmt::format(
+            "time times {} traced, {} INTERVAL, {} k = 4", number_text(after[kRaytrace] / before[kRaytrace]),
+            number_text(after[kInterval] / before[kInterval]), number_text(after[kUvt4] / before[kUvt4]));
+    };
+    const double traced = coarser[kRaytrace] / reference[kRaytrace];
+    check.here = text(reference, coarser);
+    check.paper = paper_coarser[kInterval] > 0 ? text(paper_reference, paper_coarser) : "-";
+    check.held = coarser[kInterval] / reference[kInterval] < traced &&
+                 coarser[kUvt2] / reference[kUvt2] < traced && coarser[kUvt4] / reference[kUvt4] < traced;
+    return check;
+}
+
+StudyCheck check_of_order(const std::string& scene, const std::vector<double>& here,
+                          const std::vector<double>& paper) {
+    StudyCheck check{scene + ": ray tracing is the fastest at the most samples", "", ""};
+    const auto text = [](const std::vector<double>& seconds) {
+        return fmt::format(
+            "INTERVAL {}, k = 2 {}, k = 4 {} its time", times(seconds[kInterval] / seconds[kRaytrace]),
+            times(seconds[kUvt2] / seconds[kRaytrace]), times(seconds[kUvt4] / seconds[kRaytrace]));
+    };
+    check.here = text(here), check.paper = text(paper);
+    check.held = here[kRaytrace] < std::min({here[kInterval], here[kUvt2], here[kUvt4]});
+    return check;
+}
+
+}  // namespace trapeze

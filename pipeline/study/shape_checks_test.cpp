@@ -1,0 +1,56 @@
+#include "pipeline/study/shape_checks.h"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/study/paper_figures.h"
+
+namespace trapeze {
+namespace {
+
+RateSeries furball() {
+    RateSeries series{"Furball", {1, 16, 64, 169}, {}};
+    for (const auto& row : paper::kTable5[0]) series.seconds.emplace_back(row, row + 4);
+    return series;
+}
+
+TEST(ShapeChecks, ExponentOfAPower) {
+    EXPECT_NEAR(growth_exponent(2, 3 * 4, 5, 3 * 25), 2, 1e-12);
+    EXPECT_NEAR(growth_exponent(1, 7, 100, 7), 0, 1e-12);
+}
+
+TEST(ShapeChecks, SpreadIsLargestToSmallest) {
+    EXPECT_DOUBLE_EQ(spread({3, 2, 8}), 4);
+    EXPECT_EQ(spread({}), 0);
+}
+
+TEST(ShapeChecks, ThePapersOwnFiguresHoldThem) {
+    for (const StudyCheck& check : checks_of_rates(furball(), furball())) {
+        EXPECT_TRUE(check.held) << check.claim << ": " << check.here;
+        EXPECT_EQ(check.here, check.paper);
+    }
+}
+
+TEST(ShapeChecks, CanMiss) {
+    RateSeries flat = furball();
+    flat.seconds[2] = flat.seconds[3] = {9, 9, 9, 9};  // k = 2 and 4: not linear, equal, behind at 1x1
+    flat.seconds[1] = {1, 16, 64, 169};                // INTERVAL linear
+    for (const StudyCheck& check : checks_of_rates(flat, furball())) EXPECT_FALSE(check.held) << check.claim;
+}
+
+TEST(ShapeChecks, CoarserShadingAndOrder) {
+    const std::vector<double> reference = {10, 20, 30, 40}, helps_rasterizers = {9, 5, 6, 7},
+                              helps_all = {1, 5, 6, 7};
+    EXPECT_TRUE(check_of_coarser_shading("", reference, helps_rasterizers, reference, reference).held);
+    EXPECT_FALSE(check_of_coarser_shading("", reference, helps_all, reference, reference).held);
+    EXPECT_TRUE(check_of_order("", reference, reference).held);
+    EXPECT_FALSE(check_of_order("", helps_rasterizers, reference).held);
+}
+
+TEST(ShapeChecks, WhatIsIllegibleIsNotCompared) {
+    RateSeries car{"Car", {1, 16, 64, 529}, {}};
+    for (const auto& row : paper::kTable5[3]) car.seconds.emplace_back(row, row + 4);
+    for (const StudyCheck& check : checks_of_rates(furball(), car)) EXPECT_EQ(check.paper, "-");
+}
+
+}  // namespace
+}  // namespace trapeze

@@ -1,0 +1,35 @@
+/// The studies of Hou et al. 2010, repeated on this machine with scenes of our own.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "pipeline/study/study_result.h"
+
+namespace trapeze {
+
+struct StudySettings {
+    bool quick = false;       ///< a quarter of the pixels, fewer samples: minutes instead of hours
+    int rounds = 3;           ///< in which every method takes its turn; medians count
+    size_t memory_bytes = 0;  ///< for grids; 0: three quarters of the machine's
+    const std::atomic<bool>* cancelled = nullptr;
+    std::function<void(const std::string& what)> on_stage = {};
+    std::function<void(double)> on_progress = {};  ///< of the stage
+};
+
+/// The names that run_study() knows, with what each shows.
+struct StudyName {
+    std::string_view name, about;
+};
+std::vector<StudyName> study_names();
+
+/// With the threads of the calling task arena. Empty for an unknown name, when cancelled, and (reported)
+/// when a scene does not fit the memory.
+std::optional<StudyResult> run_study(std::string_view name, const StudySettings& settings,
+                                     Diagnostics& diagnostics);
+
+}  // namespace trapeze

@@ -1,0 +1,90 @@
+#include "pipeline/study/study_bench.h"
+
+#include <fmt/format.h>
+
+#include "pipeline/compare/blur.h"
+#include "pipeline/compare/results_json.h"
+#include "pipeline/compare/sampler_list.h"
+#include "pipeline/rib/read_rib.h"
+
+namespace trapeze {
+
+std::string scene_command_line(const StudyScene& scene) {
+    const SceneParameters& p = scene.parameters;
+    std::string text = fmt::format("trapeze scene {} -r {}x{}", scene.name, p.width, p.height);
+    if (p.scale != 1) text += fmt::format(" --scale {:.4g}", p.scale);
+    if (p.motion != 1) text += fmt::format(" --motion {:.4g}", p.motion);
+    if (p.defocus != 1) text += fmt::format(" --defocus {:.4g}", p.defocus);
+    if (p.shading_rate != 1) text += fmt::format(" --shading-factor {:.4g}", p.shading_rate);
+    return text;
+}
+
+StudyBench::StudyBench(const StudySettings& settings, Diagnostics& diagnostics, StudyResult& result)
+    : settings_(settings), diagnostics_(diagnostics), result_(result) {}
+
+void StudyBench::go_on() const {
+    if (settings_.cancelled && *settings_.cancelled) throw StudyStopped();
+}
+
+void StudyBench::stage(const std::string& what) const {
+    if (settings_.on_stage) settings_.on_stage(what);
+}
+
+StudyScene StudyBench::scene(const std::string& label, const std::string& name, double micropolygons) const {
+    StudyScene scene{label, name, {}};
+    scene.parameters.scale = micropolygons;
+    if (settings_.quick) {
+        scene.parameters.width /= 2, scene.parameters.height /= 2;
+        // Where ShadingRate makes the micropolygons, fewer pixels have fewer; hairs and flowers are counted.
+        if (name == "hair" || name == "flowers") scene.parameters.scale /= 4;
+    }
+    return scene;
+}
+
+SharedFrame StudyBench::frame(const StudyScene& scene) {
+    go_on();
+    stage("shading " + scene.label);
+    RenderSettings settings;
+    settings.memory_bytes = settings_.memory_bytes;
+    settings.cancelled = settings_.cancelled;
+    settings.on_progress = settings_.on_progress;
+    std::optional<SharedFrame> frame;
+    const std::string text = scene_text(scene.name, scene.parameters);
+    read_rib_text(text, scene.name, ReadOptions{}, diagnostics_,
+                  [&](Scene&& world) { frame = share_frame(std::move(world), settings, diagnostics_); });
+    if (!frame) throw StudyStopped();
+    const FrameBlur blur = measure_blur(frame->context.camera, frame->grids);
+    StudySceneFacts& facts = result_.scenes.emplace_back();
+    facts.label = scene.label, facts.command = scene_command_line(scene);
+    facts.width = frame->stats.width, facts.height = frame->stats.height;
+    facts.micropolygons = frame->grids.micropolygon_count();
+    facts.grids = frame->stats.tessellate.grids;
+    facts.largest_defocus = blur.defocus.largest, facts.largest_motion = blur.motion.largest;
+    return std::move(*frame);
+}
+
+std::vector<MethodResult> StudyBench::measure(const SharedFrame& frame, const StudyScene& scene,
+                                              const std::string& methods,
+                                              const std::vector<SampleRate>& rates) {
+    stage("sampling " + scene.label);
+    std::string error;
+    const auto samplers = parse_samplers(methods, "", &error);
+    if (!samplers) {  // a study's own text: a mistake of ours
+        diagnostics_.error({}, error);
+        throw StudyStopped();
+    }
+    MeasureSettings settings;
+    settings.rounds = settings_.rounds;
+    settings.on_progress = settings_.on_progress;
+    auto results = trapeze::measure(frame, *samplers, rates, settings);
+    if (results.empty()) throw StudyStopped();
+    for (const MethodResult& result : results) {
+        nlohmann::ordered_json figure = to_json(result);
+        figure["scene"] = scene_command_line(scene);
+        figure["stands_for"] = scene.label;
+        result_.figures.push_back(std::move(figure));
+    }
+    return results;
+}
+
+}  // namespace trapeze

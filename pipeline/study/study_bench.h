@@ -1,0 +1,55 @@
+/// What studies work with: scenes made to measure, and times and counts of methods on them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/compare/measure.h"
+#include "pipeline/study/scenes/scenes.h"
+#include "pipeline/study/study.h"
+
+namespace trapeze {
+
+/// Our counterpart of one of the paper's scenes.
+struct StudyScene {
+    std::string label;  ///< the paper's name
+    std::string name;   ///< of scene_names()
+    SceneParameters parameters;
+};
+
+/// Ends a study: it was cancelled, or a scene (reported) could not be had.
+struct StudyStopped {};
+
+class StudyBench {
+  public:
+    /// Writes scenes and figures into the result.
+    StudyBench(const StudySettings& settings, Diagnostics& diagnostics, StudyResult& result);
+
+    bool quick() const { return settings_.quick; }
+    /// Of the pictures where the paper supersamples 13x13 and more.
+    SampleRate reference_rate() const { return settings_.quick ? SampleRate{8, 8} : SampleRate{13, 13}; }
+
+    /// At the size that studies of this kind are measured at; `micropolygons` multiplies them at full size.
+    StudyScene scene(const std::string& label, const std::string& name, double micropolygons) const;
+
+    SharedFrame frame(const StudyScene& scene);
+    const StudySceneFacts& last_facts() const { return result_.scenes.back(); }
+
+    /// Methods separated by spaces; results by rate, then by method.
+    std::vector<MethodResult> measure(const SharedFrame& frame, const StudyScene& scene,
+                                      const std::string& methods, const std::vector<SampleRate>& rates);
+
+    /// Ends the study when it was cancelled.
+    void go_on() const;
+    void stage(const std::string& what) const;
+
+  private:
+    const StudySettings& settings_;
+    Diagnostics& diagnostics_;
+    StudyResult& result_;
+};
+
+/// "trapeze scene NAME ..." as one would write it to get this scene.
+std::string scene_command_line(const StudyScene& scene);
+
+}  // namespace trapeze

@@ -1,0 +1,67 @@
+#include "pipeline/study/study.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "pipeline/study/study_bench.h"
+
+namespace trapeze {
+namespace {
+
+struct Bench {
+    std::string messages;
+    Diagnostics diagnostics{[this](const Diagnostic& d) { messages += to_string(d) + "\n"; }};
+    StudySettings settings;
+    StudyResult result;
+};
+
+StudyScene tiny() {
+    StudyScene scene{"Furball", "hair", {}};
+    scene.parameters.scale = .05, scene.parameters.width = 64, scene.parameters.height = 36;
+    return scene;
+}
+
+TEST(StudyBench, MeasuresAMadeSceneAndKeepsTheFigures) {
+    Bench b;
+    b.settings.rounds = 2;
+    StudyBench bench(b.settings, b.diagnostics, b.result);
+    const SharedFrame frame = bench.frame(tiny());
+    EXPECT_EQ(b.messages, "");
+    EXPECT_GT(bench.last_facts().micropolygons, 1000u);
+    EXPECT_GT(bench.last_facts().largest_motion, 0.5f);
+    const auto results = bench.measure(frame, tiny(), "raytrace interval", {{1, 1}, {2, 2}});
+    ASSERT_EQ(results.size(), 4u);
+    EXPECT_EQ(results[3].method, "interval");
+    EXPECT_EQ(results[3].build_seconds.size(), 2u);
+    ASSERT_EQ(b.result.figures.size(), 4u);
+    EXPECT_EQ(b.result.figures[2]["scene"], "trapeze scene hair -r 64x36 --scale 0.05");
+}
+
+TEST(StudyBench, StopsWhenCancelledOrOutOfMemory) {
+    Bench b;
+    std::atomic<bool> cancelled = true;
+    b.settings.cancelled = &cancelled;
+    StudyBench bench(b.settings, b.diagnostics, b.result);
+    EXPECT_THROW(bench.frame(tiny()), StudyStopped);
+    cancelled = false;
+    b.settings.memory_bytes = 1000;
+    EXPECT_THROW(bench.frame(tiny()), StudyStopped);
+    EXPECT_NE(b.messages.find("budget"), std::string::npos) << b.messages;
+}
+
+TEST(Study, UnknownNamesGiveNothing) {
+    Bench b;
+    EXPECT_FALSE(run_study("table3", b.settings, b.diagnostics));
+}
+
+TEST(Study, CancelledStudiesGiveNothing) {
+    Bench b;
+    std::atomic<bool> cancelled = true;
+    b.settings.cancelled = &cancelled;
+    for (const StudyName& study : study_names())
+        EXPECT_FALSE(run_study(study.name, b.settings, b.diagnostics));
+}
+
+}  // namespace
+}  // namespace trapeze
