@@ -59,6 +59,12 @@ void RibWriter::argument(std::span<const int> numbers) {
     argument(Numbers(numbers.begin(), numbers.end()));
 }
 
+void RibWriter::argument(const Words& words) {
+    word("[");
+    for (const std::string& text : words) word(fmt::format("\"{}\"", text));
+    text_ += ']';
+}
+
 void RibWriter::moving(std::string_view name, const Numbers& open, const Numbers& close) {
     const auto write = [&](const Numbers& numbers) {
         begin_line(name);

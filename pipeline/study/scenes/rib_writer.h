@@ -12,6 +12,7 @@ namespace trapeze::scenes {
 
 using Numbers = std::vector<double>;
 using Integers = std::vector<int>;
+using Words = std::vector<std::string>;
 
 /// A block that ends with the scope.
 class RibBlock;
@@ -48,6 +49,7 @@ class RibWriter {
     void argument(std::span<const int> numbers);
     void argument(const Numbers& numbers) { argument(std::span<const double>(numbers)); }
     void argument(const Integers& numbers) { argument(std::span<const int>(numbers)); }
+    void argument(const Words& words);
 
     std::string text_ = "##RenderMan RIB-Structure 1.1\n";
     size_t line_begin_ = 0;

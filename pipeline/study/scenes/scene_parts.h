@@ -54,5 +54,6 @@ void write_moving(RibWriter& rib, std::string_view request, const Numbers& middl
 void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
 
 std::string hair_scene(const SceneParameters& parameters);
+std::string halberd_scene(const SceneParameters& parameters);
 
 }  // namespace trapeze::scenes

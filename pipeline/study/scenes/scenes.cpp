@@ -12,6 +12,7 @@ struct SceneRow {
 
 constexpr SceneRow kScenes[] = {
     {"hair", scenes::hair_scene},
+    {"halberd", scenes::halberd_scene},
 };
 
 }  // namespace

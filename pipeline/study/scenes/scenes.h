@@ -12,8 +12,8 @@ struct SceneParameters {
     /// Multiplies the number of micropolygons: through the number of hairs or flowers in the scenes of that
     /// name, through ShadingRate in the others.
     double scale = 1;
-    double motion = 1;   ///< multiplies the distances moved while the shutter is open; 0: nothing moves
-    double defocus = 1;  ///< multiplies the lens; 0: a pinhole
+    double motion = 1;        ///< multiplies the distances moved while the shutter is open; 0: nothing moves
+    double defocus = 1;       ///< multiplies the lens; 0: a pinhole
     double shading_rate = 1;  ///< multiplies the scene's own
     int width = 1280, height = 720;
 };
