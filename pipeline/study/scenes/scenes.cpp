@@ -13,6 +13,7 @@ struct SceneRow {
 constexpr SceneRow kScenes[] = {
     {"hair", scenes::hair_scene},
     {"halberd", scenes::halberd_scene},
+    {"flowers", scenes::flowers_scene},
 };
 
 }  // namespace
