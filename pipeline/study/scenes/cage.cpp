@@ -24,16 +24,24 @@ void Cage::crease(const Integers& chain, double sharpness) {
 
 void Cage::write(RibWriter& rib) const {
     Words tags{"interpolateboundary"};
-    Integers counts{0, 0}, chains;
+    Integers counts{0, 0}, integers;
     Numbers sharpness;
     for (const Crease& crease : creases) {
         tags.emplace_back("crease");
         counts.insert(counts.end(), {static_cast<int>(crease.chain.size()), 1});
-        chains.insert(chains.end(), crease.chain.begin(), crease.chain.end());
+        integers.insert(integers.end(), crease.chain.begin(), crease.chain.end());
         sharpness.push_back(crease.sharpness);
     }
-    rib.request("SubdivisionMesh", "catmull-clark", sizes, corners, tags, counts, chains, sharpness, "P",
-                flattened(points), "vertex color Cs", flattened(colors));
+    if (!holes.empty()) {
+        tags.emplace_back("hole");
+        counts.insert(counts.end(), {static_cast<int>(holes.size()), 0});
+        integers.insert(integers.end(), holes.begin(), holes.end());
+    }
+    const auto write = [&](const auto&... variables) {
+        rib.request("SubdivisionMesh", "catmull-clark", sizes, corners, tags, counts, integers, sharpness,
+                    "P", flattened(points), variables...);
+    };
+    colors.empty() ? write() : write("vertex color Cs", flattened(colors));
 }
 
 void add_lathe(Cage& cage, const Lathe& lathe, const std::vector<Ring>& rings) {

@@ -10,8 +10,10 @@
 namespace trapeze::scenes {
 
 struct Cage {
-    std::vector<V3d> points, colors;
-    Integers sizes, corners;  ///< of the faces, as SubdivisionMesh has them
+    std::vector<V3d> points, colors;  ///< no colours: that of the attributes
+    Integers sizes, corners;          ///< of the faces, as SubdivisionMesh has them
+
+    Integers holes;  ///< faces that are not drawn
 
     struct Crease {
         Integers chain;

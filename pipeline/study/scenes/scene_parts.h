@@ -56,5 +56,6 @@ void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
 std::string hair_scene(const SceneParameters& parameters);
 std::string halberd_scene(const SceneParameters& parameters);
 std::string flowers_scene(const SceneParameters& parameters);
+std::string car_study_scene(const SceneParameters& parameters);
 
 }  // namespace trapeze::scenes

@@ -1,0 +1,13 @@
+/// A car's body as a subdivision surface, in metres: z towards the nose, y up, the ground at 0.
+#pragma once
+
+#include "pipeline/study/scenes/rib_writer.h"
+
+namespace trapeze::scenes {
+
+enum class BodyPiece { kPaint, kGlass, kTrim, kTailLamps };
+
+/// The faces of that piece; their colour is that of the attributes.
+void write_car_body(RibWriter& rib, BodyPiece piece);
+
+}  // namespace trapeze::scenes

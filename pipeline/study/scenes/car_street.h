@@ -1,0 +1,20 @@
+/// A street along the z axis at dusk, for cars to drive on: lanes, barriers, lamps, traffic lights, a town.
+#pragma once
+
+#include "pipeline/study/scenes/car_model.h"
+
+namespace trapeze::scenes {
+
+/// Where things are along x, in metres: between the lanes, the barrier between the directions, the far wall.
+inline constexpr double kLaneMark = 1.75, kRoadEdge = -1.95, kBarrier = 5.9, kFarWall = 15.2;
+
+/// Asphalt, a little wet.
+inline const Plastic kRoad = {{.052, .053, .057}, .9, .45, .02};
+
+/// What streams past, all of it at rest in the space that is current.
+void write_street(RibWriter& rib);
+
+/// What is too far away to move: the sky, and the town's outline with its windows.
+void write_horizon(RibWriter& rib);
+
+}  // namespace trapeze::scenes
