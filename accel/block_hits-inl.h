@@ -142,12 +142,16 @@ class CornerLookup {
         for (int c = 0; c < 3; ++c) at_[1 + c] = _mm512_load_si512(kCorners[c]);
     }
     HWY_INLINE void load(int plane, VF& own, VF& behind) const {
+        load(block_, plane, own, behind);
+    }
+    /// The tile's vertices, and the fifth column, row and corner; what is left repeats some of them.
+    static HWY_INLINE void load(const BlockView& block, int plane, VF& own, VF& behind) {
         const __m512i kBehind = _mm512_setr_epi32(0, 4, 8, 12, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0);
-        const float* tile = block_.tile + static_cast<size_t>(plane) * block_.plane;
-        const __m512 down = _mm512_castps128_ps512(_mm_loadu_ps(tile + block_.down));
-        const __m512 last = _mm512_permutex2var_ps(_mm512_loadu_ps(tile + block_.right), kBehind, down);
+        const float* tile = block.tile + static_cast<size_t>(plane) * block.plane;
+        const __m512 down = _mm512_castps128_ps512(_mm_loadu_ps(tile + block.down));
+        const __m512 last = _mm512_permutex2var_ps(_mm512_loadu_ps(tile + block.right), kBehind, down);
         own = VF{_mm512_load_ps(tile)};
-        behind = VF{_mm512_mask_mov_ps(last, 1 << 8, _mm512_set1_ps(tile[block_.down + block_.right]))};
+        behind = VF{_mm512_mask_mov_ps(last, 1 << 8, _mm512_set1_ps(tile[block.down + block.right]))};
     }
     HWY_INLINE VF corner(int corner, VF own, VF behind) const {
         return VF{_mm512_permutex2var_ps(own.raw, at_[corner], behind.raw)};

@@ -22,6 +22,8 @@ inline constexpr float kLeastDirection = 1e-18f;
 
 /// Fewer active rays than this go through a grid one by one, lanes being blocks.
 inline constexpr size_t kFewInGrid = 4;
+/// Finding a block's slabs pays for so many rays.
+inline constexpr size_t kFewForSlabs = 12;
 /// Fewer rays than this are tested one by one, lanes being micropolygons.
 inline constexpr size_t kFewInBlock = 3;
 
@@ -47,6 +49,7 @@ struct TraceInput {
 #endif
 
 #include "accel/block_hits-inl.h"
+#include "accel/block_slabs-inl.h"
 #include "accel/ray_intervals-inl.h"
 #include "accel/sharp_packets-inl.h"
 
@@ -68,14 +71,6 @@ HWY_INLINE uint32_t mask_bits(MF mask) {
     return static_cast<uint32_t>(bytes[0] | bytes[1] << 8);
 }
 
-HWY_INLINE VF reciprocal(VF v) {
-    const F32 d;
-    const VF least = hn::Set(d, kLeastDirection);
-    v = hn::IfThenElse(hn::Lt(hn::Abs(v), least), least, v);
-    const VF guess = hn::ApproximateReciprocal(v);
-    return hn::Mul(guess, hn::NegMulAdd(v, guess, hn::Set(d, 2.0f)));
-}
-
 HWY_INLINE float largest(VF v) {
     return hn::GetLane(hn::MaxOfLanes(F32(), v));
 }
@@ -84,9 +79,9 @@ HWY_INLINE float least(VF v) {
 }
 
 /// The lanes of v where the mask is true, one after another; a whole vector is written.
-template <bool kAll = false, class D, class V>
+template <class D, class V>
 HWY_INLINE void append(V v, hn::Mask<D> mask, D d, hn::TFromD<D>* to) {
-    hn::StoreU(kAll ? v : hn::Compress(v, mask), d, to);
+    hn::StoreU(hn::Compress(v, mask), d, to);
 }
 
 /// One bundle's way through a tree. kMotion: something in the tree moves; kLens: rays do not start in one
@@ -444,12 +439,12 @@ class BundleTrace {
         }
         const int blocks_u = grid.blocks_u(), boxes = grid.box_count(), per_box = grid.blocks_per_box();
         meet_boxes<kMoves>(planes, boxes);
-        for (int box = 0; box < boxes; ++box) {
-            const size_t count = collect_box<kMoves>(s_.met + static_cast<size_t>(box) * kMetStride);
-            if (count == 0) continue;
-            const int first = box * per_box, last = std::min(first + per_box, grid.block_count());
-            for (int b = first; b < last; ++b)
-                test_block_rays<kMoves>(block_of(grid, segment, b % blocks_u, b / blocks_u, index), count);
+        const float rounding = tree_.rounding(absolute_max(tree_.grid_box(index)));
+        for (int b = 0; b < grid.block_count(); ++b) {
+            const uint8_t* met = s_.met + static_cast<size_t>(b / per_box) * kMetStride;
+            const Block block = block_of(grid, segment, b % blocks_u, b / blocks_u, index);
+            const size_t count = collect_block<kMoves>(block, met, rounding);
+            if (count != 0) test_block_rays<kMoves>(block, count);
         }
         if (!grid.opaque) return;
         for (const uint32_t packet : s_.touched) refresh_packet(packet);
@@ -550,30 +545,62 @@ class BundleTrace {
         }
     }
 
-    /// Lists the active rays whose bits are set in a box's row; how many.
+    /// Lists the active rays whose bits are set in the row of a block's box and that do not pass the block
+    /// by; how many.
     template <bool kMoves>
-    size_t collect_box(const uint8_t* met) {
+    size_t collect_block(const Block& block, const uint8_t* met, float rounding) {
         const F32 d;
         const hn::RebindToUnsigned<F32> du;
         const ActiveRays& active = s_.active;
         BlockRays& to = s_.block;
+        const size_t candidates = count_bits(met, (active.count + kLanes - 1) / kLanes * kMaskBytes);
+        if (candidates == 0) return 0;
+        BlockSlabs slabs;
+        const bool has_slabs = candidates >= kFewForSlabs && slabs_of<kMoves>(block.view, rounding, slabs);
+        if (has_slabs) stats_.nodes_visited += candidates;
         size_t count = 0;
         for (size_t i = 0; i < active.count; i += kLanes, met += kMaskBytes) {
             uint32_t bits = 0;
             std::memcpy(&bits, met, kMaskBytes);
             if (bits == 0) continue;
-            const MF here = hn::LoadMaskBits(d, met);
-            if constexpr (kLens) {
-                append(hn::Load(d, active.ox + i), here, d, to.ox + count);
-                append(hn::Load(d, active.oy + i), here, d, to.oy + count);
+            MF here = hn::LoadMaskBits(d, met);
+            RayLanes r;
+            if constexpr (kLens) r.ox = hn::Load(d, active.ox + i), r.oy = hn::Load(d, active.oy + i);
+            r.ux = hn::Load(d, active.ux + i), r.uy = hn::Load(d, active.uy + i);
+            if constexpr (kMoves) r.local = hn::Load(d, active.local + i);
+            if (has_slabs) {
+                here = hn::AndNot(misses<kMoves, kLens>(slabs, r), here);
+                bits = mask_bits(here);
+                if (bits == 0) continue;
             }
-            append(hn::Load(d, active.ux + i), here, d, to.ux + count);
-            append(hn::Load(d, active.uy + i), here, d, to.uy + count);
-            if constexpr (kMoves) append(hn::Load(d, active.local + i), here, d, to.local + count);
+            if constexpr (kLens) append(r.ox, here, d, to.ox + count), append(r.oy, here, d, to.oy + count);
+            append(r.ux, here, d, to.ux + count), append(r.uy, here, d, to.uy + count);
+            if constexpr (kMoves) append(r.local, here, d, to.local + count);
             append(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, here), du, to.active + count);
             count += static_cast<size_t>(std::popcount(bits));
         }
         return count;
+    }
+
+    /// Of a row of meet_boxes(), whose unused bits are 0.
+    static size_t count_bits(const uint8_t* row, size_t bytes) {
+        size_t count = 0, i = 0;
+        for (; i + 8 <= bytes; i += 8) {
+            uint64_t word;
+            std::memcpy(&word, row + i, 8);
+            count += static_cast<size_t>(std::popcount(word));
+        }
+        for (; i < bytes; ++i) count += static_cast<size_t>(std::popcount(row[i]));
+        return count;
+    }
+
+    static float absolute_max(const MovingBox& box) {
+        float most = 0;
+        for (int k = 0; k < 3; ++k)
+            for (const float at :
+                 {box.low[k], box.high[k], box.low[k] + box.low_delta[k], box.high[k] + box.high_delta[k]})
+                most = std::max(most, std::abs(at));
+        return most;
     }
 
     template <bool kMoves>

@@ -19,11 +19,6 @@ namespace {
 /// Where no ray comes: the boxes of children that are not there.
 constexpr float kNowhere = 1e30f;
 
-/// What bounds grow by for each unit of the largest coordinate: as TraceRay::rounding().
-float rounding_scale(const RayReach& reach) {
-    return kTraceRounding * (1 + reach.slope);
-}
-
 MovingBox moving(const EndBoxes& ends) {
     MovingBox box;
     for (int k = 0; k < 3; ++k) {
@@ -35,7 +30,11 @@ MovingBox moving(const EndBoxes& ends) {
 
 }  // namespace
 
-WideTree::WideTree(const Grids& grids, const RayReach& reach) : grids_(grids), reach_(reach) {
+WideTree::WideTree(const Grids& grids, const RayReach& reach)
+    : grids_(grids),
+      reach_(reach),
+      rounding_scale_(kTraceRounding * (1 + reach.slope)),  // as TraceRay::rounding()
+      rounding_base_(2 * rounding_scale_ * reach.origin + 0x1p-80f) {
     moves_ = grids.max_key_count() > 1;
     std::vector<GridExtent> extents(grids.grids.size());
     bound_grids(extents);
@@ -71,13 +70,12 @@ void WideTree::bound_grids(std::vector<GridExtent>& extents) {
         floats += static_cast<size_t>(record.box_stride()) * segment_count(grid.key_count);
     }
     box_planes_.allocate(floats);
-    const float scale = rounding_scale(reach_), base = 2 * scale * reach_.origin + 0x1p-80f;
     constexpr size_t kGrain = 32;
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kGrain), [&](const auto& range) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
             WideGrid& record = wide_grids_[i];
-            bound_grid(grids_.grids[i], scale, base, record, box_planes_.data() + record.first_box,
-                       extents[i]);
+            bound_grid(grids_.grids[i], rounding_scale_, rounding_base_, record,
+                       box_planes_.data() + record.first_box, extents[i]);
             boxes_[i] = moving(extents[i].box);
         }
     });

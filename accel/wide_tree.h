@@ -120,6 +120,10 @@ class WideTree final : public RayQuery {
     BuildStats stats() const { return stats_; }
     bool moves() const { return moves_; }
 
+    /// What bounds of things within some coordinates have to grow by, so that no test of a ray within reach
+    /// loses a hit to rounding.
+    float rounding(float absolute_max) const { return rounding_scale_ * absolute_max + rounding_base_; }
+
     /// The extent along z of the largest micropolygon of all.
     float max_slack() const { return max_slack_; }
     const WideNode* nodes() const { return nodes_.data(); }
@@ -139,6 +143,7 @@ class WideTree final : public RayQuery {
 
     const Grids& grids_;
     RayReach reach_;
+    float rounding_scale_, rounding_base_;
     bool moves_ = false;
     float max_slack_ = 0, max_extent_ = 0, absolute_max_ = 0;
     AlignedArray<WideGrid> wide_grids_;
