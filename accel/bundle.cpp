@@ -228,15 +228,20 @@ class BundleTrace {
             return;
         }
         if (!grid.moves()) {
-            collect_active<false>(index, grid, 0, depth);
+            collect_active<false>({tree_.grid_box(index), grid.framed}, grid, 0, depth);
             test_active<false>(index, grid, 0);
             return;
         }
         if constexpr (kMotion) {
+            if (!grid.has_segments()) {
+                collect_active<true>({tree_.grid_box(index), grid.framed}, grid, 0, depth);
+                test_active<true>(index, grid, 0);
+                return;
+            }
             const int first = segment_at(first_time_, grid.key_count).index;
             const int last = segment_at(last_time_, grid.key_count).index;
             for (int segment = first; segment <= last; ++segment) {
-                collect_active<true>(index, grid, segment, depth);
+                collect_active<true>(tree_.segment_bounds(grid, segment), grid, segment, depth);
                 test_active<true>(index, grid, segment);
             }
         }
@@ -341,15 +346,19 @@ class BundleTrace {
     /// Packets whose intervals meet the grid's axis-aligned box, then those of their rays that meet its
     /// oriented one (and, of a moving grid, look in the segment).
     template <bool kMoves>
-    void collect_active(uint32_t index, const WideGrid& grid, int segment, float depth) {
+    void collect_active(const SegmentBounds& bounds, const WideGrid& grid, int segment, float depth) {
         const F32 d;
-        const MovingBox& box = tree_.grid_box(index);
+        const MovingBox& box = bounds.box;
         s_.active.count = 0;
         s_.touched.clear();
         for (size_t p = 0; p < packets_; p += kLanes) {
-            const auto q = IntervalLanes::of<kMoves, kLens>(
+            auto q = IntervalLanes::of<kMoves, kLens>(
                 [&](int row) HWY_ATTR { return hn::Load(d, s_.intervals.row[row] + p); });
             VF low[3], high[3];
+            MF looks = hn::FirstN(d, kLanes);
+            if constexpr (kMoves) {
+                if (grid.has_segments()) looks = to_segment(grid.key_count, segment, q.time);
+            }
             for (int k = 0; k < 3; ++k) {
                 low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
                 if constexpr (kMoves) {
@@ -357,22 +366,40 @@ class BundleTrace {
                     high[k] = highest(high[k], hn::Set(d, box.high_delta[k]), q.time);
                 }
             }
-            const MF looks = hn::Ge(hn::Load(d, s_.farthest + p), low[2]);
+            looks = hn::And(looks, hn::Ge(hn::Load(d, s_.farthest + p), low[2]));
             uint32_t met = mask_bits(hn::And(
                 looks, meets<kLens>(d, q, low, high, hn::Set(d, nearest_), hn::Set(d, inverse_focal_))));
             for (; met != 0; met &= met - 1)
-                collect_packet<kMoves>(grid, p + static_cast<size_t>(std::countr_zero(met)), segment, depth);
+                collect_packet<kMoves>(grid, bounds.framed, p + static_cast<size_t>(std::countr_zero(met)),
+                                       segment, depth);
         }
     }
 
+    /// From times of the shutter to local ones; false where none is in the segment.
+    static HWY_INLINE MF to_segment(int key_count, int segment, Interval& time) {
+        const F32 d;
+        const VF scale = hn::Set(d, static_cast<float>(key_count - 1)),
+                 start = hn::Set(d, static_cast<float>(segment));
+        const VF low = hn::MulSub(time.low, scale, start), high = hn::MulSub(time.high, scale, start);
+        const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+        time = {hn::Max(low, zero), hn::Min(high, one)};
+        // A little more than the segment, for times round.
+        return hn::And(hn::Le(low, hn::Set(d, 1.0f + 0x1p-12f)), hn::Ge(high, hn::Set(d, -0x1p-12f)));
+    }
+
     template <bool kMoves>
-    void collect_packet(const WideGrid& grid, size_t packet, int segment, float depth) {
+    void collect_packet(const WideGrid& grid, const MovingBox& framed, size_t packet, int segment,
+                        float depth) {
         const F32 d;
         const size_t i = packet * kLanes;
         const VF ox = kLens ? hn::Load(d, rays_.ox + i) : hn::Zero(d),
                  oy = kLens ? hn::Load(d, rays_.oy + i) : hn::Zero(d);
         const VF ux = hn::Load(d, rays_.ux + i), uy = hn::Load(d, rays_.uy + i);
-        const VF time = kMoves ? hn::Load(d, rays_.time + i) : hn::Zero(d);
+        VF local = kMoves ? hn::Load(d, rays_.time + i) : hn::Zero(d);
+        MF met = hn::FirstN(d, kLanes);
+        if constexpr (kMoves) {
+            if (grid.has_segments()) met = in_segment(local, grid.key_count, segment, local);
+        }
         const VF limit = hn::Add(hn::Load(d, rays_.depth + i), hn::Set(d, grid.slack));
         VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
         for (int k = 0; k < 3; ++k) {
@@ -380,19 +407,15 @@ class BundleTrace {
             const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]);
             inverse[k] = reciprocal(hn::MulAdd(x, ux, hn::MulAdd(y, uy, hn::Set(d, axis[2]))));
             offset[k] = kLens ? hn::Mul(hn::MulAdd(x, ox, hn::Mul(y, oy)), inverse[k]) : hn::Zero(d);
-            VF low = hn::Set(d, grid.framed.low[k]), high = hn::Set(d, grid.framed.high[k]);
+            VF low = hn::Set(d, framed.low[k]), high = hn::Set(d, framed.high[k]);
             if constexpr (kMoves) {
-                low = hn::MulAdd(time, hn::Set(d, grid.framed.low_delta[k]), low);
-                high = hn::MulAdd(time, hn::Set(d, grid.framed.high_delta[k]), high);
+                low = hn::MulAdd(local, hn::Set(d, framed.low_delta[k]), low);
+                high = hn::MulAdd(local, hn::Set(d, framed.high_delta[k]), high);
             }
             const VF a = hn::MulSub(low, inverse[k], offset[k]), b = hn::MulSub(high, inverse[k], offset[k]);
             near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
         }
-        MF met = hn::Le(near, far);
-        VF local = time;
-        if constexpr (kMoves) {
-            if (grid.key_count > 2) met = hn::And(met, in_segment(time, grid.key_count, segment, local));
-        }
+        met = hn::And(met, hn::Le(near, far));
         const size_t count = hn::CountTrue(d, met);
         stats_.nodes_visited += kLanes;
         if (rays_.nodes) count_packet(rays_.nodes, i, 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "accel/builders/grid_summary.h"
 
@@ -184,6 +185,25 @@ void write_boxes(const WideGrid& record, const BlockBoxes* keys, float grow, flo
             }
 }
 
+/// The whole grid in a segment, grown; components from `first` on of its keys' boxes.
+MovingBox segment_box(const KeyBox6& from, const KeyBox6& to, int first, float grow) {
+    MovingBox box;
+    for (int k = 0; k < 3; ++k) {
+        box.low[k] = from.low[first + k] - grow, box.low_delta[k] = to.low[first + k] - from.low[first + k];
+        box.high[k] = from.high[first + k] + grow,
+        box.high_delta[k] = to.high[first + k] - from.high[first + k];
+    }
+    return box;
+}
+
+void write_segment_bounds(const WideGrid& record, const KeyBox6* wholes, float grow, float* out) {
+    for (int s = 0; s + 1 < record.key_count; ++s, out += record.box_stride()) {
+        const SegmentBounds bounds{segment_box(wholes[s], wholes[s + 1], 0, grow),
+                                   segment_box(wholes[s], wholes[s + 1], 3, grow)};
+        std::memcpy(out + record.box_count() * 12, &bounds, sizeof(bounds));
+    }
+}
+
 /// An upper bound of the extent of any micropolygon along each axis of space: of the block that holds it.
 void bound_extents(const WideGrid& record, const BlockBoxes* keys, float extent[3]) {
     for (int c = 0; c < 3; ++c) extent[c] = 0;
@@ -246,6 +266,7 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, flo
     if (record.blocks_per_box() > 1)
         for (BlockBoxes& boxes : blocks) join_blocks(record, boxes);
     write_boxes(record, blocks.data(), grow, box_planes);
+    if (record.has_segments()) write_segment_bounds(record, wholes, grow, box_planes);
 }
 
 }  // namespace trapeze

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -71,6 +72,12 @@ struct alignas(64) WideNodeMotion {
     float low[3][WideNode::kChildren], high[3][WideNode::kChildren];
 };
 
+/// A whole grid in one segment of its motion; times are local to it. What turns fast, as wheels do, is nearly
+/// everywhere during the shutter, and somewhere in each segment.
+struct SegmentBounds {
+    MovingBox box, framed;  ///< in camera space, and in the grid's frame
+};
+
 /// A grid as traversal reads it.
 struct WideGrid {
     const float* planes;  ///< Grid::positions
@@ -93,11 +100,16 @@ struct WideGrid {
     /// A ribbon's blocks, four micropolygons each, share boxes: memory counts there.
     int blocks_per_box() const { return nu == 1 || nv == 1 ? kRibbonBlocksPerBox : 1; }
     int box_count() const { return (block_count() + blocks_per_box() - 1) / blocks_per_box(); }
-    /// Floats of a segment's boxes: planes low x, y, z, high x, y, z of all; then, when the grid moves, how
-    /// far they go.
-    int box_stride() const { return box_count() * (moves() ? 12 : 6); }
+    /// Whether it moves in several segments: then each has bounds of its own.
+    bool has_segments() const { return key_count > 2; }
+    /// Floats of a segment: planes low x, y, z, high x, y, z of all its boxes; then, when the grid moves, how
+    /// far they go; then its SegmentBounds, where it has any.
+    int box_stride() const {
+        return box_count() * (moves() ? 12 : 6) + (has_segments() ? kSegmentBoundFloats : 0);
+    }
 
     static constexpr int kRibbonBlocksPerBox = 4;
+    static constexpr int kSegmentBoundFloats = sizeof(SegmentBounds) / sizeof(float);
 };
 static_assert(sizeof(WideGrid) <= 112, "hair has one for every 16 micropolygons");
 
@@ -133,6 +145,12 @@ class WideTree final : public RayQuery {
     const MovingBox& grid_box(uint32_t index) const { return boxes_[index]; }
     const float* box_planes(const WideGrid& grid, int segment) const {
         return box_planes_.data() + grid.first_box + static_cast<size_t>(segment) * grid.box_stride();
+    }
+    /// Of a grid that has_segments().
+    SegmentBounds segment_bounds(const WideGrid& grid, int segment) const {
+        SegmentBounds bounds;
+        std::memcpy(&bounds, box_planes(grid, segment) + grid.box_count() * 12, sizeof(bounds));
+        return bounds;
     }
     /// Grids too far out for bounds: every ray must look at them.
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }

@@ -112,7 +112,60 @@ void order_by_pixels(const SampleTile& samples, SampleScratch& scratch, std::vec
             *next++ = i;
 }
 
+/// What a group of consecutive rays covers of the picture: `square` pixels in either direction, and of the
+/// lens along, of the lens across, and of the time these parts.
+struct Footprint {
+    float square, along, across, time;
+
+    /// How many grids it meets, or squares `parts` times as small; a way is taken to run along.
+    float meets(const BlurMoments& m, float parts) const {
+        const float s = square * parts, a = along * parts, b = across * parts, t = time * parts;
+        return m.one + 2 * s * m.r + (a + b) * m.p + t * m.q + s * s * m.rr + s * (a + b) * m.rp +
+               s * t * m.rq + a * b * m.pp + t * b * m.pq;
+    }
+};
+
+Footprint footprint(float rays, const BundleOrder& order, float samples_per_pixel) {
+    const float block = static_cast<float>(order.block_side * order.block_side),
+                lens_cells = static_cast<float>(1 << order.lens_bits),
+                time_cells = static_cast<float>(1 << order.time_bits);
+    const float rays_of_cell = block * samples_per_pixel / (lens_cells * lens_cells * time_cells);
+    // More rays than a cell has come from the next cells: of time first, then along the lens, then across.
+    const float cells = rays / rays_of_cell;
+    return {std::sqrt(block * std::min(cells, 1.0f)),
+            std::clamp(cells / time_cells, 1.0f, lens_cells) / lens_cells,
+            std::clamp(cells / (time_cells * lens_cells), 1.0f, lens_cells) / lens_cells,
+            std::clamp(cells, 1.0f, time_cells) / time_cells};
+}
+
+/// In cycles a ray, roughly (twice or half of each makes little difference): of a packet with each grid it
+/// meets, of a bundle with each grid, and with each block of a quarter of its side. A bundle of a larger
+/// block of pixels has its rays farther apart in memory.
+float cost_of(const BlurMoments& blur, const BundleOrder& order, int samples_per_pixel) {
+    constexpr float kPacket = 16, kBundle = 1024;
+    constexpr float kPacketAndGrid = 100 / kPacket, kBundleAndGrid = 300 / kBundle,
+                    kBundleAndBlock = 100 / kBundle;
+    const auto spp = static_cast<float>(samples_per_pixel);
+    const Footprint packet = footprint(kPacket, order, spp), bundle = footprint(kBundle, order, spp);
+    const float cost = kPacketAndGrid * packet.meets(blur, 1) + kBundleAndGrid * bundle.meets(blur, 1) +
+                       kBundleAndBlock * bundle.meets(blur, 4);
+    return order.block_side > 8 ? 1.07f * cost : cost;
+}
+
 }  // namespace
+
+BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, bool motion, bool defocus) {
+    BundleOrder best;
+    float least = HUGE_VALF;
+    for (const int side : {8, 16})
+        for (int lens_bits = 0; lens_bits <= (defocus ? 3 : 0); ++lens_bits)
+            for (int time_bits = 0; time_bits <= (motion ? 5 : 0); ++time_bits) {
+                const BundleOrder order{side, lens_bits, time_bits};
+                const float cost = cost_of(blur, order, samples_per_pixel);
+                if (cost < least) least = cost, best = order;
+            }
+    return best;
+}
 
 void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
                    SampleScratch& scratch, std::vector<uint32_t>& result) {

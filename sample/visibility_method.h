@@ -31,6 +31,13 @@ struct SampleHeat {
 
 class Visibility;
 
+/// An order of a tile's samples that may serve again.
+struct KnownOrder {
+    const void* owner = nullptr;  ///< who made it
+    std::array<int, 6> kind{};    ///< for what tiles, how sorted
+    std::vector<uint32_t> order;
+};
+
 /// What a thread needs while resolving; any method may use any of it. One per thread, reused.
 struct SampleScratch {
     SampleHeat* heat = nullptr;               ///< when set, methods add what each sample cost
@@ -45,10 +52,8 @@ struct SampleScratch {
     std::vector<uint32_t> found;              ///< lanes that the predicate answered yes for
     std::vector<float> found_depth;
     std::vector<uint32_t> starts, pixel_first;  ///< of the order of bundles
-    std::vector<uint32_t> bundle_order;         ///< samples in the order in which bundles take them
-    const Visibility* order_owner = nullptr;    ///< who made it, for tiles of what width, height, samples
-    std::array<int, 3> order_shape{};
-    std::unique_ptr<RayBundle> bundle;  ///< made when first needed
+    std::vector<KnownOrder> bundle_orders;      ///< in which bundles take samples; at most a few
+    std::unique_ptr<RayBundle> bundle;          ///< made when first needed
     BundleScratchPointer bundle_scratch;
     std::vector<uint32_t> ray_tests, ray_nodes;  ///< what the rays of a bundle cost
     IntervalScratch interval;

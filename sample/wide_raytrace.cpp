@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "accel/bundle.h"
-#include "sample/bundle_order.h"
 #include "sample/hit_lists.h"
+#include "sample/tile_order.h"
 
 namespace trapeze {
 namespace {
@@ -34,19 +34,19 @@ class WideRayTraced final : public Visibility {
           lens_(camera_.has_lens()),
           all_opaque_(every_grid_is_opaque(input.grids)),
           tree_(input.grids, reach_of(input.context.camera)),
-          motion_(tree_.moves()) {}
+          motion_(tree_.moves()),
+          order_(camera_, input.grids, motion_) {}
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
         if (!scratch.bundle) scratch.bundle = std::make_unique<RayBundle>();
         if (!scratch.bundle_scratch) scratch.bundle_scratch = make_bundle_scratch();
-        order(samples, scratch);
+        const std::span<const uint32_t> all = order_.of(samples, scratch);
         // Where every grid is opaque the hits need no list: they are written to their places.
         std::vector<Hit>& nearest = all_opaque_ ? hits.hits : scratch.nearest;
         nearest.resize(samples.size());
         scratch.hits.clear();
         scratch.hit_sample.clear();
-        const std::span<const uint32_t> all = scratch.bundle_order;
         for (size_t first = 0; first < all.size(); first += RayBundle::kRays)
             resolve_bundle(samples, all.subspan(first, std::min(RayBundle::kRays, all.size() - first)),
                            nearest, scratch, stats);
@@ -59,16 +59,6 @@ class WideRayTraced final : public Visibility {
     BuildStats build_stats() const override { return tree_.stats(); }
 
   private:
-    /// Through a lens alone, the order of one tile serves all of the same shape: strata of the lens are the
-    /// same in all pixels (where a pattern's are not, it is only less good).
-    void order(const SampleTile& samples, SampleScratch& scratch) const {
-        const std::array shape{samples.pixels.width(), samples.pixels.height(), samples.samples_per_pixel};
-        const bool known = !motion_ && lens_ && scratch.order_owner == this && scratch.order_shape == shape;
-        if (!known) order_bundles(samples, motion_, lens_, {}, scratch, scratch.bundle_order);
-        scratch.order_owner = this;
-        scratch.order_shape = shape;
-    }
-
     void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, std::vector<Hit>& nearest,
                         SampleScratch& scratch, SampleStats& stats) const {
         RayBundle& rays = *scratch.bundle;
@@ -131,6 +121,7 @@ class WideRayTraced final : public Visibility {
     bool lens_, all_opaque_;
     WideTree tree_;
     bool motion_;  ///< of grids; samples may have times all the same
+    TileOrder order_;
 };
 
 }  // namespace

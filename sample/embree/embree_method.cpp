@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sample/bundle_order.h"
 #include "sample/embree/embree_scene.h"
 #include "sample/hit_lists.h"
+#include "sample/tile_order.h"
 #include "sample/visibility_method.h"
 
 namespace trapeze {
@@ -82,8 +82,7 @@ Mode chosen_mode(Mode asked, const EmbreeScene& scene, bool quads, bool motion) 
 class EmbreeTraced final : public Visibility {
   public:
     EmbreeTraced(const VisibilityInput& input, const EmbreeChoices& choices, Mode mode)
-        : motion_(input.context.motion),
-          defocus_(input.context.camera.has_lens()),
+        : order_(input.context.camera, input.grids, input.grids.max_key_count() > 1),
           all_opaque_(every_grid_is_opaque(input.grids)),
           // Embree's range is open at its near end, ours is closed.
           near_(std::nextafter(input.context.camera.near_clip, -kInfinity)),
@@ -93,11 +92,11 @@ class EmbreeTraced final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        order_bundles(samples, motion_, defocus_, {}, scratch, scratch.order);
+        const auto order = order_.of(samples, scratch);
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
         scratch.hits.clear();
         scratch.hit_sample.clear();
-        trace(samples, scratch);
+        trace(samples, order, scratch);
         stats.rays += samples.size();
         if (all_opaque_) {
             buffer_of_nearest(scratch, samples.size(), hits);
@@ -115,20 +114,22 @@ class EmbreeTraced final : public Visibility {
     BuildStats build_stats() const override { return scene_.stats(); }
 
   private:
-    void trace(const SampleTile& samples, SampleScratch& scratch) const {
+    void trace(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch) const {
         Collector collector;
         rtcInitIntersectContext(&collector.context);
         collector.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
         collector.scratch = &scratch;
         switch (mode_) {
             case Mode::Single:
-                return trace_singly(samples, scratch, &collector.context);
+                return trace_singly(samples, order, scratch, &collector.context);
             case Mode::Packet8:
-                return trace_packets<8, RTCRayHit8>(samples, scratch, &collector.context, rtcIntersect8);
+                return trace_packets<8, RTCRayHit8>(samples, order, scratch, &collector.context,
+                                                    rtcIntersect8);
             case Mode::Packet16:
-                return trace_packets<16, RTCRayHit16>(samples, scratch, &collector.context, rtcIntersect16);
+                return trace_packets<16, RTCRayHit16>(samples, order, scratch, &collector.context,
+                                                      rtcIntersect16);
             default:
-                return trace_streams(samples, scratch, &collector.context);
+                return trace_streams(samples, order, scratch, &collector.context);
         }
     }
 
@@ -145,19 +146,19 @@ class EmbreeTraced final : public Visibility {
                                    scene_.micropolygon(ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v)};
     }
 
-    void trace_singly(const SampleTile& samples, SampleScratch& scratch, RTCIntersectContext* context) const {
+    void trace_singly(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
+                      RTCIntersectContext* context) const {
         RTCRayHit ray;
-        for (const uint32_t sample : scratch.order) {
+        for (const uint32_t sample : order) {
             set_ray(samples.rays[sample], sample, ray);
             rtcIntersect1(scene_.scene(), context, &ray);
             keep(ray, sample, scratch);
         }
     }
 
-    void trace_streams(const SampleTile& samples, SampleScratch& scratch,
+    void trace_streams(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
                        RTCIntersectContext* context) const {
         RTCRayHit rays[kStreamRays];
-        const std::span<const uint32_t> order = scratch.order;
         for (size_t first = 0; first < order.size(); first += kStreamRays) {
             const size_t count = std::min(kStreamRays, order.size() - first);
             for (size_t i = 0; i < count; ++i)
@@ -168,11 +169,10 @@ class EmbreeTraced final : public Visibility {
     }
 
     template <size_t kLanes, class Packet, class Intersect>
-    void trace_packets(const SampleTile& samples, SampleScratch& scratch, RTCIntersectContext* context,
-                       Intersect intersect) const {
+    void trace_packets(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
+                       RTCIntersectContext* context, Intersect intersect) const {
         Packet packet;
         alignas(64) int valid[kLanes];
-        const std::span<const uint32_t> order = scratch.order;
         for (size_t first = 0; first < order.size(); first += kLanes) {
             const size_t count = std::min(kLanes, order.size() - first);
             for (size_t lane = 0; lane < kLanes; ++lane) {
@@ -198,7 +198,8 @@ class EmbreeTraced final : public Visibility {
         to.hit.geomID[lane] = to.hit.primID[lane] = to.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
     }
 
-    bool motion_, defocus_, all_opaque_;
+    TileOrder order_;
+    bool all_opaque_;
     float near_, far_;
     EmbreeScene scene_;
     Mode mode_;

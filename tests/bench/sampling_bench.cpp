@@ -1,8 +1,8 @@
 /// Visibility methods on synthetic scenes, in turns in one run: build, trace, counts and memory, and the
 /// ratio of medians to the first method.
 ///
-///   sampling_bench [--methods "raytrace embree ..."] [--scenes "0 3 5"] [--rounds N] [--threads N] [--tiles
-///   N]
+///   sampling_bench [--methods "raytrace embree ..."] [--scenes "0 3 5"] [--rounds N] [--threads N] [--areas
+///   N] [--simd best|avx512|avx2|sse4]
 ///
 /// Every Nth area of 64x64 pixels is sampled (N grows with the samples), and times are scaled to the whole
 /// picture. Each method has its natural pattern and size of tile; samples are made before the clock runs.
@@ -17,6 +17,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/simd_limit.h"
 #include "sample/visibility_method.h"
 #include "sampling_scenes.h"
 
@@ -176,6 +177,12 @@ int main(int argc, char** argv) {
             for (const std::string& word : words(argv[i + 1])) arguments.scenes.push_back(std::stoul(word));
         if (key == "--rounds") arguments.rounds = std::stoi(argv[i + 1]);
         if (key == "--threads") arguments.threads = std::stoi(argv[i + 1]);
+        if (key == "--simd") {
+            std::string error;
+            if (limit_simd(argv[i + 1], &error)) continue;
+            std::fprintf(stderr, "%s\n", error.c_str());
+            return 2;
+        }
         if (key == "--areas") arguments.areas = std::stoi(argv[i + 1]);
     }
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
