@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 
-#include "pipeline/study/study_bench.h"
+#include "pipeline/study/study_scenes.h"
 
 namespace trapeze {
 namespace {
@@ -48,6 +49,15 @@ TEST(StudyBench, StopsWhenCancelledOrOutOfMemory) {
     b.settings.memory_bytes = 1000;
     EXPECT_THROW(bench.frame(tiny()), StudyStopped);
     EXPECT_NE(b.messages.find("budget"), std::string::npos) << b.messages;
+}
+
+TEST(StudyScenes, AllCanBeMade) {
+    Bench b;
+    const StudyBench bench(b.settings, b.diagnostics, b.result);
+    const auto names = scene_names();
+    for (const StudyScene& scene : scenes_of_the_paper(bench))
+        EXPECT_EQ(std::count(names.begin(), names.end(), scene.name), 1) << scene.label;
+    EXPECT_EQ(std::count(names.begin(), names.end(), halberd_scene(bench).name), 1);
 }
 
 TEST(Study, UnknownNamesGiveNothing) {

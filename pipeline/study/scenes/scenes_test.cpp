@@ -84,6 +84,15 @@ INSTANTIATE_TEST_SUITE_P(All, MadeScene, ::testing::ValuesIn(scene_names()), [](
     return name;
 });
 
+// They are in the repository to be rendered at once; `trapeze scene NAME -o scenes/paper/NAME.rib` renews them.
+TEST(Scenes, FilesOfTheRepositoryAreWhatIsWritten) {
+    for (const std::string name : {"halberd", "car-study"}) {
+        std::ifstream file(TRAPEZE_SOURCE_DIR "/scenes/paper/" + name + ".rib", std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_TRUE(text == scene_text(name, {})) << name;
+    }
+}
+
 TEST(Scenes, UnknownNamesGiveNothing) {
     EXPECT_EQ(scene_text("no such scene", {}), "");
 }
