@@ -22,6 +22,14 @@ constexpr NamedTarget kTargets[] = {{"scalar", HWY_SCALAR}};
 
 constexpr std::string_view kBest = "best";
 
+/// Asking Highway for these has it choose among all that the machine has, whatever was disabled; this chooses
+/// again, among what is allowed.
+int64_t allowed_targets() {
+    const int64_t allowed = hwy::SupportedTargets();
+    hwy::GetChosenTarget().Update(allowed);
+    return allowed;
+}
+
 }  // namespace
 
 std::vector<std::string_view> simd_names() {
@@ -33,6 +41,7 @@ std::vector<std::string_view> simd_names() {
 bool limit_simd(std::string_view name, std::string* error) {
     if (name == kBest) {
         hwy::DisableTargets(0);
+        allowed_targets();
         return true;
     }
     const auto found = std::find_if(std::begin(kTargets), std::end(kTargets),
@@ -42,19 +51,21 @@ bool limit_simd(std::string_view name, std::string* error) {
         for (const std::string_view known : simd_names()) *error += " " + std::string(known);
         return false;
     }
-    const int64_t best_before = hwy::SupportedTargets() & -hwy::SupportedTargets();
+    const int64_t before = allowed_targets(), best_before = before & -before;
     hwy::DisableTargets(0);
-    if (!(hwy::SupportedTargets() & found->target)) {
+    if (!(allowed_targets() & found->target)) {
         hwy::DisableTargets(best_before - 1);
+        allowed_targets();
         *error = "this machine has no " + std::string(name);
         return false;
     }
     hwy::DisableTargets(found->target - 1);
+    allowed_targets();
     return true;
 }
 
 std::string_view simd_limit() {
-    const int64_t allowed = hwy::SupportedTargets();
+    const int64_t allowed = allowed_targets();
     for (auto known = std::rbegin(kTargets); known != std::rend(kTargets); ++known)
         if (allowed & known->target) return known->name;
     return kBest;

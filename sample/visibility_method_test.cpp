@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/simd_limit.h"
+
 #include <random>
 
 #include "core/test_grids.h"
@@ -253,6 +255,17 @@ TEST(SweptBound, IsEverythingAcrossTheNearPlaneAndNothingOutsideTheClippingRange
     EXPECT_EQ(crossing.raster(frame.context.camera).min_x, -std::numeric_limits<double>::infinity());
     EXPECT_GT(behind.raster(frame.context.camera).min_x, behind.raster(frame.context.camera).max_x);
     EXPECT_GT(beyond.raster(frame.context.camera).min_x, beyond.raster(frame.context.camera).max_x);
+}
+
+TEST(SimdTarget, AskingForTheLimitDoesNotLiftIt) {
+    std::string error;
+    for (const std::string_view name : simd_names()) {
+        if (name == "best" || !limit_simd(name, &error)) continue;
+        const std::string limited(simd_target_name());
+        EXPECT_EQ(simd_limit(), name);
+        EXPECT_EQ(simd_target_name(), limited);
+    }
+    ASSERT_TRUE(limit_simd("best", &error));
 }
 
 }  // namespace

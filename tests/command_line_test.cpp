@@ -240,5 +240,42 @@ TEST(CommandLine, CompareCanBeInterrupted) {
     EXPECT_EQ(files_in(folder), "slow.rib ");
 }
 
+TEST(CommandLine, ScenesForMeasurementsAreWrittenToAFileOrAsText) {
+    WorkFolder folder;
+    const Outcome text = run_program(folder, "scene hair --scale .01 --motion 0 -r 64x36");
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_NE(text.out.find("Format 64 36 1"), std::string::npos);
+    EXPECT_EQ(text.out.find("MotionBegin"), std::string::npos);
+    EXPECT_EQ(run_program(folder, "scene hair --scale .01 --motion 0 -r 64x36 -o hair.rib").exit_code, 0);
+    const Outcome info = run_program(folder, "check hair.rib --strict");
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_EQ(run_program(folder, "scene nothing").exit_code, 2);
+    EXPECT_EQ(run_program(folder, "scene hair --scale 0").exit_code, 2);
+    EXPECT_EQ(run_program(folder, "scene hair -o no/such/folder/hair.rib").exit_code, 6);
+}
+
+TEST(CommandLine, AStudySaysWhatHeldAndWritesItsFigures) {
+    WorkFolder folder;
+    const Outcome outcome = run_program(folder, "study fig9 --quick --report r.html --json r.json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("checks held"), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(text_of(folder / "r.json"));
+    EXPECT_GT(json["scenes"][0]["micropolygons"], 100000);
+    EXPECT_EQ(json["checks"].size(), 3u);
+    EXPECT_NE(text_of(folder / "r.html").find("<svg"), std::string::npos);
+    EXPECT_EQ(run_program(folder, "study table3").exit_code, 2);
+    EXPECT_EQ(run_program(folder, "study fig9 --quick --json no/such/folder/r.json").exit_code, 6);
+    EXPECT_EQ(run_program(folder, "study fig9 --quick --memory 1K").exit_code, 7);
+}
+
+TEST(CommandLine, AStudyCanBeInterrupted) {
+    WorkFolder folder;
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && timeout --preserve-status -s INT 1 '" TRAPEZE_PROGRAM
+                                "' study table1 --json c.json >.stdout 2>.stderr";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 130);
+    EXPECT_EQ(files_in(folder), "");
+}
+
 }  // namespace
 }  // namespace trapeze::testing
