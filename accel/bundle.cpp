@@ -50,6 +50,7 @@ struct TraceInput {
 
 #include "accel/block_hits-inl.h"
 #include "accel/block_slabs-inl.h"
+#include "accel/compact_lanes-inl.h"
 #include "accel/ray_intervals-inl.h"
 #include "accel/sharp_packets-inl.h"
 
@@ -76,12 +77,6 @@ HWY_INLINE float largest(VF v) {
 }
 HWY_INLINE float least(VF v) {
     return hn::GetLane(hn::MinOfLanes(F32(), v));
-}
-
-/// The lanes of v where the mask is true, one after another; a whole vector is written.
-template <class D, class V>
-HWY_INLINE void append(V v, hn::Mask<D> mask, D d, hn::TFromD<D>* to) {
-    hn::StoreU(hn::Compress(v, mask), d, to);
 }
 
 /// One bundle's way through a tree. kMotion: something in the tree moves; kLens: rays do not start in one
@@ -422,16 +417,17 @@ class BundleTrace {
         if (count == 0) return;
         ActiveRays& to = s_.active;
         const size_t at = to.count;
-        if constexpr (kLens) append(ox, met, d, to.ox + at), append(oy, met, d, to.oy + at);
-        append(ux, met, d, to.ux + at), append(uy, met, d, to.uy + at);
-        if constexpr (kMoves) append(local, met, d, to.local + at);
+        const CompactLanes compact(met);
+        if constexpr (kLens) compact.store(ox, to.ox + at), compact.store(oy, to.oy + at);
+        compact.store(ux, to.ux + at), compact.store(uy, to.uy + at);
+        if constexpr (kMoves) compact.store(local, to.local + at);
         for (int k = 0; k < 3; ++k) {
-            append(inverse[k], met, d, to.inverse[k] + at);
-            if constexpr (kLens) append(offset[k], met, d, to.offset[k] + at);
+            compact.store(inverse[k], to.inverse[k] + at);
+            if constexpr (kLens) compact.store(offset[k], to.offset[k] + at);
         }
-        append(limit, met, d, to.limit + at);
+        compact.store(limit, to.limit + at);
         const hn::RebindToUnsigned<F32> du;
-        append(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, met), du, to.ray + at);
+        compact.store(hn::Iota(du, static_cast<uint32_t>(i)), to.ray + at);
         to.count += count;
         s_.touched.push_back(static_cast<uint32_t>(packet));
     }
@@ -596,10 +592,11 @@ class BundleTrace {
                 bits = mask_bits(here);
                 if (bits == 0) continue;
             }
-            if constexpr (kLens) append(r.ox, here, d, to.ox + count), append(r.oy, here, d, to.oy + count);
-            append(r.ux, here, d, to.ux + count), append(r.uy, here, d, to.uy + count);
-            if constexpr (kMoves) append(r.local, here, d, to.local + count);
-            append(hn::Iota(du, static_cast<uint32_t>(i)), hn::RebindMask(du, here), du, to.active + count);
+            const CompactLanes compact(here);
+            if constexpr (kLens) compact.store(r.ox, to.ox + count), compact.store(r.oy, to.oy + count);
+            compact.store(r.ux, to.ux + count), compact.store(r.uy, to.uy + count);
+            if constexpr (kMoves) compact.store(r.local, to.local + count);
+            compact.store(hn::Iota(du, static_cast<uint32_t>(i)), to.active + count);
             count += static_cast<size_t>(std::popcount(bits));
         }
         return count;
