@@ -45,7 +45,6 @@ struct DualMeshScratch {
 };
 
 struct DualScratch {
-    std::vector<uint32_t> grids;
     SampleMasks masks;
     DualIntervals columns, rows;
     VertexRows vertices;

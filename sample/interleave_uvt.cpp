@@ -5,67 +5,32 @@
 ///
 /// No occlusion culling, as in the paper; cull=on goes through grids front to back and leaves out what lies
 /// behind the hits that the tuple has already.
-#include <algorithm>
-
-#include "sample/hit_lists.h"
 #include "sample/interleaved_pattern.h"
-#include "sample/tile_bins.h"
+#include "sample/rasterizer.h"
 #include "sample/uvt_raster.h"
-#include "sample/visibility_method.h"
 
 namespace trapeze {
 namespace {
 
 constexpr int kUvtTileSide = 64;
 
-class InterleaveUvt final : public Visibility {
+class InterleaveUvt final : public Rasterizer {
   public:
     InterleaveUvt(const VisibilityInput& input)
-        : context_(input.context),
-          grids_(input.grids),
+        : Rasterizer(input, kUvtTileSide),
           pattern_(dynamic_cast<const InterleavedPattern&>(input.pattern)),
-          cull_(input.spec.is_on("cull")),
-          all_opaque_(every_grid_is_opaque(input.grids)),
-          bins_(input.context.camera, input.grids, kUvtTileSide),
-          bounds_(input.context.camera, input.grids),
           tuples_(pattern_, input.context.camera) {}
 
-    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
-                 SampleStats& stats) const override {
-        UvtScratch& uvt = scratch.uvt;
-        bins_.find(samples.pixels, uvt.grids);
-        if (cull_)
-            std::stable_sort(uvt.grids.begin(), uvt.grids.end(),
-                             [this](uint32_t a, uint32_t b) { return bounds_[a].z_min < bounds_[b].z_min; });
-        uvt.tile.build(samples.pixels, pattern_, context_.camera);
-        scratch.hits.clear();
-        scratch.hit_sample.clear();
-        UvtRaster raster{context_.camera, pattern_, tuples_, samples.pixels, all_opaque_, cull_, scratch};
-        for (const uint32_t index : uvt.grids)
-            raster_grid_uvt(raster, {grids_.grids[index], index, bounds_}, stats);
-        stats.rays += samples.size();
-        scratch.nearest.resize(samples.size());
-        uvt.tile.copy_nearest(scratch.nearest);
-        if (all_opaque_)
-            buffer_of_nearest(scratch, samples.size(), hits);
-        else
-            buffer_of_loose_hits(scratch, samples.size(), hits);
-    }
-
-    BuildStats build_stats() const override {
-        BuildStats stats;
-        stats.tree_bytes = bins_.bytes() + bounds_.bytes();
-        return stats;
-    }
-    int tile_side() const override { return kUvtTileSide; }
-
   private:
-    const RenderContext& context_;
-    const Grids& grids_;
+    void raster(const SampleTile& samples, const std::vector<uint32_t>& grids, SampleScratch& scratch,
+                SampleStats& stats) const override {
+        scratch.uvt.tile.build(samples.pixels, pattern_, camera());
+        UvtRaster uvt{camera(), pattern_, tuples_, samples.pixels, all_opaque(), cull(), scratch};
+        for (const uint32_t index : grids) raster_grid_uvt(uvt, {grid(index), index, bounds()}, stats);
+        scratch.uvt.tile.copy_nearest(scratch.nearest);
+    }
+
     const InterleavedPattern& pattern_;
-    bool cull_, all_opaque_;
-    TileBins bins_;
-    GridBounds bounds_;
     UvtTuples tuples_;
 };
 

@@ -11,11 +11,9 @@
 /// behind the hits found. What is still and seen through a pinhole has one box for all slots.
 #include <algorithm>
 
-#include "sample/hit_lists.h"
+#include "sample/rasterizer.h"
 #include "sample/slot_plan.h"
 #include "sample/slot_raster.h"
-#include "sample/tile_bins.h"
-#include "sample/visibility_method.h"
 
 namespace trapeze {
 namespace {
@@ -32,15 +30,9 @@ constexpr int kSlotCellShift = 2;
 /// One of kShuffledTimeSlots pixels has its time in a slot: cells of as many as fill a block.
 constexpr int kSparseCellShift = 3;
 
-class Interval final : public Visibility {
+class Interval final : public Rasterizer {
   public:
-    Interval(const VisibilityInput& input)
-        : context_(input.context),
-          grids_(input.grids),
-          cull_(input.spec.is_on("cull")),
-          all_opaque_(every_grid_is_opaque(input.grids)),
-          bins_(input.context.camera, input.grids, kIntervalTileSide),
-          bounds_(input.context.camera, input.grids) {
+    Interval(const VisibilityInput& input) : Rasterizer(input, kIntervalTileSide) {
         if (input.spec["pairing"] == "fixed") {
             const auto& pattern = dynamic_cast<const IntervalPattern&>(input.pattern);
             still_plan_ = still_plan(pattern.sample_count());
@@ -52,42 +44,18 @@ class Interval final : public Visibility {
         }
     }
 
-    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
-                 SampleStats& stats) const override {
-        sort_out_grids(samples.pixels, scratch.interval);
-        scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
-        scratch.hits.clear();
-        scratch.hit_sample.clear();
+  private:
+    void raster(const SampleTile& samples, const std::vector<uint32_t>& grids, SampleScratch& scratch,
+                SampleStats& stats) const override {
+        std::vector<uint32_t>&still = scratch.interval.still, &blurred = scratch.interval.blurred;
+        still.clear();
+        blurred.clear();
+        for (const uint32_t index : grids) {
+            const bool blurs = camera().has_lens() || (context().motion && grid(index).moves());
+            (blurs ? blurred : still).push_back(index);
+        }
         resolve_still(samples, scratch, stats);
         resolve_blurred(samples, scratch, stats);
-        stats.rays += samples.size();
-        if (all_opaque_)
-            buffer_of_nearest(scratch, samples.size(), hits);
-        else
-            buffer_of_loose_hits(scratch, samples.size(), hits);
-    }
-
-    BuildStats build_stats() const override {
-        BuildStats stats;
-        stats.tree_bytes = bins_.bytes() + bounds_.bytes();
-        return stats;
-    }
-    int tile_side() const override { return kIntervalTileSide; }
-
-  private:
-    /// The grids that the tile may see, in two lists.
-    void sort_out_grids(const PixelRect& pixels, IntervalScratch& scratch) const {
-        bins_.find(pixels, scratch.grids);
-        if (cull_)
-            std::stable_sort(scratch.grids.begin(), scratch.grids.end(),
-                             [this](uint32_t a, uint32_t b) { return bounds_[a].z_min < bounds_[b].z_min; });
-        scratch.still.clear();
-        scratch.blurred.clear();
-        const bool lens = context_.camera.has_lens();
-        for (const uint32_t grid : scratch.grids) {
-            const bool blurred = lens || (context_.motion && grids_.grids[grid].moves());
-            (blurred ? scratch.blurred : scratch.still).push_back(grid);
-        }
     }
 
     void resolve_still(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats) const {
@@ -115,35 +83,30 @@ class Interval final : public Visibility {
     void raster_slots(const SampleTile& samples, const SlotPlan& plan, const std::vector<uint32_t>& grids,
                       bool sparse, SampleScratch& scratch, SampleStats& stats) const {
         SampleSlots& slots = scratch.interval.slots;
-        SlotRaster raster{context_.camera, slots,  samples.pixels.x0, samples.pixels.y0, all_opaque_, cull_,
-                          sparse,          scratch};
+        SlotRaster slot_raster{camera(), slots,  samples.pixels.x0, samples.pixels.y0, all_opaque(), cull(),
+                               sparse,   scratch};
         for (size_t slot = 0; slot < plan.slots.size(); ++slot) {
             if (slots.is_empty(slot)) continue;
             for (const uint32_t index : grids)
-                raster_grid_in_slot(raster, samples.pixels, index, plan.slots[slot], slot, stats);
+                raster_grid_in_slot(slot_raster, samples.pixels, index, plan.slots[slot], slot, stats);
         }
         slots.merge_into(scratch.nearest);
     }
 
     void raster_grid_in_slot(SlotRaster& raster, const PixelRect& tile, uint32_t index, const Slot& at,
                              size_t slot, SampleStats& stats) const {
-        const Grid& grid = grids_.grids[index];
+        const Grid& seen = grid(index);
         std::vector<SegmentPart>& parts = raster.scratch.interval.parts;
         parts.clear();
-        segment_parts(at.time, grid.key_count, parts);
-        const SlotBound bound = bounds_.slot_bound(index, parts, at.lens);
+        segment_parts(at.time, seen.key_count, parts);
+        const SlotBound bound = bounds().slot_bound(index, parts, at.lens);
         PixelRect pixels = pixels_within(bound.box, tile);
         if (pixels.empty()) return;
         pixels.x0 -= tile.x0, pixels.x1 -= tile.x0, pixels.y0 -= tile.y0, pixels.y1 -= tile.y0;
-        raster_grid(raster, {grid, index, bounds_[index], slot, parts, at.lens, pixels, bound.z_min},
+        raster_grid(raster, {seen, index, bounds()[index], slot, parts, at.lens, pixels, bound.z_min},
                     raster.scratch.interval.grid, stats);
     }
 
-    const RenderContext& context_;
-    const Grids& grids_;
-    bool cull_, all_opaque_;
-    TileBins bins_;
-    GridBounds bounds_;
     const StratifiedPattern* shuffled_ = nullptr;  ///< pairing=shuffled
     SlotPlan still_plan_, plan_;
 };

@@ -19,7 +19,7 @@ struct SlotGridScratch {
 };
 
 struct IntervalScratch {
-    std::vector<uint32_t> grids, still, blurred;  ///< of the tile
+    std::vector<uint32_t> still, blurred;  ///< of the tile
     std::vector<uint32_t> key_of_pixel;
     std::vector<SegmentPart> parts;
     SampleSlots slots;

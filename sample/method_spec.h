@@ -17,6 +17,7 @@ struct MethodSpec {
 
     /// The value of an option that the table lists.
     const std::string& operator[](std::string_view key) const { return options.find(key)->second; }
+    bool has(std::string_view key) const { return options.contains(key); }
     bool is_on(std::string_view key) const { return (*this)[key] == "on"; }
     int number(std::string_view key) const { return std::stoi((*this)[key]); }
     bool operator==(const MethodSpec&) const = default;

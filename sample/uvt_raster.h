@@ -45,7 +45,6 @@ struct UvtQueue {
 };
 
 struct UvtScratch {
-    std::vector<uint32_t> grids;
     UvtTile tile;
     UvtGridTuples tuples;
     VertexRows rows;

@@ -49,6 +49,7 @@ struct SampleScratch {
     std::vector<uint32_t> hit_sample;         ///< whose each of these is
     std::vector<uint32_t> first, count;       ///< sample -> its range in hits
     std::vector<float> ox, oy, ux, uy, time;  ///< rays in planes, padded to whole vectors
+    std::vector<uint32_t> raster_grids;       ///< that a rasterizer's tile may see
     std::vector<uint32_t> found;              ///< lanes that the predicate answered yes for
     std::vector<float> found_depth;
     std::vector<uint32_t> starts, pixel_first;  ///< of the order of bundles
