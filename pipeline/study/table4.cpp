@@ -159,8 +159,7 @@ void study_table4(StudyBench& bench, StudyResult& result) {
         "At " + rate_text(rate) +
         " samples a pixel (the paper's are at 13x13 and 23x23): trace time is in proportion to rays.");
     result.notes.push_back(
-        "All but the last row are the paper's tree, one micropolygon tree of two children a node, every ray "
-        "from its root.");
+        "All but the wide tree are the paper's binary tree over micropolygons, every ray from its root.");
     std::vector<SceneRun> runs;
     for (const StudyScene& scene : scenes_of_the_paper(bench)) runs.push_back(run_scene(bench, scene, rate));
     add_times(result, runs, false);
