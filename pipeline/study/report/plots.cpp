@@ -69,7 +69,7 @@ std::string draw_names(const std::vector<PlotSeries>& all) {
     std::string out;
     double x = kWidth - kRight;
     for (size_t i = all.size(); i-- > 0;) {
-        x -= 7.2 * static_cast<double>(all[i].name.size());
+        x -= 8.2 * static_cast<double>(all[i].name.size());  // about the width of a capital
         out += fmt::format(R"(<text class="name" x="{:.1f}" y="16">{}</text>)", x, escaped(all[i].name));
         out += fmt::format(R"(<circle class="point series{}" cx="{:.1f}" cy="12" r="4"/>)", i % 3, x - 10);
         x -= 28;
