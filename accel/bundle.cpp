@@ -452,6 +452,7 @@ class BundleTrace {
         const float* planes = tree_.box_planes(grid, segment);
         // Lanes past the end meet nothing, whatever an earlier bundle has left there: infinities would.
         hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);
+        if constexpr (kMoves) hn::StoreU(hn::Zero(d), d, active.local + active.count);
         for (int k = 0; k < 3; ++k) {
             hn::StoreU(hn::Zero(d), d, active.inverse[k] + active.count);
             if constexpr (kLens) hn::StoreU(hn::Zero(d), d, active.offset[k] + active.count);
