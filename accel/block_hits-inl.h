@@ -23,6 +23,17 @@ using VF = hn::Vec<F32>;
 using VI = hn::Vec<I32>;
 using MF = hn::Mask<F32>;
 
+/// Directions nearer to a slab's plane than this are taken as this.
+inline constexpr float kLeastDirection = 1e-18f;
+
+HWY_INLINE VF reciprocal(VF v) {
+    const F32 d;
+    const VF least = hn::Set(d, kLeastDirection);
+    v = hn::IfThenElse(hn::Lt(hn::Abs(v), least), least, v);
+    const VF guess = hn::ApproximateReciprocal(v);
+    return hn::Mul(guess, hn::NegMulAdd(v, guess, hn::Set(d, 2.0f)));
+}
+
 /// A block's vertices in a plane: those of a tile and, where `right` and `down` say, the first column and
 /// row of the tiles behind it. At the grid's end, where there is no such tile, they repeat the last ones.
 struct BlockView {

@@ -22,14 +22,6 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE VF reciprocal(VF v) {
-    const F32 d;
-    const VF least = hn::Set(d, bundle_detail::kLeastDirection);
-    v = hn::IfThenElse(hn::Lt(hn::Abs(v), least), least, v);
-    const VF guess = hn::ApproximateReciprocal(v);
-    return hn::Mul(guess, hn::NegMulAdd(v, guess, hn::Set(d, 2.0f)));
-}
-
 /// The points p with |axis . p - center| <= half, center and half linear in the segment's local time. Axes
 /// are of about unit length.
 struct BlockSlab {

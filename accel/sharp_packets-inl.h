@@ -11,8 +11,10 @@
 
 #include <hwy/highway.h>
 
-#include "accel/block_hits-inl.h"
-#include "accel/bundle_scratch.h"
+#include <bit>
+
+#include "accel/bundle_state-inl.h"
+#include "accel/ray_intervals-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -44,9 +46,7 @@ HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const float* planes, const P
         const float* axis = grid.axis[k];
         const VF grow = hn::Set(d, reach * (std::abs(axis[0]) * dx + std::abs(axis[1]) * dy));
         const float along = axis[0] * ux + axis[1] * uy + axis[2];
-        const VF inverse = hn::Set(
-            d, 1.0f / (std::abs(along) < bundle_detail::kLeastDirection ? bundle_detail::kLeastDirection
-                                                                        : along));
+        const VF inverse = hn::Set(d, 1.0f / (std::abs(along) < kLeastDirection ? kLeastDirection : along));
         const VF a = hn::Mul(hn::Sub(hn::LoadU(d, planes + k * boxes), grow), inverse);
         const VF b = hn::Mul(hn::Add(hn::LoadU(d, planes + (3 + k) * boxes), grow), inverse);
         near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
@@ -96,8 +96,103 @@ HWY_INLINE QuadLanes<VF> quad_from_origin(const BlockView& block, int u, int v, 
     return quad_lanes(zero, zero, zero, ux, uy, vertex);
 }
 
+inline void add_layers(BundleState& t, size_t first, MF hit, VF depth, uint32_t id) {
+    HWY_ALIGN float depths[kLanes];
+    hn::Store(depth, F32(), depths);
+    for (uint32_t lanes = mask_bits(hit); lanes != 0; lanes &= lanes - 1) {
+        const int lane = std::countr_zero(lanes);
+        t.rays.layers.push_back(
+            {static_cast<uint32_t>(first) + static_cast<uint32_t>(lane), depths[lane], id});
+    }
+}
+
+/// A packet against the micropolygons of a block that it may hit; whether something nearer was found.
+inline bool test_packet(BundleState& t, const Block& block, size_t packet, const PacketSlopes& slopes) {
+    const F32 d;
+    const hn::RebindToUnsigned<F32> du;
+    const size_t i = packet * kLanes, rays = std::min(kLanes, t.rays.count - i);
+    const VF ux = hn::Load(d, t.rays.ux + i), uy = hn::Load(d, t.rays.uy + i);
+    const MF valid = hn::FirstN(d, rays);
+    bool nearer = false;
+    for (uint32_t met = micropolygons_met(block.view, slopes); met != 0; met &= met - 1) {
+        const int m = std::countr_zero(met), u = m & 3, v = m >> 2;
+        t.stats.predicate_tests += rays;
+        if (t.rays.tests) count_packet(t.rays.tests, i, 1);
+        const QuadLanes<VF> quad = quad_from_origin(block.view, u, v, ux, uy);
+        MF hit = hn::And(inside(d, quad), valid);
+        if (hn::AllFalse(d, hit)) continue;
+        VF depth;
+        hit = hn::And(hit, depth_inside(d, quad, block.facing, depth));
+        hit = hn::And(
+            hit, hn::And(hn::Ge(depth, hn::Set(d, t.range.min)), hn::Le(depth, hn::Set(d, t.range.max))));
+        t.stats.predicate_hits += hn::CountTrue(d, hit);
+        const VF nearest = hn::Load(d, t.rays.depth + i);
+        const auto ids = hn::Load(du, t.rays.id + i),
+                   id = hn::Set(du, block.id + static_cast<uint32_t>(v << 4 | u));
+        const MF kept =
+            hn::And(hit, hn::Or(hn::Lt(depth, nearest),
+                                hn::And(hn::Eq(depth, nearest), hn::RebindMask(d, hn::Lt(id, ids)))));
+        if (!block.opaque) {
+            add_layers(t, i, hn::And(hit, hn::Le(depth, nearest)), depth,
+                       block.id + static_cast<uint32_t>(v << 4 | u));
+            continue;
+        }
+        if (hn::AllFalse(d, kept)) continue;
+        hn::Store(hn::IfThenElse(kept, depth, nearest), d, t.rays.depth + i);
+        hn::Store(hn::IfThenElse(hn::RebindMask(du, kept), id, ids), du, t.rays.id + i);
+        nearer = true;
+    }
+    return nearer;
+}
+
+/// Whether the packet's farthest depth may have become nearer.
+inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, const MovingBox& box,
+                         size_t packet) {
+    const auto& row = t.scratch.intervals.row;
+    const PacketSlopes slopes{row[RayIntervals::kDxMin][packet], row[RayIntervals::kDxMax][packet],
+                              row[RayIntervals::kDyMin][packet], row[RayIntervals::kDyMax][packet]};
+    uint32_t boxes =
+        boxes_met(grid, t.tree.box_planes(grid, 0), slopes, std::max(box.low[2], t.nearest_depth),
+                  box.high[2], t.scratch.farthest[packet]);
+    const auto rays = std::min(kLanes, t.rays.count - packet * kLanes);
+    t.stats.nodes_visited += rays;
+    if (t.rays.nodes) count_packet(t.rays.nodes, packet * kLanes, 1);
+    bool nearer = false;
+    const int blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
+    for (; boxes != 0; boxes &= boxes - 1) {
+        const int first = std::countr_zero(boxes) * per_box,
+                  last = std::min(first + per_box, grid.block_count());
+        for (int b = first; b < last; ++b) {
+            t.stats.leaves_visited += rays;
+            nearer |= test_packet(t, block_of(grid, 0, b % blocks_u, b / blocks_u, index), packet, slopes);
+        }
+    }
+    if (nearer) t.refresh_packet(packet);
+    return nearer;
+}
+
+/// Packets whose intervals meet the grid's axis-aligned box, one by one as they lie.
+inline void visit_sharp(BundleState& t, uint32_t index, const WideGrid& grid) {
+    const F32 d;
+    const MovingBox& box = t.tree.grid_box(index);
+    VF low[3], high[3];
+    for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
+    bool nearer = false;
+    for (size_t p = 0; p < t.packets; p += kLanes) {
+        const auto q = IntervalLanes::of<false, false>(
+            [&](int row) HWY_ATTR { return hn::Load(d, t.scratch.intervals.row[row] + p); });
+        const MF looks = hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]);
+        uint32_t met = mask_bits(hn::And(
+            looks, meets<false>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
+        for (; met != 0; met &= met - 1)
+            nearer |= visit_packet(t, index, grid, box, p + static_cast<size_t>(std::countr_zero(met)));
+    }
+    if (nearer) t.refresh_farthest();
+}
+
 #else
 inline constexpr bool kHasSharpPackets = false;
+inline void visit_sharp(BundleState&, uint32_t, const WideGrid&) {}
 #endif
 
 }  // namespace HWY_NAMESPACE

@@ -1,0 +1,121 @@
+/// The rays listed for a block (BlockRays) against its micropolygons. Compiled once a target.
+#if defined(TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
+#undef TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
+#else
+#define TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "accel/bundle_state-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Fewer rays than this are tested one by one, lanes being micropolygons.
+inline constexpr size_t kFewInBlock = 3;
+
+HWY_INLINE void keep(BundleState& t, const Block& block, uint32_t active, float depth, uint32_t id) {
+    if (t.keep_hit(t.scratch.active.ray[active], depth, id, block.opaque))
+        t.scratch.active.limit[active] = depth + block.slack;
+}
+
+/// Keeps the hits of lanes of rays, block rays from `first` on.
+inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI u, VI v, VF depth) {
+    const F32 d;
+    const I32 di;
+    hit =
+        hn::And(hit, hn::And(hn::Ge(depth, hn::Set(d, t.range.min)), hn::Le(depth, hn::Set(d, t.range.max))));
+    uint32_t lanes = mask_bits(hit);
+    if (lanes == 0) return;
+    HWY_ALIGN float depths[kLanes];
+    HWY_ALIGN int32_t uv[kLanes];
+    hn::Store(depth, d, depths);
+    hn::Store(hn::Or(u, hn::ShiftLeft<4>(v)), di, uv);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const auto lane = static_cast<size_t>(std::countr_zero(lanes));
+        keep(t, block, t.scratch.block.active[first + lane], depths[lane],
+             block.id + static_cast<uint32_t>(uv[lane]));
+    }
+}
+
+/// One block ray against all micropolygons of its block: lanes are micropolygons.
+template <bool kMoves, bool kLens>
+void test_one_ray(BundleState& t, const Block& block, size_t which) {
+    const F32 d;
+    const I32 di;
+    const BlockRays& from = t.scratch.block;
+    RayLanes r;
+    if constexpr (kLens) r.ox = hn::Set(d, from.ox[which]), r.oy = hn::Set(d, from.oy[which]);
+    r.ux = hn::Set(d, from.ux[which]), r.uy = hn::Set(d, from.uy[which]);
+    if constexpr (kMoves) r.local = hn::Set(d, from.local[which]);
+    for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
+        const VI number = hn::Iota(di, m), u = hn::And(number, hn::Set(di, 3)), v = hn::ShiftRight<2>(number);
+        VF depth = hn::Zero(d);
+        const QuadLanes<VF> q = quads_at<kMoves, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)));
+        MF hit = inside(d, q);
+        if (hn::AllFalse(d, hit)) continue;
+        hit = hn::And(hit, depth_inside(d, q, block.facing, depth));
+        hit = hn::And(hit, hn::RebindMask(d, hn::And(hn::Lt(u, hn::Set(di, block.columns)),
+                                                     hn::Lt(v, hn::Set(di, block.view.rows)))));
+        hit = hn::And(
+            hit, hn::And(hn::Ge(depth, hn::Set(d, t.range.min)), hn::Le(depth, hn::Set(d, t.range.max))));
+        uint32_t lanes = mask_bits(hit);
+        if (lanes == 0) continue;
+        HWY_ALIGN float depths[kLanes];
+        hn::Store(depth, d, depths);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes), micropolygon = m + lane;
+            keep(t, block, from.active[which], depths[lane],
+                 block.id + static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4));
+        }
+    }
+}
+
+template <bool kMoves, bool kLens>
+void test_block_rays(BundleState& t, const Block& block, size_t count) {
+    const F32 d;
+    const BlockRays& from = t.scratch.block;
+    const auto micropolygons = static_cast<uint64_t>(block.view.rows * block.columns);
+    t.stats.leaves_visited += count;
+    t.stats.predicate_tests += count * micropolygons;
+    if (t.rays.tests)
+        for (size_t i = 0; i < count; ++i)
+            t.rays.tests[t.scratch.active.ray[from.active[i]]] += static_cast<uint32_t>(micropolygons);
+    for (size_t i = 0; i < count; i += kLanes) {
+        const size_t left = count - i;
+        if (left < kFewInBlock) {
+            for (size_t k = i; k < count; ++k) test_one_ray<kMoves, kLens>(t, block, k);
+            return;
+        }
+        RayLanes r;
+        if constexpr (kLens) r.ox = hn::Load(d, from.ox + i), r.oy = hn::Load(d, from.oy + i);
+        r.ux = hn::Load(d, from.ux + i), r.uy = hn::Load(d, from.uy + i);
+        if constexpr (kMoves) r.local = hn::Load(d, from.local + i);
+        const BlockBits bits = block.columns == 1 ? block_bits<kMoves, kLens, 1>(block.view, r)
+                                                  : block_bits<kMoves, kLens, 4>(block.view, r);
+        const MF valid = hn::FirstN(d, left);
+        const MF any = hn::And(predicate_lanes::negative(d, bits.any), valid);
+        if (hn::AllFalse(d, any)) continue;
+        const MF several = hn::And(predicate_lanes::negative(d, bits.several), valid);
+        VI u, v;
+        decode(bits, u, v);
+        VF depth = hn::Zero(d);
+        const MF faces = depth_inside(d, quads_at<kMoves, kLens>(block.view, r, u, v), block.facing, depth);
+        const MF hit = hn::AndNot(several, hn::And(any, faces));
+        settle(t, block, i, hit, u, v, depth);
+        for (uint32_t more = mask_bits(several); more != 0; more &= more - 1)
+            test_one_ray<kMoves, kLens>(t, block, i + static_cast<size_t>(std::countr_zero(more)));
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
