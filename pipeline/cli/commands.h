@@ -14,9 +14,6 @@ int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics&
 int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 
-/// How many threads "-t N" asks for: 0 is all of the machine's, -N all but N.
-int thread_count(int asked);
-
 /// True when all inputs can be opened; reports those that cannot.
 bool inputs_exist(const Arguments& arguments, Diagnostics& diagnostics);
 

@@ -1,15 +1,14 @@
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "composite/output_file.h"
 #include "composite/write_displays.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/on_threads.h"
+#include "pipeline/cli/text_files.h"
 #include "pipeline/cli/version.h"
 #include "pipeline/compare/report/html_report.h"
 #include "pipeline/compare/results_json.h"
@@ -43,7 +42,6 @@ class CompareJob {
     void take_world(Scene&& scene);
     CompareSettings settings_for(const SharedFrame& frame);
     void write_outputs(const Comparison& comparison, const SharedFrame& frame);
-    bool write_file(const std::string& path, const std::string& text);
     void print(const Comparison& comparison) const;
     int exit_code() const;
 
@@ -58,13 +56,7 @@ class CompareJob {
 
 /// Before minutes are spent on figures that cannot be written.
 bool CompareJob::outputs_are_possible() {
-    for (const std::string& path : {options_.report, options_.json}) {
-        if (path.empty()) continue;
-        OutputFile file(path);
-        if (file.open()) continue;
-        diagnostics_.error({}, fmt::format("cannot write \"{}\": {}", path, file.error()));
-        return false;
-    }
+    if (!can_write({options_.report, options_.json}, diagnostics_)) return false;
     if (options_.folder.empty()) return true;
     std::error_code error;
     fs::create_directories(options_.folder, error);
@@ -124,18 +116,12 @@ void CompareJob::print(const Comparison& comparison) const {
     for (const std::string& sentence : comparison.verdict) fmt::print("{}\n", sentence);
 }
 
-bool CompareJob::write_file(const std::string& path, const std::string& text) {
-    OutputFile file(path);
-    if (file.open() && file.write(text.data(), text.size()) && file.commit()) return true;
-    if (!interrupt_.requested())
-        diagnostics_.error({}, fmt::format("cannot write \"{}\": {}", path, file.error()));
-    return false;
-}
-
 void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& frame) {
     bool good = true;
-    if (!options_.json.empty()) good = write_file(options_.json, to_json(comparison).dump(2) + "\n") && good;
-    if (!options_.report.empty()) good = write_file(options_.report, html_report(comparison)) && good;
+    if (!options_.json.empty())
+        good = write_text(options_.json, to_json(comparison).dump(2) + "\n", diagnostics_) && good;
+    if (!options_.report.empty())
+        good = write_text(options_.report, html_report(comparison), diagnostics_) && good;
     if (!options_.folder.empty())
         good = write_pictures(comparison, frame, options_.folder, std::string("Trapeze ") + kVersion) && good;
     output_failed_ = !good;
@@ -154,11 +140,7 @@ int CompareJob::run() {
     if (!outputs_are_possible()) return kExitNoOutput;
     ReadOptions options;
     options.shading_rate = arguments_.shading_rate;
-    const int threads = thread_count(arguments_.threads);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<size_t>(threads));
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
+    on_threads(arguments_.threads, [&] {
         read_rib(arguments_.inputs, options, diagnostics_,
                  [&](Scene&& scene) { take_world(std::move(scene)); });
     });

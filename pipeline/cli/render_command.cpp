@@ -1,16 +1,12 @@
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <thread>
 
 #include "composite/write_displays.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/on_threads.h"
+#include "pipeline/cli/text_files.h"
 #include "pipeline/cli/version.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/frame/stopwatch.h"
@@ -139,19 +135,7 @@ bool RenderJob::write_stats() const {
         for (size_t i = 0; i < frames_.size(); ++i) text += (i ? ",\n" : "\n") + to_json(frames_[i]);
         text += "]";
     }
-    // Whole or not at all, like every output.
-    const std::string partial = arguments_.stats_file + ".part-" + std::to_string(getpid());
-    std::ofstream file(partial);
-    file << text << "\n";
-    file.close();
-    std::error_code error;
-    if (file) fs::rename(partial, arguments_.stats_file, error);
-    if (!file || error) {
-        fs::remove(partial, error);
-        diagnostics_.error({}, "cannot write statistics to \"" + arguments_.stats_file + "\"");
-        return false;
-    }
-    return true;
+    return write_text(arguments_.stats_file, text + "\n", diagnostics_);
 }
 
 int RenderJob::exit_code() const {
@@ -171,11 +155,7 @@ int RenderJob::run() {
             return std::any_of(arguments_.frames->begin(), arguments_.frames->end(),
                                [&](const FrameRange& range) { return range.has(frame); });
         };
-    const int threads = thread_count(arguments_.threads);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<size_t>(threads));
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
+    on_threads(arguments_.threads, [&] {
         read_rib(arguments_.inputs, options, diagnostics_,
                  [&](Scene&& scene) { render_world(std::move(scene)); });
     });
@@ -188,12 +168,6 @@ int RenderJob::run() {
 }
 
 }  // namespace
-
-int thread_count(int asked) {
-    const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    if (asked > 0) return asked;
-    return std::max(1, all + asked);
-}
 
 int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;

@@ -1,11 +1,9 @@
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <tuple>
 
-#include "composite/output_file.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/text_files.h"
 
 namespace trapeze {
 
@@ -19,10 +17,7 @@ int scene_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostic
         if (!written) diagnostics.error({}, "cannot write to standard output");
         return written ? kExitOk : kExitNoOutput;
     }
-    OutputFile file(arguments.output);
-    if (file.open() && file.write(text.data(), text.size()) && file.commit()) return kExitOk;
-    diagnostics.error({}, fmt::format("cannot write \"{}\": {}", arguments.output, file.error()));
-    return kExitNoOutput;
+    return write_text(arguments.output, text, diagnostics) ? kExitOk : kExitNoOutput;
 }
 
 }  // namespace trapeze

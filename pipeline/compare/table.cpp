@@ -1,9 +1,6 @@
 #include "pipeline/compare/table.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
+#include "pipeline/compare/text_table.h"
 #include "pipeline/compare/value_text.h"
 
 namespace trapeze {
@@ -25,13 +22,6 @@ Cells cells_of(const ComparedMethod& method) {
     Cells cells{method.result.method, rate_text(method.result.rate)};
     for (const TableColumn& column : table_columns()) cells.push_back(column.text(column.value(method)));
     return cells;
-}
-
-/// The first cell to the left, the others to the right.
-std::string line(const Cells& cells, const std::vector<size_t>& widths) {
-    std::string text = fmt::format("{:<{}}", cells[0], widths[0]);
-    for (size_t i = 1; i < cells.size(); ++i) text += fmt::format("  {:>{}}", cells[i], widths[i]);
-    return text + "\n";
 }
 
 }  // namespace
@@ -64,19 +54,12 @@ const std::vector<TableColumn>& table_columns() {
 }
 
 std::string table_text(const Comparison& comparison) {
-    const Cells header = header_cells();
-    std::vector<size_t> widths;
-    for (const std::string& cell : header) widths.push_back(cell.size());
-    for (const ComparedMethod& method : comparison.methods) {
-        const Cells cells = cells_of(method);
-        for (size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
-    }
-    std::string text = line(header, widths);
+    std::vector<Cells> rows{header_cells()};
     for (const SampleRate& rate : comparison.rates) {
-        if (&rate != comparison.rates.data()) text += "\n";
-        for (const ComparedMethod* method : comparison.at(rate)) text += line(cells_of(*method), widths);
+        if (&rate != comparison.rates.data()) rows.emplace_back();
+        for (const ComparedMethod* method : comparison.at(rate)) rows.push_back(cells_of(*method));
     }
-    return text;
+    return text_table(rows);
 }
 
 }  // namespace trapeze

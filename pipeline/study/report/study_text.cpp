@@ -2,27 +2,17 @@
 
 #include <algorithm>
 
+#include "pipeline/compare/text_table.h"
 #include "pipeline/compare/value_text.h"
 #include "pipeline/study/report/study_report.h"
 
 namespace trapeze {
 namespace {
 
-/// The first column to the left, the others to the right.
-std::string line(const std::vector<std::string>& cells, const std::vector<size_t>& widths) {
-    std::string text = "  " + fmt::format("{:<{}}", cells[0], widths[0]);
-    for (size_t i = 1; i < cells.size(); ++i) text += fmt::format("  {:>{}}", cells[i], widths[i]);
-    return text + "\n";
-}
-
 std::string table_of(const StudyTable& table) {
-    std::vector<size_t> widths;
-    for (const std::string& cell : table.columns) widths.push_back(cell.size());
-    for (const auto& row : table.rows)
-        for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    std::string text = table.title + "\n" + line(table.columns, widths);
-    for (const auto& row : table.rows) text += line(row, widths);
-    return text + "\n";
+    std::vector<std::vector<std::string>> rows{table.columns};
+    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+    return table.title + "\n" + text_table(rows, "  ") + "\n";
 }
 
 }  // namespace

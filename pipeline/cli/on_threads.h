@@ -1,0 +1,27 @@
+/// The number of threads that a user asks for.
+#pragma once
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace trapeze {
+
+/// How many "-t N" asks for: 0 is all of the machine's, -N all but N.
+inline int thread_count(int asked) {
+    const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return asked > 0 ? asked : std::max(1, all + asked);
+}
+
+/// Runs something with as many, no more.
+template <class Work>
+void on_threads(int asked, const Work& work) {
+    const int threads = thread_count(asked);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<size_t>(threads));
+    tbb::task_arena(threads).execute(work);
+}
+
+}  // namespace trapeze

@@ -1,0 +1,18 @@
+/// Reports and figures that commands write beside their work: whole or not at all.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "core/diagnostics.h"
+
+namespace trapeze {
+
+/// Whether files can be made there; says where not. Before minutes are spent on what cannot be written. Empty
+/// names are left out.
+bool can_write(std::initializer_list<std::string> paths, Diagnostics& diagnostics);
+
+/// Says why not.
+bool write_text(const std::string& path, const std::string& text, Diagnostics& diagnostics);
+
+}  // namespace trapeze
