@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 template <bool kMoves, bool kLens>
 class GridDual {
   public:
-    GridDual(DualRaster& raster, const DualGrid& grid, SampleStats& stats)
+    GridDual(DualRaster& raster, const BoundedGrid& grid, SampleStats& stats)
         : raster_(raster),
           camera_(raster.camera),
           grid_(grid),
@@ -227,7 +227,7 @@ class GridDual {
 
     DualRaster& raster_;
     const Camera& camera_;
-    const DualGrid& grid_;
+    const BoundedGrid& grid_;
     const GridBound& bound_;
     const int segments_;
     DualScratch& scratch_;
@@ -241,7 +241,7 @@ class GridDual {
     size_t count_ = 0;                                ///< candidates
 };
 
-void raster_grid_dual(DualRaster& raster, const DualGrid& grid, SampleStats& stats) {
+void raster_grid_dual(DualRaster& raster, const BoundedGrid& grid, SampleStats& stats) {
     const bool lens = raster.camera.has_lens();
     if (grid.grid.moves())
         lens ? GridDual<true, true>(raster, grid, stats).run()
@@ -285,7 +285,7 @@ void DualMeshScratch::resize(size_t count) {
     for (auto* plane : {&x0, &x1, &y0, &y1}) plane->resize(count);
 }
 
-void raster_grid_dual(DualRaster& raster, const DualGrid& grid, SampleStats& stats) {
+void raster_grid_dual(DualRaster& raster, const BoundedGrid& grid, SampleStats& stats) {
     HWY_DYNAMIC_DISPATCH(raster_grid_dual)(raster, grid, stats);
 }
 

@@ -62,13 +62,7 @@ struct DualRaster {
     SampleScratch& scratch;
 };
 
-struct DualGrid {
-    const Grid& grid;
-    uint32_t index;
-    const GridBounds& bounds;
-};
-
 /// Runs on the best instruction set at hand.
-void raster_grid_dual(DualRaster& raster, const DualGrid& grid, SampleStats& stats);
+void raster_grid_dual(DualRaster& raster, const BoundedGrid& grid, SampleStats& stats);
 
 }  // namespace trapeze

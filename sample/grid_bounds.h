@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/camera.h"
@@ -70,6 +71,13 @@ class GridBounds {
     std::vector<GridBound> bounds_;
     std::vector<size_t> first_segment_;  ///< grid -> in segments_
     std::vector<SegmentBox> segments_;
+};
+
+/// A grid with what is known of all.
+struct BoundedGrid {
+    const Grid& grid;
+    uint32_t index;
+    const GridBounds& bounds;
 };
 
 }  // namespace trapeze

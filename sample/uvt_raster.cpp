@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 template <bool kPerspective>
 class GridRaster {
   public:
-    GridRaster(UvtRaster& raster, const UvtGrid& grid, SampleStats& stats)
+    GridRaster(UvtRaster& raster, const BoundedGrid& grid, SampleStats& stats)
         : raster_(raster),
           grid_(grid),
           scratch_(raster.scratch.uvt),
@@ -239,7 +239,7 @@ class GridRaster {
     }
 
     UvtRaster& raster_;
-    const UvtGrid& grid_;
+    const BoundedGrid& grid_;
     UvtScratch& scratch_;
     UvtTile& tile_;
     VertexRows& rows_;
@@ -247,7 +247,7 @@ class GridRaster {
     SampleStats& stats_;
 };
 
-void raster_grid_uvt(UvtRaster& raster, const UvtGrid& grid, SampleStats& stats) {
+void raster_grid_uvt(UvtRaster& raster, const BoundedGrid& grid, SampleStats& stats) {
     if (raster.camera.perspective)
         GridRaster<true>(raster, grid, stats).run();
     else
@@ -263,7 +263,7 @@ namespace trapeze {
 
 HWY_EXPORT(raster_grid_uvt);
 
-void raster_grid_uvt(UvtRaster& raster, const UvtGrid& grid, SampleStats& stats) {
+void raster_grid_uvt(UvtRaster& raster, const BoundedGrid& grid, SampleStats& stats) {
     HWY_DYNAMIC_DISPATCH(raster_grid_uvt)(raster, grid, stats);
 }
 

@@ -67,13 +67,7 @@ struct UvtRaster {
     SampleScratch& scratch;
 };
 
-struct UvtGrid {
-    const Grid& grid;
-    uint32_t index;
-    const GridBounds& bounds;
-};
-
 /// Runs on the best instruction set at hand.
-void raster_grid_uvt(UvtRaster& raster, const UvtGrid& grid, SampleStats& stats);
+void raster_grid_uvt(UvtRaster& raster, const BoundedGrid& grid, SampleStats& stats);
 
 }  // namespace trapeze

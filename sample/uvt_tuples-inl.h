@@ -57,7 +57,8 @@ HWY_INLINE hn::Vec<DI> cell_of(D d, DI di, V at, float cell_side, int cells) {
 }
 
 template <bool kPerspective>
-void find_tuples(const UvtRaster& raster, const UvtGrid& grid, const UvtTile& tile, UvtGridTuples& found) {
+void find_tuples(const UvtRaster& raster, const BoundedGrid& grid, const UvtTile& tile,
+                 UvtGridTuples& found) {
     const UvtLanes d;
     const hn::RebindToSigned<UvtLanes> di;
     using V = hn::Vec<UvtLanes>;
