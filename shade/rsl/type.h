@@ -1,0 +1,47 @@
+/// The shading language's types (RISpec 3.2, section 11).
+#pragma once
+
+#include <cstdint>
+
+namespace trapeze::rsl {
+
+/// Bool is what comparisons give; the language has no name for it.
+enum class Base : uint8_t { Void, Bool, Float, Color, Point, Vector, Normal, Matrix, String };
+
+/// How often a variable has a value: once, or at each vertex.
+enum class Storage : uint8_t { Unspecified, Uniform, Varying };
+
+enum class ShaderKind : uint8_t { Surface, Displacement, Light, Volume, Imager };
+
+struct Type {
+    static constexpr int kUnsized = -1;  ///< `float a[]`: a function's array parameter of any length
+
+    Base base = Base::Void;
+    int length = 0;  ///< elements of an array; 0: not an array
+
+    bool is_array() const { return length != 0; }
+    bool is_triple() const {
+        return base == Base::Color || base == Base::Point || base == Base::Vector || base == Base::Normal;
+    }
+    /// A point, vector or normal.
+    bool is_geometric() const { return is_triple() && base != Base::Color; }
+    bool operator==(const Type&) const = default;
+};
+
+/// Floats in one element: 1, 3 or 16; strings and void have none, a Bool has a lane mask in one.
+constexpr int width_of(Base base) {
+    switch (base) {
+        case Base::Void:
+        case Base::String:
+            return 0;
+        case Base::Bool:
+        case Base::Float:
+            return 1;
+        case Base::Matrix:
+            return 16;
+        default:
+            return 3;
+    }
+}
+
+}  // namespace trapeze::rsl
