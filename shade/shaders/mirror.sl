@@ -1,0 +1,19 @@
+/* A mirror of colour Cs, traced, or looked up in texturename, an environment map, when there is one. */
+surface mirror(
+    float Ka = 0, Kd = 0, Ks = 1, Kr = 1, roughness = 0.05;
+    color specularcolor = 1;
+    string texturename = "";)
+{
+    normal Nf = faceforward(normalize(N), I);
+    vector V = -normalize(I);
+    vector R = reflect(-V, Nf);
+    color seen;
+
+    if (texturename != "")
+        seen = color environment(texturename, vtransform("world", R));
+    else
+        seen = trace(P, R);
+    Oi = Os;
+    Ci = Os * (Cs * (Ka * ambient() + Kd * diffuse(Nf) + Kr * seen) +
+               specularcolor * Ks * specular(Nf, V, roughness));
+}

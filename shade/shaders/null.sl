@@ -1,0 +1,6 @@
+/* Draws nothing. */
+surface null()
+{
+    Oi = 0;
+    Ci = 0;
+}

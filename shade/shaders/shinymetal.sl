@@ -1,0 +1,15 @@
+/* RISpec 3.2, A.1.4: metal that also reflects an environment map, looked up along world-space directions.
+   Without a map it is metal. */
+surface shinymetal(float Ka = 1, Ks = 1, Kr = 1, roughness = 0.1; string texturename = "";)
+{
+    normal Nf = faceforward(normalize(N), I);
+    vector V = -normalize(I);
+    color reflection = 0;
+
+    if (texturename != "") {
+        vector D = vtransform("world", reflect(-V, Nf));
+        reflection = Kr * color environment(texturename, D);
+    }
+    Oi = Os;
+    Ci = Os * Cs * (Ka * ambient() + Ks * specular(Nf, V, roughness) + reflection);
+}

@@ -1,0 +1,16 @@
+/// The standard shaders of RISpec 3.2 (its appendix A), with those that renderers have come to share, in the
+/// shading language: the .sl files of this folder, carried inside the program.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace trapeze {
+
+/// The source text of a standard shader; empty when there is none of that name. Lives as long as the program.
+std::string_view standard_shader(std::string_view name);
+
+/// In alphabetical order.
+std::vector<std::string_view> standard_shader_names();
+
+}  // namespace trapeze
