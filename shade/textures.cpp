@@ -1,31 +1,26 @@
 #include "shade/textures.h"
 
-#include <OpenImageIO/imagecache.h>
-#include <OpenImageIO/texture.h>
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <bit>
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 #include "shade/linear_image_input.h"
+#include "shade/textures_impl.h"
 
 namespace trapeze {
 namespace {
 
 constexpr float kDefaultMemoryMegabytes = 256;
 
-struct DestroyCache {
-    void operator()(OIIO::ImageCache* cache) const { OIIO::ImageCache::destroy(cache); }
-};
-struct DestroySystem {
-    void operator()(OIIO::TextureSystem* system) const { OIIO::TextureSystem::destroy(system); }
-};
+float option(const Options& options, const char* category, const char* name, float fallback) {
+    const auto list = options.user.find(category);
+    return list == options.user.end() ? fallback : list->second.float_or(name, fallback);
+}
 
-float memory_megabytes(const Options& options) {
-    const auto limits = options.user.find("limits");
-    const float kilobytes = limits == options.user.end() ? 0 : limits->second.float_or("texturememory", 0);
+float memory_megabytes_of(const Options& options) {
+    const float kilobytes = option(options, "limits", "texturememory", 0);
     return kilobytes > 0 ? kilobytes / 1024 : kDefaultMemoryMegabytes;
 }
 
@@ -40,61 +35,60 @@ std::string resolved_path(const std::string& name, const std::vector<std::string
     return name;
 }
 
-float finite(float value) {
-    return std::isfinite(value) ? value : 0;
-}
-
 }  // namespace
 
-class Textures::Picture {
-  public:
-    OIIO::TextureSystem::TextureHandle* handle = nullptr;
-    OIIO::TextureOpt options;
-    std::string name;
-    SourceLocation location;
-};
+MapOptions::Filter map_filter(std::string_view name) {
+    if (name == "box" || name == "triangle" || name == "bilinear") return MapOptions::Filter::Bilinear;
+    if (name == "nearest" || name == "closest" || name == "point") return MapOptions::Filter::Nearest;
+    return MapOptions::Filter::Smooth;
+}
 
-struct Textures::Impl {
-    std::unique_ptr<OIIO::ImageCache, DestroyCache> cache;
-    std::unique_ptr<OIIO::TextureSystem, DestroySystem> system;
-    std::vector<std::string> folders;
-    float memory_megabytes = kDefaultMemoryMegabytes;
-    Diagnostics* diagnostics = nullptr;
-    std::mutex mutex;
-    std::map<std::string, std::unique_ptr<Picture>, std::less<>> pictures;  ///< null: cannot be read
-
-    /// Not get_perthread_info(): what that leaves behind in a thread outlives the cache and then touches it.
-    std::mutex idle_mutex;
-    std::vector<OIIO::TextureSystem::Perthread*> idle;  ///< threads' states that nobody uses now
-
-    ~Impl() {
-        for (OIIO::TextureSystem::Perthread* state : idle) system->destroy_thread_info(state);
+void quad_sides(ConstPlane corner_00, ConstPlane corner_10, ConstPlane corner_01, ConstPlane corner_11,
+                const QuadSides& sides) {
+    for (size_t i = 0; i < sides.middle.size(); ++i) {
+        const float a = map_lanes::value(corner_00, i), b = map_lanes::value(corner_10, i);
+        const float c = map_lanes::value(corner_01, i), d = map_lanes::value(corner_11, i);
+        sides.middle[i] = ((a + b) + (c + d)) * 0.25f;
+        sides.along_u[i] = ((b - a) + (d - c)) * 0.5f;
+        sides.along_v[i] = ((c - a) + (d - b)) * 0.5f;
     }
-    OIIO::TextureSystem::Perthread* take_thread_state() {
-        const std::lock_guard lock(idle_mutex);
-        if (idle.empty()) return system->create_thread_info();
-        OIIO::TextureSystem::Perthread* state = idle.back();
-        idle.pop_back();
-        return state;
-    }
-    void give_back(OIIO::TextureSystem::Perthread* state) {
-        const std::lock_guard lock(idle_mutex);
-        idle.push_back(state);
-    }
+}
 
-    /// Makes the cache, which a render without textures goes without.
-    void start();
-    std::unique_ptr<Picture> open(const std::string& name, SourceLocation location);
-};
+bool map_lanes::is_on(const Lanes& lanes, size_t i) {
+    return lanes.mask.empty() || std::bit_cast<uint32_t>(lanes.mask[i < lanes.mask.size() ? i : 0]) != 0;
+}
+
+void map_lanes::pad(const Lanes& lanes, Plane out) {
+    if (lanes.count > 0 && lanes.count < out.size())
+        std::fill(out.begin() + static_cast<std::ptrdiff_t>(lanes.count), out.end(), out[lanes.count - 1]);
+}
 
 Textures::Textures(const Options& options, Diagnostics* diagnostics) : impl_(std::make_unique<Impl>()) {
-    impl_->memory_megabytes = memory_megabytes(options);
+    impl_->memory_megabytes = memory_megabytes_of(options);
+    impl_->shadow_bias = option(options, "shadow", "bias", option(options, "shadow", "bias0", -1));
     if (const auto paths = options.search_paths.find("texture"); paths != options.search_paths.end())
         impl_->folders = paths->second;
     impl_->diagnostics = diagnostics;
 }
 
 Textures::~Textures() = default;
+
+Textures::Impl::~Impl() {
+    for (OIIO::TextureSystem::Perthread* state : idle) system->destroy_thread_info(state);
+}
+
+OIIO::TextureSystem::Perthread* Textures::Impl::take_thread_state() {
+    const std::lock_guard lock(idle_mutex);
+    if (idle.empty()) return system->create_thread_info();
+    OIIO::TextureSystem::Perthread* state = idle.back();
+    idle.pop_back();
+    return state;
+}
+
+void Textures::Impl::give_back(OIIO::TextureSystem::Perthread* state) {
+    const std::lock_guard lock(idle_mutex);
+    idle.push_back(state);
+}
 
 void Textures::Impl::start() {
     if (system) return;
@@ -104,61 +98,97 @@ void Textures::Impl::start() {
     cache->attribute("automip", 1);
     system.reset(OIIO::TextureSystem::create(false, cache.get()));
     system->attribute("gray_to_rgb", 1);
+    system->attribute("latlong_up", "z");
 }
 
-std::unique_ptr<Textures::Picture> Textures::Impl::open(const std::string& name, SourceLocation location) {
+/// Empty when it is open, else what is wrong.
+std::string Textures::Impl::open(Picture& picture) {
     start();
-    const OIIO::ustring path(resolved_path(name, folders));
-    cache->add_file(path, &LinearImageInput::create);
-    auto picture = std::make_unique<Picture>();
-    picture->handle = system->get_texture_handle(path);
-    if (!picture->handle || !system->good(picture->handle)) {
+    picture.path = OIIO::ustring(resolved_path(picture.name, folders));
+    cache->add_file(picture.path, &LinearImageInput::create);
+    picture.handle = system->get_texture_handle(picture.path);
+    if (!picture.handle || !system->good(picture.handle)) {
         std::string reason = system->geterror();
         if (reason.empty()) reason = cache->geterror();
-        if (diagnostics)
-            diagnostics->error(location, fmt::format("texture \"{}\": {}; white is used", name,
-                                                     reason.empty() ? "cannot be read" : reason));
-        return nullptr;
+        return reason.empty() ? "cannot be read" : reason;
     }
-    picture->name = name;
-    picture->location = location;
     const char* modes = nullptr;
-    OIIO::TextureSystem::Perthread* thread = take_thread_state();
-    if (!system->get_texture_info(picture->handle, thread, 0, OIIO::ustring("wrapmodes"),
+    const ThreadState thread(*this);
+    if (!system->get_texture_info(picture.handle, thread.get(), 0, OIIO::ustring("wrapmodes"),
                                   OIIO::TypeDesc::STRING, &modes)) {
         system->geterror();
-        picture->options.swrap = picture->options.twrap = OIIO::TextureOpt::WrapPeriodic;
+        picture.swrap = picture.twrap = OIIO::TextureOpt::WrapPeriodic;
     }
-    give_back(thread);
-    return picture;
+    return {};
+}
+
+Textures::Impl::Entry<Textures::Picture>& Textures::Impl::entry(std::string_view name,
+                                                                SourceLocation location) {
+    const auto known = pictures.find(name);
+    if (known != pictures.end()) return known->second;
+    Entry<Picture>& made = pictures[std::string(name)];
+    made.map = std::make_unique<Picture>();
+    made.map->name = name, made.map->location = location;
+    made.problem = open(*made.map);
+    if (!made.problem.empty()) made.map.reset();
+    return made;
+}
+
+template <class Map>
+const Map* Textures::Impl::report(Entry<Map>& made, std::string_view name, SourceLocation location) {
+    if (!made.map && !made.reported && diagnostics)
+        diagnostics->error(location, fmt::format("texture \"{}\": {}", name, made.problem));
+    made.reported = true;
+    return made.map.get();
+}
+
+void Textures::Impl::report_read_error(const std::string& name, SourceLocation location, std::string error) {
+    if (diagnostics)
+        diagnostics->error(location, fmt::format("texture \"{}\": {}", name, error), "texture read " + name);
 }
 
 const Textures::Picture* Textures::find(std::string_view name, SourceLocation location) {
     if (name.empty()) return nullptr;
     const std::lock_guard lock(impl_->mutex);
-    const auto known = impl_->pictures.find(name);
-    if (known != impl_->pictures.end()) return known->second.get();
-    const std::string key(name);
-    return impl_->pictures.emplace(key, impl_->open(key, location)).first->second.get();
+    return impl_->report(impl_->entry(name, location), name, location);
 }
 
-void Textures::lookup(const Picture& picture, const Lookup& at, size_t vertices, Plane3 out) const {
-    OIIO::TextureSystem& system = *impl_->system;
-    OIIO::TextureSystem::Perthread* thread = impl_->take_thread_state();
-    OIIO::TextureOpt options = picture.options;
-    for (size_t i = 0; i < vertices; ++i) {
-        float color[3] = {1, 1, 1};
-        const bool good = system.texture(picture.handle, thread, options, finite(at.s[i]), finite(at.t[i]),
-                                         finite(at.dsdu[i]), finite(at.dtdu[i]), finite(at.dsdv[i]),
-                                         finite(at.dtdv[i]), 3, color);
-        if (!good && impl_->diagnostics)
-            impl_->diagnostics->error(picture.location,
-                                      fmt::format("texture \"{}\": {}", picture.name, system.geterror()),
-                                      "texture read " + picture.name);
-        for (int k = 0; k < 3; ++k) out[k][i] = good ? color[k] : 1;
+const Textures::DepthMap* Textures::find_shadow(std::string_view name, SourceLocation location) {
+    if (name.empty()) return nullptr;
+    const std::lock_guard lock(impl_->mutex);
+    auto known = impl_->depth_maps.find(name);
+    if (known == impl_->depth_maps.end()) {
+        known = impl_->depth_maps.emplace(name, Impl::Entry<DepthMap>()).first;
+        Impl::Entry<DepthMap>& made = known->second;
+        made.map = std::make_unique<DepthMap>();
+        made.map->name = name, made.map->location = location;
+        made.problem = impl_->open(*made.map);
+        if (!made.problem.empty()) made.map.reset();
     }
-    impl_->give_back(thread);
-    for (int k = 0; k < 3; ++k) load(out[k], vertices, out[k]);
+    return impl_->report(known->second, name, location);
+}
+
+std::optional<Textures::Info> Textures::info(std::string_view name) {
+    if (name.empty()) return {};
+    const std::lock_guard lock(impl_->mutex);
+    const Impl::Entry<Picture>& known = impl_->entry(name, {});
+    if (!known.map) return {};
+    OIIO::ImageSpec spec;
+    if (!impl_->cache->get_imagespec(known.map->path, spec)) return {};
+    Info info;
+    info.width = spec.full_width, info.height = spec.full_height, info.channels = spec.nchannels;
+    const std::string format = spec.get_string_attribute("textureformat");
+    info.type = format.find("Environment") != std::string::npos ? "environment"
+                : format == "Shadow"                            ? "shadow"
+                                                                : "texture";
+    const auto matrix = [&](const char* attribute) -> std::optional<M44f> {
+        M44f m;
+        if (!spec.getattribute(attribute, OIIO::TypeMatrix, &m)) return {};
+        return m;
+    };
+    info.viewing_matrix = matrix("worldtocamera");
+    info.projection_matrix = matrix("worldtoscreen");
+    return info;
 }
 
 }  // namespace trapeze

@@ -1,25 +1,63 @@
-/// Textures of one render, through a TextureSystem of its own with bounded memory. This file's implementation
-/// is the only place that knows OpenImageIO.
+/// Texture, environment and shadow maps of one render, through a TextureSystem of its own with bounded
+/// memory. What includes textures_impl.h is all that knows OpenImageIO.
 ///
 /// s runs across the picture and t down it, from its top row at 0. Pictures of 8-bit numbers are taken to
 /// linear light as they are read, by the sRGB curve and before any filtering, unless their metadata says that
 /// they are linear already; other formats are taken as they are. Outside 0..1 a picture repeats, unless its
 /// own metadata says otherwise.
+///
+/// Environment maps are pictures of all directions by longitude and latitude; z is up, as RISpec's z is in
+/// RenderMan's maps: t = acos(z) / pi, s = 1/2 + atan2(y, x) / 2 pi, so that +z is the top row and +x the
+/// middle of the picture. (A map in OpenEXR has y up, as that format's specification says.)
+///
+/// Shadow maps are pictures of camera-space depth with the metadata worldtocamera and worldtoscreen.
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "core/diagnostics.h"
+#include "core/math.h"
 #include "core/scene.h"
 #include "shade/planes.h"
 
 namespace trapeze {
 
+/// How a lookup is filtered: RISpec 3.2's optional arguments of texture(), environment() and shadow()
+/// (section 15.7).
+struct MapOptions {
+    enum class Filter : uint8_t { Smooth, Bilinear, Nearest };
+
+    float sblur = 0, tblur = 0;    ///< added to the filtered region, as a part of the picture
+    float swidth = 1, twidth = 1;  ///< what the region is multiplied by
+    float fill = 0;                ///< of channels that the file does not have
+    bool lerp = true;              ///< between two resolutions of the picture
+    Filter filter = Filter::Smooth;
+    int first_channel = 0;
+
+    float samples = 16;  ///< of a shadow; whole numbers from 1 to kMostShadowSamples
+    float bias = -1;     ///< of a shadow, in its camera's depth; below zero: as the render's options say
+};
+inline constexpr int kMostShadowSamples = 4096;
+
+/// RISpec's filter names: "box" and "triangle" are bilinear, "nearest" and "closest" take a texel, all others
+/// are smooth.
+MapOptions::Filter map_filter(std::string_view name);
+
+/// Lanes of planes that a lookup is for.
+struct Lanes {
+    size_t count = 0;  ///< lanes past the last one are given its value in the output
+    ConstPlane mask;   ///< lanes whose bits are all zero are left alone; empty: all are wanted
+};
+
 class Textures {
   public:
     /// Option "limits" "texturememory" (kilobytes) bounds the memory; searched are the folders of
-    /// Option "searchpath" "texture". diagnostics may be null.
+    /// Option "searchpath" "texture"; Option "shadow" "bias" is the bias of shadows that have none of their
+    /// own. diagnostics may be null.
     Textures(const Options& options, Diagnostics* diagnostics);
     ~Textures();
     Textures(const Textures&) = delete;
@@ -30,17 +68,64 @@ class Textures {
     class Picture;
     const Picture* find(std::string_view name, SourceLocation location);
 
+    /// The same as a shadow map: null, and reported once, when it has no depths or no matrices.
+    class DepthMap;
+    const DepthMap* find_shadow(std::string_view name, SourceLocation location);
+
+    /// For textureinfo() (RISpec 3.2, section 15.7); nothing when the file cannot be read, which is not
+    /// reported. Thread-safe.
+    struct Info {
+        int width = 0, height = 0, channels = 0;
+        std::string type;                       ///< "texture", "environment" or "shadow"
+        std::optional<M44f> viewing_matrix;     ///< camera_from_world of the map (row vectors)
+        std::optional<M44f> projection_matrix;  ///< screen_from_world, -1..1 across the picture and up it
+    };
+    std::optional<Info> info(std::string_view name);
+
+    // The planes of the inputs below fit the lanes, or hold one value for all (kLanes floats, or fewer than
+    // there are lanes), or are empty, which is zero. Values that are not finite count as zero. All lookups
+    // are thread-safe.
+
     /// Texture coordinates and how they change from a vertex to the next along u and v of the grid: what a
     /// lookup is filtered over.
     struct Lookup {
         ConstPlane s, t, dsdu, dtdu, dsdv, dtdv;
     };
-    /// The picture's colours; grey ones fill all three channels. Thread-safe.
+    /// `out` are 1 or 3 planes; as three, pictures of one channel are grey. A null picture gives 0.
+    void texture(const Picture* picture, const Lookup& at, const MapOptions& options, Lanes lanes,
+                 std::span<const Plane> out) const;
+
+    /// Directions, of any length, and how they change from a vertex to the next.
+    struct EnvironmentLookup {
+        ConstPlane3 R, dRdu, dRdv;
+    };
+    void environment(const Picture* picture, const EnvironmentLookup& at, const MapOptions& options,
+                     Lanes lanes, std::span<const Plane> out) const;
+
+    /// Camera-space points, and how they change from a vertex to the next.
+    struct ShadowLookup {
+        ConstPlane3 P, dPdu, dPdv;
+    };
+    /// Percentage-closer filtering [Reeves87, "Rendering Antialiased Shadows with Depth Maps"]: the part, 0
+    /// to 1, of what surrounds P in the map that is nearer to the map's camera than P is. See
+    /// shadow_lookup.cpp. Nothing is in shadow outside the map, behind its camera, or of a null map.
+    void shadow(const DepthMap* map, const ShadowLookup& at, const M44f& camera_from_world,
+                const MapOptions& options, Lanes lanes, Plane out) const;
+
+    /// texture() of three channels, for all vertices.
     void lookup(const Picture& picture, const Lookup& at, size_t vertices, Plane3 out) const;
 
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+/// A quadrilateral's middle and sides, of its corners in the order of a patch's (along u first): for the
+/// lookups that are given four corners.
+struct QuadSides {
+    Plane middle, along_u, along_v;
+};
+void quad_sides(ConstPlane corner_00, ConstPlane corner_10, ConstPlane corner_01, ConstPlane corner_11,
+                const QuadSides& sides);
 
 }  // namespace trapeze

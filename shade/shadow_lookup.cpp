@@ -1,0 +1,236 @@
+/// Shadow maps: percentage-closer filtering [Reeves87, "Rendering Antialiased Shadows with Depth Maps"].
+///
+/// A lookup compares depths at `samples` places, jittered in a grid over the region of the map that a
+/// micropolygon covers, times width, plus blur; it is at least a texel wide, so that edges are smooth close
+/// up.
+///
+/// Departs from the paper: what is compared with a texel is not the depth of P but that of the plane through
+/// P along dPdu and dPdv, at the texel's middle. Surfaces seen at a slant then do not shadow themselves
+/// however wide the region is, and the bias need only cover what a depth map's samples vary by inside a
+/// texel, for which half the plane's change over a texel is added to it. On a plane the depth (orthographic)
+/// or its inverse (perspective) is linear in the map.
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "core/random.h"
+#include "shade/textures_impl.h"
+
+namespace trapeze {
+namespace {
+
+using map_lanes::value;
+
+/// What is as deep holds nothing.
+constexpr float kNothing = 1e30f;
+/// The bias where none is asked for, as a part of the depth.
+constexpr float kDefaultBias = 1e-3f;
+/// A plane seen nearly edge on is followed no farther than to this part of P's depth, nearer or farther.
+constexpr float kPlaneReach = 0.25f;
+
+/// Depths through the cache, one tile held at a time.
+class DepthReader {
+  public:
+    DepthReader(OIIO::ImageCache& cache, OIIO::ImageCache::Perthread* thread, const Textures::DepthMap& map)
+        : cache_(cache), thread_(thread), map_(map) {}
+    ~DepthReader() { release(); }
+    DepthReader(const DepthReader&) = delete;
+    DepthReader& operator=(const DepthReader&) = delete;
+
+    /// Of a pixel; kNothing outside the file.
+    float at(int x, int y) {
+        if (x < map_.x0 || x >= map_.x1 || y < map_.y0 || y >= map_.y1) return kNothing;
+        if (x < roi_.xbegin || x >= roi_.xend || y < roi_.ybegin || y >= roi_.yend) fetch(x, y);
+        if (!pixels_) return kNothing;
+        const float depth = pixels_[static_cast<size_t>(y - roi_.ybegin) * roi_.width() + (x - roi_.xbegin)];
+        return depth > 0 && depth < kNothing ? depth : kNothing;
+    }
+    bool failed() const { return failed_; }
+
+  private:
+    void release() {
+        if (tile_) cache_.release_tile(tile_);
+        tile_ = nullptr, pixels_ = nullptr;
+        roi_ = OIIO::ROI(0, 0, 0, 0);
+    }
+    void fetch(int x, int y) {
+        release();
+        tile_ = cache_.get_tile(map_.handle, thread_, 0, 0, x, y, 0, 0, 1);
+        OIIO::TypeDesc format;
+        const void* pixels = tile_ ? cache_.tile_pixels(tile_, format) : nullptr;
+        if (!pixels || format != OIIO::TypeDesc::FLOAT) {
+            failed_ = true;
+            return;
+        }
+        pixels_ = static_cast<const float*>(pixels);
+        roi_ = cache_.tile_roi(tile_);
+    }
+
+    OIIO::ImageCache& cache_;
+    OIIO::ImageCache::Perthread* thread_;
+    const Textures::DepthMap& map_;
+    OIIO::ImageCache::Tile* tile_ = nullptr;
+    const float* pixels_ = nullptr;
+    OIIO::ROI roi_{0, 0, 0, 0};
+    bool failed_ = false;
+};
+
+/// A point in a map: pixels, depth, and the depth's form that is linear over planes.
+struct MapPoint {
+    float x = 0, y = 0, depth = 0, linear = 0;
+    bool seen = false;  ///< before the map's camera
+};
+
+class MapSpace {
+  public:
+    MapSpace(const Textures::DepthMap& map, const M44f& camera_from_world) : map_(map) {
+        const M44d world_from_current = M44d(camera_from_world).inverse();
+        camera_ = M44f(world_from_current * M44d(map.camera_from_world));
+        screen_ = M44f(world_from_current * M44d(map.screen_from_world));
+    }
+
+    MapPoint operator()(const V3f& p) const {
+        MapPoint at;
+        at.depth = p.x * camera_[0][2] + p.y * camera_[1][2] + p.z * camera_[2][2] + camera_[3][2];
+        const float w = p.x * screen_[0][3] + p.y * screen_[1][3] + p.z * screen_[2][3] + screen_[3][3];
+        if (!(at.depth > 0) || !(w > 0)) return at;
+        const float x = p.x * screen_[0][0] + p.y * screen_[1][0] + p.z * screen_[2][0] + screen_[3][0];
+        const float y = p.x * screen_[0][1] + p.y * screen_[1][1] + p.z * screen_[2][1] + screen_[3][1];
+        at.x = (0.5f + 0.5f * x / w) * map_.full_width;
+        at.y = (0.5f - 0.5f * y / w) * map_.full_height;
+        at.linear = map_.perspective ? 1 / at.depth : at.depth;
+        at.seen = std::isfinite(at.x) && std::isfinite(at.y);
+        return at;
+    }
+
+  private:
+    const Textures::DepthMap& map_;
+    M44f camera_, screen_;  ///< of the map, from the current space
+};
+
+/// Where a lookup's samples lie, and the plane they are compared with.
+struct Receiver {
+    MapPoint at;
+    float half_x = 0, half_y = 0;    ///< pixels
+    float slope_x = 0, slope_y = 0;  ///< of `linear`, per pixel
+    float least = 0, most = 0;       ///< bounds of the plane's depth
+    bool perspective = true;
+
+    float plane_depth(float x, float y) const {
+        const float linear = at.linear + slope_x * (x - at.x) + slope_y * (y - at.y);
+        if (!perspective) return std::clamp(linear, least, most);
+        return linear * most > 1 ? std::max(1 / linear, least) : most;
+    }
+};
+
+Receiver make_receiver(const Textures::DepthMap& map, const MapSpace& space, const MapPoint& at,
+                       const std::array<V3f, 2>& neighbours, const MapOptions& options) {
+    Receiver r;
+    r.at = at, r.perspective = map.perspective;
+    r.least = at.depth * (1 - kPlaneReach), r.most = at.depth * (1 + kPlaneReach);
+    const MapPoint u = space(neighbours[0]), v = space(neighbours[1]);
+    if (u.seen && v.seen) {
+        const float ux = u.x - at.x, uy = u.y - at.y, vx = v.x - at.x, vy = v.y - at.y;
+        r.half_x = 0.5f * (std::fabs(ux) + std::fabs(vx)) * std::max(options.swidth, 0.0f);
+        r.half_y = 0.5f * (std::fabs(uy) + std::fabs(vy)) * std::max(options.twidth, 0.0f);
+        const float area = ux * vy - uy * vx;
+        const float du = u.linear - at.linear, dv = v.linear - at.linear;
+        const float slope_x = (du * vy - dv * uy) / area, slope_y = (dv * ux - du * vx) / area;
+        if (std::isfinite(slope_x) && std::isfinite(slope_y)) r.slope_x = slope_x, r.slope_y = slope_y;
+    }
+    const auto region = [](float half, float blur, float size) {
+        return std::clamp(half + 0.5f * std::max(blur, 0.0f) * size, 0.5f, size);
+    };
+    r.half_x = region(r.half_x, options.sblur, map.full_width);
+    r.half_y = region(r.half_y, options.tblur, map.full_height);
+    return r;
+}
+
+/// The part of the samples that is hidden.
+float hidden_part(DepthReader& depths, const Receiver& r, float bias, int samples, uint32_t seed) {
+    const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(samples))));
+    const int rows = (samples + columns - 1) / columns;
+    const float slope = 0.5f * (std::fabs(r.slope_x) + std::fabs(r.slope_y));
+    bias += std::min(r.perspective ? slope * r.at.depth * r.at.depth : slope, r.at.depth * kPlaneReach);
+    int hidden = 0;
+    uint32_t index = seed;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const float a =
+                (static_cast<float>(column) + unit_float(index = hash(index))) / static_cast<float>(columns);
+            const float b =
+                (static_cast<float>(row) + unit_float(index = hash(index))) / static_cast<float>(rows);
+            const float x = std::floor(r.at.x + (2 * a - 1) * r.half_x);
+            const float y = std::floor(r.at.y + (2 * b - 1) * r.half_y);
+            const float depth = depths.at(static_cast<int>(x), static_cast<int>(y));
+            if (depth < r.plane_depth(x + 0.5f, y + 0.5f) - bias) ++hidden;
+        }
+    return static_cast<float>(hidden) / static_cast<float>(rows * columns);
+}
+
+/// The same for a point wherever and whenever it is looked up.
+uint32_t seed_of(const V3f& p) {
+    return hash(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y), std::bit_cast<uint32_t>(p.z));
+}
+
+bool may_reach(const Textures::DepthMap& map, const Receiver& r) {
+    return r.at.x + r.half_x > static_cast<float>(map.x0) && r.at.x - r.half_x < static_cast<float>(map.x1) &&
+           r.at.y + r.half_y > static_cast<float>(map.y0) && r.at.y - r.half_y < static_cast<float>(map.y1);
+}
+
+}  // namespace
+
+std::string Textures::Impl::open(DepthMap& map) {
+    Entry<Picture>& known = entry(map.name, map.location);
+    if (!known.map) {
+        known.reported = true;
+        return known.problem;
+    }
+    OIIO::ImageSpec spec;
+    if (!cache->get_imagespec(known.map->path, spec)) return cache->geterror();
+    if (!spec.getattribute("worldtocamera", OIIO::TypeMatrix, &map.camera_from_world))
+        return "is no shadow map: it has no matrix worldtocamera";
+    if (!spec.getattribute("worldtoscreen", OIIO::TypeMatrix, &map.screen_from_world))
+        return "is no shadow map: it has no matrix worldtoscreen";
+    if (spec.format != OIIO::TypeDesc::FLOAT || spec.nchannels != 1)
+        return "is no shadow map: depths are one channel of floats";
+    map.handle = cache->get_image_handle(known.map->path);
+    map.x0 = spec.x, map.y0 = spec.y;
+    map.x1 = spec.x + spec.width, map.y1 = spec.y + spec.height;
+    map.full_width = static_cast<float>(std::max(spec.full_width, 1));
+    map.full_height = static_cast<float>(std::max(spec.full_height, 1));
+    const M44f& s = map.screen_from_world;
+    map.perspective = s[0][3] != 0 || s[1][3] != 0 || s[2][3] != 0;
+    return {};
+}
+
+void Textures::shadow(const DepthMap* map, const ShadowLookup& at, const M44f& camera_from_world,
+                      const MapOptions& options, Lanes lanes, Plane out) const {
+    if (map) {
+        const Impl::ThreadState thread(*impl_);
+        DepthReader depths(*impl_->cache, reinterpret_cast<OIIO::ImageCache::Perthread*>(thread.get()), *map);
+        const MapSpace space(*map, camera_from_world);
+        const float asked = options.bias >= 0 ? options.bias : impl_->shadow_bias;
+        const float most = static_cast<float>(kMostShadowSamples);
+        const int samples = options.samples >= 1 ? static_cast<int>(std::min(options.samples, most)) : 1;
+        for (size_t i = 0; i < lanes.count; ++i) {
+            if (!map_lanes::is_on(lanes, i)) continue;
+            out[i] = 0;
+            const V3f P = value(at.P, i);
+            const MapPoint here = space(P);
+            if (!here.seen) continue;
+            const Receiver receiver =
+                make_receiver(*map, space, here, {P + value(at.dPdu, i), P + value(at.dPdv, i)}, options);
+            if (!may_reach(*map, receiver)) continue;
+            const float bias = asked >= 0 ? asked : kDefaultBias * here.depth;
+            out[i] = hidden_part(depths, receiver, bias, samples, seed_of(P));
+        }
+        if (depths.failed()) impl_->report_read_error(map->name, map->location, impl_->cache->geterror());
+    } else {
+        for (size_t i = 0; i < lanes.count; ++i)
+            if (map_lanes::is_on(lanes, i)) out[i] = 0;
+    }
+    map_lanes::pad(lanes, out);
+}
+
+}  // namespace trapeze
