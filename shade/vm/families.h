@@ -1,0 +1,15 @@
+/// The kernels by family, a source file each; find_kernel() asks them in turn. Each returns null for what it
+/// does not have.
+#pragma once
+
+#include <span>
+
+#include "shade/vm/kernel.h"
+
+namespace trapeze::vm {
+
+Kernel find_arithmetic(rsl::Op op, std::span<const int> widths);
+Kernel find_bools(rsl::Op op, std::span<const int> widths);
+Kernel find_geometry(rsl::Op op, std::span<const int> widths);
+
+}  // namespace trapeze::vm

@@ -1,0 +1,13 @@
+#include "shade/vm/kernel.h"
+
+#include "shade/vm/families.h"
+
+namespace trapeze::vm {
+
+Kernel find_kernel(rsl::Op op, std::span<const int> widths) {
+    for (const auto find : {find_arithmetic, find_bools, find_geometry})
+        if (const Kernel kernel = find(op, widths)) return kernel;
+    return nullptr;
+}
+
+}  // namespace trapeze::vm
