@@ -14,6 +14,7 @@
 #include <bit>
 
 #include "core/random.h"
+#include "shade/map_matrices.h"
 #include "shade/textures_impl.h"
 
 namespace trapeze {
@@ -188,10 +189,10 @@ std::string Textures::Impl::open(DepthMap& map) {
     }
     OIIO::ImageSpec spec;
     if (!cache->get_imagespec(known.map->path, spec)) return cache->geterror();
-    if (!spec.getattribute("worldtocamera", OIIO::TypeMatrix, &map.camera_from_world))
-        return "is no shadow map: it has no matrix worldtocamera";
-    if (!spec.getattribute("worldtoscreen", OIIO::TypeMatrix, &map.screen_from_world))
-        return "is no shadow map: it has no matrix worldtoscreen";
+    const auto matrices = map_matrices(spec);
+    if (!matrices) return "is no shadow map: it has no matrices worldtocamera and worldtoscreen";
+    map.camera_from_world = matrices->camera_from_world;
+    map.screen_from_world = matrices->screen_from_world;
     if (spec.format != OIIO::TypeDesc::FLOAT || spec.nchannels != 1)
         return "is no shadow map: depths are one channel of floats";
     map.handle = cache->get_image_handle(known.map->path);

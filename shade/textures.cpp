@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "shade/linear_image_input.h"
+#include "shade/map_matrices.h"
 #include "shade/textures_impl.h"
 
 namespace trapeze {
@@ -181,13 +182,10 @@ std::optional<Textures::Info> Textures::info(std::string_view name) {
     info.type = format.find("Environment") != std::string::npos ? "environment"
                 : format == "Shadow"                            ? "shadow"
                                                                 : "texture";
-    const auto matrix = [&](const char* attribute) -> std::optional<M44f> {
-        M44f m;
-        if (!spec.getattribute(attribute, OIIO::TypeMatrix, &m)) return {};
-        return m;
-    };
-    info.viewing_matrix = matrix("worldtocamera");
-    info.projection_matrix = matrix("worldtoscreen");
+    if (const auto matrices = map_matrices(spec)) {
+        info.viewing_matrix = matrices->camera_from_world;
+        info.projection_matrix = matrices->screen_from_world;
+    }
     return info;
 }
 

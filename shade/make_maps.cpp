@@ -1,0 +1,230 @@
+#include "shade/make_maps.h"
+
+#include <OpenImageIO/filter.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <limits>
+
+#include "shade/cube_faces.h"
+#include "shade/linear_image_input.h"
+#include "shade/map_matrices.h"
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+constexpr uint64_t kMostFloats = uint64_t{1} << 28;  ///< of a picture: 1 GiB
+constexpr int kTile = 64;
+constexpr float kNothing = 1e30f;  ///< what is as deep
+
+struct MakingError {
+    std::string text;
+};
+
+void check(bool good, const std::string& text) {
+    if (!good) throw MakingError{text.empty() ? "cannot be read or written" : text};
+}
+
+struct Picture {
+    Raster raster;
+    ImageSpec spec;  ///< of the file
+};
+
+Picture read_picture(OIIO::ImageInput& file, const std::string& name) {
+    Picture picture;
+    check(file.open(name, picture.spec), file.geterror());
+    const ImageSpec& spec = picture.spec;
+    const uint64_t floats = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
+    check(spec.width > 0 && spec.height > 0 && floats <= kMostFloats,
+          fmt::format("\"{}\" is too large: {} x {} pixels", name, spec.width, spec.height));
+    picture.raster = {spec.width, spec.height, spec.nchannels, std::vector<float>(floats)};
+    check(file.read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, picture.raster.pixels.data()),
+          file.geterror());
+    file.close();
+    return picture;
+}
+
+Picture read_linear(const std::string& name) {
+    LinearImageInput file;
+    return read_picture(file, name);
+}
+
+Picture read_numbers(const std::string& name) {
+    const auto file = OIIO::ImageInput::create(name);
+    check(file != nullptr, OIIO::geterror());
+    return read_picture(*file, name);
+}
+
+/// Where a file is made that becomes `target` when all has gone well.
+class Unfinished {
+  public:
+    explicit Unfinished(const std::string& target)
+        : target_(target), path_(fmt::format("{}.{}.part", target, ::getpid())) {}
+    ~Unfinished() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    Unfinished(const Unfinished&) = delete;
+    Unfinished& operator=(const Unfinished&) = delete;
+
+    const std::string& path() const { return path_; }
+    void finish() {
+        std::error_code problem;
+        fs::rename(path_, target_, problem);
+        check(!problem, problem.message());
+    }
+
+  private:
+    std::string target_, path_;
+};
+
+std::string wrap_mode(const std::string& name) {
+    for (const char* known : {"periodic", "clamp", "black", "mirror"})
+        if (name == known) return name;
+    throw MakingError{fmt::format("\"{}\" is no wrap mode", name)};
+}
+
+/// OpenImageIO's name of a filter; "box" for one that it does not have.
+std::string filter_name(const std::string& name) {
+    if (name == "b-spline" || name == "radial-bspline") return "bspline";
+    if (name == "bessel" || name == "lanczos") return "lanczos3";
+    for (int i = 0; i < OIIO::Filter2D::num_filters(); ++i)
+        if (name == OIIO::Filter2D::get_filterdesc(i).name) return name;
+    return "box";
+}
+
+ImageSpec texture_config(const MapMaking& making, TypeDesc format, const char* file_format) {
+    ImageSpec config;
+    config.format = format;
+    config.tile_width = config.tile_height = kTile;
+    config.attribute("wrapmodes", wrap_mode(making.swrap) + "," + wrap_mode(making.twrap));
+    config.attribute("maketx:filtername", filter_name(making.filter));
+    config.attribute("maketx:fileformatname", file_format);
+    return config;
+}
+
+void write_texture(OIIO::ImageBufAlgo::MakeTextureMode mode, Raster& raster, const ImageSpec& config,
+                   const std::string& texture) {
+    const OIIO::ImageBuf buffer(ImageSpec(raster.width, raster.height, raster.channels, TypeDesc::FLOAT),
+                                raster.pixels.data());
+    Unfinished file(texture);
+    check(OIIO::ImageBufAlgo::make_texture(mode, buffer, file.path(), config), OIIO::geterror());
+    file.finish();
+}
+
+/// Runs what may throw, and says what went wrong.
+template <class Make>
+std::string made(Make&& make) {
+    try {
+        make();
+        return {};
+    } catch (const MakingError& problem) {
+        return problem.text;
+    } catch (const std::exception& problem) {
+        return problem.what();
+    }
+}
+
+/// Eight bits and halves fit halves.
+TypeDesc texture_format(const ImageSpec& spec) {
+    const bool fits = spec.format == TypeDesc::UINT8 || spec.format == TypeDesc::HALF;
+    return fits ? TypeDesc::HALF : TypeDesc::FLOAT;
+}
+
+void make_flat(Picture picture, const std::string& texture, const MapMaking& making) {
+    write_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture.raster,
+                  texture_config(making, texture_format(picture.spec), "openexr"), texture);
+}
+
+/// TIFF: OpenEXR's maps have another up.
+void make_environment(Raster& raster, const std::string& texture, const MapMaking& making) {
+    write_texture(OIIO::ImageBufAlgo::MakeTxEnvLatl, raster, texture_config(making, TypeDesc::FLOAT, "tiff"),
+                  texture);
+}
+
+std::vector<float> depths_of(const Picture& picture) {
+    const std::vector<std::string>& names = picture.spec.channelnames;
+    const auto named = std::find_if(names.begin(), names.end(),
+                                    [](const std::string& name) { return name == "Z" || name == "z"; });
+    check(named != names.end() || picture.raster.channels == 1, "the picture has no depths (channel Z)");
+    const int channel = named == names.end() ? 0 : static_cast<int>(named - names.begin());
+    std::vector<float> depths;
+    for (size_t i = channel; i < picture.raster.pixels.size(); i += picture.raster.channels) {
+        const float depth = picture.raster.pixels[i];
+        depths.push_back(depth > 0 && depth < kNothing ? depth : std::numeric_limits<float>::max());
+    }
+    return depths;
+}
+
+void write_depths(const ImageSpec& from, const MapMatrices& matrices, const std::vector<float>& depths,
+                  const std::string& shadow) {
+    ImageSpec spec(from.width, from.height, 1, TypeDesc::FLOAT);
+    spec.x = from.x, spec.y = from.y;
+    spec.full_width = from.full_width, spec.full_height = from.full_height;
+    spec.channelnames = {"Z"};
+    spec.tile_width = spec.tile_height = kTile;
+    spec.attribute("textureformat", "Shadow");
+    spec.attribute("worldtocamera", OIIO::TypeMatrix, &matrices.camera_from_world);
+    spec.attribute("worldtoscreen", OIIO::TypeMatrix, &matrices.screen_from_world);
+    Unfinished file(shadow);
+    const auto out = OIIO::ImageOutput::create("tiff");
+    check(out != nullptr, OIIO::geterror());
+    check(out->open(file.path(), spec) && out->write_image(TypeDesc::FLOAT, depths.data()) && out->close(),
+          out->geterror());
+    file.finish();
+}
+
+}  // namespace
+
+std::string make_texture_map(const std::string& picture, const std::string& texture,
+                             const MapMaking& making) {
+    return made([&] { make_flat(read_linear(picture), texture, making); });
+}
+
+std::string make_bump_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
+    return made([&] { make_flat(read_numbers(picture), texture, making); });
+}
+
+std::string make_lat_long_environment(const std::string& picture, const std::string& texture,
+                                      const MapMaking& making) {
+    return made([&] {
+        Picture read = read_linear(picture);
+        make_environment(read.raster, texture, making);
+    });
+}
+
+std::string make_cube_face_environment(const std::array<std::string, 6>& pictures, const std::string& texture,
+                                       float fov, const MapMaking& making) {
+    return made([&] {
+        std::array<Raster, 6> faces;
+        for (size_t i = 0; i < faces.size(); ++i) {
+            faces[i] = std::move(read_linear(pictures[i]).raster);
+            check(faces[i].channels == faces[0].channels, "the faces do not have the same channels");
+            check(faces[i].pixels.size() * 8 <= kMostFloats, fmt::format("\"{}\" is too large", pictures[i]));
+        }
+        Raster map = lat_long_from_cube(faces, fov);
+        make_environment(map, texture, making);
+    });
+}
+
+std::string make_shadow_map(const std::string& picture, const std::string& shadow) {
+    return made([&] {
+        const Picture read = read_numbers(picture);
+        const auto matrices = map_matrices(read.spec);
+        check(matrices.has_value(),
+              "the picture does not say where its camera was (worldtocamera, worldtoscreen)");
+        write_depths(read.spec, *matrices, depths_of(read), shadow);
+    });
+}
+
+}  // namespace trapeze
