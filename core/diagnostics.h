@@ -29,9 +29,13 @@ struct Diagnostic {
     std::string place;                       ///< "file:line:col", or empty
     std::vector<std::string> included_from;  ///< places of the ReadArchives that led here, innermost first
     std::string kind;  ///< those of one kind are shown once, then counted; empty: always shown
+    /// The source's line and, below, a caret at the column; empty where the text is not known. No newline at
+    /// its end.
+    std::string excerpt{};
 };
 
-/// "scene.rib:3:5: error: text", then a line for each place it was included from.
+/// "scene.rib:3:5: error: text", then the excerpt if there is one, then a line for each place it was included
+/// from.
 std::string to_string(const Diagnostic& diagnostic);
 
 /// Collects what is reported, thread-safe; hands the first of each kind to the listener.
@@ -43,6 +47,10 @@ class Diagnostics {
 
     /// Registers a file (or "<stdin>", an inline archive...) so that locations can refer to it.
     uint32_t add_source(std::string name, SourceLocation included_from = {});
+    /// The same for a source whose lines messages shall show. Line n of `text` is called n + `line_shift`, as
+    /// after a #line.
+    uint32_t add_source(std::string name, SourceLocation included_from,
+                        std::shared_ptr<const std::string> text, int64_t line_shift = 0);
     std::string source_name(uint32_t source) const;
 
     void error(SourceLocation at, std::string text, std::string kind = {}) {
@@ -71,8 +79,11 @@ class Diagnostics {
     struct Source {
         std::string name;
         SourceLocation included_from;
+        std::shared_ptr<const std::string> text;  ///< null: not known
+        int64_t line_shift = 0;
     };
     std::string place_of(SourceLocation at) const;
+    std::string excerpt_of(SourceLocation at) const;
 
     mutable std::mutex mutex_;
     Listener listener_;

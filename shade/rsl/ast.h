@@ -48,10 +48,19 @@ struct Variable {
     Type type;
     Storage storage = Storage::Unspecified;
     Kind kind = Kind::Local;
-    bool output = false;    ///< a shader's output parameter, or a function's
+    bool output = false;  ///< a shader's output parameter, or a function's
+    /// Names a variable of outside (`extern`). The analysis takes such declarations out of the tree.
+    bool external = false;
     ExpressionPtr initial;  ///< default or initial value; may be null. An array's is a List.
     SourceLocation at;
 };
+
+/// Bounds of the tree's height, so that passes may recurse: one expression's, and how deep statements and
+/// expressions in parentheses nest.
+inline constexpr int kHighestExpression = 400;
+inline constexpr int kDeepestNesting = 256;
+/// Elements of an array.
+inline constexpr int kLongestArray = 65536;
 
 struct Expression {
     enum class Kind : uint8_t {
@@ -76,6 +85,7 @@ struct Expression {
     std::string text;  ///< a Text's value, a name as written, a Cast's space
     std::vector<ExpressionPtr> children;
     SourceLocation at;
+    uint16_t height = 1;  ///< of this tree, at most kHighestExpression
 
     // Set by the analysis.
     Type type;
@@ -99,13 +109,14 @@ struct Statement {
         Break,        ///< out of `levels` loops
         Continue,     ///< on with the `levels`-th loop out
         Return,       ///< expression 0, if there is one
-        Empty,
+        Empty,        ///< nothing; or where the function `defines` was written
     };
     Kind kind = Kind::Empty;
     int levels = 1;
     std::vector<ExpressionPtr> expressions;
     std::vector<StatementPtr> children;
     std::vector<std::unique_ptr<Variable>> variables;
+    const Function* defines = nullptr;  ///< of an Empty: the nested function that was written here
     SourceLocation at;
 };
 

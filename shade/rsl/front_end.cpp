@@ -1,0 +1,28 @@
+#include "shade/rsl/front_end.h"
+
+#include "shade/rsl/lexer.h"
+#include "shade/rsl/messages.h"
+#include "shade/rsl/parser.h"
+#include "shade/rsl/preprocessor.h"
+
+namespace trapeze::rsl {
+namespace {
+
+std::unique_ptr<TranslationUnit> parse_with(const Source& source, const CompileOptions& options,
+                                            Messages& messages) {
+    TokenStream stream = preprocess(source, options, messages);
+    if (messages.full()) return nullptr;
+    read_values(stream, messages);
+    return parse_tokens(stream, messages);
+}
+
+}  // namespace
+
+std::unique_ptr<TranslationUnit> parse(const Source& source, const CompileOptions& options,
+                                       Diagnostics& diagnostics) {
+    Messages messages(diagnostics);
+    std::unique_ptr<TranslationUnit> unit = parse_with(source, options, messages);
+    return messages.failed() ? nullptr : std::move(unit);
+}
+
+}  // namespace trapeze::rsl
