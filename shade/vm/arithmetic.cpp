@@ -14,9 +14,6 @@ namespace {
 
 using rsl::Op;
 
-HWY_INLINE V same(V a) {
-    return a;
-}
 HWY_INLINE V add(V a, V b) {
     return hn::Add(a, b);
 }

@@ -10,6 +10,8 @@ namespace trapeze::vm {
 
 Kernel find_arithmetic(rsl::Op op, std::span<const int> widths);
 Kernel find_bools(rsl::Op op, std::span<const int> widths);
+Kernel find_elementary(rsl::Op op, std::span<const int> widths);
+Kernel find_parts(rsl::Op op, std::span<const int> widths);
 Kernel find_geometry(rsl::Op op, std::span<const int> widths);
 
 }  // namespace trapeze::vm

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -95,6 +96,11 @@ template <auto function>
 Kernel component_kernel(std::span<const int> widths) {
     if (widths.size() != inputs_of(function).size() + 1) return nullptr;
     return widths[0] == 1 ? by_component<function, 1> : widths[0] == 3 ? by_component<function, 3> : nullptr;
+}
+
+/// The function of Op::Move.
+HWY_INLINE V same(V a) {
+    return a;
 }
 
 /// True where the widths of the operands are these.
