@@ -103,8 +103,8 @@ enum class Op : uint8_t {
     Spline,         ///< [basis (string),] value, knots or one array
 
     // Over neighbours.
-    Du,
-    Dv,
+    Du,     ///< x, u
+    Dv,     ///< x, v
     Deriv,  ///< num, den
     Area,
     CalculateNormal,
@@ -125,10 +125,10 @@ enum class Op : uint8_t {
     TextureInfo,  ///< outputs: found (float), value; name, what
 
     // Light.
-    Ambient,       ///< no inputs
-    Diffuse,       ///< N
-    Specular,      ///< N, V, roughness
-    Phong,         ///< N, V, size
+    Ambient,       ///< P
+    Diffuse,       ///< P, N
+    Specular,      ///< P, N, V, roughness
+    Phong,         ///< P, N, V, size
     SpecularBrdf,  ///< L, N, V, roughness
     Trace,         ///< P, R; out of width 1 (distance) or 3 (colour)
     Transmission,  ///< from, to, name, value, ...
@@ -166,10 +166,10 @@ enum class Op : uint8_t {
     /// Loop over lights. Outputs L, Cl; inputs: category (string), P [, axis, angle]. A loop for Break.
     Illuminance,
     EndIlluminance,
-    /// In lights. Outputs L; inputs: from [, axis, angle].
+    /// In lights. Outputs L; inputs: Ps, from [, axis, angle].
     Illuminate,
     EndIlluminate,
-    /// In lights. Outputs L; inputs: [axis, angle].
+    /// In lights. Outputs L; inputs: axis, angle; or Ns alone, light from all sides.
     Solar,
     EndSolar,
     Gather,

@@ -1,0 +1,124 @@
+#include "shade/shader_library.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/generate.h"
+#include "shade/rsl/infer_storage.h"
+#include "shade/rsl/optimise.h"
+#include "shade/shaders/standard_shaders.h"
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uintmax_t kLargestSource = 16 << 20;
+
+std::optional<std::string> file_text(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kLargestSource || error) return {};
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) return {};
+    return text.str();
+}
+
+}  // namespace
+
+/// A shader's code before storage is inferred, and what was made of it for different varying parameters.
+struct ShaderLibrary::Compiled {
+    std::unique_ptr<rsl::Program> program;  ///< optimised; null: not found or wrong
+    std::map<std::set<std::string>, std::shared_ptr<const vm::Executable>> executables;
+};
+
+ShaderLibrary::ShaderLibrary(const Options& options, Diagnostics* diagnostics) : diagnostics_(diagnostics) {
+    if (const auto paths = options.search_paths.find("shader"); paths != options.search_paths.end())
+        folders_ = paths->second;
+}
+
+ShaderLibrary::~ShaderLibrary() = default;
+
+ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, SourceLocation asked_at) {
+    std::unique_ptr<Compiled>& entry = shaders_[name];
+    if (entry) return *entry;
+    entry = std::make_unique<Compiled>();
+    Diagnostics& diagnostics = diagnostics_ ? *diagnostics_ : silent_;
+    rsl::Source source;
+    std::string stem = name;
+    // Some scenes name compiled shaders with their path, or the source itself.
+    for (const std::string_view ending : {".sl", ".slo", ".slx", ".sdr", ".sle", ".sdl"})
+        if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
+    for (const std::string& folder : folders_) {
+        const fs::path path = fs::path(folder) / (stem + ".sl");
+        if (auto text = file_text(path)) {
+            source = {path.string(), std::move(*text)};
+            break;
+        }
+    }
+    if (source.name.empty()) {
+        const std::string_view text = standard_shader(stem);
+        if (text.empty()) return *entry;
+        source = {stem + ".sl", std::string(text)};
+    }
+    rsl::CompileOptions options;
+    options.include_folders = folders_;
+    const auto unit = rsl::compile_front(source, options, diagnostics);
+    if (!unit || unit->shaders.empty()) {
+        diagnostics.error(asked_at, fmt::format("shader \"{}\" has errors and is not used", name));
+        return *entry;
+    }
+    const rsl::Shader* shader = unit->shaders.front().get();
+    for (const auto& candidate : unit->shaders)
+        if (candidate->name == stem) shader = candidate.get();
+    entry->program = rsl::generate(*shader, diagnostics);
+    if (entry->program) rsl::optimise(*entry->program);
+    return *entry;
+}
+
+std::shared_ptr<const vm::Executable> ShaderLibrary::find(std::string_view name, rsl::ShaderKind kind,
+                                                          const std::set<std::string>& varying,
+                                                          SourceLocation asked_at) {
+    Compiled& shader = compiled(std::string(name), asked_at);
+    if (!shader.program) return nullptr;
+    if (shader.program->kind != kind) {
+        if (diagnostics_)
+            diagnostics_->error(asked_at, fmt::format("\"{}\" is a {} shader, and a {} shader is wanted here", name,
+                                                      kind_name(shader.program->kind), kind_name(kind)),
+                                fmt::format("shader-kind {} {}", name, kind_name(kind)));
+        return nullptr;
+    }
+    std::set<std::string> relevant;
+    for (const rsl::ProgramParameter& parameter : shader.program->parameters)
+        if (varying.contains(parameter.name)) relevant.insert(parameter.name);
+    std::shared_ptr<const vm::Executable>& executable = shader.executables[relevant];
+    if (!executable) {
+        rsl::Program program = *shader.program;
+        rsl::infer_storage(program, [&](const rsl::ProgramParameter& p) { return relevant.contains(p.name); });
+        executable = std::make_shared<const vm::Executable>(std::move(program));
+    }
+    return executable;
+}
+
+std::string_view kind_name(rsl::ShaderKind kind) {
+    switch (kind) {
+        case rsl::ShaderKind::Surface:
+            return "surface";
+        case rsl::ShaderKind::Displacement:
+            return "displacement";
+        case rsl::ShaderKind::Light:
+            return "light";
+        case rsl::ShaderKind::Volume:
+            return "volume";
+        case rsl::ShaderKind::Imager:
+            return "imager";
+    }
+    return "?";
+}
+
+}  // namespace trapeze

@@ -1,0 +1,43 @@
+/// The shaders of one render by name: found, compiled and kept.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/scene.h"
+#include "shade/rsl/ast.h"
+#include "shade/vm/executable.h"
+
+namespace trapeze {
+
+class ShaderLibrary {
+  public:
+    /// NAME.sl is looked for in the folders of Option "searchpath" "shader" (the scene's own among them), then among
+    /// the standard shaders. diagnostics may be null.
+    ShaderLibrary(const Options& options, Diagnostics* diagnostics);
+    ~ShaderLibrary();
+
+    /// A shader ready to run, in which the named parameters are varying besides those that it declares so. Null,
+    /// and reported once, when there is no such shader, it has errors, or it is of another kind. Not thread-safe.
+    std::shared_ptr<const vm::Executable> find(std::string_view name, rsl::ShaderKind kind,
+                                               const std::set<std::string>& varying, SourceLocation asked_at);
+
+  private:
+    struct Compiled;
+    Compiled& compiled(const std::string& name, SourceLocation asked_at);
+
+    std::vector<std::string> folders_;
+    Diagnostics* diagnostics_;
+    Diagnostics silent_;
+    std::map<std::string, std::unique_ptr<Compiled>, std::less<>> shaders_;
+};
+
+/// What a kind of shader is called in messages and requests: "surface", "light"...
+std::string_view kind_name(rsl::ShaderKind kind);
+
+}  // namespace trapeze

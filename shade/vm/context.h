@@ -1,0 +1,96 @@
+/// What a run of a shader may ask of what is around it. The machine calls these with a lane mask where lanes
+/// differ; outputs are whole planes, of which lanes that do not run are not read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/diagnostics.h"
+#include "core/math.h"
+#include "shade/planes.h"
+#include "shade/rsl/type.h"
+#include "shade/vm/grid_span.h"
+#include "shade/vm/kernel.h"
+
+namespace trapeze::vm {
+
+class Frame;
+class Run;
+struct Step;
+
+/// The vertices of one or more grids of one primitive, side by side.
+struct Points {
+    size_t vertices = 0;
+    size_t lanes = 0;  ///< padded_size(vertices)
+    std::vector<GridSpan> spans;
+};
+
+/// Coordinate systems by name.
+class Spaces {
+  public:
+    virtual ~Spaces() = default;
+    /// Row vectors: p' = p * m. Nothing for a name that is not known.
+    virtual std::optional<M44f> matrix(std::string_view from, std::string_view to) const = 0;
+};
+
+/// Texture, environment and shadow maps.
+class Maps {
+  public:
+    virtual ~Maps() = default;
+    /// One of Op::Texture, Environment, Shadow, Bump or TextureInfo.
+    virtual void look_up(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+};
+
+/// The lights of a grid, and what they send to points.
+class Lights {
+  public:
+    virtual ~Lights() = default;
+    virtual size_t count() const = 0;
+
+    struct Arriving {
+        bool ambient = false;
+        const float* L = nullptr;          ///< to the light; 3 planes
+        const float* direction = nullptr;  ///< L, of unit length
+        const float* Cl = nullptr;         ///< 3 planes; zero where the light does not reach
+        const float* lit = nullptr;        ///< lanes that the light's cone holds
+        float diffuse = 1, specular = 1;   ///< shares in those built-in functions
+        const Frame* frame = nullptr;      ///< the light's variables
+    };
+    /// `lasting`: P will not change in this run, and what was found for it may be kept.
+    virtual const Arriving& arriving(size_t light, const Operand& P, bool lasting) = 0;
+    /// Whether its category (output parameter __category) is among those wanted: "a,b", or "-a" for all
+    /// others.
+    virtual bool in_category(size_t light, std::string_view wanted) = 0;
+};
+
+/// Variables of the other shaders that work on the grid, attributes and options.
+class Messages {
+  public:
+    virtual ~Messages() = default;
+    /// False when there is no such value of that type; else sets it in all lanes of the output, or the text.
+    /// `light` is that of the illuminance block which asks.
+    virtual bool find(rsl::Op what, std::string_view name, rsl::Type type, const Operand& out,
+                      std::string* text, size_t light) = 0;
+    virtual std::string shader_name(std::string_view kind) = 0;
+};
+
+/// What an illuminate or solar block tells about the light, gathered over a run of a light shader.
+struct LightOutput {
+    float* L = nullptr;       ///< from the light to the point: 3 planes
+    uint32_t* lit = nullptr;  ///< a plane
+};
+
+/// All may be null where shaders cannot ask.
+struct Context {
+    const Points* points = nullptr;
+    const Spaces* spaces = nullptr;
+    Maps* maps = nullptr;
+    Lights* lights = nullptr;
+    Messages* messages = nullptr;
+    LightOutput* light_output = nullptr;  ///< in lights
+    Diagnostics* diagnostics = nullptr;
+    uint64_t random_seed = 0;  ///< of the grid: Op::Random
+};
+
+}  // namespace trapeze::vm

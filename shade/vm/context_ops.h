@@ -1,0 +1,37 @@
+/// Operations that are no kernels, by family, a source file each. Each finder returns null for what it does
+/// not have.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+
+#include "shade/vm/machine.h"
+
+namespace trapeze::vm {
+
+ContextOp find_text_op(rsl::Op op);
+ContextOp find_space_op(rsl::Op op);
+ContextOp find_neighbour_op(rsl::Op op);
+ContextOp find_map_op(rsl::Op op);
+ContextOp find_light_op(rsl::Op op);
+ContextOp find_message_op(rsl::Op op);
+
+/// Floats in a plane of an operand.
+inline size_t plane_size(const Run& run, const Operand& operand) {
+    return operand.lane_mask ? run.lanes() : kLanes;
+}
+
+/// All lanes of an operand's components get a value each.
+inline void fill_operand(const Run& run, const Operand& out, std::span<const float> values) {
+    for (size_t k = 0; k < values.size(); ++k)
+        std::fill_n(out.data + k * out.stride, plane_size(run, out), values[k]);
+}
+
+inline void fill_bool(const Run& run, const Operand& out, bool value) {
+    const uint32_t bits = value ? ~0u : 0u;
+    float lane;
+    std::memcpy(&lane, &bits, sizeof lane);
+    std::fill_n(out.data, plane_size(run, out), lane);
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,164 @@
+#include "shade/vm/executable.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+#include "shade/rsl/blocks.h"
+#include "shade/rsl/op_traits.h"
+#include "shade/vm/plane_slots.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Blocks;
+using rsl::Op;
+
+/// The loop or scope that a jump leaves or goes on with; the outermost one when it names more than there are.
+size_t left_by(const rsl::Code& code, const Blocks& blocks, size_t i) {
+    size_t left = blocks.around[i];
+    int levels = code[i].immediate;
+    for (size_t b = left; b != Blocks::kNone; b = blocks.around[b]) {
+        const bool counts = code[i].op == Op::Leave ? code[b].op == Op::Scope : rsl::opens_loop(code[b].op);
+        if (!counts) continue;
+        left = b;
+        if (code[i].op == Op::Leave || --levels <= 0) break;
+    }
+    return left;
+}
+
+size_t rest_of_block(const Blocks& blocks, size_t i) {
+    const size_t around = blocks.around[i], middle = blocks.middle[around];
+    return middle != Blocks::kNone && middle > i ? middle : blocks.end[around];
+}
+
+/// Where a step of control goes on when no lane is left to run what follows it.
+size_t target_of(const rsl::Code& code, const Blocks& blocks, size_t i) {
+    const size_t around = blocks.around[i];
+    switch (code[i].op) {
+        case Op::If:
+            return blocks.middle[i] != Blocks::kNone ? blocks.middle[i] : blocks.end[i];
+        case Op::Else:
+        case Op::GatherElse:
+            return blocks.end[i];
+        case Op::EndLoop:
+        case Op::EndIlluminance:
+            return blocks.opening[i];
+        case Op::LoopTest:
+            return blocks.end[around];
+        case Op::Break:
+        case Op::Continue:
+        case Op::Leave: {
+            const size_t left = left_by(code, blocks, i);
+            if (code[left].varying) return rest_of_block(blocks, i);
+            return code[i].op == Op::Continue ? blocks.middle[left] : blocks.end[left] + 1;
+        }
+        case Op::EndIf:
+            return around != Blocks::kNone && code[around].varying ? rest_of_block(blocks, i) : i + 1;
+        case Op::Gather:
+            return blocks.middle[i];
+        default:
+            return rsl::opens_block(code[i].op) ? blocks.end[i] : 0;
+    }
+}
+
+}  // namespace
+
+void Executable::Free::operator()(float* p) const {
+    std::free(p);
+}
+
+Executable::Executable(rsl::Program source) : program_(std::move(source)) {
+    place_registers();
+    for (const rsl::ProgramParameter& parameter : program_.parameters)
+        initials_.push_back(make_steps(parameter.initial));
+    code_ = make_steps(program_.code);
+    const rsl::RegisterId* P = program_.find_global("P");
+    for (const rsl::Instruction& instruction : program_.code)
+        for (size_t k = 0; k < instruction.outputs; ++k)
+            if (P && instruction.operands[k] == *P) keeps_P_ = false;
+}
+
+void Executable::place_registers() {
+    const PlaneSlots slots = assign_plane_slots(program_);
+    varying_planes_ = slots.planes;
+    places_.resize(program_.registers.size());
+    for (size_t id = 0; id < places_.size(); ++id) {
+        const rsl::Register& r = program_.registers[id];
+        Place& place = places_[id];
+        place.planes = plane_count(r.type);
+        if (r.type.base == rsl::Base::String) {
+            place.kind = Place::Kind::Text;
+            place.at = text_count();
+            place.planes = 0;
+            for (int k = 0; k < std::max(r.type.length, 1); ++k)
+                texts_.push_back(static_cast<size_t>(k) < r.texts.size() ? r.texts[static_cast<size_t>(k)]
+                                                                         : "");
+        } else if (r.kind == rsl::Register::Kind::Constant) {
+            place.kind = Place::Kind::Constant;
+            place.at = constant_planes_;
+            constant_planes_ += place.planes;
+        } else if (r.varying) {
+            place.kind = Place::Kind::Varying;
+            place.at = slots.first[id];
+        } else {
+            place.kind = Place::Kind::Uniform;
+            place.at = uniform_planes_;
+            uniform_planes_ += place.planes;
+        }
+    }
+    constants_.reset(
+        static_cast<float*>(std::aligned_alloc(64, (constant_planes_ + 1) * kLanes * sizeof(float))));
+    if (!constants_) throw std::bad_alloc();
+    for (size_t id = 0; id < places_.size(); ++id) {
+        if (places_[id].kind != Place::Kind::Constant) continue;
+        for (uint32_t k = 0; k < places_[id].planes; ++k)
+            std::fill_n(constants_.get() + (places_[id].at + k) * kLanes, kLanes,
+                        program_.registers[id].values[k]);
+    }
+}
+
+Kernel Executable::kernel_of(const rsl::Instruction& instruction) const {
+    if (rsl::is_control(instruction.op)) return nullptr;
+    std::vector<int> widths;
+    for (const rsl::RegisterId id : instruction.operands) {
+        const rsl::Type type = program_.reg(id).type;
+        if (type.base == rsl::Base::String) return nullptr;
+        widths.push_back(rsl::width_of(type.base));
+    }
+    return find_kernel(instruction.op, widths);
+}
+
+std::vector<Step> Executable::make_steps(const rsl::Code& code) {
+    const Blocks blocks(code);
+    std::vector<Step> steps;
+    steps.reserve(code.size());
+    for (size_t i = 0; i < code.size(); ++i) {
+        const rsl::Instruction& instruction = code[i];
+        Step& step = steps.emplace_back();
+        step.op = instruction.op;
+        step.outputs = instruction.outputs;
+        step.masked = instruction.masked;
+        step.varying = instruction.varying;
+        step.immediate = instruction.immediate;
+        step.at = instruction.at;
+        step.first = static_cast<uint32_t>(operands_.size());
+        step.count = static_cast<uint32_t>(instruction.operands.size());
+        operands_.insert(operands_.end(), instruction.operands.begin(), instruction.operands.end());
+        step.kernel = kernel_of(instruction);
+        step.target = static_cast<uint32_t>(target_of(code, blocks, i));
+        if (blocks.opening[i] != Blocks::kNone) step.varying = code[blocks.opening[i]].varying;
+        const bool jumps = step.op == Op::Break || step.op == Op::Continue || step.op == Op::Leave;
+        if (jumps) step.varying = code[left_by(code, blocks, i)].varying;
+        // Without lanes an If goes to its Else, which a uniform one must pass by.
+        if (step.op == Op::If) step.immediate = blocks.middle[i] != Blocks::kNone;
+        if (step.op == Op::LoopTest) step.varying = code[blocks.around[i]].varying;
+        if (step.kernel && !rsl::reads_neighbours(step.op)) continue;
+        for (size_t k = 0; k < instruction.input_count(); ++k)
+            for (size_t o = 0; o < instruction.outputs; ++o)
+                if (instruction.input(k) == instruction.operands[o]) step.through_scratch = true;
+    }
+    return steps;
+}
+
+}  // namespace trapeze::vm

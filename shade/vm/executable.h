@@ -1,0 +1,89 @@
+/// A program made ready for the machine: kernels found, jumps resolved, registers given their places.
+/// Immutable and shared by threads.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "shade/rsl/program.h"
+#include "shade/vm/kernel.h"
+
+namespace trapeze::vm {
+
+/// A loop that has run so often in one run is taken to be endless: it is reported, and left.
+inline constexpr int kMaxTurns = 100'000;
+
+/// One instruction.
+struct Step {
+    rsl::Op op = rsl::Op::Move;
+    uint8_t outputs = 0;
+    bool masked = false;   ///< lanes that do not run keep their outputs
+    bool varying = false;  ///< for each lane; a block: lanes may go separate ways
+    /// An output is also an input of an operation that looks at several lanes, or of a text.
+    bool through_scratch = false;
+    int32_t immediate = 0;
+    uint32_t first = 0, count = 0;  ///< operands, in Executable::operands
+    uint32_t target = 0;            ///< of control: the step to go on with when no lane is left
+    Kernel kernel = nullptr;        ///< null: the machine does it itself
+    SourceLocation at;
+};
+
+/// Where a register is in a frame.
+struct Place {
+    enum class Kind : uint8_t { Constant, Uniform, Varying, Text };
+    Kind kind = Kind::Uniform;
+    uint32_t at = 0;      ///< planes of kLanes floats (Constant, Uniform), planes (Varying), texts
+    uint32_t planes = 1;  ///< of all elements together
+};
+
+class Executable {
+  public:
+    /// The program has been optimised, and its storage inferred.
+    explicit Executable(rsl::Program source);
+
+    const rsl::Program& program() const { return program_; }
+    const std::vector<Step>& code() const { return code_; }
+    /// The default of program().parameters[i].
+    const std::vector<Step>& initial(size_t i) const { return initials_[i]; }
+    const std::vector<rsl::RegisterId>& operands() const { return operands_; }
+    const std::vector<Place>& places() const { return places_; }
+    uint32_t uniform_planes() const { return uniform_planes_; }
+    uint32_t varying_planes() const { return varying_planes_; }
+    uint32_t text_count() const { return static_cast<uint32_t>(texts_.size()); }
+    /// kLanes equal floats for each component of each constant, 64-byte aligned.
+    const float* constants() const { return constants_.get(); }
+    /// Texts at the start of a run: those of constants, others empty.
+    const std::vector<std::string>& texts() const { return texts_; }
+
+    /// The program never sets P.
+    bool keeps_P() const { return keeps_P_; }
+
+    /// Turns that a loop may take. Once a loop has turned out to be endless, other grids are not made to wait
+    /// for as long.
+    int max_turns() const { return max_turns_.load(std::memory_order_relaxed); }
+    void found_endless() const { max_turns_.store(kMaxTurnsAfterwards, std::memory_order_relaxed); }
+
+  private:
+    static constexpr int kMaxTurnsAfterwards = 16;
+
+    void place_registers();
+    std::vector<Step> make_steps(const rsl::Code& code);
+    Kernel kernel_of(const rsl::Instruction& instruction) const;
+
+    struct Free {
+        void operator()(float* p) const;
+    };
+    rsl::Program program_;
+    std::vector<Step> code_;
+    std::vector<std::vector<Step>> initials_;
+    std::vector<rsl::RegisterId> operands_;
+    std::vector<Place> places_;
+    std::vector<std::string> texts_;
+    uint32_t uniform_planes_ = 0, varying_planes_ = 0, constant_planes_ = 0;
+    std::unique_ptr<float, Free> constants_;
+    bool keeps_P_ = true;
+    mutable std::atomic<int> max_turns_{kMaxTurns};
+};
+
+}  // namespace trapeze::vm

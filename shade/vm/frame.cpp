@@ -1,0 +1,59 @@
+#include "shade/vm/frame.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+namespace trapeze::vm {
+
+void Frame::Free::operator()(float* p) const {
+    std::free(p);
+}
+
+void Frame::start(size_t lanes) {
+    if (executable_->text_count()) texts_ = executable_->texts();
+    if (lanes == lanes_) return;
+    lanes_ = lanes;
+    const size_t uniform = executable_->uniform_planes() * kLanes;
+    if (lanes > capacity_ || !memory_) {
+        capacity_ = lanes;
+        const size_t floats = uniform + executable_->varying_planes() * lanes + kLanes;
+        memory_.reset(static_cast<float*>(std::aligned_alloc(64, floats * sizeof(float))));
+        if (!memory_) throw std::bad_alloc();
+        // Lanes that no instruction has set are zero, not what another program left.
+        std::fill_n(memory_.get(), floats, 0.0f);
+    }
+    const std::vector<Place>& places = executable_->places();
+    registers_.resize(places.size());
+    for (size_t id = 0; id < places.size(); ++id) {
+        Operand& operand = registers_[id];
+        const rsl::Type type = program().registers[id].type;
+        const int width = rsl::width_of(type.base);
+        const bool varying = places[id].kind == Place::Kind::Varying;
+        const size_t plane = varying ? lanes : kLanes;
+        if (places[id].kind == Place::Kind::Constant)
+            operand.data =
+                const_cast<float*>(executable_->constants()) + places[id].at * kLanes;  // read only
+        else if (varying)
+            operand.data = memory_.get() + uniform + places[id].at * lanes;
+        else
+            operand.data = memory_.get() + places[id].at * kLanes;
+        operand.lane_mask = varying ? ~size_t{0} : 0;
+        operand.stride = width > 1 ? plane : 0;
+        operand.element_stride = static_cast<size_t>(width) * plane;
+        operand.length = type.length;
+    }
+    operands_.clear();
+    for (const rsl::RegisterId id : executable_->operands()) operands_.push_back(registers_[id]);
+}
+
+void Frame::set_uniform(rsl::RegisterId id, const float* values, size_t element) {
+    const Operand& operand = registers_[id];
+    const int width = rsl::width_of(reg(id).type.base);
+    const size_t plane = operand.lane_mask ? lanes_ : kLanes;
+    for (int k = 0; k < width; ++k)
+        std::fill_n(operand.data + element * operand.element_stride + static_cast<size_t>(k) * plane, plane,
+                    values[k]);
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,63 @@
+/// A program's registers during a run on one thread. Kept from run to run.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "shade/vm/executable.h"
+
+namespace trapeze::vm {
+
+class Frame {
+  public:
+    explicit Frame(std::shared_ptr<const Executable> executable) : executable_(std::move(executable)) {}
+
+    /// Registers for so many lanes (a multiple of kLanes); their contents are undefined, constants apart.
+    void start(size_t lanes);
+
+    const Executable& executable() const { return *executable_; }
+    const rsl::Program& program() const { return executable_->program(); }
+    size_t lanes() const { return lanes_; }
+
+    const Operand& operand(rsl::RegisterId id) const { return registers_[id]; }
+    /// Those of a step, in a row, outputs first.
+    std::span<const Operand> operands_of(const Step& step) const {
+        return {operands_.data() + step.first, step.count};
+    }
+    rsl::RegisterId register_of(const Step& step, size_t operand) const {
+        return executable_->operands()[step.first + operand];
+    }
+    const rsl::Register& reg(rsl::RegisterId id) const { return program().reg(id); }
+
+    /// A string register's; an array's element.
+    std::string& text(rsl::RegisterId id, size_t element = 0) {
+        return texts_[executable_->places()[id].at + element];
+    }
+    const std::string& text(rsl::RegisterId id, size_t element = 0) const {
+        return texts_[executable_->places()[id].at + element];
+    }
+
+    /// Of a step's input, counted from 0.
+    const Operand& input(const Step& step, size_t i) const {
+        return operands_[step.first + step.outputs + i];
+    }
+    const std::string& text_input(const Step& step, size_t i) const {
+        return text(register_of(step, step.outputs + i));
+    }
+
+    /// Fills a register with one value (its width of floats) for all lanes.
+    void set_uniform(rsl::RegisterId id, const float* values, size_t element = 0);
+
+  private:
+    struct Free {
+        void operator()(float* p) const;
+    };
+    std::shared_ptr<const Executable> executable_;
+    size_t lanes_ = 0, capacity_ = 0;
+    std::unique_ptr<float, Free> memory_;
+    std::vector<Operand> registers_, operands_;
+    std::vector<std::string> texts_;
+};
+
+}  // namespace trapeze::vm

@@ -1,0 +1,17 @@
+/// A grid's part of a batch of lanes.
+#pragma once
+
+#include <cstddef>
+
+#include "core/grid.h"
+
+namespace trapeze::vm {
+
+/// Lanes first .. first + shape.vertex_count() - 1, row by row, u fastest.
+struct GridSpan {
+    size_t first = 0;
+    GridShape shape;
+    bool reverse_orientation = false;  ///< dPdu x dPdv points inside
+};
+
+}  // namespace trapeze::vm

@@ -1,0 +1,157 @@
+#include "shade/vm/machine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "shade/rsl/op_traits.h"
+
+namespace trapeze::vm {
+
+using rsl::Op;
+
+/// What one run needs besides its frame, kept for the next at the same depth.
+struct Machine::Level {
+    struct Free {
+        void operator()(float* p) const { std::free(p); }
+    };
+    MaskStack masks;
+    std::vector<std::unique_ptr<float, Free>> blocks;  ///< scratch, each of `planes` planes or more
+    std::vector<size_t> block_floats;
+};
+
+Machine::Machine() = default;
+Machine::~Machine() = default;
+
+Frame& Machine::frame(const std::shared_ptr<const Executable>& executable, size_t copy) {
+    std::unique_ptr<Frame>& frame = frames_[{executable.get(), copy}];
+    if (!frame) frame = std::make_unique<Frame>(executable);
+    return *frame;
+}
+
+void Machine::run(Frame& frame, const Context& context) {
+    Run(*this, frame, context).run(frame.executable().code());
+}
+
+void Machine::run_initial(Frame& frame, size_t parameter, const Context& context) {
+    Run(*this, frame, context).run(frame.executable().initial(parameter));
+}
+
+namespace {
+
+Machine::Level& level_at(std::vector<std::unique_ptr<Machine::Level>>& levels, size_t depth) {
+    while (levels.size() <= depth) levels.push_back(std::make_unique<Machine::Level>());
+    return *levels[depth];
+}
+
+}  // namespace
+
+Run::Run(Machine& machine, Frame& frame, const Context& context)
+    : machine_(machine),
+      frame_(frame),
+      context_(context),
+      level_(level_at(machine.levels_, machine.depth_)),
+      masks_(level_.masks) {
+    ++machine_.depth_;
+    masks_.start(frame.lanes());
+}
+
+Run::~Run() {
+    --machine_.depth_;
+}
+
+float* Run::scratch(size_t planes) {
+    const size_t floats = planes * lanes();
+    if (scratch_used_ == level_.blocks.size()) {
+        level_.blocks.emplace_back();
+        level_.block_floats.push_back(0);
+    }
+    if (level_.block_floats[scratch_used_] < floats) {
+        level_.blocks[scratch_used_].reset(
+            static_cast<float*>(std::aligned_alloc(64, floats * sizeof(float))));
+        if (!level_.blocks[scratch_used_]) throw std::bad_alloc();
+        level_.block_floats[scratch_used_] = floats;
+    }
+    return level_.blocks[scratch_used_++].get();
+}
+
+void Run::warn(const Step& step, std::string text, std::string kind) {
+    if (context_.diagnostics) context_.diagnostics->warning(step.at, std::move(text), std::move(kind));
+}
+
+void Run::run(const std::vector<Step>& steps) {
+    for (size_t at = 0; at < steps.size();) {
+        const Step& step = steps[at];
+        if (rsl::is_control(step.op)) {
+            at = control(steps, at);
+        } else {
+            plain(step);
+            ++at;
+        }
+    }
+}
+
+void Run::call(const Step& step, std::span<const Operand> operands, size_t count) {
+    if (step.kernel)
+        step.kernel(count, operands);
+    else if (const ContextOp op = find_context_op(step.op))
+        op(*this, step, operands);
+}
+
+void Run::plain(const Step& step) {
+    const std::span<const Operand> operands = frame_.operands_of(step);
+    scratch_used_ = 0;
+    if (step.masked && !masks_.all()) {
+        if (masks_.none()) return;
+        if (step.varying) return through_scratch(step, operands);
+    }
+    if (step.through_scratch) return through_scratch(step, operands);
+    call(step, operands, step.varying ? lanes() : kLanes);
+}
+
+/// Computes into other planes, of which lanes that run are copied.
+void Run::through_scratch(const Step& step, std::span<const Operand> operands) {
+    constexpr size_t kMaxInPlace = 32;
+    Operand in_place[kMaxInPlace];
+    std::vector<Operand> many;
+    std::span<Operand> redirected(in_place, std::min(operands.size(), kMaxInPlace));
+    if (operands.size() > kMaxInPlace) {
+        many.resize(operands.size());
+        redirected = many;
+    }
+    std::copy(operands.begin(), operands.end(), redirected.begin());
+    for (size_t k = 0; k < step.outputs; ++k) {
+        const uint32_t planes = frame_.executable().places()[frame_.register_of(step, k)].planes;
+        if (!planes) continue;  // a text
+        redirected[k].data = scratch(planes);
+        if (rsl::keeps_output(step.op)) copy_planes(operands[k], planes, redirected[k].data);
+    }
+    call(step, redirected, step.varying ? lanes() : kLanes);
+    for (size_t k = 0; k < step.outputs; ++k) {
+        const uint32_t planes = frame_.executable().places()[frame_.register_of(step, k)].planes;
+        if (planes) copy_running(step.masked && !masks_.all(), redirected[k].data, planes, operands[k]);
+    }
+}
+
+void Run::copy_planes(const Operand& from, size_t planes, float* to) const {
+    std::memcpy(to, from.data, planes * (from.lane_mask ? lanes() : kLanes) * sizeof(float));
+}
+
+void Run::copy_running(bool masked, const float* from, size_t planes, const Operand& to) const {
+    const size_t plane = to.lane_mask ? lanes() : kLanes;
+    if (!masked || !to.lane_mask) {
+        std::memcpy(to.data, from, planes * plane * sizeof(float));
+        return;
+    }
+    const uint32_t* running = masks_.current();
+    for (size_t p = 0; p < planes; ++p) {
+        const float* source = from + p * plane;
+        float* target = to.data + p * plane;
+        for (size_t i = 0; i < plane; ++i) target[i] = running[i] ? source[i] : target[i];
+    }
+}
+
+}  // namespace trapeze::vm

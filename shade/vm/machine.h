@@ -1,0 +1,112 @@
+/// The grid machine: runs a program's steps one after the other, each over all vertices.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "shade/vm/context.h"
+#include "shade/vm/frame.h"
+#include "shade/vm/mask_stack.h"
+
+namespace trapeze::vm {
+
+/// A thread's memory: frames of the programs it runs, and scratch planes. One run may start another (a
+/// surface its lights); each has masks and scratch of its own.
+class Machine {
+  public:
+    Machine();
+    ~Machine();
+
+    /// The thread's frame of an executable, number `copy` of those in use together.
+    Frame& frame(const std::shared_ptr<const Executable>& executable, size_t copy = 0);
+
+    struct Level;
+
+    /// Runs the program's code. The frame has been started, and its parameters and variables set.
+    void run(Frame& frame, const Context& context);
+    /// Computes a parameter's default.
+    void run_initial(Frame& frame, size_t parameter, const Context& context);
+
+  private:
+    friend class Run;
+    struct FrameKey {
+        const Executable* executable;
+        size_t copy;
+        bool operator==(const FrameKey&) const = default;
+    };
+    struct FrameKeyHash {
+        size_t operator()(const FrameKey& key) const {
+            return std::hash<const void*>()(key.executable) + key.copy * 0x9e3779b97f4a7c15u;
+        }
+    };
+    std::unordered_map<FrameKey, std::unique_ptr<Frame>, FrameKeyHash> frames_;
+    std::vector<std::unique_ptr<Level>> levels_;
+    size_t depth_ = 0;
+};
+
+/// One run, as the operations that ask their context see it.
+class Run {
+  public:
+    Run(Machine& machine, Frame& frame, const Context& context);
+    ~Run();
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+
+    void run(const std::vector<Step>& steps);
+
+    Machine& machine() { return machine_; }
+    Frame& frame() { return frame_; }
+    const Context& context() const { return context_; }
+    MaskStack& masks() { return masks_; }
+    /// In an illuminance block: the number of the light.
+    size_t current_light() const { return current_light_; }
+    /// Whether an operand is the predefined P, which this program never sets.
+    bool is_lasting_P(const Operand& operand) const {
+        return operand.data == P_data() && frame_.executable().keeps_P();
+    }
+    size_t lanes() const { return frame_.lanes(); }
+    /// Planes of lanes() floats in a row; given back when the step is done. Contents are undefined.
+    float* scratch(size_t planes);
+
+    /// A value's lane, for operations that work lane by lane.
+    static float at(const Operand& operand, int component, size_t lane) {
+        return operand.data[static_cast<size_t>(component) * operand.stride + (lane & operand.lane_mask)];
+    }
+    void warn(const Step& step, std::string text, std::string kind);
+
+  private:
+    size_t control(const std::vector<Step>& steps, size_t at);
+    void plain(const Step& step);
+    void through_scratch(const Step& step, std::span<const Operand> operands);
+    void call(const Step& step, std::span<const Operand> operands, size_t lanes);
+    void copy_planes(const Operand& from, size_t planes, float* to) const;
+    void copy_running(bool masked, const float* from, size_t planes, const Operand& to) const;
+    const float* condition(const Step& step);
+    bool uniform_condition(const Step& step) const;
+    size_t if_step(const Step& step, size_t at);
+    size_t loop_step(const std::vector<Step>& steps, size_t at);
+    size_t jump_step(const Step& step);
+    bool enter_lights();
+    const float* P_data() const;
+    size_t next_light(const std::vector<Step>& steps, size_t opening);
+    size_t enter_illuminate(const Step& step, size_t at);
+
+    Machine& machine_;
+    Frame& frame_;
+    const Context& context_;
+    Machine::Level& level_;
+    MaskStack& masks_;
+    std::vector<size_t> next_lights_;  ///< of the Illuminance blocks that are being run
+    std::unordered_map<const Step*, int> turns_;
+    size_t current_light_ = 0;
+    size_t scratch_used_ = 0;
+};
+
+/// Operations that are not kernels: of texts, spaces, neighbours, maps, lights and messages.
+using ContextOp = void (*)(Run& run, const Step& step, std::span<const Operand> operands);
+/// Null for an operation that there is none for.
+ContextOp find_context_op(rsl::Op op);
+
+}  // namespace trapeze::vm

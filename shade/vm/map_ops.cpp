@@ -1,0 +1,32 @@
+// Texture, environment and shadow maps.
+#include "shade/vm/context_ops.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+
+void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (run.context().maps)
+        run.context().maps->look_up(run, step, operands);
+    else
+        for (size_t k = 0; k < 3; ++k)
+            std::fill_n(operands[0].data + k * operands[0].stride, plane_size(run, operands[0]), 0.0f);
+}
+
+}  // namespace
+
+ContextOp find_map_op(Op op) {
+    switch (op) {
+        case Op::Texture:
+        case Op::Environment:
+        case Op::Shadow:
+        case Op::Bump:
+        case Op::TextureInfo:
+            return look_up;
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,162 @@
+#include "shade/vm/mask_stack.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace trapeze::vm {
+namespace {
+
+uint32_t bits(const float* plane, size_t i) {
+    uint32_t value;
+    std::memcpy(&value, plane + i, sizeof value);
+    return value;
+}
+
+}  // namespace
+
+void MaskStack::Free::operator()(uint32_t* p) const {
+    std::free(p);
+}
+
+void MaskStack::start(size_t lanes) {
+    if (lanes > capacity_) {
+        planes_.clear();
+        capacity_ = lanes;
+    }
+    lanes_ = lanes;
+    blocks_.clear();
+    free_.clear();
+    for (const auto& plane : planes_) free_.push_back(plane.get());
+    current_ = take();
+    std::fill_n(current_, lanes_, ~0u);
+    state_ = State::All;
+}
+
+uint32_t* MaskStack::take() {
+    if (free_.empty()) {
+        planes_.emplace_back(static_cast<uint32_t*>(std::aligned_alloc(64, capacity_ * sizeof(uint32_t))));
+        if (!planes_.back()) throw std::bad_alloc();
+        return planes_.back().get();
+    }
+    uint32_t* plane = free_.back();
+    free_.pop_back();
+    return plane;
+}
+
+void MaskStack::copy(const uint32_t* from, uint32_t* to) const {
+    std::memcpy(to, from, lanes_ * sizeof *to);
+}
+
+void MaskStack::set_state() {
+    uint32_t any = 0, every = ~0u;
+    for (size_t i = 0; i < lanes_; ++i) any |= current_[i], every &= current_[i];
+    state_ = !any ? State::None : every == ~0u ? State::All : State::Some;
+}
+
+void MaskStack::run_none() {
+    std::fill_n(current_, lanes_, 0u);
+    state_ = State::None;
+}
+
+MaskStack::Block& MaskStack::push(Kind kind) {
+    Block& block = blocks_.emplace_back();
+    block.kind = kind;
+    block.before = take();
+    copy(current_, block.before);
+    return block;
+}
+
+void MaskStack::take_off(uint32_t* plane) const {
+    for (size_t i = 0; i < lanes_; ++i) plane[i] &= ~current_[i];
+}
+
+void MaskStack::enter_if(const float* condition) {
+    push(Kind::If);
+    for (size_t i = 0; i < lanes_; ++i) current_[i] &= bits(condition, i);
+    set_state();
+}
+
+void MaskStack::turn_to_else(const float* condition) {
+    const uint32_t* before = blocks_.back().before;
+    for (size_t i = 0; i < lanes_; ++i) current_[i] = before[i] & ~bits(condition, i);
+    set_state();
+}
+
+void MaskStack::leave_block() {
+    Block& block = blocks_.back();
+    copy(block.before, current_);
+    give_back(block.before);
+    if (block.live) give_back(block.live);
+    blocks_.pop_back();
+    set_state();
+}
+
+void MaskStack::enter_loop() {
+    Block& block = push(Kind::Loop);
+    block.live = take();
+    copy(current_, block.live);
+}
+
+void MaskStack::test_loop(const float* condition) {
+    uint32_t* live = blocks_.back().live;
+    for (size_t i = 0; i < lanes_; ++i) {
+        // A lane that continued has not met the test in this turn, and one that left is not live.
+        current_[i] &= bits(condition, i);
+        live[i] &= current_[i];
+    }
+    set_state();
+}
+
+void MaskStack::next_turn() {
+    copy(blocks_.back().live, current_);
+    set_state();
+}
+
+void MaskStack::start_turn(const float* lanes) {
+    const uint32_t* live = blocks_.back().live;
+    for (size_t i = 0; i < lanes_; ++i) current_[i] = live[i] & bits(lanes, i);
+    set_state();
+}
+
+bool MaskStack::loop_is_over() const {
+    const uint32_t* live = blocks_.back().live;
+    return std::all_of(live, live + lanes_, [](uint32_t lane) { return lane == 0; });
+}
+
+void MaskStack::enter_scope() {
+    push(Kind::Scope);
+}
+
+void MaskStack::break_loops(int levels) {
+    for (size_t i = blocks_.size(); i-- > 0;) {
+        Block& block = blocks_[i];
+        if (block.live) take_off(block.live);
+        if (block.kind == Kind::Loop && --levels <= 0) break;
+        take_off(block.before);
+    }
+    run_none();
+}
+
+void MaskStack::continue_loop(int levels) {
+    for (size_t i = blocks_.size(); i-- > 0;) {
+        Block& block = blocks_[i];
+        if (block.kind == Kind::Loop && --levels <= 0) break;
+        if (block.live) take_off(block.live);
+        take_off(block.before);
+    }
+    run_none();
+}
+
+void MaskStack::leave_scope() {
+    for (size_t i = blocks_.size(); i-- > 0;) {
+        Block& block = blocks_[i];
+        if (block.kind == Kind::Scope) break;
+        if (block.live) take_off(block.live);
+        take_off(block.before);
+    }
+    run_none();
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,50 @@
+// What shaders ask of each other, of attributes, options and the renderer (RISpec 3.2, section 15.8).
+#include "shade/vm/context_ops.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+
+/// Outputs: found (1 or 0), the value, which is kept when there is none; input: the name.
+void ask(Run& run, const Step& step, std::span<const Operand> operands) {
+    Frame& frame = run.frame();
+    const rsl::RegisterId value = frame.register_of(step, 1);
+    const rsl::Type type = frame.reg(value).type;
+    bool found = false;
+    if (run.context().messages)
+        found = run.context().messages->find(step.op, frame.text_input(step, 0), type, operands[1],
+                                             type.base == rsl::Base::String ? &frame.text(value) : nullptr,
+                                             run.current_light());
+    fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
+}
+
+void shader_name(Run& run, const Step& step, std::span<const Operand>) {
+    Frame& frame = run.frame();
+    const std::string kind = step.count > step.outputs ? frame.text_input(step, 0) : std::string();
+    frame.text(frame.register_of(step, 0)) =
+        run.context().messages ? run.context().messages->shader_name(kind) : std::string();
+}
+
+}  // namespace
+
+ContextOp find_message_op(Op op) {
+    switch (op) {
+        case Op::LightMessage:
+        case Op::SurfaceMessage:
+        case Op::DisplacementMessage:
+        case Op::AtmosphereMessage:
+        case Op::IncidentMessage:
+        case Op::OppositeMessage:
+        case Op::AttributeMessage:
+        case Op::OptionMessage:
+        case Op::RendererInfo:
+            return ask;
+        case Op::ShaderName:
+            return shader_name;
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,98 @@
+#include "shade/vm/plane_slots.h"
+
+#include <algorithm>
+#include <map>
+
+#include "shade/rsl/blocks.h"
+#include "shade/rsl/op_traits.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Blocks;
+using rsl::Register;
+
+struct Lifetime {
+    size_t first = Blocks::kNone, last = 0;
+    uint32_t id = 0;
+
+    void cover(size_t from, size_t to) {
+        first = std::min(first, from);
+        last = std::max(last, to);
+    }
+};
+
+bool repeats(rsl::Op op) {
+    return op == rsl::Op::Loop || op == rsl::Op::Illuminance || op == rsl::Op::Gather;
+}
+
+/// A value that is used in a loop but made outside must last to the loop's end; a variable, which may carry a
+/// value from one turn to the next, lasts for the whole of each loop in which it occurs.
+std::vector<Lifetime> lifetimes(const rsl::Program& program) {
+    const rsl::Code& code = program.code;
+    const Blocks blocks(code);
+    std::vector<Lifetime> lives(program.registers.size());
+    for (size_t i = 0; i < code.size(); ++i)
+        for (const rsl::RegisterId id : code[i].operands) {
+            Lifetime& life = lives[id];
+            life.id = id;
+            const bool temporary = program.reg(id).kind == Register::Kind::Temporary;
+            const size_t made = life.first;
+            life.cover(i, i);
+            for (size_t b = blocks.around[i]; b != Blocks::kNone; b = blocks.around[b]) {
+                if (!repeats(code[b].op)) continue;
+                if (!temporary) life.cover(b, blocks.end[b]);
+                if (temporary && made < b) life.cover(i, blocks.end[b]);
+            }
+        }
+    return lives;
+}
+
+}  // namespace
+
+uint32_t plane_count(const rsl::Type& type) {
+    return static_cast<uint32_t>(rsl::width_of(type.base) * std::max(type.length, 1));
+}
+
+PlaneSlots assign_plane_slots(const rsl::Program& program) {
+    PlaneSlots slots;
+    slots.first.assign(program.registers.size(), 0);
+    std::vector<Lifetime> lives = lifetimes(program);
+    std::vector<Lifetime> scanned;
+    for (uint32_t id = 0; id < program.registers.size(); ++id) {
+        const Register& r = program.reg(id);
+        if (!r.varying) continue;
+        if (r.kind == Register::Kind::Parameter || r.kind == Register::Kind::Global) {
+            slots.first[id] = slots.planes;
+            slots.planes += plane_count(r.type);
+        } else if (lives[id].first != Blocks::kNone) {
+            scanned.push_back(lives[id]);
+        }
+    }
+    std::sort(scanned.begin(), scanned.end(), [](const Lifetime& a, const Lifetime& b) {
+        return std::pair{a.first, a.id} < std::pair{b.first, b.id};
+    });
+    std::multimap<size_t, uint32_t> alive;           // last use -> register
+    std::map<uint32_t, std::vector<uint32_t>> free;  // size -> first planes
+    for (const Lifetime& life : scanned) {
+        // One that ends where another begins is still read there.
+        while (!alive.empty() && alive.begin()->first < life.first) {
+            const uint32_t dead = alive.begin()->second;
+            free[plane_count(program.reg(dead).type)].push_back(slots.first[dead]);
+            alive.erase(alive.begin());
+        }
+        const uint32_t size = plane_count(program.reg(life.id).type);
+        std::vector<uint32_t>& places = free[size];
+        if (places.empty()) {
+            slots.first[life.id] = slots.planes;
+            slots.planes += size;
+        } else {
+            slots.first[life.id] = places.back();
+            places.pop_back();
+        }
+        alive.emplace(life.last, life.id);
+    }
+    return slots;
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,106 @@
+#include "shade/vm/text_format.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <regex>
+
+namespace trapeze::vm {
+namespace {
+
+constexpr int kMaxFieldWidth = 200;
+
+/// "%[flags][width][.precision]letter", of which the numbers are kept within reason.
+struct Field {
+    std::string prefix = "%";  ///< all but the letter, for snprintf
+    char letter = 0;           ///< 0: the format ends in it
+};
+
+size_t read_number(std::string_view format, size_t at, std::string& out) {
+    int number = 0;
+    const size_t first = at;
+    while (at < format.size() && std::isdigit(static_cast<unsigned char>(format[at])))
+        number = std::min(number * 10 + (format[at++] - '0'), kMaxFieldWidth);
+    if (at != first) out += std::to_string(number);
+    return at;
+}
+
+size_t read_field(std::string_view format, size_t at, Field& field) {
+    while (at < format.size() && std::string_view("+- #0").find(format[at]) != std::string_view::npos) {
+        if (field.prefix.size() < 8) field.prefix += format[at];
+        ++at;
+    }
+    at = read_number(format, at, field.prefix);
+    if (at < format.size() && format[at] == '.') {
+        field.prefix += '.';
+        at = read_number(format, at + 1, field.prefix);
+    }
+    if (at < format.size()) field.letter = format[at++];
+    return at;
+}
+
+std::string number_text(const Field& field, float value) {
+    char buffer[kMaxFieldWidth * 2 + 64];
+    const bool whole = field.letter == 'd' || field.letter == 'i';
+    const bool own = field.letter == 'g' || field.letter == 'e' || field.letter == 'G' || field.letter == 'E';
+    if (whole && std::isfinite(value) && std::abs(value) < 9e18f) {
+        const std::string format = field.prefix + "lld";
+        std::snprintf(buffer, sizeof buffer, format.c_str(), static_cast<long long>(value));
+    } else {
+        const std::string format = field.prefix + (own ? field.letter : 'f');
+        std::snprintf(buffer, sizeof buffer, format.c_str(), static_cast<double>(value));
+    }
+    return buffer;
+}
+
+void append_value(const Field& field, const TextValue& value, std::string& out) {
+    if (value.is_text) {
+        out += value.text;
+        return;
+    }
+    for (size_t i = 0; i < value.floats.size(); ++i) {
+        if (i) out += ' ';
+        out += number_text(field, value.floats[i]);
+    }
+}
+
+}  // namespace
+
+std::string format_text(std::string_view format, std::span<const TextValue> values) {
+    std::string out;
+    size_t next = 0;
+    for (size_t at = 0; at < format.size();) {
+        if (format[at] != '%') {
+            out += format[at++];
+            continue;
+        }
+        if (at + 1 < format.size() && format[at + 1] == '%') {
+            out += '%';
+            at += 2;
+            continue;
+        }
+        Field field;
+        at = read_field(format, at + 1, field);
+        if (field.letter && next < values.size()) append_value(field, values[next++], out);
+    }
+    return out;
+}
+
+bool matches(std::string_view pattern, std::string_view subject) {
+    if (pattern.size() > kMaxPattern) return false;
+    subject = subject.substr(0, kMaxSubject);
+    try {
+        auto flags = std::regex::extended;
+#ifdef __GLIBCXX__
+        // Time that grows no faster than the product of both lengths, whatever the pattern.
+        flags |= std::regex_constants::__polynomial;
+#endif
+        const std::regex expression(pattern.begin(), pattern.end(), flags);
+        return std::regex_search(subject.begin(), subject.end(), expression);
+    } catch (const std::regex_error&) {
+        return false;
+    }
+}
+
+}  // namespace trapeze::vm

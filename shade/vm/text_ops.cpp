@@ -1,0 +1,126 @@
+// Operations on texts, which are the same for all vertices.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "shade/vm/context_ops.h"
+#include "shade/vm/text_format.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+
+size_t element_of(Run& run, const Step& step, size_t index_operand, int length) {
+    const size_t i = index_operand;
+    const float index = run.frame().operand(run.frame().register_of(step, i)).data[0];
+    const float last = static_cast<float>(std::max(length, 1) - 1);
+    return static_cast<size_t>(index > 0 ? std::min(std::floor(index), last) : 0);
+}
+
+void move_text(Run& run, const Step& step, std::span<const Operand>) {
+    run.frame().text(run.frame().register_of(step, 0)) = run.frame().text_input(step, 0);
+}
+
+void text_element(Run& run, const Step& step, std::span<const Operand>) {
+    Frame& frame = run.frame();
+    const rsl::RegisterId array = frame.register_of(step, 1);
+    frame.text(frame.register_of(step, 0)) =
+        frame.text(array, element_of(run, step, 2, frame.reg(array).type.length));
+}
+
+void set_text_element(Run& run, const Step& step, std::span<const Operand>) {
+    Frame& frame = run.frame();
+    const rsl::RegisterId array = frame.register_of(step, 0);
+    frame.text(array, element_of(run, step, 1, frame.reg(array).type.length)) =
+        frame.text(frame.register_of(step, 2));
+}
+
+void equal_texts(Run& run, const Step& step, std::span<const Operand> operands) {
+    const bool equal = run.frame().text_input(step, 0) == run.frame().text_input(step, 1);
+    fill_bool(run, operands[0], equal == (step.op == Op::Equal));
+}
+
+void concat(Run& run, const Step& step, std::span<const Operand>) {
+    constexpr size_t kMaxText = 1 << 16;  // a loop must not grow it without end
+    std::string joined;
+    for (size_t i = 0; i + step.outputs < step.count; ++i) joined += run.frame().text_input(step, i);
+    if (joined.size() > kMaxText) joined.resize(kMaxText);
+    run.frame().text(run.frame().register_of(step, 0)) = std::move(joined);
+}
+
+std::vector<TextValue> values_at(Run& run, const Step& step, std::span<const Operand> operands, size_t lane) {
+    Frame& frame = run.frame();
+    std::vector<TextValue> values;
+    for (size_t i = step.outputs + 1u; i < step.count; ++i) {
+        const rsl::RegisterId id = frame.register_of(step, i);
+        TextValue& value = values.emplace_back();
+        const rsl::Type type = frame.reg(id).type;
+        if (type.base == rsl::Base::String) {
+            value.is_text = true;
+            value.text = frame.text(id);
+        } else if (type.base == rsl::Base::Bool) {
+            value.floats.push_back(Run::at(operands[i], 0, lane) != 0 ? 1.0f : 0.0f);
+        } else {
+            for (int k = 0; k < rsl::width_of(type.base); ++k)
+                value.floats.push_back(Run::at(operands[i], k, lane));
+        }
+    }
+    return values;
+}
+
+void format_op(Run& run, const Step& step, std::span<const Operand> operands) {
+    run.frame().text(run.frame().register_of(step, 0)) =
+        format_text(run.frame().text_input(step, 0), values_at(run, step, operands, 0));
+}
+
+/// printf() speaks for each vertex when its values differ from one to the other.
+void print(Run& run, const Step& step, std::span<const Operand> operands) {
+    Diagnostics* diagnostics = run.context().diagnostics;
+    if (!diagnostics || run.masks().none()) return;
+    bool varying = false;
+    for (size_t i = step.outputs + 1u; i < step.count; ++i)
+        varying = varying || run.frame().reg(run.frame().register_of(step, i)).varying;
+    const size_t vertices = run.context().points ? run.context().points->vertices : 1;
+    const uint32_t* running = run.masks().current();
+    for (size_t lane = 0; lane < vertices; ++lane) {
+        if (!running[lane]) continue;
+        std::string text = format_text(run.frame().text_input(step, 0), values_at(run, step, operands, lane));
+        while (!text.empty() && text.back() == '\n') text.pop_back();
+        diagnostics->note(step.at, std::move(text));
+        if (!varying) return;
+    }
+}
+
+void match(Run& run, const Step& step, std::span<const Operand> operands) {
+    const bool found = matches(run.frame().text_input(step, 0), run.frame().text_input(step, 1));
+    fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
+}
+
+}  // namespace
+
+ContextOp find_text_op(Op op) {
+    switch (op) {
+        case Op::Move:
+            return move_text;
+        case Op::Element:
+            return text_element;
+        case Op::SetElement:
+            return set_text_element;
+        case Op::Equal:
+        case Op::NotEqual:
+            return equal_texts;
+        case Op::Concat:
+            return concat;
+        case Op::Format:
+            return format_op;
+        case Op::Print:
+            return print;
+        case Op::Match:
+            return match;
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace trapeze::vm
