@@ -17,15 +17,6 @@
 #define TRAPEZE_ACCEL_BUNDLE_ONCE
 namespace trapeze::bundle_detail {
 
-/// Unsigned integers in the order of the floats.
-inline uint32_t ordered_bits(float value) {
-    const auto bits = std::bit_cast<uint32_t>(value);
-    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
-}
-inline float from_ordered_bits(uint32_t bits) {
-    return std::bit_cast<float>(bits & 0x80000000u ? bits & 0x7fffffffu : ~bits);
-}
-
 struct TraceInput {
     const WideTree& tree;
     DepthRange range;
@@ -38,6 +29,7 @@ struct TraceInput {
 }  // namespace trapeze::bundle_detail
 #endif
 
+#include "accel/candidates-inl.h"
 #include "accel/grid_rays-inl.h"
 #include "accel/sharp_packets-inl.h"
 
@@ -69,14 +61,14 @@ class BundleTrace {
         for (const uint32_t grid : t_.tree.unbounded_grids()) test_unbounded(grid);
         for (size_t p = 0; p < t_.packets; ++p) t_.refresh_packet(p);
         t_.refresh_farthest();
-        collect_candidates();
+        collect_candidates<kMotion, kLens>(t_);
+        const auto& candidates = t_.scratch.candidates;
         std::sort(t_.scratch.candidates.begin(), t_.scratch.candidates.end());
-        for (size_t i = 0; i < t_.scratch.candidates.size(); ++i) {
-            const float depth = from_ordered_bits(static_cast<uint32_t>(t_.scratch.candidates[i] >> 32));
-            if (depth > t_.farthest_depth) break;
-            if (i + 1 < t_.scratch.candidates.size())
-                prefetch(static_cast<uint32_t>(t_.scratch.candidates[i + 1]));
-            visit_grid(static_cast<uint32_t>(t_.scratch.candidates[i]), depth);
+        for (size_t i = 0; i < candidates.size(); ++i) {
+            const Candidate candidate = candidate_of(candidates[i]);
+            if (candidate.depth > t_.farthest_depth) break;
+            if (i + 1 < candidates.size()) prefetch(candidate_of(candidates[i + 1]).grid);
+            visit_grid(candidate);
         }
         t_.stats.rays += t_.rays.count;
     }
@@ -120,8 +112,13 @@ class BundleTrace {
             for (auto& row : t_.scratch.intervals.row) row[p] = row[t_.packets - 1];
             t_.scratch.farthest[p] = -HUGE_VALF;
         }
-        if constexpr (kMotion)
-            t_.first_time = of_all(RayIntervals::kTimeMin), t_.last_time = of_all(RayIntervals::kTimeMax);
+        if constexpr (kMotion) {
+            const auto& row = t_.scratch.intervals.row;
+            const float* first = row[RayIntervals::kTimeMin];
+            const float* last = row[RayIntervals::kTimeMax];
+            t_.first_time = *std::min_element(first, first + t_.packets);
+            t_.last_time = *std::max_element(last, last + t_.packets);
+        }
     }
 
     void set_interval(int row, size_t packet, VF v) {
@@ -129,75 +126,29 @@ class BundleTrace {
         t_.scratch.intervals.row[row + 1][packet] = largest(v);
     }
 
-    /// A row of the intervals of the bundle as a whole.
-    float of_all(int row) const {
-        const float* values = t_.scratch.intervals.row[row];
-        return row & 1 ? *std::max_element(values, values + t_.packets)
-                       : *std::min_element(values, values + t_.packets);
-    }
-
-    /// The grids that the bundle as a whole may meet, each with a lower bound of its depths.
-    void collect_candidates() {
-        t_.scratch.candidates.clear();
-        if (t_.tree.node_count() == 0) return;
-        const F32 d;
-        const auto q =
-            IntervalLanes::of<kMotion, kLens>([&](int row) HWY_ATTR { return hn::Set(d, of_all(row)); });
-        const VF nearest = hn::Set(d, t_.nearest_depth), focal = hn::Set(d, t_.inverse_focal);
-        t_.scratch.stack.assign(1, 0);
-        while (!t_.scratch.stack.empty()) {
-            const uint32_t index = t_.scratch.stack.back();
-            t_.scratch.stack.pop_back();
-            ++t_.stats.nodes_visited;
-            const WideNode& node = t_.tree.nodes()[index];
-            for (size_t i = 0; i < WideNode::kChildren; i += kLanes) {
-                VF low[3], high[3];
-                for (int k = 0; k < 3; ++k) {
-                    low[k] = hn::Load(d, node.low[k] + i), high[k] = hn::Load(d, node.high[k] + i);
-                    if constexpr (kMotion) {
-                        const WideNodeMotion& motion = t_.tree.node_motions()[index];
-                        low[k] = lowest(low[k], hn::Load(d, motion.low[k] + i), q.time);
-                        high[k] = highest(high[k], hn::Load(d, motion.high[k] + i), q.time);
-                    }
-                }
-                uint32_t met = mask_bits(meets<kLens>(d, q, low, high, nearest, focal));
-                if (met == 0) continue;
-                HWY_ALIGN float depth[kLanes];
-                hn::Store(low[2], d, depth);
-                for (; met != 0; met &= met - 1) {
-                    const int lane = std::countr_zero(met);
-                    const uint32_t link = node.child[i + static_cast<size_t>(lane)];
-                    if (link & kGridLink)
-                        t_.scratch.candidates.push_back(uint64_t{ordered_bits(depth[lane])} << 32 |
-                                                        (link & ~kGridLink));
-                    else
-                        t_.scratch.stack.push_back(link);
-                }
-            }
-        }
-    }
-
-    void visit_grid(uint32_t index, float depth) {
+    void visit_grid(const Candidate& candidate) {
+        const uint32_t index = candidate.grid;
         const WideGrid& grid = t_.tree.grid(index);
         if constexpr (kHasSharpPackets && !kLens && !kMotion) {
-            visit_sharp(t_, index, grid);
+            visit_sharp(t_, candidate, grid);
             return;
         }
         if (!grid.moves()) {
-            collect_active<false, kLens>(t_, {t_.tree.grid_box(index), grid.framed}, grid, 0, depth);
+            collect_active<false, kLens>(t_, {t_.tree.grid_box(index), grid.framed}, grid, 0, candidate);
             test_active<false, kLens>(t_, index, grid, 0);
             return;
         }
         if constexpr (kMotion) {
             if (!grid.has_segments()) {
-                collect_active<true, kLens>(t_, {t_.tree.grid_box(index), grid.framed}, grid, 0, depth);
+                collect_active<true, kLens>(t_, {t_.tree.grid_box(index), grid.framed}, grid, 0, candidate);
                 test_active<true, kLens>(t_, index, grid, 0);
                 return;
             }
             const int first = segment_at(t_.first_time, grid.key_count).index;
             const int last = segment_at(t_.last_time, grid.key_count).index;
             for (int segment = first; segment <= last; ++segment) {
-                collect_active<true, kLens>(t_, t_.tree.segment_bounds(grid, segment), grid, segment, depth);
+                collect_active<true, kLens>(t_, t_.tree.segment_bounds(grid, segment), grid, segment,
+                                            candidate);
                 test_active<true, kLens>(t_, index, grid, segment);
             }
         }

@@ -1,6 +1,7 @@
 /// The working memory of bundle tracing: about 120 KB a thread.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -31,16 +32,42 @@ struct BlockRays {
 /// d * z + o * (1 - z / focal distance).
 struct RayIntervals {
     static constexpr size_t kRoom = RayBundle::kRoom;  ///< packets of a single lane, at worst
+    /// Of each pair the low one is even.
     enum Row { kDxMin, kDxMax, kDyMin, kDyMax, kOxMin, kOxMax, kOyMin, kOyMax, kTimeMin, kTimeMax, kRows };
 
     alignas(64) float row[kRows][kRoom];
 };
 
+/// A grid that some groups of packets may meet, no nearer than a depth.
+struct Candidate {
+    float depth;
+    uint32_t grid, groups;
+};
+
+/// A candidate in bits that have the order of depths: depth, grid, a bit a group.
+inline uint64_t candidate_of(float depth, uint32_t grid, uint32_t groups) {
+    const auto bits = std::bit_cast<uint32_t>(depth);
+    const uint32_t ordered = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+    return uint64_t{ordered} << 32 | grid << 8 | groups;
+}
+inline Candidate candidate_of(uint64_t bits) {
+    const auto ordered = static_cast<uint32_t>(bits >> 32), rest = static_cast<uint32_t>(bits);
+    return {std::bit_cast<float>(ordered & 0x80000000u ? ordered & 0x7fffffffu : ~ordered), rest >> 8,
+            rest & 0xff};
+}
+static_assert(WideTree::kMaxGrids <= size_t{1} << 24, "a grid's number and a byte in 32 bits");
+
 struct BundleScratch {
     RayIntervals intervals;
     alignas(64) float farthest[RayIntervals::kRoom];  ///< per packet, the depth to which some ray still looks
-    std::vector<uint64_t> candidates;                 ///< least depth (order-preserving bits), then grid
-    std::vector<uint32_t> stack;
+    /// Packets go through the nodes above grids in so many groups, at most.
+    static constexpr size_t kGroups = 4;
+    float groups[RayIntervals::kRows][kGroups];  ///< the intervals of each
+    std::vector<uint64_t> candidates;            ///< sorted by depth: candidate_of()
+    struct Link {
+        uint32_t node, groups;  ///< a bit a group
+    };
+    std::vector<Link> stack;
     std::vector<uint32_t> touched;  ///< packets that have active rays
     ActiveRays active;
     static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "accel/block_hits-inl.h"
@@ -48,8 +50,23 @@ struct BundleState {
     SampleStats& stats;
     float nearest_depth;  ///< no box before this depth matters
     size_t packets;
+    /// Of a group: whole vectors of them.
+    size_t group_packets =
+        (packets + kLanes * BundleScratch::kGroups - 1) / (kLanes * BundleScratch::kGroups) * kLanes;
     float first_time = 0, last_time = 0;
     float farthest_depth = 0;  ///< some ray still looks as far as this
+
+    size_t groups() const { return (packets + group_packets - 1) / group_packets; }
+
+    /// visit(first) for each vector of packets of some groups.
+    template <class Visit>
+    HWY_INLINE void for_packets(uint32_t some, const Visit& visit) const {
+        for (; some != 0; some &= some - 1) {
+            const size_t first = static_cast<size_t>(std::countr_zero(some)) * group_packets,
+                         end = std::min(first + group_packets, packets);
+            for (size_t p = first; p < end; p += kLanes) visit(p);
+        }
+    }
 
     void refresh_packet(size_t packet) {
         scratch.farthest[packet] = largest(hn::Load(F32(), rays.depth + packet * kLanes));

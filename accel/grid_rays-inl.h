@@ -123,12 +123,12 @@ void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& b
 /// oriented one (and, of a moving grid, look in the segment).
 template <bool kMoves, bool kLens>
 void collect_active(BundleState& t, const SegmentBounds& bounds, const WideGrid& grid, int segment,
-                    float depth) {
+                    const Candidate& candidate) {
     const F32 d;
     const MovingBox& box = bounds.box;
     t.scratch.active.count = 0;
     t.scratch.touched.clear();
-    for (size_t p = 0; p < t.packets; p += kLanes) {
+    t.for_packets(candidate.groups, [&](size_t p) HWY_ATTR {
         auto q = IntervalLanes::of<kMoves, kLens>(
             [&](int row) HWY_ATTR { return hn::Load(d, t.scratch.intervals.row[row] + p); });
         VF low[3], high[3];
@@ -148,8 +148,8 @@ void collect_active(BundleState& t, const SegmentBounds& bounds, const WideGrid&
             looks, meets<kLens>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
         for (; met != 0; met &= met - 1)
             collect_packet<kMoves, kLens>(t, grid, bounds, p + static_cast<size_t>(std::countr_zero(met)),
-                                          segment, depth);
-    }
+                                          segment, candidate.depth);
+    });
 }
 
 /// Those of a vector of rays. kAlike: along each axis all look to the same side, so that it is known

@@ -172,27 +172,28 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
 }
 
 /// Packets whose intervals meet the grid's axis-aligned box, one by one as they lie.
-inline void visit_sharp(BundleState& t, uint32_t index, const WideGrid& grid) {
+inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGrid& grid) {
     const F32 d;
-    const MovingBox& box = t.tree.grid_box(index);
+    const MovingBox& box = t.tree.grid_box(candidate.grid);
     VF low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
     bool nearer = false;
-    for (size_t p = 0; p < t.packets; p += kLanes) {
+    t.for_packets(candidate.groups, [&](size_t p) HWY_ATTR {
         const auto q = IntervalLanes::of<false, false>(
             [&](int row) HWY_ATTR { return hn::Load(d, t.scratch.intervals.row[row] + p); });
         const MF looks = hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]);
         uint32_t met = mask_bits(hn::And(
             looks, meets<false>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
         for (; met != 0; met &= met - 1)
-            nearer |= visit_packet(t, index, grid, box, p + static_cast<size_t>(std::countr_zero(met)));
-    }
+            nearer |=
+                visit_packet(t, candidate.grid, grid, box, p + static_cast<size_t>(std::countr_zero(met)));
+    });
     if (nearer) t.refresh_farthest();
 }
 
 #else
 inline constexpr bool kHasSharpPackets = false;
-inline void visit_sharp(BundleState&, uint32_t, const WideGrid&) {}
+inline void visit_sharp(BundleState&, const Candidate&, const WideGrid&) {}
 #endif
 
 }  // namespace HWY_NAMESPACE
