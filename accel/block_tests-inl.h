@@ -11,6 +11,7 @@
 #include <bit>
 
 #include "accel/bundle_state-inl.h"
+#include "core/lane_numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -55,7 +56,8 @@ void test_one_ray(BundleState& t, const Block& block, size_t which) {
     r.ux = hn::Set(d, from.ux[which]), r.uy = hn::Set(d, from.uy[which]);
     if constexpr (kMoves) r.local = hn::Set(d, from.local[which]);
     for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
-        const VI number = hn::Iota(di, m), u = hn::And(number, hn::Set(di, 3)), v = hn::ShiftRight<2>(number);
+        const VI number = lane_numbers(di, m), u = hn::And(number, hn::Set(di, 3)),
+                 v = hn::ShiftRight<2>(number);
         VF depth = hn::Zero(d);
         const QuadLanes<VF> q = quads_at<kMoves, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)));
         MF hit = inside(d, q);

@@ -16,6 +16,7 @@
 #include "accel/block_tests-inl.h"
 #include "accel/compact_lanes-inl.h"
 #include "accel/ray_intervals-inl.h"
+#include "core/lane_numbers-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -114,7 +115,7 @@ void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& b
     }
     compact.store(limit, to.limit + at);
     const hn::RebindToUnsigned<F32> du;
-    compact.store(hn::Iota(du, static_cast<uint32_t>(i)), to.ray + at);
+    compact.store(lane_numbers(du, static_cast<uint32_t>(i)), to.ray + at);
     to.count += count;
     t.scratch.touched.push_back(static_cast<uint32_t>(packet));
 }
@@ -258,7 +259,7 @@ size_t collect_block(BundleState& t, const Block& block, const uint8_t* met, flo
         if constexpr (kLens) compact.store(r.ox, to.ox + count), compact.store(r.oy, to.oy + count);
         compact.store(r.ux, to.ux + count), compact.store(r.uy, to.uy + count);
         if constexpr (kMoves) compact.store(r.local, to.local + count);
-        compact.store(hn::Iota(du, static_cast<uint32_t>(i)), to.active + count);
+        compact.store(lane_numbers(du, static_cast<uint32_t>(i)), to.active + count);
         count += static_cast<size_t>(std::popcount(bits));
     }
     return count;

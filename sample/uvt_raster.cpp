@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
 #include "core/hit_micropolygon-inl.h"
+#include "core/lane_numbers-inl.h"
 #include "sample/uvt_mesh-inl.h"
 #include "sample/uvt_tuples-inl.h"
 
@@ -155,7 +156,7 @@ class GridRaster {
     HWY_INLINE void queue(const Tuple& at, int first, hn::Mask<DI> wanted, VI pixel) {
         const DI di;
         UvtQueue& queue = scratch_.queue;
-        hn::StoreU(hn::Compress(hn::Iota(di, first), wanted), di, queue.quad + queue.count);
+        hn::StoreU(hn::Compress(lane_numbers(di, first), wanted), di, queue.quad + queue.count);
         hn::StoreU(hn::Compress(pixel, wanted), di, queue.pixel + queue.count);
         queue.count += hn::CountTrue(di, wanted);
         if (queue.count >= UvtQueue::kFull) test_queue(at);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/lane_numbers-inl.h"
 #include "sample/uvt_raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -130,7 +131,7 @@ void find_tuples(const UvtRaster& raster, const BoundedGrid& grid, const UvtTile
         if (hn::AllFalse(d, seen)) continue;
         const auto careful = hn::Or(unsafe, hn::Or(hn::Lt(z0, near_clip), hn::Gt(z1, far_clip)));
         const auto seen_i = hn::RebindMask(di, seen);
-        const auto index = hn::Iota(di, static_cast<int32_t>(t));
+        const auto index = lane_numbers(di, static_cast<int32_t>(t));
         hn::StoreU(hn::Compress(index, seen_i), di, &found.tuple[found.count]);
         hn::StoreU(hn::Compress(slack, seen), d, &found.slack[found.count]);
         hn::StoreU(hn::Compress(hn::IfThenElseZero(careful, one), seen), d, &found.careful[found.count]);
