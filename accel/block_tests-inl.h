@@ -45,12 +45,12 @@ inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI 
     }
 }
 
-/// One block ray against all micropolygons of its block: lanes are micropolygons.
+/// One active ray against all micropolygons of a block: lanes are micropolygons.
 template <bool kMoves, bool kLens>
-void test_one_ray(BundleState& t, const Block& block, size_t which) {
+void test_one_ray(BundleState& t, const Block& block, uint32_t which) {
     const F32 d;
     const I32 di;
-    const BlockRays& from = t.scratch.block;
+    const ActiveRays& from = t.scratch.active;
     RayLanes r;
     if constexpr (kLens) r.ox = hn::Set(d, from.ox[which]), r.oy = hn::Set(d, from.oy[which]);
     r.ux = hn::Set(d, from.ux[which]), r.uy = hn::Set(d, from.uy[which]);
@@ -73,26 +73,44 @@ void test_one_ray(BundleState& t, const Block& block, size_t which) {
         hn::Store(depth, d, depths);
         for (; lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes), micropolygon = m + lane;
-            keep(t, block, from.active[which], depths[lane],
+            keep(t, block, which, depths[lane],
                  block.id + static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4));
         }
     }
 }
 
+inline void count_block_tests(BundleState& t, const Block& block, size_t rays) {
+    t.stats.leaves_visited += rays;
+    t.stats.predicate_tests += rays * static_cast<uint64_t>(block.view.rows * block.columns);
+}
+inline void count_tests_of(BundleState& t, const Block& block, uint32_t active) {
+    t.rays.tests[t.scratch.active.ray[active]] += static_cast<uint32_t>(block.view.rows * block.columns);
+}
+
+/// The few active rays whose bits are set in a row of meet_boxes(), one by one.
+template <bool kMoves, bool kLens>
+void test_few_rays(BundleState& t, const Block& block, const uint8_t* met, size_t count) {
+    count_block_tests(t, block, count);
+    for (uint32_t first = 0; count != 0; first += kLanesOfByte, ++met)
+        for (uint32_t bits = *met; bits != 0; bits &= bits - 1, --count) {
+            const uint32_t active = first + static_cast<uint32_t>(std::countr_zero(bits));
+            if (t.rays.tests) count_tests_of(t, block, active);
+            test_one_ray<kMoves, kLens>(t, block, active);
+        }
+}
+
+/// The rays listed for a block.
 template <bool kMoves, bool kLens>
 void test_block_rays(BundleState& t, const Block& block, size_t count) {
     const F32 d;
     const BlockRays& from = t.scratch.block;
-    const auto micropolygons = static_cast<uint64_t>(block.view.rows * block.columns);
-    t.stats.leaves_visited += count;
-    t.stats.predicate_tests += count * micropolygons;
+    count_block_tests(t, block, count);
     if (t.rays.tests)
-        for (size_t i = 0; i < count; ++i)
-            t.rays.tests[t.scratch.active.ray[from.active[i]]] += static_cast<uint32_t>(micropolygons);
+        for (size_t i = 0; i < count; ++i) count_tests_of(t, block, from.active[i]);
     for (size_t i = 0; i < count; i += kLanes) {
         const size_t left = count - i;
         if (left < kFewInBlock) {
-            for (size_t k = i; k < count; ++k) test_one_ray<kMoves, kLens>(t, block, k);
+            for (size_t k = i; k < count; ++k) test_one_ray<kMoves, kLens>(t, block, from.active[k]);
             return;
         }
         RayLanes r;
@@ -112,7 +130,8 @@ void test_block_rays(BundleState& t, const Block& block, size_t count) {
         const MF hit = hn::AndNot(several, hn::And(any, faces));
         settle(t, block, i, hit, u, v, depth);
         for (uint32_t more = mask_bits(several); more != 0; more &= more - 1)
-            test_one_ray<kMoves, kLens>(t, block, i + static_cast<size_t>(std::countr_zero(more)));
+            test_one_ray<kMoves, kLens>(t, block,
+                                        from.active[i + static_cast<size_t>(std::countr_zero(more))]);
     }
 }
 

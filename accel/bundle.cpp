@@ -30,6 +30,7 @@ struct TraceInput {
 #endif
 
 #include "accel/candidates-inl.h"
+#include "accel/grid_boxes-inl.h"
 #include "accel/grid_rays-inl.h"
 #include "accel/sharp_packets-inl.h"
 

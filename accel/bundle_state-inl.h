@@ -25,6 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr size_t kLanes = hn::MaxLanes(F32());
 constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
 constexpr size_t kMaskBytes = (kLanes + 7) / 8;
+constexpr uint32_t kLanesOfByte = kLanes < 8 ? kLanes : 8;  ///< of a mask as it is stored
 constexpr size_t kMetStride = BundleScratch::kMetStride;
 
 HWY_INLINE uint32_t mask_bits(MF mask) {

@@ -1,5 +1,4 @@
-/// A bundle in a grid: the rays that may meet it (ActiveRays), the boxes that they meet, the rays of each
-/// block. Compiled once a target.
+/// The rays of a bundle that may meet a grid (ActiveRays). Compiled once a target.
 #if defined(TRAPEZE_ACCEL_GRID_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_GRID_RAYS_INL_H_
 #undef TRAPEZE_ACCEL_GRID_RAYS_INL_H_
@@ -10,10 +9,8 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
 
-#include "accel/block_slabs-inl.h"
-#include "accel/block_tests-inl.h"
+#include "accel/bundle_state-inl.h"
 #include "accel/compact_lanes-inl.h"
 #include "accel/ray_intervals-inl.h"
 #include "core/lane_numbers-inl.h"
@@ -22,9 +19,6 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Finding a block's slabs pays for so many rays.
-inline constexpr size_t kFewForSlabs = 12;
 
 /// segment_at() in lanes: whether a time is in a segment, and where.
 HWY_INLINE MF in_segment(VF time, int key_count, int segment, VF& local) {
@@ -151,155 +145,6 @@ void collect_active(BundleState& t, const SegmentBounds& bounds, const WideGrid&
             collect_packet<kMoves, kLens>(t, grid, bounds, p + static_cast<size_t>(std::countr_zero(met)),
                                           segment, candidate.depth);
     });
-}
-
-/// Those of a vector of rays. kAlike: along each axis all look to the same side, so that it is known
-/// which plane of a box comes first.
-template <bool kMoves, bool kLens, bool kAlike>
-void meet_boxes_of(BundleState& t, size_t i, const float* planes, int boxes, const int* sides, uint8_t* met) {
-    const F32 d;
-    const ActiveRays& active = t.scratch.active;
-    const auto stride = static_cast<size_t>(boxes);
-    const VF local = kMoves ? hn::Load(d, active.local + i) : hn::Zero(d);
-    const VF limit = hn::Load(d, active.limit + i);
-    VF inverse[3], offset[3];
-    const float *first[3], *last[3];
-    for (size_t k = 0; k < 3; ++k) {
-        inverse[k] = hn::Load(d, active.inverse[k] + i);
-        offset[k] = kLens ? hn::Load(d, active.offset[k] + i) : hn::Zero(d);
-        first[k] = planes + (k + (kAlike && sides[k] ? 3 : 0)) * stride;
-        last[k] = planes + (k + (kAlike && sides[k] ? 0 : 3)) * stride;
-    }
-    for (int b = 0; b < boxes; ++b, met += kMetStride) {
-        VF near, far;
-        for (int k = 0; k < 3; ++k) {
-            VF from = hn::Set(d, first[k][b]), to = hn::Set(d, last[k][b]);
-            if constexpr (kMoves) {
-                from = hn::MulAdd(local, hn::Set(d, first[k][b + 6 * boxes]), from);
-                to = hn::MulAdd(local, hn::Set(d, last[k][b + 6 * boxes]), to);
-            }
-            VF enter = kLens ? hn::MulSub(from, inverse[k], offset[k]) : hn::Mul(from, inverse[k]);
-            VF leave = kLens ? hn::MulSub(to, inverse[k], offset[k]) : hn::Mul(to, inverse[k]);
-            if constexpr (!kAlike) {
-                const VF a = enter;
-                enter = hn::Min(a, leave), leave = hn::Max(a, leave);
-            }
-            near = k == 0 ? enter : hn::Max(near, enter);
-            far = k == 0 ? hn::Min(leave, limit) : hn::Min(far, leave);
-        }
-        hn::StoreMaskBits(d, hn::Le(near, far), met);
-    }
-}
-
-/// Which active rays meet which boxes: a bit for each ray in a row for each box.
-template <bool kMoves, bool kLens>
-void meet_boxes(BundleState& t, const float* planes, int boxes) {
-    const F32 d;
-    const ActiveRays& active = t.scratch.active;
-    for (size_t i = 0; i < active.count; i += kLanes) {
-        const uint32_t valid = active.count - i < kLanes ? (1u << (active.count - i)) - 1 : kAllLanes;
-        int sides[3];
-        bool alike = true;
-        for (int k = 0; k < 3; ++k) {
-            const VF inverse = hn::Load(d, active.inverse[k] + i);
-            const uint32_t backward = mask_bits(predicate_lanes::negative(d, inverse)) & valid;
-            sides[k] = backward != 0;
-            alike = alike && (backward == 0 || backward == valid);
-        }
-        uint8_t* met = t.scratch.met + i / kLanes * kMaskBytes;
-        if (alike)
-            meet_boxes_of<kMoves, kLens, true>(t, i, planes, boxes, sides, met);
-        else
-            meet_boxes_of<kMoves, kLens, false>(t, i, planes, boxes, sides, met);
-    }
-    t.stats.nodes_visited += active.count * static_cast<size_t>(boxes);
-}
-
-/// Of a row of meet_boxes(), whose unused bits are 0.
-inline size_t count_bits(const uint8_t* row, size_t bytes) {
-    size_t count = 0, i = 0;
-    for (; i + 8 <= bytes; i += 8) {
-        uint64_t word;
-        std::memcpy(&word, row + i, 8);
-        count += static_cast<size_t>(std::popcount(word));
-    }
-    for (; i < bytes; ++i) count += static_cast<size_t>(std::popcount(row[i]));
-    return count;
-}
-
-/// Lists the active rays whose bits are set in the row of a block's box and that do not pass the block
-/// by; how many.
-template <bool kMoves, bool kLens>
-size_t collect_block(BundleState& t, const Block& block, const uint8_t* met, float rounding) {
-    const F32 d;
-    const hn::RebindToUnsigned<F32> du;
-    const ActiveRays& active = t.scratch.active;
-    BlockRays& to = t.scratch.block;
-    const size_t candidates = count_bits(met, (active.count + kLanes - 1) / kLanes * kMaskBytes);
-    if (candidates == 0) return 0;
-    BlockSlabs slabs;
-    const bool has_slabs = candidates >= kFewForSlabs && slabs_of<kMoves>(block.view, rounding, slabs);
-    if (has_slabs) t.stats.nodes_visited += candidates;
-    size_t count = 0;
-    for (size_t i = 0; i < active.count; i += kLanes, met += kMaskBytes) {
-        uint32_t bits = 0;
-        std::memcpy(&bits, met, kMaskBytes);
-        if (bits == 0) continue;
-        MF here = hn::LoadMaskBits(d, met);
-        RayLanes r;
-        if constexpr (kLens) r.ox = hn::Load(d, active.ox + i), r.oy = hn::Load(d, active.oy + i);
-        r.ux = hn::Load(d, active.ux + i), r.uy = hn::Load(d, active.uy + i);
-        if constexpr (kMoves) r.local = hn::Load(d, active.local + i);
-        if (has_slabs) {
-            here = hn::AndNot(misses<kMoves, kLens>(slabs, r), here);
-            bits = mask_bits(here);
-            if (bits == 0) continue;
-        }
-        const CompactLanes compact(here);
-        if constexpr (kLens) compact.store(r.ox, to.ox + count), compact.store(r.oy, to.oy + count);
-        compact.store(r.ux, to.ux + count), compact.store(r.uy, to.uy + count);
-        if constexpr (kMoves) compact.store(r.local, to.local + count);
-        compact.store(lane_numbers(du, static_cast<uint32_t>(i)), to.active + count);
-        count += static_cast<size_t>(std::popcount(bits));
-    }
-    return count;
-}
-
-inline float absolute_max(const MovingBox& box) {
-    float most = 0;
-    for (int k = 0; k < 3; ++k)
-        for (const float at :
-             {box.low[k], box.high[k], box.low[k] + box.low_delta[k], box.high[k] + box.high_delta[k]})
-            most = std::max(most, std::abs(at));
-    return most;
-}
-
-/// The boxes of a grid that active rays meet, and the blocks in them.
-template <bool kMoves, bool kLens>
-void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segment) {
-    ActiveRays& active = t.scratch.active;
-    if (active.count == 0) return;
-    const F32 d;
-    const float* planes = t.tree.box_planes(grid, segment);
-    // Lanes past the end meet nothing, whatever an earlier bundle has left there: infinities would.
-    hn::StoreU(hn::Set(d, -HUGE_VALF), d, active.limit + active.count);
-    if constexpr (kMoves) hn::StoreU(hn::Zero(d), d, active.local + active.count);
-    for (int k = 0; k < 3; ++k) {
-        hn::StoreU(hn::Zero(d), d, active.inverse[k] + active.count);
-        if constexpr (kLens) hn::StoreU(hn::Zero(d), d, active.offset[k] + active.count);
-    }
-    const int blocks_u = grid.blocks_u(), boxes = grid.box_count(), per_box = grid.blocks_per_box();
-    meet_boxes<kMoves, kLens>(t, planes, boxes);
-    const float rounding = t.tree.rounding(absolute_max(t.tree.grid_box(index)));
-    for (int b = 0; b < grid.block_count(); ++b) {
-        const uint8_t* met = t.scratch.met + static_cast<size_t>(b / per_box) * kMetStride;
-        const Block block = block_of(grid, segment, b % blocks_u, b / blocks_u, index);
-        const size_t count = collect_block<kMoves, kLens>(t, block, met, rounding);
-        if (count != 0) test_block_rays<kMoves, kLens>(t, block, count);
-    }
-    if (!grid.opaque) return;
-    for (const uint32_t packet : t.scratch.touched) t.refresh_packet(packet);
-    t.refresh_farthest();
 }
 
 }  // namespace HWY_NAMESPACE
