@@ -42,6 +42,10 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
     const std::string driver = lower(display.type);
     if (driver == "null") return false;
     plan.path = display.name;
+    if (makes_depth_map(display)) {
+        plan.depth_map = true, plan.format = FileFormat::Tiff;
+        return true;
+    }
     if (const auto format = look_up(kDrivers, driver)) {
         plan.format = *format;
         return true;
@@ -73,7 +77,7 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
 
 /// rgb, a and z in this order, each or not; or "id".
 bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
-    std::string_view mode = display.mode;
+    std::string_view mode = plan.depth_map ? "z" : std::string_view(display.mode);
     const auto take = [&](std::string_view channels) {
         if (!mode.starts_with(channels)) return false;
         mode.remove_prefix(channels.size());
@@ -131,6 +135,11 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
 }
 
 }  // namespace
+
+bool makes_depth_map(const Display& display) {
+    const std::string driver = lower(display.type);
+    return driver == "zfile" || driver == "shadow";
+}
 
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
                                         Diagnostics& diagnostics) {

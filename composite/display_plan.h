@@ -21,11 +21,15 @@ struct Quantization {
 struct DisplayPlan {
     std::string path;
     FileFormat format = FileFormat::OpenExr;
+    bool depth_map = false;  ///< a depth picture for shadows, by the drivers that are for them
     bool rgb = true, alpha = true, depth = false, id = false;
     bool float_pixels = false;  ///< OpenEXR: colour in floats, not halves
     std::string compression;    ///< OpenEXR's name of it, in lower case; empty: the default
     Quantization quantization;  ///< of the other formats
 };
+
+/// Whether its driver writes depths for shadow maps: "zfile" and "shadow".
+bool makes_depth_map(const Display& display);
 
 /// Nothing when there is nothing to write: driver "null", or a mode or driver that is not supported, of which
 /// it warns.

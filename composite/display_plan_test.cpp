@@ -51,7 +51,9 @@ TEST(DisplayPlan, DriverThenExtensionChoosesTheFormat) {
         {"a.pic", "tiff", FileFormat::Tiff, "a.pic", 0, 0},
         {"a", "framebuffer", FileFormat::OpenExr, "a.exr", 1, 0},
         {"a.png", "it", FileFormat::Png, "a.png", 1, 0},
-        {"a.z", "zfile", FileFormat::OpenExr, "a.z", 1, 0},
+        {"a.z", "zfile", FileFormat::Tiff, "a.z", 0, 0},
+        {"a.exr", "shadow", FileFormat::Tiff, "a.exr", 0, 0},
+        {"a.pic", "vortech", FileFormat::OpenExr, "a.pic", 1, 0},
     };
     for (const auto& c : cases) {
         const Planned result = planned({c.name, c.type, "rgba", {}, {}});
@@ -87,6 +89,18 @@ TEST(DisplayPlan, Modes) {
         EXPECT_FALSE(result.plan) << mode;
         EXPECT_EQ(result.warnings, 1u) << mode;
     }
+}
+
+TEST(DisplayPlan, DepthMapsAreDepthsAsFloatsWhateverTheirMode) {
+    for (const char* driver : {"zfile", "shadow"})
+        for (const char* mode : {"z", "rgba", ""}) {
+            const Planned result = planned({"a.z", driver, mode, {}, {}});
+            ASSERT_TRUE(result.plan);
+            EXPECT_TRUE(result.plan->depth && result.plan->depth_map);
+            EXPECT_FALSE(result.plan->rgb || result.plan->alpha);
+            EXPECT_TRUE(result.plan->quantization.to_float());
+        }
+    EXPECT_FALSE(planned({"a.tif", "tiff", "z", {}, {}}).plan->depth_map);
 }
 
 TEST(DisplayPlan, WhatAFormatCannotHold) {

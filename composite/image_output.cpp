@@ -125,6 +125,7 @@ OIIO::ImageSpec make_spec(const PictureToWrite& picture, const Encoding& e) {
             picture.context.scene->camera_from_world * screen_from_camera(picture.context.camera);
         spec.attribute("worldtocamera", OIIO::TypeMatrix, &picture.context.scene->camera_from_world);
         spec.attribute("worldtoscreen", OIIO::TypeMatrix, &screen);
+        if (picture.plan.depth_map) spec.attribute("textureformat", "Shadow");
     } else {
         // In a TIFF this would be Exif data, which OpenImageIO 2.4 cannot write to memory; readers take whole
         // numbers there for sRGB anyway.

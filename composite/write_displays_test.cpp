@@ -254,6 +254,31 @@ TEST(WriteDisplays, TiffFloats16BitsAndDepth) {
     EXPECT_EQ(stored<float>(folder.file("z.tif"), OIIO::TypeDesc::FLOAT, &spec), image.z);
 }
 
+TEST(WriteDisplays, DepthMapsSayWhereTheyWereSeenFrom) {
+    const TemporaryFolder folder;
+    RasterScene scene(40, 30, 1);
+    scene.scene.camera_from_world.setTranslation(V3f(1, 2, 3));
+    scene.scene.options.displays = {{folder.file("a.shd"), "shadow", "z", {}, {}}};
+    const Image image = numbered_image(scene);
+    ASSERT_TRUE(write(image, scene).good);
+    OIIO::ImageSpec spec;
+    EXPECT_EQ(stored<float>(folder.file("a.shd"), OIIO::TypeDesc::FLOAT, &spec), image.z);
+    EXPECT_EQ(spec.get_string_attribute("textureformat"), "Shadow");
+    M44f camera_from_world, screen_from_world;
+    EXPECT_TRUE(spec.getattribute("worldtocamera", OIIO::TypeMatrix, &camera_from_world));
+    EXPECT_EQ(camera_from_world, scene.scene.camera_from_world);
+    EXPECT_TRUE(spec.getattribute("worldtoscreen", OIIO::TypeMatrix, &screen_from_world));
+    // What the camera sees in the middle of a pixel is there in the picture.
+    const Camera& camera = scene.context.camera;
+    const float depth = 4;
+    const AxisRay ray = camera.ray(7.5f, 3.5f, 0, 0, 0);
+    const V3f seen(ray.ox + ray.ux * depth, ray.oy + ray.uy * depth, depth);
+    V3f screen;
+    screen_from_world.multVecMatrix(seen - V3f(1, 2, 3), screen);
+    EXPECT_NEAR((0.5f + 0.5f * screen.x) * 40, 7.5f, 1e-4f);
+    EXPECT_NEAR((0.5f - 0.5f * screen.y) * 30, 3.5f, 1e-4f);
+}
+
 TEST(WriteDisplays, AGammaOfTheUserIsNotEncodedAgain) {
     const TemporaryFolder folder;
     RasterScene scene(40, 30, 1);

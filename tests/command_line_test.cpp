@@ -51,6 +51,67 @@ TEST(CommandLine, RendersASceneAndWritesItsDisplay) {
     EXPECT_TRUE(fs::exists(folder / "sphere.exr"));
 }
 
+/// A depth pass and a picture that the last frame looks up.
+constexpr const char* kPasses = R"(Format 32 32 1
+PixelSamples 1 1
+Projection "perspective" "fov" 40
+Translate 0 0 5
+FrameBegin 1
+  Display "light.z" "zfile" "z"
+  WorldBegin
+    Sphere 1 -1 1 360
+  WorldEnd
+  MakeShadow "light.z" "light.shd"
+FrameEnd
+FrameBegin 2
+  Display "painting.tif" "tiff" "rgb"
+  WorldBegin
+    Surface "constant"
+    Sphere 1 -1 1 360
+  WorldEnd
+FrameEnd
+MakeTexture "painting.tif" "painting.tex" "clamp" "clamp" "gaussian" 2 2
+FrameBegin 3
+  Display "beauty.exr" "openexr" "rgba"
+  WorldBegin
+    LightSource "ambientlight" 1
+    Surface "paintedplastic" "texturename" "painting.tex"
+    Sphere 1 -1 1 360
+  WorldEnd
+FrameEnd
+)";
+
+TEST(CommandLine, MapsAreMadeBetweenFrames) {
+    WorkFolder folder;
+    folder.write("a.rib", kPasses);
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(files_in(folder).find(".part"), std::string::npos) << files_in(folder);
+    for (const char* file : {"light.z", "light.shd", "painting.tex", "beauty.exr"})
+        EXPECT_TRUE(fs::exists(folder / file)) << file;
+}
+
+TEST(CommandLine, TheOutputIsNotThatOfADepthPass) {
+    WorkFolder folder;
+    folder.write("a.rib", kPasses);
+    const Outcome outcome = run_program(folder, "render a.rib -o x.tif");
+    EXPECT_TRUE(fs::exists(folder / "light.z"));
+    EXPECT_TRUE(fs::exists(folder / "light.shd"));
+    EXPECT_TRUE(fs::exists(folder / "x.tif"));
+    EXPECT_TRUE(fs::exists(folder / "x.2.tif"));
+}
+
+TEST(CommandLine, AMapThatCannotBeMadeIsAnError) {
+    WorkFolder folder;
+    folder.write("a.rib", std::string("MakeShadow \"nowhere.z\" \"a.shd\"\n") + kSphere);
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("a.rib:1:1: error: cannot make \"a.shd\" from \"nowhere.z\""),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "sphere.exr"));
+}
+
 TEST(CommandLine, TheCommandMayBeLeftOutAsWithPrman) {
     WorkFolder folder;
     folder.write("a.rib", kSphere);

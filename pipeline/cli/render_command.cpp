@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "composite/display_plan.h"
 #include "composite/write_displays.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/make_map.h"
 #include "pipeline/cli/on_threads.h"
 #include "pipeline/cli/text_files.h"
 #include "pipeline/cli/version.h"
@@ -29,6 +31,12 @@ bool has_missing_shader(const Diagnostics& diagnostics) {
     const auto kinds = diagnostics.kinds();
     return std::any_of(kinds.begin(), kinds.end(),
                        [](const auto& kind) { return kind.first.starts_with("missing-shader"); });
+}
+
+/// A pass that makes a depth map for the worlds after it. What the command line says of the picture is not
+/// for it.
+bool is_shadow_pass(const Options& options) {
+    return !options.displays.empty() && makes_depth_map(options.displays.front());
 }
 
 /// Renders the worlds of the input as they are read.
@@ -56,7 +64,7 @@ class RenderJob {
     double render_seconds_ = 0, last_read_seconds_ = 0;
     Stopwatch total_;
     std::vector<FrameStats> frames_;
-    int worlds_ = 0, written_ = 0;
+    int worlds_ = 0, pictures_ = 0, written_ = 0;
     bool output_failed_ = false;
 };
 
@@ -78,7 +86,7 @@ void RenderJob::override_displays(Options& options) const {
     }
     if (!arguments_.output.empty()) {
         Display& first = options.displays.front();
-        first.name = worlds_ == 1 ? arguments_.output : numbered(arguments_.output, worlds_);
+        first.name = pictures_ == 1 ? arguments_.output : numbered(arguments_.output, pictures_);
         first.type = "file";
     }
     if (!arguments_.driver.empty())
@@ -90,8 +98,11 @@ void RenderJob::render_world(Scene&& scene) {
     Stopwatch watch;
     const double read_seconds = total_.elapsed() - render_seconds_;
     ++worlds_;
-    override_options(scene.options);
-    override_displays(scene.options);
+    if (!is_shadow_pass(scene.options)) {
+        ++pictures_;
+        override_options(scene.options);
+        override_displays(scene.options);
+    }
 
     RenderSettings settings;
     settings.sampler = arguments_.sampler;
@@ -155,6 +166,9 @@ int RenderJob::run() {
             return std::any_of(arguments_.frames->begin(), arguments_.frames->end(),
                                [&](const FrameRange& range) { return range.has(frame); });
         };
+    options.on_map = [this](const MapRequest& request) {
+        if (!interrupt_.requested()) make_map(request, diagnostics_);
+    };
     on_threads(arguments_.threads, [&] {
         read_rib(arguments_.inputs, options, diagnostics_,
                  [&](Scene&& scene) { render_world(std::move(scene)); });

@@ -112,6 +112,23 @@ void Reader::begin_world() {
     scope_.named_spaces["world"] = camera_;
 }
 
+std::vector<std::string> Reader::folders(const std::string& category) const {
+    const auto path = scope_.options.search_paths.find(category);
+    std::vector<std::string> all;
+    if (path != scope_.options.search_paths.end()) all = path->second;
+    const std::string folder = current_folder();
+    all.insert(all.end(), {folder.empty() ? "." : folder, ""});
+    return all;
+}
+
+void Reader::make_map(MapRequest request) {
+    if (in_world_) throw RequestError{"inside a world", {}};
+    if (!frame_wanted_ || !read_options_.on_map) return;
+    request.location = at_;
+    request.folders = folders("texture");
+    read_options_.on_map(request);
+}
+
 void Reader::deliver_world() {
     ++summary_.worlds;
     Options& options = scope_.options;
@@ -119,10 +136,8 @@ void Reader::deliver_world() {
     scene_.camera_from_world = M44f(camera_.at(open));
     for (const auto& [name, space] : scope_.named_spaces)
         scene_.camera_from_named[name] = M44f(space.at(open));
-    const std::string folder = current_folder();
     for (const char* category : {"archive", "shader", "texture"})
-        options.search_paths[category].insert(options.search_paths[category].end(),
-                                              {folder.empty() ? "." : folder, ""});
+        options.search_paths[category] = folders(category);
     const bool wanted =
         frame_wanted_ && (options.frame != 0 || !read_options_.wants_frame || read_options_.wants_frame(0));
     scene_.options = std::move(options);

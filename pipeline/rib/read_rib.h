@@ -13,14 +13,18 @@
 
 #include "core/diagnostics.h"
 #include "core/scene.h"
+#include "pipeline/rib/map_request.h"
 
 namespace trapeze {
 
 struct ReadOptions {
     std::optional<float> shading_rate;  ///< instead of every ShadingRate
     std::function<bool(int)>
-        wants_frame;            ///< worlds of other FrameBegin blocks are not delivered; empty: all
-    bool keep_geometry = true;  ///< false: primitives are validated and counted, not kept
+        wants_frame;  ///< worlds of other FrameBegin blocks are not delivered; empty: all
+    /// Called where the file asks for a map, between worlds in the order of the file; not in frames that are
+    /// not wanted. Empty: maps are not made.
+    std::function<void(const MapRequest&)> on_map;
+    bool keep_geometry = true;                  ///< false: primitives are validated and counted, not kept
     size_t max_source_bytes = size_t{8} << 30;  ///< of any one file, unpacked
 
     // Small files can ask for much: archives that read archives, objects with many instances.

@@ -68,6 +68,9 @@ class Reader {
     /// The name of a shader, placed in the current space; its other arguments are still to come.
     ShaderInstance shader(ArgumentCursor& cursor, const char* kind);
 
+    /// The request is complete but for its place and folders.
+    void make_map(MapRequest request);
+
     void set_search_path(const std::string& category, const std::string& path);
 
   private:
@@ -85,6 +88,8 @@ class Reader {
     void close_block();
     void open_scope();
     void deliver_world();
+    /// Those of the search path, and the file's.
+    std::vector<std::string> folders(const std::string& category) const;
 
     /// Whether an attribute or option in a motion block is the one that counts.
     bool is_first_in_motion(const std::string& request);

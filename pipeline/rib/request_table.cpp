@@ -31,11 +31,6 @@ constexpr const char* kUnsupported[] = {"AreaLightSource",
                                         "Volume",
                                         "SolidBegin",
                                         "SolidEnd",
-                                        "MakeTexture",
-                                        "MakeBump",
-                                        "MakeLatLongEnvironment",
-                                        "MakeCubeFaceEnvironment",
-                                        "MakeShadow",
                                         "MakeOcclusion",
                                         "MakeBrickMap",
                                         "MakeTexture3D",
@@ -91,6 +86,7 @@ const Table& table() {
         add(transform_requests(), RequestGroup::Transform);
         add(polygon_requests(), RequestGroup::Geometry);
         add(curved_surface_requests(), RequestGroup::Geometry);
+        add(map_requests(), RequestGroup::Option);
         for (const char* name : kUnsupported) rows.try_emplace(name);
         return rows;
     }();

@@ -18,5 +18,6 @@ std::span<const RequestRow> attribute_requests();
 std::span<const RequestRow> transform_requests();
 std::span<const RequestRow> polygon_requests();
 std::span<const RequestRow> curved_surface_requests();
+std::span<const RequestRow> map_requests();
 
 }  // namespace trapeze::rib

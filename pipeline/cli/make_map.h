@@ -1,0 +1,14 @@
+/// Carries out a file's requests to make maps.
+#pragma once
+
+#include "core/diagnostics.h"
+#include "pipeline/rib/map_request.h"
+
+namespace trapeze {
+
+/// Pictures are looked for where their names say, which is where displays are written, then in the request's
+/// folders; the map is written where its name says. What goes wrong is reported as an error, and
+/// nothing is written.
+void make_map(const MapRequest& request, Diagnostics& diagnostics);
+
+}  // namespace trapeze
