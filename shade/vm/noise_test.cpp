@@ -1,0 +1,310 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/math.h"
+#include "shade/vm/kernel_harness.h"
+#include "shade/vm/random.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+using Inputs = std::vector<std::vector<float>>;
+
+std::vector<int> input_widths(int dimensions) {
+    const std::vector<int> widths[] = {{1}, {1, 1}, {3}, {3, 1}};
+    return widths[dimensions - 1];
+}
+
+std::vector<double> flatten(const Inputs& in) {
+    std::vector<double> x;
+    for (const auto& v : in) x.insert(x.end(), v.begin(), v.end());
+    return x;
+}
+
+uint32_t hash_of(const std::vector<int64_t>& cell, uint32_t begin, uint32_t last_factor) {
+    constexpr uint32_t kFactors[] = {0x8da6b343u, 0xd8163841u, 0xcb1ab31fu, 0x9e3779b1u};
+    uint32_t h = begin;
+    for (size_t k = 0; k < cell.size(); ++k) h ^= static_cast<uint32_t>(cell[k]) * kFactors[k];
+    h = (h ^ h >> 15) * 0x2c1b3c6du;
+    return (h ^ h >> 12) * last_factor;
+}
+
+/// The gradient that the highest bits stand for, written out.
+std::vector<double> gradient(uint32_t h, size_t dimensions) {
+    const auto sign = [&](int bit) { return h >> bit & 1 ? -1.0 : 1.0; };
+    const unsigned four = h >> 28, two = h >> 30;
+    switch (dimensions) {
+        case 1:
+            return {sign(31) * (1 + four % 8)};
+        case 2:
+            return h >> 29 & 1 ? std::vector{2 * sign(30), sign(31)} : std::vector{sign(31), 2 * sign(30)};
+        case 3: {
+            std::vector<double> g(3);
+            g[four < 8 ? 0 : 1] = sign(28);
+            g[four < 4 ? 1 : four == 12 || four == 14 ? 0 : 2] = sign(29);
+            return g;
+        }
+        default: {
+            std::vector<double> g(4);
+            const double signs[] = {sign(27), sign(28), sign(29)};
+            int next = 0;
+            for (unsigned axis = 0; axis < 4; ++axis)
+                if (axis != 3 - two) g[axis] = signs[next++];
+            return g;
+        }
+    }
+}
+
+/// As a sum over the corners of the cell, in doubles.
+double exact_noise(const std::vector<double>& x, const std::vector<double>& period, int component) {
+    constexpr double kScales[] = {0.125, 0.3308, 0.491, 0.4172};
+    const size_t n = x.size();
+    double sum = 0;
+    for (unsigned corner = 0; corner < 1u << n; ++corner) {
+        std::vector<int64_t> cell(n);
+        std::vector<double> offset(n);
+        double weight = 1;
+        for (size_t k = 0; k < n; ++k) {
+            const int64_t at = static_cast<int64_t>(std::floor(x[k])) + (corner >> k & 1);
+            const double f = x[k] - std::floor(x[k]), fade = f * f * f * (f * (f * 6 - 15) + 10);
+            offset[k] = x[k] - static_cast<double>(at);
+            weight *= corner >> k & 1 ? fade : 1 - fade;
+            const int64_t repeat = period.empty() ? 0 : std::max<int64_t>(1, std::floor(period[k]));
+            cell[k] = repeat ? (at % repeat + repeat) % repeat : at;
+        }
+        const auto g = gradient(hash_of(cell, 0, 0x297a2d39u) << (5 * component), n);
+        double product = 0;
+        for (size_t k = 0; k < n; ++k) product += g[k] * offset[k];
+        sum += weight * product;
+    }
+    return std::clamp(0.5 + kScales[n - 1] * sum, 0.0, 1.0);
+}
+
+std::vector<int> widths_of(int output, int dimensions, bool periodic) {
+    std::vector<int> widths{output};
+    for (int times = 0; times < (periodic ? 2 : 1); ++times)
+        for (int width : input_widths(dimensions)) widths.push_back(width);
+    return widths;
+}
+
+TEST(Noise, IsASumOverCorners) {
+    Numbers numbers;
+    const auto coordinate = [&] {
+        return numbers.below(5) ? numbers.between(-20, 20) : float(numbers.below(9) - 4);
+    };
+    for (int dimensions = 1; dimensions <= 4; ++dimensions)
+        for (int output : {1, 3}) {
+            SCOPED_TRACE(testing::Message() << dimensions << " dimensions to " << output);
+            const auto exact = [&](const Inputs& in, double* out) {
+                for (int k = 0; k < output; ++k) out[k] = exact_noise(flatten(in), {}, k);
+            };
+            check_kernel({Op::Noise, widths_of(output, dimensions, false), exact, {coordinate}, 0, 3e-6});
+        }
+}
+
+TEST(Noise, MayBePeriodic) {
+    Numbers numbers;
+    const auto coordinate = [&] {
+        return numbers.below(5) ? numbers.between(-20, 20) : float(numbers.below(9) - 4);
+    };
+    const auto period = [&] { return numbers.between(0.5f, 9); };
+    for (int dimensions = 1; dimensions <= 4; ++dimensions)
+        for (int output : {1, 3}) {
+            SCOPED_TRACE(testing::Message() << dimensions << " dimensions to " << output);
+            const auto exact = [&](const Inputs& in, double* out) {
+                const auto all = flatten(in);
+                const auto half = all.begin() + dimensions;
+                for (int k = 0; k < output; ++k)
+                    out[k] = exact_noise({all.begin(), half}, {half, all.end()}, k);
+            };
+            KernelCheck check{
+                Op::PeriodicNoise, widths_of(output, dimensions, true), exact, {coordinate}, 0, 3e-6};
+            if (dimensions % 2 == 0) check.numbers.push_back(coordinate);
+            check.numbers.push_back(period);
+            check_kernel(check);
+        }
+}
+
+/// Values of a kernel of one triple along a line; every register is varying.
+Register along(Op op, int width, const V3f& from, const V3f& step, size_t count, float period = 0) {
+    Register out(width, false, count), p(3, false, count), periods(3, true, count);
+    for (size_t i = 0; i < count; ++i)
+        for (int k = 0; k < 3; ++k) p.set(i, k, from[k] + static_cast<float>(i) * step[k]);
+    periods.fill([&] { return period; });
+    std::vector<Operand> operands{out.operand(), p.operand()};
+    std::vector<int> widths{width, 3};
+    if (period > 0) operands.push_back(periods.operand()), widths.push_back(3);
+    find_kernel(op, widths)(padded_size(count), operands);
+    return out;
+}
+
+struct Moments {
+    double mean = 0, deviation = 0, least = 1, most = 0;
+};
+Moments moments(const Register& values, int k, size_t count) {
+    Moments m;
+    double squares = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const double x = values.at(i, k);
+        m.mean += x / static_cast<double>(count), squares += x * x / static_cast<double>(count);
+        m.least = std::min(m.least, x), m.most = std::max(m.most, x);
+    }
+    m.deviation = std::sqrt(squares - m.mean * m.mean);
+    return m;
+}
+
+double correlation(const Register& a, int ka, size_t shift, const Register& b, int kb, size_t count) {
+    const Moments ma = moments(a, ka, count), mb = moments(b, kb, count);
+    double sum = 0;
+    for (size_t i = 0; i + shift < count; ++i)
+        sum += (a.at(i + shift, ka) - ma.mean) * (b.at(i, kb) - mb.mean);
+    return sum / static_cast<double>(count - shift) / (ma.deviation * mb.deviation);
+}
+
+TEST(Noise, FillsItsRangeAroundAHalf) {
+    constexpr size_t kCount = 200000;
+    const Register noise =
+        along(Op::Noise, 3, V3f(-3000.2f, 10.1f, 7), V3f(0.0317f, 0.0713f, -0.0519f), kCount);
+    for (int k = 0; k < 3; ++k) {
+        const Moments m = moments(noise, k, kCount);
+        EXPECT_NEAR(m.mean, 0.5, 0.005);
+        EXPECT_NEAR(m.deviation, 0.13, 0.03);
+        EXPECT_GE(m.least, 0);
+        EXPECT_LE(m.most, 1);
+        EXPECT_LT(m.least, 0.1);
+        EXPECT_GT(m.most, 0.9);
+        EXPECT_LT(std::fabs(correlation(noise, k, 0, noise, (k + 1) % 3, kCount)), 0.03);
+    }
+}
+
+TEST(Noise, IsContinuousAndAHalfOnTheLattice) {
+    const Register fine = along(Op::Noise, 3, V3f(-2, 1, 5), V3f(1.0f / 1024, 0, 1.0f / 2048), 8192);
+    for (size_t i = 0; i + 1 < 8192; ++i)
+        for (int k = 0; k < 3; ++k) EXPECT_LT(std::fabs(fine.at(i + 1, k) - fine.at(i, k)), 4e-3);
+    const Register lattice = along(Op::Noise, 3, V3f(-50, 3, 20), V3f(1, 2, -1), 200);
+    for (size_t i = 0; i < 200; ++i)
+        for (int k = 0; k < 3; ++k) EXPECT_EQ(lattice.at(i, k), 0.5f);
+}
+
+TEST(Noise, OfNeighbouringCellsIsUnrelated) {
+    constexpr size_t kCount = 100000;
+    for (const V3f& step : {V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1), V3f(1, -1, 2)}) {
+        const Register noise = along(Op::Noise, 1, V3f(-999.7f, 0.45f, 0.6f), step, kCount);
+        const Register cells = along(Op::CellNoise, 3, V3f(-999.5f, 0.5f, 0.5f), step, kCount);
+        for (size_t shift = 2; shift < 20; ++shift) {
+            EXPECT_LT(std::fabs(correlation(noise, 0, shift, noise, 0, kCount)), 0.02) << shift;
+            EXPECT_LT(std::fabs(correlation(cells, 0, shift - 1, cells, 1, kCount)), 0.02) << shift;
+            EXPECT_LT(std::fabs(correlation(cells, 2, shift - 1, cells, 2, kCount)), 0.02) << shift;
+        }
+    }
+}
+
+TEST(Noise, RepeatsWithItsPeriod) {
+    for (float period : {1.0f, 3.0f, 7.0f, 1000.0f}) {
+        const V3f from(-2.3f * period, 0.25f, 1.75f), step(0.25f, 0.5f, 0.125f);
+        const Register here = along(Op::PeriodicNoise, 3, from, step, 512, period);
+        const Register there =
+            along(Op::PeriodicNoise, 3, from + V3f(3 * period, -period, 8 * period), step, 512, period);
+        for (size_t i = 0; i < 512; ++i)
+            for (int k = 0; k < 3; ++k)
+                ASSERT_NEAR(here.at(i, k), there.at(i, k), 2e-3) << period << ' ' << i;
+    }
+}
+
+TEST(CellNoise, IsUniformAndConstantInEachCell) {
+    constexpr size_t kCount = 160000;
+    const Register cells = along(Op::CellNoise, 3, V3f(-5e4f, 0.1f, 3), V3f(1, 0.5f, 0), kCount);
+    for (int k = 0; k < 3; ++k) {
+        std::vector<int> counts(16);
+        for (size_t i = 0; i < kCount; ++i) {
+            const float x = cells.at(i, k);
+            ASSERT_TRUE(x >= 0 && x < 1);
+            ++counts[static_cast<size_t>(x * 16)];
+        }
+        for (int count : counts) EXPECT_NEAR(count, kCount / 16, 500);
+        EXPECT_LT(std::fabs(correlation(cells, k, 0, cells, (k + 1) % 3, kCount)), 0.02);
+    }
+    const Register one = along(Op::CellNoise, 1, V3f(-3, 2, 0), V3f(0.999f / 1000), 1000);
+    for (size_t i = 0; i < 1000; ++i) EXPECT_EQ(one.at(i, 0), one.at(0, 0));
+    EXPECT_NE(along(Op::CellNoise, 1, V3f(-3.001f, 2, 0), V3f(0), 1).at(0, 0), one.at(0, 0));
+}
+
+TEST(CellNoise, HashesItsCell) {
+    Numbers numbers;
+    for (int dimensions = 1; dimensions <= 4; ++dimensions)
+        for (int output : {1, 3}) {
+            const auto exact = [&](const Inputs& in, double* out) {
+                constexpr uint32_t kFactors[] = {0x297a2d39u, 0x85ebca6bu, 0xc2b2ae35u};
+                std::vector<int64_t> cell;
+                for (double x : flatten(in))
+                    cell.push_back(static_cast<int64_t>(
+                        std::floor(x < 2147483520.0 ? std::max(x, -2147483520.0) : 2147483520.0)));
+                for (int k = 0; k < output; ++k)
+                    out[k] = (hash_of(cell, 0x3c6ef372u, kFactors[k]) >> 8) * 0x1p-24;
+            };
+            check_kernel({Op::CellNoise, widths_of(output, dimensions, false), exact, {[&] {
+                              return numbers.any();
+                          }}});
+        }
+}
+
+TEST(Noise, OfAnyNumbersIsInRange) {
+    Numbers numbers;
+    for (int dimensions = 1; dimensions <= 4; ++dimensions) {
+        const std::vector<int> widths = widths_of(3, dimensions, true);
+        std::vector<Register> registers;
+        std::vector<Operand> operands;
+        for (int width : widths) registers.emplace_back(width, false, 4096);
+        for (Register& r : registers) r.fill([&] { return numbers.any(); }), operands.push_back(r.operand());
+        for_each_target([&] {
+            find_kernel(Op::PeriodicNoise, widths)(4096, operands);
+            for (float x : registers[0].planes()) ASSERT_TRUE(x >= 0 && x <= 1) << x;
+        });
+    }
+}
+
+/// Images depend on these values; they may not change.
+TEST(Noise, IsTheSameForEver) {
+    const V3f from(0.3f, -1.7f, 4.1f), step(0.37f, 0.61f, -0.83f);
+    const Register noise = along(Op::Noise, 3, from, step, 4), cells = along(Op::CellNoise, 3, from, step, 4);
+    const float expected_noise[] = {0.28874200582504272f, 0.41542506217956543f, 0.38044238090515137f,
+                                    0.32142746448516846f, 0.49860125780105591f, 0.42998677492141724f};
+    const float expected_cells[] = {0.65782022476196289f, 0.15254604816436768f, 0.5694546103477478f,
+                                    0.9470212459564209f,  0.85817223787307739f, 0.72345322370529175f};
+    for (int i = 0; i < 6; ++i) {
+        EXPECT_TRUE(same_float(noise.at(static_cast<size_t>(i / 3), i % 3), expected_noise[i])) << i;
+        EXPECT_TRUE(same_float(cells.at(static_cast<size_t>(i / 3), i % 3), expected_cells[i])) << i;
+    }
+}
+
+TEST(Random, DiffersByLaneCallAndComponent) {
+    constexpr size_t kCount = 65536;
+    Register seeds(1, false, kCount), first(3, false, kCount), second(3, false, kCount);
+    for (size_t i = 0; i < kCount; ++i) seeds.set(i, 0, std::bit_cast<float>(static_cast<uint32_t>(i)));
+    random_numbers(kCount, 3, seeds.operand(), 1, first.operand());
+    random_numbers(kCount, 3, seeds.operand(), 2, second.operand());
+    for (int k = 0; k < 3; ++k) {
+        const Moments m = moments(first, k, kCount);
+        EXPECT_NEAR(m.mean, 0.5, 0.005);
+        EXPECT_NEAR(m.deviation, std::sqrt(1.0 / 12), 0.005);
+        EXPECT_GE(m.least, 0);
+        EXPECT_LT(m.most, 1);
+        for (int other = 0; other < 3; ++other) {
+            EXPECT_LT(std::fabs(correlation(first, k, 0, second, other, kCount)), 0.02) << k << other;
+            EXPECT_LT(std::fabs(correlation(first, k, 1, first, other, kCount)), 0.02) << k << other;
+        }
+        EXPECT_LT(std::fabs(correlation(first, k, 0, first, (k + 1) % 3, kCount)), 0.02) << k;
+    }
+    for_each_target([&] {
+        Register again(3, false, kCount);
+        random_numbers(kCount, 3, seeds.operand(), 1, again.operand());
+        EXPECT_TRUE(std::equal(again.planes().begin(), again.planes().end(), first.planes().begin()));
+    });
+}
+
+}  // namespace
+}  // namespace trapeze::vm
