@@ -2,7 +2,9 @@
 ///
 /// The analysis resolves names and overloads, checks types, and makes every conversion explicit as a Cast
 /// with `implicit` set, so that code generation meets only operands of the types that operators want. The
-/// printer leaves such casts out.
+/// printer leaves such casts out. A float beside a triple in + - * / stays a float, as the machine's
+/// operations by component take it; points, vectors and normals stand for each other without a cast inside
+/// operators.
 #pragma once
 
 #include <memory>
@@ -59,8 +61,12 @@ struct Variable {
 /// expressions in parentheses nest.
 inline constexpr int kHighestExpression = 400;
 inline constexpr int kDeepestNesting = 256;
-/// Elements of an array.
+/// Elements of an array; floats in one, and in all of a shader's with its functions in place of their calls.
 inline constexpr int kLongestArray = 65536;
+inline constexpr int kMostArrayFloats = 65536;
+inline constexpr int kMostArrayFloatsTogether = 4 * kMostArrayFloats;
+inline constexpr int kDeepestInlined = 1500;
+inline constexpr int kMostInlined = 1000000;
 
 struct Expression {
     enum class Kind : uint8_t {
@@ -129,6 +135,7 @@ struct Function {
     /// The nested functions of a shader's or function's body are listed with the file's, by the parser;
     /// this one's variables named by `extern` are the enclosing ones: those of this shader (or function).
     std::string inside;
+    bool typed = true;  ///< the source names the result's type, or says void
 };
 
 struct Shader {
@@ -141,7 +148,10 @@ struct Shader {
     SourceLocation at;
 };
 
-/// A file after preprocessing. Calls never recurse (the analysis reports it), and so may be inlined.
+/// A file after preprocessing. Calls never recurse (the analysis reports it), and so may be inlined: nesting
+/// of statements, expressions and calls together stays below kDeepestInlined, and the operations of a shader
+/// with its functions in place of their calls below kMostInlined. After the analysis `functions` has one copy
+/// for each shader that calls them, since what they name outside differs; those never called are gone.
 struct TranslationUnit {
     std::vector<std::unique_ptr<Function>> functions;
     std::vector<std::unique_ptr<Shader>> shaders;

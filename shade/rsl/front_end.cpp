@@ -1,5 +1,6 @@
 #include "shade/rsl/front_end.h"
 
+#include "shade/rsl/analysis.h"
 #include "shade/rsl/lexer.h"
 #include "shade/rsl/messages.h"
 #include "shade/rsl/parser.h"
@@ -22,6 +23,16 @@ std::unique_ptr<TranslationUnit> parse(const Source& source, const CompileOption
                                        Diagnostics& diagnostics) {
     Messages messages(diagnostics);
     std::unique_ptr<TranslationUnit> unit = parse_with(source, options, messages);
+    return messages.failed() ? nullptr : std::move(unit);
+}
+
+std::unique_ptr<TranslationUnit> compile_front(const Source& source, const CompileOptions& options,
+                                               Diagnostics& diagnostics) {
+    Messages messages(diagnostics);
+    std::unique_ptr<TranslationUnit> unit = parse_with(source, options, messages);
+    // What the parser lost would be missed again.
+    if (messages.failed()) return nullptr;
+    analyse(*unit, messages);
     return messages.failed() ? nullptr : std::move(unit);
 }
 

@@ -181,6 +181,7 @@ StatementPtr Parser::loop_control(Statement::Kind kind) {
 StatementPtr Parser::return_statement() {
     StatementPtr statement = make(Statement::Kind::Return, take());
     if (!at(";")) statement->expressions.push_back(expression());
+    returns_value_ = returns_value_ || !statement->expressions.empty();
     expect(";", "after \"return\"");
     return statement;
 }

@@ -190,6 +190,7 @@ void Parser::function(std::string inside) {
     auto function = std::make_unique<Function>();
     while (at_any({"uniform", "varying", "extern", "output"})) take();
     const bool typed = base_named(now().text) != Base::Void || at("void");
+    function->typed = typed;
     if (typed) function->result.base = base_named(take().text);
     function->at = now().at;
     function->name = new_name("the function's name");
@@ -200,8 +201,11 @@ void Parser::function(std::string inside) {
     if (accept(";")) return;  // a prototype says nothing new
     if (!at("{")) fail_expecting("\"{\" before the function's body");
     const std::string outer = std::exchange(inside_, function->name);
+    const bool outer_returns = std::exchange(returns_value_, false);
     function->body = block();
+    if (!typed && returns_value_) function->result.base = Base::Float;
     inside_ = outer;
+    returns_value_ = outer_returns;
     unit_->functions.push_back(std::move(function));
 }
 

@@ -95,7 +95,8 @@ class Parser {
     const std::vector<Token>& tokens_;
     Messages& messages_;
     std::unique_ptr<TranslationUnit> unit_ = std::make_unique<TranslationUnit>();
-    std::string inside_;  // the shader or function whose body is read
+    std::string inside_;          // the shader or function whose body is read
+    bool returns_value_ = false;  // it has a "return" with a value
     size_t next_ = 0;
     int nesting_ = 0;
 };

@@ -98,8 +98,7 @@ TEST(Parser, Strings) {
     EXPECT_EQ(tree("\"a\" \"b\"\n\"c\""), "\"abc\"");
     EXPECT_EQ(tree("\"a\\\nb\""), "\"ab\"");
     EXPECT_EQ(tree("\"\\101\\t\\q\""), "\"A\\011q\"");
-    EXPECT_EQ(errors("surface t() { printf(\"oh); }\n"),
-              "error 1:22: this string has no end on its line\n");
+    EXPECT_EQ(errors("surface t() { printf(\"oh); }\n"), "error 1:22: this string has no end on its line\n");
 }
 
 TEST(Parser, ParametersAreSeparatedAnyhow) {
@@ -160,7 +159,8 @@ TEST(Parser, ErrorsSayWhereAndGoOn) {
               "error 6:19: expected an expression, not \";\"\n");
     EXPECT_EQ(errors("surface t() { i++; }"),
               "error 1:17: there is no \"++\" in the shading language; write \"+= 1\"\n");
-    EXPECT_EQ(errors("surface t() { float if = 2; }"), "error 1:21: \"if\" is a word of the language and no name\n");
+    EXPECT_EQ(errors("surface t() { float if = 2; }"),
+              "error 1:21: \"if\" is a word of the language and no name\n");
     EXPECT_EQ(errors("surface t() { 1 = 2; }"),
               "error 1:17: only variables and elements of arrays can be assigned to\n");
     EXPECT_EQ(errors("float x = 3;"),

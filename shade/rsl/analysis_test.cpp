@@ -1,0 +1,440 @@
+#include <gtest/gtest.h>
+
+#include "shade/rsl/builtins.h"
+#include "shade/rsl/globals.h"
+#include "shade/rsl/signature.h"
+#include "shade/rsl/test_front.h"
+
+namespace trapeze::rsl {
+namespace {
+
+using test::Heard;
+
+std::unique_ptr<TranslationUnit> compiled(const std::string& text, Heard& heard) {
+    return compile_front({"t.sl", text}, {}, heard.diagnostics);
+}
+
+/// All that is said of a source.
+std::string said(const std::string& text) {
+    Heard heard;
+    const auto unit = compiled(text, heard);
+    EXPECT_EQ(unit == nullptr, heard.diagnostics.count(Severity::Error) > 0) << heard.all();
+    return heard.all();
+}
+
+std::string in_surface(const std::string& body) {
+    return said("surface t(float Kd = 1; string map = \"\"; varying color tint = 1) {" + body + "}");
+}
+
+/// The letters of builtins.h for a type, and b for a truth.
+char letter(const Type& type) {
+    static constexpr char kLetters[] = "wbfcpvnms";
+    return kLetters[static_cast<int>(type.base)];
+}
+
+/// A tree with each operand's type: calls as name:result(arguments), implicit casts as {type operand}.
+std::string typed(const Expression& e) {
+    static const char* kMarks[] = {
+        "", "+", "-", "*", "/", ".", "^", "<", "<=", ">", ">=", "==", "!=", "&&", "||", "-", "!"};
+    std::string children;
+    for (const ExpressionPtr& child : e.children) children += (children.empty() ? "" : " ") + typed(*child);
+    const std::string mark = kMarks[static_cast<int>(e.op)];
+    const std::string type(1, letter(e.type));
+    switch (e.kind) {
+        case Expression::Kind::Cast:
+            return e.implicit ? "{" + type + " " + children + "}" : "<" + type + " " + children + ">";
+        case Expression::Kind::Number:
+        case Expression::Kind::Text:
+            return print(e);
+        case Expression::Kind::Variable:
+            return e.text;
+        case Expression::Kind::Call:
+            return e.text + ":" + type + "(" + children + ")";
+        case Expression::Kind::Assignment:
+            return "(" + mark + "= " + children + ")";
+        case Expression::Kind::Triple:
+            return type + "(" + children + ")";
+        case Expression::Kind::Conditional:
+            return "(?" + type + " " + children + ")";
+        case Expression::Kind::Element:
+            return "([]" + type + " " + children + ")";
+        default:
+            return "(" + mark + type + " " + children + ")";
+    }
+}
+
+/// The last statement's expression of a surface with some variables.
+std::string tree(const std::string& statement) {
+    Heard heard;
+    const auto unit = compiled(
+        "float f(float x) { return x; } color f(color x) { return x; }\n"
+        "surface t() { float a, b; color c; point p; vector v; normal n; matrix m; string s1; float "
+        "arr[3]; " +
+            statement + " }",
+        heard);
+    if (!unit) return heard.all();
+    return typed(*unit->shaders[0]->body->children.back()->expressions[0]);
+}
+
+TEST(Analysis, StandardShadersAreRight) {
+    for (const auto& path : test::shaders_in(std::string(TRAPEZE_SOURCE_DIR) + "/shade/shaders")) {
+        Heard heard;
+        const auto unit = compile_front({path.string(), test::read_text(path)}, {}, heard.diagnostics);
+        EXPECT_TRUE(unit) << path;
+        EXPECT_EQ(heard.all(), "") << path;
+    }
+}
+
+TEST(Analysis, TheResultWantedChoosesTheOverload) {
+    EXPECT_EQ(tree("a = noise(P);"), "(= a noise:f(P))");
+    EXPECT_EQ(tree("c = noise(P);"), "(= c noise:c(P))");
+    EXPECT_EQ(tree("p = noise(P);"), "(= p noise:p(P))");
+    EXPECT_EQ(tree("n = noise(P);"), "(= n {n noise:v(P)})");  // there is none for normals
+    EXPECT_EQ(tree("p = point noise(s, t);"), "(= p <p noise:p(s t)>)");
+    EXPECT_EQ(tree("a = float noise(P) * 2;"), "(= a (*f <f noise:f(P)> 2))");
+    EXPECT_EQ(tree("c = Cs * texture(\"x\");"), "(= c (*c Cs texture:c(\"x\")))");
+    EXPECT_EQ(tree("c = a * texture(\"x\");"), "(= c (*c a texture:c(\"x\")))");
+    EXPECT_EQ(tree("c *= texture(\"x\");"), "(*= c texture:c(\"x\"))");
+    EXPECT_EQ(tree("p += a * noise(P) * n;"), "(+= p (*n (*f a noise:f(P)) n))");
+    EXPECT_EQ(tree("if (noise(P) > .5) ;"), "(>b noise:f(P) 0.5)");
+    EXPECT_EQ(tree("c = a > 0 ? Cs : texture(\"x\");"), "(= c (?c (>b a 0) Cs texture:c(\"x\")))");
+    EXPECT_EQ(tree("c = mix(Cs, texture(\"x\"), noise(P));"), "(= c mix:c(Cs texture:c(\"x\") noise:f(P)))");
+    EXPECT_EQ(tree("c = Cs * min(a, b);"), "(= c (*c Cs min:f(a b)))");
+    EXPECT_EQ(tree("c = max(Cs, 0);"), "(= c max:c(Cs {c 0}))");
+    EXPECT_EQ(tree("a = f(a); c = f(c);"), "(= c f:c(c))");
+    EXPECT_EQ(tree("c = f(noise(P));"), "(= c f:c(noise:c(P)))");
+    EXPECT_EQ(tree("a = noise(a, b) + noise(a) + noise(p, a);"),
+              "(= a (+f (+f noise:f(a b) noise:f(a)) noise:f(p a)))");
+    EXPECT_EQ(tree("c = spline(a, Cs, Cs, Cs, Cs, Cs);"), "(= c spline:c(a Cs Cs Cs Cs Cs))");
+    EXPECT_EQ(tree("a = spline(\"linear\", a, arr);"), "(= a spline:f(\"linear\" a arr))");
+}
+
+TEST(Analysis, TriplesAreWhatIsWanted) {
+    EXPECT_EQ(tree("c = (1, 0, a);"), "(= c c(1 0 a))");
+    EXPECT_EQ(tree("p = (1, 0, a);"), "(= p p(1 0 a))");
+    EXPECT_EQ(tree("c = Cs * (1, 0, 0);"), "(= c (*c Cs c(1 0 0)))");
+    EXPECT_EQ(tree("v = v ^ (0, 0, 1);"), "(= v (^v v v(0 0 1)))");
+    EXPECT_EQ(tree("a = length((1, 0, 0));"), "(= a length:f(v(1 0 0)))");
+    EXPECT_EQ(tree("v = vector \"world\" (0, 0, 1);"), "(= v <v v(0 0 1)>)");
+    EXPECT_EQ(tree("p = P + (0, 0, 1);"), "(= p (+p P v(0 0 1)))");
+    EXPECT_EQ(tree("c = a > 1 ? (1, 0, 0) : color 0;"), "(= c (?c (>b a 1) c(1 0 0) <c 0>))");
+}
+
+TEST(Analysis, ConversionsAreMadeExplicit) {
+    EXPECT_EQ(tree("c = 1;"), "(= c {c 1})");
+    EXPECT_EQ(tree("c = a * Cs;"), "(= c (*c a Cs))");  // stays a float beside the colour
+    EXPECT_EQ(tree("m = 1;"), "(= m {m 1})");
+    EXPECT_EQ(tree("m = m * 2;"), "(= m (*m m {m 2}))");
+    EXPECT_EQ(tree("a = v . 1;"), "(= a (.f v {v 1}))");
+    EXPECT_EQ(tree("v = N;"), "(= v {v N})");
+    EXPECT_EQ(tree("v = P - E;"), "(= v (-v P E))");
+    EXPECT_EQ(tree("p = P + v;"), "(= p (+p P v))");
+    EXPECT_EQ(tree("p = P - v;"), "(= p (-p P v))");
+    EXPECT_EQ(tree("n = N + N;"), "(= n (+n N N))");
+    EXPECT_EQ(tree("a = a > b;"), "(= a {f (>b a b)})");
+    EXPECT_EQ(tree("if (a) ;"), "{b a}");
+    EXPECT_EQ(tree("if (a && b > 1) ;"), "(&&b {b a} (>b b 1))");
+    EXPECT_EQ(tree("if (Cs == 0) ;"), "(==b Cs {c 0})");
+    EXPECT_EQ(tree("if ((a > b) == (b > a)) ;"), "(==b {f (>b a b)} {f (>b b a)})");
+    EXPECT_EQ(tree("if (s1 == \"x\") ;"), "(==b s1 \"x\")");
+    EXPECT_EQ(tree("c = color (P);"), "(= c <c P>)");
+    EXPECT_EQ(tree("c = color \"hsv\" a;"), "(= c <c {c a}>)");
+    EXPECT_EQ(tree("a = arr[a] + PI;"), "(= a (+f ([]f arr a) 3.1415927))");
+    EXPECT_EQ(tree("a = P[1] + m[2][3];"), "(= a (+f comp:f({v P} 1) comp:f(m 2 3)))");
+    EXPECT_EQ(tree("c += a;"), "(+= c a)");
+    EXPECT_EQ(tree("a = xcomp(P);"), "(= a xcomp:f({v P}))");
+    EXPECT_EQ(tree("setxcomp(P, 1);"), "setxcomp:w(P 1)");
+    EXPECT_EQ(tree("arr[1] += 2;"), "(+= ([]f arr 1) 2)");
+    EXPECT_EQ(tree("c = texture(\"x\"[1]);"), "(= c texture:c(([]s \"x\" 1)))");
+    EXPECT_EQ(tree("a = texture(s1[1], s, t, \"width\", 2);"), "(= a texture:f(([]s s1 1) s t \"width\" 2))");
+}
+
+TEST(Analysis, WrongTypesAreSaid) {
+    EXPECT_EQ(in_surface("Kd = \"x\";"),
+              "warning 1:67: parameter \"Kd\" is assigned to, and is not output\n"
+              "error 1:70: a string cannot be assigned to a float\n");
+    EXPECT_EQ(in_surface("float a = P;"), "error 1:77: a float is wanted here, not a point\n");
+    EXPECT_EQ(in_surface("float a = 1 + \"x\";"),
+              "error 1:79: \"+\" does not go with a float and a string\n");
+    EXPECT_EQ(in_surface("Ci = Cs * N;"), "error 1:75: \"*\" does not go with a color and a normal\n");
+    EXPECT_EQ(in_surface("if (P) ;"), "error 1:71: a condition is wanted here, not a point\n");
+    EXPECT_EQ(
+        in_surface("float a = float P;"),
+        "error 1:77: a point cannot become a float (xcomp, ycomp, zcomp and comp take one component)\n");
+    EXPECT_EQ(in_surface("float a = printf(\"x\");"), "error 1:77: this has no value, a float is wanted\n");
+    EXPECT_EQ(in_surface("Ci = Kd > 0 ? Cs : \"x\";"),
+              "error 1:79: one value of \"?\" is a color, the other a string\n");
+    EXPECT_EQ(in_surface("float a[2]; Kd = a + 1;").substr(0, 74),
+              "error 1:84: this is an array; one of its elements is wanted here\nwarning 1");
+}
+
+TEST(Analysis, WrongArgumentsListWhatThereIs) {
+    EXPECT_EQ(in_surface("float a = sin(P);"),
+              "error 1:81: argument 1 of sin is a point, a float is wanted\n"
+              "note 1:81: float sin(float)\n");
+    EXPECT_EQ(in_surface("float a = pow(2);"),
+              "error 1:77: no pow takes (float)\n"
+              "note 1:77: there is float pow(float, float)\n");
+    EXPECT_EQ(in_surface("setcomp(Cs * 2, 0, 1);"),
+              "error 1:67: no setcomp takes (color, float, float)\n"
+              "note 1:67: there is void setcomp(output color, float, float)\n"
+              "note 1:67: there is void setcomp(output point, float, float)\n"
+              "note 1:67: there is void setcomp(output matrix, float, float, float)\n");
+    EXPECT_EQ(in_surface("float r, q; fresnel(I, N, 1, r, 2);"),
+              "error 1:99: argument 5 of fresnel is written to, and must be a variable\n"
+              "note 1:99: void fresnel(vector, vector, float, output float, output float)\n");
+    EXPECT_EQ(in_surface("float x = noise(\"a\");").substr(0, 46),
+              "error 1:77: no noise takes (string)\nnote 1:77:");
+    EXPECT_EQ(said("float f(float a[2]) { return a[0]; } surface t() { float b[3]; float c = f(b); }"),
+              "error 1:76: argument 1 of f is a float[3], a float[2] is wanted\n"
+              "note 1:76: float f(float[2])\n");
+}
+
+TEST(Analysis, UnknownNamesGetSuggestions) {
+    EXPECT_EQ(in_surface("Ci = Kb;"), "error 1:72: there is no variable \"Kb\"\n");
+    EXPECT_EQ(in_surface("Ci = tnit;"),
+              "error 1:72: there is no variable \"tnit\" (did you mean \"tint\"?)\n");
+    EXPECT_EQ(in_surface("Ci = cs;"), "error 1:72: there is no variable \"cs\" (did you mean \"Cs\"?)\n");
+    EXPECT_EQ(in_surface("vector V = normalise(I);"),
+              "error 1:78: there is no function \"normalise\" (did you mean \"normalize\"?)\n");
+    EXPECT_EQ(in_surface("Ci = texture3d(\"x\", P, N);"),
+              "error 1:72: function \"texture3d\" of later renderers is not supported\n");
+    EXPECT_EQ(
+        said("displacement t() { P += Ci; }"),
+        "error 1:25: there is no variable \"Ci\"; surface shaders have one, this is a displacement shader\n");
+}
+
+TEST(Analysis, GlobalsAreMadeWhenNamed) {
+    Heard heard;
+    const auto unit = compiled("surface t() { normal Nf = faceforward(normalize(N), I); Ci = Cs; }", heard);
+    ASSERT_TRUE(unit) << heard.all();
+    std::string names;
+    for (const auto& variable : unit->shaders[0]->globals) {
+        EXPECT_EQ(variable->kind, Variable::Kind::Global);
+        names += variable->name + " ";
+    }
+    EXPECT_EQ(names, "N I Ng Ci Cs ");  // faceforward of two reads Ng
+    const GlobalVariable* e = find_global(ShaderKind::Surface, "E");
+    ASSERT_TRUE(e);
+    EXPECT_EQ(e->storage, Storage::Uniform);
+    EXPECT_FALSE(find_global(ShaderKind::Surface, "Ps"));
+    EXPECT_TRUE(find_global(ShaderKind::Imager, "alpha"));
+}
+
+TEST(Analysis, ReadOnlyVariablesAreProtected) {
+    EXPECT_EQ(in_surface("P += N; N = calculatenormal(P); Ci = 1; Oi = 1;"), "");
+    EXPECT_EQ(in_surface("Cs = 1;"), "error 1:67: \"Cs\" cannot be assigned to in surface shaders\n");
+    EXPECT_EQ(in_surface("fresnel(I, N, 1, s, t);"),
+              "error 1:84: \"s\" cannot be assigned to in surface shaders\n"
+              "error 1:87: \"t\" cannot be assigned to in surface shaders\n");
+    EXPECT_EQ(said("light t() { Cl = 1; P = 0; }"),
+              "error 1:21: \"P\" cannot be assigned to in light shaders\n");
+}
+
+TEST(Analysis, ExternMeansTheShadersVariables) {
+    EXPECT_EQ(said("float f(float x) { extern float Kd; extern normal N; return x * Kd * xcomp(N); }\n"
+                   "surface t(float Kd = 1) { Ci = f(2); }"),
+              "");
+    EXPECT_EQ(
+        said(
+            "surface t() { float q = 1; float f(float x) { extern float q; q += x; return q; } Ci = f(2); }"),
+        "");
+    EXPECT_EQ(
+        said("float f(float x) { extern float Kq; return x * Kq; } surface t(float Kd = 1) { Ci = f(2); }"),
+        "error 1:33: there is no variable \"Kq\" outside, in surface shader \"t\"\n");
+    EXPECT_EQ(said("float f(float x) { return x * Kd; } surface t(float Kd = 1) { Ci = f(2); }"),
+              "error 1:31: \"Kd\" is a variable of the shader: functions name those as \"extern\" first\n");
+    EXPECT_EQ(said("float f() { extern color Kd; return 1; } surface t(float Kd = 1) { Ci = f(); }"),
+              "error 1:26: extern \"Kd\" is a float outside, not a color\n");
+    // Each shader has its own.
+    Heard heard;
+    const auto unit = compiled(
+        "float f() { extern float Kd; return Kd; }\n"
+        "surface a(float Kd = 1) { Ci = f() + f(); } surface b(float Kd = 2) { Ci = f(); }",
+        heard);
+    ASSERT_TRUE(unit) << heard.all();
+    ASSERT_EQ(unit->functions.size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        const Statement& body = *unit->functions[i]->body;
+        EXPECT_TRUE(body.children[0]->variables.empty());
+        EXPECT_EQ(body.children[1]->expressions[0]->variable, unit->shaders[i]->parameters[0].get());
+    }
+    const Expression& call = *unit->shaders[1]->body->children[0]->expressions[0]->children[1]->children[0];
+    EXPECT_EQ(call.function, unit->functions[1].get());
+}
+
+TEST(Analysis, LocalsShadowAndEnd) {
+    EXPECT_EQ(in_surface("float s = s * 2; { float s = s; } Ci = s;"), "");
+    EXPECT_EQ(in_surface("{ float q = 1; } Ci = q;"), "error 1:89: there is no variable \"q\"\n");
+    EXPECT_EQ(in_surface("float q; color q;"), "error 1:82: \"q\" is declared twice\n");
+}
+
+TEST(Analysis, CallsThatComeBackAreFound) {
+    EXPECT_EQ(said("float f(float x) { return f(x - 1); } surface t() { Ci = f(1); }"),
+              "error 1:27: function \"f\" calls itself, directly or through others\n");
+    EXPECT_EQ(
+        said(
+            "float g(float x) { return f(x); } float f(float x) { return g(x); } surface t() { Ci = f(1); }"),
+        "error 1:27: function \"f\" calls itself, directly or through others\n");
+    EXPECT_EQ(said("surface t() { float f(float x) { return f(x); } Ci = f(1); }"),
+              "error 1:41: function \"f\" calls itself, directly or through others\n");
+}
+
+TEST(Analysis, FunctionsOfTheSourceComeFirst) {
+    EXPECT_EQ(said("float noise(string s) { return 1; } float abs(float x) { return x; }\n"
+                   "surface t() { float a = noise(\"x\") + noise(P) + abs(2); Ci = a; }"),
+              "");
+    EXPECT_EQ(
+        said("f(float x) { return x; } g(float x) { printf(\"%f\", x); } surface t() { Ci = f(1); g(2); }"),
+        "");
+    EXPECT_EQ(said("void f() { return 1; } float g() { return; } float h() { } surface t() { f(); g(); h(); "
+                   "return 2; }"),
+              "error 1:12: this function returns nothing: its type is void\n"
+              "error 1:36: a float is to be returned\n"
+              "error 1:30: function \"g\" never returns a value\n"
+              "error 1:52: function \"h\" never returns a value\n"
+              "error 1:89: a shader returns no value\n");
+}
+
+TEST(Analysis, JumpsNeedLoops) {
+    EXPECT_EQ(in_surface("break;"), "error 1:67: break stands outside of loops\n");
+    EXPECT_EQ(in_surface("while (Kd > 1) { for (;;) { break 2; continue 3; } }"),
+              "error 1:104: continue 3 stands in only 2 loops\n");
+    EXPECT_EQ(in_surface("illuminance(P) { break; }"), "");
+    EXPECT_EQ(said("void f() { break; } surface t() { while (1) f(); }"),
+              "error 1:12: break stands outside of loops\n");
+}
+
+TEST(Analysis, LightStatementsAreChecked) {
+    EXPECT_EQ(in_surface("illuminance(\"key\", P, N, PI / 2) { Ci += Cl * normalize(L) . N; }"), "");
+    EXPECT_EQ(in_surface("illuminance(P, N) ;"),
+              "error 1:67: illuminance takes ([category,] P [, axis, angle])\n");
+    EXPECT_EQ(in_surface("solar() ;"), "error 1:67: solar belongs into light shaders\n");
+    EXPECT_EQ(said("light t() { illuminate(P, N, 1) Cl = 1; solar() Cl = 2; solar((0, 0, 1), 0) Cl = 3; }"),
+              "");
+    Heard heard;
+    const auto unit = compiled("surface t() { illuminance(P, N, 1) Ci = 1; }", heard);
+    ASSERT_TRUE(unit);
+    std::string names;
+    for (const auto& variable : unit->shaders[0]->globals) names += variable->name + " ";
+    EXPECT_EQ(names, "P N L Cl Ci ");
+    EXPECT_EQ(
+        in_surface(
+            "color c; float d; gather(\"illuminance\", P, N, .1, 4, \"surface:Ci\", c, \"ray:length\", d)"
+            " Ci += c; else Ci += 1;"),
+        "");
+    EXPECT_EQ(in_surface("gather(\"x\", P, N, .1, 4, \"surface:Ci\", Cs * 2) ;"),
+              "error 1:109: gather writes \"surface:Ci\" to a variable\n");
+}
+
+TEST(Analysis, ArraysAreBounded) {
+    EXPECT_EQ(in_surface("float a[3] = {1, 2, 3}; Ci = a[2];"), "");
+    EXPECT_EQ(in_surface("float a[3]; Ci = a[3] + a[-1];"),
+              "error 1:86: this array has 3 elements, 0 to 2\n"
+              "error 1:93: this array has 3 elements, 0 to 2\n");
+    EXPECT_EQ(in_surface("float a[2] = {1, 2, 3};"), "error 1:87: 3 values for the 2 elements of \"a\"\n");
+    EXPECT_EQ(in_surface("float a[];"), "error 1:73: array \"a\" needs a length\n");
+    EXPECT_EQ(in_surface("float a[] = {1, 2}; Ci = a[1];"), "");
+    EXPECT_EQ(in_surface("matrix a[65536];"),
+              "error 1:74: array \"a\" is too large: 1048576 floats, at most 65536\n");
+    EXPECT_EQ(in_surface("float a[65536]; float b[65536]; float c[65536]; float d[65536]; float e[65536];"),
+              "error 1:9: the arrays of this shader are too large together\n");
+    EXPECT_EQ(
+        said(
+            "float sum(float a[]) { return a[0] + a[1]; } surface t() { float b[2] = {1, 2}; Ci = sum(b); }"),
+        "");
+}
+
+TEST(Analysis, UniformVariablesBecomeVarying) {
+    Heard heard;
+    const auto unit = compiled("surface t() { uniform float a = s; uniform float b = 1; a = 2; }", heard);
+    ASSERT_TRUE(unit);
+    EXPECT_EQ(heard.all(), "warning 1:29: \"a\" is uniform and gets a varying value: it becomes varying\n");
+    const auto& body = unit->shaders[0]->body->children;
+    EXPECT_EQ(body[0]->variables[0]->storage, Storage::Varying);
+    EXPECT_EQ(body[1]->variables[0]->storage, Storage::Uniform);
+    // Through others, against the order of the source, and through functions.
+    EXPECT_EQ(in_surface("uniform float a = 0; uniform float b = 0; b = a; a = s;"),
+              "warning 1:116: \"a\" is uniform and gets a varying value: it becomes varying\n"
+              "warning 1:109: \"b\" is uniform and gets a varying value: it becomes varying\n");
+    EXPECT_EQ(said("float f(float x) { return x * 2; } surface t() { uniform float a = f(s); }"),
+              "warning 1:64: \"a\" is uniform and gets a varying value: it becomes varying\n");
+    EXPECT_EQ(said("float f(float x) { return x * 2; } surface t() { uniform float a = f(1); }"), "");
+    EXPECT_EQ(said("float f(uniform float x) { return x * 2; } surface t() { Ci = f(s); }"),
+              "warning 1:65: \"x\" is uniform and gets a varying value: it becomes varying\n");
+}
+
+TEST(Analysis, UniformVariablesPartWithControl) {
+    const auto storage = [](const std::string& body) {
+        Heard heard;
+        const auto unit = compiled("surface t() { uniform float a = 0; " + body + " }", heard);
+        EXPECT_TRUE(unit) << heard.all();
+        EXPECT_EQ(heard.all(), "") << body;
+        return unit ? unit->shaders[0]->body->children[0]->variables[0]->storage : Storage::Unspecified;
+    };
+    EXPECT_EQ(storage("if (a > 1) a = 2;"), Storage::Uniform);
+    EXPECT_EQ(storage("if (s > 1) a = 2;"), Storage::Varying);
+    EXPECT_EQ(storage("for (a = 0; a < 3; a += 1) { Ci += a; }"), Storage::Uniform);
+    EXPECT_EQ(storage("for (a = 0; a < 3; a += 1) { if (s > a) break; }"), Storage::Varying);
+    EXPECT_EQ(storage("if (s > 1) { uniform float b = 1; b = 2; Ci = b; }"), Storage::Uniform);
+    EXPECT_EQ(storage("illuminance(P) { a = 1; }"), Storage::Varying);
+    EXPECT_EQ(storage("if (s > 1) return; a = 1;"), Storage::Uniform);  // nobody sees it where it is gone
+    EXPECT_EQ(storage("lightsource(\"x\", a);"), Storage::Uniform);
+}
+
+TEST(Analysis, WrittenParametersAreCopied) {
+    Heard heard;
+    const auto unit = compiled("float f(float x) { x += 1; return x; } surface t() { Ci = f(s); }", heard);
+    ASSERT_TRUE(unit) << heard.all();
+    EXPECT_EQ(heard.all(),
+              "warning 1:20: parameter \"x\" is assigned to, and is not output: the caller sees no change\n");
+    const Function& f = *unit->functions[0];
+    const Variable* local = f.body->children[0]->variables[0].get();
+    EXPECT_EQ(local->initial->variable, f.parameters[0].get());
+    EXPECT_EQ(f.body->children[1]->expressions[0]->children[0]->variable, local);
+    EXPECT_EQ(f.body->children[2]->expressions[0]->variable, local);
+}
+
+TEST(Analysis, WorkIsBounded) {
+    // Each calls the next twice: 2^40 operations in place.
+    std::string text;
+    for (int i = 0; i < 40; ++i)
+        text += "float f" + std::to_string(i) + "(float x) { return f" + std::to_string(i + 1) + "(x) + f" +
+                std::to_string(i + 1) + "(x); }\n";
+    text += "float f40(float x) { return x; }\n";
+    EXPECT_NE(said(text + "surface t() { Ci = f0(1); }").find("too large once its functions"),
+              std::string::npos);
+    // A chain of calls.
+    text.clear();
+    for (int i = 0; i < 20000; ++i)
+        text += "float f" + std::to_string(i) + "(float x) { return f" + std::to_string(i + 1) + "(x); }\n";
+    text += "float f20000(float x) { return x; }\n";
+    EXPECT_NE(said(text + "surface t() { Ci = f0(1); }").find("nest too deeply"), std::string::npos);
+    // Uniform variables that learn of each other slowly.
+    text = "surface t() { uniform float a0 = 0";
+    for (int i = 1; i < 3000; ++i) text += ", a" + std::to_string(i) + " = 0";
+    for (int i = 0; i < 2999; ++i) text += "; a" + std::to_string(i) + " = a" + std::to_string(i + 1);
+    Heard heard;
+    const auto unit = compiled(text + "; a2999 = s; }", heard);
+    ASSERT_TRUE(unit);
+    EXPECT_EQ(unit->shaders[0]->body->children[0]->variables[0]->storage, Storage::Varying);
+}
+
+TEST(Builtins, HaveReadableSignatures) {
+    EXPECT_EQ(print(signature_of(builtins_named("texture")[0])),
+              "float texture(string, \"name\", value, ...)");
+    EXPECT_EQ(print(signature_of(builtins_named("min")[1])), "color min(color, color, ...)");
+    EXPECT_EQ(print(signature_of(builtins_named("surface")[0])), "float surface(string, output any type)");
+    EXPECT_EQ(builtins_named("noise").size(), 16u);
+    EXPECT_TRUE(builtins_named("nothing").empty());
+    size_t together = 0;
+    std::string_view last;
+    for (const Builtin& builtin : builtins()) {
+        if (builtin.name != last) together += builtins_named(builtin.name).size();
+        last = builtin.name;
+    }
+    EXPECT_EQ(together, builtins().size());  // overloads of a name stand together
+}
+
+}  // namespace
+}  // namespace trapeze::rsl

@@ -1,0 +1,22 @@
+/// Names that a misspelt one may have meant.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace trapeze::rsl {
+
+/// Takes candidates one by one and keeps the nearest that is near enough.
+class Suggestion {
+  public:
+    explicit Suggestion(std::string_view written);
+    void consider(std::string_view candidate);
+    /// " (did you mean \"Kd\"?)", or nothing.
+    std::string text() const;
+
+  private:
+    std::string_view written_, best_;
+    size_t least_;  // the distance that is too far
+};
+
+}  // namespace trapeze::rsl
