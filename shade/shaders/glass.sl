@@ -1,5 +1,5 @@
-/* Clear glass with Fresnel reflection and refraction, traced; what is reflected is looked up in texturename, an
-   environment map, instead when there is one. eta is the index of refraction inside over that outside. */
+/* Clear glass with Fresnel reflection and refraction, traced, or looked up in texturename, an environment map, when
+   there is one. eta is the index of refraction inside over that outside. */
 surface glass(
     float Ka = 0.2, Kd = 0, Ks = 0.5, Kr = 1, Kt = 1, roughness = 0.05, eta = 1.5;
     color specularcolor = 1, transmitcolor = 1;
@@ -14,12 +14,14 @@ surface glass(
 
     /* From the outside a ray goes from index 1 to index eta, from the inside back. */
     fresnel(In, Nf, (In . Nn < 0) ? 1 / eta : eta, reflected, transmitted, R, T);
-    if (texturename != "")
-        seen = Kr * reflected * color environment(texturename, vtransform("world", R));
-    else
+    if (texturename != "") {
+        seen = Kr * reflected * color environment(texturename, vtransform("world", R)) +
+               Kt * transmitted * transmitcolor * color environment(texturename, vtransform("world", T));
+    } else {
         seen = Kr * reflected * trace(P, R);
-    if (transmitted * Kt > 0)
-        seen += Kt * transmitted * transmitcolor * trace(P, T);
+        if (Kt * transmitted > 0)
+            seen += Kt * transmitted * transmitcolor * trace(P, T);
+    }
     Oi = Os;
     Ci = Os * (Cs * (Ka * ambient() + Kd * diffuse(Nf)) + seen +
                specularcolor * Ks * specular(Nf, -In, roughness));
