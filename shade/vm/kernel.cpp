@@ -5,8 +5,8 @@
 namespace trapeze::vm {
 
 Kernel find_kernel(rsl::Op op, std::span<const int> widths) {
-    for (const auto find :
-         {find_arithmetic, find_bools, find_elementary, find_parts, find_geometry, find_noises, find_splines})
+    for (const auto find : {find_arithmetic, find_bools, find_elementary, find_parts, find_geometry,
+                            find_matrices, find_noises, find_splines})
         if (const Kernel kernel = find(op, widths)) return kernel;
     return nullptr;
 }
