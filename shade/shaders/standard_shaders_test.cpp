@@ -8,6 +8,9 @@
 #include <regex>
 #include <sstream>
 
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/generate.h"
+
 namespace trapeze {
 namespace {
 
@@ -89,6 +92,22 @@ TEST(StandardShaders, TextsAreTheFilesUnchanged) {
         std::ostringstream text;
         text << file.rdbuf();
         EXPECT_EQ(standard_shader(name), text.str()) << name;
+    }
+}
+
+TEST(StandardShaders, AllCompileWithoutAWord) {
+    for (const Expected& expected : kExpected) {
+        SCOPED_TRACE(expected.name);
+        std::string messages;
+        Diagnostics diagnostics([&](const Diagnostic& d) { messages += to_string(d) + "\n"; });
+        const auto unit =
+            rsl::compile_front({expected.name, std::string(standard_shader(expected.name))}, {}, diagnostics);
+        ASSERT_TRUE(unit) << messages;
+        ASSERT_EQ(unit->shaders.size(), 1u);
+        const auto program = rsl::generate(*unit->shaders[0], diagnostics);
+        ASSERT_TRUE(program) << messages;
+        EXPECT_EQ(program->name, expected.name);
+        EXPECT_EQ(messages, "");
     }
 }
 
