@@ -1,0 +1,304 @@
+#include "shade/vm/neighbours.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/vm/neighbours.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <cmath>
+
+#include "shade/vm/operands-inl.h"
+
+// Loops over rows, whose beginnings are not aligned, are left to the compiler to vectorise for each target.
+HWY_BEFORE_NAMESPACE();
+namespace trapeze::vm::HWY_NAMESPACE {
+namespace {
+
+constexpr int kMaxRow = 256;        // GridShape counts in bytes
+constexpr double kParallel = 1e-5;  // sine of the angle
+
+struct alignas(64) Row {
+    float lanes[kMaxRow];
+};
+struct Row3 {
+    Row component[3];
+};
+
+enum class Axis { U, V };
+
+/// Differences along an axis of row j of a span's plane.
+HWY_INLINE void difference_u(const float* HWY_RESTRICT row, int count, float* HWY_RESTRICT out) {
+    if (count < 2) {
+        out[0] = 0;
+        return;
+    }
+    for (int i = 1; i < count - 1; ++i) out[i] = (row[i + 1] - row[i - 1]) * 0.5f;
+    out[0] = row[1] - row[0];
+    out[count - 1] = row[count - 1] - row[count - 2];
+}
+HWY_INLINE void difference_v(const float* HWY_RESTRICT row, int count, int j, int rows,
+                             float* HWY_RESTRICT out) {
+    const float* before = j > 0 ? row - count : row;
+    const float* after = j + 1 < rows ? row + count : row;
+    const float share = j > 0 && j + 1 < rows ? 0.5f : 1.0f;
+    for (int i = 0; i < count; ++i) out[i] = (after[i] - before[i]) * share;
+}
+
+/// A row of a span.
+struct RowOf {
+    const GridSpan& span;
+    int j;
+
+    int count() const { return span.shape.vertices_u(); }
+    size_t first() const { return span.first + static_cast<size_t>(span.shape.row_index(0, j)); }
+
+    void difference(Axis axis, const Operand& value, int k, Row& out) const {
+        if (value.lane_mask == 0) {
+            std::fill_n(out.lanes, count(), 0.0f);
+            return;
+        }
+        const float* row = value.data + static_cast<size_t>(k) * value.stride + first();
+        if (axis == Axis::U)
+            difference_u(row, count(), out.lanes);
+        else
+            difference_v(row, count(), j, span.shape.vertices_v(), out.lanes);
+    }
+    void differences(Axis axis, const Operand& value, Row3& out) const {
+        for (int k = 0; k < 3; ++k) difference(axis, value, k, out.component[k]);
+    }
+    float* of(const Operand& out, int k = 0) const {
+        return out.data + static_cast<size_t>(k) * out.stride + first();
+    }
+};
+
+/// Calls body(row) for all rows, then gives the lanes after the last vertex its results.
+template <class Body>
+HWY_INLINE void for_rows(GridSpans spans, size_t lanes, int width, const Operand& out, const Body& body) {
+    size_t end = 0;
+    for (const GridSpan& span : spans) {
+        for (int j = 0; j < span.shape.vertices_v(); ++j) body(RowOf{span, j});
+        end = span.first + static_cast<size_t>(span.shape.vertex_count());
+    }
+    if (end == 0 || end >= lanes) return;
+    for (int k = 0; k < width; ++k) {
+        float* plane = out.data + static_cast<size_t>(k) * out.stride;
+        std::fill(plane + end, plane + lanes, plane[end - 1]);
+    }
+}
+
+HWY_INLINE void divide_rows(const Row& a, const Row& b, int count, float* HWY_RESTRICT out) {
+    for (int i = 0; i < count; ++i) {
+        const float divisor = b.lanes[i] == 0 ? 1 : b.lanes[i];
+        out[i] = b.lanes[i] == 0 ? 0 : a.lanes[i] / divisor;
+    }
+}
+
+HWY_INLINE void differentiate(GridSpans spans, size_t lanes, int width, Axis axis, const Operand& value,
+                              const Operand& parameter, const Operand& out) {
+    for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
+        Row num, den;
+        row.difference(axis, parameter, 0, den);
+        for (int k = 0; k < width; ++k) {
+            row.difference(axis, value, k, num);
+            divide_rows(num, den, row.count(), row.of(out, k));
+        }
+    });
+}
+
+void along_u(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
+             const Operand& out) {
+    differentiate(spans, lanes, width, Axis::U, value, u, out);
+}
+
+void along_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& v,
+             const Operand& out) {
+    differentiate(spans, lanes, width, Axis::V, value, v, out);
+}
+
+void along_both(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
+                const Operand& out) {
+    for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
+        Row of_num, den_u, den_v, first, second;
+        row.difference(Axis::U, den, 0, den_u);
+        row.difference(Axis::V, den, 0, den_v);
+        for (int k = 0; k < width; ++k) {
+            row.difference(Axis::U, num, k, of_num);
+            divide_rows(of_num, den_u, row.count(), first.lanes);
+            row.difference(Axis::V, num, k, of_num);
+            divide_rows(of_num, den_v, row.count(), second.lanes);
+            float* HWY_RESTRICT sum = row.of(out, k);
+            for (int i = 0; i < row.count(); ++i) sum[i] = first.lanes[i] + second.lanes[i];
+        }
+    });
+}
+
+struct Double3 {
+    double x, y, z;
+};
+HWY_INLINE Double3 at(const Row3& rows, int i) {
+    return {rows.component[0].lanes[i], rows.component[1].lanes[i], rows.component[2].lanes[i]};
+}
+HWY_INLINE double squared(const Double3& v) {
+    return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+/// In doubles, since micropolygons may be slivers.
+HWY_INLINE Double3 cross_product(const Double3& a, const Double3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+void measure_areas(GridSpans spans, size_t lanes, const Operand& P, const Operand& out) {
+    for_rows(spans, lanes, 1, out, [&](const RowOf& row) HWY_ATTR {
+        Row3 u, v;
+        row.differences(Axis::U, P, u);
+        row.differences(Axis::V, P, v);
+        float* HWY_RESTRICT area = row.of(out);
+        for (int i = 0; i < row.count(); ++i)
+            area[i] = static_cast<float>(std::sqrt(squared(cross_product(at(u, i), at(v, i)))));
+    });
+}
+
+/// Unit normals of a row, zero where the differences are parallel but for rounding.
+HWY_INLINE void row_normals(const RowOf& row, const Operand& P, Row3& out) {
+    Row3 u, v;
+    row.differences(Axis::U, P, u);
+    row.differences(Axis::V, P, v);
+    const double sign = row.span.reverse_orientation ? -1 : 1;
+    for (int i = 0; i < row.count(); ++i) {
+        const Double3 a = at(u, i), b = at(v, i), n = cross_product(a, b);
+        const double length = squared(n), least = kParallel * kParallel * (squared(a) * squared(b));
+        const bool found = length > least;
+        const double s = sign / std::sqrt(found ? length : 1);
+        out.component[0].lanes[i] = found ? static_cast<float>(n.x * s) : 0;
+        out.component[1].lanes[i] = found ? static_cast<float>(n.y * s) : 0;
+        out.component[2].lanes[i] = found ? static_cast<float>(n.z * s) : 0;
+    }
+}
+
+/// Three rows' normals, of which the middle one's gaps are filled from all around.
+void fill_gaps(const Row3* above, const Row3& here, const Row3* below, const RowOf& row, const Operand& out) {
+    for (int i = 0; i < row.count(); ++i) {
+        const Double3 normal = at(here, i);
+        if (normal.x != 0 || normal.y != 0 || normal.z != 0) continue;
+        Double3 sum{0, 0, 0};
+        const auto add_normal = [&](const Row3& from, int at_i) HWY_ATTR {
+            const Double3 n = at(from, at_i);
+            sum = {sum.x + n.x, sum.y + n.y, sum.z + n.z};
+        };
+        if (above) add_normal(*above, i);
+        if (below) add_normal(*below, i);
+        if (i > 0) add_normal(here, i - 1);
+        if (i + 1 < row.count()) add_normal(here, i + 1);
+        const double length = std::sqrt(squared(sum)), s = length > 0 ? 1 / length : 0;
+        row.of(out, 0)[i] = static_cast<float>(sum.x * s);
+        row.of(out, 1)[i] = static_cast<float>(sum.y * s);
+        row.of(out, 2)[i] = static_cast<float>(sum.z * s);
+    }
+}
+
+HWY_INLINE bool has_gap(const Row3& normals, int count) {
+    int gaps = 0;
+    for (int i = 0; i < count; ++i)
+        gaps += normals.component[0].lanes[i] == 0 && normals.component[1].lanes[i] == 0 &&
+                normals.component[2].lanes[i] == 0;
+    return gaps > 0;
+}
+
+void find_normals(GridSpans spans, size_t lanes, const Operand& P, const Operand& out) {
+    for_rows(spans, lanes, 3, out, [&](const RowOf& row) HWY_ATTR {
+        Row3 here;
+        row_normals(row, P, here);
+        for (int k = 0; k < 3; ++k) std::copy_n(here.component[k].lanes, row.count(), row.of(out, k));
+        if (!has_gap(here, row.count())) return;
+        Row3 above, below;
+        const bool first = row.j == 0, last = row.j + 1 == row.span.shape.vertices_v();
+        if (!first) row_normals({row.span, row.j - 1}, P, above);
+        if (!last) row_normals({row.span, row.j + 1}, P, below);
+        fill_gaps(first ? nullptr : &above, here, last ? nullptr : &below, row, out);
+    });
+}
+
+void find_filter_widths(GridSpans spans, size_t lanes, const Operand& x, const Operand& out) {
+    for_rows(spans, lanes, 1, out, [&](const RowOf& row) HWY_ATTR {
+        Row u, v;
+        row.difference(Axis::U, x, 0, u);
+        row.difference(Axis::V, x, 0, v);
+        float* HWY_RESTRICT width = row.of(out);
+        for (int i = 0; i < row.count(); ++i) width[i] = std::fabs(u.lanes[i]) + std::fabs(v.lanes[i]);
+    });
+}
+
+/// The share above an edge of what lies from x to x + width.
+HWY_INLINE V share_above(V edge, V x, V width) {
+    const V share = hn::Div(hn::Sub(hn::Add(x, width), edge), width);
+    const V step_there = hn::IfThenZeroElse(hn::Lt(x, edge), set(1));
+    return hn::IfThenElse(hn::Gt(width, hn::Zero(D())), at_most(positive(share), set(1)), step_there);
+}
+
+void step_around(size_t lanes, const Operand& edges, const Operand& xs, const Operand& widths, float scale_by,
+                 const Operand& result) {
+    const Input edge(edges), x(xs), width(widths);
+    const Output out(result);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V w = hn::Mul(width.get(i), set(scale_by));
+        out.put(share_above(edge.get(i), hn::Sub(x.get(i), hn::Mul(w, set(0.5f))), w), i);
+    }
+}
+
+void step_between(size_t lanes, const Operand& edges, const Operand& xs, const Operand& x2s,
+                  const Operand& result) {
+    const Input edge(edges), first(xs), second(x2s);
+    const Output out(result);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V a = first.get(i), b = second.get(i), least = at_most(a, b);
+        out.put(share_above(edge.get(i), least, hn::Sub(at_least(a, b), least)), i);
+    }
+}
+
+}  // namespace
+}  // namespace trapeze::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze::vm {
+
+HWY_EXPORT(along_u);
+HWY_EXPORT(along_v);
+HWY_EXPORT(along_both);
+HWY_EXPORT(measure_areas);
+HWY_EXPORT(find_normals);
+HWY_EXPORT(find_filter_widths);
+HWY_EXPORT(step_around);
+HWY_EXPORT(step_between);
+
+void derivative_u(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
+                  const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(along_u)(spans, lanes, width, value, u, out);
+}
+void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& v,
+                  const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(along_v)(spans, lanes, width, value, v, out);
+}
+void derivative(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
+                const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(along_both)(spans, lanes, width, num, den, out);
+}
+void areas(GridSpans spans, size_t lanes, const Operand& P, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(measure_areas)(spans, lanes, P, out);
+}
+void calculate_normals(GridSpans spans, size_t lanes, const Operand& P, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(find_normals)(spans, lanes, P, out);
+}
+void filter_widths(GridSpans spans, size_t lanes, const Operand& x, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(find_filter_widths)(spans, lanes, x, out);
+}
+void filter_step(size_t lanes, const Operand& edge, const Operand& x, const Operand& width, float scale,
+                 const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(step_around)(lanes, edge, x, width, scale, out);
+}
+void filter_step_between(size_t lanes, const Operand& edge, const Operand& x, const Operand& x2,
+                         const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(step_between)(lanes, edge, x, x2, out);
+}
+
+}  // namespace trapeze::vm
+#endif
