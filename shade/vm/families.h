@@ -13,6 +13,7 @@ Kernel find_bools(rsl::Op op, std::span<const int> widths);
 Kernel find_elementary(rsl::Op op, std::span<const int> widths);
 Kernel find_parts(rsl::Op op, std::span<const int> widths);
 Kernel find_geometry(rsl::Op op, std::span<const int> widths);
+Kernel find_light_kernels(rsl::Op op, std::span<const int> widths);
 Kernel find_matrices(rsl::Op op, std::span<const int> widths);
 Kernel find_noises(rsl::Op op, std::span<const int> widths);
 Kernel find_splines(rsl::Op op, std::span<const int> widths);

@@ -1,0 +1,144 @@
+#include "shade/vm/light_kernels.h"
+
+#include "shade/vm/families.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/vm/light_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "shade/vm/elementary-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze::vm::HWY_NAMESPACE {
+namespace {
+
+constexpr float kMinRoughness = 1e-5f;
+
+HWY_INLINE void add_scaled(const Output& out, const Input& color, V s, size_t i) {
+    for (int k = 0; k < 3; ++k) out.put(hn::Add(out.get(i, k), hn::Mul(color.get(i, k), s)), i, k);
+}
+
+void sum_light(size_t lanes, const Operand& Cl, float share, const Operand& result) {
+    const Output out(result);
+    const Input color(Cl);
+    for (size_t i = 0; i < lanes; i += lane_count()) add_scaled(out, color, set(share), i);
+}
+
+void sum_diffuse(size_t lanes, const Operand& N, const Operand& L, const Operand& Cl, float share,
+                 const Operand& result) {
+    const Output out(result);
+    const Input normal(N), to_light(L), color(Cl);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V cosine = positive(dot(normal.get3(i), to_light.get3(i)));
+        add_scaled(out, color, hn::Mul(cosine, set(share)), i);
+    }
+}
+
+/// pow() is the quick one, in floats: a highlight's exponent needs no more.
+HWY_INLINE V specular_lobe(const V3& N, const V3& view, const V3& L, V roughness) {
+    const V3 h = add(view, L);
+    const V cosine = at_most(positive(hn::Mul(dot(N, h), inverse_length(h))), set(1));
+    const V lobe = pow(cosine, hn::Div(set(1), at_least(roughness, set(kMinRoughness))));
+    return hn::IfThenElseZero(hn::Gt(dot(N, L), hn::Zero(D())), lobe);
+}
+
+void sum_specular(size_t lanes, const Operand& N, const Operand& view, const Operand& roughness,
+                  const Operand& L, const Operand& Cl, float share, const Operand& result) {
+    const Output out(result);
+    const Input normal(N), to_eye(view), rough(roughness), to_light(L), color(Cl);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V lobe = specular_lobe(normal.get3(i), to_eye.get3(i), to_light.get3(i), rough.get(i));
+        add_scaled(out, color, hn::Mul(lobe, set(share)), i);
+    }
+}
+
+void sum_phong(size_t lanes, const Operand& N, const Operand& view, const Operand& size, const Operand& L,
+               const Operand& Cl, float share, const Operand& result) {
+    const Output out(result);
+    const Input normal(N), to_eye(view), exponent(size), to_light(L), color(Cl);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V3 v = to_eye.get3(i), normal_here = normal.get3(i);
+        const V3 n = scale(normal_here, inverse_length(normal_here));
+        const V twice = hn::Mul(dot(n, v), set(2));
+        const V3 mirrored = subtract(scale(n, twice), v);
+        const V cosine = hn::Mul(dot(mirrored, to_light.get3(i)), inverse_length(mirrored));
+        const V lobe = pow(at_most(positive(cosine), set(1)), exponent.get(i));
+        add_scaled(out, color, hn::Mul(hn::IfThenElseZero(hn::Gt(cosine, hn::Zero(D())), lobe), set(share)),
+                   i);
+    }
+}
+
+void find_cone(size_t lanes, const Operand& vectors, const Operand& axes, const Operand& angles,
+               const Operand& result) {
+    const Output out(result);
+    const Input vector(vectors), axis(axes), angle(angles);
+    const V zero = hn::Zero(D());
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V3 v = vector.get3(i), a = axis.get3(i);
+        const V limit = angle.get(i);
+        const V lengths = hn::Mul(hn::Sqrt(dot(v, v)), hn::Sqrt(dot(a, a)));
+        const M inside = hn::Ge(dot(v, a), hn::Mul(lengths, cosine(limit)));
+        const M some = hn::And(hn::Gt(lengths, zero), hn::Ge(limit, zero));
+        out.put_mask(hn::Or(hn::Ge(limit, set(kPi)), hn::And(inside, some)), i);
+    }
+}
+
+/// specularbrdf(L, N, V, roughness), L of any length.
+template <int width>
+void specular_brdf(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    const Input to_light(o[1]), normal(o[2]), to_eye(o[3]), rough(o[4]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V3 L = to_light.get3(i);
+        const V3 unit = scale(L, inverse_length(L));
+        const V lobe = specular_lobe(normal.get3(i), to_eye.get3(i), unit, rough.get(i));
+        for (int k = 0; k < width; ++k) out.put(lobe, i, k);
+    }
+}
+
+Kernel find_specular_brdf(std::span<const int> widths) {
+    if (are(widths, {1, 3, 3, 3, 1})) return specular_brdf<1>;
+    return are(widths, {3, 3, 3, 3, 1}) ? specular_brdf<3> : nullptr;
+}
+
+}  // namespace
+}  // namespace trapeze::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze::vm {
+
+HWY_EXPORT(sum_light);
+HWY_EXPORT(sum_diffuse);
+HWY_EXPORT(sum_specular);
+HWY_EXPORT(sum_phong);
+HWY_EXPORT(find_cone);
+HWY_EXPORT(find_specular_brdf);
+
+void add_light(size_t lanes, const Operand& Cl, float share, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(sum_light)(lanes, Cl, share, out);
+}
+void add_diffuse(size_t lanes, const Operand& N, const Operand& L, const Operand& Cl, float share,
+                 const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(sum_diffuse)(lanes, N, L, Cl, share, out);
+}
+void add_specular(size_t lanes, const Operand& N, const Operand& V, const Operand& roughness,
+                  const Operand& L, const Operand& Cl, float share, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(sum_specular)(lanes, N, V, roughness, L, Cl, share, out);
+}
+void add_phong(size_t lanes, const Operand& N, const Operand& V, const Operand& size, const Operand& L,
+               const Operand& Cl, float share, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(sum_phong)(lanes, N, V, size, L, Cl, share, out);
+}
+void cone_mask(size_t lanes, const Operand& v, const Operand& axis, const Operand& angle,
+               const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(find_cone)(lanes, v, axis, angle, out);
+}
+
+Kernel find_light_kernels(rsl::Op op, std::span<const int> widths) {
+    return op == rsl::Op::SpecularBrdf ? HWY_DYNAMIC_DISPATCH(find_specular_brdf)(widths) : nullptr;
+}
+
+}  // namespace trapeze::vm
+#endif
