@@ -88,7 +88,7 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
     Stopwatch wall;
     const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
     tbb::enumerable_thread_specific<TileResolver> resolvers;
-    tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+    const auto resolve = [&](size_t i) {
         if (context.is_cancelled()) return;
         TileResolver& resolver = resolvers.local();
         Stopwatch watch;
@@ -100,7 +100,9 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
         add_to_film(resolver, grids, visibility.tile_side(), film);
         resolver.composite_seconds += watch.lap();
         on_step();
-    });
+    };
+    // Tiles differ in cost by ten and more: one at a time, or a thread is left alone with a run of slow ones.
+    tbb::parallel_for(size_t{0}, tiles.size(), resolve, tbb::simple_partitioner());
     double trace = 0, composite = 0;
     for (const TileResolver& resolver : resolvers) {
         stats.sample += resolver.stats;

@@ -102,11 +102,13 @@ void take_turn(const SamplingScene& scene, Competitor& c) {
     const double built = now();
     tbb::enumerable_thread_specific<Thread> threads;
     std::atomic<size_t> hits{0};
-    tbb::parallel_for(size_t{0}, c.tiles.size(), [&](size_t i) {
+    const auto resolve = [&](size_t i) {
         Thread& thread = threads.local();
         visibility->resolve(c.tiles[i], thread.hits, thread.scratch, thread.stats);
         hits += thread.hits.hits.size();
-    });
+    };
+    // Tiles differ in cost by ten and more: one at a time.
+    tbb::parallel_for(size_t{0}, c.tiles.size(), resolve, tbb::simple_partitioner());
     c.trace.push_back(now() - built);
     c.build.push_back(built - begin);
     c.built = visibility->build_stats();
