@@ -94,6 +94,10 @@ Analyser::Instance* Analyser::instance_of(const Function& original, bool nested,
         error(at, "functions that call functions nest too deeply here");
         return nullptr;
     }
+    if (copied_ > kMostInlined) {
+        error(at, "this file is too large: too many shaders have too many functions");
+        return nullptr;
+    }
     Instance& instance = instances_.emplace_back();
     instance.original = &original;
     instance.function = clone(original);
@@ -144,6 +148,7 @@ void Analyser::analyse_body(Function& function) {
 
 void Analyser::finish_instance(Instance& instance) {
     copy_written_parameters(*instance.function);
+    copied_ += frame().own_operations;
     instance.operations = std::min<uint64_t>(frame().operations, uint64_t{kMostInlined} * 2);
     instance.array_floats = std::min<uint64_t>(frame().array_floats, uint64_t{kMostArrayFloatsTogether} * 2);
     instance.depth = frame().deepest;

@@ -23,6 +23,7 @@ void Analyser::scoped(StatementPtr& s) {
 void Analyser::statement(StatementPtr& s) {
     if (messages_.full()) return;
     ++frame().operations;
+    ++frame().own_operations;
     ++frame().depth;
     switch (s->kind) {
         case Statement::Kind::Block:

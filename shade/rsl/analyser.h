@@ -40,8 +40,9 @@ class Analyser {
         size_t first_scope = 0;
         int loops = 0;
         bool returns = false;
-        int depth = 0;  ///< of the statement that is analysed
-        uint64_t operations = 0, array_floats = 0;
+        int depth = 0;                              ///< of the statement that is analysed
+        uint64_t operations = 0, array_floats = 0;  ///< with those of called functions
+        uint64_t own_operations = 0;
         int deepest = 0;
         std::set<Variable*> written_parameters;  ///< not output, and assigned to
     };
@@ -118,6 +119,7 @@ class Analyser {
     Messages& messages_;
     std::unordered_map<std::string_view, std::vector<const Function*>> file_functions_;
     std::vector<std::unique_ptr<Function>> kept_;  ///< instances of shaders that are done
+    uint64_t copied_ = 0;                          ///< operations in all instances
 
     // Of the shader that is analysed.
     Shader* shader_ = nullptr;

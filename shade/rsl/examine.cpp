@@ -23,6 +23,7 @@ Choices Analyser::choices_of(const Expression& e) const {
 
 Choices Analyser::examine(Expression& e) {
     ++frame().operations;
+    ++frame().own_operations;
     const Choices choices = examine_within(e);
     choices_.insert_or_assign(&e, choices);
     return choices;

@@ -235,7 +235,7 @@ TEST_P(RoundTrip, PrintedShadersParseToTheSameTree) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shaders, RoundTrip, ::testing::Values("/shade/shaders"));
+INSTANTIATE_TEST_SUITE_P(Shaders, RoundTrip, ::testing::Values("/shade/shaders", "/shade/rsl/test_shaders"));
 
 }  // namespace
 }  // namespace trapeze::rsl

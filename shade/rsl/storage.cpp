@@ -9,7 +9,7 @@
 namespace trapeze::rsl {
 namespace {
 
-constexpr int kMostPasses = 20;  // then all that may be varying is
+constexpr int kMostPasses = 10;  // then all that may be varying is
 
 bool is_message(Op op) {
     switch (op) {

@@ -15,8 +15,11 @@ class Suggestion {
     std::string text() const;
 
   private:
+    static constexpr int kMostConsidered = 2000;
+
     std::string_view written_, best_;
     size_t least_;  // the distance that is too far
+    int considered_ = 0;
 };
 
 }  // namespace trapeze::rsl
