@@ -21,11 +21,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Fewer rays than this are tested one by one, lanes being micropolygons.
 inline constexpr size_t kFewInBlock = 3;
 
-HWY_INLINE void keep(BundleState& t, const Block& block, uint32_t active, float depth, uint32_t id) {
-    if (t.keep_hit(t.scratch.active.ray[active], depth, id, block.opaque))
-        t.scratch.active.limit[active] = depth + block.slack;
-}
-
 /// Keeps the hits of lanes of rays, block rays from `first` on.
 inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI u, VI v, VF depth) {
     const F32 d;
@@ -40,21 +35,22 @@ inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI 
     hn::Store(hn::Or(u, hn::ShiftLeft<4>(v)), di, uv);
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto lane = static_cast<size_t>(std::countr_zero(lanes));
-        keep(t, block, t.scratch.block.active[first + lane], depths[lane],
-             block.id + static_cast<uint32_t>(uv[lane]));
+        t.keep_hit(t.scratch.active.ray[t.scratch.block.active[first + lane]], depths[lane],
+                   block.id + static_cast<uint32_t>(uv[lane]), block.opaque);
     }
 }
 
-/// One active ray against all micropolygons of a block: lanes are micropolygons.
+/// One ray, at a time local to the block's segment, against all micropolygons of a block: lanes are
+/// micropolygons. Whether something nearer was found.
 template <bool kMoves, bool kLens>
-void test_one_ray(BundleState& t, const Block& block, uint32_t which) {
+bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local) {
     const F32 d;
     const I32 di;
-    const ActiveRays& from = t.scratch.active;
     RayLanes r;
-    if constexpr (kLens) r.ox = hn::Set(d, from.ox[which]), r.oy = hn::Set(d, from.oy[which]);
-    r.ux = hn::Set(d, from.ux[which]), r.uy = hn::Set(d, from.uy[which]);
-    if constexpr (kMoves) r.local = hn::Set(d, from.local[which]);
+    if constexpr (kLens) r.ox = hn::Set(d, t.rays.ox[ray]), r.oy = hn::Set(d, t.rays.oy[ray]);
+    r.ux = hn::Set(d, t.rays.ux[ray]), r.uy = hn::Set(d, t.rays.uy[ray]);
+    if constexpr (kMoves) r.local = hn::Set(d, local);
+    bool nearer = false;
     for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
         const VI number = lane_numbers(di, m), u = hn::And(number, hn::Set(di, 3)),
                  v = hn::ShiftRight<2>(number);
@@ -73,30 +69,19 @@ void test_one_ray(BundleState& t, const Block& block, uint32_t which) {
         hn::Store(depth, d, depths);
         for (; lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes), micropolygon = m + lane;
-            keep(t, block, which, depths[lane],
-                 block.id + static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4));
+            const auto uv = static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4);
+            nearer |= t.keep_hit(ray, depths[lane], block.id + uv, block.opaque);
         }
     }
+    return nearer;
 }
 
 inline void count_block_tests(BundleState& t, const Block& block, size_t rays) {
     t.stats.leaves_visited += rays;
     t.stats.predicate_tests += rays * static_cast<uint64_t>(block.view.rows * block.columns);
 }
-inline void count_tests_of(BundleState& t, const Block& block, uint32_t active) {
-    t.rays.tests[t.scratch.active.ray[active]] += static_cast<uint32_t>(block.view.rows * block.columns);
-}
-
-/// The few active rays whose bits are set in a row of meet_boxes(), one by one.
-template <bool kMoves, bool kLens>
-void test_few_rays(BundleState& t, const Block& block, const uint8_t* met, size_t count) {
-    count_block_tests(t, block, count);
-    for (uint32_t first = 0; count != 0; first += kLanesOfByte, ++met)
-        for (uint32_t bits = *met; bits != 0; bits &= bits - 1, --count) {
-            const uint32_t active = first + static_cast<uint32_t>(std::countr_zero(bits));
-            if (t.rays.tests) count_tests_of(t, block, active);
-            test_one_ray<kMoves, kLens>(t, block, active);
-        }
+inline void count_tests_of(BundleState& t, const Block& block, uint32_t ray) {
+    t.rays.tests[ray] += static_cast<uint32_t>(block.view.rows * block.columns);
 }
 
 /// The rays listed for a block.
@@ -106,11 +91,15 @@ void test_block_rays(BundleState& t, const Block& block, size_t count) {
     const BlockRays& from = t.scratch.block;
     count_block_tests(t, block, count);
     if (t.rays.tests)
-        for (size_t i = 0; i < count; ++i) count_tests_of(t, block, from.active[i]);
+        for (size_t i = 0; i < count; ++i) count_tests_of(t, block, t.scratch.active.ray[from.active[i]]);
+    const auto test_one = [&](size_t i) HWY_ATTR {
+        test_one_ray<kMoves, kLens>(t, block, t.scratch.active.ray[from.active[i]],
+                                    kMoves ? from.local[i] : 0.0f);
+    };
     for (size_t i = 0; i < count; i += kLanes) {
         const size_t left = count - i;
         if (left < kFewInBlock) {
-            for (size_t k = i; k < count; ++k) test_one_ray<kMoves, kLens>(t, block, from.active[k]);
+            for (size_t k = i; k < count; ++k) test_one(k);
             return;
         }
         RayLanes r;
@@ -130,8 +119,7 @@ void test_block_rays(BundleState& t, const Block& block, size_t count) {
         const MF hit = hn::AndNot(several, hn::And(any, faces));
         settle(t, block, i, hit, u, v, depth);
         for (uint32_t more = mask_bits(several); more != 0; more &= more - 1)
-            test_one_ray<kMoves, kLens>(t, block,
-                                        from.active[i + static_cast<size_t>(std::countr_zero(more))]);
+            test_one(i + static_cast<size_t>(std::countr_zero(more)));
     }
 }
 

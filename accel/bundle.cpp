@@ -40,6 +40,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace bundle_detail;
 
+/// Grids are fetched so many before their turn.
+constexpr size_t kPrefetchAhead = 4;
+
 constexpr int kRayFloats = sizeof(AxisRay) / sizeof(float);
 
 /// A bundle's way through a tree. kMotion: something in the tree moves; kLens: rays do not start in one
@@ -68,9 +71,11 @@ class BundleTrace {
         for (size_t i = 0; i < candidates.size(); ++i) {
             const Candidate candidate = candidate_of(candidates[i]);
             if (candidate.depth > t_.farthest_depth) break;
-            if (i + 1 < candidates.size()) prefetch(candidate_of(candidates[i + 1]).grid);
+            if (i + kPrefetchAhead < candidates.size())
+                prefetch(candidate_of(candidates[i + kPrefetchAhead]).grid);
             visit_grid(candidate);
         }
+        test_waiting<kMotion, kLens>(t_);
         t_.stats.rays += t_.rays.count;
     }
 
@@ -79,7 +84,9 @@ class BundleTrace {
         const char* record = reinterpret_cast<const char*>(&t_.tree.grid(grid));
         __builtin_prefetch(record);
         __builtin_prefetch(record + 64);
-        __builtin_prefetch(&t_.tree.grid_box(grid));
+        const char* box = reinterpret_cast<const char*>(&t_.tree.grid_box(grid));
+        __builtin_prefetch(box);
+        __builtin_prefetch(box + sizeof(MovingBox) - 1);
     }
 
     /// Nothing is hit yet; packets' intervals. Lanes past the end repeat the last ray and never count.
@@ -128,31 +135,33 @@ class BundleTrace {
     }
 
     void visit_grid(const Candidate& candidate) {
-        const uint32_t index = candidate.grid;
-        const WideGrid& grid = t_.tree.grid(index);
+        const WideGrid& grid = t_.tree.grid(candidate.grid);
         if constexpr (kHasSharpPackets && !kLens && !kMotion) {
             visit_sharp(t_, candidate, grid);
             return;
         }
         if (!grid.moves()) {
-            collect_active<false, kLens>(t_, {t_.tree.grid_box(index), grid.framed}, grid, 0, candidate);
-            test_active<false, kLens>(t_, index, grid, 0);
+            visit_segment<false>(candidate, grid, 0, {t_.tree.grid_box(candidate.grid), grid.framed});
             return;
         }
         if constexpr (kMotion) {
             if (!grid.has_segments()) {
-                collect_active<true, kLens>(t_, {t_.tree.grid_box(index), grid.framed}, grid, 0, candidate);
-                test_active<true, kLens>(t_, index, grid, 0);
+                visit_segment<true>(candidate, grid, 0, {t_.tree.grid_box(candidate.grid), grid.framed});
                 return;
             }
             const int first = segment_at(t_.first_time, grid.key_count).index;
             const int last = segment_at(t_.last_time, grid.key_count).index;
-            for (int segment = first; segment <= last; ++segment) {
-                collect_active<true, kLens>(t_, t_.tree.segment_bounds(grid, segment), grid, segment,
-                                            candidate);
-                test_active<true, kLens>(t_, index, grid, segment);
-            }
+            for (int segment = first; segment <= last; ++segment)
+                visit_segment<true>(candidate, grid, segment, t_.tree.segment_bounds(grid, segment));
         }
+    }
+
+    template <bool kMoves>
+    void visit_segment(const Candidate& candidate, const WideGrid& grid, int segment,
+                       const SegmentBounds& bounds) {
+        collect_active<kMoves, kLens>(t_, bounds, grid, segment, candidate);
+        test_active<kMoves, kLens>(t_, candidate.grid, grid, segment, candidate.depth);
+        if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion, kLens>(t_);
     }
 
     /// A grid that no box can hold, by the scalar predicate.

@@ -38,6 +38,15 @@ struct RayIntervals {
     alignas(64) float row[kRows][kRoom];
 };
 
+/// A ray that a block waits for.
+struct WaitingRay {
+    uint32_t ray, grid;
+    float local;  ///< time in the segment
+    float depth;  ///< a lower bound of where it meets the grid
+    uint16_t segment;
+    uint8_t u, v;  ///< the block
+};
+
 /// A grid that some groups of packets may meet, no nearer than a depth.
 struct Candidate {
     float depth;
@@ -73,6 +82,11 @@ struct BundleScratch {
     static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst
     alignas(64) uint8_t met[16 * kMetStride + 64];  ///< per box, a bit for each active ray that meets it
     BlockRays block;
+    /// A segment of a grid adds fewer than three rays for each of its 16 blocks.
+    static constexpr size_t kMostWaiting = 32, kWaitingRoom = kMostWaiting + 32;
+    size_t waiting_count = 0;
+    WaitingRay waiting[kWaitingRoom];
+    uint32_t nearer[kWaitingRoom];  ///< packets of those that have come to see something nearer
 };
 
 }  // namespace trapeze

@@ -210,55 +210,88 @@ inline float absolute_max(const MovingBox& box) {
     return most;
 }
 
-/// The boxes of a grid in a segment of its motion, and its blocks.
-struct GridBoxes {
-    const WideGrid& grid;
-    uint32_t index;
-    int segment;
+static_assert(BundleScratch::kMostWaiting + 16 * (kFewInBlock - 1) <= BundleScratch::kWaitingRoom);
 
-    /// visit(block, box) for all blocks of some boxes.
-    template <class Visit>
-    HWY_INLINE void for_blocks(uint32_t some, const Visit& visit) const {
-        const int blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
-        for (; some != 0; some &= some - 1) {
-            const int box = std::countr_zero(some), last = std::min((box + 1) * per_box, grid.block_count());
-            for (int b = box * per_box; b < last; ++b)
-                visit(block_of(grid, segment, b % blocks_u, b / blocks_u, index), box);
-        }
-    }
-};
-
-/// A block's own vertices; those behind it are in other blocks most often.
+/// Lets the few active rays whose bits are set in a row of meet_boxes() wait for a block, whose vertices are
+/// fetched meanwhile: waiting for them would take longer than the tests.
 template <bool kMoves>
-HWY_INLINE void prefetch_block(const Block& block) {
-    for (size_t k = 0; k < (kMoves ? 6 : 3); ++k) __builtin_prefetch(block.view.tile + k * block.view.plane);
+void let_wait(BundleState& t, const WaitingRay& common, const Block& block, const uint8_t* met) {
+    const ActiveRays& active = t.scratch.active;
+    for (size_t k = 0; k < (kMoves ? 6 : 3); ++k) {
+        const float* tile = block.view.tile + k * block.view.plane;
+        __builtin_prefetch(tile);
+        __builtin_prefetch(tile + block.view.right);
+        __builtin_prefetch(tile + block.view.down);
+        __builtin_prefetch(tile + block.view.down + block.view.right);
+    }
+    for (uint32_t first = 0; first < active.count; first += kLanesOfByte, ++met)
+        for (uint32_t bits = *met; bits != 0; bits &= bits - 1) {
+            const uint32_t a = first + static_cast<uint32_t>(std::countr_zero(bits));
+            WaitingRay& ray = t.scratch.waiting[t.scratch.waiting_count++];
+            ray = common;
+            ray.ray = active.ray[a];
+            if constexpr (kMoves) ray.local = active.local[a];
+        }
 }
 
-/// The boxes of a grid that active rays meet, and the blocks in them.
+/// Tests rays that wait, but for those that have come to see something nearer.
+template <bool kMotion, bool kLens>
+void test_waiting(BundleState& t) {
+    size_t nearer = 0;
+    for (size_t i = 0; i < t.scratch.waiting_count; ++i) {
+        const WaitingRay& waiting = t.scratch.waiting[i];
+        if (waiting.depth > t.rays.depth[waiting.ray]) continue;
+        const WideGrid& grid = t.tree.grid(waiting.grid);
+        const Block block = block_of(grid, waiting.segment, waiting.u, waiting.v, waiting.grid);
+        count_block_tests(t, block, 1);
+        if (t.rays.tests) count_tests_of(t, block, waiting.ray);
+        bool found;
+        if (kMotion && grid.moves())
+            found = test_one_ray<kMotion, kLens>(t, block, waiting.ray, waiting.local);
+        else
+            found = test_one_ray<false, kLens>(t, block, waiting.ray, 0);
+        t.scratch.nearer[nearer] = static_cast<uint32_t>(waiting.ray / kLanes);
+        nearer += found;
+    }
+    t.scratch.waiting_count = 0;
+    // Not at once: vectors cannot be loaded while a depth in them is on its way to memory.
+    for (size_t i = 0; i < nearer; ++i) t.refresh_packet(t.scratch.nearer[i]);
+    if (nearer != 0) t.refresh_farthest();
+}
+
+/// The boxes of a grid that active rays meet, none before a depth, and the blocks in them.
 template <bool kMoves, bool kLens>
-void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segment) {
-    ActiveRays& active = t.scratch.active;
+void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segment, float depth) {
+    const ActiveRays& active = t.scratch.active;
     if (active.count == 0) return;
     const float* planes = t.tree.box_planes(grid, segment);
-    const int boxes = grid.box_count();
+    const int boxes = grid.box_count(), blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
     t.stats.nodes_visited += active.count * static_cast<size_t>(boxes);
-    const uint32_t any = active.count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)
-                                                    : meet_boxes<kMoves, kLens>(t, planes, boxes);
-    const GridBoxes at{grid, index, segment};
-    at.for_blocks(any, [](const Block& block, int) { prefetch_block<kMoves>(block); });
+    uint32_t some = active.count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)
+                                               : meet_boxes<kMoves, kLens>(t, planes, boxes);
     const float rounding = t.tree.rounding(absolute_max(t.tree.grid_box(index)));
     const size_t bytes = (active.count + kLanes - 1) / kLanes * kMaskBytes;
-    at.for_blocks(any, [&](const Block& block, int box) HWY_ATTR {
+    bool tested = false;
+    for (; some != 0; some &= some - 1) {
+        const int box = std::countr_zero(some), last = std::min((box + 1) * per_box, grid.block_count());
         const uint8_t* met = t.scratch.met + static_cast<size_t>(box) * kMetStride;
         const size_t candidates = count_bits(met, bytes);
-        if (candidates < kFewInBlock) {
-            test_few_rays<kMoves, kLens>(t, block, met, candidates);
-            return;
+        for (int b = box * per_box; b < last; ++b) {
+            const int u = b % blocks_u, v = b / blocks_u;
+            const Block block = block_of(grid, segment, u, v, index);
+            if (candidates < kFewInBlock) {
+                let_wait<kMoves>(t,
+                                 {0, index, 0, depth, static_cast<uint16_t>(segment), static_cast<uint8_t>(u),
+                                  static_cast<uint8_t>(v)},
+                                 block, met);
+                continue;
+            }
+            const size_t count = collect_block<kMoves, kLens>(t, block, met, candidates, rounding);
+            if (count != 0) test_block_rays<kMoves, kLens>(t, block, count);
+            tested = true;
         }
-        const size_t count = collect_block<kMoves, kLens>(t, block, met, candidates, rounding);
-        if (count != 0) test_block_rays<kMoves, kLens>(t, block, count);
-    });
-    if (!grid.opaque) return;
+    }
+    if (!grid.opaque || !tested) return;
     for (const uint32_t packet : t.scratch.touched) t.refresh_packet(packet);
     t.refresh_farthest();
 }

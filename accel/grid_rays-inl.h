@@ -61,6 +61,13 @@ HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) 
     return hn::And(hn::Le(z0, z1), hn::And(passes(r.ox, r.ux, 0), passes(r.oy, r.uy, 1)));
 }
 
+/// They are needed once all packets of the bundle have been looked at.
+template <bool kMoves>
+HWY_INLINE void prefetch_boxes(const float* planes, int boxes) {
+    const auto floats = static_cast<size_t>(boxes) * (kMoves ? 12 : 6);
+    for (size_t i = 0; i < floats; i += 16) __builtin_prefetch(planes + i);
+}
+
 template <bool kMoves, bool kLens>
 void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& bounds, size_t packet,
                     int segment, float depth) {
@@ -80,6 +87,8 @@ void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& b
     if (t.rays.nodes) count_packet(t.rays.nodes, i, 1);
     met = hn::And(met, in_aligned_box<kMoves, kLens>(bounds.box, {ox, oy, ux, uy, local}, limit));
     if (hn::AllFalse(d, met)) return;
+    if (t.scratch.active.count == 0)
+        prefetch_boxes<kMoves>(t.tree.box_planes(grid, segment), grid.box_count());
     VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
     for (int k = 0; k < 3; ++k) {
         const float* axis = grid.axis[k];
