@@ -188,14 +188,15 @@ std::string Textures::Impl::open(DepthMap& map) {
         return known.problem;
     }
     OIIO::ImageSpec spec;
-    if (!cache->get_imagespec(known.map->path, spec)) return cache->geterror();
+    const ThreadState thread(*this);
+    if (!cache->get_imagespec(known.map->image, thread.of_cache(), spec)) return cache->geterror();
     const auto matrices = map_matrices(spec);
     if (!matrices) return "is no shadow map: it has no matrices worldtocamera and worldtoscreen";
     map.camera_from_world = matrices->camera_from_world;
     map.screen_from_world = matrices->screen_from_world;
     if (spec.format != OIIO::TypeDesc::FLOAT || spec.nchannels != 1)
         return "is no shadow map: depths are one channel of floats";
-    map.handle = cache->get_image_handle(known.map->path);
+    map.handle = known.map->image;
     map.x0 = spec.x, map.y0 = spec.y;
     map.x1 = spec.x + spec.width, map.y1 = spec.y + spec.height;
     map.full_width = static_cast<float>(std::max(spec.full_width, 1));
@@ -209,7 +210,7 @@ void Textures::shadow(const DepthMap* map, const ShadowLookup& at, const M44f& c
                       const MapOptions& options, Lanes lanes, Plane out) const {
     if (map) {
         const Impl::ThreadState thread(*impl_);
-        DepthReader depths(*impl_->cache, reinterpret_cast<OIIO::ImageCache::Perthread*>(thread.get()), *map);
+        DepthReader depths(*impl_->cache, thread.of_cache(), *map);
         const MapSpace space(*map, camera_from_world);
         const float asked = options.bias >= 0 ? options.bias : impl_->shadow_bias;
         const float most = static_cast<float>(kMostShadowSamples);

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <barrier>
 #include <bit>
+#include <thread>
 
 #include "shade/map_files_harness.h"
 
@@ -127,6 +129,36 @@ TEST_F(TextureLookupTest, FourCornersMakeMiddleAndSides) {
     EXPECT_THAT(sides.middle, Each(2.5f));
     EXPECT_THAT(sides.along_u, Each(2.0f));
     EXPECT_THAT(sides.along_v, Each(1.0f));
+}
+
+TEST_F(TextureLookupTest, AThreadOutlivesTexturesAndMeetsNewOnes) {
+    // What the thread knew of a file is of no worth to the next ones, which may lie at the same address.
+    std::barrier<> turn(2);
+    std::unique_ptr<Textures> textures;
+    float seen = -1;
+    const std::string file = path("changing.exr");
+    constexpr int kRenders = 20;
+    std::thread worker([&] {
+        const Plane out = plane(kLanes, -1);
+        const Plane planes[] = {out};
+        const Textures::Lookup at = square(0.5f, 0.5f, 0);
+        for (int render = 0; render < kRenders; ++render) {
+            turn.arrive_and_wait();
+            textures->texture(textures->find(file, {}), at, {}, {1, {}}, planes);
+            seen = textures->info(file) ? out[0] : -1;
+            turn.arrive_and_wait();
+        }
+    });
+    for (int render = 0; render < kRenders; ++render) {
+        const float value = static_cast<float>(render + 1) / 32;
+        write("changing.exr", ImageSpec(16, 16, 1, TypeDesc::FLOAT), [&](int, int, int) { return value; });
+        textures = std::make_unique<Textures>(options_, &diagnostics_);
+        turn.arrive_and_wait();
+        turn.arrive_and_wait();
+        EXPECT_NEAR(seen, value, 1e-4f) << render;
+        textures.reset();
+    }
+    worker.join();
 }
 
 TEST_F(TextureLookupTest, InfoIsWhatTheFileSays) {

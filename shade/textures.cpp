@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <filesystem>
+#include <thread>
 
 #include "shade/linear_image_input.h"
 #include "shade/map_matrices.h"
@@ -102,19 +103,30 @@ void Textures::Impl::start() {
     system->attribute("latlong_up", "z");
 }
 
+/// In a thread of its own, since add_file() asks get_perthread_info(). Returns what is wrong with the file.
+std::string Textures::Impl::add_file(OIIO::ustring path) {
+    std::string problem;
+    std::thread([&] {
+        if (!cache->add_file(path, &LinearImageInput::create)) problem = cache->geterror();
+    }).join();
+    return problem;
+}
+
 /// Empty when it is open, else what is wrong.
 std::string Textures::Impl::open(Picture& picture) {
     start();
-    picture.path = OIIO::ustring(resolved_path(picture.name, folders));
-    cache->add_file(picture.path, &LinearImageInput::create);
-    picture.handle = system->get_texture_handle(picture.path);
-    if (!picture.handle || !system->good(picture.handle)) {
-        std::string reason = system->geterror();
+    const OIIO::ustring path(resolved_path(picture.name, folders));
+    const std::string problem = add_file(path);
+    const ThreadState thread(*this);
+    picture.handle = system->get_texture_handle(path, thread.get());
+    picture.image = cache->get_image_handle(path, thread.of_cache());
+    if (!picture.handle || !picture.image || !system->good(picture.handle)) {
+        std::string reason = problem;
+        if (reason.empty()) reason = system->geterror();
         if (reason.empty()) reason = cache->geterror();
         return reason.empty() ? "cannot be read" : reason;
     }
     const char* modes = nullptr;
-    const ThreadState thread(*this);
     if (!system->get_texture_info(picture.handle, thread.get(), 0, OIIO::ustring("wrapmodes"),
                                   OIIO::TypeDesc::STRING, &modes)) {
         system->geterror();
@@ -175,7 +187,8 @@ std::optional<Textures::Info> Textures::info(std::string_view name) {
     const Impl::Entry<Picture>& known = impl_->entry(name, {});
     if (!known.map) return {};
     OIIO::ImageSpec spec;
-    if (!impl_->cache->get_imagespec(known.map->path, spec)) return {};
+    const Impl::ThreadState thread(*impl_);
+    if (!impl_->cache->get_imagespec(known.map->image, thread.of_cache(), spec)) return {};
     Info info;
     info.width = spec.full_width, info.height = spec.full_height, info.channels = spec.nchannels;
     const std::string format = spec.get_string_attribute("textureformat");

@@ -18,8 +18,8 @@ namespace trapeze {
 class Textures::Picture {
   public:
     OIIO::TextureSystem::TextureHandle* handle = nullptr;
+    OIIO::ImageCache::ImageHandle* image = nullptr;  ///< the same, for the cache
     OIIO::TextureOpt::Wrap swrap = OIIO::TextureOpt::WrapDefault, twrap = OIIO::TextureOpt::WrapDefault;
-    OIIO::ustring path;
     std::string name;
     SourceLocation location;
 };
@@ -67,6 +67,7 @@ struct Textures::Impl {
     void start();
     Entry<Picture>& entry(std::string_view name, SourceLocation location);
     std::string open(Picture& picture);
+    std::string add_file(OIIO::ustring path);
     std::string open(DepthMap& map);
     template <class Map>
     const Map* report(Entry<Map>& entry, std::string_view name, SourceLocation location);
@@ -86,6 +87,10 @@ struct Textures::Impl {
         ThreadState(const ThreadState&) = delete;
         ThreadState& operator=(const ThreadState&) = delete;
         OIIO::TextureSystem::Perthread* get() const { return state_; }
+        /// A TextureSystem's state is that of its cache.
+        OIIO::ImageCache::Perthread* of_cache() const {
+            return reinterpret_cast<OIIO::ImageCache::Perthread*>(state_);
+        }
 
       private:
         Impl& impl_;
@@ -95,7 +100,8 @@ struct Textures::Impl {
     OIIO::TextureSystem::Perthread* take_thread_state();
     void give_back(OIIO::TextureSystem::Perthread* state);
 
-    /// Not get_perthread_info(): what that leaves behind in a thread outlives the cache and then touches it.
+    /// Not get_perthread_info(), and no call that leaves the state out and so asks it: what that leaves
+    /// behind in a thread outlives the cache, and a later cache at the same address takes it for its own.
     std::mutex idle_mutex;
     std::vector<OIIO::TextureSystem::Perthread*> idle;  ///< threads' states that nobody uses now
 };
