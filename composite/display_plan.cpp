@@ -75,9 +75,28 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
     return true;
 }
 
+/// The variable that the mode names.
+bool choose_variable(const Display& display, const Options& options, Diagnostics& diagnostics,
+                     DisplayPlan& plan) {
+    plan.rgb = plan.alpha = false;
+    const AovLayout layout = aov_layout(options);
+    if (const Aov* aov = layout.find(*display.variable)) {
+        plan.aov = *aov;
+        plan.aov_is_color = display.variable->type == ValueType::Color;
+        return true;
+    }
+    diagnostics.warning(
+        display.location,
+        fmt::format("displays ask for more than {} channels of variables; \"{}\" is not written",
+                    kMostAovChannels, plan.path),
+        "display-variables");
+    return false;
+}
+
 /// rgb, a and z in this order, each or not; or "id".
 bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
-    std::string_view mode = plan.depth_map ? "z" : std::string_view(display.mode);
+    const bool depth = plan.depth_map || (display.variable && is_depth(*display.variable));
+    std::string_view mode = depth ? "z" : std::string_view(display.mode);
     const auto take = [&](std::string_view channels) {
         if (!mode.starts_with(channels)) return false;
         mode.remove_prefix(channels.size());
@@ -119,17 +138,22 @@ const Parameter* floats_of(const ParameterList& list, std::string_view name, siz
 
 void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
     const Parameter* own = floats_of(display.parameters, "quantize", 4);
-    const Parameter* given =
-        own ? own : floats_of(options.quantize, plan.rgb || plan.alpha ? "rgba" : "z", 4);
+    const bool color = plan.rgb || plan.alpha || plan.aov_is_color;
+    const Parameter* given = own;
+    if (!given && plan.aov) given = floats_of(options.quantize, plan.aov->name, 4);
+    if (!given && plan.aov && !plan.aov_is_color) plan.quantization.one = 0;
+    if (!given && (!plan.aov || plan.aov_is_color))
+        given = floats_of(options.quantize, color ? "rgba" : "z", 4);
     if (given) plan.quantization = {given->floats[0], given->floats[1], given->floats[2], given->floats[3]};
     plan.quantization.dither = display.parameters.float_or("dither", plan.quantization.dither);
-    if (!plan.rgb && !plan.alpha) plan.quantization.one = 0;  // depth
+    if (!color && !plan.aov) plan.quantization.one = 0;  // depth
     plan.float_pixels =
         own && std::all_of(own->floats.begin(), own->floats.begin() + 4, [](float v) { return v == 0; });
     const std::string type =
         lower(display.parameters.string_or("exrpixeltype", display.parameters.string_or("type", "")));
     if (type == "float") plan.float_pixels = true, plan.quantization.one = 0;
     if (type == "half") plan.float_pixels = false;
+    if (plan.aov && !plan.aov_is_color) plan.float_pixels = true;
     plan.compression = lower(
         display.parameters.string_or("exrcompression", display.parameters.string_or("compression", "")));
 }
@@ -141,10 +165,21 @@ bool makes_depth_map(const Display& display) {
     return driver == "zfile" || driver == "shadow";
 }
 
+std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {
+    if (!plan.aov) return {};
+    if (plan.aov->channels == 1) return {"Y"};
+    if (plan.aov_is_color) return {"R", "G", "B"};
+    return {plan.aov->name + ".X", plan.aov->name + ".Y", plan.aov->name + ".Z"};
+}
+
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
                                         Diagnostics& diagnostics) {
     DisplayPlan plan;
-    if (!choose_format(display, diagnostics, plan) || !choose_channels(display, diagnostics, plan)) return {};
+    if (!choose_format(display, diagnostics, plan)) return {};
+    const bool variable = display.variable && !is_depth(*display.variable) && !plan.depth_map;
+    if (!(variable ? choose_variable(display, options, diagnostics, plan)
+                   : choose_channels(display, diagnostics, plan)))
+        return {};
     choose_pixel_type(display, options, plan);
     return plan;
 }

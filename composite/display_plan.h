@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/aov.h"
 #include "core/diagnostics.h"
 #include "core/scene.h"
 
@@ -23,13 +25,21 @@ struct DisplayPlan {
     FileFormat format = FileFormat::OpenExr;
     bool depth_map = false;  ///< a depth picture for shadows, by the drivers that are for them
     bool rgb = true, alpha = true, depth = false, id = false;
-    bool float_pixels = false;  ///< OpenEXR: colour in floats, not halves
+    /// An output variable, alone in its file: none of the above. Colours are named R G B and a float Y, as
+    /// in any picture of one; points, vectors and normals of a variable N are N.X N.Y N.Z, as a Z alone would
+    /// be a depth.
+    std::optional<Aov> aov;
+    bool aov_is_color = false;
+    bool float_pixels = false;  ///< OpenEXR: colours in floats, not halves; other variables always are
     std::string compression;    ///< OpenEXR's name of it, in lower case; empty: the default
     Quantization quantization;  ///< of the other formats
 };
 
 /// Whether its driver writes depths for shadow maps: "zfile" and "shadow".
 bool makes_depth_map(const Display& display);
+
+/// The names of the channels of its output variable.
+std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
 
 /// Nothing when there is nothing to write: driver "null", or a mode or driver that is not supported, of which
 /// it warns.

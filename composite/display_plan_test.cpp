@@ -91,6 +91,76 @@ TEST(DisplayPlan, Modes) {
     }
 }
 
+Display shows(ValueType type, const char* name, const char* file = "a.exr") {
+    Display display{file, "file", "a variable", {}, {}};
+    display.variable = DisplayVariable{name, type};
+    return display;
+}
+
+Planned planned_variable(const Display& display, Options options) {
+    options.displays = {shows(ValueType::Float, "other"), display};
+    return planned(display, options);
+}
+
+Planned planned_variable(const Display& display) {
+    const Options options;
+    return planned_variable(display, options);
+}
+
+TEST(DisplayPlan, VariablesStandAloneAndAreNamedByTheirType) {
+    using Names = std::vector<std::string>;
+    const struct {
+        ValueType type;
+        Names names;
+        bool floats;
+    } cases[] = {{ValueType::Color, {"R", "G", "B"}, false},
+                 {ValueType::Float, {"Y"}, true},
+                 {ValueType::Normal, {"foo.X", "foo.Y", "foo.Z"}, true},
+                 {ValueType::Point, {"foo.X", "foo.Y", "foo.Z"}, true},
+                 {ValueType::Vector, {"foo.X", "foo.Y", "foo.Z"}, true}};
+    for (const auto& c : cases) {
+        const Planned result = planned_variable(shows(c.type, "foo"));
+        ASSERT_TRUE(result.plan && result.plan->aov);
+        EXPECT_EQ(result.warnings, 0u);
+        EXPECT_FALSE(result.plan->rgb || result.plan->alpha || result.plan->depth || result.plan->id);
+        EXPECT_EQ(result.plan->aov->offset, 1);  // after the other
+        EXPECT_EQ(aov_channel_names(*result.plan), c.names);
+        EXPECT_EQ(result.plan->float_pixels, c.floats);
+    }
+    EXPECT_TRUE(aov_channel_names(*planned({"a.exr", "exr", "rgba", {}, {}}).plan).empty());
+}
+
+TEST(DisplayPlan, TheVariableZIsTheDepth) {
+    const Planned result = planned_variable(shows(ValueType::Float, "z"));
+    ASSERT_TRUE(result.plan);
+    EXPECT_TRUE(result.plan->depth);
+    EXPECT_FALSE(result.plan->aov || result.plan->rgb || result.plan->alpha);
+}
+
+TEST(DisplayPlan, VariablesAreQuantizedByTheirOwnNameOrAsColourOrNotAtAll) {
+    EXPECT_TRUE(planned_variable(shows(ValueType::Normal, "foo", "a.tif")).plan->quantization.to_float());
+    EXPECT_EQ(planned_variable(shows(ValueType::Color, "foo", "a.tif")).plan->quantization.one, 255);
+    Options options;
+    options.quantize.set(floats("rgba", {65535, 0, 65535, 0}));
+    options.quantize.set(floats("bar", {100, 0, 255, 0}));
+    EXPECT_EQ(planned_variable(shows(ValueType::Color, "foo", "a.tif"), options).plan->quantization.one,
+              65535);
+    EXPECT_EQ(planned_variable(shows(ValueType::Float, "bar", "a.tif"), options).plan->quantization.one, 100);
+    Display own = shows(ValueType::Float, "bar", "a.tif");
+    own.parameters.set(floats("quantize", {10, 0, 255, 0}));
+    EXPECT_EQ(planned_variable(own, options).plan->quantization.one, 10);
+}
+
+TEST(DisplayPlan, VariablesBeyondTheMostChannelsAreNotWritten) {
+    Options options;
+    for (int i = 0; i <= kMostAovChannels; ++i)
+        options.displays.push_back(shows(ValueType::Float, ("v" + std::to_string(i)).c_str()));
+    EXPECT_TRUE(planned(options.displays[kMostAovChannels - 1], options).plan);
+    const Planned result = planned(options.displays.back(), options);
+    EXPECT_FALSE(result.plan);
+    EXPECT_EQ(result.warnings, 1u);
+}
+
 TEST(DisplayPlan, DepthMapsAreDepthsAsFloatsWhateverTheirMode) {
     for (const char* driver : {"zfile", "shadow"})
         for (const char* mode : {"z", "rgba", ""}) {

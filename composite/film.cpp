@@ -83,16 +83,20 @@ struct Film::Sums {
     PixelRect pixels;
     std::vector<float> weights;  ///< one a pixel
     std::vector<float> rgba;     ///< four a pixel; empty when no sample hits anything
+    std::vector<float> aovs;     ///< channels of output variables, `aov_channels` a pixel; empty with rgba
 
-    Sums(const PixelRect& tile, const FilterKernel& kernel, bool colored) : pixels(kernel.footprint(tile)) {
+    Sums(const PixelRect& tile, const FilterKernel& kernel, bool colored, int aov_channels)
+        : pixels(kernel.footprint(tile)) {
         const size_t count = static_cast<size_t>(pixels.width()) * pixels.height();
         weights.resize(count);
-        if (colored) rgba.resize(4 * count);
+        if (!colored) return;
+        rgba.resize(4 * count);
+        aovs.resize(static_cast<size_t>(aov_channels) * count);
     }
     size_t index(int x, int y) const {
         return static_cast<size_t>(y - pixels.y0) * pixels.width() + static_cast<size_t>(x - pixels.x0);
     }
-    size_t bytes() const { return sizeof(float) * (weights.size() + rgba.size()); }
+    size_t bytes() const { return sizeof(float) * (weights.size() + rgba.size() + aovs.size()); }
 };
 
 struct Film::Tile {
@@ -106,7 +110,9 @@ struct Film::Tile {
 };
 
 Film::Film(const RenderContext& context, bool record_ids)
-    : kernel_(context.scene->options.filter, context.diagnostics), depth_filter_(depth_filter_of(context)) {
+    : aovs_(aov_layout(context.scene->options)),
+      kernel_(context.scene->options.filter, context.diagnostics),
+      depth_filter_(depth_filter_of(context)) {
     const Options& options = context.scene->options;
     gain_ = options.exposure_gain;
     inverse_gamma_ = options.exposure_gamma > 0 ? 1 / options.exposure_gamma : 1.0f;
@@ -117,6 +123,8 @@ Film::Film(const RenderContext& context, bool record_ids)
     const size_t count = static_cast<size_t>(image_.window.width()) * image_.window.height();
     image_.rgba.resize(4 * count);
     image_.z.assign(count, kInfinity);
+    image_.aov_channels = aovs_.channel_count;
+    image_.aovs.resize(static_cast<size_t>(aovs_.channel_count) * count);
     if (record_ids || wants_ids(options)) image_.id.assign(count, kNoPrimitive);
 
     sampled_ = intersection(sampled_pixels(context.camera, options),
@@ -167,8 +175,9 @@ void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& gr
     Tile& tile = tiles_[index];
     if (tile.added.exchange(true)) return;
     const bool colored = !hits.hits.empty() && hits.size() == samples.size();
-    auto sums = std::make_unique<Sums>(samples.pixels, kernel_, colored);
+    auto sums = std::make_unique<Sums>(samples.pixels, kernel_, colored, aovs_.channel_count);
     accumulate(samples, hits, grids, *sums);
+    if (!sums->aovs.empty()) accumulate_aovs(samples, hits, grids, *sums);
     if (tile.readers.load(std::memory_order_relaxed) > 0) {
         waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
         tile.sums = std::move(sums);
@@ -230,6 +239,30 @@ void Film::add_sample(float x, float y, int px, int py, const float* rgba, float
     }
 }
 
+void Film::accumulate_aovs(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
+                           Sums& sums) const {
+    const auto channels = static_cast<size_t>(aovs_.channel_count);
+    std::vector<float> weights(kernel_.tap_count()), values(channels);
+    const int nx = kernel_.taps_x(), ny = kernel_.taps_y();
+    size_t sample = 0;
+    for (int py = samples.pixels.y0; py < samples.pixels.y1; ++py)
+        for (int px = samples.pixels.x0; px < samples.pixels.x1; ++px) {
+            const size_t end =
+                std::min(samples.size(), sample + static_cast<size_t>(samples.samples_per_pixel));
+            for (; sample < end; ++sample) {
+                const auto seen = hits.of(sample);
+                if (seen.empty()) continue;
+                resolve_aovs(samples.rays[sample], seen, grids, aovs_, values.data());
+                const FilterTaps taps =
+                    kernel_.weigh(samples.x[sample], samples.y[sample], px, py, weights.data());
+                for (int tap = 0; tap < nx * ny; ++tap) {
+                    float* sum = &sums.aovs[channels * sums.index(taps.x0 + tap % nx, taps.y0 + tap / nx)];
+                    for (size_t c = 0; c < channels; ++c) sum[c] += weights[tap] * values[c];
+                }
+            }
+        }
+}
+
 /// Depth and id are of the samples within the pixel alone, which all lie in one tile.
 void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
     const PixelRect& window = image_.window;
@@ -277,6 +310,30 @@ void Film::develop(int tile) {
             float* rgba = &image_.rgba[4 * image_.index(x, y)];
             for (int c = 0; c < 4; ++c) rgba[c] = colors[4 * at + c] / weights[at];
             expose(rgba);
+        }
+    if (!aovs_.empty()) develop_aovs(tile, weights);
+}
+
+/// `weights` are the sums of the weights of the tile's pixels, those that develop() divides colours by.
+void Film::develop_aovs(int tile, const std::vector<float>& weights) {
+    const PixelRect pixels = intersection(tile_pixels(tile), image_.window);
+    const auto channels = static_cast<size_t>(aovs_.channel_count);
+    for_each_neighbour(tile, [&](int from) {
+        const Sums* sums = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
+        if (!sums || sums->aovs.empty()) return;
+        const PixelRect shared = intersection(sums->pixels, pixels);
+        for (int y = shared.y0; y < shared.y1; ++y)
+            for (int x = shared.x0; x < shared.x1; ++x) {
+                const float* source = &sums->aovs[channels * sums->index(x, y)];
+                float* sum = &image_.aovs[channels * image_.index(x, y)];
+                for (size_t c = 0; c < channels; ++c) sum[c] += source[c];
+            }
+    });
+    size_t at = 0;
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+        for (int x = pixels.x0; x < pixels.x1; ++x, ++at) {
+            float* values = &image_.aovs[channels * image_.index(x, y)];
+            for (size_t c = 0; c < channels; ++c) values[c] = weights[at] == 0 ? 0 : values[c] / weights[at];
         }
 }
 

@@ -5,7 +5,8 @@
 /// own, over its pixels and those around that its samples reach, filled in the order of the samples. A pixel
 /// is finished by adding the sums of the tiles around it in the order of the tiles, as soon as the last of
 /// these has come; then sums that nobody waits for are freed, so that memory holds the picture and a frontier
-/// of tiles.
+/// of tiles. Output variables (aov.h) are summed the same way, in a pass of their own over a tile's samples,
+/// so that pictures without them pay nothing.
 #pragma once
 
 #include <atomic>
@@ -14,6 +15,7 @@
 
 #include "composite/filters.h"
 #include "composite/image.h"
+#include "core/aov.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/render_context.h"
@@ -62,12 +64,16 @@ class Film {
     void accumulate_taps(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums);
     template <int kTaps>
     void add_sample(float x, float y, int px, int py, const float* rgba, float* weights, Sums& sums) const;
+    void accumulate_aovs(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
+                         Sums& sums) const;
     void record_pixel(int px, int py, float depth, uint32_t primitive);
     void settle(int tile);
     void develop(int tile);
+    void develop_aovs(int tile, const std::vector<float>& weights);
     void release(int tile);
     void expose(float* rgba) const;
 
+    AovLayout aovs_;
     FilterKernel kernel_;
     DepthFilter depth_filter_ = DepthFilter::Min;
     float gain_ = 1, inverse_gamma_ = 1;

@@ -36,6 +36,26 @@ Grids busy_grids() {
     return grids;
 }
 
+/// The same, with its colours (and a float) as output variables besides.
+Grids busy_grids_with_variables(RasterScene& scene) {
+    scene.scene.options.displays = {testing::aov_display("Ci", ValueType::Color),
+                                    testing::aov_display("foo", ValueType::Float)};
+    const Grids plain = busy_grids();
+    GridLook look;
+    look.color = [&](int x, int y) {
+        const int column = std::min(x / kMaxGridSide, kColumns - 1),
+                  row = std::min(y / kMaxGridSide, kRows - 1);
+        return plain.grids[row * kColumns + column].color(x - column * kMaxGridSide, y - row * kMaxGridSide);
+    };
+    look.aov_channels = 4;
+    look.aov = [&](int x, int y, int channel) { return channel < 3 ? look.color(x, y)[channel] : 1000; };
+    look.depth = 5;
+    look.primitive = 3;
+    Grids grids;
+    add_grids(grids, kColumns, kRows, look);
+    return grids;
+}
+
 bool in_blob(float x, float y) {
     return std::hypot(x - 30, y - 20) < 17.3f || x > 55.5f;
 }
@@ -79,9 +99,50 @@ TEST(Film, SameBitsForAnyOrderOfTiles) {
     }
 }
 
+TEST(Film, OutputVariablesAreFilteredAsColourIs) {
+    for (const auto& [name, width] : {std::pair{"gaussian", 2.0f}, {"mitchell", 4.0f}, {"disk", 3.3f}}) {
+        RasterScene scene(64, 48, 3);
+        scene.scene.options.filter = {name, width, width};
+        scene.scene.options.exposure_gain = 2;  // not theirs
+        const Image plain = render(scene, busy_grids());
+        const Image image = render(scene, busy_grids_with_variables(scene));
+        ASSERT_EQ(image.aov_channels, 4);
+        ASSERT_EQ(image.aovs.size(), image.rgba.size());
+        EXPECT_EQ(image.rgba, plain.rgba);
+        EXPECT_EQ(image.z, plain.z);
+        EXPECT_TRUE(plain.aovs.empty());
+        for (size_t i = 0; i < image.aovs.size(); ++i) {
+            if (i % 4 < 3)
+                ASSERT_NEAR(2 * image.aovs[i], image.rgba[i], 1e-5f) << name << i;
+            else
+                ASSERT_NEAR(image.aovs[i], 1000 * image.rgba[i], 1e-2f) << name << i;
+        }
+    }
+}
+
+TEST(Film, OutputVariablesHaveTheSameBitsForAnyOrderAndAnyCrop) {
+    RasterScene scene(64, 48, 3);
+    const Grids grids = busy_grids_with_variables(scene);
+    const Image whole = render(scene, grids);
+    std::vector<PixelRect> tiles = tiles_of(scene.sampled());
+    std::reverse(tiles.begin(), tiles.end());
+    std::swap(tiles[1], tiles[tiles.size() / 2]);
+    Film film(scene.context, true);
+    for (const PixelRect& tile : tiles) add_tile(scene, grids, tile, film);
+    EXPECT_TRUE(film.finish() == whole);
+
+    scene.scene.options.crop_window = {0.3f, 0.72f, 0.1f, 0.9f};
+    scene.update();
+    const Image crop = render(scene, grids);
+    for (int y = crop.window.y0; y < crop.window.y1; ++y)
+        for (int x = crop.window.x0; x < crop.window.x1; ++x)
+            for (int c = 0; c < 4; ++c)
+                ASSERT_EQ(crop.aovs[4 * crop.index(x, y) + c], whole.aovs[4 * whole.index(x, y) + c]);
+}
+
 TEST(Film, SameBitsForAnyNumberOfThreads) {
     RasterScene scene(64, 48, 3);
-    const Grids grids = busy_grids();
+    const Grids grids = busy_grids_with_variables(scene);
     const Image expected = render(scene, grids);
     const std::vector<PixelRect> tiles = tiles_of(scene.sampled());
     for (const size_t count : {2u, 7u}) {

@@ -20,7 +20,11 @@ struct Image {
     std::vector<uint32_t>
         id;  ///< index in Scene::primitives of what the sample nearest the centre sees; may be empty
 
-    /// Of a pixel of the window, in z and id; times 4 in rgba.
+    std::vector<float> aovs;  ///< aov_channels a pixel, row by row: what Displays ask for besides, by
+                              ///< aov_layout(); not exposed
+    int aov_channels = 0;
+
+    /// Of a pixel of the window, in z and id; times 4 in rgba, times aov_channels in aovs.
     size_t index(int x, int y) const {
         return static_cast<size_t>(y - window.y0) * window.width() + static_cast<size_t>(x - window.x0);
     }

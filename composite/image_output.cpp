@@ -37,7 +37,9 @@ struct Encoding {
     OIIO::TypeDesc type = OIIO::TypeDesc::UINT8;
     bool srgb = false, unassociated = false;
     int channels = 3;
-    int first_channel = 0;  ///< 3 when alpha is alone
+    int first_channel = 0;          ///< 3 when alpha is alone
+    const float* values = nullptr;  ///< of the window's first pixel
+    int values_per_pixel = 4;
     bool depth = false;
 
     bool to_float() const { return type == OIIO::TypeDesc::FLOAT; }
@@ -60,15 +62,22 @@ Encoding encoding_of(const PictureToWrite& picture) {
     e.first_channel = plan.rgb ? 0 : 3;
     e.unassociated = e.channels == 4 && plan.format != FileFormat::Tiff;
     e.depth = plan.depth;
+    e.values = picture.image.rgba.data();
+    if (!plan.aov) return e;
+    e.srgb = e.srgb && plan.aov_is_color;
+    e.channels = plan.aov->channels;
+    e.first_channel = 0;
+    e.unassociated = false;
+    e.values = picture.image.aovs.data() + plan.aov->offset;
+    e.values_per_pixel = picture.image.aov_channels;
     return e;
 }
 
 /// One channel of a pixel in the file's scale: 0..1 for what is quantized.
-float encoded(const Encoding& e, const float* rgba, int channel) {
-    if (channel == 3) return rgba[3];
-    const float alpha = rgba[3];
-    float value = rgba[channel];
-    if (e.unassociated) value = alpha > 0 ? value / alpha : 0;
+float encoded(const Encoding& e, const float* pixel, int channel) {
+    if (channel == 3) return pixel[3];
+    float value = pixel[channel];
+    if (e.unassociated) value = pixel[3] > 0 ? value / pixel[3] : 0;
     return e.srgb ? srgb_encoded(value) : value;
 }
 
@@ -87,9 +96,9 @@ std::vector<Value> encode_pixels(const Image& image, const Encoding& e) {
     out.reserve(image.z.size() * static_cast<size_t>(e.channels));
     for (int y = image.window.y0; y < image.window.y1; ++y)
         for (int x = image.window.x0; x < image.window.x1; ++x) {
-            const float* rgba = &image.rgba[4 * image.index(x, y)];
+            const float* pixel = e.values + static_cast<size_t>(e.values_per_pixel) * image.index(x, y);
             for (int c = e.first_channel; c < e.first_channel + e.channels; ++c) {
-                const float value = encoded(e, rgba, c);
+                const float value = encoded(e, pixel, c);
                 if constexpr (std::is_same_v<Value, float>)
                     out.push_back(value);
                 else
@@ -112,7 +121,10 @@ OIIO::ImageSpec make_spec(const PictureToWrite& picture, const Encoding& e) {
     OIIO::ImageSpec spec(image.window.width(), image.window.height(), e.channels, e.type);
     spec.x = image.window.x0, spec.y = image.window.y0;
     spec.full_width = image.width, spec.full_height = image.height;
-    if (!picture.plan.rgb) {
+    if (picture.plan.aov) {
+        spec.channelnames = aov_channel_names(picture.plan);
+        spec.alpha_channel = -1;
+    } else if (!picture.plan.rgb) {
         spec.channelnames = {e.depth ? "Z" : "A"};
         spec.alpha_channel = e.depth ? -1 : 0;
     }
@@ -146,6 +158,7 @@ bool write_pixels(OIIO::ImageOutput& out, const Image& image, const Encoding& e)
 }  // namespace
 
 std::string write_image(const PictureToWrite& picture, OutputFile& file) {
+    if (lacks_variable(picture)) return kNoVariables;
     if (!file.open()) return file.error();
     // Into memory first: not every format's code notices a full disk, OutputFile does.
     OIIO::Filesystem::IOVecOutput memory;

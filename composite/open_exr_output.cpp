@@ -69,6 +69,8 @@ Imf::Header make_header(const PictureToWrite& picture) {
         for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(color));
     if (picture.plan.alpha) header.channels().insert("A", Imf::Channel(color));
     if (picture.plan.depth) header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
+    for (const std::string& name : aov_channel_names(picture.plan))
+        header.channels().insert(name, Imf::Channel(color));
     if (picture.plan.id) header.channels().insert("id", Imf::Channel(Imf::UINT));
 
     Imf::addWorldToCamera(header, scene.camera_from_world);
@@ -95,7 +97,9 @@ class RowWriter {
         const size_t first = image.index(image.window.x0, y0),
                      count = image.index(image.window.x0, y1) - first;
         Imf::FrameBuffer buffer;
-        if (plan.float_pixels) {
+        if (plan.aov) {
+            insert_aov(buffer, first, count, y0, y1);
+        } else if (plan.float_pixels) {
             insert_colors(buffer, Imf::FLOAT, image.rgba.data() + 4 * first, y0, y1);
         } else if (plan.rgb || plan.alpha) {
             halves_.resize(4 * count);
@@ -125,6 +129,23 @@ class RowWriter {
                 buffer.insert(names[c], slice(type, rgba + c, 4, y0, y1));
     }
 
+    void insert_aov(Imf::FrameBuffer& buffer, size_t first, size_t count, int y0, int y1) {
+        const Image& image = picture_.image;
+        const auto stride = static_cast<size_t>(image.aov_channels);
+        const float* values = image.aovs.data() + stride * first;
+        if (!picture_.plan.float_pixels) {
+            halves_.resize(stride * count);
+            to_halves(values, stride * count, halves_.data());
+        }
+        int channel = picture_.plan.aov->offset;
+        for (const std::string& name : aov_channel_names(picture_.plan)) {
+            buffer.insert(name, picture_.plan.float_pixels
+                                    ? slice(Imf::FLOAT, values + channel, image.aov_channels, y0, y1)
+                                    : slice(Imf::HALF, halves_.data() + channel, image.aov_channels, y0, y1));
+            ++channel;
+        }
+    }
+
     const PictureToWrite& picture_;
     Imf::OutputFile& out_;
     std::vector<Imath::half> halves_;
@@ -145,6 +166,7 @@ void write_rows(const PictureToWrite& picture, OutputFile& file) {
 
 std::string write_open_exr(const PictureToWrite& picture, OutputFile& file) {
     if (picture.plan.id && picture.image.id.empty()) return "no ids were recorded";
+    if (lacks_variable(picture)) return kNoVariables;
     if (!file.open()) return file.error();
     try {
         write_rows(picture, file);

@@ -13,4 +13,12 @@ struct PictureToWrite {
     const OutputInfo& info;
 };
 
+/// Whether the plan is for an output variable that the picture does not have, which is an error of these
+/// words.
+inline bool lacks_variable(const PictureToWrite& picture) {
+    return picture.plan.aov &&
+           picture.image.aov_channels < picture.plan.aov->offset + picture.plan.aov->channels;
+}
+inline constexpr const char* kNoVariables = "no output variables were recorded";
+
 }  // namespace trapeze

@@ -81,7 +81,16 @@ struct GridLook {
     uint8_t matte = 0;
     float depth = 1;
     uint32_t primitive = 0;
+    int aov_channels = 0;
+    std::function<float(int x, int y, int channel)> aov;  ///< of the vertex at raster (x, y)
 };
+
+/// Asks for an output variable.
+inline Display aov_display(std::string name, ValueType type, std::string file = {}) {
+    Display display{std::move(file), "exr", "varying ...", {}, {}};
+    display.variable = DisplayVariable{std::move(name), type};
+    return display;
+}
 
 /// Static grids of one-pixel micropolygons that tile the pixels (0, 0) .. (16 * columns, 16 * rows),
 /// appended.
@@ -96,6 +105,7 @@ inline void add_grids(Grids& grids, int columns, int rows, const GridLook& look)
             grid.matte = look.matte;
             grid.primitive = look.primitive;
             grid.ordinal = grids.grids.size();
+            grid.aov_channels = static_cast<uint8_t>(look.aov_channels);
             arena.allocate(grid);
             const int n = grid.shape.vertex_count();
             for (int j = 0; j <= kMaxGridSide; ++j)
@@ -106,6 +116,7 @@ inline void add_grids(Grids& grids, int columns, int rows, const GridLook& look)
                     grid.plane(0, 1)[tiled] = static_cast<float>(y);
                     grid.plane(0, 2)[tiled] = look.depth;
                     const V3f color = look.color(x, y), opacity = look.opacity ? look.opacity(x, y) : V3f(1);
+                    for (int c = 0; c < look.aov_channels; ++c) grid.aov_plane(c)[at] = look.aov(x, y, c);
                     for (int c = 0; c < 3; ++c) {
                         grid.colors[c * n + at] = color[c];
                         if (look.opacity) grid.colors[(3 + c) * n + at] = opacity[c];

@@ -37,6 +37,29 @@ bool resolve_opaque(const AxisRay& ray, const Hit& hit, const Grids& grids, Samp
     return true;
 }
 
+bool shows(const Grid& grid, const Layer& layer) {
+    return !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));
+}
+
+/// Adds a layer's values, weighed by what reaches it.
+void add_aovs(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, const AovLayout& layout,
+              const V3f& transmission, float* values) {
+    QuadWeights weights{{1, 0, 0, 0}};
+    if (grid.smooth) weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
+    const int corners = grid.smooth ? 4 : 1;
+    const bool gray = transmission.x == transmission.y && transmission.y == transmission.z;
+    const float mean = gray ? transmission.x : (transmission.x + transmission.y + transmission.z) / 3;
+    for (const Aov& aov : layout.aovs)
+        for (int c = 0; c < aov.channels; ++c) {
+            const float* plane = grid.aov_plane(aov.offset + c);
+            float value = 0;
+            for (int corner = 0; corner < corners; ++corner)
+                value += weights.w[corner] *
+                         plane[grid.shape.row_index(id.u + (corner & 1), id.v + (corner >> 1))];
+            values[aov.offset + c] += (aov.channels == 3 ? transmission[c] : mean) * value;
+        }
+}
+
 }  // namespace
 
 SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids) {
@@ -56,8 +79,7 @@ SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const 
             }
             transmission[c] *= 1 - opacity;
         }
-        const bool shows = !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));
-        if (shows && sample.primitive == ~uint32_t{0}) {
+        if (shows(grid, layer) && sample.primitive == ~uint32_t{0}) {
             sample.depth = hit.depth;
             sample.primitive = grid.primitive;
         }
@@ -68,6 +90,22 @@ SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const 
     const bool gray = alpha.x == alpha.y && alpha.y == alpha.z;
     sample.rgba[3] = gray ? alpha.x : (alpha.x + alpha.y + alpha.z) / 3;
     return sample;
+}
+
+void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+                  float* values) {
+    std::fill_n(values, layout.channel_count, 0.0f);
+    V3f transmission(1);
+    for (const Hit& hit : hits) {
+        const MicropolygonId id = MicropolygonId::unpack(hit.id);
+        if (id.grid >= grids.grids.size()) continue;
+        const Grid& grid = grids.grids[id.grid];
+        const Layer layer = layer_at(ray, grid, id);
+        if (grid.aov_channels == layout.channel_count && shows(grid, layer))
+            add_aovs(ray, grid, id, layout, transmission, values);
+        for (int c = 0; c < 3; ++c) transmission[c] *= 1 - std::clamp(layer.opacity[c], 0.0f, 1.0f);
+        if (transmission == V3f(0)) break;
+    }
 }
 
 }  // namespace trapeze

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/aov.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/rays.h"
@@ -21,5 +22,10 @@ struct SampleColor {
 /// own opacity. A matte micropolygon holds out: it adds neither colour nor alpha but hides what is behind it
 /// by its Oi.
 SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids);
+
+/// The same for output variables, as aov.h says: `values` gets layout.channel_count numbers. Grids that carry
+/// other channels than the layout's count as having 0 everywhere.
+void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+                  float* values);
 
 }  // namespace trapeze

@@ -131,5 +131,64 @@ TEST(ResolveLayers, SmoothFollowsAMovingGrid) {
     expect_rgba(resolve_layers({1.5f, 0.5f, 0, 0, 0, 0.5f}, hits, grids), 0.5f, 0.5f, 0.5f, 1);
 }
 
+/// A colour and a float.
+AovLayout color_and_float() {
+    return {{{"foo", 3, 0}, {"bar", 1, 3}}, 4};
+}
+
+GridLook with_values(GridLook look, std::array<float, 4> values) {
+    look.aov_channels = 4;
+    look.aov = [values](int, int, int channel) { return values[channel]; };
+    return look;
+}
+
+std::array<float, 4> values_of(std::span<const Hit> hits, const Grids& grids) {
+    std::array<float, 4> values{-1, -1, -1, -1};
+    resolve_aovs(kRay, hits, grids, color_and_float(), values.data());
+    return values;
+}
+
+TEST(ResolveAovs, LayersAreAddedAsColoursAreAndFloatsByTheMeanOpacity) {
+    Grids grids;
+    add_grids(grids, 1, 1, with_values(glass({0.5f, 0, 0}, {0.5f, 0.25f, 0}, 2, 1), {1, 2, 3, 4}));
+    add_grids(grids, 1, 1, with_values(flat({0, 1, 1}, 3, 2), {10, 20, 30, 40}));
+    add_grids(grids, 1, 1, with_values(flat({1, 1, 1}, 4, 3), {100, 100, 100, 100}));
+    const Hit hits[] = {{2, id_of(0)}, {3, id_of(1)}, {4, id_of(2)}};
+    // What passes the first layer is 1/2, 3/4 and 1: in the mean 3/4. The second hides the third.
+    EXPECT_EQ(values_of(hits, grids), (std::array<float, 4>{1 + 5, 2 + 15, 3 + 30, 4 + 30}));
+    EXPECT_EQ(values_of(std::span(hits).subspan(1), grids), (std::array<float, 4>{10, 20, 30, 40}));
+    EXPECT_EQ(values_of({}, grids), (std::array<float, 4>{0, 0, 0, 0}));
+}
+
+TEST(ResolveAovs, LayersThatShowNothingAddNothing) {
+    Grids grids;
+    GridLook matte = glass({1, 1, 1}, {0.5f, 0.5f, 0.5f}, 1, 1);
+    matte.matte = 1;
+    add_grids(grids, 1, 1, with_values(matte, {1000, 1000, 1000, 1000}));
+    add_grids(grids, 1, 1, with_values(glass({0, 0, 0}, {0, 0, 0}, 2, 1), {100, 100, 100, 100}));
+    add_grids(grids, 1, 1, flat({1, 1, 1}, 3, 2));  // carries no values
+    const Hit seen[] = {{1, id_of(0)}, {2, id_of(1)}, {3, id_of(2)}};
+    EXPECT_EQ(values_of(seen, grids), (std::array<float, 4>{0, 0, 0, 0}));
+    add_grids(grids, 1, 1, with_values(flat({0, 0, 0}, 3, 2), {8, 4, 2, 1}));  // black, but there
+    const Hit held_out[] = {{1, id_of(0)}, {2, id_of(1)}, {3, id_of(3)}};
+    EXPECT_EQ(values_of(held_out, grids), (std::array<float, 4>{4, 2, 1, 0.5f}));
+}
+
+TEST(ResolveAovs, AConstantMicropolygonHasItsFirstVertexsValueASmoothOneInterpolates) {
+    GridLook look = flat({1, 1, 1}, 1, 0);
+    look.aov_channels = 4;
+    look.aov = [](int x, int y, int channel) { return static_cast<float>(x + 2 * y + channel); };
+    Grids grids;
+    add_grids(grids, 1, 1, look);
+    look.smooth = true;
+    add_grids(grids, 1, 1, look);
+    const Hit constant[] = {{1, id_of(0)}}, smooth[] = {{1, id_of(1)}};
+    const std::array<float, 4> held = values_of(constant, grids), varying = values_of(smooth, grids);
+    for (int c = 0; c < 4; ++c) {
+        EXPECT_EQ(held[c], static_cast<float>(3 + 2 * 5 + c));
+        EXPECT_FLOAT_EQ(varying[c], 3.25f + 2 * 5.5f + static_cast<float>(c));  // linear in x and y
+    }
+}
+
 }  // namespace
 }  // namespace trapeze

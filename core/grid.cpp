@@ -37,9 +37,10 @@ std::byte* GridArena::take(size_t size) {
 
 void GridArena::allocate(Grid& grid) {
     const size_t floats = static_cast<size_t>(grid.plane_count()) * grid.shape.plane_size();
-    const size_t halves = static_cast<size_t>(grid.color_plane_count()) * grid.shape.vertex_count();
+    const size_t aovs = static_cast<size_t>(grid.aov_channels) * grid.shape.vertex_count();
     grid.positions = reinterpret_cast<float*>(take(floats * sizeof(float)));
-    grid.colors = reinterpret_cast<Imath::half*>(take(halves * sizeof(Imath::half)));
+    grid.colors =
+        reinterpret_cast<Imath::half*>(take(grid.color_room() * sizeof(Imath::half) + aovs * sizeof(float)));
 }
 
 uint64_t Grids::micropolygon_count() const {

@@ -8,7 +8,8 @@
 /// Lanes past the last row or column repeat it. A static grid has the planes X Y Z; a moving one has, for
 /// each of its key_count - 1 segments, X Y Z at the segment's first key and then DX DY DZ to its next key; a
 /// vertex is at position_at(x, dx, local_time). Colours are row by row (no tiles): Ci red green blue, then Oi
-/// unless opaque, halves.
+/// unless opaque, halves; after them come the channels of output variables (aov.h), if any, in floats: a
+/// half is too coarse for positions.
 #pragma once
 
 #include <Imath/half.h>
@@ -67,14 +68,19 @@ struct Grid {
     bool opaque = true;             ///< Oi is 1 everywhere and there is no Oi plane
     bool smooth = false;            ///< colours are interpolated in a micropolygon, else vertex 00's holds
     uint8_t matte = 0;              ///< 1: holds out
+    uint8_t aov_channels = 0;       ///< of output variables; 0 unless Displays ask for some
     uint32_t primitive = 0;         ///< index in Scene::primitives
     uint64_t ordinal = 0;           ///< place in the order of the whole frame's grids
     float* positions = nullptr;     ///< plane_count() * shape.plane_size() floats
-    Imath::half* colors = nullptr;  ///< color_plane_count() * shape.vertex_count() halves
+    Imath::half* colors = nullptr;  ///< color_plane_count() * shape.vertex_count() halves, then aov_plane()s
 
     bool moves() const { return key_count > 1; }
     int plane_count() const { return moves() ? 6 * (key_count - 1) : 3; }
     int color_plane_count() const { return opaque ? 3 : 6; }
+    /// Halves before the planes of output variables, which are aligned as floats.
+    size_t color_room() const {
+        return (static_cast<size_t>(color_plane_count()) * shape.vertex_count() + 1) & ~size_t{1};
+    }
 
     /// component 0..2: X Y Z at the segment's first key; 3..5: DX DY DZ over it (moving grids only).
     float* plane(int segment, int component) const {
@@ -110,9 +116,16 @@ struct Grid {
     V3f color(int i, int j) const { return color_at(0, i, j); }
     V3f opacity(int i, int j) const { return opaque ? V3f(1, 1, 1) : color_at(3, i, j); }
 
+    /// shape.vertex_count() floats, row by row, of channel 0 .. aov_channels - 1.
+    float* aov_plane(int channel) const {
+        return reinterpret_cast<float*>(colors + color_room()) +
+               static_cast<size_t>(channel) * shape.vertex_count();
+    }
+
     size_t bytes() const {
         return sizeof(Grid) + sizeof(float) * static_cast<size_t>(plane_count()) * shape.plane_size() +
-               sizeof(Imath::half) * static_cast<size_t>(color_plane_count()) * shape.vertex_count();
+               sizeof(Imath::half) * color_room() +
+               sizeof(float) * static_cast<size_t>(aov_channels) * shape.vertex_count();
     }
 
   private:
@@ -130,7 +143,7 @@ class GridArena {
     GridArena(GridArena&&) noexcept = default;
     GridArena& operator=(GridArena&&) noexcept = default;
 
-    /// Sets positions and colors of a grid whose shape, key_count and opaque are set.
+    /// Sets positions and colors of a grid whose shape, key_count, opaque and aov_channels are set.
     void allocate(Grid& grid);
     size_t bytes() const { return bytes_; }
 

@@ -138,6 +138,36 @@ TEST(PackGrid, OpaqueGridsHaveNoOpacityPlanes) {
     EXPECT_EQ(glass.color(1, 0), V3f(0.25f, 0.5f, 1));
 }
 
+TEST(PackGrid, OutputVariablesFollowTheColoursAsFloats) {
+    for (const float opacity : {1.0f, 0.5f}) {
+        Shaded shaded(3, 2, 1);  // 12 vertices
+        for (int i = 0; i < 12; ++i) shaded.grid.Oi.set(i, V3f(opacity));
+        for (int channel = 0; channel < 4; ++channel) {
+            std::vector<float>& plane = shaded.grid.aovs.emplace_back(12);
+            for (int i = 0; i < 12; ++i) plane[i] = 1000.1f * static_cast<float>(channel + 1) + i;
+        }
+        shaded.grid.aovs[1][5] = std::numeric_limits<float>::quiet_NaN();
+        shaded.grid.aovs[2][6] = -3e38f;
+        GridArena arena;
+        int64_t not_finite = 0;
+        const Grid grid = shaded.pack(arena, &not_finite);
+        EXPECT_EQ(not_finite, 1);
+        ASSERT_EQ(grid.aov_channels, 4);
+        EXPECT_EQ(grid.opaque, opacity == 1);
+        for (int channel = 0; channel < 4; ++channel)
+            for (int i = 0; i < 12; ++i) {
+                if ((channel == 1 && i == 5) || (channel == 2 && i == 6)) continue;
+                ASSERT_EQ(grid.aov_plane(channel)[i], 1000.1f * static_cast<float>(channel + 1) + i);
+            }
+        EXPECT_EQ(grid.aov_plane(1)[5], 0);
+        EXPECT_EQ(grid.aov_plane(2)[6], -kInfinity);
+        EXPECT_EQ(grid.color(1, 0), V3f(0.25f, 0.5f, 1));
+        EXPECT_EQ(grid.opacity(3, 2), V3f(opacity));
+        EXPECT_GE(reinterpret_cast<std::byte*>(grid.aov_plane(0)),
+                  reinterpret_cast<std::byte*>(grid.colors + 12 * grid.color_plane_count()));
+    }
+}
+
 TEST(PackGrid, SidesAndOrientationDecideTheFacing) {
     EXPECT_EQ(facing_for_sides(2, false), Facing::Both);
     EXPECT_EQ(facing_for_sides(2, true), Facing::Both);

@@ -20,12 +20,20 @@ namespace trapeze {
 inline constexpr float kInfinity = 1e30f;
 inline constexpr float kEpsilon = 1e-10f;  ///< RISpec's RI_EPSILON: the default near clipping plane
 
+/// A variable of the surfaces that a Display shows: a float, colour, point, vector or normal.
+struct DisplayVariable {
+    std::string name;
+    ValueType type = ValueType::Color;
+};
+
 struct Display {
     std::string name;  ///< without the leading '+'
     std::string type;  ///< driver: file, tiff, openexr, exr, png, framebuffer, ...
     std::string mode;  ///< rgb, rgba, a, z, rgbaz, or "varying color foo"
     ParameterList parameters;
     SourceLocation location;
+    std::optional<DisplayVariable> variable =
+        {};  ///< what the mode names, unless it is colour, alpha or depth
 };
 
 struct PixelFilter {

@@ -40,6 +40,15 @@ void pack_colors(const Triples& colors, size_t count, Imath::half* out, int64_t*
         for (size_t i = 0; i < count; ++i) *out++ = to_half(finite_or(plane[i], 0, not_finite));
 }
 
+void pack_aovs(const std::vector<std::vector<float>>& planes, const Grid& grid, int64_t* not_finite) {
+    const size_t count = grid.shape.vertex_count();
+    for (int channel = 0; channel < grid.aov_channels; ++channel) {
+        float* out = grid.aov_plane(channel);
+        for (size_t i = 0; i < count; ++i)
+            out[i] = std::clamp(finite_or(planes[channel][i], 0, not_finite), -kInfinity, kInfinity);
+    }
+}
+
 bool all_opaque(const Triples& opacity, size_t count) {
     for (const std::vector<float>& plane : opacity.c)
         if (!std::all_of(plane.begin(), plane.begin() + count, [](float o) { return o >= 1; })) return false;
@@ -65,6 +74,7 @@ Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite
     grid.matte = static_cast<uint8_t>(attributes.matte);
     grid.primitive = shading.primitive_index;
     grid.ordinal = shading.ordinal;
+    grid.aov_channels = static_cast<uint8_t>(shading.aovs.size());
     arena.allocate(grid);
 
     const size_t plane_size = grid.shape.plane_size();
@@ -79,6 +89,7 @@ Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite
         }
     pack_colors(shading.Ci, count, grid.colors, not_finite);
     if (!grid.opaque) pack_colors(shading.Oi, count, grid.colors + 3 * count, not_finite);
+    pack_aovs(shading.aovs, grid, not_finite);
     return grid;
 }
 

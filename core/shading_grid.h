@@ -64,6 +64,9 @@ struct ShadingGrid {
 
     Triples Ci, Oi;          ///< what shading makes
     bool displaced = false;  ///< a displacement shader has moved P
+    /// What Displays ask for besides: a plane of vertex_count() floats for each channel of aov_layout(), or
+    /// none at all.
+    std::vector<std::vector<float>> aovs;
 
     size_t vertex_count() const { return static_cast<size_t>(shape.vertex_count()); }
     const GridVariable* find(std::string_view name) const {
@@ -78,8 +81,9 @@ struct ShadingGrid {
 /// area is negative.
 Facing facing_for_sides(int sides, bool reverse_orientation);
 
-/// Packs a shaded grid: positions into tiles, Ci and Oi into halves. Values that are not finite become 0
-/// (colour) or the nearest finite vertex's position; *not_finite counts them.
+/// Packs a shaded grid: positions into tiles, Ci and Oi into halves, output variables into floats. Values
+/// that are not finite become 0 (colours and output variables) or the nearest finite vertex's position;
+/// *not_finite counts them. Output variables are clamped to +-kInfinity, so that sums of them are finite.
 Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite);
 
 }  // namespace trapeze
