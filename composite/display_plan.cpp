@@ -76,10 +76,9 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
 }
 
 /// The variable that the mode names.
-bool choose_variable(const Display& display, const Options& options, Diagnostics& diagnostics,
+bool choose_variable(const Display& display, const AovLayout& layout, Diagnostics& diagnostics,
                      DisplayPlan& plan) {
     plan.rgb = plan.alpha = false;
-    const AovLayout layout = aov_layout(options);
     if (const Aov* aov = layout.find(*display.variable)) {
         plan.aov = *aov;
         plan.aov_is_color = display.variable->type == ValueType::Color;
@@ -173,11 +172,11 @@ std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {
 }
 
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
-                                        Diagnostics& diagnostics) {
+                                        const AovLayout& layout, Diagnostics& diagnostics) {
     DisplayPlan plan;
     if (!choose_format(display, diagnostics, plan)) return {};
     const bool variable = display.variable && !is_depth(*display.variable) && !plan.depth_map;
-    if (!(variable ? choose_variable(display, options, diagnostics, plan)
+    if (!(variable ? choose_variable(display, layout, diagnostics, plan)
                    : choose_channels(display, diagnostics, plan)))
         return {};
     choose_pixel_type(display, options, plan);

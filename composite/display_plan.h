@@ -42,8 +42,8 @@ bool makes_depth_map(const Display& display);
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
 
 /// Nothing when there is nothing to write: driver "null", or a mode or driver that is not supported, of which
-/// it warns.
+/// it warns. `layout` is aov_layout(options).
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
-                                        Diagnostics& diagnostics);
+                                        const AovLayout& layout, Diagnostics& diagnostics);
 
 }  // namespace trapeze

@@ -13,7 +13,7 @@ struct Planned {
 Planned planned(const Display& display, const Options& options) {
     Diagnostics diagnostics;
     Planned result;
-    result.plan = plan_display(display, options, diagnostics);
+    result.plan = plan_display(display, options, aov_layout(options), diagnostics);
     result.warnings = diagnostics.count(Severity::Warning);
     result.notes = diagnostics.count(Severity::Note);
     EXPECT_EQ(diagnostics.count(Severity::Error), 0u);

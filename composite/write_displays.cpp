@@ -11,10 +11,11 @@ namespace trapeze {
 bool write_displays(const Image& image, const RenderContext& context, const OutputInfo& info,
                     std::vector<std::string>* written) {
     Diagnostics& diagnostics = *context.diagnostics;
+    const AovLayout layout = aov_layout(context.scene->options);
     bool good = true;
     for (const Display& display : context.scene->options.displays) {
         if (context.is_cancelled()) return false;
-        const auto plan = plan_display(display, context.scene->options, diagnostics);
+        const auto plan = plan_display(display, context.scene->options, layout, diagnostics);
         if (!plan) continue;
         std::string error;
         if (image.window.empty()) {

@@ -61,12 +61,19 @@ struct RetainedObject {
     std::vector<ObjectPrimitive> primitives;
 };
 
+/// A channel that modes of Displays may name.
+struct DisplayChannel {
+    DisplayVariable variable;
+    ParameterList parameters;
+};
+
 /// What frames and worlds restore besides the graphics state: RISpec ends the life of lights, objects and
 /// options with them.
 struct Scope {
     Options options;
     std::map<std::string, MovingTransform> named_spaces;  ///< camera_from_space
     std::map<std::string, std::shared_ptr<const LightInstance>> lights;
+    std::map<std::string, DisplayChannel> display_channels;
     std::map<std::string, std::shared_ptr<RetainedObject>> objects;
 };
 

@@ -1,4 +1,4 @@
-/// RISpec 4.1: the camera, the display, the hider.
+/// RISpec 4.1: the camera, the film, the hider. Displays are in display_requests.cpp.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -17,12 +17,6 @@ constexpr std::string_view kFilters[] = {"gaussian", "box",     "triangle",     
                                          "sinc",     "disk",    "bessel",          "mitchell",
                                          "b-spline", "lanczos", "blackman-harris", "separable-catmull-rom"};
 
-/// Options are fixed within a world.
-Options& changeable(Reader& r) {
-    if (r.in_world()) throw RequestError{"options cannot change inside a world", {}};
-    return r.options();
-}
-
 void require(bool holds, const char* text) {
     if (!holds) throw RequestError{text, {}};
 }
@@ -32,7 +26,7 @@ void format(Reader& r, ArgumentCursor& c) {
     const float width = v[0], height = v[1], aspect = v.size() > 2 ? v[2] : 1;
     require(width <= kLargestPicture && height <= kLargestPicture,
             "the picture is larger than 65536 pixels along a side");
-    Options& o = changeable(r);
+    Options& o = changeable_options(r);
     if (width >= 1) o.width = static_cast<int>(width);
     if (height >= 1) o.height = static_cast<int>(height);
     if (aspect > 0) o.pixel_aspect = aspect;  // RISpec: values below 1 ask for the default
@@ -41,7 +35,7 @@ void format(Reader& r, ArgumentCursor& c) {
 void frame_aspect_ratio(Reader& r, ArgumentCursor& c) {
     const float aspect = c.number("the ratio");
     require(aspect > 0, "the ratio must be positive");
-    changeable(r).frame_aspect = aspect;
+    changeable_options(r).frame_aspect = aspect;
 }
 
 std::array<float, 4> four(ArgumentCursor& c, const char* what) {
@@ -52,18 +46,18 @@ std::array<float, 4> four(ArgumentCursor& c, const char* what) {
 void screen_window(Reader& r, ArgumentCursor& c) {
     const auto w = four(c, "the window");
     require(w[0] != w[1] && w[2] != w[3], "the window is empty");
-    changeable(r).screen_window = w;
+    changeable_options(r).screen_window = w;
 }
 
 void crop_window(Reader& r, ArgumentCursor& c) {
     auto w = four(c, "the window");
     for (float& v : w) v = std::clamp(v, 0.0f, 1.0f);
     require(w[0] < w[1] && w[2] < w[3], "the window is empty");
-    changeable(r).crop_window = w;
+    changeable_options(r).crop_window = w;
 }
 
 void projection(Reader& r, ArgumentCursor& c) {
-    Options& o = changeable(r);
+    Options& o = changeable_options(r);
     const std::string name = c.string("the projection's name");
     const float fov = r.parameters(c).float_or("fov", 90);
     require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
@@ -83,13 +77,13 @@ void clipping(Reader& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the planes");
     const float near = v[0], far = v[1];
     require(near >= 0 && near < far, "needs 0 <= near < far");
-    Options& o = changeable(r);
+    Options& o = changeable_options(r);
     o.near_clip = std::max(near, kEpsilon);
     o.far_clip = std::min(far, kInfinity);
 }
 
 void depth_of_field(Reader& r, ArgumentCursor& c) {
-    Options& o = changeable(r);
+    Options& o = changeable_options(r);
     if (c.done() || c.next_is_string()) {  // "-" in older files, or nothing: a pinhole
         if (!c.done()) c.string("f-stop");
         o.f_stop = kInfinity;
@@ -106,7 +100,7 @@ void shutter(Reader& r, ArgumentCursor& c) {
     const float open = v[0], close = v[1];
     require(open <= close, "closes before it opens");
     require(std::isfinite(close - open), "is open for too long");
-    changeable(r).shutter_open = open;
+    changeable_options(r).shutter_open = open;
     r.options().shutter_close = close;
 }
 
@@ -115,7 +109,7 @@ void pixel_samples(Reader& r, ArgumentCursor& c) {
     const float x = v[0], y = v[1];
     require(x >= 1 && y >= 1, "needs at least one sample along each side");
     if (x > kMostSamples || y > kMostSamples) r.error("more than 64 samples along a side; 64 are used");
-    changeable(r).samples_x = std::min(x, kMostSamples);
+    changeable_options(r).samples_x = std::min(x, kMostSamples);
     r.options().samples_y = std::min(y, kMostSamples);
 }
 
@@ -124,7 +118,7 @@ void pixel_filter(Reader& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the widths");
     const float x = v[0], y = v[1];
     require(x > 0 && y > 0 && x <= 64 && y <= 64, "widths must be positive and at most 64 pixels");
-    Options& o = changeable(r);
+    Options& o = changeable_options(r);
     if (std::find(std::begin(kFilters), std::end(kFilters), name) == std::end(kFilters)) {
         r.warn_once(in_quotes(name) + " is not known; gaussian is used", "filter-" + name);
         name = "gaussian";
@@ -136,7 +130,7 @@ void exposure(Reader& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the exposure");
     const float gain = v[0], gamma = v[1];
     require(gain >= 0 && gamma > 0, "needs a positive gamma");
-    changeable(r).exposure_gain = gain;
+    changeable_options(r).exposure_gain = gain;
     r.options().exposure_gamma = gamma;
 }
 
@@ -145,36 +139,22 @@ void quantize(Reader& r, ArgumentCursor& c) {
     value.name = c.string("the type");
     value.floats = c.numbers(4, "one, min, max and dither");
     value.declaration.array_length = 4;
-    changeable(r).quantize.set(std::move(value));
+    changeable_options(r).quantize.set(std::move(value));
 }
 
 void imager(Reader& r, ArgumentCursor& c) {
-    changeable(r).imager = c.string("the imager's name");
+    changeable_options(r).imager = c.string("the imager's name");
     r.parameters(c, Undeclared::Guess);
 }
 
 void hider(Reader& r, ArgumentCursor& c) {
-    Options& o = changeable(r);
+    Options& o = changeable_options(r);
     o.hider = c.string("the hider's name");
     o.hider_parameters = r.parameters(c, Undeclared::Guess);
 }
 
-void display(Reader& r, ArgumentCursor& c) {
-    Display d;
-    d.location = r.at();
-    d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
-    d.parameters = r.parameters(c, Undeclared::Guess);
-    Options& o = changeable(r);
-    if (!d.name.empty() && d.name[0] == '+') {
-        d.name.erase(0, 1);
-        o.displays.push_back(std::move(d));
-    } else {
-        o.displays.assign(1, std::move(d));
-    }
-}
-
 void option(Reader& r, ArgumentCursor& c) {
-    Options& o = changeable(r);
+    Options& o = changeable_options(r);
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : values.values) {
@@ -186,7 +166,7 @@ void option(Reader& r, ArgumentCursor& c) {
 
 /// Requests that change nothing here: RelativeDetail, PixelVariance.
 void without_effect(Reader& r, ArgumentCursor& c) {
-    changeable(r);
+    changeable_options(r);
     c.number("the value");
 }
 
@@ -206,12 +186,16 @@ constexpr RequestRow kRows[] = {
     {"Quantize", quantize},
     {"Imager", imager},
     {"Hider", hider},
-    {"Display", display},
     {"Option", option},
     {"RelativeDetail", without_effect},
 };
 
 }  // namespace
+
+Options& changeable_options(Reader& reader) {
+    if (reader.in_world()) throw RequestError{"options cannot change inside a world", {}};
+    return reader.options();
+}
 
 std::span<const RequestRow> option_requests() {
     return kRows;

@@ -35,6 +35,7 @@ class Reader {
 
     Options& options() { return scope_.options; }
     bool in_world() const { return in_world_; }
+    std::map<std::string, DisplayChannel>& display_channels() { return scope_.display_channels; }
     Declarations& declarations() { return declarations_; }
 
     const AttributeState& attributes() const { return *state_.attributes; }

@@ -15,7 +15,6 @@ constexpr const char* kUnsupported[] = {"AreaLightSource",
                                         "Deformation",
                                         "Detail",
                                         "DetailRange",
-                                        "DisplayChannel",
                                         "ErrorHandler",
                                         "GeometricApproximation",
                                         "GeometricRepresentation",
@@ -82,6 +81,7 @@ const Table& table() {
         };
         add(structure_requests(), RequestGroup::Structure);
         add(option_requests(), RequestGroup::Option);
+        add(display_requests(), RequestGroup::Option);
         add(attribute_requests(), RequestGroup::Attribute);
         add(transform_requests(), RequestGroup::Transform);
         add(polygon_requests(), RequestGroup::Geometry);

@@ -14,7 +14,10 @@ struct RequestRow {
 
 std::span<const RequestRow> structure_requests();
 std::span<const RequestRow> option_requests();
+std::span<const RequestRow> display_requests();
 std::span<const RequestRow> attribute_requests();
+/// For requests that are fixed within a world: an error there.
+Options& changeable_options(Reader& reader);
 std::span<const RequestRow> transform_requests();
 std::span<const RequestRow> polygon_requests();
 std::span<const RequestRow> curved_surface_requests();

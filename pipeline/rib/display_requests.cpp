@@ -1,0 +1,96 @@
+/// RISpec 4.1.2, Display, with the DisplayChannel that later RenderMans added.
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "pipeline/rib/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr size_t kLongestVariable = 200;  ///< characters; names become channels of files
+
+/// Globals of surface shaders (RISpec, table 12.1) whose types nobody declares.
+struct Global {
+    std::string_view name;
+    ValueType type;
+};
+constexpr Global kGlobals[] = {
+    {"Ci", ValueType::Color},    {"Oi", ValueType::Color},    {"u", ValueType::Float},
+    {"v", ValueType::Float},     {"du", ValueType::Float},    {"dv", ValueType::Float},
+    {"dPdu", ValueType::Vector}, {"dPdv", ValueType::Vector}, {"I", ValueType::Vector},
+    {"E", ValueType::Point},     {"time", ValueType::Float}};
+
+bool is_variable_name(std::string_view name) {
+    const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
+    return !name.empty() && name.size() <= kLongestVariable && std::all_of(name.begin(), name.end(), fits);
+}
+
+/// Of one that has one or three numbers.
+std::optional<DisplayVariable> variable_of(const std::string& name, const Declaration& declaration) {
+    constexpr ValueType kTypes[] = {ValueType::Float, ValueType::Color, ValueType::Point, ValueType::Vector,
+                                    ValueType::Normal};
+    const bool fits = std::find(std::begin(kTypes), std::end(kTypes), declaration.type) != std::end(kTypes);
+    if (!fits || declaration.array_length != 1 || !is_variable_name(name)) return {};
+    return DisplayVariable{name, declaration.type};
+}
+
+/// Colour, alpha, depth, or ids: what no variable can hide.
+bool is_of_the_picture(std::string_view mode) {
+    for (const std::string_view channels : {"rgb", "a", "z"})
+        if (mode.starts_with(channels)) mode.remove_prefix(channels.size());
+    return mode.empty() || mode == "id";
+}
+
+/// What a mode names: "varying color foo", a DisplayChannel, or a variable whose type is known.
+std::optional<DisplayVariable> variable_named(Reader& r, const std::string& mode) {
+    if (is_of_the_picture(mode)) return {};
+    if (const auto channel = r.display_channels().find(mode); channel != r.display_channels().end())
+        return channel->second.variable;
+    if (const auto declared = r.declarations().resolve(mode))
+        return variable_of(declared->first, declared->second);
+    for (const Global& global : kGlobals)
+        if (global.name == mode) return DisplayVariable{mode, global.type};
+    return {};
+}
+
+void display(Reader& r, ArgumentCursor& c) {
+    Display d;
+    d.location = r.at();
+    d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
+    d.parameters = r.parameters(c, Undeclared::Guess);
+    d.variable = variable_named(r, d.mode);
+    if (const auto channel = r.display_channels().find(d.mode); channel != r.display_channels().end())
+        for (const Parameter& parameter : channel->second.parameters.values)
+            if (!d.parameters.find(parameter.name)) d.parameters.set(parameter);
+    Options& o = changeable_options(r);
+    if (!d.name.empty() && d.name[0] == '+') {
+        d.name.erase(0, 1);
+        o.displays.push_back(std::move(d));
+    } else {
+        o.displays.assign(1, std::move(d));
+    }
+}
+
+void display_channel(Reader& r, ArgumentCursor& c) {
+    const std::string token = c.string("the channel");
+    ParameterList parameters = r.parameters(c, Undeclared::Guess);
+    changeable_options(r);
+    const auto variable = variable_named(r, token);
+    if (!variable) {
+        if (!is_of_the_picture(token))
+            throw RequestError{in_quotes(token) + " is no float, color, point, vector or normal", {}};
+        return;
+    }
+    r.display_channels()[variable->name] = {*variable, std::move(parameters)};
+}
+
+constexpr RequestRow kRows[] = {{"Display", display}, {"DisplayChannel", display_channel}};
+
+}  // namespace
+
+std::span<const RequestRow> display_requests() {
+    return kRows;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,81 @@
+/// Displays and what they show.
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// The variable of `Display "+b.exr" "exr" "mode"`, after `before`.
+std::optional<DisplayVariable> variable_of(const std::string& mode, const std::string& before = {}) {
+    const Outcome r = read_text("Display \"a.exr\" \"exr\" \"rgba\" " + before +
+                                " Display \"+b.exr\" \"exr\" \"" + mode + "\" WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    EXPECT_EQ(r.scene().options.displays.at(1).mode, mode);
+    EXPECT_FALSE(r.scene().options.displays.at(0).variable);
+    return r.scene().options.displays.at(1).variable;
+}
+
+void expect_variable(const std::optional<DisplayVariable>& variable, const char* name, ValueType type) {
+    ASSERT_TRUE(variable) << name;
+    EXPECT_EQ(variable->name, name);
+    EXPECT_EQ(variable->type, type) << name;
+}
+
+TEST(ReadDisplays, ModesDeclareVariables) {
+    expect_variable(variable_of("varying color foo"), "foo", ValueType::Color);
+    expect_variable(variable_of("color foo"), "foo", ValueType::Color);
+    expect_variable(variable_of("  varying   float depth_0 "), "depth_0", ValueType::Float);
+    expect_variable(variable_of("uniform point foo"), "foo", ValueType::Point);
+    expect_variable(variable_of("vector foo"), "foo", ValueType::Vector);
+    expect_variable(variable_of("varying normal N"), "N", ValueType::Normal);
+    expect_variable(variable_of("color[1] foo"), "foo", ValueType::Color);
+    expect_variable(variable_of("float z"), "z", ValueType::Float);
+}
+
+TEST(ReadDisplays, ModesNameVariablesWhoseTypesAreKnown) {
+    expect_variable(variable_of("N"), "N", ValueType::Normal);
+    expect_variable(variable_of("Ci"), "Ci", ValueType::Color);
+    expect_variable(variable_of("s"), "s", ValueType::Float);
+    expect_variable(variable_of("foo", "Declare \"foo\" \"varying vector\""), "foo", ValueType::Vector);
+    expect_variable(variable_of("foo", "DisplayChannel \"varying color foo\""), "foo", ValueType::Color);
+}
+
+TEST(ReadDisplays, ColourDepthAndIdsAreNoVariables) {
+    for (const char* mode : {"", "rgb", "rgba", "rgbaz", "a", "z", "az", "id"})
+        EXPECT_FALSE(variable_of(mode));
+}
+
+TEST(ReadDisplays, WhatHasNotOneOrThreeNumbersIsNoVariable) {
+    for (const char* mode : {"foo", "varying", "varying color", "color[2] foo", "string foo", "matrix foo",
+                             "hpoint Pw", "color a-b", "color foo bar", "rgba,N"})
+        EXPECT_FALSE(variable_of(mode)) << mode;
+    EXPECT_FALSE(variable_of("color " + std::string(300, 'x')));
+}
+
+TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
+    const Outcome r = read_text(
+        "DisplayChannel \"float foo\" \"quantize\" [0 100 0 100] \"float dither\" [0.25]\n"
+        "Display \"a.tif\" \"tiff\" \"foo\" \"dither\" [0]\n"
+        "FrameBegin 1 DisplayChannel \"color bar\" FrameEnd\n"
+        "Display \"+b.tif\" \"tiff\" \"bar\" WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    const std::vector<Display>& displays = r.scene().options.displays;
+    ASSERT_EQ(displays.size(), 2u);
+    expect_variable(displays[0].variable, "foo", ValueType::Float);
+    ASSERT_NE(displays[0].parameters.find("quantize"), nullptr);
+    EXPECT_THAT(displays[0].parameters.find("quantize")->floats, ElementsAre(0, 100, 0, 100));
+    EXPECT_EQ(displays[0].parameters.float_or("dither", 1), 0);
+    EXPECT_FALSE(displays[1].variable) << "a frame's channels end with it";
+}
+
+TEST(ReadDisplays, WrongChannelsAreErrors) {
+    const Outcome r = read_text("DisplayChannel \"string foo\"\nDisplayChannel \"rgb\"\nWorldBegin WorldEnd");
+    EXPECT_THAT(r.messages,
+                ElementsAre(HasSubstr("\"string foo\" is no float, color, point, vector or normal")));
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test
