@@ -67,10 +67,10 @@ class BundleTrace {
         t_.refresh_farthest();
         collect_candidates<kMotion, kLens>(t_);
         const auto& candidates = t_.scratch.candidates;
-        std::sort(t_.scratch.candidates.begin(), t_.scratch.candidates.end());
+        order_candidates(t_);
         for (size_t i = 0; i < candidates.size(); ++i) {
             const Candidate candidate = candidate_of(candidates[i]);
-            if (candidate.depth > t_.farthest_depth) break;
+            if (candidate.depth > t_.farthest_depth) continue;
             if (i + kPrefetchAhead < candidates.size())
                 prefetch(candidate_of(candidates[i + kPrefetchAhead]).grid);
             visit_grid(candidate);

@@ -72,7 +72,7 @@ struct BundleScratch {
     /// Packets go through the nodes above grids in so many groups, at most.
     static constexpr size_t kGroups = 4;
     float groups[RayIntervals::kRows][kGroups];  ///< the intervals of each
-    std::vector<uint64_t> candidates;            ///< sorted by depth: candidate_of()
+    std::vector<uint64_t> candidates, ordered;   ///< candidate_of()
     struct Link {
         uint32_t node, groups;  ///< a bit a group
     };
