@@ -29,50 +29,59 @@ constexpr float kDefaultBias = 1e-3f;
 /// A plane seen nearly edge on is followed no farther than to this part of P's depth, nearer or farther.
 constexpr float kPlaneReach = 0.25f;
 
-/// Depths through the cache, one tile held at a time.
+/// Depths through the cache. The last tile of each of four is held, where a region's four corners mostly lie.
 class DepthReader {
   public:
     DepthReader(OIIO::ImageCache& cache, OIIO::ImageCache::Perthread* thread, const Textures::DepthMap& map)
         : cache_(cache), thread_(thread), map_(map) {}
-    ~DepthReader() { release(); }
+    ~DepthReader() {
+        for (const Tile& tile : tiles_) release(tile);
+    }
     DepthReader(const DepthReader&) = delete;
     DepthReader& operator=(const DepthReader&) = delete;
 
     /// Of a pixel; kNothing outside the file.
     float at(int x, int y) {
         if (x < map_.x0 || x >= map_.x1 || y < map_.y0 || y >= map_.y1) return kNothing;
-        if (x < roi_.xbegin || x >= roi_.xend || y < roi_.ybegin || y >= roi_.yend) fetch(x, y);
-        if (!pixels_) return kNothing;
-        const float depth = pixels_[static_cast<size_t>(y - roi_.ybegin) * roi_.width() + (x - roi_.xbegin)];
+        Tile& tile = tiles_[static_cast<size_t>((x / kTile & 1) + 2 * (y / kTile & 1))];
+        const OIIO::ROI& roi = tile.roi;
+        if (x < roi.xbegin || x >= roi.xend || y < roi.ybegin || y >= roi.yend) fetch(x, y, tile);
+        if (!tile.pixels) return kNothing;
+        const float depth = tile.pixels[static_cast<size_t>(y - roi.ybegin) * roi.width() +
+                                        static_cast<size_t>(x - roi.xbegin)];
         return depth > 0 && depth < kNothing ? depth : kNothing;
     }
     bool failed() const { return failed_; }
 
   private:
-    void release() {
-        if (tile_) cache_.release_tile(tile_);
-        tile_ = nullptr, pixels_ = nullptr;
-        roi_ = OIIO::ROI(0, 0, 0, 0);
+    static constexpr int kTile = 64;  ///< pixels along a side of most files' tiles
+    struct Tile {
+        OIIO::ImageCache::Tile* held = nullptr;
+        const float* pixels = nullptr;
+        OIIO::ROI roi{0, 0, 0, 0};
+    };
+
+    void release(const Tile& tile) {
+        if (tile.held) cache_.release_tile(tile.held);
     }
-    void fetch(int x, int y) {
-        release();
-        tile_ = cache_.get_tile(map_.handle, thread_, 0, 0, x, y, 0, 0, 1);
+    void fetch(int x, int y, Tile& tile) {
+        release(tile);
+        tile = {};
+        tile.held = cache_.get_tile(map_.handle, thread_, 0, 0, x, y, 0, 0, 1);
         OIIO::TypeDesc format;
-        const void* pixels = tile_ ? cache_.tile_pixels(tile_, format) : nullptr;
+        const void* pixels = tile.held ? cache_.tile_pixels(tile.held, format) : nullptr;
         if (!pixels || format != OIIO::TypeDesc::FLOAT) {
             failed_ = true;
             return;
         }
-        pixels_ = static_cast<const float*>(pixels);
-        roi_ = cache_.tile_roi(tile_);
+        tile.pixels = static_cast<const float*>(pixels);
+        tile.roi = cache_.tile_roi(tile.held);
     }
 
     OIIO::ImageCache& cache_;
     OIIO::ImageCache::Perthread* thread_;
     const Textures::DepthMap& map_;
-    OIIO::ImageCache::Tile* tile_ = nullptr;
-    const float* pixels_ = nullptr;
-    OIIO::ROI roi_{0, 0, 0, 0};
+    std::array<Tile, 4> tiles_;
     bool failed_ = false;
 };
 
@@ -117,10 +126,12 @@ struct Receiver {
     float least = 0, most = 0;       ///< bounds of the plane's depth
     bool perspective = true;
 
-    float plane_depth(float x, float y) const {
-        const float linear = at.linear + slope_x * (x - at.x) + slope_y * (y - at.y);
-        if (!perspective) return std::clamp(linear, least, most);
-        return linear * most > 1 ? std::max(1 / linear, least) : most;
+    /// Whether a depth is nearer than the plane at a place.
+    bool is_behind(float depth, float x, float y) const {
+        if (depth >= most) return false;
+        if (depth < least) return true;
+        const float plane = at.linear + slope_x * (x - at.x) + slope_y * (y - at.y);
+        return perspective ? depth * plane < 1 : depth < plane;
     }
 };
 
@@ -147,24 +158,32 @@ Receiver make_receiver(const Textures::DepthMap& map, const MapSpace& space, con
     return r;
 }
 
+constexpr float kHalfWord = 1.0f / 65536;
+
+int floor_of(float x) {
+    const int whole = static_cast<int>(x);
+    return whole - (static_cast<float>(whole) > x ? 1 : 0);
+}
+
 /// The part of the samples that is hidden.
 float hidden_part(DepthReader& depths, const Receiver& r, float bias, int samples, uint32_t seed) {
     const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(samples))));
     const int rows = (samples + columns - 1) / columns;
     const float slope = 0.5f * (std::fabs(r.slope_x) + std::fabs(r.slope_y));
     bias += std::min(r.perspective ? slope * r.at.depth * r.at.depth : slope, r.at.depth * kPlaneReach);
+    const float step_x = 2 * r.half_x / static_cast<float>(columns);
+    const float step_y = 2 * r.half_y / static_cast<float>(rows);
+    const float left = r.at.x - r.half_x, top = r.at.y - r.half_y;
     int hidden = 0;
-    uint32_t index = seed;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
-            const float a =
-                (static_cast<float>(column) + unit_float(index = hash(index))) / static_cast<float>(columns);
-            const float b =
-                (static_cast<float>(row) + unit_float(index = hash(index))) / static_cast<float>(rows);
-            const float x = std::floor(r.at.x + (2 * a - 1) * r.half_x);
-            const float y = std::floor(r.at.y + (2 * b - 1) * r.half_y);
-            const float depth = depths.at(static_cast<int>(x), static_cast<int>(y));
-            if (depth < r.plane_depth(x + 0.5f, y + 0.5f) - bias) ++hidden;
+            const uint32_t bits = hash(seed++);
+            const float jitter_x = static_cast<float>(bits >> 16) * kHalfWord;
+            const float jitter_y = static_cast<float>(bits & 0xffff) * kHalfWord;
+            const int x = floor_of(left + (static_cast<float>(column) + jitter_x) * step_x);
+            const int y = floor_of(top + (static_cast<float>(row) + jitter_y) * step_y);
+            const float depth = depths.at(x, y) + bias;
+            if (r.is_behind(depth, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)) ++hidden;
         }
     return static_cast<float>(hidden) / static_cast<float>(rows * columns);
 }
