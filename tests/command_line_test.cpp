@@ -51,6 +51,36 @@ TEST(CommandLine, RendersASceneAndWritesItsDisplay) {
     EXPECT_TRUE(fs::exists(folder / "sphere.exr"));
 }
 
+TEST(CommandLine, ChecksShaders) {
+    WorkFolder folder;
+    folder.write("half.h", "#define HALF .5\n");
+    fs::create_directory(folder / "more");
+    std::ofstream(folder / "more/twice.h") << "float twice(float x) { return x * 2; }\n";
+    folder.write("a.sl",
+                 "#include \"half.h\"\n#include <twice.h>\n"
+                 "surface a(float Ka = HALF; output varying color tint = color (1, AMOUNT, 0);\n"
+                 "          string maps[2] = {\"x\", \"\"}; point from = point \"shader\" (0, 0, 1)) { Ci = "
+                 "twice(Ka); }\n");
+    const Outcome right = run_program(folder, "shader a.sl -I more -D AMOUNT=2 --params");
+    EXPECT_EQ(right.exit_code, 0) << right.err;
+    EXPECT_EQ(right.out,
+              "surface a\n"
+              "    uniform         float      Ka    = 0.5\n"
+              "    output varying  color      tint  = color (1, 2, 0)\n"
+              "    uniform         string[2]  maps  = {\"x\", \"\"}\n"
+              "    uniform         point      from  = point \"shader\" (0, 0, 1)\n");
+    EXPECT_NE(right.err.find("0 errors, 0 warnings"), std::string::npos) << right.err;
+
+    const Outcome wrong = run_program(folder, "shader a.sl");
+    EXPECT_EQ(wrong.exit_code, 1);
+    EXPECT_NE(
+        wrong.err.find("a.sl:2:2: error: file \"twice.h\" is not found\n    #include <twice.h>\n     ^\n"),
+        std::string::npos)
+        << wrong.err;
+    EXPECT_EQ(run_program(folder, "shader b.sl").exit_code, 3);
+    EXPECT_EQ(run_program(folder, "shader").exit_code, 2);
+}
+
 /// A depth pass and a picture that the last frame looks up.
 constexpr const char* kPasses = R"(Format 32 32 1
 PixelSamples 1 1

@@ -14,7 +14,7 @@
 namespace trapeze {
 namespace {
 
-const std::vector<std::string> kCommands = {"render", "check", "info", "compare", "scene", "study"};
+const std::vector<std::string> kCommands = {"render", "check", "info", "compare", "scene", "study", "shader"};
 
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
@@ -226,6 +226,24 @@ void add_study_options(CLI::App& app, Arguments& a) {
     add_work_options(app, a);
 }
 
+void add_shader_options(CLI::App& app, Arguments& a) {
+    ShaderArguments& s = a.shader;
+    app.add_option("file", s.file, "a shader's source; - is standard input")
+        ->required()
+        ->type_name("FILE.sl");
+    app.add_option("-I,--include", s.include_folders,
+                   "a folder to search for included files; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("DIR");
+    app.add_option("-D,--define", s.defines, "defines a macro, as 1 if no text is given; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME[=TEXT]");
+    app.add_flag("--params", s.parameters, "prints the parameters: storage, type, name, default");
+    app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+    app.add_flag("--no-color{false}", a.color, "no colours in messages (also: NO_COLOR in the environment)");
+}
+
 /// Whether the methods and patterns asked for go together; says what is wrong.
 bool samplers_are_right(const Arguments& a, std::string* error) {
     if (a.command != Command::Compare) return choose_sampler(a.sampler, a.pattern, error).has_value();
@@ -289,6 +307,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
         app.add_subcommand("scene", "writes a scene made for measurements, of any size, as RIB");
     CLI::App* study = app.add_subcommand(
         "study", "repeats a table or figure of the micropolygon ray tracing paper on this machine");
+    CLI::App* shader = app.add_subcommand("shader", "checks a shader's source, and says what it takes");
     for (CLI::App* command : {render, check, info, compare}) {
         add_inputs(*command, arguments);
         command->footer(kExitCodeHelp);
@@ -297,6 +316,8 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     add_compare_options(*compare, arguments);
     add_scene_options(*scene, arguments);
     add_study_options(*study, arguments);
+    add_shader_options(*shader, arguments);
+    shader->footer(kExitCodeHelp);
     scene->footer(kExitCodeHelp);
     study->footer(kExitCodeHelp);
     check->add_flag("--strict", arguments.strict, "warnings count as errors for the exit code");
@@ -314,6 +335,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     if (compare->parsed()) arguments.command = Command::Compare;
     if (scene->parsed()) arguments.command = Command::Scene;
     if (study->parsed()) arguments.command = Command::Study;
+    if (shader->parsed()) arguments.command = Command::Shader;
     std::string error;
     if (!samplers_are_right(arguments, &error)) {
         std::cerr << "trapeze: error: " << error << "\n";

@@ -11,7 +11,7 @@
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info, Compare, Scene, Study };
+enum class Command { Render, Check, Info, Compare, Scene, Study, Shader };
 
 /// What `trapeze compare` alone has.
 struct CompareArguments {
@@ -37,6 +37,14 @@ struct StudyArguments {
     std::string report, json;  ///< files; empty: none
 };
 
+/// What `trapeze shader` alone has.
+struct ShaderArguments {
+    std::string file;  ///< - is standard input
+    std::vector<std::string> include_folders;
+    std::vector<std::string> defines;  ///< NAME or NAME=TEXT
+    bool parameters = false;           ///< print them
+};
+
 struct Arguments {
     Command command = Command::Render;
     std::vector<std::string> inputs;
@@ -58,6 +66,7 @@ struct Arguments {
     CompareArguments compare;
     SceneArguments scene;
     StudyArguments study;
+    ShaderArguments shader;
     bool strict = false, quiet = false, color = true;
 };
 

@@ -13,6 +13,7 @@ int info_command(const Arguments& arguments, Terminal& terminal, Diagnostics& di
 int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 
 /// True when all inputs can be opened; reports those that cannot.
 bool inputs_exist(const Arguments& arguments, Diagnostics& diagnostics);

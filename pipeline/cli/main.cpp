@@ -27,6 +27,9 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
         case Command::Study:
             code = study_command(arguments, terminal, diagnostics);
             break;
+        case Command::Shader:
+            code = shader_command(arguments, terminal, diagnostics);
+            break;
         case Command::Scene:
             code = scene_command(arguments, terminal, diagnostics);
             break;

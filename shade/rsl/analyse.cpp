@@ -102,10 +102,16 @@ Analyser::Instance* Analyser::instance_of(const Function& original, bool nested,
     instance.original = &original;
     instance.function = clone(original);
     instance_of_copy_[instance.function.get()] = &instance;
-    if (nested)
-        scopes_.back().functions.push_back(&instance);
-    else
+    if (nested) {
+        std::vector<Instance*>& same_name = scopes_.back().functions[original.name];
+        same_name.push_back(&instance);
+        if (same_name.size() > kMostOverloads) {
+            error(original.at, "too many functions are called " + quoted(original.name));
+            return nullptr;
+        }
+    } else {
         file_instances_[&original] = &instance;
+    }
     // What is analysed now has to wait.
     auto choices = std::move(choices_);
     const Expression* channel = std::exchange(channel_, nullptr);

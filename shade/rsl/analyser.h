@@ -31,7 +31,7 @@ class Analyser {
     };
     struct Scope {
         std::unordered_map<std::string_view, Variable*> variables;
-        std::vector<Instance*> functions;
+        std::unordered_map<std::string_view, std::vector<Instance*>> functions;
     };
     /// A shader or a function whose body is analysed.
     struct Frame {

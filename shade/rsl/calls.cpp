@@ -49,8 +49,9 @@ std::vector<Signature> Analyser::candidates(const Expression& call) {
         const Frame& at = frames_[--number];
         const size_t last = number + 1 < frames_.size() ? frames_[number + 1].first_scope : scopes_.size();
         for (size_t i = last; i-- > at.first_scope;)
-            for (const Instance* instance : scopes_[i].functions)
-                if (instance->function->name == call.text) all.push_back(signature_of(*instance->function));
+            if (const auto entry = scopes_[i].functions.find(call.text); entry != scopes_[i].functions.end())
+                for (const Instance* instance : entry->second)
+                    all.push_back(signature_of(*instance->function));
         if (number == 0 || !at.nested) break;
     }
     const auto entry = file_functions_.find(call.text);

@@ -78,13 +78,18 @@ TEST(Parser, CastsBindLikeSigns) {
 TEST(Parser, PrinterKeepsTheTree) {
     for (const char* text :
          {"(a + b) * c", "a - (b - c)", "(a ? b : c) ? d : (e = f)", "-(a . b)", "(-a) . b", "(a ^ b) . c",
-          "a ? (b = c) : d", "-(-a)", "!(a && b)", "float (a + b)", "(vector a)[1]", "f((x = 1), 2)",
-          "texture(\"a\\\"b\\n\"[2], s, t)"}) {
+          "a ? (b = c) : d", "-(-a)", "!(a && b)", "float (a + b)", "(vector a)[1]", "vector (a) + b",
+          "point \"world\" (a[1])", "f((x = 1), 2)", "texture(\"a\\\"b\\n\"[2], s, t)"}) {
         const std::string once = printed(text);
         EXPECT_EQ(printed(once), once);
         EXPECT_EQ(tree(once), tree(text)) << once;
     }
     EXPECT_EQ(printed("((a)) + (b * c)"), "a + b * c");
+    // A statement that begins with a cast is no declaration.
+    Heard heard;
+    const auto unit = parse({"t.sl", "surface t() { vector +a * b; }"}, {}, heard.diagnostics);
+    ASSERT_TRUE(unit);
+    EXPECT_EQ(print(*unit), "surface t() {\n    vector (a) * b;\n}\n");
 }
 
 TEST(Parser, Numbers) {

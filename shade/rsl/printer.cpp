@@ -55,6 +55,10 @@ Written written(Operator op) {
     return {"", kPrimary};
 }
 
+bool names_a_variable(const Expression& e) {
+    return e.kind == Expression::Kind::Variable || e.kind == Expression::Kind::Element;
+}
+
 std::string number_text(float value) {
     if (value > 3.4e38f) return "1e39";
     char text[32];
@@ -278,7 +282,8 @@ void Printer::bare(const Expression& e) {
             text += name_of(e.type.base);
             text += ' ';
             if (!e.text.empty()) text += quoted(e.text) + " ";
-            expression(*e.children[0], kUnary);
+            // "vector P" at a statement's beginning would be a declaration.
+            expression(*e.children[0], names_a_variable(*e.children[0]) ? kPrimary + 1 : kUnary);
             break;
         case Expression::Kind::Call:
             text += e.text + "(";

@@ -39,7 +39,9 @@ Suggestion::Suggestion(std::string_view written)
 
 void Suggestion::consider(std::string_view candidate) {
     if (candidate.size() > kLongest || written_.size() > kLongest || candidate.empty()) return;
-    if (++considered_ > kMostConsidered) return;
+    const size_t longer = std::max(candidate.size(), written_.size()),
+                 shorter = std::min(candidate.size(), written_.size());
+    if (2 * (longer - shorter) >= least_ || ++considered_ > kMostConsidered) return;
     const size_t far = distance(written_, candidate);
     if (far == 0 || far >= least_) return;
     least_ = far;

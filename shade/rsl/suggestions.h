@@ -15,7 +15,7 @@ class Suggestion {
     std::string text() const;
 
   private:
-    static constexpr int kMostConsidered = 2000;
+    static constexpr int kMostConsidered = 1000;
 
     std::string_view written_, best_;
     size_t least_;  // the distance that is too far

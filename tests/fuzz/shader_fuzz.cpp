@@ -1,5 +1,5 @@
 /// The shading language's front end on bytes from strangers. With clang: -fsanitize=fuzzer,address,undefined
-/// and tests/fuzz/seeds/shader as corpus. With any compiler: linked with replay_main.cpp it runs the seeds
+/// and shade/rsl/test_shaders as corpus. With any compiler: linked with replay_main.cpp it runs the seeds
 /// and mutations of them. What is printed must parse again.
 #include <algorithm>
 #include <cstdint>
