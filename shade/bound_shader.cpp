@@ -33,7 +33,7 @@ bool suits(ValueType given, Base wanted) {
 }
 
 std::string_view type_name(Base base) {
-    static constexpr std::string_view kNames[] = {"void",  "bool",   "float",  "color", "point",
+    static constexpr std::string_view kNames[] = {"void",   "bool",   "float",  "color", "point",
                                                   "vector", "normal", "matrix", "string"};
     return kNames[static_cast<size_t>(base)];
 }
@@ -99,19 +99,22 @@ bool BoundShader::take_from_instance(const rsl::ProgramParameter& parameter, Val
     const size_t count = width ? given->floats.size() / std::max<size_t>(width, 1) : given->strings.size();
     if (!suits(given->declaration.type, base) || count < elements) {
         if (diagnostics)
-            diagnostics->warning(instance_.location,
-                                 fmt::format("shader \"{}\" declares \"{}\" as {}{}; the value given is another, and "
-                                             "the default holds",
-                                             instance_.name, parameter.name, type_name(base),
-                                             elements > 1 ? fmt::format("[{}]", elements) : ""),
-                                 fmt::format("shader-parameter-type {} {}", instance_.name, parameter.name));
+            diagnostics->warning(
+                instance_.location,
+                fmt::format("shader \"{}\" declares \"{}\" as {}{}; the value given is another, and "
+                            "the default holds",
+                            instance_.name, parameter.name, type_name(base),
+                            elements > 1 ? fmt::format("[{}]", elements) : ""),
+                fmt::format("shader-parameter-type {} {}", instance_.name, parameter.name));
         return false;
     }
     if (!width) {
-        value.texts.assign(given->strings.begin(), given->strings.begin() + static_cast<std::ptrdiff_t>(elements));
+        value.texts.assign(given->strings.begin(),
+                           given->strings.begin() + static_cast<std::ptrdiff_t>(elements));
         return true;
     }
-    value.floats.assign(given->floats.begin(), given->floats.begin() + static_cast<std::ptrdiff_t>(elements * width));
+    value.floats.assign(given->floats.begin(),
+                        given->floats.begin() + static_cast<std::ptrdiff_t>(elements * width));
     for (size_t e = 0; e < elements && width == 3; ++e)
         to_camera(value.floats.data() + e * 3, base, instance_.camera_from_shader);
     return true;
@@ -139,7 +142,8 @@ void BoundShader::set_parameters(vm::Frame& frame, std::span<const ShadingGrid* 
             grids.empty() ? nullptr : suitable_variable(*grids.front(), parameter.name, parameter.type);
         if (!width) {
             for (size_t e = 0; e < value.texts.size(); ++e)
-                frame.text(id, e) = variable && e < variable->strings.size() ? variable->strings[e] : value.texts[e];
+                frame.text(id, e) =
+                    variable && e < variable->strings.size() ? variable->strings[e] : value.texts[e];
             continue;
         }
         if (!variable) {

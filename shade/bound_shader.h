@@ -11,16 +11,18 @@
 
 namespace trapeze {
 
+struct ShaderInstance;
+
 class BoundShader {
   public:
-    /// Values of the instance that do not fit a parameter's type are reported (diagnostics may be null) and the
-    /// default holds. Points, vectors, normals and matrices of the instance are in shader space. The instance must
-    /// outlive this.
+    /// Values of the instance that do not fit a parameter's type are reported (diagnostics may be null) and
+    /// the default holds. Points, vectors, normals and matrices of the instance are in shader space. The
+    /// instance must outlive this.
     BoundShader(std::shared_ptr<const vm::Executable> executable, const ShaderInstance& instance,
                 const vm::Spaces& spaces, Diagnostics* diagnostics);
 
-    /// Sets the parameters in a frame that has been started. A primitive variable of a parameter's name and type
-    /// replaces it (RISpec 3.2, section 5).
+    /// Sets the parameters in a frame that has been started. A primitive variable of a parameter's name and
+    /// type replaces it (RISpec 3.2, section 5).
     void set_parameters(vm::Frame& frame, std::span<const ShadingGrid* const> grids) const;
 
     const std::shared_ptr<const vm::Executable>& executable() const { return executable_; }
@@ -32,7 +34,8 @@ class BoundShader {
         std::vector<float> floats;  ///< all elements
         std::vector<std::string> texts;
     };
-    bool take_from_instance(const rsl::ProgramParameter& parameter, Value& value, Diagnostics* diagnostics) const;
+    bool take_from_instance(const rsl::ProgramParameter& parameter, Value& value,
+                            Diagnostics* diagnostics) const;
 
     std::shared_ptr<const vm::Executable> executable_;
     const ShaderInstance& instance_;

@@ -48,14 +48,11 @@ void store(ConstPlane3 planes, size_t vertices, Triples& out) {
 
 }  // namespace
 
-float displace_grid(const DisplacementShader& shader, const Camera& camera, ShadingGrid& grid,
-                    PlanePool& pool) {
+float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& pool) {
     const size_t vertices = grid.vertex_count();
     pool.start(vertices);
-    ShaderInput input(grid, camera, pool);
     const Plane3 moves = pool.take3(), N = pool.take3(), P = pool.take3();
-    for (int k = 0; k < 3; ++k) load(grid.N.c[k], vertices, N[k]);
-    const bool normals_set = shader.displace(input, moves, N);
+    for (int k = 0; k < 3; ++k) load(displaced.P[k].first(vertices), vertices, moves[k]);
     subtract_positions(grid.P.front(), vertices, moves);
 
     const std::vector<M44f>& poses = grid.primitive->camera_from_object;
@@ -68,12 +65,13 @@ float displace_grid(const DisplacementShader& shader, const Camera& camera, Shad
         longest = std::max(longest, move_key(moves, key_from_first, grid.P[key]));
     }
     grid.displaced = grid.displaced || longest > 0;
-    if (!normals_set) {
-        for (int k = 0; k < 3; ++k) load(grid.P.front().c[k], vertices, P[k]);
-        find_normals(grid.shape, P, grid.reverse_orientation, N);
-        store(N, vertices, grid.Ng);
+    for (int k = 0; k < 3; ++k) {
+        load(grid.N.c[k], vertices, N[k]);
+        load(grid.P.front().c[k], vertices, P[k]);
     }
-    store(N, vertices, grid.N);
+    find_normals(grid.shape, P, grid.reverse_orientation, N);
+    store(N, vertices, grid.Ng);
+    store(displaced.N.size() != 0 ? displaced.N : ConstPlane3(N), vertices, grid.N);
     return longest;
 }
 

@@ -2,69 +2,101 @@
 
 #include <fmt/format.h>
 
-#include "shade/displacements.h"
-#include "shade/lights.h"
-#include "shade/surfaces.h"
-
 namespace trapeze {
+namespace {
+
+/// The primitive's variables that differ from vertex to vertex.
+std::set<std::string> varying_variables(const Primitive& primitive) {
+    std::set<std::string> names;
+    if (primitive.shape_keys.empty()) return names;
+    for (const Parameter& variable : primitive.shape().variables.values) {
+        const StorageClass storage = variable.declaration.storage;
+        if (storage != StorageClass::Constant && storage != StorageClass::Uniform)
+            names.insert(variable.name);
+    }
+    return names;
+}
+
+}  // namespace
 
 Materials::Materials(const RenderContext& context)
-    : diagnostics_(context.diagnostics), textures_(context.scene->options, context.diagnostics) {
+    : context_(context),
+      diagnostics_(context.diagnostics),
+      library_(context.scene->options, context.diagnostics) {
     default_instance_.name = "defaultsurface";
-    std::unordered_map<const Attributes*, uint32_t> known;
+    std::map<std::pair<const Attributes*, Names>, uint32_t> known;
     of_primitive_.reserve(context.scene->primitives.size());
     for (const Primitive& primitive : context.scene->primitives) {
-        const auto [at, is_new] = known.try_emplace(primitive.attributes.get(), 0);
-        if (is_new) at->second = static_cast<uint32_t>(add(*primitive.attributes));
+        Names varying = varying_variables(primitive);
+        const auto [at, is_new] = known.try_emplace({primitive.attributes.get(), varying}, 0);
+        if (is_new) {
+            add(*primitive.attributes, varying);
+            at->second = static_cast<uint32_t>(materials_.size() - 1);
+        }
         of_primitive_.push_back(at->second);
     }
 }
 
-size_t Materials::add(const Attributes& attributes) {
+void Materials::add(const Attributes& attributes, const Names& varying) {
     Material& material = materials_.emplace_back();
     material.attributes = &attributes;
-    material.surface = surface(attributes.surface.get());
-    if (attributes.displacement) material.displacement = displacement(*attributes.displacement);
-    for (const auto& instance : attributes.lights)
-        if (const LightShader* shader = light(*instance)) material.lights.push_back(shader);
-    return materials_.size() - 1;
-}
-
-const SurfaceShader* Materials::surface(const ShaderInstance* instance) {
-    if (!instance) instance = &default_instance_;
-    auto [at, is_new] = surfaces_.try_emplace(instance);
-    if (!is_new) return at->second.get();
-    const ParameterBinder parameters(*instance, diagnostics_);
-    at->second = make_standard_surface(parameters, textures_);
-    if (!at->second) {
-        warn_unknown("Surface", *instance, "defaultsurface is used");
-        at->second = make_default_surface(ParameterBinder(default_instance_, diagnostics_));
+    material.surface = surface(attributes.surface.get(), varying);
+    if (attributes.displacement) {
+        material.displacement = bound(*attributes.displacement, rsl::ShaderKind::Displacement, varying);
+        if (!material.displacement)
+            warn_missing("Displacement", *attributes.displacement, "nothing is displaced");
     }
-    return at->second.get();
+    if (attributes.atmosphere) {
+        material.atmosphere = bound(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
+        if (!material.atmosphere) warn_missing("Atmosphere", *attributes.atmosphere, "there is none");
+    }
+    for (const auto& instance : attributes.lights)
+        if (const Lamp* shining = lamp(*instance)) material.lights.push_back(shining);
 }
 
-const DisplacementShader* Materials::displacement(const ShaderInstance& instance) {
-    auto [at, is_new] = displacements_.try_emplace(&instance);
+/// Null when there is no such shader, or it has errors.
+const BoundShader* Materials::bound(const ShaderInstance& instance, rsl::ShaderKind kind,
+                                    const Names& varying) {
+    const auto [at, is_new] = shaders_.try_emplace({&instance, varying});
     if (!is_new) return at->second.get();
-    at->second = make_standard_displacement(ParameterBinder(instance, diagnostics_));
-    if (!at->second) warn_unknown("Displacement", instance, "nothing is displaced");
+    auto executable = library_.find(instance.name, kind, varying, instance.location);
+    if (!executable) return nullptr;
+    const SceneSpaces spaces(*context_.scene, context_.camera, &instance, nullptr);
+    at->second = std::make_unique<BoundShader>(std::move(executable), instance, spaces, diagnostics_);
     return at->second.get();
 }
 
-const LightShader* Materials::light(const LightInstance& instance) {
-    auto [at, is_new] = lights_.try_emplace(&instance);
+const BoundShader* Materials::surface(const ShaderInstance* instance, const Names& varying) {
+    if (!instance) instance = &default_instance_;
+    if (const BoundShader* found = bound(*instance, rsl::ShaderKind::Surface, varying)) return found;
+    warn_missing("Surface", *instance, "defaultsurface is used");
+    return bound(default_instance_, rsl::ShaderKind::Surface, varying);
+}
+
+const Lamp* Materials::lamp(const LightInstance& instance) {
+    const auto [at, is_new] = lamps_.try_emplace(&instance);
     if (!is_new) return at->second.get();
-    at->second = make_standard_light(ParameterBinder(instance.shader, diagnostics_));
-    if (!at->second) warn_unknown("LightSource", instance.shader, "the light is left out");
+    auto executable =
+        library_.find(instance.shader.name, rsl::ShaderKind::Light, {}, instance.shader.location);
+    if (!executable) {
+        warn_missing("LightSource", instance.shader, "the light is left out");
+        return nullptr;
+    }
+    auto made = std::make_unique<Lamp>();
+    made->spaces = std::make_unique<SceneSpaces>(*context_.scene, context_.camera, &instance.shader, nullptr);
+    made->shader =
+        std::make_unique<BoundShader>(std::move(executable), instance.shader, *made->spaces, diagnostics_);
+    made->position = instance.shader.camera_from_shader.translation();
+    at->second = std::move(made);
     return at->second.get();
 }
 
-void Materials::warn_unknown(std::string_view kind, const ShaderInstance& instance,
+void Materials::warn_missing(std::string_view request, const ShaderInstance& instance,
                              std::string_view instead) {
     if (!diagnostics_) return;
     diagnostics_->warning(instance.location,
-                          fmt::format("{}: there is no shader \"{}\"; {}", kind, instance.name, instead),
-                          fmt::format("missing-shader {} {}", kind, instance.name));
+                          fmt::format("{}: there is no shader \"{}\"; {}", request, instance.name, instead),
+                          fmt::format("missing-shader {} {}", request, instance.name));
 }
 
 }  // namespace trapeze

@@ -1,26 +1,30 @@
-/// The shaders that a scene names, made once, and which of them each primitive has.
+/// The shaders that a scene names, compiled and bound once, and which of them each primitive has.
 #pragma once
 
 #include <atomic>
 #include <deque>
 #include <map>
 #include <memory>
-#include <span>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
 #include "core/render_context.h"
-#include "shade/shader.h"
-#include "shade/textures.h"
+#include "shade/bound_shader.h"
+#include "shade/light_rig.h"
+#include "shade/scene_spaces.h"
+#include "shade/shader_library.h"
 
 namespace trapeze {
 
-/// What one set of attributes makes of a grid. The shaders belong to Materials.
+/// What one set of attributes, with the variables of a primitive, makes of a grid. The shaders belong to
+/// Materials.
 struct Material {
     const Attributes* attributes = nullptr;
-    const SurfaceShader* surface = nullptr;
-    const DisplacementShader* displacement = nullptr;  ///< may be null
-    std::vector<const LightShader*> lights;
+    const BoundShader* surface = nullptr;
+    const BoundShader* displacement = nullptr;  ///< may be null
+    const BoundShader* atmosphere = nullptr;    ///< may be null
+    std::vector<const Lamp*> lights;
     /// The farthest that the displacement shader has moved a vertex, in camera space.
     mutable std::atomic<float> displacement_reach{0};
 };
@@ -34,18 +38,19 @@ class Materials {
     const std::deque<Material>& all() const { return materials_; }
 
   private:
-    size_t add(const Attributes& attributes);
-    const SurfaceShader* surface(const ShaderInstance* instance);
-    const DisplacementShader* displacement(const ShaderInstance& instance);
-    const LightShader* light(const LightInstance& instance);
-    void warn_unknown(std::string_view kind, const ShaderInstance& instance, std::string_view instead);
+    using Names = std::set<std::string>;
+    void add(const Attributes& attributes, const Names& varying);
+    const BoundShader* bound(const ShaderInstance& instance, rsl::ShaderKind kind, const Names& varying);
+    const BoundShader* surface(const ShaderInstance* instance, const Names& varying);
+    const Lamp* lamp(const LightInstance& instance);
+    void warn_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
 
+    const RenderContext& context_;
     Diagnostics* diagnostics_;
-    Textures textures_;
+    ShaderLibrary library_;
     ShaderInstance default_instance_;
-    std::unordered_map<const ShaderInstance*, std::unique_ptr<SurfaceShader>> surfaces_;
-    std::unordered_map<const ShaderInstance*, std::unique_ptr<DisplacementShader>> displacements_;
-    std::unordered_map<const LightInstance*, std::unique_ptr<LightShader>> lights_;
+    std::map<std::pair<const ShaderInstance*, Names>, std::unique_ptr<BoundShader>> shaders_;
+    std::unordered_map<const LightInstance*, std::unique_ptr<Lamp>> lamps_;
     std::deque<Material> materials_;
     std::vector<uint32_t> of_primitive_;
 };

@@ -15,8 +15,8 @@ M44d screen_to(const Camera& camera, std::string_view space) {
         m[0][0] = sx, m[1][1] = sy, m[3][0] = tx, m[3][1] = ty;
     };
     if (space == "screen")
-        scale((camera.right - camera.left) / 2, (camera.top - camera.bottom) / 2, (camera.right + camera.left) / 2,
-              (camera.top + camera.bottom) / 2);
+        scale((camera.right - camera.left) / 2, (camera.top - camera.bottom) / 2,
+              (camera.right + camera.left) / 2, (camera.top + camera.bottom) / 2);
     else if (space == "NDC")
         scale(0.5, -0.5, 0.5, 0.5);
     else
@@ -29,11 +29,14 @@ M44d screen_to(const Camera& camera, std::string_view space) {
 std::optional<M44d> SceneSpaces::camera_from(std::string_view space) const {
     if (space == "current" || space == "camera" || space == "eye" || space == "cameraspace") return M44d();
     if (space == "world") return M44d(scene_.camera_from_world);
-    if (space == "shader") return shader_ ? M44d(shader_->camera_from_shader) : M44d(scene_.camera_from_world);
+    if (space == "shader")
+        return shader_ ? M44d(shader_->camera_from_shader) : M44d(scene_.camera_from_world);
     if (space == "object")
-        return primitive_ && !primitive_->camera_from_object.empty() ? M44d(primitive_->camera_from_object.front())
-                                                                     : M44d(scene_.camera_from_world);
-    if (const auto named = scene_.camera_from_named.find(std::string(space)); named != scene_.camera_from_named.end())
+        return primitive_ && !primitive_->camera_from_object.empty()
+                   ? M44d(primitive_->camera_from_object.front())
+                   : M44d(scene_.camera_from_world);
+    if (const auto named = scene_.camera_from_named.find(std::string(space));
+        named != scene_.camera_from_named.end())
         return M44d(named->second);
     if (space == "screen" || space == "NDC" || space == "raster")
         return inverse_of(M44d(screen_from_camera(camera_)) * screen_to(camera_, space));

@@ -10,7 +10,8 @@ namespace trapeze {
 class SceneSpaces : public vm::Spaces {
   public:
     /// Of a shader on a primitive, both of which may be null; at shutter open. All must outlive this.
-    SceneSpaces(const Scene& scene, const Camera& camera, const ShaderInstance* shader, const Primitive* primitive)
+    SceneSpaces(const Scene& scene, const Camera& camera, const ShaderInstance* shader,
+                const Primitive* primitive)
         : scene_(scene), camera_(camera), shader_(shader), primitive_(primitive) {}
 
     std::optional<M44f> matrix(std::string_view from, std::string_view to) const override;

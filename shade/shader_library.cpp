@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr uint32_t kMostPlanes = 16384;  ///< varying floats of a shader: 20 MB a thread
 constexpr uintmax_t kLargestSource = 16 << 20;
 
 std::optional<std::string> file_text(const fs::path& path) {
@@ -62,6 +63,8 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
         }
     }
     if (source.name.empty()) {
+        // What renderers call the surface that is drawn when none is named.
+        if (stem == "default") stem = "defaultsurface";
         const std::string_view text = standard_shader(stem);
         if (text.empty()) return *entry;
         source = {stem + ".sl", std::string(text)};
@@ -88,8 +91,9 @@ std::shared_ptr<const vm::Executable> ShaderLibrary::find(std::string_view name,
     if (!shader.program) return nullptr;
     if (shader.program->kind != kind) {
         if (diagnostics_)
-            diagnostics_->error(asked_at, fmt::format("\"{}\" is a {} shader, and a {} shader is wanted here", name,
-                                                      kind_name(shader.program->kind), kind_name(kind)),
+            diagnostics_->error(asked_at,
+                                fmt::format("\"{}\" is a {} shader, and a {} shader is wanted here", name,
+                                            kind_name(shader.program->kind), kind_name(kind)),
                                 fmt::format("shader-kind {} {}", name, kind_name(kind)));
         return nullptr;
     }
@@ -99,8 +103,17 @@ std::shared_ptr<const vm::Executable> ShaderLibrary::find(std::string_view name,
     std::shared_ptr<const vm::Executable>& executable = shader.executables[relevant];
     if (!executable) {
         rsl::Program program = *shader.program;
-        rsl::infer_storage(program, [&](const rsl::ProgramParameter& p) { return relevant.contains(p.name); });
+        rsl::infer_storage(program,
+                           [&](const rsl::ProgramParameter& p) { return relevant.contains(p.name); });
         executable = std::make_shared<const vm::Executable>(std::move(program));
+        if (executable->varying_planes() > kMostPlanes) {
+            if (diagnostics_)
+                diagnostics_->error(
+                    asked_at, fmt::format("shader \"{}\" needs {} values at each vertex, more than {}", name,
+                                          executable->varying_planes(), kMostPlanes));
+            shader.program.reset();
+            return nullptr;
+        }
     }
     return executable;
 }

@@ -17,13 +17,14 @@ namespace trapeze {
 
 class ShaderLibrary {
   public:
-    /// NAME.sl is looked for in the folders of Option "searchpath" "shader" (the scene's own among them), then among
-    /// the standard shaders. diagnostics may be null.
+    /// NAME.sl is looked for in the folders of Option "searchpath" "shader" (the scene's own among them),
+    /// then among the standard shaders. diagnostics may be null.
     ShaderLibrary(const Options& options, Diagnostics* diagnostics);
     ~ShaderLibrary();
 
-    /// A shader ready to run, in which the named parameters are varying besides those that it declares so. Null,
-    /// and reported once, when there is no such shader, it has errors, or it is of another kind. Not thread-safe.
+    /// A shader ready to run, in which the named parameters are varying besides those that it declares so.
+    /// Null, and reported once, when there is no such shader, it has errors, or it is of another kind. Not
+    /// thread-safe.
     std::shared_ptr<const vm::Executable> find(std::string_view name, rsl::ShaderKind kind,
                                                const std::set<std::string>& varying, SourceLocation asked_at);
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include "shade/displace.h"
+#include "shade/grid_messages.h"
+#include "shade/grid_shader.h"
+#include "shade/map_service.h"
 #include "shade/material.h"
 
 namespace trapeze {
@@ -16,14 +19,12 @@ void raise(std::atomic<float>& maximum, float value) {
     while (value > seen && !maximum.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
 }
 
-void store(const Plane3& planes, size_t vertices, Triples& out) {
-    for (int k = 0; k < 3; ++k) out.c[k].assign(planes[k].begin(), planes[k].begin() + vertices);
-}
-
 }  // namespace
 
 struct ShadeScratch::State {
     PlanePool pool;
+    vm::Machine machine;
+    LightRig lights;
 };
 
 ShadeScratch::ShadeScratch() : state(std::make_unique<State>()) {}
@@ -32,31 +33,110 @@ ShadeScratch& ShadeScratch::operator=(ShadeScratch&&) noexcept = default;
 ShadeScratch::~ShadeScratch() = default;
 
 struct Shading::Impl {
-    explicit Impl(const RenderContext& render) : context(render), materials(render) {}
+    explicit Impl(const RenderContext& render)
+        : context(render), textures(render.scene->options, render.diagnostics), materials(render) {}
 
     const RenderContext& context;
+    Textures textures;
     Materials materials;
 };
+
+namespace {
+
+/// The shaders of one grid, one after the other.
+class GridRun {
+  public:
+    GridRun(const RenderContext& context, Textures& textures, const Material& material, ShadingGrid& grid,
+            PlanePool& pool, vm::Machine& machine, LightRig& lights)
+        : context_(context),
+          material_(material),
+          grid_(grid),
+          pool_(pool),
+          machine_(machine),
+          lights_(lights),
+          maps_(textures, *context.scene),
+          messages_(context),
+          points_(points_of(grids())) {
+        messages_.attributes = material.attributes;
+        messages_.lights = &lights_;
+    }
+
+    void run() {
+        if (material_.displacement) displace();
+        for (int k = 0; k < 3; ++k) grid_.Ci.c[k] = grid_.Cs.c[k], grid_.Oi.c[k] = grid_.Os.c[k];
+        color(*material_.surface, false, messages_.surface);
+        if (material_.atmosphere) color(*material_.atmosphere, true, messages_.atmosphere);
+    }
+
+  private:
+    std::span<ShadingGrid* const> writable_grids() { return {&grid_pointer_, 1}; }
+    std::span<const ShadingGrid* const> grids() { return {&const_grid_pointer_, 1}; }
+
+    /// The shader's frame after it has run.
+    vm::Frame& run_shader(const BoundShader& shader, bool shaded, const vm::Frame*& announced) {
+        vm::Frame& frame = machine_.frame(shader.executable());
+        frame.start(points_.lanes);
+        shader.set_parameters(frame, grids());
+        set_variables(frame, grids(), context_, shaded);
+        announced = &frame;
+        messages_.running = shader.program().name;
+        const SceneSpaces spaces(*context_.scene, context_.camera, &shader.instance(), grid_.primitive);
+        vm::Context surroundings;
+        surroundings.points = &points_;
+        surroundings.spaces = &spaces;
+        surroundings.maps = &maps_;
+        surroundings.lights = &lights_;
+        surroundings.messages = &messages_;
+        surroundings.diagnostics = context_.diagnostics;
+        surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
+        lights_.start(machine_, material_.lights, surroundings, points_.lanes, variable_planes(frame, "N"));
+        machine_.run(frame, surroundings);
+        return frame;
+    }
+
+    void displace() {
+        const BoundShader& shader = *material_.displacement;
+        const vm::Frame& frame = run_shader(shader, false, messages_.displacement);
+        Displaced displaced;
+        if (writes_variable(shader.program(), "N")) displaced.N = variable_planes(frame, "N");
+        if (!writes_variable(shader.program(), "P")) {
+            // Bumps: the surface stays, and shades as if it did not.
+            for (int k = 0; k < 3 && displaced.N.size(); ++k)
+                grid_.N.c[k].assign(displaced.N[k].begin(),
+                                    displaced.N[k].begin() + static_cast<std::ptrdiff_t>(grid_.vertex_count()));
+            return;
+        }
+        displaced.P = variable_planes(frame, "P");
+        raise(material_.displacement_reach, displace_grid(displaced, grid_, pool_));
+    }
+
+    void color(const BoundShader& shader, bool shaded, const vm::Frame*& announced) {
+        take_colors(run_shader(shader, shaded, announced), writable_grids());
+    }
+
+    const RenderContext& context_;
+    const Material& material_;
+    ShadingGrid& grid_;
+    ShadingGrid* grid_pointer_ = &grid_;
+    const ShadingGrid* const_grid_pointer_ = &grid_;
+    PlanePool& pool_;
+    vm::Machine& machine_;
+    LightRig& lights_;
+    MapService maps_;
+    GridMessages messages_;
+    vm::Points points_;
+};
+
+}  // namespace
 
 Shading::Shading(const RenderContext& context) : impl_(std::make_unique<Impl>(context)) {}
 Shading::~Shading() = default;
 
 void Shading::shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const {
-    const Camera& camera = impl_->context.camera;
+    ShadeScratch::State& state = *scratch.state;
     const Material& material = impl_->materials.of(grid.primitive_index);
-    PlanePool& pool = scratch.state->pool;
-    const size_t vertices = grid.vertex_count();
-    if (material.displacement)
-        raise(material.displacement_reach, displace_grid(*material.displacement, camera, grid, pool));
-
-    pool.start(vertices);
-    ShaderInput input(grid, camera, pool);
-    Illumination lights(material.lights, input.P(), pool);
-    const Plane3 Ci = pool.take3(), Oi = pool.take3();
-    material.surface->shade(input, lights, Ci, Oi);
-    store(Ci, vertices, grid.Ci);
-    store(Oi, vertices, grid.Oi);
-    stats.shaded_vertices += vertices;
+    GridRun(impl_->context, impl_->textures, material, grid, state.pool, state.machine, state.lights).run();
+    stats.shaded_vertices += grid.vertex_count();
 }
 
 void Shading::report_displacement_bounds() const {

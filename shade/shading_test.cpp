@@ -10,16 +10,16 @@ namespace {
 TEST(Shading, UnknownSurfacesWarnOnceAndBecomeDefaultsurface) {
     TestScene scene;
     const ShadingGrid expected = scene.shaded();
-    scene.surface("marble");
+    scene.surface("limestone");
     auto second = std::make_shared<Attributes>();
-    second->surface = std::make_shared<ShaderInstance>(shader("marble"));
+    second->surface = std::make_shared<ShaderInstance>(shader("limestone"));
     scene.scene.primitives.push_back(scene.scene.primitives[0]);
     scene.scene.primitives[1].attributes = second;
     const ShadingGrid grid = scene.shaded();
     EXPECT_EQ(grid.Ci.c, expected.Ci.c);
     ASSERT_EQ(scene.reported.size(), 1u);
     EXPECT_EQ(scene.reported[0].severity, Severity::Warning);
-    EXPECT_NE(scene.reported[0].text.find("\"marble\""), std::string::npos) << scene.reported[0].text;
+    EXPECT_NE(scene.reported[0].text.find("\"limestone\""), std::string::npos) << scene.reported[0].text;
 }
 
 TEST(Shading, UnknownShadersAreReportedWhereTheyAreNamed) {

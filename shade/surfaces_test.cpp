@@ -1,5 +1,3 @@
-#include "shade/surfaces.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -135,6 +133,7 @@ TEST(Surfaces, NormalsAwayFromTheEyeAreTurned) {
     const ShadingGrid front = scene.shaded();
     ShadingGrid turned = scene.grid();
     turned.N.fill(turned.vertex_count(), V3f(0, 0, 1));
+    turned.Ng = turned.N;
     EXPECT_EQ(scene.shaded(turned).Ci.c, front.Ci.c);
 }
 
@@ -178,6 +177,7 @@ TEST(PrimitiveVariables, ReplaceParameters) {
     ShadingGrid grid = scene.grid();
     std::vector<float> Kd(grid.vertex_count());
     for (size_t i = 0; i < Kd.size(); ++i) Kd[i] = 0.1f * static_cast<float>(i);
+    scene.declare("Kd", {StorageClass::Vertex, ValueType::Float, 1});
     grid.variables.push_back(variable("Kd", {StorageClass::Vertex, ValueType::Float, 1}, {Kd}, false));
     const ShadingGrid varying = scene.shaded(grid);
     for (size_t i = 0; i < Kd.size(); ++i) expect_near(varying.Ci.at(i), full * Kd[i], 1e-6f);
@@ -196,6 +196,7 @@ TEST(PrimitiveVariables, ReplaceColors) {
     scene.surface("plastic");
     ShadingGrid grid = scene.grid();
     const size_t n = grid.vertex_count();
+    scene.declare("specularcolor", {StorageClass::Varying, ValueType::Color, 1});
     grid.variables.push_back(variable(
         "specularcolor", {StorageClass::Varying, ValueType::Color, 1},
         {std::vector<float>(n, tint.x), std::vector<float>(n, tint.y), std::vector<float>(n, tint.z)},

@@ -65,6 +65,13 @@ struct TestScene {
         return made->shader;
     }
 
+    /// The primitive has a variable, of which grids bring the values.
+    void declare(std::string name, Declaration declaration) {
+        auto shape = std::make_shared<Shape>();
+        shape->variables.values.push_back({std::move(name), declaration, {}, {}});
+        scene.primitives[0].shape_keys = {shape};
+    }
+
     /// nu x nv micropolygons on the plane z = 4 over x, y, s, t in 0..1, v and t running down (y = 1 - v);
     /// dPdu x dPdv and N are towards the eye.
     ShadingGrid grid(int nu = 3, int nv = 2, int keys = 1) const {

@@ -2,11 +2,8 @@
    of the cosine. */
 surface defaultsurface(float Ka = 0.2, Kd = 0.8;)
 {
-    float lengths = (I . I) * (N . N);
-    float facing = 0;
+    float facing = normalize(I) . normalize(N);
 
-    if (lengths > 0)
-        facing = (I . N) * (I . N) / lengths;
     Oi = Os;
-    Ci = Os * Cs * (Ka + Kd * facing);
+    Ci = Os * Cs * (Ka + Kd * facing * facing);
 }

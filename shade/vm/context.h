@@ -90,7 +90,7 @@ struct Context {
     Messages* messages = nullptr;
     LightOutput* light_output = nullptr;  ///< in lights
     Diagnostics* diagnostics = nullptr;
-    uint64_t random_seed = 0;  ///< of the grid: Op::Random
+    float near_clip = 0, far_clip = 1;  ///< camera-space z
 };
 
 }  // namespace trapeze::vm

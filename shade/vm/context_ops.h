@@ -10,8 +10,9 @@
 namespace trapeze::vm {
 
 ContextOp find_text_op(rsl::Op op);
-ContextOp find_space_op(rsl::Op op);
+ContextOp find_named_op(rsl::Op op);
 ContextOp find_neighbour_op(rsl::Op op);
+ContextOp find_random_op(rsl::Op op);
 ContextOp find_map_op(rsl::Op op);
 ContextOp find_light_op(rsl::Op op);
 ContextOp find_message_op(rsl::Op op);

@@ -12,6 +12,7 @@ struct GridSpan {
     size_t first = 0;
     GridShape shape;
     bool reverse_orientation = false;  ///< dPdu x dPdv points inside
+    uint64_t seed = 0;                 ///< of random numbers: the grid's own
 };
 
 }  // namespace trapeze::vm

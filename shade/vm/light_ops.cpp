@@ -1,49 +1,21 @@
 // The built-in functions that gather light (RISpec 3.2, section 15.6), and those that would ask for rays.
 #include <fmt/format.h>
 
-#include "shade/kernels.h"
 #include "shade/vm/context_ops.h"
+#include "shade/vm/light_kernels.h"
 
 namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
 
-/// An input's planes, written out for each lane if it is uniform.
-ConstPlane3 triple_planes(Run& run, const Operand& operand) {
-    const size_t lanes = run.lanes();
-    if (operand.lane_mask)
-        return {{operand.data, lanes},
-                {operand.data + operand.stride, lanes},
-                {operand.data + 2 * operand.stride, lanes}};
-    float* planes = run.scratch(3);
-    for (size_t k = 0; k < 3; ++k) std::fill_n(planes + k * lanes, lanes, operand.data[k * operand.stride]);
-    return {{planes, lanes}, {planes + lanes, lanes}, {planes + 2 * lanes, lanes}};
-}
-
-ConstPlane float_plane(Run& run, const Operand& operand) {
-    if (operand.lane_mask) return {operand.data, run.lanes()};
-    float* plane = run.scratch(1);
-    std::fill_n(plane, run.lanes(), operand.data[0]);
-    return {plane, run.lanes()};
-}
-
-Plane3 output_planes(Run& run, const Operand& out) {
-    const size_t lanes = run.lanes();
-    return {{out.data, lanes}, {out.data + out.stride, lanes}, {out.data + 2 * out.stride, lanes}};
-}
-
-ConstPlane3 planes_at(const Run& run, const float* first) {
-    const size_t lanes = run.lanes();
-    return {{first, lanes}, {first + lanes, lanes}, {first + 2 * lanes, lanes}};
-}
-
-/// A light's colour, or its share for one of the built-in functions.
-ConstPlane3 shared(Run& run, const Lights::Arriving& light, float share) {
-    if (share == 1) return planes_at(run, light.Cl);
-    float* scaled = run.scratch(3);
-    for (size_t i = 0; i < 3 * run.lanes(); ++i) scaled[i] = light.Cl[i] * share;
-    return planes_at(run, scaled);
+/// Three planes of a light's.
+Operand planes_of(const Run& run, const float* first) {
+    Operand operand;
+    operand.data = const_cast<float*>(first);  // an input
+    operand.lane_mask = ~size_t{0};
+    operand.stride = run.lanes();
+    return operand;
 }
 
 void clear(const Run& run, const Operand& out) {
@@ -64,30 +36,28 @@ void for_lights(Run& run, const Step& step, bool ambient, const Add& add) {
 
 void ambient(Run& run, const Step& step, std::span<const Operand> operands) {
     clear(run, operands[0]);
-    const Plane3 out = output_planes(run, operands[0]);
-    for_lights(run, step, true,
-               [&](const Lights::Arriving& light) { kernels::add(planes_at(run, light.Cl), out); });
+    for_lights(run, step, true, [&](const Lights::Arriving& light) {
+        add_light(run.lanes(), planes_of(run, light.Cl), 1, operands[0]);
+    });
 }
 
 void diffuse(Run& run, const Step& step, std::span<const Operand> operands) {
     clear(run, operands[0]);
-    const Plane3 out = output_planes(run, operands[0]);
-    const ConstPlane3 N = triple_planes(run, operands[2]);
     for_lights(run, step, false, [&](const Lights::Arriving& light) {
         if (light.diffuse > 0)
-            kernels::add_diffuse(N, planes_at(run, light.direction), shared(run, light, light.diffuse), out);
+            add_diffuse(run.lanes(), operands[2], planes_of(run, light.direction), planes_of(run, light.Cl),
+                        light.diffuse, operands[0]);
     });
 }
 
-void specular(Run& run, const Step& step, std::span<const Operand> operands) {
+/// specular() and phong(): P, N, V and roughness or size.
+void highlights(Run& run, const Step& step, std::span<const Operand> operands) {
     clear(run, operands[0]);
-    const Plane3 out = output_planes(run, operands[0]);
-    const ConstPlane3 N = triple_planes(run, operands[2]), V = triple_planes(run, operands[3]);
-    const ConstPlane roughness = float_plane(run, operands[4]);
+    const auto add = step.op == Op::Specular ? add_specular : add_phong;
     for_lights(run, step, false, [&](const Lights::Arriving& light) {
         if (light.specular > 0)
-            kernels::add_specular(N, V, planes_at(run, light.direction), shared(run, light, light.specular),
-                                  roughness, out);
+            add(run.lanes(), operands[2], operands[3], operands[4], planes_of(run, light.direction),
+                planes_of(run, light.Cl), light.specular, operands[0]);
     });
 }
 
@@ -115,7 +85,8 @@ ContextOp find_light_op(Op op) {
         case Op::Diffuse:
             return diffuse;
         case Op::Specular:
-            return specular;
+        case Op::Phong:
+            return highlights;
         case Op::Trace:
         case Op::Transmission:
         case Op::Visibility:

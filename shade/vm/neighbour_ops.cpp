@@ -1,10 +1,96 @@
-// Operations that look at the vertices next to each one.
+// Operations that look at the vertices next to each one, and depth().
 #include "shade/vm/context_ops.h"
+#include "shade/vm/neighbours.h"
 
 namespace trapeze::vm {
+namespace {
 
-ContextOp find_neighbour_op(rsl::Op) {
-    return nullptr;
+using rsl::Op;
+
+GridSpans spans_of(const Run& run) {
+    const Points* points = run.context().points;
+    return points ? GridSpans(points->spans) : GridSpans();
+}
+
+int width_of_output(Run& run, const Step& step) {
+    return rsl::width_of(run.frame().reg(run.frame().register_of(step, 0)).type.base);
+}
+
+/// What is the same at all vertices does not change from one to the next.
+bool is_flat(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (operands[0].lane_mask) return false;
+    const std::array<float, 3> zeros{};
+    fill_operand(run, operands[0], std::span(zeros).first(static_cast<size_t>(width_of_output(run, step))));
+    return true;
+}
+
+void differences(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (is_flat(run, step, operands)) return;
+    const int width = width_of_output(run, step);
+    const auto difference = step.op == Op::Du ? derivative_u : step.op == Op::Dv ? derivative_v : derivative;
+    difference(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[0]);
+}
+
+void area(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (!is_flat(run, step, operands)) areas(spans_of(run), run.lanes(), operands[1], operands[0]);
+}
+
+void normals(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (!is_flat(run, step, operands))
+        calculate_normals(spans_of(run), run.lanes(), operands[1], operands[0]);
+}
+
+/// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts.
+void filtered_step(Run& run, const Step& step, std::span<const Operand> operands) {
+    const auto is_text = [&](size_t i) {
+        return run.frame().reg(run.frame().register_of(step, i)).type.base == rsl::Base::String;
+    };
+    const size_t lanes = operands[0].lane_mask ? run.lanes() : kLanes;
+    if (step.count > 3 && !is_text(3))
+        return filter_step_between(lanes, operands[1], operands[2], operands[3], operands[0]);
+    float scale = 1;
+    for (size_t i = 3; i + 1 < step.count; i += 2)
+        if (is_text(i) && !is_text(i + 1) && run.frame().text(run.frame().register_of(step, i)) == "width")
+            scale = operands[i + 1].data[0];
+    Operand widths;
+    widths.data = run.scratch(1);
+    widths.lane_mask = ~size_t{0};
+    if (operands[2].lane_mask)
+        filter_widths(spans_of(run), run.lanes(), operands[2], widths);
+    else
+        std::fill_n(widths.data, run.lanes(), 0.0f);
+    filter_step(lanes, operands[1], operands[2], widths, scale, operands[0]);
+}
+
+/// depth(P): 0 at the near clipping plane, 1 at the far one.
+void depth(Run& run, const Step&, std::span<const Operand> operands) {
+    const float near_clip = run.context().near_clip, far_clip = run.context().far_clip;
+    const Operand &out = operands[0], &P = operands[1];
+    for (size_t i = 0; i < plane_size(run, out); ++i) {
+        const float z = Run::at(P, 2, i);
+        out.data[i] = far_clip > near_clip ? (z - near_clip) / (far_clip - near_clip) : 0;
+    }
+}
+
+}  // namespace
+
+ContextOp find_neighbour_op(Op op) {
+    switch (op) {
+        case Op::Du:
+        case Op::Dv:
+        case Op::Deriv:
+            return differences;
+        case Op::Area:
+            return area;
+        case Op::CalculateNormal:
+            return normals;
+        case Op::FilterStep:
+            return filtered_step;
+        case Op::Depth:
+            return depth;
+        default:
+            return nullptr;
+    }
 }
 
 }  // namespace trapeze::vm

@@ -1,7 +1,8 @@
-#include "shade/lights.h"
+#include "shade/light_rig.h"
 
 #include <gtest/gtest.h>
 
+#include "shade/shader_library.h"
 #include "shade/test_scene.h"
 
 namespace trapeze {
@@ -12,24 +13,54 @@ struct Received {
     V3f L, direction, Cl;
 };
 
+/// A lamp, and what is needed to light one point with it.
+class OneLamp {
+  public:
+    explicit OneLamp(const ShaderInstance& instance, Diagnostics* diagnostics = nullptr)
+        : library_(scene_.options, diagnostics) {
+        auto executable = library_.find(instance.name, rsl::ShaderKind::Light, {}, {});
+        if (!executable) return;
+        lamp_.spaces = std::make_unique<SceneSpaces>(scene_, camera_, &instance, nullptr);
+        lamp_.shader =
+            std::make_unique<BoundShader>(std::move(executable), instance, *lamp_.spaces, diagnostics);
+    }
+
+    bool exists() const { return lamp_.shader != nullptr; }
+
+    Received at(const V3f& P) {
+        alignas(64) float planes[3 * kLanes];
+        for (size_t k = 0; k < 3; ++k) std::fill_n(planes + k * kLanes, kLanes, P[static_cast<int>(k)]);
+        vm::Operand operand;
+        operand.data = planes;
+        operand.lane_mask = ~size_t{0};
+        operand.stride = kLanes;
+        const std::vector<const Lamp*> lamps{&lamp_};
+        const vm::Context surroundings;
+        LightRig rig;
+        rig.start(machine_, lamps, surroundings, kLanes, {});
+        const vm::Lights::Arriving& light = rig.arriving(0, operand, false);
+        const auto first = [](const float* p) { return V3f(p[0], p[kLanes], p[2 * kLanes]); };
+        if (light.ambient) return {V3f(0), V3f(0), first(light.Cl)};
+        return {first(light.L), first(light.direction), first(light.Cl)};
+    }
+
+  private:
+    Scene scene_;
+    Camera camera_;
+    ShaderLibrary library_;
+    vm::Machine machine_;
+    Lamp lamp_;
+};
+
 Received received(const ShaderInstance& instance, const V3f& P) {
-    const auto made = make_standard_light(ParameterBinder(instance, nullptr));
-    PlanePool pool;
-    pool.start(1);
-    const Plane3 Ps = pool.take3();
-    for (int k = 0; k < 3; ++k) fill(P[k], Ps[k]);
-    LightShader::Light light;
-    light.L = pool.take3(), light.direction = pool.take3(), light.Cl = pool.take3();
-    made->illuminate(Ps, light);
-    const auto at = [](const Plane3& p) { return V3f(p.x[0], p.y[0], p.z[0]); };
-    if (made->is_ambient()) return {V3f(0), V3f(0), at(light.Cl)};
-    return {at(light.L), at(light.direction), at(light.Cl)};
+    return OneLamp(instance).at(P);
 }
 
 constexpr float kPi = 3.14159265f;
 
 TEST(Lights, UnknownNamesMakeNone) {
-    EXPECT_EQ(make_standard_light(ParameterBinder(shader("sunshine"), nullptr)), nullptr);
+    EXPECT_FALSE(OneLamp(shader("sunshine")).exists());
+    EXPECT_FALSE(OneLamp(shader("plastic")).exists());  // of another kind
 }
 
 TEST(Lights, AmbientIsIntensityTimesColor) {
@@ -111,9 +142,10 @@ TEST(Lights, AParameterOfTheWrongTypeIsReported) {
     std::vector<Diagnostic> reported;
     Diagnostics diagnostics([&](const Diagnostic& d) { reported.push_back(d); });
     const ShaderInstance lamp = shader("pointlight", {color("intensity", V3f(5))});
-    make_standard_light(ParameterBinder(lamp, &diagnostics));
+    OneLamp{lamp, &diagnostics};
     ASSERT_EQ(reported.size(), 1u);
-    EXPECT_NE(reported[0].text.find("\"intensity\" is not a float"), std::string::npos) << reported[0].text;
+    EXPECT_NE(reported[0].text.find("declares \"intensity\" as float"), std::string::npos)
+        << reported[0].text;
 }
 
 }  // namespace

@@ -1,0 +1,151 @@
+#include "shade/grid_messages.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace trapeze {
+namespace {
+
+using rsl::Base;
+using rsl::Op;
+
+size_t plane_of(const vm::Operand& out, size_t lanes) {
+    return out.lane_mask ? lanes : kLanes;
+}
+
+/// A variable of another shader: its parameter, or a predefined one.
+bool copy_variable(const vm::Frame* frame, std::string_view name, rsl::Type type, const vm::Operand& out,
+                   std::string* text) {
+    if (!frame) return false;
+    const rsl::Program& program = frame->program();
+    const rsl::RegisterId* id = program.find_global(name);
+    for (const rsl::ProgramParameter& parameter : program.parameters)
+        if (parameter.name == name) id = &parameter.id;
+    if (!id) return false;
+    const rsl::Type own = program.reg(*id).type;
+    if (own.length != type.length || rsl::width_of(own.base) != rsl::width_of(type.base)) return false;
+    if (type.base == Base::String) {
+        if (!text || own.base != Base::String) return false;
+        *text = frame->text(*id);
+        return true;
+    }
+    const vm::Operand& from = frame->operand(*id);
+    const size_t from_plane = plane_of(from, frame->lanes()), to_plane = plane_of(out, frame->lanes());
+    const size_t planes = static_cast<size_t>(rsl::width_of(type.base) * std::max(type.length, 1));
+    for (size_t p = 0; p < planes; ++p) {
+        if (from.lane_mask && out.lane_mask)
+            std::memcpy(out.data + p * to_plane, from.data + p * from_plane, to_plane * sizeof(float));
+        else
+            std::fill_n(out.data + p * to_plane, to_plane, from.data[p * from_plane]);
+    }
+    return true;
+}
+
+/// One value for all lanes.
+bool set_value(std::span<const float> values, rsl::Type type, const vm::Operand& out) {
+    const size_t wanted = static_cast<size_t>(rsl::width_of(type.base) * std::max(type.length, 1));
+    if (wanted == 0 || values.size() < wanted) return false;
+    const size_t width = static_cast<size_t>(rsl::width_of(type.base));
+    for (size_t p = 0; p < wanted; ++p) {
+        float* plane = out.data + (p / width) * out.element_stride + (p % width) * out.stride;
+        // A component's planes lie one after the other, and so tell their size.
+        const size_t size = out.lane_mask ? out.element_stride / width : kLanes;
+        std::fill_n(plane, size, values[p]);
+    }
+    return true;
+}
+
+bool set_parameter(const Parameter* parameter, rsl::Type type, const vm::Operand& out, std::string* text) {
+    if (!parameter) return false;
+    if (type.base == Base::String) {
+        if (!text || parameter->strings.empty()) return false;
+        *text = parameter->strings.front();
+        return true;
+    }
+    return set_value(parameter->floats, type, out);
+}
+
+/// "category:name" in lists by category.
+const Parameter* find_user(const std::map<std::string, ParameterList>& lists, std::string_view name) {
+    const size_t colon = name.find(':');
+    const std::string category(colon == std::string_view::npos ? "user" : name.substr(0, colon));
+    const auto list = lists.find(category);
+    if (list == lists.end()) return nullptr;
+    return list->second.find(colon == std::string_view::npos ? name : name.substr(colon + 1));
+}
+
+bool set_text(std::string value, rsl::Type type, std::string* text) {
+    if (type.base != Base::String || !text) return false;
+    *text = std::move(value);
+    return true;
+}
+
+}  // namespace
+
+bool GridMessages::find_attribute(std::string_view name, rsl::Type type, const vm::Operand& out,
+                                  std::string* text) const {
+    if (!attributes) return false;
+    const Attributes& a = *attributes;
+    if (name == "ShadingRate") return set_value(std::array{a.shading_rate}, type, out);
+    if (name == "Sides") return set_value(std::array{static_cast<float>(a.sides)}, type, out);
+    if (name == "Matte") return set_value(std::array{static_cast<float>(a.matte)}, type, out);
+    if (name == "identifier:name") return set_text(a.name, type, text);
+    return set_parameter(find_user(a.user, name), type, out, text);
+}
+
+bool GridMessages::find_option(std::string_view name, rsl::Type type, const vm::Operand& out,
+                               std::string* text) const {
+    const Options& o = context_.scene->options;
+    const Camera& camera = context_.camera;
+    if (name == "Format")
+        return set_value(
+            std::array{static_cast<float>(camera.width), static_cast<float>(camera.height), o.pixel_aspect},
+            type, out);
+    if (name == "CropWindow") return set_value(o.crop_window, type, out);
+    if (name == "FrameAspectRatio") {
+        const float picture = o.pixel_aspect * static_cast<float>(camera.width) /
+                              static_cast<float>(std::max(camera.height, 1));
+        return set_value(std::array{o.frame_aspect.value_or(picture)}, type, out);
+    }
+    if (name == "DepthOfField")
+        return set_value(std::array{o.f_stop, o.focal_length, o.focal_distance}, type, out);
+    if (name == "Shutter") return set_value(std::array{o.shutter_open, o.shutter_close}, type, out);
+    if (name == "Clipping") return set_value(std::array{o.near_clip, o.far_clip}, type, out);
+    if (name == "Frame") return set_value(std::array{static_cast<float>(o.frame)}, type, out);
+    return set_parameter(find_user(o.user, name), type, out, text);
+}
+
+bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm::Operand& out,
+                        std::string* text, size_t light) {
+    switch (what) {
+        case Op::LightMessage:
+            return lights && copy_variable(lights->frame(light), name, type, out, text);
+        case Op::SurfaceMessage:
+            return copy_variable(surface, name, type, out, text);
+        case Op::DisplacementMessage:
+            return copy_variable(displacement, name, type, out, text);
+        case Op::AtmosphereMessage:
+            return copy_variable(atmosphere, name, type, out, text);
+        case Op::AttributeMessage:
+            return find_attribute(name, type, out, text);
+        case Op::OptionMessage:
+            return find_option(name, type, out, text);
+        case Op::RendererInfo:
+            if (name == "renderer") return set_text("Trapeze", type, text);
+            if (name == "version") return set_value(std::array{0.0f, 1.0f, 0.0f, 0.0f}, type, out);
+            return name == "versionstring" && set_text("0.1.0", type, text);
+        default:
+            return false;  // incident() and opposite(): volumes on the other sides of a surface are not
+                           // traced
+    }
+}
+
+std::string GridMessages::shader_name(std::string_view kind) {
+    const auto name_of = [](const vm::Frame* frame) { return frame ? frame->program().name : std::string(); };
+    if (kind == "surface") return name_of(surface);
+    if (kind == "displacement") return name_of(displacement);
+    if (kind == "atmosphere") return name_of(atmosphere);
+    return kind.empty() ? running : std::string();
+}
+
+}  // namespace trapeze

@@ -1,0 +1,34 @@
+/// What the shaders of a grid may ask of each other, of the attributes and of the options (RISpec 3.2,
+/// section 15.8).
+#pragma once
+
+#include "core/render_context.h"
+#include "shade/light_rig.h"
+
+namespace trapeze {
+
+class GridMessages : public vm::Messages {
+  public:
+    explicit GridMessages(const RenderContext& context) : context_(context) {}
+
+    /// Frames of shaders that have run on the grid (or are running); may be null.
+    const vm::Frame* surface = nullptr;
+    const vm::Frame* displacement = nullptr;
+    const vm::Frame* atmosphere = nullptr;
+    const LightRig* lights = nullptr;
+    const Attributes* attributes = nullptr;
+    std::string running;  ///< the name of the shader that runs
+
+    bool find(rsl::Op what, std::string_view name, rsl::Type type, const vm::Operand& out, std::string* text,
+              size_t light) override;
+    std::string shader_name(std::string_view kind) override;
+
+  private:
+    bool find_attribute(std::string_view name, rsl::Type type, const vm::Operand& out,
+                        std::string* text) const;
+    bool find_option(std::string_view name, rsl::Type type, const vm::Operand& out, std::string* text) const;
+
+    const RenderContext& context_;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,29 @@
+/// Runs a bound shader over grids: their values go into its predefined variables, and its results come back.
+#pragma once
+
+#include <span>
+
+#include "core/render_context.h"
+#include "core/shading_grid.h"
+#include "shade/bound_shader.h"
+
+namespace trapeze {
+
+/// The lanes of grids side by side.
+vm::Points points_of(std::span<const ShadingGrid* const> grids);
+
+/// Sets the predefined variables that the program names (RISpec 3.2, tables 12.1 to 12.5) from the grids. Ci
+/// and Oi are the grids' own if `shaded`, else Cs and Os.
+void set_variables(vm::Frame& frame, std::span<const ShadingGrid* const> grids, const RenderContext& context,
+                   bool shaded);
+
+/// A triple's planes in the frame; empty when the program does not name the variable.
+Plane3 variable_planes(const vm::Frame& frame, std::string_view name);
+
+/// Whether the program may set the variable.
+bool writes_variable(const rsl::Program& program, std::string_view name);
+
+/// Copies Ci and Oi, where the program has them, into the grids; elsewhere they stay.
+void take_colors(const vm::Frame& frame, std::span<ShadingGrid* const> grids);
+
+}  // namespace trapeze

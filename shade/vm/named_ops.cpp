@@ -1,0 +1,72 @@
+// Operations that a text chooses: coordinate systems, colour spaces, bases of splines.
+#include <fmt/format.h>
+
+#include "shade/vm/color.h"
+#include "shade/vm/context_ops.h"
+#include "shade/vm/spline.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+
+void space_matrix(Run& run, const Step& step, std::span<const Operand> operands) {
+    const std::string &from = run.frame().text_input(step, 0), &to = run.frame().text_input(step, 1);
+    std::optional<M44f> matrix;
+    if (run.context().spaces) matrix = run.context().spaces->matrix(from, to);
+    if (!matrix) {
+        run.warn(
+            step,
+            fmt::format("there is no coordinate system \"{}\" or \"{}\"; nothing is transformed", from, to),
+            fmt::format("rsl-unknown-space {} {}", from, to));
+        matrix.emplace();
+    }
+    fill_operand(run, operands[0], std::span<const float>(&(*matrix)[0][0], 16));
+}
+
+void convert_color(Run& run, const Step& step, std::span<const Operand> operands) {
+    const std::string &from = run.frame().text_input(step, 0), &to = run.frame().text_input(step, 1);
+    Kernel kernel = find_color_conversion(from, to);
+    if (!kernel) {
+        run.warn(
+            step,
+            fmt::format("there is no colour space \"{}\" or \"{}\"; the colour is taken as it is", from, to),
+            fmt::format("rsl-unknown-color-space {} {}", from, to));
+        kernel = find_color_conversion("rgb", "rgb");
+    }
+    const std::array both{operands[0], operands[3]};
+    kernel(step.varying ? run.lanes() : kLanes, both);
+}
+
+/// spline() with a basis; without one it is a kernel.
+void spline(Run& run, const Step& step, std::span<const Operand> operands) {
+    const std::string& name = run.frame().text_input(step, 0);
+    std::optional<SplineBasis> basis = spline_basis(name);
+    if (!basis) {
+        run.warn(step, fmt::format("there is no spline basis \"{}\"; catmull-rom is used", name),
+                 fmt::format("rsl-unknown-basis {}", name));
+        basis = SplineBasis::CatmullRom;
+    }
+    std::vector<Operand> others(operands.begin(), operands.end());
+    others.erase(others.begin() + step.outputs);
+    const int width = rsl::width_of(run.frame().reg(run.frame().register_of(step, 0)).type.base);
+    if (const Kernel kernel = find_spline_kernel(*basis, width))
+        kernel(step.varying ? run.lanes() : kLanes, others);
+}
+
+}  // namespace
+
+ContextOp find_named_op(Op op) {
+    switch (op) {
+        case Op::SpaceMatrix:
+            return space_matrix;
+        case Op::ConvertColor:
+            return convert_color;
+        case Op::Spline:
+            return spline;
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,32 @@
+// random(): other numbers at each vertex and in each call, the same in each render.
+#include "core/random.h"
+#include "shade/vm/context_ops.h"
+#include "shade/vm/random.h"
+
+namespace trapeze::vm {
+namespace {
+
+void random(Run& run, const Step& step, std::span<const Operand> operands) {
+    float* seeds = run.scratch(1);
+    std::memset(seeds, 0, run.lanes() * sizeof(float));
+    if (const Points* points = run.context().points)
+        for (const GridSpan& span : points->spans)
+            for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i) {
+                const uint32_t word = hash(static_cast<uint32_t>(span.seed),
+                                           static_cast<uint32_t>(span.seed >> 32), static_cast<uint32_t>(i));
+                std::memcpy(seeds + span.first + i, &word, sizeof word);
+            }
+    Operand lanes;
+    lanes.data = seeds;
+    lanes.lane_mask = ~size_t{0};
+    random_numbers(run.lanes(), operands[0].stride ? 3 : 1, lanes, static_cast<uint32_t>(step.immediate),
+                   operands[0]);
+}
+
+}  // namespace
+
+ContextOp find_random_op(rsl::Op op) {
+    return op == rsl::Op::Random ? random : nullptr;
+}
+
+}  // namespace trapeze::vm

@@ -1,0 +1,106 @@
+/// For tests: a shader's source, compiled and run over a small grid, and the values of its output parameters.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "shade/grid_shader.h"
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/generate.h"
+#include "shade/rsl/infer_storage.h"
+#include "shade/rsl/optimise.h"
+#include "shade/scene_spaces.h"
+#include "shade/test_scene.h"
+
+namespace trapeze::vm::test {
+
+class ShaderRun {
+  public:
+    explicit ShaderRun(const std::string& source, bool optimised = true, int nu = 3, int nv = 2)
+        : grid_(scene_.grid(nu, nv)) {
+        const auto unit = rsl::compile_front({"test.sl", source}, {}, scene_.diagnostics);
+        if (!unit) {
+            ADD_FAILURE() << messages() << source;
+            return;
+        }
+        auto program = rsl::generate(*unit->shaders.front(), scene_.diagnostics);
+        if (!program) return;
+        if (optimised) rsl::optimise(*program);
+        rsl::infer_storage(*program, [](const rsl::ProgramParameter&) { return false; });
+        executable_ = std::make_shared<const Executable>(std::move(*program));
+    }
+
+    ShadingGrid& grid() { return grid_; }
+    TestScene& scene() { return scene_; }
+
+    /// Runs it, with what is in `context` besides points.
+    void run(Context context = {}) {
+        if (!executable_) return;
+        const SceneSpaces spaces(scene_.scene, scene_.context.camera, &instance_,
+                                 &scene_.scene.primitives[0]);
+        const BoundShader bound(executable_, instance_, spaces, &scene_.diagnostics);
+        const ShadingGrid* grids[] = {&grid_};
+        points_ = points_of(grids);
+        frame_ = &machine_.frame(executable_);
+        frame_->start(points_.lanes);
+        bound.set_parameters(*frame_, grids);
+        set_variables(*frame_, grids, scene_.context, false);
+        context.points = &points_;
+        context.spaces = &spaces;
+        context.diagnostics = &scene_.diagnostics;
+        machine_.run(*frame_, context);
+    }
+
+    size_t vertices() const { return grid_.vertex_count(); }
+    /// An output parameter's component at a vertex.
+    float at(const std::string& name, size_t vertex, int component = 0, size_t element = 0) const {
+        const Operand& operand = frame_->operand(id(name));
+        return operand.data[element * operand.element_stride +
+                            static_cast<size_t>(component) * operand.stride + (vertex & operand.lane_mask)];
+    }
+    const std::string& text(const std::string& name) const { return frame_->text(id(name)); }
+    bool is_varying(const std::string& name) const { return frame_->reg(id(name)).varying; }
+    const rsl::Program& program() const { return executable_->program(); }
+    Machine& machine() { return machine_; }
+    Frame& frame() { return *frame_; }
+    std::string messages() const {
+        std::string all;
+        for (const Diagnostic& d : scene_.reported) all += to_string(d) + "\n";
+        return all;
+    }
+
+  private:
+    rsl::RegisterId id(const std::string& name) const {
+        for (const rsl::ProgramParameter& parameter : program().parameters)
+            if (parameter.name == name) return parameter.id;
+        ADD_FAILURE() << "no parameter " << name;
+        return 0;
+    }
+
+    TestScene scene_;
+    ShaderInstance instance_;
+    ShadingGrid grid_;
+    std::shared_ptr<const Executable> executable_;
+    Points points_;
+    Machine machine_;
+    Frame* frame_ = nullptr;
+};
+
+/// Runs `body` in a surface with output parameter `float r`, with and without the optimiser, and hands the
+/// value at each vertex, with its s and t, to `expected`.
+template <class Expected>
+void expect_values(const std::string& body, const Expected& expected, float tolerance = 0,
+                   const std::string& functions = {}) {
+    for (const bool optimised : {false, true}) {
+        ShaderRun run(functions + "surface test(output varying float r = 0;) {" + body + "}", optimised);
+        run.run();
+        if (!run.messages().empty()) ADD_FAILURE() << run.messages();
+        for (size_t i = 0; i < run.vertices(); ++i)
+            EXPECT_NEAR(run.at("r", i), expected(run.grid().s[i], run.grid().t[i]), tolerance)
+                << (optimised ? "optimised " : "") << body << " at vertex " << i;
+    }
+}
+
+}  // namespace trapeze::vm::test

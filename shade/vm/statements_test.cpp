@@ -1,0 +1,188 @@
+// Each statement of the language, where all lanes go one way and where they part, with and without the
+// optimiser. s runs over 0, 1/3, 2/3, 1 and t over 0, 1/2, 1; the expected values are the same loops in C++.
+#include <cmath>
+
+#include "shade/vm/run_shader_harness.h"
+
+namespace trapeze::vm::test {
+namespace {
+
+TEST(Statements, IfByLaneAndWhole) {
+    expect_values("if (s > 0.5) r = 1; else r = 2;", [](float s, float) { return s > 0.5f ? 1 : 2; });
+    expect_values("r = 5; if (s > 2) r = 1;", [](float, float) { return 5; });
+    expect_values("uniform float k = 3; if (k > 2) r = 1; else r = 2;", [](float, float) { return 1; });
+    expect_values("if (s > 0.5) { if (t > 0.25) r = 1; else r = 2; } else if (t > 0.75) r = 3;",
+                  [](float s, float t) { return s > 0.5f    ? (t > 0.25f ? 1 : 2)
+                                                : t > 0.75f ? 3
+                                                            : 0; });
+}
+
+TEST(Statements, VariablesInsideBranchesAreTheirOwn) {
+    expect_values(
+        "float x = 1; if (s > 0.5) { float x = 10; x += t; r = x; } r += x;",
+        [](float s, float t) { return (s > 0.5f ? 10 + t : 0) + 1; }, 1e-6f);
+}
+
+TEST(Statements, LoopsCountByLane) {
+    expect_values("float i; for (i = 0; i < 10; i += 1) r += i;", [](float, float) { return 45; });
+    expect_values("float i; for (i = 0; i < 10 * s; i += 1) r += 1;", [](float s, float) {
+        float count = 0;
+        for (float i = 0; i < 10 * s; i += 1) ++count;
+        return count;
+    });
+    expect_values("float x = s * 8; while (x > 1) { x -= 1.5; r += 1; }", [](float s, float) {
+        float count = 0;
+        for (float x = s * 8; x > 1; x -= 1.5f) ++count;
+        return count;
+    });
+    expect_values("while (s > 5) r = 9;", [](float, float) { return 0; });
+}
+
+TEST(Statements, BreakAndContinueByLane) {
+    expect_values("float i; for (i = 0; i < 10; i += 1) { if (i > s * 6) break; r += 1; }",
+                  [](float s, float) {
+                      float count = 0;
+                      for (float i = 0; i < 10; i += 1) {
+                          if (i > s * 6) break;
+                          ++count;
+                      }
+                      return count;
+                  });
+    expect_values("float i; for (i = 0; i < 8; i += 1) { if (mod(i, 2) == 0 && s > 0.5) continue; r += i; }",
+                  [](float s, float) {
+                      float sum = 0;
+                      for (int i = 0; i < 8; ++i)
+                          if (i % 2 != 0 || !(s > 0.5f)) sum += static_cast<float>(i);
+                      return sum;
+                  });
+    expect_values("float i; for (i = 0; i < 8; i += 1) { if (i == 3) continue; if (i == 6) break; r += i; }",
+                  [](float, float) { return 0 + 1 + 2 + 4 + 5; });
+}
+
+TEST(Statements, BreakLeavesSeveralLoops) {
+    const auto expected = [](float s, float t) {
+        float count = 0;
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 5; ++j) {
+                if (static_cast<float>(j) > 3 * s) goto done;
+                if (static_cast<float>(j) > 2 * t) break;
+                ++count;
+            }
+    done:
+        return count;
+    };
+    expect_values(
+        "float i, j; for (i = 0; i < 4; i += 1) for (j = 0; j < 5; j += 1) {"
+        "  if (j > 3 * s) break 2; if (j > 2 * t) break; r += 1; }",
+        expected);
+    // The inner loop goes one way for all, the outer one does not.
+    expect_values(
+        "float i, j; for (i = 0; i < 4; i += 1) { if (s > 0.5) { for (j = 0; j < 5; j += 1) {"
+        "  if (j == 2) break 2; r += 1; } } r += 10; }",
+        [](float s, float) { return s > 0.5f ? 2 : 40; });
+}
+
+TEST(Statements, ContinueGoesOnWithAnOuterLoop) {
+    expect_values(
+        "float i, j; for (i = 0; i < 4; i += 1) { for (j = 0; j < 5; j += 1) {"
+        "  if (j > 4 * s) continue 2; r += 1; } r += 100; }",
+        [](float s, float) {
+            float sum = 0;
+            for (int i = 0; i < 4; ++i) {
+                bool went_on = false;
+                for (int j = 0; j < 5 && !went_on; ++j) {
+                    went_on = static_cast<float>(j) > 4 * s;
+                    if (!went_on) sum += 1;
+                }
+                if (!went_on) sum += 100;
+            }
+            return sum;
+        });
+}
+
+TEST(Statements, FunctionsReturnFromTheirMiddle) {
+    expect_values(
+        "r = f(s);",
+        [](float s, float) {
+            for (int i = 0; i < 5; ++i)
+                if (static_cast<float>(i) > 4 * s) return static_cast<float>(i) * 10;
+            return -1.0f;
+        },
+        0,
+        "float f(float x) { float i; for (i = 0; i < 5; i += 1) { if (i > 4 * x) return i * 10; } return -1; "
+        "}");
+    expect_values(
+        "r = g(s) + g(t);", [](float s, float t) { return (s > 0.5f ? 2 : 1) + (t > 0.5f ? 2 : 1); }, 0,
+        "float g(float x) { if (x > 0.5) return 2; return 1; }");
+}
+
+TEST(Statements, OutputParametersAreSet) {
+    expect_values(
+        "float a = s, b = t; swap(a, b); r = a * 10 + b;", [](float s, float t) { return t * 10 + s; }, 1e-6f,
+        "void swap(output float x; output float y;) { float z = x; x = y; y = z; }");
+    expect_values(
+        "float a[2] = {s, t}; bump(a[1]); r = a[0] + a[1];", [](float s, float t) { return s + t + 1; },
+        1e-6f, "void bump(output float x) { x += 1; }");
+    expect_values(
+        "r = 7; if (s > 0.5) set(r);", [](float s, float) { return s > 0.5f ? 3 : 7; }, 0,
+        "void set(output float x) { x = 3; }");
+}
+
+TEST(Statements, ExternNamesTheCallersVariables) {
+    expect_values(
+        "float k = 4; float f() { extern float k; k += 1; return k * s; } r = f() + k;",
+        [](float s, float) { return 5 * s + 5; }, 1e-6f);
+}
+
+TEST(Statements, ArraysAreIndexedByLane) {
+    expect_values("float a[4] = {10, 20, 30, 40}; r = a[s * 3.1];",
+                  [](float s, float) { return 10 * (1 + std::floor(s * 3.1f)); });
+    expect_values(
+        "float a[4]; float i; for (i = 0; i < 4; i += 1) a[i] = i * i; a[s * 3.1] = 100;"
+        " r = a[0] + a[1] + a[2] + a[3];",
+        [](float s, float) {
+            const float at = std::floor(s * 3.1f);
+            return 14 - at * at + 100;
+        });
+}
+
+TEST(Statements, ConditionalExpressionsAndBools) {
+    expect_values("r = s > 0.5 ? t : 3;", [](float s, float t) { return s > 0.5f ? t : 3; });
+    expect_values("r = (s > 0.5 && t > 0.25) || !(s < 1) ? 1 : 0;",
+                  [](float s, float t) { return (s > 0.5f && t > 0.25f) || !(s < 1) ? 1 : 0; });
+    expect_values("string name = \"a\"; if (name == \"a\") r = 1; if (name != \"a\") r = 2;",
+                  [](float, float) { return 1; });
+    expect_values("color c = color(s, t, 0); if (c == color(0, 0, 0)) r = 1;",
+                  [](float s, float t) { return s == 0 && t == 0 ? 1 : 0; });
+}
+
+TEST(Statements, AssignmentsAreExpressions) {
+    expect_values(
+        "float a, b; a = b = s; a *= 4; a -= 1; a /= 2; r = a + (b += 1);",
+        [](float s, float) { return (s * 4 - 1) / 2 + s + 1; }, 1e-6f);
+}
+
+TEST(Statements, AnEndlessLoopIsLeftAndNamed) {
+    ShaderRun run("surface test(output varying float r = 0;) {\n  while (1 > 0)\n    r += 1;\n}");
+    run.run();
+    EXPECT_NE(run.messages().find("test.sl:2:"), std::string::npos) << run.messages();
+    EXPECT_EQ(run.at("r", 0), kMaxTurns);
+    ShaderRun by_lane(
+        "surface test(output varying float r = 0;) {\n  while (s >= 0) { r += 1; if (s > 2) break; }\n}");
+    by_lane.run();
+    EXPECT_NE(by_lane.messages().find("test.sl:2:"), std::string::npos) << by_lane.messages();
+}
+
+TEST(Statements, WhatIsUniformIsFound) {
+    ShaderRun run(
+        "surface test(output varying float r = 0;) {"
+        "float a = 2, i, sum = 0; for (i = 0; i < 3; i += 1) sum += a * i; r = sum * s; }");
+    for (const rsl::Register& r : run.program().registers)
+        EXPECT_FALSE(r.varying && (r.name == "sum" || r.name == "i" || r.name == "a")) << r.name;
+    ShaderRun parted(
+        "surface test(output varying float r = 0;) { float sum = 0; if (s > 0.5) sum = 1; r = sum; }");
+    for (const rsl::Register& r : parted.program().registers) EXPECT_TRUE(r.varying || r.name != "sum");
+}
+
+}  // namespace
+}  // namespace trapeze::vm::test
