@@ -71,6 +71,12 @@ TEST(CommandLine, ChecksShaders) {
               "    uniform         point      from  = point \"shader\" (0, 0, 1)\n");
     EXPECT_NE(right.err.find("0 errors, 0 warnings"), std::string::npos) << right.err;
 
+    // twice() has been written out, and Ci is a colour.
+    const Outcome code = run_program(folder, "shader a.sl -I more -D AMOUNT=2 --ir");
+    EXPECT_NE(code.out.find("uniform float Ka = Move 0.5"), std::string::npos) << code.out;
+    EXPECT_NE(code.out.find("= Multiply Ka, 2"), std::string::npos) << code.out;
+    EXPECT_NE(code.out.find("varying color Ci = Move"), std::string::npos) << code.out;
+
     const Outcome wrong = run_program(folder, "shader a.sl");
     EXPECT_EQ(wrong.exit_code, 1);
     EXPECT_NE(

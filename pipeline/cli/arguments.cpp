@@ -239,6 +239,7 @@ void add_shader_options(CLI::App& app, Arguments& a) {
         ->allow_extra_args(false)
         ->type_name("NAME[=TEXT]");
     app.add_flag("--params", s.parameters, "prints the parameters: storage, type, name, default");
+    app.add_flag("--ir", s.code, "prints the code that the grid machine runs");
     app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
     app.add_flag("-q,--quiet", a.quiet, "only errors");
     app.add_flag("--no-color{false}", a.color, "no colours in messages (also: NO_COLOR in the environment)");

@@ -43,6 +43,7 @@ struct ShaderArguments {
     std::vector<std::string> include_folders;
     std::vector<std::string> defines;  ///< NAME or NAME=TEXT
     bool parameters = false;           ///< print them
+    bool code = false;
 };
 
 struct Arguments {

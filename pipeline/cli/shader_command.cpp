@@ -10,6 +10,9 @@
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "shade/rsl/front_end.h"
+#include "shade/rsl/generate.h"
+#include "shade/rsl/infer_storage.h"
+#include "shade/rsl/optimise.h"
 
 namespace trapeze {
 namespace {
@@ -50,6 +53,15 @@ void print_parameters(const rsl::Shader& shader) {
     }
 }
 
+/// The code as the machine would run it with no parameter given for each vertex.
+void print_code(const rsl::Shader& shader, Diagnostics& diagnostics) {
+    const auto program = rsl::generate(shader, diagnostics);
+    if (!program) return;
+    rsl::optimise(*program);
+    rsl::infer_storage(*program, [](const rsl::ProgramParameter&) { return false; });
+    fmt::print("{}", rsl::listing(*program));
+}
+
 std::optional<std::string> read_source(const std::string& file) {
     if (file == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
     std::ifstream stream(file, std::ios::binary);
@@ -78,6 +90,7 @@ int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& 
         for (const auto& shader : unit->shaders) {
             fmt::print("{} {}\n", kind_name(shader->kind), shader->name);
             if (a.parameters) print_parameters(*shader);
+            if (a.code) print_code(*shader, diagnostics);
         }
         if (unit->shaders.empty()) diagnostics.warning({}, "there is no shader in \"" + a.file + "\"");
     }
