@@ -41,6 +41,14 @@ struct PixelFilter {
     float width_x = 2, width_y = 2;  ///< pixels, the whole support
 };
 
+/// A shader as the scene names it. Parameters are in `parameters`; points among them are in shader space.
+struct ShaderInstance {
+    std::string name;
+    ParameterList parameters;
+    M44f camera_from_shader;  ///< at shutter open
+    SourceLocation location;
+};
+
 /// RISpec 4.1, table 4.1 and 4.2, with its defaults.
 struct Options {
     int frame = 0;
@@ -57,22 +65,14 @@ struct Options {
     float samples_x = 2, samples_y = 2;
     PixelFilter filter;
     float exposure_gain = 1, exposure_gamma = 1;
-    ParameterList quantize;  ///< kept
-    std::string imager;      ///< kept
+    ParameterList quantize;                        ///< kept
+    std::shared_ptr<const ShaderInstance> imager;  ///< null: none
     std::string hider = "hidden";
     ParameterList hider_parameters;
     std::vector<Display> displays;              ///< the first is the primary one; others came with '+'
     std::map<std::string, ParameterList> user;  ///< Option "category" "name" value, by category
     std::map<std::string, std::vector<std::string>>
         search_paths;  ///< by category; "." and the scene's folder included
-};
-
-/// A shader as the scene names it. Parameters are in `parameters`; points among them are in shader space.
-struct ShaderInstance {
-    std::string name;
-    ParameterList parameters;
-    M44f camera_from_shader;  ///< at shutter open
-    SourceLocation location;
 };
 
 /// A light, at shutter open.

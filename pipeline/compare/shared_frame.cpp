@@ -16,7 +16,7 @@ std::optional<Region> whole_region(const SharedFrame& frame, const Tessellation&
         frame.context.diagnostics->error({}, "the crop window holds no pixels");
         return {};
     }
-    Region region = split_into_regions(frame.pixels, tessellation.subpatches(), {~size_t{0}, 1}).front();
+    Region region = split_into_regions(frame.pixels, tessellation.subpatches(), {~size_t{0}, 1, 0}).front();
     if (region.estimated_bytes <= budget) return region;
     const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
     frame.context.diagnostics->error({},
@@ -34,6 +34,8 @@ std::optional<Region> whole_region(const SharedFrame& frame, const Tessellation&
 std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& settings,
                                        Diagnostics& diagnostics) {
     SharedFrame frame;
+    // Methods are compared by colour and depth.
+    for (Display& display : scene.options.displays) display.variable.reset();
     frame.scene = std::make_unique<const Scene>(std::move(scene));
     frame.context = make_context(*frame.scene, settings, diagnostics);
     frame.pixels = sampled_pixels(frame.context.camera, frame.scene->options);

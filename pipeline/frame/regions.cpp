@@ -17,12 +17,13 @@ int floor_to(int pixel, int side) {
     return pixel - rest;
 }
 
-Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches) {
+Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
+               int aov_channels) {
     Region part{pixels, {}, 0};
     for (const uint32_t index : whole.subpatches) {
         if (intersection(subpatches[index].bound, pixels).empty()) continue;
         part.subpatches.push_back(index);
-        part.estimated_bytes += estimated_bytes(subpatches[index]);
+        part.estimated_bytes += estimated_bytes(subpatches[index], aov_channels);
     }
     return part;
 }
@@ -55,11 +56,12 @@ bool can_split(const PixelRect& r) {
 
 }  // namespace
 
-size_t estimated_bytes(const SubpatchInfo& subpatch) {
+size_t estimated_bytes(const SubpatchInfo& subpatch, int aov_channels) {
     Grid grid;
     grid.shape = subpatch.shape;
     grid.key_count = subpatch.key_count;
     grid.opaque = false;
+    grid.aov_channels = static_cast<uint8_t>(aov_channels);
     return grid.bytes() + 2 * 64 /* alignment of its two arrays */ + kTreeBytesPerGrid +
            kTreeBytesPerMicropolygon * grid.shape.micropolygon_count() * std::max(1, grid.key_count - 1);
 }
@@ -70,7 +72,7 @@ std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const 
     whole.pixels = pixels;
     whole.subpatches.resize(subpatches.size());
     std::iota(whole.subpatches.begin(), whole.subpatches.end(), 0u);
-    std::vector<Region> regions{part_of(whole, pixels, subpatches)};
+    std::vector<Region> regions{part_of(whole, pixels, subpatches, limits.aov_channels)};
     // The heaviest region that must be split, else (while there are too few) the largest.
     for (;;) {
         const bool too_few = static_cast<int>(regions.size()) < limits.at_least;
@@ -83,8 +85,8 @@ std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const 
         }
         if (chosen == regions.size()) return regions;
         const auto [low, high] = halves(regions[chosen].pixels);
-        Region second = part_of(regions[chosen], high, subpatches);
-        regions[chosen] = part_of(regions[chosen], low, subpatches);
+        Region second = part_of(regions[chosen], high, subpatches, limits.aov_channels);
+        regions[chosen] = part_of(regions[chosen], low, subpatches, limits.aov_channels);
         regions.insert(regions.begin() + static_cast<std::ptrdiff_t>(chosen) + 1, std::move(second));
     }
 }

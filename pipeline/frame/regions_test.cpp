@@ -76,5 +76,12 @@ TEST(Tiles, CoverTheRectangleAlignedToTheRaster) {
     EXPECT_EQ(tiles.front(), (PixelRect{-3, 5, 0, 16}));
 }
 
+TEST(Regions, VariablesOfVerticesCountInTheEstimate) {
+    SubpatchInfo subpatch;
+    subpatch.shape = {16, 16};
+    subpatch.key_count = 1;
+    EXPECT_EQ(estimated_bytes(subpatch, 5) - estimated_bytes(subpatch, 0), 5u * 17 * 17 * sizeof(float));
+}
+
 }  // namespace
 }  // namespace trapeze

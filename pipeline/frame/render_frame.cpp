@@ -70,9 +70,9 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     Film film(context);
 
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
-    const std::vector<Region> regions =
-        split_into_regions(sampled_pixels(context.camera, context.scene->options), tessellation.subpatches(),
-                           {budget, settings.regions_at_least});
+    const std::vector<Region> regions = split_into_regions(
+        sampled_pixels(context.camera, context.scene->options), tessellation.subpatches(),
+        {budget, settings.regions_at_least, aov_layout(context.scene->options).channel_count});
     for (size_t r = 0; r < regions.size() && !context.is_cancelled(); ++r) {
         const Region& region = regions[r];
         const double begin = static_cast<double>(r) / regions.size(),

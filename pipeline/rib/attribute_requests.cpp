@@ -70,24 +70,10 @@ void reverse_orientation(Reader& r, ArgumentCursor&) {
     state.orientation_reversed = !state.orientation_reversed;
 }
 
-/// A shader's parameter has one value (which may be an array).
-ParameterList shader_parameters(Reader& r, ArgumentCursor& c) {
-    ParameterList list = r.parameters(c);
-    std::erase_if(list.values, [&](const Parameter& p) {
-        const size_t got = p.is_string() ? p.strings.size() : p.floats.size();
-        const int wanted = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();
-        if (got == static_cast<size_t>(wanted)) return false;
-        r.error(in_quotes(p.name) + " has " + std::to_string(got) + " values, needs " +
-                std::to_string(wanted) + "; left out");
-        return true;
-    });
-    return list;
-}
-
 template <std::shared_ptr<const ShaderInstance> Attributes::*kWhere>
 void shader(Reader& r, ArgumentCursor& c, const char* kind) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
-    instance->parameters = shader_parameters(r, c);
+    instance->parameters = r.shader_parameters(c);
     change(r).*kWhere = std::move(instance);
 }
 
@@ -95,7 +81,7 @@ void light_source(Reader& r, ArgumentCursor& c) {
     auto light = std::make_shared<LightInstance>();
     light->shader = r.shader(c, "light");
     light->handle = c.handle("the handle");
-    light->shader.parameters = shader_parameters(r, c);
+    light->shader.parameters = r.shader_parameters(c);
     r.add_light(std::move(light));
 }
 

@@ -143,8 +143,10 @@ void quantize(Reader& r, ArgumentCursor& c) {
 }
 
 void imager(Reader& r, ArgumentCursor& c) {
-    changeable_options(r).imager = c.string("the imager's name");
-    r.parameters(c, Undeclared::Guess);
+    auto instance = std::make_shared<ShaderInstance>(r.shader(c, "imager"));
+    instance->parameters = r.shader_parameters(c);
+    const bool is_none = instance->name.empty() || instance->name == "null";
+    changeable_options(r).imager = is_none ? nullptr : std::move(instance);
 }
 
 void hider(Reader& r, ArgumentCursor& c) {

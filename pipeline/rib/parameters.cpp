@@ -60,4 +60,17 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
     return list;
 }
 
+ParameterList Reader::shader_parameters(ArgumentCursor& cursor) {
+    ParameterList list = parameters(cursor);
+    std::erase_if(list.values, [&](const Parameter& p) {
+        const size_t got = p.is_string() ? p.strings.size() : p.floats.size();
+        const int wanted = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();
+        if (got == static_cast<size_t>(wanted)) return false;
+        error(in_quotes(p.name) + " has " + std::to_string(got) + " values, needs " + std::to_string(wanted) +
+              "; left out");
+        return true;
+    });
+    return list;
+}
+
 }  // namespace trapeze::rib

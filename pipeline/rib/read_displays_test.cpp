@@ -1,4 +1,4 @@
-/// Displays and what they show.
+/// Displays and what they show, and the imager before them.
 #include "pipeline/rib/test_reading.h"
 
 namespace trapeze::rib::test {
@@ -75,6 +75,23 @@ TEST(ReadDisplays, WrongChannelsAreErrors) {
     const Outcome r = read_text("DisplayChannel \"string foo\"\nDisplayChannel \"rgb\"\nWorldBegin WorldEnd");
     EXPECT_THAT(r.messages,
                 ElementsAre(HasSubstr("\"string foo\" is no float, color, point, vector or normal")));
+}
+
+TEST(ReadDisplays, ImagersAreShadersWithParameters) {
+    const Outcome r = read_text(
+        "Translate 1 2 3 Imager \"background\" \"bgcolor\" [.1 .2 .3] \"uniform float strange\" [7]\n"
+        "WorldBegin WorldEnd Imager \"null\" WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.worlds.size(), 2u);
+    const auto& imager = r.worlds[0].options.imager;
+    ASSERT_TRUE(imager);
+    EXPECT_EQ(imager->name, "background");
+    EXPECT_EQ(imager->location.line, 1u);
+    EXPECT_EQ(imager->camera_from_shader.translation(), V3f(1, 2, 3));
+    ASSERT_NE(imager->parameters.find("bgcolor"), nullptr);
+    EXPECT_THAT(imager->parameters.find("bgcolor")->floats, ElementsAre(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(imager->parameters.float_or("strange", 0), 7);
+    EXPECT_FALSE(r.worlds[1].options.imager);
 }
 
 }  // namespace

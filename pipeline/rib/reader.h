@@ -44,6 +44,8 @@ class Reader {
 
     /// Name and value pairs to the end of the request; wrong ones are reported and left out.
     ParameterList parameters(ArgumentCursor& cursor, Undeclared undeclared = Undeclared::LeaveOut);
+    /// Those of a shader: each has one value (which may be an array).
+    ParameterList shader_parameters(ArgumentCursor& cursor);
 
     void begin_block(Block kind);
     void end_block(Block kind);
