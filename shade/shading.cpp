@@ -7,6 +7,7 @@
 #include "shade/grid_shader.h"
 #include "shade/map_service.h"
 #include "shade/material.h"
+#include "shade/take_aovs.h"
 
 namespace trapeze {
 namespace {
@@ -34,11 +35,18 @@ ShadeScratch::~ShadeScratch() = default;
 
 struct Shading::Impl {
     explicit Impl(const RenderContext& render)
-        : context(render), textures(render.scene->options, render.diagnostics), materials(render) {}
+        : context(render),
+          textures(render.scene->options, render.diagnostics),
+          materials(render),
+          aovs(aov_layout(render.scene->options)) {
+        if (render.diagnostics)
+            report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
+    }
 
     const RenderContext& context;
     Textures textures;
     Materials materials;
+    AovLayout aovs;
 };
 
 namespace {
@@ -61,11 +69,13 @@ class GridRun {
         messages_.lights = &lights_;
     }
 
-    void run() {
+    /// `aovs` are those that the grid is to carry.
+    void run(const AovLayout& aovs) {
         if (material_.displacement) displace();
         for (int k = 0; k < 3; ++k) grid_.Ci.c[k] = grid_.Cs.c[k], grid_.Oi.c[k] = grid_.Os.c[k];
         color(*material_.surface, false, messages_.surface);
         if (material_.atmosphere) color(*material_.atmosphere, true, messages_.atmosphere);
+        if (!aovs.empty()) take_aovs(aovs, *messages_.surface, writable_grids());
     }
 
   private:
@@ -102,8 +112,9 @@ class GridRun {
         if (!writes_variable(shader.program(), "P")) {
             // Bumps: the surface stays, and shades as if it did not.
             for (int k = 0; k < 3 && displaced.N.size(); ++k)
-                grid_.N.c[k].assign(displaced.N[k].begin(),
-                                    displaced.N[k].begin() + static_cast<std::ptrdiff_t>(grid_.vertex_count()));
+                grid_.N.c[k].assign(
+                    displaced.N[k].begin(),
+                    displaced.N[k].begin() + static_cast<std::ptrdiff_t>(grid_.vertex_count()));
             return;
         }
         displaced.P = variable_planes(frame, "P");
@@ -135,7 +146,8 @@ Shading::~Shading() = default;
 void Shading::shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const {
     ShadeScratch::State& state = *scratch.state;
     const Material& material = impl_->materials.of(grid.primitive_index);
-    GridRun(impl_->context, impl_->textures, material, grid, state.pool, state.machine, state.lights).run();
+    GridRun(impl_->context, impl_->textures, material, grid, state.pool, state.machine, state.lights)
+        .run(impl_->aovs);
     stats.shaded_vertices += grid.vertex_count();
 }
 

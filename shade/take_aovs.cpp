@@ -1,0 +1,123 @@
+#include "shade/take_aovs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shade/material.h"
+
+namespace trapeze {
+namespace {
+
+using TriplesMember = Triples ShadingGrid::*;
+using FloatsMember = std::vector<float> ShadingGrid::*;
+
+TriplesMember triples_named(std::string_view name) {
+    static constexpr std::pair<std::string_view, TriplesMember> kNames[] = {
+        {"Ci", &ShadingGrid::Ci},     {"Oi", &ShadingGrid::Oi},    {"N", &ShadingGrid::N},
+        {"Ng", &ShadingGrid::Ng},     {"Cs", &ShadingGrid::Cs},    {"Os", &ShadingGrid::Os},
+        {"dPdu", &ShadingGrid::dPdu}, {"dPdv", &ShadingGrid::dPdv}};
+    for (const auto& [known, member] : kNames)
+        if (known == name) return member;
+    return nullptr;
+}
+
+FloatsMember floats_named(std::string_view name) {
+    static constexpr std::pair<std::string_view, FloatsMember> kNames[] = {
+        {"u", &ShadingGrid::u}, {"v", &ShadingGrid::v}, {"s", &ShadingGrid::s}, {"t", &ShadingGrid::t}};
+    for (const auto& [known, member] : kNames)
+        if (known == name) return member;
+    return nullptr;
+}
+
+/// A channel of what the grid itself has; null for another variable.
+const std::vector<float>* own_plane(const ShadingGrid& grid, const Aov& aov, int channel) {
+    if (aov.channels == 3) {
+        if (aov.name == "P") return &grid.P.front().c[channel];
+        const TriplesMember triples = triples_named(aov.name);
+        return triples ? &(grid.*triples).c[channel] : nullptr;
+    }
+    const FloatsMember floats = floats_named(aov.name);
+    return floats ? &(grid.*floats) : nullptr;
+}
+
+bool grids_have(const Aov& aov) {
+    if (aov.channels == 1) return floats_named(aov.name) != nullptr;
+    return aov.name == "P" || triples_named(aov.name);
+}
+
+/// The atmosphere changes these after the surface has run.
+bool is_result(const Aov& aov) {
+    return aov.name == "Ci" || aov.name == "Oi";
+}
+
+/// The register of a variable that the program has; null when it has none of as many numbers.
+const rsl::RegisterId* register_of(const rsl::Program& program, const Aov& aov) {
+    const rsl::RegisterId* id = program.find_global(aov.name);
+    for (const rsl::ProgramParameter& parameter : program.parameters)
+        if (parameter.name == aov.name) id = &parameter.id;
+    if (!id) return nullptr;
+    const rsl::Type type = program.reg(*id).type;
+    return !type.is_array() && rsl::width_of(type.base) == aov.channels ? id : nullptr;
+}
+
+/// One channel of one grid, whose lanes begin at `first`.
+void take_channel(const Aov& aov, int channel, const vm::Operand* from, size_t first, ShadingGrid& grid) {
+    const size_t count = grid.vertex_count();
+    std::vector<float>& to = grid.aovs[static_cast<size_t>(aov.offset + channel)];
+    if (from) {
+        const float* plane = from->data + static_cast<size_t>(channel) * from->stride;
+        if (from->lane_mask)
+            to.assign(plane + first, plane + first + count);
+        else
+            to.assign(count, *plane);
+        return;
+    }
+    const std::vector<float>* own = own_plane(grid, aov, channel);
+    if (own && own->size() >= count)
+        to.assign(own->begin(), own->begin() + static_cast<std::ptrdiff_t>(count));
+    else
+        to.assign(count, 0.0f);
+}
+
+SourceLocation asked_at(const Options& options, const Aov& aov) {
+    for (const Display& display : options.displays)
+        if (display.variable && display.variable->name == aov.name) return display.location;
+    return {};
+}
+
+}  // namespace
+
+void take_aovs(const AovLayout& layout, const vm::Frame& surface, std::span<ShadingGrid* const> grids) {
+    for (ShadingGrid* grid : grids) grid->aovs.resize(static_cast<size_t>(layout.channel_count));
+    for (const Aov& aov : layout.aovs) {
+        const rsl::RegisterId* id = is_result(aov) ? nullptr : register_of(surface.program(), aov);
+        const vm::Operand* from = id ? &surface.operand(*id) : nullptr;
+        size_t first = 0;
+        for (ShadingGrid* grid : grids) {
+            for (int channel = 0; channel < aov.channels; ++channel)
+                take_channel(aov, channel, from, first, *grid);
+            first += grid->vertex_count();
+        }
+    }
+}
+
+void report_missing_aovs(const AovLayout& layout, const Materials& materials, const Options& options,
+                         Diagnostics& diagnostics) {
+    for (const Aov& aov : layout.aovs) {
+        const bool found =
+            grids_have(aov) ||
+            std::any_of(materials.all().begin(), materials.all().end(), [&](const Material& material) {
+                return register_of(material.surface->program(), aov) != nullptr;
+            });
+        if (!found)
+            diagnostics.warning(
+                asked_at(options, aov),
+                fmt::format("Display: no surface shader of the scene has a variable \"{}\" of {}; "
+                            "it is 0 everywhere",
+                            aov.name, aov.channels == 1 ? "one number" : "three numbers"),
+                "display-variable " + aov.name);
+    }
+}
+
+}  // namespace trapeze
