@@ -1,5 +1,6 @@
 #include "pipeline/frame/render_frame.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include "pipeline/frame/resolve_tiles.h"
 #include "pipeline/frame/stopwatch.h"
 #include "sample/visibility_method.h"
+#include "shade/imager.h"
 #include "shade/shading.h"
 
 namespace trapeze {
@@ -25,6 +27,14 @@ void check_memory(const RenderContext& context, const Region& region, size_t use
                                      std::to_string(region.pixels.height()) + " pixels takes " + mib(used) +
                                      " for grids and tree, more than the budget of " + mib(budget),
                                  "memory-budget");
+}
+
+void run_imager(const Imager& imager, Image& image) {
+    if (!imager.is_there()) return;
+    const PixelRect& window = image.window;
+    tbb::parallel_for(window.y0, window.y1, [&](int y) {
+        imager.run(window.x0, y, window.width(), image.rgba.data() + 4 * image.index(window.x0, y));
+    });
 }
 
 }  // namespace
@@ -66,6 +76,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     stats.tessellate.grids = stats.tessellate.micropolygons = 0;  // counted as they are made
     stats.seconds.tessellate = watch.lap();
     const Shading shading(context);
+    const Imager imager(context);
     const auto pattern = sampler->make_pattern(context);
     Film film(context);
 
@@ -102,6 +113,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
 
     watch.lap();
     result.image = film.finish();
+    run_imager(imager, result.image);
     stats.seconds.composite += watch.lap();
     stats.samples = stats.sample.rays;
     stats.regions = static_cast<int>(regions.size());

@@ -1,0 +1,140 @@
+#include "shade/imager.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shade/grid_messages.h"
+#include "shade/map_service.h"
+#include "shade/scene_spaces.h"
+#include "shade/shader_library.h"
+
+namespace trapeze {
+namespace {
+
+constexpr int kBatch = 256;  ///< pixels run together: about as many as a grid has vertices
+
+/// Of a variable that the program may not name: then null.
+const vm::Operand* variable(const vm::Frame& frame, std::string_view name) {
+    const rsl::RegisterId* id = frame.program().find_global(name);
+    return id ? &frame.operand(*id) : nullptr;
+}
+
+/// Each pixel is a grid of its own: it has no neighbours, and its random numbers follow from its place.
+vm::Points points_of(int x0, int y, size_t pixels) {
+    vm::Points points;
+    points.vertices = pixels;
+    points.lanes = padded_size(pixels);
+    for (size_t i = 0; i < pixels; ++i) {
+        const uint64_t row = static_cast<uint32_t>(y), column = static_cast<uint32_t>(x0) + i;
+        points.spans.push_back({i, GridShape{0, 0}, false, row << 32 | column});
+    }
+    return points;
+}
+
+/// Sets a varying variable's component from each pixel; lanes past the end repeat the last.
+template <class ValueOf>
+void load(const vm::Operand* out, int component, size_t pixels, size_t lanes, const ValueOf& value_of) {
+    if (!out) return;
+    float* to = out->data + static_cast<size_t>(component) * out->stride;
+    for (size_t i = 0; i < lanes; ++i) to[i] = value_of(std::min(i, pixels - 1));
+}
+
+float finite(float value) {
+    return std::isfinite(value) ? value : 0.0f;
+}
+
+}  // namespace
+
+struct Imager::Impl {
+    explicit Impl(const RenderContext& render) : context(render) {}
+
+    void load_pixels(vm::Frame& frame, int x0, int y, size_t pixels, const float* rgba) const;
+
+    const RenderContext& context;
+    // All null when there is no imager.
+    std::unique_ptr<Textures> textures;  ///< thread-safe
+    std::unique_ptr<SceneSpaces> spaces;
+    std::unique_ptr<BoundShader> shader;
+};
+
+Imager::Imager(const RenderContext& context) : impl_(std::make_unique<Impl>(context)) {
+    const Scene& scene = *context.scene;
+    if (!scene.options.imager) return;
+    const ShaderInstance& instance = *scene.options.imager;
+    ShaderLibrary library(scene.options, context.diagnostics);
+    auto executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
+    if (!executable) {
+        if (context.diagnostics)
+            context.diagnostics->warning(
+                instance.location,
+                fmt::format("Imager: there is no shader \"{}\"; the picture stays as it is", instance.name),
+                "missing-shader Imager " + instance.name);
+        return;
+    }
+    impl_->textures = std::make_unique<Textures>(scene.options, context.diagnostics);
+    impl_->spaces = std::make_unique<SceneSpaces>(scene, context.camera, &instance, nullptr);
+    impl_->shader =
+        std::make_unique<BoundShader>(std::move(executable), instance, *impl_->spaces, context.diagnostics);
+}
+
+Imager::~Imager() = default;
+
+bool Imager::is_there() const {
+    return impl_->shader != nullptr;
+}
+
+void Imager::Impl::load_pixels(vm::Frame& frame, int x0, int y, size_t pixels, const float* rgba) const {
+    const size_t lanes = frame.lanes();
+    load(variable(frame, "P"), 0, pixels, lanes,
+         [&](size_t i) { return static_cast<float>(x0) + static_cast<float>(i) + 0.5f; });
+    load(variable(frame, "P"), 1, pixels, lanes, [&](size_t) { return static_cast<float>(y) + 0.5f; });
+    load(variable(frame, "P"), 2, pixels, lanes, [](size_t) { return 0.0f; });
+    for (int c = 0; c < 3; ++c) {
+        load(variable(frame, "Ci"), c, pixels, lanes,
+             [&](size_t i) { return rgba[4 * i + static_cast<size_t>(c)]; });
+        load(variable(frame, "Oi"), c, pixels, lanes, [&](size_t i) { return rgba[4 * i + 3]; });
+    }
+    load(variable(frame, "alpha"), 0, pixels, lanes, [&](size_t i) { return rgba[4 * i + 3]; });
+    const Options& options = context.scene->options;
+    const float components = 3, open = options.shutter_close - options.shutter_open;
+    for (const auto& [name, value] :
+         {std::pair{"ncomps", components}, {"time", options.shutter_open}, {"dtime", open}})
+        if (const rsl::RegisterId* id = frame.program().find_global(name)) frame.set_uniform(*id, &value);
+}
+
+void Imager::run(int x0, int y, int count, float* rgba) const {
+    if (!impl_->shader) return;
+    const BoundShader& shader = *impl_->shader;
+    vm::Machine machine;
+    vm::Frame& frame = machine.frame(shader.executable());
+    MapService maps(*impl_->textures, *impl_->context.scene);
+    GridMessages messages(impl_->context);
+    messages.running = shader.program().name;
+    for (int done = 0; done < count; done += kBatch) {
+        const auto pixels = static_cast<size_t>(std::min(kBatch, count - done));
+        float* batch = rgba + 4 * static_cast<size_t>(done);
+        const vm::Points points = points_of(x0 + done, y, pixels);
+        frame.start(points.lanes);
+        shader.set_parameters(frame, {});
+        impl_->load_pixels(frame, x0 + done, y, pixels, batch);
+        vm::Context surroundings;
+        surroundings.points = &points;
+        surroundings.spaces = impl_->spaces.get();
+        surroundings.maps = &maps;
+        surroundings.messages = &messages;
+        surroundings.diagnostics = impl_->context.diagnostics;
+        surroundings.near_clip = impl_->context.camera.near_clip;
+        surroundings.far_clip = impl_->context.camera.far_clip;
+        machine.run(frame, surroundings);
+        const vm::Operand *color = variable(frame, "Ci"), *alpha = variable(frame, "alpha");
+        for (size_t i = 0; i < pixels; ++i) {
+            for (size_t c = 0; c < 3 && color; ++c)
+                batch[4 * i + c] = finite(color->data[c * color->stride + i]);
+            if (alpha) batch[4 * i + 3] = finite(alpha->data[i]);
+        }
+    }
+}
+
+}  // namespace trapeze

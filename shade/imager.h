@@ -1,0 +1,33 @@
+/// The imager shader, which works on the finished picture's pixels (RISpec 3.2, figure 4.2 and section 14.4;
+/// Imager): after exposure, before quantization.
+#pragma once
+
+#include <memory>
+
+#include "core/render_context.h"
+
+namespace trapeze {
+
+class Imager {
+  public:
+    /// The shader that Options::imager names. One that is not known, is no imager or has errors is reported;
+    /// then there is none, and pictures stay as they are. The context and its scene must outlive this.
+    explicit Imager(const RenderContext& context);
+    ~Imager();
+
+    bool is_there() const;
+
+    /// Runs it over one row of pixels in place: `count` of them, red green blue alpha each, from pixel
+    /// (x0, y) on. Thread-safe; what becomes of a pixel depends on the pixel alone.
+    ///
+    /// The shader sees (table 12.5) P, the raster position of the pixel's centre, z 0; Ci; alpha; Oi, which
+    /// is alpha in all channels as no more is kept; ncomps, time and dtime. Afterwards Ci and alpha count.
+    /// Values that are not finite become 0.
+    void run(int x0, int y, int count, float* rgba) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trapeze
