@@ -148,6 +148,41 @@ TEST(CommandLine, AMapThatCannotBeMadeIsAnError) {
     EXPECT_TRUE(fs::exists(folder / "sphere.exr"));
 }
 
+/// A sphere by a shader of its own, whose variables are shown, too.
+constexpr const char* kVariables = R"(Format 64 48 1
+PixelSamples 2 2
+Projection "perspective" "fov" 40
+Display "sphere.exr" "openexr" "rgba"
+Display "+height.tif" "tiff" "varying float height" "quantize" [0 0 0 0]
+Display "+nosuch.exr" "openexr" "color nosuch"
+Imager "lost"
+Translate 0 0 5
+WorldBegin
+Surface "tall"
+Sphere 1 -1 1 360
+WorldEnd
+)";
+
+TEST(CommandLine, VariablesOfShadersAreWrittenAndMissingOnesWarnedOf) {
+    WorkFolder folder;
+    folder.write("a.rib", kVariables);
+    folder.write("tall.sl",
+                 "surface tall(output varying float height = 0;) { height = 2 + t; Ci = Oi = 1; }");
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const char* file : {"sphere.exr", "height.tif", "nosuch.exr"})
+        EXPECT_TRUE(fs::exists(folder / file)) << file;
+    const auto warned = [&](const std::string& text) {
+        const size_t first = outcome.err.find(text);
+        return first != std::string::npos && outcome.err.find(text, first + 1) == std::string::npos;
+    };
+    EXPECT_TRUE(
+        warned("a.rib:6:1: warning: Display: no surface shader of the scene has a variable \"nosuch\""))
+        << outcome.err;
+    EXPECT_TRUE(warned("a.rib:7:1: warning: Imager: there is no shader \"lost\"")) << outcome.err;
+    EXPECT_EQ(outcome.err.find("height"), std::string::npos) << outcome.err;
+}
+
 TEST(CommandLine, TheCommandMayBeLeftOutAsWithPrman) {
     WorkFolder folder;
     folder.write("a.rib", kSphere);
