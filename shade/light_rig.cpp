@@ -6,15 +6,18 @@
 #include <new>
 
 #include "core/scene.h"
-#include "shade/kernels.h"
 
 namespace trapeze {
 namespace {
 
 constexpr size_t kL = 0, kDirection = 3, kCl = 6, kLit = 9, kPlanes = 10;
 
-Plane3 three(float* first, size_t lanes) {
-    return {{first, lanes}, {first + lanes, lanes}, {first + 2 * lanes, lanes}};
+vm::Operand three(float* first, size_t lanes) {
+    vm::Operand operand;
+    operand.data = first;
+    operand.lane_mask = ~size_t{0};
+    operand.stride = lanes;
+    return operand;
 }
 
 /// An output parameter's value at the first vertex.
@@ -139,7 +142,9 @@ void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     if (arriving.ambient) return;
     // Surfaces see L the other way round: to the light.
     for (size_t i = 0; i < 3 * lanes_; ++i) output.L[i] = -output.L[i];
-    kernels::normalize(three(output.L, lanes_), 1, three(planes + kDirection * lanes_, lanes_));
+    static constexpr int kTriples[] = {3, 3};
+    const std::array operands{three(planes + kDirection * lanes_, lanes_), three(output.L, lanes_)};
+    vm::find_kernel(rsl::Op::Normalize, kTriples)(lanes_, operands);
     darken_own_place(planes);
 }
 

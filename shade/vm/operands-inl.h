@@ -15,8 +15,8 @@
 #include <span>
 #include <utility>
 
-#include "shade/math-inl.h"
 #include "shade/vm/kernel.h"
+#include "shade/vm/math-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze::vm::HWY_NAMESPACE {

@@ -1,11 +1,11 @@
-/// Elementary functions on Highway vectors, for kernels.cpp: included once for each target. Only operations
-/// that round alike everywhere: no fused multiply-add, no approximate reciprocals. Scalar twins, step by step
-/// the same, are in scalar_kernels.h; their constants are explained there.
-#if defined(TRAPEZE_SHADE_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TRAPEZE_SHADE_MATH_INL_H_
-#undef TRAPEZE_SHADE_MATH_INL_H_
+/// What all kernels build on: vectors of a lane group, and the quick powers that highlights are made of.
+/// Included once for each target. Only operations that round alike everywhere: no fused multiply-add, no
+/// approximate reciprocals.
+#if defined(TRAPEZE_SHADE_VM_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRAPEZE_SHADE_VM_MATH_INL_H_
+#undef TRAPEZE_SHADE_VM_MATH_INL_H_
 #else
-#define TRAPEZE_SHADE_MATH_INL_H_
+#define TRAPEZE_SHADE_VM_MATH_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -59,6 +59,8 @@ HWY_INLINE V inverse_length(V x, V y, V z) {
     return hn::IfThenElseZero(hn::Gt(squared, hn::Zero(D())), hn::Div(set(1), hn::Sqrt(squared)));
 }
 
+/// Of a normal positive number. x = 2^e * m with m in [sqrt(1/2), sqrt(2)) (0x3f3504f3 is the float
+/// sqrt(1/2)); ln m by the polynomial of Cephes' logf, good to about 1e-7.
 HWY_INLINE V log2(V x) {
     const DI di;
     const VI bits = hn::Sub(hn::BitCast(di, x), hn::Set(di, 0x3f3504f3));
@@ -79,6 +81,7 @@ HWY_INLINE V log2(V x) {
     return hn::Add(hn::ConvertTo(D(), exponent), hn::Mul(ln, set(1.44269504f)));
 }
 
+/// Cephes' exp2f; 0 below 2^-126 and no more than about 2^127.
 HWY_INLINE V exp2(V x) {
     const DI di;
     const V clamped = at_least(at_most(x, set(127)), set(-126));
@@ -96,46 +99,11 @@ HWY_INLINE V exp2(V x) {
     return hn::IfThenElseZero(hn::Ge(x, set(-126)), result);
 }
 
+/// 0 for x that is not positive, but anything to the power of 0 is 1.
 HWY_INLINE V pow(V x, V y) {
     const V zero = hn::Zero(D());
     const V result = hn::IfThenElseZero(hn::Gt(x, set(1.17549435e-38f)), exp2(hn::Mul(y, log2(x))));
     return hn::IfThenElse(hn::Eq(y, zero), set(1), result);
-}
-
-HWY_INLINE V sine_of_turns(V x) {
-    const V r = hn::Sub(x, hn::Round(x));
-    const V half = hn::CopySign(set(0.5f), r);
-    const V folded = hn::IfThenElse(hn::Gt(hn::Abs(r), set(0.25f)), hn::Sub(half, r), r);
-    const V a = hn::Mul(folded, set(6.28318531f));
-    const V aa = hn::Mul(a, a);
-    V p = set(-2.50521084e-8f);
-    p = step(p, aa, 2.75573192e-6f);
-    p = step(p, aa, -1.98412698e-4f);
-    p = step(p, aa, 8.33333333e-3f);
-    p = step(p, aa, -1.66666667e-1f);
-    p = step(p, aa, 1);
-    return hn::Mul(a, p);
-}
-
-/// A corner's gradient, one of Perlin's twelve edges of the cube, times the offset (x, y, z) from it.
-HWY_INLINE V lattice_gradient(VI ix, VI iy, VI iz, V x, V y, V z) {
-    const DU du;
-    const DI di;
-    VU h = hn::Xor(hn::Xor(hn::Mul(hn::BitCast(du, ix), hn::Set(du, 0x8da6b343u)),
-                           hn::Mul(hn::BitCast(du, iy), hn::Set(du, 0xd8163841u))),
-                   hn::Mul(hn::BitCast(du, iz), hn::Set(du, 0xcb1ab31fu)));
-    h = hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x2c1b3c6du));
-    h = hn::Mul(hn::Xor(h, hn::ShiftRight<12>(h)), hn::Set(du, 0x297a2d39u));
-    h = hn::Xor(h, hn::ShiftRight<15>(h));
-    const VI edge = hn::BitCast(di, hn::And(h, hn::Set(du, 15)));
-    const auto first_x = hn::RebindMask(D(), hn::Lt(edge, hn::Set(di, 8)));
-    const auto second_y = hn::RebindMask(D(), hn::Lt(edge, hn::Set(di, 4)));
-    const auto second_x = hn::RebindMask(D(), hn::Eq(hn::And(edge, hn::Set(di, 13)), hn::Set(di, 12)));
-    const V a = hn::IfThenElse(first_x, x, y);
-    const V b = hn::IfThenElse(second_y, y, hn::IfThenElse(second_x, x, z));
-    const V sign_a = hn::BitCast(D(), hn::ShiftLeft<31>(h));
-    const V sign_b = hn::BitCast(D(), hn::ShiftLeft<31>(hn::ShiftRight<1>(h)));
-    return hn::Add(hn::Xor(a, sign_a), hn::Xor(b, sign_b));
 }
 
 HWY_INLINE V lerp(V t, V a, V b) {
@@ -149,25 +117,6 @@ HWY_INLINE V fade(V t) {
 
 HWY_INLINE V clamp_to_lattice(V x) {
     return at_least(at_most(x, set(4194304)), set(-4194304));
-}
-
-HWY_INLINE V noise(V x, V y, V z) {
-    const DI di;
-    const VI one = hn::Set(di, 1);
-    x = clamp_to_lattice(x), y = clamp_to_lattice(y), z = clamp_to_lattice(z);
-    const V fx = hn::Floor(x), fy = hn::Floor(y), fz = hn::Floor(z);
-    const VI ix = hn::ConvertTo(di, fx), iy = hn::ConvertTo(di, fy), iz = hn::ConvertTo(di, fz);
-    const VI jx = hn::Add(ix, one), jy = hn::Add(iy, one), jz = hn::Add(iz, one);
-    x = hn::Sub(x, fx), y = hn::Sub(y, fy), z = hn::Sub(z, fz);
-    const V x1 = hn::Sub(x, set(1)), y1 = hn::Sub(y, set(1)), z1 = hn::Sub(z, set(1));
-    const V tx = fade(x), ty = fade(y), tz = fade(z);
-    const V low =
-        lerp(ty, lerp(tx, lattice_gradient(ix, iy, iz, x, y, z), lattice_gradient(jx, iy, iz, x1, y, z)),
-             lerp(tx, lattice_gradient(ix, jy, iz, x, y1, z), lattice_gradient(jx, jy, iz, x1, y1, z)));
-    const V high =
-        lerp(ty, lerp(tx, lattice_gradient(ix, iy, jz, x, y, z1), lattice_gradient(jx, iy, jz, x1, y, z1)),
-             lerp(tx, lattice_gradient(ix, jy, jz, x, y1, z1), lattice_gradient(jx, jy, jz, x1, y1, z1)));
-    return lerp(tz, low, high);
 }
 
 }  // namespace trapeze::kernels::HWY_NAMESPACE
