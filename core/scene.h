@@ -41,12 +41,23 @@ struct PixelFilter {
     float width_x = 2, width_y = 2;  ///< pixels, the whole support
 };
 
+/// ConnectShaderLayers: an output of one layer becomes a parameter of a later one.
+struct LayerConnection {
+    std::string from_layer, from_variable, to_layer, to_variable;
+};
+
 /// A shader as the scene names it. Parameters are in `parameters`; points among them are in shader space.
 struct ShaderInstance {
     std::string name;
     ParameterList parameters;
     M44f camera_from_shader;  ///< at shutter open
     SourceLocation location;
+
+    /// ShaderLayer: this is the last of several layers, which run in order; the earlier ones have none of
+    /// their own. Connections may name any of them.
+    std::string layer;
+    std::vector<std::shared_ptr<const ShaderInstance>> earlier_layers;
+    std::vector<LayerConnection> connections;
 };
 
 /// RISpec 4.1, table 4.1 and 4.2, with its defaults.
@@ -99,6 +110,15 @@ struct Attributes {
     float displacement_bound = 0;                                          ///< camera-space length
     std::string name;                                                      ///< Attribute "identifier" "name"
     bool visible_to_camera = true;
+    /// Attribute "dice".
+    struct Dice {
+        bool binary = false;          ///< rates are powers of two
+        bool raster_oriented = true;  ///< rates by the size on the screen, not by the size alone
+        bool hair = false;            ///< curves are one micropolygon wide
+        float min_length = 0;         ///< of a curve's micropolygons, pixels
+    } dice;
+    /// GeometricApproximation: blur by motion or defocus coarsens dicing by this much; 0: never.
+    float motion_factor = 0, focus_factor = 0;
     bool cull_backfacing = true;                ///< kept: Attribute "cull" "backfacing", applies to Sides 1
     std::map<std::string, ParameterList> user;  ///< every Attribute, by category
 };
@@ -112,14 +132,32 @@ struct Primitive {
     /// camera_from_object at 1 or 2^m + 1 evenly spaced keys of the shutter.
     std::vector<M44f> camera_from_object;
     SourceLocation location;
+    int solid = -1;  ///< index of the leaf in Scene::solids that it bounds; -1: no part of a solid
 
     /// Keys of the moving primitive: the finer of both.
     int key_count() const { return static_cast<int>(std::max(shape_keys.size(), camera_from_object.size())); }
     const Shape& shape() const { return *shape_keys.front(); }
 };
 
+/// A node of constructive solid geometry (RISpec 5.7). Children come before their parents.
+struct Solid {
+    enum class Operation : uint8_t { Primitive, Union, Intersection, Difference };
+
+    Operation operation = Operation::Primitive;
+    int parent = -1;  ///< -1: outermost
+    int place = 0;    ///< among the parent's children: a difference subtracts all but the first
+};
+
+/// A plane that cuts away the half space in which normal . p < distance; camera space, at shutter open.
+struct ClippingPlane {
+    V3f normal{0, 0, 1};
+    float distance = 0;
+};
+
 struct Scene {
     Options options;
+    std::vector<Solid> solids;  ///< of all SolidBegin/SolidEnd blocks
+    std::vector<ClippingPlane> clipping_planes;
     std::vector<Primitive> primitives;              ///< in the order of the file
     M44f camera_from_world;                         ///< at shutter open
     std::map<std::string, M44f> camera_from_named;  ///< CoordinateSystem, at shutter open

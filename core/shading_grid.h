@@ -44,6 +44,7 @@ struct GridVariable {
 
 struct ShadingGrid {
     GridShape shape;
+    int pieces = 1;  ///< so many grids of `shape`, one after the other in each plane; 1 but in a border
     int key_count = 1;
     const Primitive* primitive = nullptr;
     uint32_t primitive_index = 0;
@@ -64,11 +65,22 @@ struct ShadingGrid {
 
     Triples Ci, Oi;          ///< what shading makes
     bool displaced = false;  ///< a displacement shader has moved P
+
+    /// For displacement: what the vertices on the grid's border share with neighbouring grids. Pieces of 2x2
+    /// vertices, of which the values depend on the shared point alone; one of each piece's vertices is the
+    /// border vertex itself. None (an empty vector) or one.
+    std::vector<ShadingGrid> border;
+    struct SharedVertex {
+        int vertex = 0;     ///< of this grid
+        int in_border = 0;  ///< index in border's planes
+    };
+    std::vector<SharedVertex> shared_vertices;
+
     /// What Displays ask for besides: a plane of vertex_count() floats for each channel of aov_layout(), or
     /// none at all.
     std::vector<std::vector<float>> aovs;
 
-    size_t vertex_count() const { return static_cast<size_t>(shape.vertex_count()); }
+    size_t vertex_count() const { return static_cast<size_t>(shape.vertex_count()) * pieces; }
     const GridVariable* find(std::string_view name) const {
         for (const GridVariable& variable : variables)
             if (variable.name == name) return &variable;

@@ -23,6 +23,26 @@ VariableCounts counts_of(const PatchMesh& mesh) {
     return {patches, varying, mesh.nu * mesh.nv, 4 * patches};
 }
 
+VariableCounts counts_of(const NuPatch& patch) {
+    const int segments = patch.segments_u() * patch.segments_v();
+    const int varying = (patch.segments_u() + 1) * (patch.segments_v() + 1);
+    return {segments, varying, patch.nu * patch.nv, 4 * segments};
+}
+
+VariableCounts counts_of(const Curves& curves) {
+    int varying = 0, vertices = 0;
+    for (const int n : curves.vertices_per_curve) varying += curves.varying(n), vertices += n;
+    return {static_cast<int>(curves.vertices_per_curve.size()), varying, vertices, varying};
+}
+
+VariableCounts counts_of(const Points& points) {
+    return {1, points.count, points.count, points.count};
+}
+
+VariableCounts counts_of(const Blobby& blobby) {
+    return {1, blobby.leaf_count, blobby.leaf_count, blobby.leaf_count};
+}
+
 }  // namespace
 
 VariableCounts variable_counts(const Topology& topology) {

@@ -73,7 +73,62 @@ struct PatchMesh {
     int varying_v() const { return patches_v() + (v_wraps ? 0 : 1); }
 };
 
-using Topology = std::variant<PolygonMesh, SubdivisionMesh, Quadric, PatchMesh>;
+/// A curve in the parameter plane of a NuPatch: homogeneous control points, a knot vector of
+/// points + order entries.
+struct TrimCurve {
+    int order = 2;
+    std::vector<float> knots;
+    float begin = 0, end = 1;  ///< its parameters
+    std::vector<V3f> points;   ///< (u w, v w, w), u and v in the patch's own parameters
+};
+
+/// NuPatch (RISpec 5.2): a tensor-product NURBS. Control points ("P" or "Pw") are in the primitive's
+/// variables, u fastest. Knots never fall; u_knots has nu + u_order entries.
+struct NuPatch {
+    int nu = 2, u_order = 2, nv = 2, v_order = 2;
+    std::vector<float> u_knots, v_knots;
+    float u_begin = 0, u_end = 1, v_begin = 0, v_end = 1;
+    std::vector<std::vector<TrimCurve>> trim_loops;  ///< each curve joined to the next, the last to the first
+    bool trim_outside = false;                       ///< Attribute "trimcurve" "sense" is "outside"
+
+    /// Segments count with empty knot intervals (RISpec table 5.2).
+    int segments_u() const { return 1 + nu - u_order; }
+    int segments_v() const { return 1 + nv - v_order; }
+};
+
+/// Curves (RISpec 5.6). "P" is in the primitive's variables; widths are "width" (varying) or
+/// "constantwidth", in object space; with "N" they are ribbons across N, else they face the camera.
+struct Curves {
+    bool cubic = false;
+    bool periodic = false;
+    std::vector<int> vertices_per_curve;
+    M44f basis;    ///< cubic only: the v basis of the attributes
+    int step = 3;  ///< cubic only
+
+    /// Spans of a curve of so many control points.
+    int segments(int vertices) const {
+        if (!cubic) return periodic ? vertices : vertices - 1;
+        return periodic ? vertices / step : (vertices - 4) / step + 1;
+    }
+    int varying(int vertices) const { return segments(vertices) + (periodic ? 0 : 1); }
+};
+
+/// Points (RISpec 5.5): disks that face the camera, of diameter "width" or "constantwidth" (1 without), in
+/// object space.
+struct Points {
+    int count = 0;
+};
+
+/// Blobby (RISpec 5.6): a program of primitive fields and operators.
+struct Blobby {
+    int leaf_count = 0;
+    std::vector<int> code;
+    std::vector<float> floats;
+    std::vector<std::string> strings;
+};
+
+using Topology =
+    std::variant<PolygonMesh, SubdivisionMesh, Quadric, PatchMesh, NuPatch, Curves, Points, Blobby>;
 
 /// Topology and variables of a primitive at one motion key.
 struct Shape {

@@ -2,24 +2,34 @@
 
 namespace trapeze {
 
-std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics) {
-    struct ByTopology {
-        const Primitive& primitive;
-        Diagnostics& diagnostics;
+namespace {
 
-        std::unique_ptr<Surface> operator()(const PolygonMesh&) const {
-            return make_polygon_surface(primitive, diagnostics);
-        }
-        std::unique_ptr<Surface> operator()(const SubdivisionMesh&) const {
-            return make_subdivision_surface(primitive, diagnostics);
-        }
-        std::unique_ptr<Surface> operator()(const Quadric&) const {
-            return make_quadric_surface(primitive, diagnostics);
-        }
-        std::unique_ptr<Surface> operator()(const PatchMesh&) const {
-            return make_patch_surface(primitive, diagnostics);
-        }
-    };
+struct ByTopology {
+    const Primitive& primitive;
+    Diagnostics& diagnostics;
+
+    std::unique_ptr<Surface> operator()(const PolygonMesh&) const {
+        return make_polygon_surface(primitive, diagnostics);
+    }
+    std::unique_ptr<Surface> operator()(const SubdivisionMesh&) const {
+        return make_subdivision_surface(primitive, diagnostics);
+    }
+    std::unique_ptr<Surface> operator()(const Quadric&) const {
+        return make_quadric_surface(primitive, diagnostics);
+    }
+    std::unique_ptr<Surface> operator()(const PatchMesh&) const {
+        return make_patch_surface(primitive, diagnostics);
+    }
+    template <class Other>
+    std::unique_ptr<Surface> operator()(const Other&) const {
+        diagnostics.error(primitive.location, "this kind of primitive cannot be diced yet");
+        return nullptr;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics) {
     return std::visit(ByTopology{primitive, diagnostics}, primitive.shape().topology);
 }
 
