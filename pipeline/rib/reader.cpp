@@ -69,11 +69,17 @@ void Reader::read_text(std::string_view text, SourceLocation first) {
     RequestText request;
     const SourceLocation at = at_;
     const std::string name = request_name_;
-    while (read_request(scanner, request, is_request, diagnostics_))
+    const size_t outer_conditionals = first_conditional_;
+    first_conditional_ = conditionals_.size();
+    while (read_request(scanner, request, is_request, diagnostics_)) {
+        if (is_skipping() && !is_conditional(request.name)) continue;
         if (request.name == "ArchiveBegin")
             record_archive(request, scanner, text);
         else
             execute(request);
+    }
+    close_conditionals();
+    first_conditional_ = outer_conditionals;
     at_ = at, request_name_ = name;
 }
 
@@ -108,6 +114,7 @@ void Reader::execute(RequestText& text) {
             (request->group == RequestGroup::Attribute || request->group == RequestGroup::Option) &&
             !is_first_in_motion(text.name))
             return;
+        substitute(text);
         ArgumentCursor cursor(text);
         request->handler(*this, cursor);
         if (!cursor.done())

@@ -1,11 +1,12 @@
 /// The reader's state and what requests do to it. Requests are rows of tables (request_table.h), grouped by
-/// file. The members are in reader.cpp (streams), archives.cpp, blocks.cpp, motion_blocks.cpp, objects.cpp,
-/// parameters.cpp and reader_scene.cpp.
+/// file. The members are in reader.cpp (streams), archives.cpp, blocks.cpp, conditional_blocks.cpp,
+/// motion_blocks.cpp, objects.cpp, parameters.cpp and reader_scene.cpp.
 #pragma once
 
 #include <map>
 
 #include "pipeline/rib/arguments.h"
+#include "pipeline/rib/conditions.h"
 #include "pipeline/rib/declarations.h"
 #include "pipeline/rib/deforming_shape.h"
 #include "pipeline/rib/graphics_state.h"
@@ -76,7 +77,34 @@ class Reader {
 
     void set_search_path(const std::string& category, const std::string& path);
 
+    // --- parts of a stream that are read but not executed ---
+    void if_begin(const std::string& expression);
+    /// Else: null.
+    void else_if(const std::string* expression);
+    void if_end();
+    /// Begins or ends a block that is skipped whole; the request's name says which.
+    void skip_block();
+    /// What `name` stands for in conditions: an attribute or option, "Attribute:" or "Option:" before it or
+    /// not.
+    ConditionValue variable(const std::string& name) const;
+
   private:
+    struct Conditional {
+        std::string_view name;  ///< of the request that opened it
+        SourceLocation at;
+        bool outer_skips;  ///< nothing in it is executed, whatever its conditions say
+        bool active;       ///< what comes now is executed
+        bool taken;        ///< a branch has been
+        bool had_else;
+    };
+    static bool is_conditional(std::string_view request);
+    bool is_skipping() const { return !conditionals_.empty() && !conditionals_.back().active; }
+    bool holds(const std::string& expression);
+    void push_conditional(std::string_view name, bool active);
+    Conditional& open_conditional(std::string_view name);
+    void close_conditionals();
+    void substitute(RequestText& request) const;
+
     void read_text(std::string_view text, SourceLocation first);
     void execute(RequestText& request);
     std::string current_file() const;  ///< the innermost that is a file on disk; may be empty
@@ -135,6 +163,8 @@ class Reader {
         SourceLocation first;  ///< the place of its first character
     };
     std::map<std::string, InlineArchive> inline_archives_;
+    std::vector<Conditional> conditionals_;
+    size_t first_conditional_ = 0;  ///< of the stream being read; those before it belong to outer streams
     std::vector<std::string> open_files_;  ///< for recursion; the last is being read
     uint64_t archives_read_ = 0;
 };

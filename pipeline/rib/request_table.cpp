@@ -33,19 +33,9 @@ constexpr const char* kUnsupported[] = {"AreaLightSource",
                                         "MakeOcclusion",
                                         "MakeBrickMap",
                                         "MakeTexture3D",
-                                        "IfBegin",
-                                        "ElseIf",
-                                        "Else",
-                                        "IfEnd",
                                         "Resource",
                                         "ResourceBegin",
                                         "ResourceEnd",
-                                        "EditBegin",
-                                        "EditEnd",
-                                        "EditAttributeBegin",
-                                        "EditAttributeEnd",
-                                        "EditWorldBegin",
-                                        "EditWorldEnd",
                                         "ScopedCoordinateSystem",
                                         "System",
                                         "Camera",
@@ -80,6 +70,7 @@ const Table& table() {
             for (const RequestRow& row : requests) rows[row.name] = {row.handler, group};
         };
         add(structure_requests(), RequestGroup::Structure);
+        add(conditional_requests(), RequestGroup::Structure);
         add(option_requests(), RequestGroup::Option);
         add(display_requests(), RequestGroup::Option);
         add(attribute_requests(), RequestGroup::Attribute);

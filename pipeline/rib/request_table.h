@@ -13,6 +13,7 @@ struct RequestRow {
 };
 
 std::span<const RequestRow> structure_requests();
+std::span<const RequestRow> conditional_requests();
 std::span<const RequestRow> option_requests();
 std::span<const RequestRow> display_requests();
 std::span<const RequestRow> attribute_requests();
