@@ -68,11 +68,11 @@ struct ShadingGrid {
 
     /// For displacement: what the vertices on the grid's border share with neighbouring grids. Pieces of 2x2
     /// vertices, of which the values depend on the shared point alone; one of each piece's vertices is the
-    /// border vertex itself. None (an empty vector) or one.
+    /// border vertex itself. A grid of pieces for each face of the surface that they lie on.
     std::vector<ShadingGrid> border;
     struct SharedVertex {
         int vertex = 0;     ///< of this grid
-        int in_border = 0;  ///< index in border's planes
+        int in_border = 0;  ///< counted through the vertices of all of border
     };
     std::vector<SharedVertex> shared_vertices;
 

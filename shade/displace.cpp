@@ -6,6 +6,7 @@
 #include "core/motion_keys.h"
 #include "core/scene.h"
 #include "shade/differences.h"
+#include "shade/grid_shader.h"
 
 namespace trapeze {
 namespace {
@@ -48,21 +49,36 @@ void store(ConstPlane3 planes, size_t vertices, Triples& out) {
 
 }  // namespace
 
+Displaced displaced_by(const vm::Frame& frame, size_t first, size_t count) {
+    const auto part = [&](std::string_view name) -> ConstPlane3 {
+        if (!writes_variable(frame.program(), name)) return {};
+        const Plane3 all = variable_planes(frame, name);
+        return {all.x.subspan(first, count), all.y.subspan(first, count), all.z.subspan(first, count)};
+    };
+    return {part("P"), part("N")};
+}
+
+M44d key_from_first(const Primitive& primitive, int key, int key_count) {
+    const std::vector<M44f>& poses = primitive.camera_from_object;
+    if (poses.size() <= 1 || key == 0) return M44d();
+    return pose_at_key(poses, 0, key_count).inverse() * pose_at_key(poses, key, key_count);
+}
+
 float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& pool) {
     const size_t vertices = grid.vertex_count();
+    if (displaced.P.size() == 0) {
+        if (displaced.N.size() != 0) store(displaced.N, vertices, grid.N);
+        return 0;
+    }
     pool.start(vertices);
     const Plane3 moves = pool.take3(), N = pool.take3(), P = pool.take3();
-    for (int k = 0; k < 3; ++k) load(displaced.P[k].first(vertices), vertices, moves[k]);
+    for (int k = 0; k < 3; ++k) load(displaced.P[k], vertices, moves[k]);
     subtract_positions(grid.P.front(), vertices, moves);
 
-    const std::vector<M44f>& poses = grid.primitive->camera_from_object;
-    const M44d object_from_first = pose_at_key(poses, 0, grid.key_count).inverse();
-    float longest = move_key(moves, M44d(), grid.P.front());
-    for (size_t key = 1; key < grid.P.size(); ++key) {
-        const M44d key_from_first =
-            poses.size() <= 1 ? M44d()
-                              : object_from_first * pose_at_key(poses, static_cast<int>(key), grid.key_count);
-        longest = std::max(longest, move_key(moves, key_from_first, grid.P[key]));
+    float longest = 0;
+    for (size_t key = 0; key < grid.P.size(); ++key) {
+        const M44d to_key = key_from_first(*grid.primitive, static_cast<int>(key), grid.key_count);
+        longest = std::max(longest, move_key(moves, to_key, grid.P[key]));
     }
     grid.displaced = grid.displaced || longest > 0;
     for (int k = 0; k < 3; ++k) {

@@ -3,20 +3,27 @@
 
 #include "core/shading_grid.h"
 #include "shade/planes.h"
+#include "shade/vm/frame.h"
 
 namespace trapeze {
 
-/// A shader's displaced positions, and normals, in lanes: those of the grid first.
+/// A shader's displaced positions and normals of some vertices.
 struct Displaced {
-    ConstPlane3 P;
+    ConstPlane3 P;  ///< empty: the surface stays, and shades as if it did not (bumps)
     ConstPlane3 N;  ///< empty: to be found from the moved P
 };
 
+/// What a displacement shader that has run leaves of vertices first .. first + count - 1 of its run.
+Displaced displaced_by(const vm::Frame& frame, size_t first, size_t count);
+
+/// From camera space at the first key to camera space at another, of a grid's possibly finer keys, for what
+/// moves with a primitive's pose.
+M44d key_from_first(const Primitive& primitive, int key, int key_count);
+
 /// `displaced` is what the shader makes of the grid at the first key. How far it moved a vertex is carried to
-/// the other keys by the primitive's pose there (camera_from_object; not by its deformation) and added to P,
-/// so that vertices which grids share stay shared at every key. Then N and Ng are found from the moved P,
-/// unless the shader set N; dPdu and dPdv stay those of the undisplaced surface. Vertices that would move to
-/// no finite place stay.
+/// the other keys by the primitive's pose there (camera_from_object; not by its deformation) and added to P.
+/// Then N and Ng are found from the moved P, unless the shader set N; dPdu and dPdv stay those of the
+/// undisplaced surface. Vertices that would move to no finite place stay.
 ///
 /// Returns the farthest that a vertex moved, in camera space at any key.
 float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& pool);

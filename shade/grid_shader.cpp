@@ -1,6 +1,7 @@
 #include "shade/grid_shader.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace trapeze {
 namespace {
@@ -46,10 +47,13 @@ class Loader {
         size_t at = 0;
         for (const ShadingGrid* grid : grids_) {
             const std::vector<float>& values = grid->*plane;
+            const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
             const size_t next = along_u ? 1 : static_cast<size_t>(grid->shape.vertices_u());
-            const float step = next < values.size() ? values[next] - values[0] : 1.0f;
-            std::fill_n(out.data + at, grid->vertex_count(), step);
-            at += grid->vertex_count();
+            for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
+                const float step = first + next < values.size() ? values[first + next] - values[first] : 1.0f;
+                std::fill_n(out.data + at, in_piece, step);
+                at += in_piece;
+            }
         }
         std::fill(out.data + at, out.data + frame_.lanes(), at ? out.data[at - 1] : 0.0f);
     }
@@ -97,13 +101,24 @@ void set_variable(const Loader& loader, vm::Frame& frame, rsl::RegisterId id, co
     if (rsl::width_of(frame.reg(id).type.base) > 0) frame.set_uniform(id, zeros);  // E, L, Cl, dPdtime...
 }
 
+/// Follows from the bits of a position.
+uint64_t place_seed(const V3f& P) {
+    uint64_t seed = 0;
+    for (int k = 0; k < 3; ++k) seed = seed * 0x9e3779b97f4a7c15u + std::bit_cast<uint32_t>(P[k]);
+    return seed;
+}
+
 }  // namespace
 
-vm::Points points_of(std::span<const ShadingGrid* const> grids) {
+vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared) {
     vm::Points points;
     for (const ShadingGrid* grid : grids) {
-        points.spans.push_back({points.vertices, grid->shape, grid->reverse_orientation, grid->ordinal});
-        points.vertices += grid->vertex_count();
+        const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
+        for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
+            const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->ordinal;
+            points.spans.push_back({points.vertices, grid->shape, grid->reverse_orientation, seed});
+            points.vertices += in_piece;
+        }
     }
     points.lanes = padded_size(points.vertices);
     return points;

@@ -9,8 +9,9 @@
 
 namespace trapeze {
 
-/// The lanes of grids side by side.
-vm::Points points_of(std::span<const ShadingGrid* const> grids);
+/// The lanes of grids side by side. `shared`: they are pieces of borders, whose random numbers follow from
+/// their places, and are the same in all grids that share them.
+vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared = false);
 
 /// Sets the predefined variables that the program names (RISpec 3.2, tables 12.1 to 12.5) from the grids. Ci
 /// and Oi are the grids' own if `shaded`, else Cs and Os.

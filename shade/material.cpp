@@ -42,35 +42,52 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     material.attributes = &attributes;
     material.surface = surface(attributes.surface.get(), varying);
     if (attributes.displacement) {
-        material.displacement = bound(*attributes.displacement, rsl::ShaderKind::Displacement, varying);
+        material.displacement = layered(*attributes.displacement, rsl::ShaderKind::Displacement, varying);
         if (!material.displacement)
             warn_missing("Displacement", *attributes.displacement, "nothing is displaced");
     }
     if (attributes.atmosphere) {
-        material.atmosphere = bound(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
+        material.atmosphere = layered(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
         if (!material.atmosphere) warn_missing("Atmosphere", *attributes.atmosphere, "there is none");
     }
     for (const auto& instance : attributes.lights)
         if (const Lamp* shining = lamp(*instance)) material.lights.push_back(shining);
 }
 
-/// Null when there is no such shader, or it has errors.
-const BoundShader* Materials::bound(const ShaderInstance& instance, rsl::ShaderKind kind,
-                                    const Names& varying) {
+/// Null when there is no such shader, or it has errors. An earlier layer that there is not is reported.
+const LayeredShader* Materials::layered(const ShaderInstance& instance, rsl::ShaderKind kind,
+                                        const Names& varying) {
     const auto [at, is_new] = shaders_.try_emplace({&instance, varying});
-    if (!is_new) return at->second.get();
+    if (!is_new) return at->second.layers.empty() ? nullptr : &at->second;
+    std::vector<const BoundShader*> layers;
+    for (const auto& earlier : instance.earlier_layers) {
+        if (const BoundShader* layer =
+                bound(*earlier, kind, varying, connected_parameters(instance, earlier->layer)))
+            layers.push_back(layer);
+        else
+            warn_missing("ShaderLayer", *earlier, "the layer is left out");
+    }
+    const BoundShader* last = bound(instance, kind, varying, connected_parameters(instance, instance.layer));
+    if (!last) return nullptr;
+    layers.push_back(last);
+    at->second = make_layered(instance, std::move(layers), diagnostics_);
+    return &at->second;
+}
+
+const BoundShader* Materials::bound(const ShaderInstance& instance, rsl::ShaderKind kind, Names varying,
+                                    std::span<const std::string> connected) {
+    varying.insert(connected.begin(), connected.end());
     auto executable = library_.find(instance.name, kind, varying, instance.location);
     if (!executable) return nullptr;
     const SceneSpaces spaces(*context_.scene, context_.camera, &instance, nullptr);
-    at->second = std::make_unique<BoundShader>(std::move(executable), instance, spaces, diagnostics_);
-    return at->second.get();
+    return &layers_.emplace_back(std::move(executable), instance, spaces, diagnostics_);
 }
 
-const BoundShader* Materials::surface(const ShaderInstance* instance, const Names& varying) {
+const LayeredShader* Materials::surface(const ShaderInstance* instance, const Names& varying) {
     if (!instance) instance = &default_instance_;
-    if (const BoundShader* found = bound(*instance, rsl::ShaderKind::Surface, varying)) return found;
+    if (const LayeredShader* found = layered(*instance, rsl::ShaderKind::Surface, varying)) return found;
     warn_missing("Surface", *instance, "defaultsurface is used");
-    return bound(default_instance_, rsl::ShaderKind::Surface, varying);
+    return layered(default_instance_, rsl::ShaderKind::Surface, varying);
 }
 
 const Lamp* Materials::lamp(const LightInstance& instance) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/render_context.h"
-#include "shade/bound_shader.h"
+#include "shade/layers.h"
 #include "shade/light_rig.h"
 #include "shade/scene_spaces.h"
 #include "shade/shader_library.h"
@@ -21,9 +21,9 @@ namespace trapeze {
 /// Materials.
 struct Material {
     const Attributes* attributes = nullptr;
-    const BoundShader* surface = nullptr;
-    const BoundShader* displacement = nullptr;  ///< may be null
-    const BoundShader* atmosphere = nullptr;    ///< may be null
+    const LayeredShader* surface = nullptr;
+    const LayeredShader* displacement = nullptr;  ///< may be null
+    const LayeredShader* atmosphere = nullptr;    ///< may be null
     std::vector<const Lamp*> lights;
     /// The farthest that the displacement shader has moved a vertex, in camera space.
     mutable std::atomic<float> displacement_reach{0};
@@ -40,8 +40,10 @@ class Materials {
   private:
     using Names = std::set<std::string>;
     void add(const Attributes& attributes, const Names& varying);
-    const BoundShader* bound(const ShaderInstance& instance, rsl::ShaderKind kind, const Names& varying);
-    const BoundShader* surface(const ShaderInstance* instance, const Names& varying);
+    const LayeredShader* layered(const ShaderInstance& instance, rsl::ShaderKind kind, const Names& varying);
+    const BoundShader* bound(const ShaderInstance& instance, rsl::ShaderKind kind, Names varying,
+                             std::span<const std::string> connected);
+    const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
     const Lamp* lamp(const LightInstance& instance);
     void warn_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
 
@@ -49,7 +51,9 @@ class Materials {
     Diagnostics* diagnostics_;
     ShaderLibrary library_;
     ShaderInstance default_instance_;
-    std::map<std::pair<const ShaderInstance*, Names>, std::unique_ptr<BoundShader>> shaders_;
+    using Key = std::pair<const ShaderInstance*, Names>;
+    std::map<Key, LayeredShader> shaders_;  ///< without layers: there is no such shader
+    std::deque<BoundShader> layers_;
     std::unordered_map<const LightInstance*, std::unique_ptr<Lamp>> lamps_;
     std::deque<Material> materials_;
     std::vector<uint32_t> of_primitive_;

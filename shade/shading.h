@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "core/render_context.h"
 #include "core/shading_grid.h"
@@ -31,6 +32,10 @@ class Shading {
     /// Displaces the grid at all keys, then sets Ci and Oi. Thread-safe with a scratch per thread; the result
     /// depends on the grid alone.
     void shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const;
+
+    /// The same for several grids: small ones that come one after the other and have the same primitive and
+    /// uniform variables are shaded together, which gives each the same bits and costs less.
+    void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
 
     /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond
     /// the displacement bound, with the bound that was needed.

@@ -84,5 +84,43 @@ TEST(Shading, ThreadsShadeAlike) {
     }
 }
 
+/// Grids of all sizes, primitives and uniform values, in one call: each as if it were alone.
+TEST(Shading, BatchesGiveEachGridTheSameBits) {
+    TestScene scene;
+    scene.surface("brick");
+    scene.light("spotlight"), scene.light("pointlight");
+    scene.attributes->displacement_bound = 10;
+    scene.displacement("dented");
+    scene.declare("Kd", {StorageClass::Uniform, ValueType::Float, 1});
+    scene.scene.primitives.push_back(scene.scene.primitives[0]);
+    std::vector<ShadingGrid> grids;
+    for (uint32_t i = 0; i < 40; ++i) {
+        ShadingGrid& grid = grids.emplace_back(scene.grid(1 + static_cast<int>(i * 7 % 16), 1 + i % 3));
+        grid.ordinal = i;
+        grid.primitive_index = i / 15 % 2;
+        grid.primitive = &scene.scene.primitives[grid.primitive_index];
+        const float Kd = i % 11 < 8 ? 0.3f : 0.9f;
+        grid.variables.push_back({"Kd", {StorageClass::Uniform, ValueType::Float, 1}, true, {{Kd}}, {}});
+        for (size_t v = 0; v < grid.vertex_count(); ++v)
+            grid.P[0].set(v, grid.P[0].at(v) + V3f(static_cast<float>(i) / 16, 0, 0));
+    }
+    std::vector<ShadingGrid> alone = grids;
+    const Shading shading(scene.context);
+    ShadeScratch scratch;
+    ShadeStats stats, alone_stats;
+    std::vector<ShadingGrid*> batch;
+    for (ShadingGrid& grid : grids) batch.push_back(&grid);
+    shading.shade(batch, scratch, stats);
+    for (ShadingGrid& grid : alone) shading.shade(grid, scratch, alone_stats);
+    for (size_t i = 0; i < grids.size(); ++i) {
+        EXPECT_EQ(grids[i].Ci.c, alone[i].Ci.c) << i;
+        EXPECT_EQ(grids[i].Oi.c, alone[i].Oi.c) << i;
+        EXPECT_EQ(grids[i].P[0].c, alone[i].P[0].c) << i;
+        EXPECT_EQ(grids[i].N.c, alone[i].N.c) << i;
+    }
+    EXPECT_NE(grids[7].Ci.c, grids[8].Ci.c);
+    EXPECT_EQ(stats.shaded_vertices, alone_stats.shaded_vertices);
+}
+
 }  // namespace
 }  // namespace trapeze

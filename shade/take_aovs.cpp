@@ -108,7 +108,7 @@ void report_missing_aovs(const AovLayout& layout, const Materials& materials, co
         const bool found =
             grids_have(aov) ||
             std::any_of(materials.all().begin(), materials.all().end(), [&](const Material& material) {
-                return register_of(material.surface->program(), aov) != nullptr;
+                return register_of(material.surface->last().program(), aov) != nullptr;
             });
         if (!found)
             diagnostics.warning(

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tessellate/camera_variables.h"
-#include "tessellate/displaced_border.h"
 #include "tessellate/normals.h"
+#include "tessellate/shared_border.h"
 
 namespace trapeze {
 namespace {
@@ -33,6 +33,7 @@ class Dicer {
         set_border_positions();
         set_normals();
         set_variables();
+        if (attributes_.displacement) make_shared_border(context_, points(), border(), grid_, scratch_);
     }
 
   private:
@@ -42,6 +43,8 @@ class Dicer {
         grid_.primitive = &surface_.primitive();
         grid_.reverse_orientation = attributes_.reverse_orientation;
         grid_.displaced = false;
+        grid_.shared_vertices.clear();
+        if (!attributes_.displacement) grid_.border.clear();
         const size_t keys = surface_.key_count();
         std::vector<Triples>& spare = scratch_.spare_keys;
         for (; grid_.P.size() > keys; grid_.P.pop_back()) spare.push_back(std::move(grid_.P.back()));
@@ -190,8 +193,6 @@ class Dicer {
         const M44f& camera_from_object = surface_.camera_from_object(0);
         if (own_normals) normals_to_camera_space(camera_from_object, grid_.Ng, grid_.N);
         for (GridVariable& variable : grid_.variables) to_camera_space(camera_from_object, variable);
-        if (attributes_.displacement)
-            share_border_shading(context_, sides_, points(), border(), grid_, scratch_);
     }
 
     const DiceContext& context_;

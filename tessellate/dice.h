@@ -11,6 +11,8 @@ struct DiceContext {
     const PlacedSurface* surface = nullptr;
     Edges edges;
     const VertexTable* vertices = nullptr;
+    const ScreenMetric* metric = nullptr;
+    float pixels_per_segment = 1;  ///< the wished length of a micropolygon's side
 };
 
 struct DiceScratch::State {
@@ -18,7 +20,6 @@ struct DiceScratch::State {
     std::vector<V2f> uv;
     std::vector<V3f> P, dPdu, dPdv, border;
     std::vector<int> degenerate;      ///< vertices without a normal
-    ShadingGrid points;               ///< variables at border points
     std::vector<Triples> spare_keys;  ///< P of grids with more keys than the present one
 };
 

@@ -217,25 +217,57 @@ TEST(Dice, GeometryGoesToCameraSpace) {
     }
 }
 
-/// Border vertices of all grids by position: each appears on both sides with the same shading.
+/// All that displacement shaders read at vertices of a piece.
+std::vector<float> values_of_piece(const ShadingGrid& pieces, size_t first) {
+    std::vector<float> values;
+    for (size_t i = first; i < first + 4; ++i) {
+        for (const Triples* t : {&pieces.P[0], &pieces.N, &pieces.Ng, &pieces.dPdu, &pieces.dPdv, &pieces.Cs})
+            for (int k = 0; k < 3; ++k) values.push_back(t->c[k][i]);
+        for (const auto* plane : {&pieces.u, &pieces.v, &pieces.s, &pieces.t}) values.push_back((*plane)[i]);
+    }
+    return values;
+}
+
+/// Border vertices of all grids by position: whoever shares one has the same piece for it, and a vertex of
+/// the piece is where the border vertex is.
 TEST(Dice, DisplacedBordersShareWhatDisplacementReads) {
     TestScene scene;
     scene.attributes->displacement = std::make_shared<ShaderInstance>();
     scene.keep_all().add(sphere(), test::translation(0.4f, 0.2f, 1.3f));
     const Diced diced(scene);
-    std::map<std::array<float, 3>, V3f> normals;
+    std::map<std::array<float, 3>, std::vector<float>> shared_pieces;
     size_t shared = 0;
-    for (const ShadingGrid& grid : diced.grids)
-        for (int j = 0; j <= grid.shape.nv; ++j)
-            for (int i = 0; i <= grid.shape.nu; ++i) {
-                if (i > 0 && i < grid.shape.nu && j > 0 && j < grid.shape.nv) continue;
-                const size_t at = grid.shape.row_index(i, j);
-                const V3f P = grid.P[0].at(at);
-                const auto [entry, is_new] = normals.try_emplace({P.x, P.y, P.z}, grid.N.at(at));
-                shared += !is_new;
-                EXPECT_EQ(entry->second, grid.N.at(at));
+    for (const ShadingGrid& grid : diced.grids) {
+        EXPECT_EQ(grid.shared_vertices.size(), 2u * (grid.shape.nu + grid.shape.nv + 2u));
+        for (const auto& [vertex, in_border] : grid.shared_vertices) {
+            size_t at = static_cast<size_t>(in_border), part = 0;
+            for (; at >= grid.border[part].vertex_count(); ++part) at -= grid.border[part].vertex_count();
+            const ShadingGrid& pieces = grid.border[part];
+            const V3f P = grid.P[0].at(static_cast<size_t>(vertex));
+            EXPECT_EQ(pieces.P[0].at(at), P);
+            const auto [entry, is_new] =
+                shared_pieces.try_emplace({P.x, P.y, P.z}, values_of_piece(pieces, at / 4 * 4));
+            shared += !is_new;
+            EXPECT_EQ(entry->second, values_of_piece(pieces, at / 4 * 4));
+        }
+    }
+    EXPECT_GT(shared, shared_pieces.size());
+}
+
+/// A piece is about as large as the micropolygons beside it.
+TEST(Dice, BorderPiecesHaveTheSizeOfMicropolygons) {
+    TestScene scene;
+    scene.attributes->displacement = std::make_shared<ShaderInstance>();
+    scene.keep_all().add(square(), test::translation(0, 0, 4));
+    const Diced diced(scene);
+    for (const ShadingGrid& grid : diced.grids) {
+        const float side = (grid.P[0].at(1) - grid.P[0].at(0)).length();
+        for (const ShadingGrid& pieces : grid.border)
+            for (size_t i = 0; i < pieces.vertex_count(); i += 4) {
+                EXPECT_NEAR((pieces.P[0].at(i + 1) - pieces.P[0].at(i)).length(), side, side / 2);
+                EXPECT_NEAR((pieces.P[0].at(i + 2) - pieces.P[0].at(i)).length(), side, side / 2);
             }
-    EXPECT_GT(shared, normals.size());
+    }
 }
 
 TEST(Dice, MemoryIsReusedBetweenGridsOfAPrimitive) {

@@ -25,9 +25,14 @@ struct TessellatedPrimitive {
     EdgeTessellations surface_edges;
     Splits splits;
     size_t first_subpatch = 0;
+    float pixels_per_segment = 1;
 
-    DiceContext dice_context() const {
-        return {placed.get(), {surface.get(), &surface_edges, &splits.made_lines, &splits.made}, &vertices};
+    DiceContext dice_context(const ScreenMetric& metric) const {
+        return {placed.get(),
+                {surface.get(), &surface_edges, &splits.made_lines, &splits.made},
+                &vertices,
+                &metric,
+                pixels_per_segment};
     }
     size_t bytes() const {
         return vertices.bytes() + surface_edges.bytes() + splits.made.bytes() +
@@ -109,6 +114,9 @@ class SurfaceCache {
 }  // namespace
 
 struct Tessellation::Impl {
+    explicit Impl(const Camera& camera) : metric(camera) {}
+
+    const ScreenMetric metric;
     std::vector<TessellatedPrimitive> primitives;
 };
 
@@ -141,6 +149,7 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
     EdgeRate rate;
     rate.pixels_per_segment = std::sqrt(std::max(primitive.attributes->shading_rate, kLeastShadingRate));
+    out.pixels_per_segment = rate.pixels_per_segment;
     out.surface_edges = tessellate_edges(*out.placed, metric, rate);
     out.vertices = VertexTable(*out.placed);
     SplitContext split;
@@ -157,12 +166,12 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
 
 }  // namespace
 
-Tessellation::Tessellation(const RenderContext& context) : impl_(std::make_unique<Impl>()) {
+Tessellation::Tessellation(const RenderContext& context) : impl_(std::make_unique<Impl>(context.camera)) {
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
     primitives.resize(scene.primitives.size());
     make_surfaces(context, primitives);
-    const ScreenMetric metric(context.camera);
+    const ScreenMetric& metric = impl_->metric;
     const RasterBound raster(context.camera, sampled_pixels(context.camera, scene.options));
     tbb::parallel_for(size_t{0}, primitives.size(), [&](size_t i) {
         tessellate_primitive(context, scene.primitives[i], metric, raster, primitives[i]);
@@ -199,7 +208,8 @@ size_t Tessellation::bytes() const {
 void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch) const {
     const SubpatchInfo& info = infos_[subpatch];
     const TessellatedPrimitive& p = impl_->primitives[info.primitive];
-    dice_subpatch(p.dice_context(), p.splits.subpatches[subpatch - p.first_subpatch], grid, *scratch.state);
+    dice_subpatch(p.dice_context(impl_->metric), p.splits.subpatches[subpatch - p.first_subpatch], grid,
+                  *scratch.state);
     grid.primitive_index = info.primitive;
     grid.ordinal = subpatch;
 }

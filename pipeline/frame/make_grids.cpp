@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
+#include <deque>
+
 #include "pipeline/frame/stopwatch.h"
 
 namespace trapeze {
@@ -11,7 +13,7 @@ namespace {
 
 /// What a thread needs to make grids.
 struct GridMaker {
-    ShadingGrid shading_grid;
+    std::deque<ShadingGrid> shading_grids;  ///< a batch, memory kept
     DiceScratch dice_scratch;
     ShadeScratch shade_scratch;
     ShadeStats shade_stats;
@@ -20,6 +22,33 @@ struct GridMaker {
     double dice_seconds = 0, shade_seconds = 0;
 };
 
+/// Grids are shaded in batches of so many vertices, so that small ones do not run half-empty vectors.
+constexpr size_t kBatchVertices = 256;
+constexpr size_t kBatchGrids = 64;
+/// The fewest subpatches that a thread takes at a time.
+constexpr size_t kGrain = 4;
+
+/// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
+size_t make_batch(const Region& region, size_t first, size_t end, const Tessellation& tessellation,
+                  const Shading& shading, GridMaker& maker) {
+    Stopwatch watch;
+    std::vector<ShadingGrid*> batch;
+    size_t vertices = 0, next = first;
+    for (; next < end && vertices < kBatchVertices && batch.size() < kBatchGrids; ++next) {
+        if (maker.shading_grids.size() <= batch.size()) maker.shading_grids.emplace_back();
+        batch.push_back(&maker.shading_grids[batch.size()]);
+        tessellation.dice(region.subpatches[next], *batch.back(), maker.dice_scratch);
+        vertices += batch.back()->vertex_count();
+    }
+    maker.dice_seconds += watch.lap();
+    shading.shade(batch, maker.shade_scratch, maker.shade_stats);
+    int64_t not_finite = 0;
+    for (const ShadingGrid* grid : batch) maker.grids.push_back(pack_grid(*grid, maker.arena, &not_finite));
+    maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
+    maker.shade_seconds += watch.lap();
+    return next;
+}
+
 }  // namespace
 
 /// Dices and shades a region's subpatches.
@@ -27,18 +56,13 @@ Grids make_grids(const RenderContext& context, const Region& region, const Tesse
                  const Shading& shading, FrameStats& stats, Progress& progress) {
     Stopwatch wall;
     tbb::enumerable_thread_specific<GridMaker> makers;
-    tbb::parallel_for(size_t{0}, region.subpatches.size(), [&](size_t i) {
-        if (context.is_cancelled()) return;
+    const tbb::blocked_range<size_t> all(0, region.subpatches.size(), kGrain);
+    tbb::parallel_for(all, [&](const tbb::blocked_range<size_t>& range) {
         GridMaker& maker = makers.local();
-        Stopwatch watch;
-        tessellation.dice(region.subpatches[i], maker.shading_grid, maker.dice_scratch);
-        maker.dice_seconds += watch.lap();
-        shading.shade(maker.shading_grid, maker.shade_scratch, maker.shade_stats);
-        int64_t not_finite = 0;
-        maker.grids.push_back(pack_grid(maker.shading_grid, maker.arena, &not_finite));
-        maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
-        maker.shade_seconds += watch.lap();
-        progress.step();
+        for (size_t i = range.begin(); i < range.end() && !context.is_cancelled();) {
+            const size_t next = make_batch(region, i, range.end(), tessellation, shading, maker);
+            for (; i < next; ++i) progress.step();
+        }
     });
 
     Grids grids;

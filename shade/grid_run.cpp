@@ -1,0 +1,162 @@
+#include "shade/grid_run.h"
+
+#include <algorithm>
+
+#include "shade/grid_shader.h"
+#include "shade/take_aovs.h"
+#include "shade/weld.h"
+
+namespace trapeze {
+namespace {
+
+void raise(std::atomic<float>& maximum, float value) {
+    float seen = maximum.load(std::memory_order_relaxed);
+    while (value > seen && !maximum.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
+}
+
+/// Values of a variable that a run would take from its first grid alone.
+bool same_uniform(const GridVariable* a, const GridVariable* b) {
+    if (!a || !b) return a == b;
+    if (a->uniform != b->uniform || a->strings != b->strings) return false;
+    if (!a->uniform) return true;
+    return std::ranges::equal(a->planes, b->planes, [](const auto& x, const auto& y) {
+        return x.empty() == y.empty() && (x.empty() || x.front() == y.front());
+    });
+}
+
+bool same_uniforms(const LayeredShader* shader, const ShadingGrid& a, const ShadingGrid& b) {
+    if (!shader) return true;
+    for (const BoundShader* layer : shader->layers)
+        for (const rsl::ProgramParameter& parameter : layer->program().parameters)
+            if (!same_uniform(suitable_variable(a, parameter.name, parameter.type),
+                              suitable_variable(b, parameter.name, parameter.type)))
+                return false;
+    return true;
+}
+
+/// Parts of a list, all elements of each of which can share a run.
+template <class Use>
+void for_each_run(std::vector<ShadingGrid*> grids, const LayeredShader& shader, const Use& use) {
+    while (!grids.empty()) {
+        const ShadingGrid& first = *grids.front();
+        const auto rest = std::stable_partition(grids.begin(), grids.end(), [&](const ShadingGrid* grid) {
+            return same_uniforms(&shader, first, *grid);
+        });
+        use(std::span<ShadingGrid* const>(grids.begin(), rest));
+        grids.erase(grids.begin(), rest);
+    }
+}
+
+std::vector<const ShadingGrid*> to_read(std::span<ShadingGrid* const> grids) {
+    return {grids.begin(), grids.end()};
+}
+
+}  // namespace
+
+bool can_share_run(const Material& material, const ShadingGrid& a, const ShadingGrid& b) {
+    if (a.primitive != b.primitive) return false;
+    return same_uniforms(material.displacement, a, b) && same_uniforms(material.surface, a, b) &&
+           same_uniforms(material.atmosphere, a, b);
+}
+
+GridRun::GridRun(const RenderContext& context, Textures& textures, const Material& material,
+                 std::span<ShadingGrid* const> grids, GridRunScratch& scratch)
+    : context_(context),
+      material_(material),
+      grids_(grids),
+      read_(to_read(grids)),
+      scratch_(scratch),
+      maps_(textures, *context.scene),
+      messages_(context),
+      points_(points_of(read_)) {
+    messages_.attributes = material.attributes;
+    messages_.lights = &scratch.lights;
+}
+
+void GridRun::run(const AovLayout& aovs) {
+    if (material_.displacement) displace();
+    for (ShadingGrid* grid : grids_)
+        for (int k = 0; k < 3; ++k) grid->Ci.c[k] = grid->Cs.c[k], grid->Oi.c[k] = grid->Os.c[k];
+    color(*material_.surface, false, messages_.surface);
+    if (material_.atmosphere) color(*material_.atmosphere, true, messages_.atmosphere);
+    if (!aovs.empty()) take_aovs(aovs, *messages_.surface, grids_);
+}
+
+vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
+                              std::span<const ShadingGrid* const> grids, const vm::Points& points,
+                              bool shaded, Frames& frames) {
+    const BoundShader& bound = *shader.layers[layer];
+    // Layers may be the same shader twice.
+    vm::Frame& frame = scratch_.machine.frame(bound.executable(), layer);
+    frames.push_back(&frame);
+    frame.start(points.lanes);
+    bound.set_parameters(frame, grids);
+    set_variables(frame, grids, context_, shaded);
+    shader.connect(layer, frames);
+    messages_.running = bound.program().name;
+    const SceneSpaces spaces(*context_.scene, context_.camera, &bound.instance(), grids.front()->primitive);
+    vm::Context surroundings;
+    surroundings.points = &points;
+    surroundings.spaces = &spaces;
+    surroundings.maps = &maps_;
+    surroundings.lights = &scratch_.lights;
+    surroundings.messages = &messages_;
+    surroundings.diagnostics = context_.diagnostics;
+    surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
+    scratch_.lights.start(scratch_.machine, material_.lights, surroundings, points.lanes,
+                          variable_planes(frame, "N"));
+    scratch_.machine.run(frame, surroundings);
+    return frame;
+}
+
+/// All layers over the pieces of the grids' borders: what those who share a border point take of it.
+void GridRun::displace_borders(const LayeredShader& shader) {
+    std::vector<ShadingGrid*> borders;
+    for (ShadingGrid* grid : grids_)
+        for (ShadingGrid& pieces : grid->border) borders.push_back(&pieces);
+    for_each_run(std::move(borders), shader, [&](std::span<ShadingGrid* const> run) {
+        const std::vector<const ShadingGrid*> read = to_read(run);
+        const vm::Points points = points_of(read, true);
+        Frames frames;
+        for (ShadingGrid* pieces : run) remember_undisplaced(*pieces);
+        for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
+            const vm::Frame& frame = run_layer(shader, layer, read, points, false, frames);
+            messages_.displacement = &frame;
+            size_t first = 0;
+            for (ShadingGrid* pieces : run) {
+                displace_pieces(displaced_by(frame, first, pieces->vertex_count()), *pieces);
+                first += pieces->vertex_count();
+            }
+        }
+    });
+}
+
+void GridRun::displace() {
+    const LayeredShader& shader = *material_.displacement;
+    std::vector<BorderWeld> welds;
+    for (const ShadingGrid* grid : grids_) welds.emplace_back(*grid);
+    displace_borders(shader);
+    Frames frames;
+    for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
+        const vm::Frame& frame = run_layer(shader, layer, read_, points_, false, frames);
+        messages_.displacement = &frame;
+        size_t first = 0;
+        for (ShadingGrid* grid : grids_) {
+            raise(material_.displacement_reach,
+                  displace_grid(displaced_by(frame, first, grid->vertex_count()), *grid, scratch_.pool));
+            first += grid->vertex_count();
+        }
+    }
+    for (size_t g = 0; g < grids_.size(); ++g) welds[g].close(*grids_[g]);
+}
+
+void GridRun::color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced) {
+    Frames frames;
+    for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
+        vm::Frame& frame = run_layer(shader, layer, read_, points_, shaded || layer > 0, frames);
+        announced = &frame;
+        take_colors(frame, grids_);
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,104 @@
+#include "shade/layers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/scene.h"
+#include "shade/grid_shader.h"
+
+namespace trapeze {
+namespace {
+
+using Layers = std::vector<const BoundShader*>;
+
+size_t find_layer(const Layers& layers, const std::string& name) {
+    const auto found =
+        std::ranges::find_if(layers, [&](const BoundShader* s) { return s->instance().layer == name; });
+    return static_cast<size_t>(found - layers.begin());
+}
+
+const rsl::ProgramParameter* find_parameter(const rsl::Program& program, const std::string& name) {
+    const auto found = std::ranges::find(program.parameters, name, &rsl::ProgramParameter::name);
+    return found == program.parameters.end() ? nullptr : &*found;
+}
+
+/// A number, triple or matrix; texts do not travel between layers.
+bool same_kind(const rsl::Type& a, const rsl::Type& b) {
+    const int width = rsl::width_of(a.base);
+    return width > 0 && width == rsl::width_of(b.base) && a.length == b.length;
+}
+
+/// What is wrong with a connection, or nothing and the connection.
+std::string resolve(const LayerConnection& wanted, const Layers& layers, LayeredShader::Connection& out) {
+    out.from = find_layer(layers, wanted.from_layer), out.to = find_layer(layers, wanted.to_layer);
+    if (out.from == layers.size()) return fmt::format("there is no layer \"{}\"", wanted.from_layer);
+    if (out.to == layers.size()) return fmt::format("there is no layer \"{}\"", wanted.to_layer);
+    if (out.from >= out.to)
+        return fmt::format("layer \"{}\" does not run before \"{}\"", wanted.from_layer, wanted.to_layer);
+    const rsl::Program &from = layers[out.from]->program(), &to = layers[out.to]->program();
+    const rsl::ProgramParameter* target = find_parameter(to, wanted.to_variable);
+    if (!target) return fmt::format("shader \"{}\" has no parameter \"{}\"", to.name, wanted.to_variable);
+    if (const rsl::ProgramParameter* parameter = find_parameter(from, wanted.from_variable))
+        out.source = parameter->id;
+    else if (const rsl::RegisterId* global = from.find_global(wanted.from_variable))
+        out.source = *global;
+    else
+        return fmt::format("shader \"{}\" has no variable \"{}\"", from.name, wanted.from_variable);
+    out.target = target->id;
+    if (!same_kind(from.reg(out.source).type, target->type))
+        return fmt::format("\"{}\" and \"{}\" are of different types", wanted.from_variable,
+                           wanted.to_variable);
+    return {};
+}
+
+}  // namespace
+
+bool LayeredShader::writes(std::string_view variable) const {
+    return std::ranges::any_of(
+        layers, [&](const BoundShader* layer) { return writes_variable(layer->program(), variable); });
+}
+
+void LayeredShader::connect(size_t to, std::span<vm::Frame* const> frames) const {
+    for (const Connection& c : connections) {
+        if (c.to != to) continue;
+        const vm::Frame& source_frame = *frames[c.from];
+        const vm::Operand &from = source_frame.operand(c.source), &target = frames[to]->operand(c.target);
+        const rsl::Type type = source_frame.reg(c.source).type;
+        const size_t lanes = target.lane_mask ? frames[to]->lanes() : kLanes;
+        const size_t width = static_cast<size_t>(rsl::width_of(type.base));
+        for (size_t p = 0; p < width * static_cast<size_t>(std::max(type.length, 1)); ++p) {
+            const auto plane = [&](const vm::Operand& operand) {
+                return operand.data + p / width * operand.element_stride + p % width * operand.stride;
+            };
+            if (from.lane_mask && target.lane_mask)
+                std::copy_n(plane(from), lanes, plane(target));
+            else
+                std::fill_n(plane(target), lanes, *plane(from));
+        }
+    }
+}
+
+std::vector<std::string> connected_parameters(const ShaderInstance& instance, const std::string& layer) {
+    std::vector<std::string> names;
+    for (const LayerConnection& connection : instance.connections)
+        if (connection.to_layer == layer) names.push_back(connection.to_variable);
+    return names;
+}
+
+LayeredShader make_layered(const ShaderInstance& instance, Layers layers, Diagnostics* diagnostics) {
+    LayeredShader made;
+    made.layers = std::move(layers);
+    for (const LayerConnection& wanted : instance.connections) {
+        LayeredShader::Connection connection;
+        const std::string wrong = resolve(wanted, made.layers, connection);
+        if (wrong.empty())
+            made.connections.push_back(connection);
+        else if (diagnostics)
+            diagnostics->warning(instance.location, "ConnectShaderLayers: " + wrong,
+                                 "connect-layers " + wrong);
+    }
+    return made;
+}
+
+}  // namespace trapeze

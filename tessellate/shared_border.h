@@ -1,0 +1,30 @@
+/// What a displacement shader makes of a grid's border must be the same for all grids that share it, whatever
+/// the shader reads: normals, texture coordinates, derivatives, filtered textures, variables with seams. So
+/// each shared point is shaded once more in surroundings of its own, which are a function of the point alone:
+/// a piece of 2x2 vertices on the face that the edge (or vertex) is evaluated on, as large as the wished
+/// micropolygon. Displaced edges are welded by taking what the pieces make of the point.
+#pragma once
+
+#include "tessellate/dice.h"
+
+namespace trapeze {
+
+/// A border vertex of the grid and the shared point that it takes.
+struct BorderVertex {
+    int vertex = 0;  ///< of the grid
+    int point = 0;   ///< of the subpatch's border points
+    int side = 0;
+    int corner = -1;  ///< the grid's corner that takes the same point; -1: none
+};
+
+/// Moves the face's own parameters of border vertices to where their shared points are on this face, so that
+/// variables that both faces have alike agree.
+void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
+                            std::span<const BorderSide, 4> sides, std::span<const BorderPoint> points,
+                            std::span<const BorderVertex> border, std::span<V2f> uv);
+
+/// Sets grid.border and grid.shared_vertices, for all of the grid's border vertices.
+void make_shared_border(const DiceContext& context, std::span<const BorderPoint> points,
+                        std::span<const BorderVertex> border, ShadingGrid& grid, DiceScratch::State& scratch);
+
+}  // namespace trapeze

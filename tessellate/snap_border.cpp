@@ -1,0 +1,48 @@
+#include "tessellate/shared_border.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapeze {
+namespace {
+
+/// An edge that is one point, such as a sphere's pole.
+bool is_point(const Edges& edges, const BorderSide& side) {
+    const EdgeLine line = edges.line(side.edge);
+    return !line.start.on_edge && !line.finish.on_edge && line.start.id == line.finish.id &&
+           side.interval->depth == 0 && side.interval->segments == 1;
+}
+
+}  // namespace
+
+void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
+                            std::span<const BorderSide, 4> sides, std::span<const BorderPoint> points,
+                            std::span<const BorderVertex> border, std::span<V2f> uv) {
+    std::array<bool, 4> pole;
+    for (int s = 0; s < 4; ++s) pole[s] = is_point(edges, sides[s]);
+    int first_of_side = 0, side = -1;
+    for (const BorderVertex& at : border) {
+        if (at.side != side) side = at.side, first_of_side = at.point;
+        const SurfaceSide& on = subpatch.sides[side];
+        // A corner that lies within one of its edges and at the end of the other is moved along the former.
+        if (pole[side] || on.begin == on.end || points[at.point].hops > 0) continue;
+        const float parameter =
+            sides[side].interval->parameter_of(sides[side].vertex(at.point - first_of_side));
+        const float share = (parameter - on.begin) / (on.end - on.begin);
+        const int axis = side == kBottom || side == kTop ? 0 : 1;
+        const float own = subpatch.lo[axis] + (subpatch.hi[axis] - subpatch.lo[axis]) * share;
+        uv[at.vertex][axis] = std::clamp(own, 0.0f, 1.0f);
+    }
+    for (const BorderVertex& at : border)
+        if (at.corner >= 0 && !pole[at.side]) uv[at.vertex] = uv[at.corner];
+    // The same bits as the shared point, where that is on this very side.
+    for (const BorderVertex& at : border) {
+        const BorderPoint& point = points[at.point];
+        const V2f size = subpatch.hi - subpatch.lo, off = point.at.uv - uv[at.vertex];
+        if (!point.is_vertex && point.at.face == subpatch.face && std::abs(off.x) < size.x / 1024 &&
+            std::abs(off.y) < size.y / 1024)
+            uv[at.vertex] = point.at.uv;
+    }
+}
+
+}  // namespace trapeze
