@@ -11,13 +11,13 @@ Attributes& change(Reader& r) {
     return r.change_attributes().attributes;
 }
 
-V3f color_of(ArgumentCursor& c, const char* what) {
-    const auto v = c.numbers(3, what);
+V3f color_of(Reader& r, ArgumentCursor& c, const char* what) {
+    const auto v = r.rgb(c.numbers(r.samples_per_color(), what));
     return {v[0], v[1], v[2]};
 }
 
 void opacity(Reader& r, ArgumentCursor& c) {
-    const V3f o = color_of(c, "the opacity");
+    const V3f o = color_of(r, c, "the opacity");
     change(r).opacity = o;
 }
 
@@ -128,6 +128,13 @@ void basis(Reader& r, ArgumentCursor& c) {
     state.u_basis = u, state.v_basis = v, state.u_step = u_step, state.v_step = v_step;
 }
 
+void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
+    if (name == "binary") dice.binary = value != 0;
+    if (name == "rasterorient") dice.raster_oriented = value != 0;
+    if (name == "hair") dice.hair = value != 0;
+    if (name == "minlength") dice.min_length = std::max(value, 0.0f);
+}
+
 void attribute(Reader& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
@@ -143,6 +150,7 @@ void attribute(Reader& r, ArgumentCursor& c) {
         if (category == "identifier" && value.name == "name") state.attributes.name = text;
         if (category == "visibility" && value.name == "camera")
             state.attributes.visible_to_camera = number != 0;
+        if (category == "dice") set_dice(state.attributes.dice, value.name, number);
         if (category == "cull" && value.name == "backfacing") state.attributes.cull_backfacing = number != 0;
     }
 }
@@ -151,7 +159,7 @@ constexpr RequestRow kRows[] = {
     {"Attribute", attribute},
     {"Color",
      [](Reader& r, ArgumentCursor& c) {
-         const V3f v = color_of(c, "the colour");
+         const V3f v = color_of(r, c, "the colour");
          change(r).color = v;
      }},
     {"Opacity", opacity},

@@ -141,6 +141,7 @@ void Reader::deliver_world() {
     const bool wanted =
         frame_wanted_ && (options.frame != 0 || !read_options_.wants_frame || read_options_.wants_frame(0));
     scene_.options = std::move(options);
+    scene_.clipping_planes = scope_.clipping_planes;
     resolved_ = {};
     if (wanted) on_world_(std::move(scene_));
     scene_ = Scene();

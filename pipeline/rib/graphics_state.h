@@ -1,6 +1,7 @@
 /// The graphics state of RISpec 4: what blocks save and restore.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -23,8 +24,19 @@ struct DisplacementBound {
 /// Orientation as it was asked for; what it means for normals depends on the space of each primitive.
 enum class Orientation { Outside, Inside, LeftHanded, RightHanded };
 
+/// Detail and DetailRange (RISpec 4.2.7). Sizes are areas of the picture in pixels, RelativeDetail included.
+struct Detail {
+    float size = std::numeric_limits<float>::infinity();  ///< of the bound; infinite: none was given
+    float least = 0, full_from = 0;                       ///< grows in between
+    float full_to = std::numeric_limits<float>::infinity(), most = full_to;  ///< fades in between
+
+    /// How much of a primitive is there, 0 to 1.
+    float weight() const;
+};
+
 struct AttributeState {
     Attributes attributes;
+    Detail detail;
     DisplacementBound displacement_bound;
     Orientation orientation = Orientation::Outside;
     bool orientation_reversed = false;
@@ -32,9 +44,12 @@ struct AttributeState {
     int u_step = 3, v_step = 3;
 };
 
+using NamedSpaces = std::map<std::string, MovingTransform>;  ///< camera_from_space
+
 struct GraphicsState {
     MovingTransform transform;  ///< camera_from_current
     std::shared_ptr<const AttributeState> attributes;
+    std::shared_ptr<const NamedSpaces> scoped_spaces;  ///< ScopedCoordinateSystem; null: none
 };
 
 enum class Block { Frame, World, Attribute, Transform, Motion, Object };
@@ -67,11 +82,20 @@ struct DisplayChannel {
     ParameterList parameters;
 };
 
+/// ColorSamples (RISpec 4.1.4): colours of n samples, and their matrix of n rows of red, green, blue.
+struct ColorSamples {
+    size_t samples = 0;
+    std::vector<float> rgb_from_samples;
+};
+
 /// What frames and worlds restore besides the graphics state: RISpec ends the life of lights, objects and
 /// options with them.
 struct Scope {
     Options options;
-    std::map<std::string, MovingTransform> named_spaces;  ///< camera_from_space
+    NamedSpaces named_spaces;
+    std::vector<ClippingPlane> clipping_planes;
+    std::optional<ColorSamples> color_samples;
+    float relative_detail = 1;
     std::map<std::string, std::shared_ptr<const LightInstance>> lights;
     std::map<std::string, DisplayChannel> display_channels;
     std::map<std::string, std::shared_ptr<RetainedObject>> objects;

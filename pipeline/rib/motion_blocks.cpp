@@ -105,13 +105,29 @@ void Reader::name_coordinate_system(const std::string& name) {
     scope_.named_spaces[name] = state_.transform;
 }
 
+void Reader::name_scoped_coordinate_system(const std::string& name) {
+    auto spaces = state_.scoped_spaces ? std::make_shared<NamedSpaces>(*state_.scoped_spaces)
+                                       : std::make_shared<NamedSpaces>();
+    (*spaces)[name] = state_.transform;
+    state_.scoped_spaces = std::move(spaces);
+    // Shaders look names up when the world is whole: there the first of a name stands for all.
+    scope_.named_spaces.try_emplace(name, state_.transform);
+}
+
+const MovingTransform* Reader::named_space(const std::string& name) const {
+    if (state_.scoped_spaces)
+        if (const auto space = state_.scoped_spaces->find(name); space != state_.scoped_spaces->end())
+            return &space->second;
+    const auto space = scope_.named_spaces.find(name);
+    return space == scope_.named_spaces.end() ? nullptr : &space->second;
+}
+
 void Reader::use_coordinate_system(const std::string& name) {
     if (motion_) throw RequestError{"inside a motion block", {}};
     if (object_) throw RequestError{"inside an object definition", {}};
-    const auto space = scope_.named_spaces.find(name);
-    if (space == scope_.named_spaces.end() && name != "camera")
-        throw RequestError{"no coordinate system " + in_quotes(name), {}};
-    state_.transform = name == "camera" ? MovingTransform() : space->second;
+    const MovingTransform* const space = named_space(name);
+    if (!space && name != "camera") throw RequestError{"no coordinate system " + in_quotes(name), {}};
+    state_.transform = space ? *space : MovingTransform();
 }
 
 M44f Reader::camera_from_current() const {

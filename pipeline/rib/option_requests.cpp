@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kLargestPicture = 65536;  ///< pixels along a side
 constexpr float kMostSamples = 64;      ///< along a side of a pixel
+constexpr size_t kMostColorSamples = 1000;
 
 /// RISpec's and the usual others; composite/filters.cpp has what they mean.
 constexpr std::string_view kFilters[] = {"gaussian", "box",     "triangle",        "catmull-rom",
@@ -166,10 +167,45 @@ void option(Reader& r, ArgumentCursor& c) {
     }
 }
 
-/// Requests that change nothing here: RelativeDetail, PixelVariance.
-void without_effect(Reader& r, ArgumentCursor& c) {
+void relative_detail(Reader& r, ArgumentCursor& c) {
+    const float factor = c.number("the factor");
+    require(factor >= 0, "the factor must not be negative");
     changeable_options(r);
-    c.number("the value");
+    r.scope().relative_detail = factor;
+}
+
+/// An estimate of variance could choose the number of samples; here it is fixed.
+void pixel_variance(Reader& r, ArgumentCursor& c) {
+    changeable_options(r);
+    c.number("the variance");
+}
+
+/// RISpec 4.1.1: the half space on the side to which the normal points is cut away.
+void clipping_plane(Reader& r, ArgumentCursor& c) {
+    const auto v = c.numbers(6, "the plane");
+    const V3d point(v[0], v[1], v[2]), normal(v[3], v[4], v[5]);
+    require(normal.length() > 0, "the normal is 0");
+    changeable_options(r);
+    const M44d camera_from_current(r.camera_from_current());
+    const M44d normals = camera_from_current.inverse().transposed();
+    V3d camera_normal, camera_point;
+    normals.multDirMatrix(normal, camera_normal);
+    camera_from_current.multVecMatrix(point, camera_point);
+    require(camera_normal.length() > 0 && std::isfinite(camera_normal.length()), "the space is singular");
+    const V3d inwards = -camera_normal.normalized();
+    r.scope().clipping_planes.push_back({V3f(inwards), static_cast<float>(inwards.dot(camera_point))});
+}
+
+/// RISpec 4.1.4. The matrix back from RGB is for displays of samples, which nobody makes.
+void color_samples(Reader& r, ArgumentCursor& c) {
+    ColorSamples samples{0, c.number_array("the matrix to RGB")};
+    const std::vector<float> back = c.number_array("the matrix from RGB");
+    samples.samples = samples.rgb_from_samples.size() / 3;
+    require(samples.samples > 0 && samples.samples <= kMostColorSamples &&
+                samples.rgb_from_samples.size() % 3 == 0 && back.size() == samples.rgb_from_samples.size(),
+            "needs two matrices, of 3 numbers for each of at most 1000 samples");
+    changeable_options(r);
+    r.scope().color_samples = std::move(samples);
 }
 
 constexpr RequestRow kRows[] = {
@@ -183,13 +219,15 @@ constexpr RequestRow kRows[] = {
     {"Shutter", shutter},
     {"PixelSamples", pixel_samples},
     {"PixelFilter", pixel_filter},
-    {"PixelVariance", without_effect},
+    {"PixelVariance", pixel_variance},
     {"Exposure", exposure},
     {"Quantize", quantize},
     {"Imager", imager},
     {"Hider", hider},
     {"Option", option},
-    {"RelativeDetail", without_effect},
+    {"RelativeDetail", relative_detail},
+    {"ClippingPlane", clipping_plane},
+    {"ColorSamples", color_samples},
 };
 
 }  // namespace

@@ -48,16 +48,29 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
             continue;
         }
         const size_t got = is_string ? value.strings.size() : numbers.size();
-        const auto item =
-            static_cast<size_t>(is_string ? declaration.array_length : declaration.floats_per_item());
+        const bool is_color = declaration.type == ValueType::Color;
+        const size_t components = is_color ? samples_per_color() : component_count(declaration.type);
+        const size_t item = components * static_cast<size_t>(declaration.array_length);
         if (got == 0 || got % item != 0) {
             error(name_at, in_quotes(name) + " has " + std::to_string(got) + " values, needs a multiple of " +
                                std::to_string(item) + "; left out");
             continue;
         }
+        if (is_color) numbers = rgb(std::move(numbers));
         list.set({name, declaration, std::move(numbers), std::move(value.strings)});
     }
     return list;
+}
+
+std::vector<float> Reader::rgb(std::vector<float> colors) const {
+    if (!scope_.color_samples) return colors;
+    const auto& [n, matrix] = *scope_.color_samples;
+    std::vector<float> converted(colors.size() / n * 3);
+    for (size_t color = 0; color < colors.size() / n; ++color)
+        for (size_t i = 0; i < n; ++i)
+            for (size_t k = 0; k < 3; ++k)
+                converted[color * 3 + k] += colors[color * n + i] * matrix[i * 3 + k];
+    return converted;
 }
 
 ParameterList Reader::shader_parameters(ArgumentCursor& cursor) {

@@ -179,7 +179,7 @@ bool has_tags(const ArgumentCursor& c) {
     return c.next_is_array() || (third && third->kind == Argument::Kind::Array);
 }
 
-void subdivision_mesh(Reader& r, ArgumentCursor& c) {
+SubdivisionMesh read_subdivision(ArgumentCursor& c) {
     SubdivisionMesh mesh;
     const std::string scheme = c.string("the scheme");
     if (scheme == "catmull-clark")
@@ -199,8 +199,27 @@ void subdivision_mesh(Reader& r, ArgumentCursor& c) {
                     [](int n) { return n != 3; }))
         throw RequestError{"scheme \"loop\" needs triangles", {}};
     if (has_tags(c)) mesh.tags = subdivision_tags(c);
+    return mesh;
+}
+
+void add_subdivision(Reader& r, ArgumentCursor& c, const char* request, SubdivisionMesh mesh) {
     const uint64_t faces = mesh.vertices_per_face.size();
-    add_mesh(r, c, "SubdivisionMesh", std::move(mesh), faces);
+    add_mesh(r, c, request, std::move(mesh), faces);
+}
+
+void subdivision_mesh(Reader& r, ArgumentCursor& c) {
+    add_subdivision(r, c, "SubdivisionMesh", read_subdivision(c));
+}
+
+/// PRMan's, whose tags may also edit vertices, edges and faces of finer levels: that is left out.
+void hierarchical_subdivision_mesh(Reader& r, ArgumentCursor& c) {
+    SubdivisionMesh mesh = read_subdivision(c);
+    std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
+        const bool is_edit = tag.name.ends_with("edit");
+        if (is_edit) r.warn_once("edits of finer levels are not supported; left out", "hierarchical-edits");
+        return is_edit;
+    });
+    add_subdivision(r, c, "HierarchicalSubdivisionMesh", std::move(mesh));
 }
 
 constexpr RequestRow kRows[] = {
@@ -209,6 +228,7 @@ constexpr RequestRow kRows[] = {
     {"PointsPolygons", points_polygons},
     {"PointsGeneralPolygons", points_general_polygons},
     {"SubdivisionMesh", subdivision_mesh},
+    {"HierarchicalSubdivisionMesh", hierarchical_subdivision_mesh},
 };
 
 }  // namespace

@@ -146,11 +146,11 @@ TEST(ReadText, UnknownRequestsAreSkippedWithAnIdeaOfWhatWasMeant) {
 
 TEST(ReadText, UnsupportedRequestsWarnOncePerKind) {
     const Outcome r = read_world(
-        "Points \"P\" [0 0 0] Points \"P\" [0 0 0] Detail [0 1 0 1 0 1] Bound [0 1 0 1 0 1] "
-        "ErrorHandler \"print\" " +
+        "Volume \"box\" [0 1 0 1 0 1] [0 0 0] Volume \"box\" [0 1 0 1 0 1] [0 0 0] VPInterior \"a\" "
+        "MakeBrickMap \"a\" \"b\" " +
         kSphere);
-    EXPECT_EQ(r.messages.size(), 4u);
-    EXPECT_EQ(r.summary.unsupported.at("Points"), 2u);
+    EXPECT_EQ(r.messages.size(), 3u);
+    EXPECT_EQ(r.summary.unsupported.at("Volume"), 2u);
     EXPECT_EQ(r.count(), 1u);
 }
 

@@ -23,7 +23,8 @@ Reader::Reader(const ReadOptions& options, Diagnostics& diagnostics,
 }
 
 void Reader::error(SourceLocation at, const std::string& text) {
-    diagnostics_.error(at.line ? at : at_, request_name_ + ": " + text);
+    const Severity severity = on_error_ == OnError::Ignore ? Severity::Warning : Severity::Error;
+    diagnostics_.report(severity, at.line ? at : at_, request_name_ + ": " + text, {});
 }
 
 void Reader::warn_once(const std::string& text, const std::string& kind) {
@@ -71,14 +72,15 @@ void Reader::read_text(std::string_view text, SourceLocation first) {
     const std::string name = request_name_;
     const size_t outer_conditionals = first_conditional_;
     first_conditional_ = conditionals_.size();
-    while (read_request(scanner, request, is_request, diagnostics_)) {
+    while (!is_stopped() && read_request(scanner, request, is_request, diagnostics_)) {
         if (is_skipping() && !is_conditional(request.name)) continue;
         if (request.name == "ArchiveBegin")
             record_archive(request, scanner, text);
         else
             execute(request);
     }
-    close_conditionals();
+    if (!stopped_) close_conditionals();
+    conditionals_.resize(first_conditional_);
     first_conditional_ = outer_conditionals;
     at_ = at, request_name_ = name;
 }
@@ -140,7 +142,20 @@ void Reader::set_search_path(const std::string& category, const std::string& pat
     folders = expand_search_path(path, folders, current_folder());
 }
 
+void Reader::set_error_handler(OnError handler) {
+    on_error_ = handler;
+    errors_before_abort_ = diagnostics_.count(Severity::Error);
+}
+
+bool Reader::is_stopped() {
+    if (stopped_ || on_error_ != OnError::Abort) return stopped_;
+    stopped_ = diagnostics_.count(Severity::Error) > errors_before_abort_;
+    if (stopped_) diagnostics_.error(at_, "reading ends at the first error, as ErrorHandler \"abort\" asks");
+    return stopped_;
+}
+
 void Reader::finish() {
+    if (stopped_) return;  // what is open is not delivered
     while (!blocks_.empty()) {
         at_ = blocks_.back().at, request_name_ = block_name(blocks_.back().kind);
         error("never closed; closed at the end of the input");

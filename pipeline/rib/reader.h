@@ -34,6 +34,7 @@ class Reader {
     void error(SourceLocation at, const std::string& text);
     void warn_once(const std::string& text, const std::string& kind);
 
+    Scope& scope() { return scope_; }
     Options& options() { return scope_.options; }
     bool in_world() const { return in_world_; }
     std::map<std::string, DisplayChannel>& display_channels() { return scope_.display_channels; }
@@ -47,6 +48,10 @@ class Reader {
     ParameterList parameters(ArgumentCursor& cursor, Undeclared undeclared = Undeclared::LeaveOut);
     /// Those of a shader: each has one value (which may be an array).
     ParameterList shader_parameters(ArgumentCursor& cursor);
+
+    /// Colours as the file gives them, as RGB (ColorSamples).
+    std::vector<float> rgb(std::vector<float> samples) const;
+    size_t samples_per_color() const { return scope_.color_samples ? scope_.color_samples->samples : 3; }
 
     void begin_block(Block kind);
     void end_block(Block kind);
@@ -63,6 +68,8 @@ class Reader {
     /// definition.
     void set_transform(const TransformArguments* matrix);
     void name_coordinate_system(const std::string& name);
+    /// The name ends with the block.
+    void name_scoped_coordinate_system(const std::string& name);
     void use_coordinate_system(const std::string& name);
     M44f camera_from_current() const;
 
@@ -74,6 +81,23 @@ class Reader {
 
     /// The request is complete but for its place and folders.
     void make_map(MapRequest request);
+
+    /// Of a box in the current space: xmin xmax ymin ymax zmin zmax.
+    void set_detail(const std::vector<float>& bound);
+
+    // --- saved attributes (PRMan's Resource), which no block but their own restores ---
+    void save_state(const std::string& name);
+    /// False when there is none of that name.
+    bool restore_state(const std::string& name, bool attributes, bool transform);
+    void begin_resources();
+    void end_resources();
+
+    /// ErrorHandler (RISpec 3): Print is the default.
+    enum class OnError { Print, Ignore, Abort };
+    void set_error_handler(OnError handler);
+
+    /// The request was understood as one that is not honoured.
+    void count_unsupported() { ++summary_.unsupported[request_name_]; }
 
     void set_search_path(const std::string& category, const std::string& path);
 
@@ -132,6 +156,8 @@ class Reader {
               SourceLocation at);
     std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
                                                           const std::vector<M44f>& camera_from_object);
+    const MovingTransform* named_space(const std::string& name) const;
+    bool is_stopped();
     float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
 
     const ReadOptions& read_options_;
@@ -163,6 +189,13 @@ class Reader {
         SourceLocation first;  ///< the place of its first character
     };
     std::map<std::string, InlineArchive> inline_archives_;
+    using SavedStates = std::map<std::string, GraphicsState>;
+    std::shared_ptr<const SavedStates> saved_states_ = std::make_shared<SavedStates>();
+    std::vector<std::shared_ptr<const SavedStates>> saved_states_blocks_;
+    OnError on_error_ = OnError::Print;
+    uint64_t errors_before_abort_ = 0;  ///< when ErrorHandler "abort" was read
+    bool stopped_ = false;
+
     std::vector<Conditional> conditionals_;
     size_t first_conditional_ = 0;  ///< of the stream being read; those before it belong to outer streams
     std::vector<std::string> open_files_;  ///< for recursion; the last is being read

@@ -30,6 +30,18 @@ bool is_finite(const M44f& m) {
     return std::all_of(&m[0][0], &m[0][0] + 16, [](float v) { return std::isfinite(v); });
 }
 
+/// The variable Os, where there is one, outdoes the attribute.
+std::vector<ShapePointer> with_opacity_scaled(const std::vector<ShapePointer>& keys, float weight) {
+    if (!keys.front()->variables.find("Os")) return keys;
+    std::vector<ShapePointer> scaled;
+    for (const ShapePointer& key : keys) {
+        auto shape = std::make_shared<Shape>(*key);
+        for (float& v : shape->variables.find("Os")->floats) v *= weight;
+        scaled.push_back(std::move(shape));
+    }
+    return scaled;
+}
+
 }  // namespace
 
 float Reader::displacement_length(const AttributeState& state, const std::vector<M44f>& camera_from_object) {
@@ -38,9 +50,8 @@ float Reader::displacement_length(const AttributeState& state, const std::vector
     float stretch = 0;
     for (const M44f& key : camera_from_object) stretch = std::max(stretch, largest_stretch(key));
     const auto& shader = state.attributes.displacement;
-    if (const auto named = scope_.named_spaces.find(bound.coordinate_system);
-        named != scope_.named_spaces.end())
-        stretch = largest_stretch(M44f(named->second.at(scope_.options.shutter_open)));
+    if (const MovingTransform* const named = named_space(bound.coordinate_system))
+        stretch = largest_stretch(M44f(named->at(scope_.options.shutter_open)));
     else if (bound.coordinate_system == "shader" && shader)
         stretch = largest_stretch(shader->camera_from_shader);
     else if (bound.coordinate_system != "object" && bound.coordinate_system != "current" &&
@@ -66,6 +77,7 @@ std::shared_ptr<const Attributes> Reader::resolved_attributes(
     auto attributes = std::make_shared<Attributes>(state->attributes);
     attributes->reverse_orientation = reverse;
     attributes->displacement_bound = bound;
+    attributes->opacity *= state->detail.weight();
     if (read_options_.shading_rate) attributes->shading_rate = *read_options_.shading_rate;
     resolved_ = {state, attributes};
     return attributes;
@@ -91,7 +103,9 @@ void Reader::emit(const std::string& request, const std::vector<ShapePointer>& s
     ++summary_.primitives[request];
     summary_.points += point_count(*shape_keys.front());
     if (primitive.key_count() > 1) ++summary_.moving_primitives;
-    if (!read_options_.keep_geometry || !frame_wanted_) return;
+    const float weight = state->detail.weight();
+    if (!read_options_.keep_geometry || !frame_wanted_ || weight <= 0) return;
+    if (weight < 1) primitive.shape_keys = with_opacity_scaled(shape_keys, weight);
     primitive.attributes = resolved_attributes(state, spaces);
     scene_.primitives.push_back(std::move(primitive));
 }

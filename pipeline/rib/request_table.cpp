@@ -8,58 +8,16 @@ namespace trapeze::rib {
 namespace {
 
 /// The rest of RISpec 3.2, and what later RenderMans added: skipped whole.
-constexpr const char* kUnsupported[] = {"AreaLightSource",
-                                        "Bound",
-                                        "ClippingPlane",
-                                        "ColorSamples",
-                                        "Deformation",
-                                        "Detail",
-                                        "DetailRange",
-                                        "ErrorHandler",
-                                        "GeometricApproximation",
-                                        "GeometricRepresentation",
-                                        "Geometry",
-                                        "Blobby",
-                                        "Curves",
-                                        "Points",
-                                        "NuPatch",
-                                        "TrimCurve",
-                                        "HierarchicalSubdivisionMesh",
-                                        "Procedural",
-                                        "Procedural2",
-                                        "Volume",
-                                        "SolidBegin",
-                                        "SolidEnd",
-                                        "MakeOcclusion",
-                                        "MakeBrickMap",
-                                        "MakeTexture3D",
-                                        "Resource",
-                                        "ResourceBegin",
-                                        "ResourceEnd",
-                                        "ScopedCoordinateSystem",
-                                        "System",
-                                        "Camera",
-                                        "VolumePixelSamples",
-                                        "VPInterior",
-                                        "VPAtmosphere",
-                                        "VPSurface",
-                                        "ShaderLayer",
-                                        "ConnectShaderLayers",
-                                        "Shader",
-                                        "Bxdf",
-                                        "Pattern",
-                                        "Light",
-                                        "LightFilter",
-                                        "Integrator",
-                                        "Displace",
-                                        "DisplayFilter",
-                                        "SampleFilter",
-                                        "PixelSampleImager",
-                                        "Projection2",
-                                        "DepthOfField2",
-                                        "ArchiveRecord",
-                                        "PixelVariance2",
-                                        "OpacityThreshold"};
+constexpr const char* kUnsupported[] = {
+    "AreaLightSource", "Deformation",   "Geometry",
+    "Blobby",          "Curves",        "Points",
+    "NuPatch",         "TrimCurve",     "Procedural",
+    "Procedural2",     "Volume",        "SolidBegin",
+    "SolidEnd",        "MakeOcclusion", "MakeBrickMap",
+    "MakeTexture3D",   "VPInterior",    "VPAtmosphere",
+    "VPSurface",       "ShaderLayer",   "ConnectShaderLayers",
+    "Shader",
+};
 
 using Table = std::map<std::string, Request, std::less<>>;
 
@@ -71,6 +29,9 @@ const Table& table() {
         };
         add(structure_requests(), RequestGroup::Structure);
         add(conditional_requests(), RequestGroup::Structure);
+        add(state_requests(), RequestGroup::Structure);
+        add(detail_requests(), RequestGroup::Attribute);
+        add(ris_requests(), RequestGroup::Structure);
         add(option_requests(), RequestGroup::Option);
         add(display_requests(), RequestGroup::Option);
         add(attribute_requests(), RequestGroup::Attribute);

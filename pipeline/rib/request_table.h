@@ -14,6 +14,9 @@ struct RequestRow {
 
 std::span<const RequestRow> structure_requests();
 std::span<const RequestRow> conditional_requests();
+std::span<const RequestRow> state_requests();
+std::span<const RequestRow> detail_requests();
+std::span<const RequestRow> ris_requests();
 std::span<const RequestRow> option_requests();
 std::span<const RequestRow> display_requests();
 std::span<const RequestRow> attribute_requests();

@@ -1,0 +1,41 @@
+/// Levels of detail (RISpec 4.2.7): how large a bound is on the picture, and what of a primitive that leaves.
+#include <algorithm>
+#include <cmath>
+
+#include "core/camera.h"
+#include "pipeline/rib/reader.h"
+
+namespace trapeze::rib {
+
+/// RISpec shows a primitive wholly within the inner range and mixes neighbouring levels across transitions:
+/// here both are there at once, with opacities that add up to 1.
+float Detail::weight() const {
+    if (size < least || size > most) return 0;
+    if (size < full_from) return (size - least) / (full_from - least);
+    if (size > full_to) return std::isinf(most) ? 1 : (most - size) / (most - full_to);
+    return 1;
+}
+
+void Reader::set_detail(const std::vector<float>& bound) {
+    if (object_) {
+        warn_once("inside an object definition is not supported; ignored", "detail-in-object");
+        return;
+    }
+    const Camera camera = make_camera(scope_.options);
+    const M44f to_camera = camera_from_current();
+    const float nearest = std::max(camera.near_clip, kEpsilon);
+    V2f low(kInfinity), high(-kInfinity);
+    for (int corner = 0; corner < 8; ++corner) {
+        V3f p;
+        to_camera.multVecMatrix(
+            V3f(bound[corner & 1], bound[2 + (corner >> 1 & 1)], bound[4 + (corner >> 2 & 1)]), p);
+        if (camera.perspective) p.z = std::max(p.z, nearest);  // what reaches behind the eye is large
+        const V2f raster = camera.raster_from_camera(p);
+        low = {std::min(low.x, raster.x), std::min(low.y, raster.y)};
+        high = {std::max(high.x, raster.x), std::max(high.y, raster.y)};
+    }
+    const float area = (high.x - low.x) * (high.y - low.y) * scope_.relative_detail;
+    change_attributes().detail.size = std::isnan(area) ? std::numeric_limits<float>::infinity() : area;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,135 @@
+/// Levels of detail, and how geometry may be approximated.
+#include <cmath>
+
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// A picture of 100 x 100 pixels of [-1, 1] x [-1, 1], seen along z.
+const std::string kView = "Format 100 100 1 Projection \"orthographic\" ";
+/// 40 x 20 pixels.
+const std::string kBound = "Detail [-0.4 0.4 -0.2 0.2 0 3] ";
+
+float opacity(const std::string& range, const std::string& options = "") {
+    const Outcome outcome = read_text(kView + options + "WorldBegin Opacity 0.5 0.5 1 " + kBound +
+                                      "DetailRange " + range + " " + kSphere + "WorldEnd");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    return outcome.count() == 0 ? 0 : outcome.attributes().opacity.z;
+}
+
+TEST(ReadDetail, TheAreaOnThePictureCounts) {
+    EXPECT_EQ(opacity("[0 0 1e38 1e38]"), 1);
+    EXPECT_EQ(opacity("[799 799 801 801]"), 1);
+    EXPECT_EQ(opacity("[0 0 799 799]"), 0);
+    EXPECT_EQ(opacity("[801 801 1e38 1e38]"), 0);
+}
+
+TEST(ReadDetail, TransitionsScaleTheOpacity) {
+    EXPECT_NEAR(opacity("[700 1100 1e38 1e38]"), 0.25f, 1e-4f);
+    EXPECT_NEAR(opacity("[0 0 700 1100]"), 0.75f, 1e-4f);
+    EXPECT_NEAR(opacity("[0 100 600 1000]", "RelativeDetail 1.125 "), 0.25f, 1e-4f);
+    EXPECT_EQ(opacity("[0 0 10 20]", "RelativeDetail 0 "), 1);
+}
+
+TEST(ReadDetail, PerspectiveMakesFarThingsSmall) {
+    const auto seen = [](const std::string& range) {
+        return read_text(
+                   "Format 100 100 1 Projection \"perspective\" \"fov\" [90] WorldBegin "
+                   "Translate 0 0 4 Detail [-1 1 -1 1 0 0] DetailRange " +
+                   range + " " + kSphere + "WorldEnd")
+                   .count() == 1;
+    };
+    // At z = 4 the picture is 8 wide: 25 x 25 pixels.
+    EXPECT_TRUE(seen("[624 624 626 626]"));
+    EXPECT_FALSE(seen("[626 626 1e38 1e38]"));
+}
+
+TEST(ReadDetail, BoundsAroundTheEyeAreLarge) {
+    const Outcome outcome = read_text(
+        "Projection \"perspective\" WorldBegin Detail [-1 1 -1 1 -1 1] DetailRange [1e20 1e20 1e38 1e38] " +
+        kSphere + "WorldEnd");
+    EXPECT_EQ(outcome.count(), 1u);
+}
+
+TEST(ReadDetail, WithoutABoundDetailIsInfinite) {
+    EXPECT_EQ(read_world("DetailRange [0 0 100 100] " + kSphere).count(), 0u);
+    EXPECT_EQ(read_world("DetailRange [5 10 1e38 1e38] " + kSphere).count(), 1u);
+}
+
+TEST(ReadDetail, BlocksRestoreItAndInstancesTakeIt) {
+    const Outcome outcome =
+        read_text(kView + "WorldBegin ObjectBegin 1 " + kSphere + "ObjectEnd AttributeBegin " + kBound +
+                  "DetailRange [0 0 10 10] ObjectInstance 1 DetailRange [0 0 700 1100] "
+                  "ObjectInstance 1 AttributeEnd ObjectInstance 1 WorldEnd");
+    ASSERT_EQ(outcome.count(), 2u);
+    EXPECT_NEAR(outcome.attributes(0).opacity.x, 0.75f, 1e-4f);
+    EXPECT_EQ(outcome.attributes(1).opacity.x, 1);
+}
+
+TEST(ReadDetail, OpacitiesOfThePrimitiveAreScaledToo) {
+    const Outcome outcome = read_text(kView + "WorldBegin " + kBound +
+                                      "DetailRange [0 0 700 1100] Polygon \"P\" [0 0 1 1 0 1 0 1 1] "
+                                      "\"Os\" [1 1 1 0.5 0.5 0.5 0 0 0] WorldEnd");
+    const std::vector<float>& os = outcome.primitive().shape().variables.find("Os")->floats;
+    EXPECT_NEAR(os[0], 0.75f, 1e-4f);
+    EXPECT_NEAR(os[3], 0.375f, 1e-4f);
+    EXPECT_EQ(os[6], 0);
+}
+
+TEST(ReadDetail, WrongOnesAreSaid) {
+    const Outcome outcome = read_world(
+        "DetailRange [3 2 1 0]\nDetail [1 0 0 1 0 1]\nBound [0 1 0 1]\n"
+        "ObjectBegin 1 Detail [0 1 0 1 0 1] ObjectEnd " +
+        kSphere);
+    EXPECT_THAT(outcome.messages,
+                ElementsAre(HasSubstr("DetailRange: needs minvisible <= lowertransition"),
+                            HasSubstr("Detail: the bound is empty"),
+                            HasSubstr("Bound: the bound has 4 numbers, needs 6"),
+                            HasSubstr("Detail: inside an object definition is not supported")));
+    EXPECT_EQ(outcome.count(), 1u);
+}
+
+TEST(ReadApproximation, FactorsAndDiceBecomeAttributes) {
+    const Outcome outcome = read_world(
+        "GeometricApproximation \"motionfactor\" 1.5 GeometricApproximation \"focusfactor\" [2] "
+        "GeometricApproximation \"flatness\" 0.5 GeometricRepresentation \"smooth\" Bound [0 1 0 1 0 1] "
+        "Attribute \"dice\" \"int binary\" [1] \"rasterorient\" [0] \"int hair\" [1] "
+        "\"float minlength\" [3] " +
+        kSphere);
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    const Attributes& a = outcome.attributes();
+    EXPECT_EQ(a.motion_factor, 1.5f);
+    EXPECT_EQ(a.focus_factor, 2);
+    EXPECT_TRUE(a.dice.binary);
+    EXPECT_FALSE(a.dice.raster_oriented);
+    EXPECT_TRUE(a.dice.hair);
+    EXPECT_EQ(a.dice.min_length, 3);
+}
+
+TEST(ReadApproximation, ObjectsKeepTheirOwn) {
+    const Outcome outcome = read_world(
+        "ObjectBegin 1 GeometricApproximation \"motionfactor\" 2 "
+        "Attribute \"dice\" \"int binary\" [1] " +
+        kSphere + "ObjectEnd ObjectInstance 1");
+    EXPECT_EQ(outcome.attributes().motion_factor, 2);
+    EXPECT_TRUE(outcome.attributes().dice.binary);
+}
+
+TEST(ReadApproximation, UnknownOrNegativeOnesAreSaid) {
+    const Outcome outcome = read_world(
+        "GeometricApproximation \"motionfactor\" -1\n"
+        "GeometricApproximation \"wobble\" 1 GeometricApproximation "
+        "\"wobble\" 1 " +
+        kSphere);
+    EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("the factor must not be negative"),
+                                              HasSubstr("\"wobble\" is not known; ignored")));
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test

@@ -1,0 +1,175 @@
+/// Requests that RISpec 3.2 does not have, and its rarer ones.
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(Resources, SaveAndRestoreAttributes) {
+    const Outcome outcome = read_world(
+        "AttributeBegin Color 1 0 0 Translate 5 0 0 "
+        "Resource \"red\" \"attributes\" \"string operation\" \"save\" AttributeEnd "
+        "Resource \"red\" \"attributes\" \"string operation\" \"restore\" \"string subset\" \"shading\" " +
+        kSphere +
+        "Color 0 1 0 "
+        "Resource \"red\" \"attributes\" \"string operation\" [\"restore\"] \"string subset\" "
+        "\"transform\" " +
+        kSphere + "Identity Resource \"red\" \"attributes\" \"operation\" \"restore\" " + kSphere);
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    ASSERT_EQ(outcome.count(), 3u);
+    EXPECT_EQ(outcome.attributes(0).color, V3f(1, 0, 0));
+    EXPECT_EQ(outcome.primitive(0).camera_from_object[0][3][0], 0);
+    EXPECT_EQ(outcome.attributes(1).color, V3f(0, 1, 0));
+    EXPECT_EQ(outcome.primitive(1).camera_from_object[0][3][0], 5);
+    EXPECT_EQ(outcome.attributes(2).color, V3f(1, 0, 0));
+    EXPECT_EQ(outcome.primitive(2).camera_from_object[0][3][0], 5);
+}
+
+TEST(Resources, EndWithTheirBlocks) {
+    const std::string save = "Resource \"a\" \"attributes\" \"string operation\" \"save\" ";
+    const std::string restore = "Resource \"a\" \"attributes\" \"string operation\" \"restore\" ";
+    const Outcome outcome =
+        read_world("ResourceBegin Color 1 0 0 " + save + "ResourceEnd\n" + restore +
+                   "\nResourceEnd\nResource \"b\" \"surface\" Resource \"a\" \"attributes\"\n" + kSphere);
+    EXPECT_THAT(outcome.messages,
+                ElementsAre("a.rib:3:1: error: Resource: no resource \"a\"; request skipped",
+                            HasSubstr("ResourceEnd: no ResourceBegin is open"),
+                            HasSubstr("Resource: \"surface\" is not supported; skipped"),
+                            HasSubstr("\"operation\" is neither save nor restore")));
+    EXPECT_EQ(outcome.count(), 1u);
+}
+
+TEST(ScopedSpaces, EndWithTheBlock) {
+    const Outcome outcome = read_world(
+        "AttributeBegin Translate 1 0 0 ScopedCoordinateSystem \"here\" "
+        "AttributeBegin Translate 1 0 0 ScopedCoordinateSystem \"here\" "
+        "Identity CoordSysTransform \"here\" " +
+        kSphere + "AttributeEnd Identity CoordSysTransform \"here\" " + kSphere + "AttributeEnd");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    EXPECT_EQ(outcome.primitive(0).camera_from_object[0][3][0], 2);
+    EXPECT_EQ(outcome.primitive(1).camera_from_object[0][3][0], 1);
+}
+
+TEST(Cameras, AreNamedSpaces) {
+    const Outcome outcome = read_text(
+        "TransformBegin Translate 7 0 0 Camera \"side\" \"float shutteropening\" [0] TransformEnd "
+        "WorldBegin CoordSysTransform \"side\" " +
+        kSphere + "WorldEnd");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    EXPECT_EQ(outcome.primitive().camera_from_object[0][3][0], 7);
+}
+
+TEST(LaterRequests, AreTakenQuietlyWhereTheyChangeNothing) {
+    EXPECT_THAT(
+        read_text("VolumePixelSamples 2 2 ArchiveRecord \"comment\" \"x\" WorldBegin WorldEnd").messages,
+        IsEmpty());
+}
+
+TEST(LaterRequests, CommandsAreNotRun) {
+    const Folder folder;
+    const std::string made = folder.path() + "/made";
+    const Outcome outcome =
+        read_files(folder, {folder.write("a.rib", "System \"touch " + made + "\" System \"touch " + made +
+                                                      "\" WorldBegin WorldEnd")});
+    EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("System: commands in files are never run")));
+    EXPECT_FALSE(std::filesystem::exists(made));
+    EXPECT_EQ(outcome.summary.unsupported.at("System"), 2u);
+}
+
+TEST(HierarchicalMeshes, AreMeshesWithoutTheirEdits) {
+    const Outcome outcome = read_world(
+        "HierarchicalSubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\" \"vertexedit\"] "
+        "[2 1 0 2 1 2] [0 1 0 0] [3.5 1] [\"add\" \"P\"] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0]");
+    EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("edits of finer levels are not supported")));
+    const auto& tags = std::get<SubdivisionMesh>(outcome.primitive().shape().topology).tags;
+    ASSERT_EQ(tags.size(), 1u);
+    EXPECT_THAT(tags[0].floats, ElementsAre(3.5f));
+    EXPECT_EQ(outcome.summary.primitives.at("HierarchicalSubdivisionMesh"), 1u);
+}
+
+TEST(ClippingPlanes, AreKeptInCameraSpace) {
+    // The plane x = 3 of a space moved by (1, 2, 3) and turned so that its x is the camera's y.
+    const Outcome outcome = read_text(
+        "Translate 1 2 3 Rotate 90 0 0 1 ClippingPlane 3 0 0 2 0 0 Identity "
+        "ClippingPlane [0 0 5 0 0 -1] WorldBegin WorldEnd WorldBegin WorldEnd");
+    ASSERT_EQ(outcome.worlds.size(), 2u);
+    for (const Scene& scene : outcome.worlds) {
+        ASSERT_EQ(scene.clipping_planes.size(), 2u);
+        // What has y > 5 goes: -y < -5.
+        EXPECT_NEAR(scene.clipping_planes[0].normal.y, -1, 1e-6);
+        EXPECT_NEAR(scene.clipping_planes[0].normal.x, 0, 1e-6);
+        EXPECT_NEAR(scene.clipping_planes[0].distance, -5, 1e-5);
+        // What has z < 5 goes.
+        EXPECT_EQ(scene.clipping_planes[1].normal, V3f(0, 0, 1));
+        EXPECT_EQ(scene.clipping_planes[1].distance, 5);
+    }
+    EXPECT_THAT(read_text("ClippingPlane 0 0 0 0 0 0 WorldBegin ClippingPlane 0 0 0 0 0 1 WorldEnd").messages,
+                ElementsAre(HasSubstr("the normal is 0"), HasSubstr("options cannot change")));
+}
+
+TEST(ColorSamples, ColoursHaveSoManyValuesEach) {
+    const Outcome outcome = read_text(
+        "ColorSamples [1 0 0  0.5 0.5 0  0 1 0  0 0 1] [1 0 0 0 0 0 0 0 0 0 0 0] WorldBegin "
+        "Color 1 1 0.25 0.5 Opacity [0 0 0 1] Surface \"plastic\" \"specularcolor\" [0 0 1 0] "
+        "Polygon \"P\" [0 0 1 1 0 1 0 1 1] \"Cs\" [1 0 0 0  0 1 0 0  0 0 0 2] WorldEnd");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    EXPECT_EQ(outcome.attributes().color, V3f(1.5f, 0.75f, 0.5f));
+    EXPECT_EQ(outcome.attributes().opacity, V3f(0, 0, 1));
+    EXPECT_THAT(outcome.attributes().surface->parameters.find("specularcolor")->floats, ElementsAre(0, 1, 0));
+    EXPECT_THAT(outcome.primitive().shape().variables.find("Cs")->floats,
+                ElementsAre(1, 0, 0, 0.5f, 0.5f, 0, 0, 0, 2));
+}
+
+TEST(ColorSamples, OneIsEnoughAndWrongOnesAreSaid) {
+    EXPECT_EQ(read_text("ColorSamples [0.5 1 2] [1 1 1] WorldBegin Color 0.5 " + kSphere + "WorldEnd")
+                  .attributes()
+                  .color,
+              V3f(0.25f, 0.5f, 1));
+    EXPECT_THAT(
+        read_text("ColorSamples [] []\nColorSamples [1 1 1 1] [1 1 1 1]\nColorSamples [1 1 1] [1]").messages,
+        ElementsAre(HasSubstr("needs two matrices"), HasSubstr("needs two matrices"),
+                    HasSubstr("needs two matrices")));
+}
+
+TEST(ErrorHandlers, DecideWhatErrorsAre) {
+    const std::string wrong = "Sphere 1\n";
+    const Outcome ignored =
+        read_world("ErrorHandler \"ignore\" " + wrong + kSphere + "ErrorHandler \"print\"\n" + wrong);
+    EXPECT_THAT(ignored.messages, ElementsAre(HasSubstr("a.rib:2:23: warning: Sphere: has 1"),
+                                              HasSubstr("a.rib:4:1: error: Sphere: has 1")));
+    EXPECT_EQ(ignored.count(), 1u);
+
+    const Outcome aborted = read_text(wrong + "ErrorHandler \"abort\" WorldBegin " + kSphere + "WorldEnd " +
+                                      wrong + "WorldBegin " + kSphere + "WorldEnd IfBegin \"1\"");
+    EXPECT_EQ(aborted.worlds.size(), 1u);
+    ASSERT_EQ(aborted.messages.size(), 3u);
+    EXPECT_THAT(aborted.messages[2], HasSubstr("reading ends at the first error"));
+    EXPECT_THAT(read_text("ErrorHandler \"shout\" WorldBegin WorldEnd").messages,
+                ElementsAre(HasSubstr("\"shout\" is not known")));
+}
+
+TEST(Ris, SurfacesHaveTheirColourAndOneNoteSaysSo) {
+    const Outcome outcome = read_text(
+        "Integrator \"PxrPathTracer\" \"pt\" Light \"PxrDomeLight\" \"l\" \"float intensity\" [1]\n"
+        "WorldBegin Pattern \"PxrTexture\" \"tex\" \"string filename\" [\"a.tex\"]\n"
+        "Bxdf \"PxrSurface\" \"s\" \"reference float diffuseGain\" [\"x:y\"] "
+        "\"color diffuseColor\" [0.1 0.2 0.3] \"int diffuseDoubleSided\" [1] " +
+        kSphere + "Bxdf \"PxrConstant\" \"c\" \"color emitColor\" 1 0.5 0 " + kSphere +
+        "Bxdf \"PxrDisney\" \"d\" \"reference color baseColor\" [\"tex:resultRGB\"] " + kSphere +
+        "Bxdf \"PxrBlack\" \"b\" " + kSphere + "WorldEnd");
+    EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("Integrator: RIS shading is not supported")));
+    ASSERT_EQ(outcome.count(), 4u);
+    EXPECT_EQ(outcome.attributes(0).color, V3f(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(outcome.attributes(0).surface->name, "defaultsurface");
+    EXPECT_EQ(outcome.attributes(1).color, V3f(1, 0.5f, 0));
+    EXPECT_EQ(outcome.attributes(1).surface->name, "constant");
+    EXPECT_EQ(outcome.attributes(2).color, V3f(1, 0.5f, 0));
+    EXPECT_EQ(outcome.attributes(3).color, V3f(0, 0, 0));
+    EXPECT_EQ(outcome.summary.unsupported.at("Bxdf"), 4u);
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test
