@@ -32,6 +32,7 @@ void Reader::record_archive(RequestText& request, Scanner& scanner, std::string_
     }
     const SourceLocation first = scanner.peek().at;
     const size_t begin = scanner.offset();
+    EncodedNames names = scanner.encoded_names();
     size_t end = begin;
     for (int depth = 1; depth > 0;) {
         end = scanner.offset();
@@ -43,7 +44,7 @@ void Reader::record_archive(RequestText& request, Scanner& scanner, std::string_
     }
     if (handle)
         inline_archives_[*handle] = {std::make_shared<const std::string>(text.substr(begin, end - begin)),
-                                     first};
+                                     first, std::move(names)};
 }
 
 /// Beside the file that names it, along the search path, from the working folder.
@@ -94,7 +95,7 @@ void Reader::read_archive(const std::string& name) {
         SourceLocation first = archive->second.first;
         first.source = diagnostics_.add_source(diagnostics_.source_name(first.source), at_);
         open_files_.push_back(key);
-        read_text(*text, first);
+        read_text(*text, first, archive->second.names);
         open_files_.pop_back();
         return;
     }

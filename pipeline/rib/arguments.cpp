@@ -23,9 +23,10 @@ void append_number(Argument& array, double value) {
     array.floats.push_back(static_cast<float>(value));
 }
 
-std::string what_is_bad(const Token& token) {
-    if (token.text == "\"") return "a string that is never closed";
-    return "characters that RIB does not have";
+constexpr size_t kMostStringBytes = size_t{1} << 26;  ///< of an array of strings, which codes can make short
+
+void append_encoded(RequestText& request, const Token& token, Argument& array) {
+    if (!append_floats(token.text, array.floats)) note_problem(request, token.at, kNotFinite);
 }
 
 /// The elements of an array up to its end, or to the request that stands where the end should be.
@@ -33,6 +34,7 @@ void read_array(Scanner& scanner, Argument& array, RequestText& request, IsReque
     array.kind = Argument::Kind::Array;
     array.at = scanner.peek().at;
     scanner.skip();
+    size_t string_bytes = 0;
     bool closed = false;
     while (!closed) {
         const Token& token = scanner.peek();
@@ -45,7 +47,11 @@ void read_array(Scanner& scanner, Argument& array, RequestText& request, IsReque
                     note_problem(request, bad, kNotFinite);
                 continue;  // the scanner stands at what ended the numbers
             case TokenKind::String:
-                array.strings.push_back(token.string);
+                string_bytes += token.string.size();
+                if (string_bytes <= kMostStringBytes)
+                    array.strings.push_back(token.string);
+                else
+                    note_problem(request, array.at, "an array of strings that are too long in all");
                 break;
             case TokenKind::Close:
                 closed = true;
@@ -58,17 +64,16 @@ void read_array(Scanner& scanner, Argument& array, RequestText& request, IsReque
                 note_problem(request, at, in_quotes(token.text) + " stands within an array");
                 break;
             case TokenKind::End:
-            case TokenKind::BinaryRequest:
                 note_problem(request, array.at, "the array that begins here is never closed");
                 return;
             case TokenKind::Open:
                 note_problem(request, at, "an array within an array");
                 break;
             case TokenKind::Bad:
-                note_problem(request, at, what_is_bad(token));
+                note_problem(request, at, std::string(token.text));
                 break;
-            case TokenKind::Binary:
-                request.is_binary = true;
+            case TokenKind::Floats:
+                append_encoded(request, token, array);
                 break;
         }
         scanner.skip();
@@ -85,11 +90,7 @@ bool find_request_name(Scanner& scanner, Diagnostics& diagnostics) {
         if (token.kind == TokenKind::Word) return true;
         if (reported) continue;
         reported = true;
-        if (token.kind == TokenKind::Binary || token.kind == TokenKind::BinaryRequest)
-            diagnostics.error(token.at, "binary RIB is not supported yet; what is encoded is skipped",
-                              kBinaryRib);
-        else
-            diagnostics.error(token.at, "a request is expected here; skipped to the next one");
+        diagnostics.error(token.at, "a request is expected here; skipped to the next one");
     }
 }
 
@@ -114,7 +115,6 @@ std::vector<float> Argument::take_numbers() {
 bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, Diagnostics& diagnostics) {
     request.arguments.clear();
     request.problem.clear();
-    request.is_binary = false;
     if (!find_request_name(scanner, diagnostics)) return false;
     request.name = scanner.peek().text;
     request.at = scanner.peek().at;
@@ -128,7 +128,6 @@ bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, 
         switch (token.kind) {
             case TokenKind::End:
             case TokenKind::Word:
-            case TokenKind::BinaryRequest:
                 return true;
             case TokenKind::Open:
                 read_array(scanner, request.arguments.emplace_back(), request, is_request);
@@ -149,11 +148,14 @@ bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, 
                 note_problem(request, token.at, "a ] without its [");
                 break;
             case TokenKind::Bad:
-                note_problem(request, token.at, what_is_bad(token));
+                note_problem(request, token.at, std::string(token.text));
                 break;
-            case TokenKind::Binary:
-                request.is_binary = true;
+            case TokenKind::Floats: {
+                Argument& argument = request.arguments.emplace_back();
+                argument.kind = Argument::Kind::Array, argument.at = token.at;
+                append_encoded(request, token, argument);
                 break;
+            }
         }
         scanner.skip();
     }

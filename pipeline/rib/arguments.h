@@ -37,7 +37,6 @@ struct RequestText {
     std::vector<Argument> arguments;
     std::string problem;  ///< what is wrong with the arguments as text; empty when nothing
     SourceLocation problem_at;
-    bool is_binary = false;  ///< some of the arguments are encoded
 };
 
 /// Words that begin a request. Any other word within brackets is an error there, and not the next request.
@@ -46,9 +45,6 @@ using IsRequest = bool (*)(std::string_view word);
 /// Reads the next request; false at the end of the text. What stands between requests is reported and passed
 /// over.
 bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, Diagnostics& diagnostics);
-
-/// The kind under which binary RIB is reported: once.
-inline constexpr const char* kBinaryRib = "binary-rib";
 
 /// Text from a file as messages show it: in quotes, clipped, one line.
 std::string in_quotes(std::string_view text);

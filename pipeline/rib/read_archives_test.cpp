@@ -161,13 +161,6 @@ TEST(ReadText, MessagesAreOneShortLine) {
     EXPECT_LT(r.messages[0].size(), 250u);
 }
 
-TEST(ReadText, BinaryRibIsReportedOnce) {
-    const Outcome r =
-        read_world("Color \xA4\x3f\x80\x41\x42 \xA4\x3f\x80\x41\x42 1\n\xA6\x01\x02 " + kSphere);
-    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("binary RIB is not supported yet")));
-    EXPECT_EQ(r.count(), 1u);
-}
-
 TEST(ReadText, BlocksThatStayOpenAreClosed) {
     const Outcome r =
         read_text("FrameBegin 1\nWorldBegin\nAttributeBegin\nObjectBegin 1\nMotionBegin [0 1]\n" + kSphere);

@@ -64,9 +64,9 @@ void Reader::read_memory(std::string_view text, const std::string& name) {
     open_files_.pop_back();
 }
 
-void Reader::read_text(std::string_view text, SourceLocation first) {
+void Reader::read_text(std::string_view text, SourceLocation first, EncodedNames names) {
     summary_.bytes += text.size();
-    Scanner scanner(text, first);
+    Scanner scanner(text, first, std::move(names));
     RequestText request;
     const SourceLocation at = at_;
     const std::string name = request_name_;
@@ -96,10 +96,6 @@ void Reader::execute(RequestText& text) {
         return;
     }
     ++summary_.requests[text.name];
-    if (text.is_binary) {
-        diagnostics_.error(at_, text.name + ": binary RIB is not supported yet; request skipped", kBinaryRib);
-        return;
-    }
     if (!request->handler) {
         ++summary_.unsupported[text.name];
         diagnostics_.warning(at_, text.name + " is not supported yet; skipped", "unsupported-" + text.name);

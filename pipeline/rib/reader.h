@@ -129,7 +129,7 @@ class Reader {
     void close_conditionals();
     void substitute(RequestText& request) const;
 
-    void read_text(std::string_view text, SourceLocation first);
+    void read_text(std::string_view text, SourceLocation first, EncodedNames names = {});
     void execute(RequestText& request);
     std::string current_file() const;  ///< the innermost that is a file on disk; may be empty
     std::string current_folder() const;
@@ -187,6 +187,7 @@ class Reader {
     struct InlineArchive {
         std::shared_ptr<const std::string> text;
         SourceLocation first;  ///< the place of its first character
+        EncodedNames names;    ///< what was defined before it
     };
     std::map<std::string, InlineArchive> inline_archives_;
     using SavedStates = std::map<std::string, GraphicsState>;

@@ -94,37 +94,17 @@ bool is_non_finite_word(std::string_view word) {
     return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 
-/// What follows the first byte of RISpec's binary encoding, in bytes (table C.1); `left` is all there is.
-size_t binary_length(const unsigned char* p, size_t left) {
-    const auto big_endian = [&](size_t bytes) {
-        size_t value = 0;
-        for (size_t i = 1; i <= bytes && i < left; ++i) value = value << 8 | p[i];
-        return value;
-    };
-    const unsigned code = *p;
-    const size_t width = (code & 3) + 1;
-    if (code <= 0217) return width;                      // integer or fixed point
-    if (code <= 0237) return code & 15;                  // short string
-    if (code <= 0243) return width + big_endian(width);  // long string
-    if (code == 0244) return 4;                          // float
-    if (code == 0245) return 8;                          // double
-    if (code == 0246 || code == 0314) return 1;          // a request's code, its definition
-    if (code >= 0310 && code <= 0313) return width + 4 * big_endian(width);  // array of floats
-    if (code == 0315 || code == 0317) return 1;                              // a string's code of one byte
-    if (code == 0316 || code == 0320) return 2;                              // of two bytes
-    return 0;
-}
-
 }  // namespace
 
-Scanner::Scanner(std::string_view text, SourceLocation first)
+Scanner::Scanner(std::string_view text, SourceLocation first, EncodedNames names)
     : begin_(text.data()),
       next_(text.data()),
       end_(text.data() + text.size()),
       line_start_(text.data()),
       source_(first.source),
       line_(first.line),
-      first_column_(first.column) {
+      first_column_(first.column),
+      names_(std::move(names)) {
     if (text.starts_with("\xEF\xBB\xBF")) next_ += 3;  // UTF-8's byte order mark
 }
 
@@ -163,21 +143,22 @@ bool Scanner::fast_number(double* value) {
 }
 
 void Scanner::scan() {
-    skip_space();
-    token_begin_ = next_;
-    token_.at = location(next_);
-    if (next_ >= end_) {
-        token_.kind = TokenKind::End;
-        return;
-    }
+    do {
+        skip_space();
+        token_begin_ = next_;
+        token_.at = location(next_);
+        if (next_ >= end_) {
+            token_.kind = TokenKind::End;
+            return;
+        }
+    } while (is_high(*next_) && !scan_encoded());
+    if (is_high(*token_begin_)) return;
     const char c = *next_;
     if (c == '[' || c == ']') {
         token_.kind = c == '[' ? TokenKind::Open : TokenKind::Close;
         ++next_;
     } else if (c == '"') {
         scan_string();
-    } else if (is_high(c)) {
-        scan_binary();
     } else if (!scan_number()) {
         const char* const start = next_;
         if (is_letter(c)) {
@@ -188,7 +169,8 @@ void Scanner::scan() {
             while (next_ < end_ && !is_letter(*next_) && !ends_number(*next_) && !is_digit(*next_) &&
                    !is_high(*next_))
                 ++next_;
-            token_.kind = TokenKind::Bad;
+            be_bad("characters that RIB does not have", next_);
+            return;
         }
         token_.text = {start, static_cast<size_t>(next_ - start)};
         if (token_.kind == TokenKind::Word && is_non_finite_word(token_.text)) {
@@ -219,19 +201,88 @@ bool Scanner::scan_number() {
     return false;
 }
 
-void Scanner::scan_binary() {
-    const auto code = static_cast<unsigned char>(*next_);
-    token_.kind =
-        code == 0246 || (code >= 0314 && code <= 0316) ? TokenKind::BinaryRequest : TokenKind::Binary;
-    const auto left = static_cast<size_t>(end_ - next_);
-    const size_t length = binary_length(reinterpret_cast<const unsigned char*>(next_), left);
-    next_ += 1 + std::min(length, left - 1);
+/// Makes a token of what is wrong up to `stop`; true, as a token is there.
+bool Scanner::be_bad(const char* what, const char* stop) {
+    token_.kind = TokenKind::Bad;
+    token_.text = what;
+    next_ = stop;
+    return true;
+}
+
+/// False when it was a definition, which is no token.
+bool Scanner::scan_encoded() {
+    const std::string_view bytes(next_, static_cast<size_t>(end_ - next_));
+    const EncodedValue value = encoded_value(bytes);
+    if (value.length > bytes.size()) return be_bad("an encoded value that reaches beyond the end", end_);
+    const auto length = static_cast<size_t>(value.length);
+    const std::string_view contents = bytes.substr(value.header, length - value.header);
+    next_ += length;
+    switch (value.encoding) {
+        case Encoding::Number:
+        case Encoding::Float:
+        case Encoding::Double:
+            token_.kind = TokenKind::Number;
+            token_.number = decoded_number(value, bytes);
+            return true;
+        case Encoding::String:
+            token_.kind = TokenKind::String;
+            token_.string = contents;
+            return true;
+        case Encoding::Floats:
+            token_.kind = TokenKind::Floats;
+            token_.text = contents;
+            return true;
+        case Encoding::Request: {
+            token_.kind = TokenKind::Word;
+            const auto name = names_.requests.find(decoded_code(value, bytes));
+            token_.text = name == names_.requests.end() ? "an encoded request that is not defined"
+                                                        : std::string_view(name->second);
+            return true;
+        }
+        case Encoding::DefinedString: {
+            const auto name = names_.strings.find(decoded_code(value, bytes));
+            if (name == names_.strings.end()) return be_bad("an encoded string that is not defined", next_);
+            token_.kind = TokenKind::String;
+            token_.string = name->second;
+            return true;
+        }
+        case Encoding::DefineRequest:
+        case Encoding::DefineString:
+            return scan_definition(value, bytes);
+        case Encoding::None:
+            break;
+    }
+    return be_bad("a byte that RIB's encoding does not have", next_);
+}
+
+/// The string of a definition, as text or encoded.
+bool Scanner::scan_definition(const EncodedValue& value, std::string_view bytes) {
+    skip_space();
+    const std::string_view rest(next_, static_cast<size_t>(end_ - next_));
+    const bool is_encoded = !rest.empty() && is_high(rest[0]);
+    if (!rest.empty() && rest[0] == '"') {
+        scan_string();
+        if (token_.kind == TokenKind::Bad) return true;
+    } else if (is_encoded && encoded_value(rest).encoding == Encoding::String) {
+        const EncodedValue string = encoded_value(rest);
+        if (string.length > rest.size()) return be_bad("an encoded value that reaches beyond the end", end_);
+        const auto length = static_cast<size_t>(string.length);
+        token_.string = rest.substr(string.header, length - string.header);
+        next_ += length;
+    } else {
+        return be_bad("a definition of a code without its string", next_);
+    }
+    if (token_.string.size() > kLongestEncodedName)
+        return be_bad("a definition of a code by more than 4096 bytes", next_);
+    auto& names = value.encoding == Encoding::DefineRequest ? names_.requests : names_.strings;
+    names[decoded_code(value, bytes)] = token_.string;
+    return false;
 }
 
 void Scanner::scan_string() {
     token_.kind = TokenKind::String;
     token_.string.clear();
-    const char* const open = next_++;
+    ++next_;
     while (next_ < end_ && *next_ != '"') {
         char c = *next_++;
         if (c == '\n') new_line();
@@ -270,8 +321,7 @@ void Scanner::scan_string() {
     if (next_ < end_) {
         ++next_;
     } else {
-        token_.kind = TokenKind::Bad;  // never closed
-        token_.text = {open, 1};
+        be_bad("a string that is never closed", end_);
     }
 }
 

@@ -1,4 +1,4 @@
-/// Tokens of ASCII RIB (RISpec appendix C.1).
+/// Tokens of RIB, as text or in the binary encoding (RISpec appendix C).
 #pragma once
 
 #include <cmath>
@@ -6,25 +6,25 @@
 #include <string_view>
 
 #include "core/diagnostics.h"
+#include "pipeline/rib/encoded_values.h"
 
 namespace trapeze::rib {
 
-/// Binary: a value in RISpec's binary encoding (appendix C.2); BinaryRequest: the code of a request, or a
-/// definition of codes. Both are passed over by their length.
-enum class TokenKind { End, Word, Number, String, Open, Close, Bad, Binary, BinaryRequest };
+/// Floats: an encoded array. Definitions of codes are no tokens.
+enum class TokenKind { End, Word, Number, String, Open, Close, Bad, Floats };
 
 struct Token {
     TokenKind kind = TokenKind::End;
     SourceLocation at;
     double number = 0;      ///< Number; infinite or NaN when it is no finite float
-    std::string_view text;  ///< Word, Bad
+    std::string_view text;  ///< Word; Floats: its bytes; Bad: what it is
     std::string string;     ///< String, escapes undone
 };
 
 class Scanner {
   public:
-    /// `first` is the place of the text's first character.
-    Scanner(std::string_view text, SourceLocation first);
+    /// `first` is the place of the text's first character; `names` are those that an outer text has defined.
+    Scanner(std::string_view text, SourceLocation first, EncodedNames names = {});
 
     const Token& peek() {
         if (!has_token_) scan(), has_token_ = true;
@@ -50,6 +50,8 @@ class Scanner {
         return bad;
     }
 
+    const EncodedNames& encoded_names() const { return names_; }
+
     /// Where the next token begins: bytes from the beginning of the text.
     size_t offset() {
         peek();
@@ -62,7 +64,9 @@ class Scanner {
     bool scan_number();
     void scan_string();
     bool fast_number(double* value);
-    void scan_binary();
+    bool scan_encoded();
+    bool scan_definition(const EncodedValue& value, std::string_view bytes);
+    bool be_bad(const char* what, const char* stop);
     void new_line() { ++line_, line_start_ = next_, first_column_ = 1; }
     SourceLocation location(const char* p) const {
         return {source_, line_, static_cast<uint32_t>(p - line_start_) + first_column_};
@@ -75,6 +79,7 @@ class Scanner {
     const char* token_begin_ = nullptr;
     uint32_t source_, line_;
     uint32_t first_column_;  ///< of the text's first line, which may begin within a line of the file
+    EncodedNames names_;
     Token token_;
     bool has_token_ = false;
 };

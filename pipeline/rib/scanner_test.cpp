@@ -132,23 +132,36 @@ TEST(Scanner, TextMayBeginWithinAFile) {
     EXPECT_EQ(scanner.offset(), 2u);
 }
 
-TEST(Scanner, BinaryValuesAreOneTokenEach) {
-    // An array of two floats, a short string, a request's code; then text.
-    const std::string bytes = std::string("\xC8\x02", 2) + "12345678" +
-                              "\x93"
-                              "abc" +
-                              "\xA6\x05" + " Sphere";
+TEST(Scanner, EncodedValuesAreTokens) {
+    // An array of two floats, a short string, 258 as an integer of two bytes; then text.
+    const std::string bytes = std::string("\xC8\x02\x3f\x80\0\0\xc0\0\0\0", 10) + "\x93" + "abc" +
+                              std::string("\x81\x01\x02", 3) + "Sphere";
     const auto tokens = tokens_of(bytes);
     ASSERT_EQ(tokens.size(), 4u);
-    EXPECT_EQ(tokens[0].kind, TokenKind::Binary);
-    EXPECT_EQ(tokens[1].kind, TokenKind::Binary);
-    EXPECT_EQ(tokens[2].kind, TokenKind::BinaryRequest);
+    EXPECT_EQ(tokens[0].kind, TokenKind::Floats);
+    EXPECT_EQ(tokens[0].text.size(), 8u);
+    EXPECT_EQ(tokens[1].kind, TokenKind::String);
+    EXPECT_EQ(tokens[1].string, "abc");
+    EXPECT_EQ(tokens[2].kind, TokenKind::Number);
+    EXPECT_EQ(tokens[2].number, 258);
     EXPECT_EQ(tokens[3].text, "Sphere");
 }
 
-TEST(Scanner, BinaryLengthsBeyondTheTextEndWithIt) {
-    EXPECT_EQ(tokens_of("\xCB\xFF\xFF\xFF\xFF 1 2").size(), 1u);
-    EXPECT_EQ(tokens_of("\xA4").size(), 1u);
+TEST(Scanner, DefinitionsAreNoTokens) {
+    const auto tokens =
+        tokens_of(std::string("\xCC\x05\x96Sphere\xCD\x07 \"vertex point P\"\xA6\x05\xCF\x07"));
+    ASSERT_EQ(tokens.size(), 2u);
+    EXPECT_EQ(tokens[0].kind, TokenKind::Word);
+    EXPECT_EQ(tokens[1].kind, TokenKind::String);
+    EXPECT_EQ(tokens[1].string, "vertex point P");
+}
+
+TEST(Scanner, LengthsBeyondTheTextEndWithIt) {
+    for (const char* bytes : {"\xCB\xFF\xFF\xFF\xFF 1 2", "\xA4", "\xA3\x7F\xFF\xFF\xFFxyz", "\xCD"}) {
+        const auto tokens = tokens_of(bytes);
+        ASSERT_EQ(tokens.size(), 1u);
+        EXPECT_EQ(tokens[0].kind, TokenKind::Bad);
+    }
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "pipeline/rib/source_text.h"
 
+#include <sys/stat.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -20,6 +22,9 @@ constexpr size_t kBlock = size_t{1} << 20;
 
 std::string read_all(std::FILE* file, size_t max_bytes, std::string* problem) {
     std::string bytes;
+    struct stat status {};
+    if (fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0)
+        bytes.reserve(std::min(static_cast<size_t>(status.st_size), max_bytes) + kBlock);
     size_t got = 0;
     do {
         const size_t old = bytes.size();
