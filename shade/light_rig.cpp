@@ -74,7 +74,7 @@ void LightRig::set_variables(vm::Frame& frame, const Lamp& lamp, const vm::Opera
         const std::string& name = program.reg(id).name;
         const vm::Operand& operand = frame.operand(id);
         const int width = rsl::width_of(program.reg(id).type.base);
-        if (name == "Ps") {
+        if (name == "Ps" || name == "I") {  // the eye is at the origin
             copy_operand(P, 3, lanes_, operand);
         } else if (name == "P") {
             frame.set_uniform(id, &lamp.position.x);

@@ -65,6 +65,7 @@ void Analyser::analyse_shader(Shader& shader) {
     instance_of_copy_.clear();
     globals_.clear();
     warned_.clear();
+    unavailable_.clear();
     scopes_.clear();
     frames_.clear();
     frames_.emplace_back();
@@ -149,7 +150,8 @@ void Analyser::analyse_body(Function& function) {
     }
     statement(function.body);
     if (function.result.base != Base::Void && !frame().returns)
-        error(function.at, "function " + quoted(function.name) + " never returns a value");
+        messages_.warning(function.at,
+                          "function " + quoted(function.name) + " never returns a value: it is 0");
 }
 
 void Analyser::finish_instance(Instance& instance) {
@@ -192,8 +194,13 @@ void Analyser::copy_written_parameters(Function& function) {
 // ---- Variables
 
 void Analyser::declare(Variable& variable) {
-    if (!scopes_.back().variables.try_emplace(variable.name, &variable).second)
+    Variable*& known = scopes_.back().variables[variable.name];
+    if (known && variable.kind == Variable::Kind::Local && known->kind == Variable::Kind::Local)
+        messages_.warning(variable.at,
+                          quoted(variable.name) + " is declared twice: this one hides the other");
+    else if (known)
         error(variable.at, quoted(variable.name) + " is declared twice");
+    known = &variable;
 }
 
 void Analyser::check_array(Variable& variable) {
@@ -230,9 +237,18 @@ void Analyser::initial_value(Variable& variable) {
     }
 }
 
+/// A list, another array, or one value for all elements.
 void Analyser::value_of_array(Variable& variable) {
     if (variable.initial->kind != Expression::Kind::List) {
-        error(variable.initial->at, "an array's values stand in braces: { 1, 2, 3 }");
+        const Expression& from = *variable.initial;
+        const bool is_array = from.kind == Expression::Kind::Variable && find_variable(from.text) &&
+                              find_variable(from.text)->type.is_array();
+        value(variable.initial, is_array ? Base::Void : variable.type.base);
+        const Type given = variable.initial->type;
+        if (is_array && (given.base != variable.type.base ||
+                         (given.length != variable.type.length && given.length != Type::kUnsized)))
+            error(variable.initial->at, quoted(variable.name) + " is a " + print(variable.type) +
+                                            ", its initial value a " + print(given));
         return;
     }
     std::vector<ExpressionPtr>& values = variable.initial->children;

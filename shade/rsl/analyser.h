@@ -80,12 +80,15 @@ class Analyser {
     // What an expression can be.
     Choices examine(Expression& e);
     Choices examine_within(Expression& e);
+    Choices examine_once(Expression& e);
     Choices examine_variable(Expression& e);
     Choices examine_element(Expression& e);
     Choices examine_binary(Expression& e);
     Choices examine_conditional(Expression& e);
     Choices examine_cast(Expression& e);
     Choices examine_assignment(Expression& e);
+    Choices examine_component_assignment(Expression& e);
+    Choices examine_array_assignment(Expression& e);
     Choices examine_tuple(Expression& e);
     Choices examine_call(Expression& e);
     Choices choices_of(const Expression& e) const;
@@ -99,6 +102,7 @@ class Analyser {
     void settle_binary(Expression& e, Base base);
     void settle_cast(Expression& e);
     void settle_assignment(Expression& e);
+    void settle_array_assignment(Expression& e);
     void settle_call(Expression& e, Base base);
     void settle_argument(Expression& call, size_t i, const Signature& signature);
     void convert(ExpressionPtr& e, Base to);
@@ -130,7 +134,8 @@ class Analyser {
     std::deque<Scope> scopes_;
     std::deque<Frame> frames_;
     std::set<const Variable*> warned_;
-    int depth_ = 0;  ///< of all frames together
+    std::set<std::string_view> unavailable_;  ///< functions that were warned of
+    int depth_ = 0;                           ///< of all frames together
 
     std::unordered_map<const Expression*, Choices> choices_;  ///< of the expression that is analysed
     const Expression* channel_ = nullptr;                     ///< may be a string with an index

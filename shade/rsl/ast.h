@@ -53,6 +53,7 @@ struct Variable {
     bool output = false;  ///< a shader's output parameter, or a function's
     /// Names a variable of outside (`extern`). The analysis takes such declarations out of the tree.
     bool external = false;
+    bool copied = false;  ///< a predefined variable that is only read, yet assigned to: the shader has a copy
     ExpressionPtr initial;  ///< default or initial value; may be null. An array's is a List.
     SourceLocation at;
 };
@@ -107,7 +108,7 @@ struct Statement {
         Evaluate,     ///< expression 0
         If,           ///< expression 0; children: then, else (if there is one)
         While,        ///< expression 0; child 0
-        For,          ///< expressions: initial, condition, step (each may be null); child 0
+        For,          ///< expressions: initial, condition, step (each may be null), further steps; child 0
         Illuminance,  ///< expressions: [category,] position [, axis, angle]; child 0
         Illuminate,   ///< expressions: position [, axis, angle]; child 0
         Solar,        ///< expressions: [axis, angle]; child 0

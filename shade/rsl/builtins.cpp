@@ -166,12 +166,15 @@ constexpr Builtin kBuiltins[] = {
     {"fresnel", 'w', "vvfFFVV", Op::Fresnel},
     {"transform", 'p', "sp", Op::TransformPointNamed},
     {"transform", 'p', "ssp", Op::TransformPointNamed},
+    {"transform", 'p', "smp", Op::TransformPointNamed},
     {"transform", 'p', "mp", Op::TransformPoint},
     {"vtransform", 'v', "sv", Op::TransformVectorNamed},
     {"vtransform", 'v', "ssv", Op::TransformVectorNamed},
+    {"vtransform", 'v', "smv", Op::TransformVectorNamed},
     {"vtransform", 'v', "mv", Op::TransformVector},
     {"ntransform", 'n', "sn", Op::TransformNormalNamed},
     {"ntransform", 'n', "ssn", Op::TransformNormalNamed},
+    {"ntransform", 'n', "smn", Op::TransformNormalNamed},
     {"ntransform", 'n', "mn", Op::TransformNormal},
     {"depth", 'f', "p", Op::Depth},
     {"calculatenormal", 'n', "p", Op::CalculateNormal},
@@ -187,6 +190,10 @@ constexpr Builtin kBuiltins[] = {
     {"ctransform", 'c', "ssc", Op::ConvertColor},
 
     // Matrices (15.4).
+    {"mtransform", 'm', "sm", Op::TransformMatrixNamed},
+    {"mtransform", 'm', "ssm", Op::TransformMatrixNamed},
+    {"mtransform", 'm', "smm", Op::TransformMatrixNamed},
+    {"mtransform", 'm', "mm", Op::TransformMatrixNamed},
     {"determinant", 'f', "m", Op::Determinant},
     {"translate", 'm', "mv", Op::TranslateMatrix},
     {"scale", 'm', "mv", Op::ScaleMatrix},
@@ -209,7 +216,9 @@ constexpr Builtin kBuiltins[] = {
     {"visibility", 'c', "pp", Op::Visibility},
     {"visibility", 'f', "pp", Op::Visibility},
     {"occlusion", 'f', "pnf*", Op::Occlusion},
+    {"occlusion", 'f', "spnf*", Op::Occlusion},
     {"indirectdiffuse", 'c', "pnf*", Op::IndirectDiffuse},
+    {"indirectdiffuse", 'c', "sv*", Op::IndirectDiffuse},
     {"rayinfo", 'f', "s?", Op::RayInfo},
     {"raylevel", 'f', "", Op::RayLevel},
 
@@ -245,6 +254,27 @@ constexpr Builtin kBuiltins[] = {
     {"rendererinfo", 'f', "s?", Op::RendererInfo},
     {"shadername", 's', "", Op::ShaderName},
     {"shadername", 's', "s", Op::ShaderName},
+
+    // Of variables.
+    {"arraylength", 'f', "#", Op::ArrayLength},
+    {"isoutput", 'f', ".", Op::IsOutput},
+
+    // Of later renderers (bakes, point clouds, photon maps, older ray tracers).
+    {"bake", 'f', ".", Op::Unavailable},
+    {"bake3d", 'f', ".", Op::Unavailable},
+    {"texture3d", 'f', ".", Op::Unavailable},
+    {"photonmap", 'c', ".", Op::Unavailable},
+    {"caustic", 'c', ".", Op::Unavailable},
+    {"irradiance", 'c', ".", Op::Unavailable},
+    {"subsurface", 'c', ".", Op::Unavailable},
+    {"areashadow", 'f', ".", Op::Unavailable},
+    {"areashadow", 'c', ".", Op::Unavailable},
+    {"fulltrace", 'c', ".", Op::Unavailable},
+    {"rayhittest", 'f', ".", Op::Unavailable},
+    {"raydepth", 'f', ".", Op::Unavailable},
+    {"raylabel", 's', ".", Op::Unavailable},
+    {"isindirectray", 'f', ".", Op::Unavailable},
+    {"isshadowray", 'f', ".", Op::Unavailable},
 };
 
 using ByName = std::unordered_map<std::string_view, std::span<const Builtin>>;

@@ -12,9 +12,9 @@ namespace trapeze::rsl {
 
 /// One overload. Types are letters: f float, c color, p point, v vector, n normal, m matrix, s string, w
 /// nothing; capitals are output parameters. In `parameters` also: "[" after a letter: an array of it of any
-/// length; "*" at the end: named optional arguments follow, a string and a value each; "+" after a letter, at
-/// the end: more of that type may follow; "." at the end: any number of anything (printf, format); "?" any
-/// type, as output.
+/// length; "#" an array of any type; "*" at the end: named optional arguments follow, a string and a value
+/// each; "+" after a letter, at the end: more of that type may follow; "." at the end: any number of anything
+/// (printf, format); "?" any type, as output.
 struct Builtin {
     std::string_view name;
     char result;

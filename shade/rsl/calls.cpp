@@ -13,11 +13,8 @@ namespace {
 constexpr size_t kMostCandidatesShown = 8;
 
 // Of later renderers; known to be missing here.
-constexpr std::string_view kNotSupported[] = {
-    "arraylength", "bake",          "bake3d",     "blinn",           "caustic",    "cosinelight_rate",
-    "getlights",   "hair",          "irradiance", "irradiancecache", "photonmap",  "push",
-    "pop",         "raydepth",      "subsurface", "texture3d",       "areashadow", "rayhittest",
-    "fulltrace",   "isindirectray", "isshadowray"};
+constexpr std::string_view kNotSupported[] = {"blinn", "cosinelight_rate", "getlights", "hair", "push",
+                                              "pop"};
 
 bool is_map(const Builtin& builtin) {
     return builtin.op == Op::Texture || builtin.op == Op::Environment || builtin.op == Op::Shadow ||
@@ -66,6 +63,7 @@ int Analyser::cost_of_argument(const Signature::Parameter& parameter, const Expr
     if (choices.is_unknown()) return 0;
     if (parameter.output && !is_place(argument)) return Choices::kNever;
     if (parameter.any) return 0;
+    if (parameter.any_array) return argument.type.is_array() ? 0 : Choices::kNever;
     if (parameter.type.is_array() != argument.type.is_array()) return Choices::kNever;
     if (parameter.type.is_array()) {
         const bool fits =
@@ -102,7 +100,7 @@ Choices Analyser::examine_call(Expression& e) {
     bool unknown = false;
     for (size_t i = 0; i < e.children.size(); ++i) {
         if (map && i == 0) channel_ = e.children[0].get();
-        unknown = examine(*e.children[i]).is_unknown() || unknown;
+        unknown = examine_once(*e.children[i]).is_unknown() || unknown;
     }
     if (all.empty()) {
         unknown_function(e);
@@ -182,6 +180,9 @@ void Analyser::settle_call(Expression& e, Base base) {
         enter_function(e, *best->function);
     else
         use_globals(e);
+    if (e.builtin && e.builtin->op == Op::Unavailable && unavailable_.insert(e.builtin->name).second)
+        messages_.warning(e.at,
+                          "function \"" + e.text + "\" of later renderers is not there, and does nothing");
 }
 
 void Analyser::settle_argument(Expression& call, size_t i, const Signature& signature) {
@@ -191,7 +192,7 @@ void Analyser::settle_argument(Expression& call, size_t i, const Signature& sign
     if (parameter->output) {
         check_written(*argument);
         if (argument->kind == Expression::Kind::Element) settle(argument, argument->type.base);
-    } else if (!parameter->type.is_array()) {
+    } else if (!parameter->type.is_array() && !parameter->any_array) {
         settle(argument, parameter->type.base);
     }
 }

@@ -1,7 +1,6 @@
 #include "shade/rsl/clone.h"
 
 namespace trapeze::rsl {
-namespace {
 
 ExpressionPtr clone(const ExpressionPtr& e) {
     if (!e) return nullptr;
@@ -18,6 +17,8 @@ ExpressionPtr clone(const ExpressionPtr& e) {
     for (const ExpressionPtr& child : e->children) copy->children.push_back(clone(child));
     return copy;
 }
+
+namespace {
 
 std::unique_ptr<Variable> clone(const Variable& v) {
     auto copy = std::make_unique<Variable>();

@@ -7,7 +7,8 @@
 
 namespace trapeze::rsl {
 
-/// A copy without what the analysis sets; nested functions stay those of the original.
+/// Copies without what the analysis sets; nested functions stay those of the original.
+ExpressionPtr clone(const ExpressionPtr& e);
 std::unique_ptr<Function> clone(const Function& function);
 
 }  // namespace trapeze::rsl

@@ -15,6 +15,7 @@ bool is_geometric(Base base) {
 
 std::optional<OperatorPlan> plan_sum(Operator op, Base a, Base b) {
     if (a == Base::Float && b == Base::Float) return OperatorPlan{a, a, b, 0};
+    if (a == Base::String && b == Base::String && op == Operator::Add) return OperatorPlan{a, a, b, 0};
     if (a == Base::Float && is_triple(b)) return OperatorPlan{b, a, b, kFill};
     if (is_triple(a) && b == Base::Float) return OperatorPlan{a, a, b, kFill};
     if (!is_triple(a) || !same_family(a, b)) return {};
@@ -56,6 +57,13 @@ std::optional<OperatorPlan> plan_alike(Base result, Base a, Base b) {
     return {};
 }
 
+/// Comparisons of triples, which are unusual: a value that may be a float is one.
+std::optional<OperatorPlan> plan_order(Base a, Base b) {
+    auto planned = plan_alike(Base::Bool, a, b);
+    if (planned) planned->cost += kOdd;
+    return planned;
+}
+
 std::optional<OperatorPlan> plan_logic(Base a, Base b) {
     const auto left = conversion_cost(a, Base::Bool), right = conversion_cost(b, Base::Bool);
     if (!left || !right) return {};
@@ -80,8 +88,10 @@ std::optional<OperatorPlan> plan_values(Operator op, Base a, Base b) {
         case Operator::LessEqual:
         case Operator::Greater:
         case Operator::GreaterEqual:
-            if (a != Base::Float || b != Base::Float) return {};
-            return OperatorPlan{Base::Bool, a, b, 0};
+            // Of triples: whether it holds for all components.
+            if (a == Base::Float && b == Base::Float) return OperatorPlan{Base::Bool, a, b, 0};
+            if (!is_triple(a) && !is_triple(b)) return {};
+            return plan_order(a, b);
         case Operator::Equal:
         case Operator::NotEqual:
             if (a == Base::Void || b == Base::Void) return {};

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "shade/rsl/analyser.h"
+#include "shade/rsl/clone.h"
 #include "shade/rsl/front_end.h"
 #include "shade/rsl/parser.h"
 
@@ -27,6 +28,12 @@ Choices Analyser::examine(Expression& e) {
     const Choices choices = examine_within(e);
     choices_.insert_or_assign(&e, choices);
     return choices;
+}
+
+/// Of an expression that may have been examined before it became an argument.
+Choices Analyser::examine_once(Expression& e) {
+    const auto known = choices_.find(&e);
+    return known != choices_.end() ? known->second : examine(e);
 }
 
 Choices Analyser::examine_within(Expression& e) {
@@ -228,16 +235,64 @@ bool Analyser::is_place(const Expression& e) const {
            (e.kind == Expression::Kind::Element && e.children[0]->kind == Expression::Kind::Variable);
 }
 
-Choices Analyser::examine_assignment(Expression& e) {
-    const Choices place = examine(*e.children[0]);
-    const Choices given = examine(*e.children[1]);
-    const Expression& left = *e.children[0];
-    if (left.kind == Expression::Kind::Call) {  // v[k] = x
-        error(e.at, "components are set with setcomp, setxcomp, setycomp and setzcomp");
+/// v[k] = x, which has been read as comp(v, k), as setcomp(v, k, x); v[k] += x with comp(v, k) + x.
+Choices Analyser::examine_component_assignment(Expression& e) {
+    if (!is_place(*e.children[0]->children[0])) {
+        error(e.children[0]->at, "this cannot be assigned to");
         return Choices::unknown();
     }
-    if (is_whole_array(left, messages_) || is_whole_array(*e.children[1], messages_) || place.is_unknown())
+    ExpressionPtr& given = e.children[1];
+    if (e.op != Operator::None) {
+        auto combined = std::make_unique<Expression>();
+        combined->kind = Expression::Kind::Binary;
+        combined->op = e.op;
+        combined->at = e.at;
+        combined->height = e.height;
+        combined->children.push_back(clone(e.children[0]));
+        combined->children.push_back(std::move(given));
+        given = std::move(combined);
+        e.op = Operator::None;
+    }
+    ExpressionPtr component = std::move(e.children[0]);
+    ExpressionPtr value = std::move(given);
+    e.kind = Expression::Kind::Call;
+    e.text = "setcomp";
+    e.children = std::move(component->children);
+    e.children.push_back(std::move(value));
+    return examine_call(e);
+}
+
+/// a = b or a = {1, 2, 3}.
+Choices Analyser::examine_array_assignment(Expression& e) {
+    const Expression &left = *e.children[0], &right = *e.children[1];
+    if (right.kind == Expression::Kind::List) {
+        for (const ExpressionPtr& child : right.children) examine(*child);
+        if (left.type.length > 0 && right.children.size() > static_cast<size_t>(left.type.length))
+            error(right.at, std::to_string(right.children.size()) + " values for the " +
+                                std::to_string(left.type.length) + " elements of an array");
+    } else if (examine(*e.children[1]).is_unknown()) {
         return Choices::unknown();
+    }
+    const bool fits = right.kind == Expression::Kind::List ||
+                      (right.type.is_array() && right.type.base == left.type.base &&
+                       (right.type.length == left.type.length || right.type.length == Type::kUnsized ||
+                        left.type.length == Type::kUnsized));
+    if (!fits || e.op != Operator::None || left.kind != Expression::Kind::Variable) {
+        error(e.at, "an array is assigned an array of its type and length, or values in braces");
+        return Choices::unknown();
+    }
+    check_written(left);
+    e.type = left.type;
+    return {};
+}
+
+Choices Analyser::examine_assignment(Expression& e) {
+    const Choices place = examine(*e.children[0]);
+    const Expression& left = *e.children[0];
+    if (left.kind == Expression::Kind::Call && left.text == "comp") return examine_component_assignment(e);
+    if (left.type.is_array()) return examine_array_assignment(e);
+    const Choices given = examine(*e.children[1]);
+    if (is_whole_array(*e.children[1], messages_) || place.is_unknown()) return Choices::unknown();
     if (!is_place(left)) {
         error(left.at, "this cannot be assigned to");
         return Choices::unknown();
@@ -269,9 +324,11 @@ void Analyser::check_written(const Expression& place) {
     const std::string name = "\"" + variable->name + "\"";
     switch (variable->kind) {
         case Variable::Kind::Global:
-            if (!variable->output)
-                error(place.at,
-                      name + " cannot be assigned to in " + std::string(name_of(shader_->kind)) + " shaders");
+            if (!variable->output && warned_.insert(variable).second)
+                messages_.warning(place.at, name + " is not to be assigned to in " +
+                                                std::string(name_of(shader_->kind)) +
+                                                " shaders: only this one sees the change");
+            variable->copied = variable->copied || !variable->output;
             break;
         case Variable::Kind::Parameter:
             if (!variable->output && warned_.insert(variable).second)

@@ -19,6 +19,7 @@ std::unique_ptr<Program> Generator::run() {
         for (const auto& variable : shader_.globals) register_of(*variable);
         add_parameters();
         code_ = &program_->code;
+        copy_written_globals();
         // A return from the middle of a shader leaves a scope around all of it.
         const bool returns = contains_early_return(*shader_.body);
         if (returns) open(Op::Scope, {}, {});
@@ -29,6 +30,16 @@ std::unique_ptr<Program> Generator::run() {
         return nullptr;
     }
     return std::move(program_);
+}
+
+/// Predefined variables that the renderer does not want changed: what follows works on copies.
+void Generator::copy_written_globals() {
+    for (const auto& variable : shader_.globals) {
+        if (!variable->copied) continue;
+        const RegisterId copy = add_register(Register::Kind::Local, variable->type, variable->name);
+        emit(Op::Move, {copy}, {register_of(*variable)});
+        by_name_[variable->name] = copy;
+    }
 }
 
 /// Defaults may name earlier parameters and call functions.
@@ -44,12 +55,7 @@ void Generator::add_parameters() {
         by_name_[variable->name] = parameter.id;
         Code initial;
         code_ = &initial;
-        if (variable->initial) {
-            if (variable->initial->kind == Expression::Kind::List)
-                assign_list(*variable->initial, parameter.id);
-            else
-                value(*variable->initial, parameter.id);
-        }
+        if (variable->initial) initialise(parameter.id, *variable->initial);
         program_->parameters.back().initial = std::move(initial);
     }
 }
@@ -133,6 +139,13 @@ RegisterId Generator::compute(Op op, Base base, const Ids& inputs, std::optional
 void Generator::open(Op op, Ids outputs, const Ids& inputs) {
     emit(op, std::move(outputs), inputs);
     open_regions_.push_back(region_);
+    region_ = ++last_region_;
+}
+
+/// The other half is a region of its own, outside of which lanes that it switches off go on.
+void Generator::turn_to_else(RegisterId decision) {
+    region_ = open_regions_.back();
+    emit(Op::Else, {}, {decision});
     region_ = ++last_region_;
 }
 

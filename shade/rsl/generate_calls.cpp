@@ -105,6 +105,7 @@ std::optional<RegisterId> Generator::rewritten_builtin(const Expression& e, std:
         case Op::TransformPointNamed:
         case Op::TransformVectorNamed:
         case Op::TransformNormalNamed:
+        case Op::TransformMatrixNamed:
             return named_transform_value(e, into);
         case Op::ConvertColor: {
             Ids inputs;
@@ -118,6 +119,17 @@ std::optional<RegisterId> Generator::rewritten_builtin(const Expression& e, std:
                 return compute(Op::Component, Base::Float,
                                {value(*e.children[0]), constant(static_cast<float>(axis))}, into);
             return {};
+        case Op::ArrayLength:
+            return number_of_elements(*e.children[0], into);
+        case Op::IsOutput:
+            return moved(constant(1), Base::Float, into);
+        case Op::Unavailable: {
+            for (const ExpressionPtr& child : e.children) value(*child);
+            // A ray that hits nothing comes very far.
+            const float nothing = builtin.name == "rayhittest" ? 1e30f : 0.0f;
+            return moved(e.type.base == Base::String ? constant_text("") : constant(nothing), e.type.base,
+                         into);
+        }
         case Op::SetComponent:
         case Op::SetMatrixElement:
             return set_part(e);
@@ -155,27 +167,37 @@ RegisterId Generator::chain_value(const Expression& e, std::optional<RegisterId>
     return result;
 }
 
-/// transform([from,] to, p), transform([from,] matrix, p), and those of vectors and normals.
+RegisterId Generator::number_of_elements(const Expression& array, std::optional<RegisterId> into) {
+    const int length = program_->reg(value(array)).type.length;
+    return moved(constant(static_cast<float>(length)), Base::Float, into);
+}
+
+/// The matrix of transform([from,] to, ...), where `to` is a name or a matrix.
+RegisterId Generator::named_matrix(const Expression* from, const Expression& to) {
+    const RegisterId current = constant_text("current");
+    if (to.type.base != Base::Matrix)
+        return compute(Op::SpaceMatrix, Base::Matrix, {from ? value(*from) : current, value(to)});
+    const RegisterId matrix = value(to);
+    if (!from) return matrix;
+    const RegisterId first = compute(Op::SpaceMatrix, Base::Matrix, {value(*from), current});
+    return compute(Op::MatrixMultiply, Base::Matrix, {first, matrix});
+}
+
+/// transform(), and those of vectors, normals and matrices, from a space or to one.
 RegisterId Generator::named_transform_value(const Expression& e, std::optional<RegisterId> into) {
-    const Builtin& builtin = *e.builtin;
-    const Op op = builtin.op == Op::TransformPointNamed    ? Op::TransformPoint
-                  : builtin.op == Op::TransformVectorNamed ? Op::TransformVector
-                                                           : Op::TransformNormal;
     const size_t last = e.children.size() - 1;
-    const bool from_named = last == 2;
-    const RegisterId from = from_named ? value(*e.children[0]) : constant_text("current");
-    const Expression& to = *e.children[last - 1];
-    RegisterId matrix;
-    if (to.type.base == Base::Matrix) {
-        matrix = value(to);
-        if (from_named) {
-            const RegisterId first = compute(Op::SpaceMatrix, Base::Matrix, {from, constant_text("current")});
-            matrix = compute(Op::MatrixMultiply, Base::Matrix, {first, matrix});
-        }
-    } else {
-        matrix = compute(Op::SpaceMatrix, Base::Matrix, {from, value(to)});
+    const RegisterId matrix = named_matrix(last == 2 ? e.children[0].get() : nullptr, *e.children[last - 1]);
+    const RegisterId moving = value(*e.children[last]);
+    switch (e.builtin->op) {
+        case Op::TransformPointNamed:
+            return compute(Op::TransformPoint, e.type.base, {matrix, moving}, into);
+        case Op::TransformVectorNamed:
+            return compute(Op::TransformVector, e.type.base, {matrix, moving}, into);
+        case Op::TransformNormalNamed:
+            return compute(Op::TransformNormal, e.type.base, {matrix, moving}, into);
+        default:
+            return compute(Op::MatrixMultiply, e.type.base, {moving, matrix}, into);
     }
-    return compute(op, e.type.base, {matrix, value(*e.children[last])}, into);
 }
 
 /// Inputs are the name, the channel, the coordinates (s and t when the call names none), then names and
@@ -259,6 +281,8 @@ RegisterId Generator::inline_body(const Function& function, Base base) {
     body_ = {};
     if (base != Base::Void) body_.result = add_register(Register::Kind::Local, {base, 0});
     body_.in_scope = contains_early_return(*function.body);
+    // What falls off the function's end has a value too.
+    if (body_.result && !ends_with_return(*function.body)) clear(*body_.result);
     if (body_.in_scope) open(Op::Scope, {}, {});
     statement(*function.body);
     if (body_.in_scope) close(Op::EndScope);

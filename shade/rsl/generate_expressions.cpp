@@ -115,7 +115,19 @@ RegisterId Generator::number_value(const Expression& e, std::optional<RegisterId
 
 RegisterId Generator::combined(Operator op, Base base, RegisterId a, RegisterId b,
                                std::optional<RegisterId> into) {
-    return compute(arithmetic_op(op, base), base, {a, b}, into);
+    if (op == Operator::Add && base == Base::String) return compute(Op::Concat, base, {a, b}, into);
+    const bool ordered = op >= Operator::Less && op <= Operator::GreaterEqual;
+    if (!ordered || width_of(base_of(a)) != 3) return compute(arithmetic_op(op, base), base, {a, b}, into);
+    // Triples are ordered when all their components are.
+    RegisterId all = 0;
+    for (int k = 0; k < 3; ++k) {
+        const RegisterId axis = constant(static_cast<float>(k));
+        const RegisterId one = compute(
+            arithmetic_op(op, base), base,
+            {compute(Op::Component, Base::Float, {a, axis}), compute(Op::Component, Base::Float, {b, axis})});
+        all = k == 0 ? one : compute(Op::And, base, {all, one}, k == 2 ? into : std::nullopt);
+    }
+    return all;
 }
 
 RegisterId Generator::binary_value(const Expression& e, std::optional<RegisterId> into) {
@@ -133,7 +145,7 @@ RegisterId Generator::conditional_value(const Expression& e, std::optional<Regis
     const RegisterId result = add_register(Register::Kind::Local, e.type);
     open(Op::If, {}, {decision});
     moved(value(*e.children[1]), e.type.base, result);
-    emit(Op::Else, {}, {decision});
+    turn_to_else(decision);
     moved(value(*e.children[2]), e.type.base, result);
     close(Op::EndIf);
     return moved(result, e.type.base, into);

@@ -44,6 +44,12 @@ bool contains_early_return(const Statement& body) {
     return false;
 }
 
+bool ends_with_return(const Statement& body) {
+    if (body.kind == Statement::Kind::Return) return true;
+    return body.kind == Statement::Kind::Block && !body.children.empty() &&
+           ends_with_return(*body.children.back());
+}
+
 bool assigns(const Statement& s, const Variable& variable) {
     for (const ExpressionPtr& e : s.expressions)
         if (e && assigned_in(*e, variable)) return true;
@@ -101,17 +107,36 @@ void Generator::declare(const Statement& s) {
     for (const auto& variable : s.variables) {
         locals_.erase(variable.get());
         const RegisterId id = register_of(*variable);
-        if (!variable->initial) {
-            if (variable->type.base == Base::String)
-                moved(constant_text(""), Base::String, id);
-            else if (!variable->type.is_array())
-                emit(Op::Move, {id}, {constant(0)});
-        } else if (variable->initial->kind == Expression::Kind::List) {
-            assign_list(*variable->initial, id);
-        } else {
-            value(*variable->initial, id);
-        }
+        if (!variable->initial)
+            clear(id);
+        else
+            initialise(id, *variable->initial);
     }
+}
+
+void Generator::clear(RegisterId id) {
+    const Type type = program_->reg(id).type;
+    if (type.is_array())
+        emit(Op::Clear, {id}, {});
+    else if (type.base == Base::String)
+        moved(constant_text(""), Base::String, id);
+    else
+        emit(Op::Move, {id}, {constant(0)});
+}
+
+/// One value serves all elements of an array.
+void Generator::initialise(RegisterId id, const Expression& initial) {
+    const Type type = program_->reg(id).type;
+    if (initial.kind == Expression::Kind::List) {
+        if (initial.children.size() < static_cast<size_t>(type.length)) clear(id);
+        return assign_list(initial, id);
+    }
+    if (!type.is_array() || initial.type.is_array()) {
+        value(initial, id);
+        return;
+    }
+    const RegisterId all = value(initial);
+    for (int i = 0; i < type.length; ++i) emit(Op::SetElement, {id}, {constant(static_cast<float>(i)), all});
 }
 
 RegisterId Generator::condition(const Expression& e) {
@@ -124,10 +149,7 @@ void Generator::if_statement(const Statement& s) {
     open(Op::If, {}, {decision});
     statement(*s.children[0]);
     if (s.children.size() > 1) {
-        // The other half is a region of its own, outside of which lanes that it switches off go on.
-        region_ = open_regions_.back();
-        emit(Op::Else, {}, {decision});
-        region_ = ++last_region_;
+        turn_to_else(decision);
         statement(*s.children[1]);
     }
     close(Op::EndIf);
@@ -137,13 +159,14 @@ void Generator::loop_statement(const Statement& s) {
     const bool counts = s.kind == Statement::Kind::For;
     const Expression* initial = counts ? s.expressions[0].get() : nullptr;
     const Expression* test = s.expressions[counts ? 1 : 0].get();
-    const Expression* step = counts ? s.expressions[2].get() : nullptr;
     if (initial) value(*initial);
     open(Op::Loop, {}, {});
     if (test) emit(Op::LoopTest, {}, {condition(*test)});
     statement(*s.children[0]);
     emit(Op::LoopStep, {}, {});
-    if (step) value(*step);
+    if (counts)
+        for (size_t i = 2; i < s.expressions.size(); ++i)
+            if (s.expressions[i]) value(*s.expressions[i]);
     close(Op::EndLoop);
 }
 

@@ -15,6 +15,8 @@ namespace trapeze::rsl {
 
 /// Whether a body returns anywhere but at its end.
 bool contains_early_return(const Statement& body);
+/// Whether a body's last statement is a return.
+bool ends_with_return(const Statement& body);
 /// Whether a body may change a variable.
 bool assigns(const Statement& body, const Variable& variable);
 
@@ -42,6 +44,7 @@ class Generator {
     /// Into `into`, or a new temporary.
     RegisterId compute(Op op, Base base, const Ids& inputs, std::optional<RegisterId> into = {});
     void open(Op op, Ids outputs, const Ids& inputs);
+    void turn_to_else(RegisterId decision);
     void close(Op op);
 
     // Expressions: the register that holds the value, which is `into` when given.
@@ -62,6 +65,8 @@ class Generator {
     std::optional<RegisterId> rewritten_builtin(const Expression& e, std::optional<RegisterId> into);
     RegisterId set_part(const Expression& e);
     RegisterId chain_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId number_of_elements(const Expression& array, std::optional<RegisterId> into);
+    RegisterId named_matrix(const Expression* from, const Expression& to);
     RegisterId named_transform_value(const Expression& e, std::optional<RegisterId> into);
     RegisterId map_value(const Expression& e, std::optional<RegisterId> into);
     RegisterId function_value(const Expression& e);
@@ -73,6 +78,8 @@ class Generator {
     // Statements.
     void statement(const Statement& s);
     void declare(const Statement& s);
+    void clear(RegisterId id);
+    void initialise(RegisterId id, const Expression& initial);
     void if_statement(const Statement& s);
     void loop_statement(const Statement& s);
     void light_block(const Statement& s);
@@ -80,6 +87,7 @@ class Generator {
     void return_statement(const Statement& s);
     RegisterId condition(const Expression& e);
     void add_parameters();
+    void copy_written_globals();
 
     const Shader& shader_;
     Diagnostics& diagnostics_;

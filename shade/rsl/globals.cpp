@@ -7,7 +7,8 @@ namespace {
 
 constexpr Storage kUniform = Storage::Uniform, kVarying = Storage::Varying;
 
-// Surfaces may also move P and turn N, as PRMan lets them.
+// Surfaces may also move P and turn N, as PRMan lets them, and change L and Cl for the rest of a turn of
+// illuminance.
 constexpr GlobalVariable kSurface[] = {
     {"Cs", Base::Color, kVarying, false},     {"Os", Base::Color, kVarying, false},
     {"P", Base::Point, kVarying, true},       {"dPdu", Base::Vector, kVarying, false},
@@ -15,14 +16,15 @@ constexpr GlobalVariable kSurface[] = {
     {"Ng", Base::Normal, kVarying, false},    {"u", Base::Float, kVarying, false},
     {"v", Base::Float, kVarying, false},      {"du", Base::Float, kVarying, false},
     {"dv", Base::Float, kVarying, false},     {"s", Base::Float, kVarying, false},
-    {"t", Base::Float, kVarying, false},      {"L", Base::Vector, kVarying, false},
-    {"Cl", Base::Color, kVarying, false},     {"Ol", Base::Color, kVarying, false},
+    {"t", Base::Float, kVarying, false},      {"L", Base::Vector, kVarying, true},
+    {"Cl", Base::Color, kVarying, true},      {"Ol", Base::Color, kVarying, true},
     {"E", Base::Point, kUniform, false},      {"I", Base::Vector, kVarying, false},
     {"ncomps", Base::Float, kUniform, false}, {"time", Base::Float, kUniform, false},
     {"dtime", Base::Float, kUniform, false},  {"dPdtime", Base::Vector, kVarying, false},
     {"Ci", Base::Color, kVarying, true},      {"Oi", Base::Color, kVarying, true}};
 
-// L may be set: lights without illuminate and solar did so.
+// L may be set: lights without illuminate and solar did so. Ns, the surface's normal, is not in the table,
+// and widely known.
 constexpr GlobalVariable kLight[] = {
     {"P", Base::Point, kVarying, false},      {"dPdu", Base::Vector, kVarying, false},
     {"dPdv", Base::Vector, kVarying, false},  {"N", Base::Normal, kVarying, false},
@@ -30,16 +32,23 @@ constexpr GlobalVariable kLight[] = {
     {"v", Base::Float, kVarying, false},      {"du", Base::Float, kVarying, false},
     {"dv", Base::Float, kVarying, false},     {"s", Base::Float, kVarying, false},
     {"t", Base::Float, kVarying, false},      {"L", Base::Vector, kVarying, true},
-    {"Ps", Base::Point, kVarying, false},     {"E", Base::Point, kUniform, false},
+    {"Ps", Base::Point, kVarying, false},     {"I", Base::Vector, kVarying, false},
+    {"Ns", Base::Normal, kVarying, false},    {"E", Base::Point, kUniform, false},
     {"ncomps", Base::Float, kUniform, false}, {"time", Base::Float, kUniform, false},
     {"dtime", Base::Float, kUniform, false},  {"Cl", Base::Color, kVarying, true},
     {"Ol", Base::Color, kVarying, true}};
 
-// With what illuminance gives, which the table leaves out.
+// With what illuminance gives, and the surface that the ray comes from, which the table leaves out.
 constexpr GlobalVariable kVolume[] = {
     {"P", Base::Point, kVarying, false},      {"I", Base::Vector, kVarying, false},
-    {"E", Base::Point, kUniform, false},      {"L", Base::Vector, kVarying, false},
-    {"Cl", Base::Color, kVarying, false},     {"Ol", Base::Color, kVarying, false},
+    {"E", Base::Point, kUniform, false},      {"L", Base::Vector, kVarying, true},
+    {"Cl", Base::Color, kVarying, true},      {"Ol", Base::Color, kVarying, true},
+    {"Cs", Base::Color, kVarying, false},     {"Os", Base::Color, kVarying, false},
+    {"N", Base::Normal, kVarying, false},     {"Ng", Base::Normal, kVarying, false},
+    {"dPdu", Base::Vector, kVarying, false},  {"dPdv", Base::Vector, kVarying, false},
+    {"u", Base::Float, kVarying, false},      {"v", Base::Float, kVarying, false},
+    {"du", Base::Float, kVarying, false},     {"dv", Base::Float, kVarying, false},
+    {"s", Base::Float, kVarying, false},      {"t", Base::Float, kVarying, false},
     {"ncomps", Base::Float, kUniform, false}, {"time", Base::Float, kUniform, false},
     {"dtime", Base::Float, kUniform, false},  {"Ci", Base::Color, kVarying, true},
     {"Oi", Base::Color, kVarying, true}};

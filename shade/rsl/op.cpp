@@ -57,6 +57,7 @@ std::string_view op_name(Op op) {
         TRAPEZE_OP(SetMatrixElement)
         TRAPEZE_OP(Element)
         TRAPEZE_OP(SetElement)
+        TRAPEZE_OP(Clear)
         TRAPEZE_OP(Dot)
         TRAPEZE_OP(Cross)
         TRAPEZE_OP(Length)
@@ -150,6 +151,10 @@ std::string_view op_name(Op op) {
         TRAPEZE_OP(TransformPointNamed)
         TRAPEZE_OP(TransformVectorNamed)
         TRAPEZE_OP(TransformNormalNamed)
+        TRAPEZE_OP(TransformMatrixNamed)
+        TRAPEZE_OP(ArrayLength)
+        TRAPEZE_OP(IsOutput)
+        TRAPEZE_OP(Unavailable)
     }
 #undef TRAPEZE_OP
     return "?";

@@ -67,6 +67,7 @@ enum class Op : uint8_t {
     SetMatrixElement,  ///< m (output, keeps the rest), i, j, x
     Element,           ///< out = array[index]; the index is rounded down and clamped
     SetElement,        ///< array (output, keeps the rest), index, value
+    Clear,             ///< array: all elements become 0, or empty texts
 
     // Geometry.
     Dot,
@@ -183,6 +184,10 @@ enum class Op : uint8_t {
     TransformPointNamed,
     TransformVectorNamed,
     TransformNormalNamed,
+    TransformMatrixNamed,
+    ArrayLength,
+    IsOutput,     ///< whether an output variable is wanted: 1
+    Unavailable,  ///< of later renderers: the compiler warns
 };
 
 /// As the listing of a program names it.

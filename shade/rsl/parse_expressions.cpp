@@ -60,11 +60,11 @@ ExpressionPtr Parser::expression() {
     if (!row) return left;
     const Token& mark = take();
     if (left->kind != Expression::Kind::Variable && left->kind != Expression::Kind::Element)
-        fail(mark, "only variables and elements of arrays can be assigned to");
+        fail(mark, "only variables, elements and components can be assigned to");
     ExpressionPtr assignment = make(Expression::Kind::Assignment, mark);
     assignment->op = row->op;
     assignment->children.push_back(std::move(left));
-    assignment->children.push_back(expression());
+    assignment->children.push_back(row->op == Operator::None ? initial_value() : expression());
     return finished(std::move(assignment));
 }
 
@@ -110,13 +110,18 @@ ExpressionPtr Parser::unary() {
         return unary();
     }
     if (now().kind == Token::Kind::Name && base_named(now().text) != Base::Void) return cast();
+    if (at("(") && base_named(ahead(1).text) != Base::Void && ahead(1).kind == Token::Kind::Name &&
+        ahead(2).is(")"))
+        return cast();
     return postfix();
 }
 
-/// type ["space"] operand
+/// type ["space"] operand, or as in C, (type) operand.
 ExpressionPtr Parser::cast() {
     const Nesting nesting(*this);
+    const bool parenthesised = accept("(");
     const Token& word = take();
+    if (parenthesised) take();
     ExpressionPtr e = make(Expression::Kind::Cast, word);
     e->type.base = base_named(word.text);
     const bool has_spaces = e->type.base != Base::Float && e->type.base != Base::String;

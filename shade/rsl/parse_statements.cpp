@@ -51,10 +51,23 @@ StatementPtr Parser::statement_within() {
         if (at_function()) return nested_function();
         if (at_declaration()) return declaration();
     }
-    StatementPtr statement = make(Statement::Kind::Evaluate, now());
-    statement->expressions.push_back(expression());
+    return evaluation();
+}
+
+/// An expression, or several with commas between them.
+StatementPtr Parser::evaluation() {
+    const Token& first = now();
+    StatementPtr statement, several;
+    do {
+        if (statement && !several) several = make(Statement::Kind::Block, first);
+        if (statement) several->children.push_back(std::move(statement));
+        statement = make(Statement::Kind::Evaluate, now());
+        statement->expressions.push_back(expression());
+    } while (accept(","));
     expect(";", "after a statement");
-    return statement;
+    if (!several) return statement;
+    several->children.push_back(std::move(statement));
+    return several;
 }
 
 /// "float f(float x) {": not the cast of a call.
@@ -146,7 +159,7 @@ StatementPtr Parser::for_statement() {
     loop->expressions.push_back(at(";") ? nullptr : expression());
     expect(";", "in the head of \"for\"");
     loop->expressions.push_back(at(")") ? nullptr : expression());
-    if (at(",")) fail(now(), "only one expression ends each turn of \"for\"; write the others into its body");
+    while (accept(",")) loop->expressions.push_back(expression());
     expect(")", "after the head of \"for\"");
     loop->children.push_back(statement());
     if (!around) return loop;

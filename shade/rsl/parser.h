@@ -68,6 +68,7 @@ class Parser {
     StatementPtr statement();
     StatementPtr statement_within();
     StatementPtr block();
+    StatementPtr evaluation();
     StatementPtr declaration();
     StatementPtr nested_function();
     bool at_declaration() const;

@@ -73,6 +73,9 @@ TEST(Parser, CastsBindLikeSigns) {
     EXPECT_EQ(tree("color \"hsv\" (0, .5, 1)"), "<color hsv>(0, 0.5, 1)");
     EXPECT_EQ(tree("matrix \"shader\" 1"), "<matrix shader>1");
     EXPECT_EQ(tree("vector(0) + normal -N"), "(<vector>0+<normal>(-N))");
+    // As in C.
+    EXPECT_EQ(tree("(float) noise(P) * 2"), "(<float>noise(P)*2)");
+    EXPECT_EQ(tree("((color) a)"), "<color>a");
 }
 
 TEST(Parser, PrinterKeepsTheTree) {
@@ -90,6 +93,22 @@ TEST(Parser, PrinterKeepsTheTree) {
     const auto unit = parse({"t.sl", "surface t() { vector +a * b; }"}, {}, heard.diagnostics);
     ASSERT_TRUE(unit);
     EXPECT_EQ(print(*unit), "surface t() {\n    vector (a) * b;\n}\n");
+}
+
+TEST(Parser, CommasJoinStatementsAndSteps) {
+    Heard heard;
+    const std::string text = "surface t() { for (i = 0; i < 3; i += 1, j -= 1, k = 2) x = 1, y = 2; }";
+    const auto unit = parse({"t.sl", text}, {}, heard.diagnostics);
+    ASSERT_TRUE(unit) << heard.all();
+    const Statement& loop = *unit->shaders[0]->body->children[0];
+    ASSERT_EQ(loop.expressions.size(), 5u);
+    EXPECT_EQ(print(*loop.expressions[3]), "j -= 1");
+    EXPECT_EQ(loop.children[0]->children.size(), 2u);
+    const std::string once = print(*unit);
+    EXPECT_NE(once.find("for (i = 0; i < 3; i += 1, j -= 1, k = 2)"), std::string::npos) << once;
+    const auto again = parse({"t.sl", once}, {}, heard.diagnostics);
+    ASSERT_TRUE(again) << heard.all();
+    EXPECT_EQ(print(*again), once);
 }
 
 TEST(Parser, Numbers) {
@@ -167,7 +186,7 @@ TEST(Parser, ErrorsSayWhereAndGoOn) {
     EXPECT_EQ(errors("surface t() { float if = 2; }"),
               "error 1:21: \"if\" is a word of the language and no name\n");
     EXPECT_EQ(errors("surface t() { 1 = 2; }"),
-              "error 1:17: only variables and elements of arrays can be assigned to\n");
+              "error 1:17: only variables, elements and components can be assigned to\n");
     EXPECT_EQ(errors("float x = 3;"),
               "error 1:7: variables are declared in shaders and functions, not outside them\n");
     EXPECT_EQ(errors("surface t() { break 0; float a[0]; float b[99999]; float c[x]; }"),

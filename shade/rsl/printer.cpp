@@ -159,25 +159,35 @@ class Printer {
         statement(s);
     }
 
-    void list(const std::vector<ExpressionPtr>& expressions, std::string_view separator = ", ") {
+    void list(const std::vector<ExpressionPtr>& expressions) {
         bool first = true;
         for (const ExpressionPtr& e : expressions) {
-            if (!first) text += separator;
+            if (!first) text += ", ";
             first = false;
             if (e) expression(*e);
         }
     }
 
-    void with_head(std::string_view word, const Statement& s, std::string_view separator = ", ") {
+    void with_head(std::string_view word, const Statement& s) {
         text += word;
         text += '(';
-        list(s.expressions, separator);
+        list(s.expressions);
         text += ')';
         body(*s.children[0]);
         if (s.children.size() < 2) return;
         line_start();
         text += "else";
         body(*s.children[1]);
+    }
+
+    void for_statement(const Statement& s) {
+        text += "for (";
+        for (size_t i = 0; i < s.expressions.size(); ++i) {
+            if (i > 0) text += i < 3 ? "; " : ", ";
+            if (s.expressions[i]) expression(*s.expressions[i]);
+        }
+        text += ')';
+        body(*s.children[0]);
     }
 
     void jump(std::string_view word, const Statement& s) {
@@ -318,7 +328,7 @@ void Printer::statement(const Statement& s) {
         case Statement::Kind::While:
             return with_head("while ", s);
         case Statement::Kind::For:
-            return with_head("for ", s, "; ");
+            return for_statement(s);
         case Statement::Kind::Illuminance:
             return with_head("illuminance", s);
         case Statement::Kind::Illuminate:

@@ -10,6 +10,7 @@ void Analyser::settle(ExpressionPtr& e, Base wanted) {
     const Choices choices = choices_of(*e);
     if (choices.is_unknown()) return;
     if (e->type.is_array() && choices.none()) {
+        if (e->kind == Expression::Kind::Assignment) settle_array_assignment(*e);
         if (wanted != Base::Void) error(e->at, "this is an array; one of its elements is wanted here");
         return;
     }
@@ -23,6 +24,12 @@ void Analyser::settle(ExpressionPtr& e, Base wanted) {
     }
     settle_as(*e, *base);
     if (wanted != Base::Void) convert(e, wanted);
+}
+
+void Analyser::settle_array_assignment(Expression& e) {
+    if (e.children[1]->kind != Expression::Kind::List) return settle(e.children[1], Base::Void);
+    for (ExpressionPtr& child : e.children[1]->children) settle(child, e.type.base);
+    e.children[1]->type = e.type;
 }
 
 /// Puts an implicit cast around an expression of another type.

@@ -43,9 +43,11 @@ Signature signature_of(const Builtin& builtin) {
         else if (c == '.')
             signature.anything = true;
         else if (c == '?')
-            signature.parameters.push_back({{}, true, true});
+            signature.parameters.push_back({{}, true, true, false});
+        else if (c == '#')
+            signature.parameters.push_back({{}, false, false, true});
         else
-            signature.parameters.push_back({{base_of(c), 0}, c < 'a', false});
+            signature.parameters.push_back({{base_of(c), 0}, c < 'a', false, false});
     }
     return signature;
 }
@@ -56,7 +58,7 @@ Signature signature_of(const Function& function) {
     signature.result = function.result;
     signature.function = &function;
     for (const auto& parameter : function.parameters)
-        signature.parameters.push_back({parameter->type, parameter->output, false});
+        signature.parameters.push_back({parameter->type, parameter->output, false, false});
     return signature;
 }
 
@@ -65,7 +67,9 @@ std::string print(const Signature& signature) {
     const char* separator = "";
     for (const Signature::Parameter& parameter : signature.parameters) {
         text += std::string(separator) + (parameter.output ? "output " : "") +
-                (parameter.any ? "any type" : print(parameter.type));
+                (parameter.any         ? "any type"
+                 : parameter.any_array ? "any array"
+                                       : print(parameter.type));
         separator = ", ";
     }
     if (signature.more || signature.anything) text += std::string(separator) + "...";

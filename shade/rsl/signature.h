@@ -13,7 +13,8 @@ struct Signature {
     struct Parameter {
         Type type;
         bool output = false;
-        bool any = false;  ///< of any type
+        bool any = false;        ///< of any type
+        bool any_array = false;  ///< an array of any type
     };
     std::string_view name;
     Type result;

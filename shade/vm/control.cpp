@@ -125,24 +125,44 @@ size_t Run::loop_step(const std::vector<Step>& steps, size_t at) {
             if (step.varying) masks_.next_turn();
             return at + 1;
         default: {
-            const Step& opening = steps[step.target];
-            const bool endless = ++turns_[&opening] >= frame_.executable().max_turns();
-            if (endless) {
-                frame_.executable().found_endless();
-                if (context_.diagnostics)
-                    context_.diagnostics->error(
-                        opening.at,
-                        fmt::format("this loop of shader \"{}\" has not ended after {} turns; it is left",
-                                    frame_.program().name, kMaxTurns),
-                        fmt::format("rsl-endless-loop {}:{}", opening.at.source, opening.at.line));
-            }
-            if (step.varying ? endless || masks_.loop_is_over() : endless) {
-                if (step.varying) masks_.leave_block();
+            if (step.varying && masks_.loop_is_over()) {
+                masks_.leave_block();
                 return at + 1;
             }
-            return step.target + 1;
+            const Step& opening = steps[step.target];
+            if (!steps_are_spent(opening, at - step.target) && !turns_are_spent(opening))
+                return step.target + 1;
+            if (step.varying) masks_.leave_block();
+            return at + 1;
         }
     }
+}
+
+/// Counts the steps of a loop's turn; true when all loops together have had their share.
+bool Run::steps_are_spent(const Step& opening, size_t steps) {
+    loop_steps_ += static_cast<int64_t>(steps);
+    if (loop_steps_ <= frame_.executable().max_loop_steps()) return false;
+    frame_.executable().found_endless();
+    const std::string& name = frame_.program().name;
+    if (context_.diagnostics)
+        context_.diagnostics->error(
+            opening.at, fmt::format("the loops of shader \"{}\" have taken too long; they are left", name),
+            fmt::format("rsl-long-loops {}", name));
+    return true;
+}
+
+/// Counts a turn of a loop; true when it was the last that it may have.
+bool Run::turns_are_spent(const Step& opening) {
+    const int most = frame_.executable().max_turns();
+    if (++turns_[&opening] < most) return false;
+    frame_.executable().found_endless();
+    if (context_.diagnostics)
+        context_.diagnostics->error(
+            opening.at,
+            fmt::format("this loop of shader \"{}\" has not ended after {} turns; it is left",
+                        frame_.program().name, most),
+            fmt::format("rsl-endless-loop {}:{}", opening.at.source, opening.at.line));
+    return true;
 }
 
 size_t Run::jump_step(const Step& step) {
@@ -172,6 +192,7 @@ size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
     const bool with_cone = step.count - step.outputs == 4;
     Lights& lights = *context_.lights;
     while (next_lights_.back() < lights.count() && !masks_.loop_is_over()) {
+        if (next_lights_.back() > 0 && steps_are_spent(step, step.target - opening)) break;
         const size_t number = next_lights_.back()++;
         const Lights::Arriving& light = lights.arriving(number, P, is_lasting_P(P));
         if (light.ambient || !lights.in_category(number, frame_.text_input(step, 0))) continue;

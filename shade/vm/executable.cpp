@@ -68,7 +68,8 @@ void Executable::Free::operator()(float* p) const {
     std::free(p);
 }
 
-Executable::Executable(rsl::Program source) : program_(std::move(source)) {
+Executable::Executable(rsl::Program source, const LoopLimits& limits)
+    : program_(std::move(source)), max_turns_(limits.turns), max_loop_steps_(limits.steps) {
     place_registers();
     for (const rsl::ProgramParameter& parameter : program_.parameters)
         initials_.push_back(make_steps(parameter.initial));

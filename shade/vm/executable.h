@@ -2,6 +2,7 @@
 /// Immutable and shared by threads.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -13,6 +14,12 @@ namespace trapeze::vm {
 
 /// A loop that has run so often in one run is taken to be endless: it is reported, and left.
 inline constexpr int kMaxTurns = 100'000;
+
+/// What a run may spend in loops.
+struct LoopLimits {
+    int turns = kMaxTurns;        ///< of one loop, each time it is entered
+    int64_t steps = 100'000'000;  ///< of all loops together, nested ones counted as often as they run
+};
 
 /// One instruction.
 struct Step {
@@ -40,7 +47,7 @@ struct Place {
 class Executable {
   public:
     /// The program has been optimised, and its storage inferred.
-    explicit Executable(rsl::Program source);
+    explicit Executable(rsl::Program source, const LoopLimits& limits = {});
 
     const rsl::Program& program() const { return program_; }
     const std::vector<Step>& code() const { return code_; }
@@ -62,10 +69,15 @@ class Executable {
     /// Turns that a loop may take. Once a loop has turned out to be endless, other grids are not made to wait
     /// for as long.
     int max_turns() const { return max_turns_.load(std::memory_order_relaxed); }
-    void found_endless() const { max_turns_.store(kMaxTurnsAfterwards, std::memory_order_relaxed); }
+    int64_t max_loop_steps() const { return max_loop_steps_.load(std::memory_order_relaxed); }
+    void found_endless() const {
+        max_turns_.store(std::min(max_turns(), kMaxTurnsAfterwards), std::memory_order_relaxed);
+        max_loop_steps_.store(std::min(max_loop_steps(), kMaxStepsAfterwards), std::memory_order_relaxed);
+    }
 
   private:
     static constexpr int kMaxTurnsAfterwards = 16;
+    static constexpr int64_t kMaxStepsAfterwards = 100'000;
 
     void place_registers();
     std::vector<Step> make_steps(const rsl::Code& code);
@@ -83,7 +95,8 @@ class Executable {
     uint32_t uniform_planes_ = 0, varying_planes_ = 0, constant_planes_ = 0;
     std::unique_ptr<float, Free> constants_;
     bool keeps_P_ = true;
-    mutable std::atomic<int> max_turns_{kMaxTurns};
+    mutable std::atomic<int> max_turns_;
+    mutable std::atomic<int64_t> max_loop_steps_;
 };
 
 }  // namespace trapeze::vm

@@ -90,6 +90,8 @@ class Run {
     size_t jump_step(const Step& step);
     bool enter_lights();
     const float* P_data() const;
+    bool steps_are_spent(const Step& opening, size_t steps);
+    bool turns_are_spent(const Step& opening);
     size_t next_light(const std::vector<Step>& steps, size_t opening);
     size_t enter_illuminate(const Step& step, size_t at);
 
@@ -100,6 +102,7 @@ class Run {
     MaskStack& masks_;
     std::vector<size_t> next_lights_;  ///< of the Illuminance blocks that are being run
     std::unordered_map<const Step*, int> turns_;
+    int64_t loop_steps_ = 0;
     size_t current_light_ = 0;
     size_t scratch_used_ = 0;
 };

@@ -114,6 +114,20 @@ void set_element(size_t lanes, Operands o) {
     }
 }
 
+template <int width>
+void clear(size_t lanes, Operands o) {
+    for (int e = 0; e < o[0].length; ++e)
+        for (size_t k = 0; k < width; ++k)
+            std::fill_n(o[0].data + static_cast<size_t>(e) * o[0].element_stride + k * o[0].stride, lanes,
+                        0.0f);
+}
+
+Kernel find_clear(std::span<const int> widths) {
+    if (are(widths, {1})) return clear<1>;
+    if (are(widths, {3})) return clear<3>;
+    return are(widths, {16}) ? clear<16> : nullptr;
+}
+
 Kernel find_element(std::span<const int> widths) {
     if (are(widths, {1, 1, 1})) return element<1>;
     if (are(widths, {3, 3, 1})) return element<3>;
@@ -146,6 +160,8 @@ Kernel find_parts(Op op, std::span<const int> widths) {
             return find_element(widths);
         case Op::SetElement:
             return find_set_element(widths);
+        case Op::Clear:
+            return find_clear(widths);
         default:
             return nullptr;
     }

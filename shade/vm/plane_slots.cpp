@@ -48,6 +48,15 @@ std::vector<Lifetime> lifetimes(const rsl::Program& program) {
     return lives;
 }
 
+/// Registers that the defaults of parameters use, which run before the code and by themselves.
+std::vector<bool> used_by_defaults(const rsl::Program& program) {
+    std::vector<bool> used(program.registers.size(), false);
+    for (const rsl::ProgramParameter& parameter : program.parameters)
+        for (const rsl::Instruction& instruction : parameter.initial)
+            for (const rsl::RegisterId id : instruction.operands) used[id] = true;
+    return used;
+}
+
 }  // namespace
 
 uint32_t plane_count(const rsl::Type& type) {
@@ -59,10 +68,11 @@ PlaneSlots assign_plane_slots(const rsl::Program& program) {
     slots.first.assign(program.registers.size(), 0);
     std::vector<Lifetime> lives = lifetimes(program);
     std::vector<Lifetime> scanned;
+    const std::vector<bool> in_defaults = used_by_defaults(program);
     for (uint32_t id = 0; id < program.registers.size(); ++id) {
         const Register& r = program.reg(id);
         if (!r.varying) continue;
-        if (r.kind == Register::Kind::Parameter || r.kind == Register::Kind::Global) {
+        if (r.kind == Register::Kind::Parameter || r.kind == Register::Kind::Global || in_defaults[id]) {
             slots.first[id] = slots.planes;
             slots.planes += plane_count(r.type);
         } else if (lives[id].first != Blocks::kNone) {

@@ -16,8 +16,8 @@ struct PlaneSlots {
 /// Planes that a register of this type takes.
 uint32_t plane_count(const rsl::Type& type);
 
-/// Parameters and predefined variables keep theirs, for others may read them after the run; locals and
-/// temporaries get a linear scan over their lifetimes in program.code.
+/// Parameters and predefined variables keep theirs, for others may read them after the run, as does what the
+/// parameters' defaults use; locals and temporaries get a linear scan over their lifetimes in program.code.
 PlaneSlots assign_plane_slots(const rsl::Program& program);
 
 }  // namespace trapeze::vm

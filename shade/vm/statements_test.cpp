@@ -162,6 +162,83 @@ TEST(Statements, AssignmentsAreExpressions) {
         [](float s, float) { return (s * 4 - 1) / 2 + s + 1; }, 1e-6f);
 }
 
+TEST(Statements, LoopsMayTakeSeveralSteps) {
+    expect_values("float i, j; for (i = 0, j = 10; i < 4; i += 1, j -= 2) r += i * j; r += j * 100, r += i;",
+                  [](float, float) { return 0 * 10 + 1 * 8 + 2 * 6 + 3 * 4 + 200 + 4; });
+}
+
+TEST(Statements, ComponentsAreAssigned) {
+    expect_values(
+        "vector v = 0; v[0] = s; v[1] = 2; v[1] += t; v[2] -= 3; r = v[0] + 10 * v[1] + 100 * v[2];",
+        [](float s, float t) { return s + 10 * (2 + t) - 300; }, 1e-4f);
+    expect_values(
+        "color c[2]; c[0] = 0; c[1] = 1; if (s > 0.5) c[1][2] = 7; r = c[0][2] + c[1][2] * 10 + c[1][1];",
+        [](float s, float) { return (s > 0.5f ? 70 : 10) + 1; });
+    expect_values(
+        "matrix m = 1; m[3][1] = s; m[0][0] *= 5; r = m[3][1] + m[0][0] + m[2][1];",
+        [](float s, float) { return s + 5; }, 1e-6f);
+}
+
+TEST(Statements, ArraysAreAssignedWhole) {
+    expect_values(
+        "float a[3] = {s, t, 5}, b[3]; b = a; a[0] = 100; r = b[0] + 10 * b[1] + 100 * b[2]; b = {1, 2, 3};"
+        "float c[3] = b, d[4] = s; r += 1000 * (c[0] + c[1] + c[2]) + d[0] + d[3] + 10000 * arraylength(d);",
+        [](float s, float t) { return s + 10 * t + 500 + 6000 + 2 * s + 40000; }, 2e-2f);
+    expect_values(
+        "float a[3] = {1, 2}; r = a[0] + a[1] + a[2] + sum(a); a = {7}; r += a[0];",
+        [](float, float) { return 3 + 3 + 7; }, 0,
+        "float sum(float x[]) { float i, all = 0; for (i = 0; i < arraylength(x); i += 1) all += x[i]; "
+        "return all; "
+        "}");
+    ShaderRun texts(
+        "surface test(output uniform string r = \"\";) { string a[2] = {\"x\", \"y\"}, b[2];"
+        "b = a; a[1] = \"z\"; r = b[0] + b[1] + a[1]; r += \"!\"; }");
+    texts.run();
+    EXPECT_EQ(texts.text("r"), "xyz!") << texts.messages();
+}
+
+TEST(Statements, VariablesWithoutValuesAreZeroInEachTurn) {
+    expect_values(
+        "float i; for (i = 0; i < 3; i += 1) { float x, a[2]; color c; r += x + a[1] + comp(c, 1);"
+        " x = 5; a[1] = 6; c = 7; }",
+        [](float, float) { return 0; });
+    // What falls off a function's end is zero, whatever it gave before.
+    expect_values(
+        "r = f(1); r = f(s);", [](float s, float) { return s > 0.5f ? 4 : 0; }, 0,
+        "float f(float x) { if (x > 0.5) return 4; }");
+}
+
+TEST(Statements, TriplesAreOrderedByAllComponents) {
+    expect_values(
+        "color c = color (s, t, 0); if (c < 0.4) r += 1; if (c >= color (0, 0.5, 0)) r += 10;"
+        "if (P > point (-1, -1, 3)) r += 100;",
+        [](float s, float t) { return (s < 0.4f && t < 0.4f ? 1 : 0) + (t >= 0.5f ? 10 : 0) + 100; });
+}
+
+TEST(Statements, BothHalvesOfAConditionalAreTheirOwn) {
+    expect_values(
+        "r = s > 0.5 ? f(s * t + 1) : f(s * t + 1) + 10;",
+        [](float s, float t) { return s * t + 1 + (s > 0.5f ? 1 : 11); }, 1e-5f,
+        "float f(float x) { return x + 1; }");
+    expect_values("string name = s > 5 ? \"a\" : \"b\"; if (name == \"b\") r = 1;",
+                  [](float, float) { return 1; });
+}
+
+TEST(Statements, ReadOnlyVariablesAreChangedForTheShaderAlone) {
+    ShaderRun run("surface test(output varying float r = 0;) { s = s * 2; Cs = 3; r = s + comp(Cs, 1); }");
+    run.run();
+    for (size_t i = 0; i < run.vertices(); ++i) EXPECT_EQ(run.at("r", i), run.grid().s[i] * 2 + 3);
+}
+
+TEST(Statements, NestedLoopsAreBoundedTogether) {
+    ShaderRun run(
+        "surface test(output varying float r = 0;) {\n float i, j, k; for (i = 0; i < 9999; i += 1)\n"
+        "for (j = 0; j < 9999; j += 1)\n for (k = 0; k < 9999; k += 1) r += 1; }");
+    run.run();
+    EXPECT_NE(run.messages().find("the loops of shader \"test\" have taken too long"), std::string::npos)
+        << run.messages();
+}
+
 TEST(Statements, AnEndlessLoopIsLeftAndNamed) {
     ShaderRun run("surface test(output varying float r = 0;) {\n  while (1 > 0)\n    r += 1;\n}");
     run.run();

@@ -36,6 +36,12 @@ void set_text_element(Run& run, const Step& step, std::span<const Operand>) {
         frame.text(frame.register_of(step, 2));
 }
 
+void clear_texts(Run& run, const Step& step, std::span<const Operand>) {
+    Frame& frame = run.frame();
+    const rsl::RegisterId array = frame.register_of(step, 0);
+    for (int i = 0; i < frame.reg(array).type.length; ++i) frame.text(array, static_cast<size_t>(i)).clear();
+}
+
 void equal_texts(Run& run, const Step& step, std::span<const Operand> operands) {
     const bool equal = run.frame().text_input(step, 0) == run.frame().text_input(step, 1);
     fill_bool(run, operands[0], equal == (step.op == Op::Equal));
@@ -107,6 +113,8 @@ ContextOp find_text_op(Op op) {
             return text_element;
         case Op::SetElement:
             return set_text_element;
+        case Op::Clear:
+            return clear_texts;
         case Op::Equal:
         case Op::NotEqual:
             return equal_texts;
