@@ -139,7 +139,7 @@ struct Primitive {
     const Shape& shape() const { return *shape_keys.front(); }
 };
 
-/// A node of constructive solid geometry (RISpec 5.7). Children come before their parents.
+/// A node of constructive solid geometry (RISpec 5.7). Parents come before their children.
 struct Solid {
     enum class Operation : uint8_t { Primitive, Union, Intersection, Difference };
 

@@ -96,6 +96,7 @@ Facing facing_for_sides(int sides, bool reverse_orientation);
 /// Packs a shaded grid: positions into tiles, Ci and Oi into halves, output variables into floats. Values
 /// that are not finite become 0 (colours and output variables) or the nearest finite vertex's position;
 /// *not_finite counts them. Output variables are clamped to +-kInfinity, so that sums of them are finite.
-Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite);
+/// `see_through`: not opaque whatever Oi, and hit from both sides; its hits may be cut away.
+Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite, bool see_through = false);
 
 }  // namespace trapeze

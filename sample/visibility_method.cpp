@@ -1,5 +1,7 @@
 #include "sample/visibility_method.h"
 
+#include "sample/cut_hits.h"
+
 namespace trapeze {
 
 const std::vector<VisibilityMethod>& visibility_methods() {
@@ -15,7 +17,8 @@ const std::vector<VisibilityMethod>& visibility_methods() {
 
 std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const Grids& grids,
                                              const SamplePattern& made_pattern) const {
-    return find_named(visibility_methods(), method.name)->prepare({context, grids, made_pattern, method});
+    const VisibilityMethod& row = *find_named(visibility_methods(), method.name);
+    return with_cuts(row.prepare({context, grids, made_pattern, method}), context, grids);
 }
 
 std::string Sampler::name() const {

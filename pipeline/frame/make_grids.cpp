@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "pipeline/frame/stopwatch.h"
+#include "sample/cut_hits.h"
 
 namespace trapeze {
 namespace {
@@ -29,8 +30,8 @@ constexpr size_t kBatchGrids = 64;
 constexpr size_t kGrain = 4;
 
 /// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
-size_t make_batch(const Region& region, size_t first, size_t end, const Tessellation& tessellation,
-                  const Shading& shading, GridMaker& maker) {
+size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t end,
+                  const Tessellation& tessellation, const Shading& shading, GridMaker& maker) {
     Stopwatch watch;
     std::vector<ShadingGrid*> batch;
     size_t vertices = 0, next = first;
@@ -43,7 +44,9 @@ size_t make_batch(const Region& region, size_t first, size_t end, const Tessella
     maker.dice_seconds += watch.lap();
     shading.shade(batch, maker.shade_scratch, maker.shade_stats);
     int64_t not_finite = 0;
-    for (const ShadingGrid* grid : batch) maker.grids.push_back(pack_grid(*grid, maker.arena, &not_finite));
+    for (const ShadingGrid* grid : batch)
+        maker.grids.push_back(
+            pack_grid(*grid, maker.arena, &not_finite, may_be_cut(scene, *grid->primitive)));
     maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
     maker.shade_seconds += watch.lap();
     return next;
@@ -60,7 +63,8 @@ Grids make_grids(const RenderContext& context, const Region& region, const Tesse
     tbb::parallel_for(all, [&](const tbb::blocked_range<size_t>& range) {
         GridMaker& maker = makers.local();
         for (size_t i = range.begin(); i < range.end() && !context.is_cancelled();) {
-            const size_t next = make_batch(region, i, range.end(), tessellation, shading, maker);
+            const size_t next =
+                make_batch(*context.scene, region, i, range.end(), tessellation, shading, maker);
             for (; i < next; ++i) progress.step();
         }
     });

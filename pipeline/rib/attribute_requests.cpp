@@ -70,32 +70,6 @@ void reverse_orientation(Reader& r, ArgumentCursor&) {
     state.orientation_reversed = !state.orientation_reversed;
 }
 
-template <std::shared_ptr<const ShaderInstance> Attributes::*kWhere>
-void shader(Reader& r, ArgumentCursor& c, const char* kind) {
-    auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
-    instance->parameters = r.shader_parameters(c);
-    change(r).*kWhere = std::move(instance);
-}
-
-void light_source(Reader& r, ArgumentCursor& c) {
-    auto light = std::make_shared<LightInstance>();
-    light->shader = r.shader(c, "light");
-    light->handle = c.handle("the handle");
-    light->shader.parameters = r.shader_parameters(c);
-    r.add_light(std::move(light));
-}
-
-void illuminate(Reader& r, ArgumentCursor& c) {
-    const std::string handle = c.handle("the light's handle");
-    const bool on = c.done() || c.number("0 or 1") != 0;
-    const auto light = r.light(handle);
-    if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
-    auto& lights = change(r).lights;
-    const auto place = std::find(lights.begin(), lights.end(), light);
-    if (on && place == lights.end()) lights.push_back(light);
-    if (!on && place != lights.end()) lights.erase(place);
-}
-
 void basis(Reader& r, ArgumentCursor& c) {
     const auto one = [&](M44f& matrix, int& step, const char* what) {
         if (c.next_is_string()) {
@@ -170,14 +144,6 @@ constexpr RequestRow kRows[] = {
     {"Sides", sides},
     {"Orientation", orientation},
     {"ReverseOrientation", reverse_orientation},
-    {"Surface", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
-    {"Displacement",
-     [](Reader& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
-    {"Atmosphere", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
-    {"Interior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
-    {"Exterior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
-    {"LightSource", light_source},
-    {"Illuminate", illuminate},
     {"Basis", basis},
 };
 

@@ -24,6 +24,8 @@ const char* block_name(Block kind) {
             return "MotionBegin";
         case Block::Object:
             return "ObjectBegin";
+        case Block::Solid:
+            return "SolidBegin";
     }
     return "";
 }
@@ -81,6 +83,9 @@ void Reader::close_block() {
         case Block::Object:
             object_ = nullptr;
             break;
+        case Block::Solid:
+            close_solid();
+            break;
         case Block::Attribute:
             break;
     }
@@ -108,6 +113,7 @@ void Reader::begin_world() {
     camera_ = state_.transform;
     in_world_ = true;
     scene_ = Scene();
+    solids_ = {};
     instanced_primitives_ = 0;
     scope_.named_spaces["world"] = camera_;
 }
@@ -140,6 +146,7 @@ void Reader::deliver_world() {
         options.search_paths[category] = folders(category);
     const bool wanted =
         frame_wanted_ && (options.frame != 0 || !read_options_.wants_frame || read_options_.wants_frame(0));
+    scene_.solids = std::move(solids_.solids);
     scene_.options = std::move(options);
     scene_.clipping_planes = scope_.clipping_planes;
     resolved_ = {};

@@ -52,10 +52,20 @@ struct GraphicsState {
     std::shared_ptr<const NamedSpaces> scoped_spaces;  ///< ScopedCoordinateSystem; null: none
 };
 
-enum class Block { Frame, World, Attribute, Transform, Motion, Object };
+enum class Block { Frame, World, Attribute, Transform, Motion, Object, Solid };
 
 /// The request that opens it.
 const char* block_name(Block kind);
+
+/// Solids as they are defined, and which is open.
+struct SolidList {
+    std::vector<Solid> solids;
+    std::vector<int> children;  ///< how many each has
+    int open = -1;              ///< -1: none
+
+    /// Throws a RequestError when there are too many.
+    int add(Solid::Operation operation, int parent);
+};
 
 /// A primitive as an object definition keeps it: placed by each instance.
 struct ObjectPrimitive {
@@ -69,11 +79,13 @@ struct ObjectPrimitive {
     /// `shapes` at the keys of the shutter, made by the first instance for all.
     std::vector<std::shared_ptr<const Shape>> keys;
     float keys_open = 0, keys_close = 0;
+    int solid = -1;  ///< of the object's
 };
 
 struct RetainedObject {
     std::shared_ptr<const AttributeState> attributes;  ///< at ObjectBegin
     std::vector<ObjectPrimitive> primitives;
+    SolidList solids;
 };
 
 /// A channel that modes of Displays may name.

@@ -69,10 +69,11 @@ void Reader::finish_motion(MotionBlock block) {
                                        block.at,
                                        {},
                                        0,
-                                       0});
+                                       0,
+                                       solid_of_surface(object_->solids)});
     else
         emit(block.request, shapes_at_keys(block.shapes, block.times, open, close), state_.transform,
-             state_.attributes, block.at);
+             state_.attributes, block.at, solid_of_surface(solids_));
 }
 
 MovingTransform Reader::root_transform() const {

@@ -1,4 +1,6 @@
 /// Retained geometry: ObjectBegin, ObjectEnd, ObjectInstance.
+#include <algorithm>
+
 #include "pipeline/rib/reader.h"
 
 namespace trapeze::rib {
@@ -18,6 +20,17 @@ bool same(const Attributes::Dice& a, const Attributes::Dice& b) {
            a.min_length == b.min_length;
 }
 
+using ShaderPointer = std::shared_ptr<const ShaderInstance>;
+
+/// A shader of the definition, with its layers, where an instance stands.
+ShaderPointer placed_in(const M44f& camera_from_object, const ShaderPointer& shader) {
+    if (!shader) return shader;
+    auto copy = std::make_shared<ShaderInstance>(*shader);
+    copy->camera_from_shader = copy->camera_from_shader * camera_from_object;
+    for (ShaderPointer& layer : copy->earlier_layers) layer = placed_in(camera_from_object, layer);
+    return copy;
+}
+
 /// The instance's attributes, but for those that the definition changed between ObjectBegin and its
 /// primitive. Shaders of the definition are placed with the object.
 std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& instance,
@@ -35,10 +48,7 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
          &Attributes::motion_factor, &Attributes::focus_factor);
     const auto take_shader = [&](auto... members) {
         const auto placed = [&](const std::shared_ptr<const ShaderInstance>& shader) {
-            if (!shader) return shader;
-            auto copy = std::make_shared<ShaderInstance>(*shader);
-            copy->camera_from_shader = copy->camera_from_shader * camera_from_object;
-            return std::shared_ptr<const ShaderInstance>(std::move(copy));
+            return placed_in(camera_from_object, shader);
         };
         ((now.*members == old.*members ? void() : void(result->attributes.*members = placed(now.*members))),
          ...);
@@ -88,7 +98,12 @@ void Reader::instance(const std::string& handle) {
     const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
     const AttributeState* merged_from = nullptr;
     std::shared_ptr<const AttributeState> merged;
+    const int first_solid = place_solids(object.solids);
+    const bool some_bare = std::any_of(object.primitives.begin(), object.primitives.end(),
+                                       [](const ObjectPrimitive& p) { return p.solid < 0; });
+    const int around = some_bare ? solid_of_surface(solids_) : -1;
     for (ObjectPrimitive& primitive : object.primitives) {
+        const int solid = primitive.solid >= 0 ? first_solid + primitive.solid : around;
         if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
             primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
             primitive.keys_open = open, primitive.keys_close = close;
@@ -96,7 +111,7 @@ void Reader::instance(const std::string& handle) {
         MovingTransform transform = state_.transform;
         transform.concat(primitive.object_from_shape);
         if (primitive.attributes == object.attributes) {
-            emit(primitive.request, primitive.keys, transform, state_.attributes, at_);
+            emit(primitive.request, primitive.keys, transform, state_.attributes, at_, solid);
             continue;
         }
         if (merged_from != primitive.attributes.get()) {
@@ -104,7 +119,7 @@ void Reader::instance(const std::string& handle) {
             merged = instance_attributes(*state_.attributes, *object.attributes, *primitive.attributes,
                                          camera_from_current());
         }
-        emit(primitive.request, primitive.keys, transform, merged, at_);
+        emit(primitive.request, primitive.keys, transform, merged, at_, solid);
     }
 }
 

@@ -60,6 +60,7 @@ class Reader {
     void begin_world();
     void begin_motion(std::vector<float> times);
     void begin_object(const std::string& handle);
+    void begin_solid(Solid::Operation operation);
     void instance(const std::string& handle);
     void read_archive(const std::string& name);
 
@@ -151,9 +152,15 @@ class Reader {
     void finish_motion(MotionBlock block);
     MovingTransform root_transform() const;
 
+    SolidList& solids_here() { return object_ ? object_->solids : solids_; }
+    int solid_of_surface(SolidList& list);
+    int place_solids(const SolidList& object);
+    void close_solid();
+
+    /// `solid` is the scene's that the primitive bounds, or -1.
     void emit(const std::string& request, const std::vector<ShapePointer>& keys,
               const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
-              SourceLocation at);
+              SourceLocation at, int solid);
     std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
                                                           const std::vector<M44f>& camera_from_object);
     const MovingTransform* named_space(const std::string& name) const;
@@ -175,6 +182,7 @@ class Reader {
     MovingTransform camera_;  ///< camera_from_world
     bool in_world_ = false, frame_wanted_ = true;
     Scene scene_;
+    SolidList solids_;                        ///< the scene's
     uint64_t instanced_primitives_ = 0;       ///< of this world
     std::shared_ptr<RetainedObject> object_;  ///< being defined
 

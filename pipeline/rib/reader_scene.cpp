@@ -85,10 +85,11 @@ std::shared_ptr<const Attributes> Reader::resolved_attributes(
 
 void Reader::emit(const std::string& request, const std::vector<ShapePointer>& shape_keys,
                   const MovingTransform& transform, const std::shared_ptr<const AttributeState>& state,
-                  SourceLocation at) {
+                  SourceLocation at, int solid) {
     const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
     Primitive primitive;
     primitive.location = at;
+    primitive.solid = solid;
     primitive.shape_keys = shape_keys;
     const int keys = close > open ? transform.wanted_keys(open, close) : 1;
     for (int k = 0; k < keys; ++k)
@@ -130,9 +131,11 @@ void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
                                        at_,
                                        {},
                                        0,
-                                       0});
+                                       0,
+                                       solid_of_surface(object_->solids)});
     else
-        emit(request, {std::move(shared)}, state_.transform, state_.attributes, at_);
+        emit(request, {std::move(shared)}, state_.transform, state_.attributes, at_,
+             solid_of_surface(solids_));
 }
 
 ShaderInstance Reader::shader(ArgumentCursor& cursor, const char* kind) {

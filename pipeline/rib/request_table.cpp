@@ -9,15 +9,9 @@ namespace {
 
 /// The rest of RISpec 3.2, and what later RenderMans added: skipped whole.
 constexpr const char* kUnsupported[] = {
-    "AreaLightSource", "Deformation",   "Geometry",
-    "Blobby",          "Curves",        "Points",
-    "NuPatch",         "TrimCurve",     "Procedural",
-    "Procedural2",     "Volume",        "SolidBegin",
-    "SolidEnd",        "MakeOcclusion", "MakeBrickMap",
-    "MakeTexture3D",   "VPInterior",    "VPAtmosphere",
-    "VPSurface",       "ShaderLayer",   "ConnectShaderLayers",
-    "Shader",
-};
+    "Deformation",   "Geometry",   "Blobby",       "Curves",    "Points",        "NuPatch",
+    "TrimCurve",     "Procedural", "Procedural2",  "Volume",    "MakeOcclusion", "MakeBrickMap",
+    "MakeTexture3D", "VPInterior", "VPAtmosphere", "VPSurface", "Shader"};
 
 using Table = std::map<std::string, Request, std::less<>>;
 
@@ -35,6 +29,8 @@ const Table& table() {
         add(option_requests(), RequestGroup::Option);
         add(display_requests(), RequestGroup::Option);
         add(attribute_requests(), RequestGroup::Attribute);
+        add(shader_requests(), RequestGroup::Attribute);
+        add(solid_requests(), RequestGroup::Structure);
         add(transform_requests(), RequestGroup::Transform);
         add(polygon_requests(), RequestGroup::Geometry);
         add(curved_surface_requests(), RequestGroup::Geometry);

@@ -20,6 +20,8 @@ std::span<const RequestRow> ris_requests();
 std::span<const RequestRow> option_requests();
 std::span<const RequestRow> display_requests();
 std::span<const RequestRow> attribute_requests();
+std::span<const RequestRow> shader_requests();
+std::span<const RequestRow> solid_requests();
 /// For requests that are fixed within a world: an error there.
 Options& changeable_options(Reader& reader);
 std::span<const RequestRow> transform_requests();

@@ -1,0 +1,86 @@
+/// Shaders in layers, area lights.
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(ReadShaders, LayersAreGatheredInOrder) {
+    const Outcome r = read_world(
+        "Surface \"matte\" "
+        "ShaderLayer \"surface\" \"pattern\" \"a\" \"float freq\" [3] "
+        "Translate 1 0 0 "
+        "ShaderLayer \"surface\" \"noise\" \"b\" "
+        "ConnectShaderLayers \"surface\" \"a\" \"mask\" \"b\" \"amount\" "
+        "ShaderLayer \"surface\" \"paint\" \"c\" "
+        "ConnectShaderLayers \"surface\" \"b\" \"out\" \"c\" \"in\" " +
+        kSphere);
+    EXPECT_THAT(r.messages, IsEmpty());
+    const ShaderInstance& last = *r.attributes().surface;
+    EXPECT_EQ(last.name, "paint");
+    EXPECT_EQ(last.layer, "c");
+    ASSERT_EQ(last.earlier_layers.size(), 2u);
+    EXPECT_EQ(last.earlier_layers[0]->name, "pattern");
+    EXPECT_THAT(last.earlier_layers[0]->parameters.find("freq")->floats, ElementsAre(3));
+    EXPECT_EQ(last.earlier_layers[0]->camera_from_shader, M44f());
+    EXPECT_EQ(last.earlier_layers[1]->layer, "b");
+    EXPECT_EQ(last.earlier_layers[1]->camera_from_shader.translation(), V3f(1, 0, 0));
+    EXPECT_TRUE(last.earlier_layers[1]->connections.empty());
+    ASSERT_EQ(last.connections.size(), 2u);
+    EXPECT_EQ(last.connections[0].from_variable, "mask");
+    EXPECT_EQ(last.connections[1].from_layer, "b");
+    EXPECT_EQ(last.connections[1].to_layer, "c");
+    EXPECT_EQ(last.connections[1].to_variable, "in");
+}
+
+TEST(ReadShaders, ALayerOfTheSameNameIsReplacedAndBlocksRestoreLayers) {
+    const Outcome r = read_world(
+        "ShaderLayer \"displacement\" \"one\" \"a\" AttributeBegin "
+        "ShaderLayer \"displacement\" \"two\" \"b\" ShaderLayer \"displacement\" \"three\" \"a\" " +
+        kSphere + "AttributeEnd " + kSphere + "Displacement \"plain\" " + kSphere);
+    EXPECT_THAT(r.messages, IsEmpty());
+    const ShaderInstance& inner = *r.attributes(0).displacement;
+    EXPECT_EQ(inner.name, "three");
+    ASSERT_EQ(inner.earlier_layers.size(), 1u);
+    EXPECT_EQ(inner.earlier_layers[0]->name, "two");
+    EXPECT_EQ(r.attributes(1).displacement->name, "one");
+    EXPECT_TRUE(r.attributes(2).displacement->earlier_layers.empty());
+}
+
+TEST(ReadShaders, WrongLayersAreReported) {
+    const Outcome r = read_world(
+        "ShaderLayer \"light\" \"spot\" \"a\"\n"
+        "ConnectShaderLayers \"surface\" \"a\" \"b\" \"c\" \"d\"\n"
+        "ShaderLayer \"surface\" \"matte\"\n" +
+        kSphere);
+    ASSERT_EQ(r.messages.size(), 3u);
+    EXPECT_THAT(r.messages[0], HasSubstr("\"light\" shaders have no layers"));
+    EXPECT_THAT(r.messages[1], HasSubstr("a.rib:3"));
+    EXPECT_THAT(r.messages[1], HasSubstr("no layers to connect"));
+    EXPECT_THAT(r.messages[2], HasSubstr("a.rib:4"));
+    EXPECT_EQ(r.count(), 1u);
+}
+
+TEST(ReadShaders, LayersEndSomewhere) {
+    std::string text;
+    for (int i = 0; i < 80; ++i) text += "ShaderLayer \"surface\" \"matte\" \"" + std::to_string(i) + "\"\n";
+    const Outcome r = read_world(text + kSphere);
+    EXPECT_EQ(r.attributes().surface->earlier_layers.size(), 63u);
+    EXPECT_FALSE(r.messages.empty());
+}
+
+TEST(ReadShaders, AreaLightsShineFromTheirOriginWithAWarning) {
+    const Outcome r =
+        read_world("AttributeBegin Translate 0 2 0 AreaLightSource \"pointlight\" 5 \"intensity\" [3] " +
+                   kSphere + "AttributeEnd Illuminate 5 1 AreaLightSource \"\" 6 " + kSphere);
+    ASSERT_EQ(r.messages.size(), 1u);
+    EXPECT_THAT(r.messages[0], HasSubstr("area lights"));
+    ASSERT_EQ(r.attributes(1).lights.size(), 1u);
+    EXPECT_EQ(r.attributes(1).lights[0]->shader.camera_from_shader.translation(), V3f(0, 2, 0));
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test

@@ -1,0 +1,121 @@
+/// RISpec 4.2: shaders, their layers, and lights.
+#include <algorithm>
+
+#include "pipeline/rib/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+using ShaderMember = std::shared_ptr<const ShaderInstance> Attributes::*;
+
+Attributes& change(Reader& r) {
+    return r.change_attributes().attributes;
+}
+
+template <ShaderMember kWhere>
+void shader(Reader& r, ArgumentCursor& c, const char* kind) {
+    auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
+    instance->parameters = r.shader_parameters(c);
+    change(r).*kWhere = std::move(instance);
+}
+
+ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
+    kind = c.string("the kind of shader");
+    if (kind == "surface") return &Attributes::surface;
+    if (kind == "displacement") return &Attributes::displacement;
+    if (kind == "atmosphere" || kind == "volume") return &Attributes::atmosphere;
+    throw RequestError{
+        in_quotes(kind) + " shaders have no layers here (surface, displacement, atmosphere do)", {}};
+}
+
+/// ShaderLayer type name layer parameters: a layer after those there are, or in the place of one of its name.
+void shader_layer(Reader& r, ArgumentCursor& c) {
+    constexpr size_t kMostLayers = 64;
+    std::string kind;
+    const ShaderMember where = layered_kind(c, kind);
+    auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind.c_str()));
+    instance->layer = c.string("the layer's name");
+    instance->parameters = r.shader_parameters(c);
+    std::shared_ptr<const ShaderInstance>& current = change(r).*where;
+    // A shader that is no layer is replaced by the first.
+    std::vector<std::shared_ptr<const ShaderInstance>> layers;
+    if (current && !current->layer.empty()) {
+        layers = current->earlier_layers;
+        auto last = std::make_shared<ShaderInstance>(*current);
+        instance->connections = std::move(last->connections);
+        last->earlier_layers.clear(), last->connections.clear();
+        layers.push_back(std::move(last));
+        std::erase_if(layers, [&](const auto& layer) { return layer->layer == instance->layer; });
+        if (layers.size() >= kMostLayers)
+            throw RequestError{"more than " + std::to_string(kMostLayers) + " layers", {}};
+    }
+    instance->earlier_layers = std::move(layers);
+    current = std::move(instance);
+}
+
+/// ConnectShaderLayers type layer variable layer variable.
+void connect_shader_layers(Reader& r, ArgumentCursor& c) {
+    std::string kind;
+    const ShaderMember where = layered_kind(c, kind);
+    LayerConnection connection;
+    connection.from_layer = c.string("the earlier layer");
+    connection.from_variable = c.string("its variable");
+    connection.to_layer = c.string("the later layer");
+    connection.to_variable = c.string("its variable");
+    std::shared_ptr<const ShaderInstance>& current = change(r).*where;
+    if (!current || current->layer.empty()) throw RequestError{"there are no layers to connect", {}};
+    auto connected = std::make_shared<ShaderInstance>(*current);
+    connected->connections.push_back(std::move(connection));
+    current = std::move(connected);
+}
+
+std::shared_ptr<LightInstance> light_of(Reader& r, ArgumentCursor& c) {
+    auto light = std::make_shared<LightInstance>();
+    light->shader = r.shader(c, "light");
+    light->handle = c.handle("the handle");
+    light->shader.parameters = r.shader_parameters(c);
+    return light;
+}
+
+/// Area Lights is an optional capability (RISpec 1.1): the light shines from the origin of its space, and
+/// the geometry that follows is geometry.
+void area_light_source(Reader& r, ArgumentCursor& c) {
+    auto light = light_of(r, c);
+    if (light->shader.name.empty() || light->shader.name == "null") return;  // ends an area light
+    r.warn_once("area lights are not sampled; the light shines from the origin of its shader space",
+                "area-light");
+    r.add_light(std::move(light));
+}
+
+void illuminate(Reader& r, ArgumentCursor& c) {
+    const std::string handle = c.handle("the light's handle");
+    const bool on = c.done() || c.number("0 or 1") != 0;
+    const auto light = r.light(handle);
+    if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
+    auto& lights = change(r).lights;
+    const auto place = std::find(lights.begin(), lights.end(), light);
+    if (on && place == lights.end()) lights.push_back(light);
+    if (!on && place != lights.end()) lights.erase(place);
+}
+
+constexpr RequestRow kRows[] = {
+    {"Surface", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
+    {"Displacement",
+     [](Reader& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
+    {"Atmosphere", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
+    {"Interior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
+    {"Exterior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
+    {"ShaderLayer", shader_layer},
+    {"ConnectShaderLayers", connect_shader_layers},
+    {"LightSource", [](Reader& r, ArgumentCursor& c) { r.add_light(light_of(r, c)); }},
+    {"AreaLightSource", area_light_source},
+    {"Illuminate", illuminate},
+};
+
+}  // namespace
+
+std::span<const RequestRow> shader_requests() {
+    return kRows;
+}
+
+}  // namespace trapeze::rib
