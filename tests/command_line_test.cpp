@@ -244,6 +244,45 @@ TEST(CommandLine, ExitCodesSayWhatWentWrong) {
     EXPECT_EQ(run_program(folder, "--help").exit_code, 0);
 }
 
+TEST(CommandLine, CheckListsWhatIsNotHonoured) {
+    WorkFolder folder;
+    folder.write("a.rib",
+                 "Option \"limits\" \"int eyesplits\" [5] PixelVariance 0.01 WorldBegin "
+                 "Attribute \"trace\" \"float bias\" [0.1] Attribute \"trace\" \"float bias\" [0.2] "
+                 "Attribute \"user\" \"float x\" [1] Sphere 1 -1 1 360 WorldEnd");
+    const Outcome outcome = run_program(folder, "check a.rib");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out,
+              "no effect Attribute \"trace\" \"bias\" 2\n"
+              "no effect Option \"limits\" \"eyesplits\" 1\n"
+              "no effect PixelVariance 1\n");
+    EXPECT_EQ(run_program(folder, "check --strict a.rib").exit_code, 1);
+}
+
+TEST(CommandLine, RibOfTheCommandLineAndOfTheUserComesFirst) {
+    WorkFolder folder;
+    folder.write("a.rib", "Format 20 20 1 WorldBegin Sphere 1 -1 1 360 WorldEnd");
+    fs::create_directories(folder / ".config" / "trapeze");
+    folder.write(".config/trapeze/trapeze.rib", "PixelSamples 3 3 PixelFilter \"box\" 5 5 Format 7 7 1");
+    const std::string option = "--option 'PixelSamples 6 6' --option 'Color 1 0' ";
+    const Outcome outcome = run_program(folder, "info " + option + "a.rib");
+    EXPECT_NE(outcome.out.find("20x20 pixels, 6x6 samples, filter box 5x5"), std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.err.find("<--option>:1:7: error: Color"), std::string::npos) << outcome.err;
+}
+
+TEST(CommandLine, ProgramsOfScenesRunWhereAllowed) {
+    WorkFolder folder;
+    folder.write("generate.sh", "while read request; do printf 'Sphere 1 -1 1 360\\n\\377'; done");
+    folder.write("a.rib",
+                 "WorldBegin Procedural \"RunProgram\" [\"sh generate.sh\" \"\"] [-1 1 -1 1 -1 1] WorldEnd");
+    const Outcome refused = run_program(folder, "check a.rib");
+    EXPECT_NE(refused.err.find("--allow-programs"), std::string::npos) << refused.err;
+    const Outcome allowed = run_program(folder, "info --allow-programs a.rib");
+    EXPECT_EQ(allowed.exit_code, 0) << allowed.err;
+    EXPECT_NE(allowed.out.find("1 Sphere"), std::string::npos) << allowed.out;
+}
+
 TEST(CommandLine, TheInstructionSetCanBeLimited) {
     WorkFolder folder;
     folder.write("a.rib", kSphere);

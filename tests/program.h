@@ -49,10 +49,12 @@ struct Outcome {
     std::string out, err;
 };
 
-/// Runs `trapeze ARGUMENTS` (shell syntax) with the folder as working directory.
+/// Runs `trapeze ARGUMENTS` (shell syntax) with the folder as working directory; the user's settings are
+/// those in its folder .config.
 inline Outcome run_program(const WorkFolder& folder, const std::string& arguments) {
-    const std::string command = "cd '" + folder.path().string() +
-                                "' && '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " + arguments;
+    const std::string command =
+        "cd '" + folder.path().string() + "' && export XDG_CONFIG_HOME='" + folder.path().string() +
+        "/.config' && '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " + arguments;
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".stdout"),
             text_of(folder / ".stderr")};

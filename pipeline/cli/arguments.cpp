@@ -49,6 +49,12 @@ void add_inputs(CLI::App& app, Arguments& a) {
     app.add_option("scenes", a.inputs, "RIB files, read one after another as one stream; - is standard input")
         ->required()
         ->type_name("SCENE.rib");
+    app.add_option("--option", a.first_rib,
+                   "RIB to execute before the scenes, such as 'PixelSamples 8 8'; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("RIB");
+    app.add_flag("--allow-programs", a.allow_programs,
+                 "runs the programs that scenes name (Procedural \"RunProgram\")");
     app.add_flag("--no-color{false}", a.color, "no colours in messages (also: NO_COLOR in the environment)");
 }
 
@@ -321,7 +327,8 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     shader->footer(kExitCodeHelp);
     scene->footer(kExitCodeHelp);
     study->footer(kExitCodeHelp);
-    check->add_flag("--strict", arguments.strict, "warnings count as errors for the exit code");
+    check->add_flag("--strict", arguments.strict,
+                    "warnings, and what has no effect, count as errors for the exit code");
 
     std::vector<std::string> words = modern_spelling({argv + 1, argv + argc});
     std::reverse(words.begin(), words.end());  // as CLI11 takes them

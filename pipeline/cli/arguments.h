@@ -68,6 +68,8 @@ struct Arguments {
     SceneArguments scene;
     StudyArguments study;
     ShaderArguments shader;
+    std::vector<std::string> first_rib;  ///< RIB to execute before the inputs
+    bool allow_programs = false;         ///< that scenes name
     bool strict = false, quiet = false, color = true;
 };
 

@@ -4,9 +4,20 @@
 
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/read_settings.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
+
+namespace {
+
+uint64_t total(const std::map<std::string, uint64_t>& counts) {
+    uint64_t sum = 0;
+    for (const auto& [name, count] : counts) sum += count;
+    return sum;
+}
+
+}  // namespace
 
 bool inputs_exist(const Arguments& arguments, Diagnostics& diagnostics) {
     bool all = true;
@@ -24,17 +35,17 @@ bool inputs_exist(const Arguments& arguments, Diagnostics& diagnostics) {
 
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
-    ReadOptions options;
+    ReadOptions options = read_options(arguments);
     options.keep_geometry = false;
     const ReadSummary summary = read_rib(arguments.inputs, options, diagnostics, [](Scene&&) {});
-    uint64_t unsupported = 0;
-    for (const auto& [name, count] : summary.unsupported) unsupported += count;
-    terminal.say(fmt::format("{} errors, {} warnings; {} requests not supported",
+    terminal.say(fmt::format("{} errors, {} warnings; {} requests not supported, {} settings without effect",
                              diagnostics.count(Severity::Error), diagnostics.count(Severity::Warning),
-                             unsupported));
+                             total(summary.unsupported), total(summary.without_effect)));
     for (const auto& [name, count] : summary.unsupported) fmt::print("unsupported {} {}\n", name, count);
-    const bool bad = diagnostics.count(Severity::Error) > 0 ||
-                     (arguments.strict && diagnostics.count(Severity::Warning) > 0);
+    for (const auto& [name, count] : summary.without_effect) fmt::print("no effect {} {}\n", name, count);
+    const bool all_honoured = diagnostics.count(Severity::Warning) == 0 && summary.unsupported.empty() &&
+                              summary.without_effect.empty();
+    const bool bad = diagnostics.count(Severity::Error) > 0 || (arguments.strict && !all_honoured);
     return bad ? kExitErrors : kExitOk;
 }
 

@@ -8,6 +8,7 @@
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/on_threads.h"
+#include "pipeline/cli/read_settings.h"
 #include "pipeline/cli/text_files.h"
 #include "pipeline/cli/version.h"
 #include "pipeline/compare/report/html_report.h"
@@ -138,7 +139,7 @@ int CompareJob::exit_code() const {
 
 int CompareJob::run() {
     if (!outputs_are_possible()) return kExitNoOutput;
-    ReadOptions options;
+    ReadOptions options = read_options(arguments_);
     options.shading_rate = arguments_.shading_rate;
     on_threads(arguments_.threads, [&] {
         read_rib(arguments_.inputs, options, diagnostics_,

@@ -2,6 +2,7 @@
 
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/read_settings.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/rib/read_rib.h"
 
@@ -34,7 +35,7 @@ void print_counts(const char* title, const std::map<std::string, uint64_t>& coun
 
 int info_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostics) {
     if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
-    ReadOptions options;
+    ReadOptions options = read_options(arguments);
     options.keep_geometry = false;
     int worlds = 0;
     Stopwatch watch;

@@ -8,6 +8,7 @@
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/make_map.h"
 #include "pipeline/cli/on_threads.h"
+#include "pipeline/cli/read_settings.h"
 #include "pipeline/cli/text_files.h"
 #include "pipeline/cli/version.h"
 #include "pipeline/frame/render_frame.h"
@@ -159,7 +160,7 @@ int RenderJob::exit_code() const {
 }
 
 int RenderJob::run() {
-    ReadOptions options;
+    ReadOptions options = read_options(arguments_);
     options.shading_rate = arguments_.shading_rate;
     if (arguments_.frames)
         options.wants_frame = [this](int frame) {

@@ -67,8 +67,9 @@ std::optional<std::string> Reader::find_archive(const std::string& name) const {
 
 bool Reader::may_read_archive(const std::string& name, const std::string& key) {
     const char* problem = nullptr;
-    if (std::any_of(open_files_.begin(), open_files_.end(),
-                    [&](const std::string& open) { return open == key || canonical(open) == key; }))
+    if (!key.empty() && std::any_of(open_files_.begin(), open_files_.end(), [&](const std::string& open) {
+            return open == key || canonical(open) == key;
+        }))
         problem = " reads itself; not read again";
     else if (open_files_.size() >= kDeepestInclude)
         problem = " lies in archives nested more than 64 deep; not read";

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/rib/effects.h"
 #include "pipeline/rib/request_table.h"
 
 namespace trapeze::rib {
@@ -115,6 +116,8 @@ void attribute(Reader& r, ArgumentCursor& c) {
     AttributeState& state = r.change_attributes();
     for (const Parameter& value : values.values) {
         state.attributes.user[category].set(value);
+        if (!attribute_has_effect(category, value.name))
+            r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         const float number = value.floats.empty() ? 0 : value.floats[0];
         const std::string text = value.strings.empty() ? "" : value.strings[0];
         if (category == "displacementbound" && value.name == "sphere")

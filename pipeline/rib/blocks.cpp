@@ -35,7 +35,7 @@ void Reader::begin_block(Block kind) {
     if (blocks_.size() >= kDeepestBlock)
         throw RequestError{"blocks are nested more than " + std::to_string(kDeepestBlock) + " deep", {}};
     OpenBlock& block = blocks_.emplace_back();
-    block.kind = kind, block.at = at_, block.saved = state_;
+    block.kind = kind, block.id = ++block_count_, block.at = at_, block.saved = state_;
 }
 
 bool Reader::is_open(Block kind) const {

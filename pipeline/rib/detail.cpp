@@ -16,11 +16,10 @@ float Detail::weight() const {
     return 1;
 }
 
-void Reader::set_detail(const std::vector<float>& bound) {
-    if (object_) {
-        warn_once("inside an object definition is not supported; ignored", "detail-in-object");
-        return;
-    }
+/// Pixels of the smallest upright rectangle round a box, times RelativeDetail.
+float Reader::raster_area(const std::vector<float>& bound) const {
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    if (object_) return kInfinite;  // its instances may be of any size
     const Camera camera = make_camera(scope_.options);
     const M44f to_camera = camera_from_current();
     const float nearest = std::max(camera.near_clip, kEpsilon);
@@ -35,7 +34,15 @@ void Reader::set_detail(const std::vector<float>& bound) {
         high = {std::max(high.x, raster.x), std::max(high.y, raster.y)};
     }
     const float area = (high.x - low.x) * (high.y - low.y) * scope_.relative_detail;
-    change_attributes().detail.size = std::isnan(area) ? std::numeric_limits<float>::infinity() : area;
+    return std::isnan(area) ? kInfinite : area;
+}
+
+void Reader::set_detail(const std::vector<float>& bound) {
+    if (object_) {
+        warn_once("inside an object definition is not supported; ignored", "detail-in-object");
+        return;
+    }
+    change_attributes().detail.size = raster_area(bound);
 }
 
 }  // namespace trapeze::rib

@@ -14,8 +14,9 @@ std::vector<float> box(ArgumentCursor& c) {
 }
 
 /// Primitives are bounded by themselves.
-void bound(Reader&, ArgumentCursor& c) {
+void bound(Reader& r, ArgumentCursor& c) {
     box(c);
+    r.count_without_effect();
 }
 
 void detail(Reader& r, ArgumentCursor& c) {
@@ -40,14 +41,17 @@ void geometric_approximation(Reader& r, ArgumentCursor& c) {
         if (value < 0) throw RequestError{"the factor must not be negative", {}};
         Attributes& a = r.change_attributes().attributes;
         (type == "motionfactor" ? a.motion_factor : a.focus_factor) = value;
-    } else if (type != "flatness") {  // which ShadingRate makes fine enough
+    } else if (type == "flatness") {  // which ShadingRate makes fine enough
+        r.count_without_effect(" \"flatness\"");
+    } else {
         r.warn_once(in_quotes(type) + " is not known; ignored", "approximation-" + type);
     }
 }
 
 /// What RISpec calls "primitive" and "smooth": there is one way to draw.
-void geometric_representation(Reader&, ArgumentCursor& c) {
+void geometric_representation(Reader& r, ArgumentCursor& c) {
     c.string("the type");
+    r.count_without_effect();
 }
 
 constexpr RequestRow kRows[] = {

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "pipeline/rib/effects.h"
 #include "pipeline/rib/request_table.h"
 
 namespace trapeze::rib {
@@ -59,6 +60,8 @@ void display(Reader& r, ArgumentCursor& c) {
     d.location = r.at();
     d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
     d.parameters = r.parameters(c, Undeclared::Guess);
+    for (const Parameter& value : d.parameters.values)
+        if (!display_parameter_has_effect(value.name)) r.count_without_effect(' ' + in_quotes(value.name));
     d.variable = variable_named(r, d.mode);
     if (const auto channel = r.display_channels().find(d.mode); channel != r.display_channels().end())
         for (const Parameter& parameter : channel->second.parameters.values)

@@ -115,6 +115,7 @@ struct Scope {
 
 struct OpenBlock {
     Block kind = Block::Attribute;
+    uint64_t id = 0;  ///< no other block's
     SourceLocation at;
     GraphicsState saved;
     std::unique_ptr<Scope> scope;  ///< of frames and worlds

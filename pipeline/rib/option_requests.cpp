@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "pipeline/rib/effects.h"
 #include "pipeline/rib/request_table.h"
 
 namespace trapeze::rib {
@@ -154,6 +155,8 @@ void hider(Reader& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     o.hider = c.string("the hider's name");
     o.hider_parameters = r.parameters(c, Undeclared::Guess);
+    for (const Parameter& value : o.hider_parameters.values)
+        if (!hider_parameter_has_effect(value.name)) r.count_without_effect(' ' + in_quotes(value.name));
 }
 
 void option(Reader& r, ArgumentCursor& c) {
@@ -163,6 +166,8 @@ void option(Reader& r, ArgumentCursor& c) {
     for (const Parameter& value : values.values) {
         if (category == "searchpath" && !value.strings.empty())
             r.set_search_path(value.name, value.strings[0]);
+        if (!option_has_effect(category, value.name))
+            r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         o.user[category].set(value);
     }
 }
@@ -178,6 +183,7 @@ void relative_detail(Reader& r, ArgumentCursor& c) {
 void pixel_variance(Reader& r, ArgumentCursor& c) {
     changeable_options(r);
     c.number("the variance");
+    r.count_without_effect();
 }
 
 /// RISpec 4.1.1: the half space on the side to which the normal points is cut away.

@@ -24,6 +24,17 @@ struct ReadOptions {
     /// Called where the file asks for a map, between worlds in the order of the file; not in frames that are
     /// not wanted. Empty: maps are not made.
     std::function<void(const MapRequest&)> on_map;
+    /// RIB that is executed before the files; messages name them so. What their options and attributes say
+    /// holds until the files say otherwise.
+    struct Text {
+        std::string name, rib;
+    };
+    std::vector<Text> first_texts;
+    std::string defaults_file;  ///< read before those and the files; empty: none
+
+    bool allow_programs = false;   ///< Procedural "RunProgram" runs what the file names
+    double program_seconds = 120;  ///< a program's time for one answer
+
     bool keep_geometry = true;                  ///< false: primitives are validated and counted, not kept
     size_t max_source_bytes = size_t{8} << 30;  ///< of any one file, unpacked
 
@@ -37,9 +48,11 @@ struct ReadOptions {
 struct ReadSummary {
     std::map<std::string, uint64_t> requests;     ///< all known ones, by name
     std::map<std::string, uint64_t> unsupported;  ///< known but skipped
-    std::map<std::string, uint64_t> primitives;   ///< by request, those that were valid
-    std::map<std::string, uint64_t> shaders;      ///< by kind and name: "surface plastic"
-    uint64_t points = 0, faces = 0;               ///< control points and faces of those primitives
+    /// Understood, but nothing looks at them: requests, and `Option "limits" "eyesplits"`.
+    std::map<std::string, uint64_t> without_effect;
+    std::map<std::string, uint64_t> primitives;  ///< by request, those that were valid
+    std::map<std::string, uint64_t> shaders;     ///< by kind and name: "surface plastic"
+    uint64_t points = 0, faces = 0;              ///< control points and faces of those primitives
     uint64_t moving_primitives = 0, lights = 0;
     uint64_t bytes = 0;  ///< unpacked, archives as often as they are read
     int files = 0, frames = 0, worlds = 0;

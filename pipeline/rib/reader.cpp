@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "pipeline/rib/effects.h"
 #include "pipeline/rib/search_path.h"
 #include "pipeline/rib/source_text.h"
 
@@ -166,6 +167,8 @@ namespace trapeze {
 ReadSummary read_rib(std::span<const std::string> files, const ReadOptions& options, Diagnostics& diagnostics,
                      const std::function<void(Scene&&)>& on_world) {
     rib::Reader reader(options, diagnostics, on_world);
+    if (!options.defaults_file.empty()) reader.read_file(options.defaults_file);
+    for (const ReadOptions::Text& text : options.first_texts) reader.read_memory(text.rib, text.name);
     for (const std::string& file : files) reader.read_file(file);
     reader.finish();
     return std::move(reader.summary());

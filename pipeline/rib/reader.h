@@ -10,6 +10,7 @@
 #include "pipeline/rib/declarations.h"
 #include "pipeline/rib/deforming_shape.h"
 #include "pipeline/rib/graphics_state.h"
+#include "pipeline/rib/programs.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze::rib {
@@ -83,6 +84,11 @@ class Reader {
     /// The request is complete but for its place and folders.
     void make_map(MapRequest request);
 
+    // --- procedurals ---
+    void delayed_archive(const std::string& name);
+    /// The bound may be empty: not known.
+    void run_program(const std::string& command, const std::string& data, const std::vector<float>& bound);
+
     /// Of a box in the current space: xmin xmax ymin ymax zmin zmax.
     void set_detail(const std::vector<float>& bound);
 
@@ -99,6 +105,10 @@ class Reader {
 
     /// The request was understood as one that is not honoured.
     void count_unsupported() { ++summary_.unsupported[request_name_]; }
+    /// It was understood, but changes nothing; `what` follows the request's name.
+    void count_without_effect(const std::string& what = {}) {
+        ++summary_.without_effect[request_name_ + what];
+    }
 
     void set_search_path(const std::string& category, const std::string& path);
 
@@ -137,6 +147,7 @@ class Reader {
 
     void record_archive(RequestText& request, Scanner& scanner, std::string_view text);
     std::optional<std::string> find_archive(const std::string& name) const;
+    /// An empty key: one that may read itself.
     bool may_read_archive(const std::string& name, const std::string& key);
 
     bool is_open(Block kind) const;
@@ -163,6 +174,10 @@ class Reader {
               SourceLocation at, int solid);
     std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
                                                           const std::vector<M44f>& camera_from_object);
+    float raster_area(const std::vector<float>& bound) const;
+    void check_procedural() const;
+    template <class Read>
+    void read_in_block(Read&& read);
     const MovingTransform* named_space(const std::string& name) const;
     bool is_stopped();
     float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
@@ -178,6 +193,8 @@ class Reader {
     Scope scope_;
     GraphicsState state_;
     std::vector<OpenBlock> blocks_;
+    uint64_t block_count_ = 0;
+    Programs programs_;
     std::optional<MotionBlock> motion_;
     MovingTransform camera_;  ///< camera_from_world
     bool in_world_ = false, frame_wanted_ = true;

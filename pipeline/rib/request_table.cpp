@@ -8,10 +8,10 @@ namespace trapeze::rib {
 namespace {
 
 /// The rest of RISpec 3.2, and what later RenderMans added: skipped whole.
-constexpr const char* kUnsupported[] = {
-    "Deformation",   "Geometry",   "Blobby",       "Curves",    "Points",        "NuPatch",
-    "TrimCurve",     "Procedural", "Procedural2",  "Volume",    "MakeOcclusion", "MakeBrickMap",
-    "MakeTexture3D", "VPInterior", "VPAtmosphere", "VPSurface", "Shader"};
+constexpr const char* kUnsupported[] = {"Deformation",   "Geometry",     "Blobby",        "Curves",
+                                        "Points",        "NuPatch",      "TrimCurve",     "Volume",
+                                        "MakeOcclusion", "MakeBrickMap", "MakeTexture3D", "VPInterior",
+                                        "VPAtmosphere",  "VPSurface",    "Shader"};
 
 using Table = std::map<std::string, Request, std::less<>>;
 
@@ -25,6 +25,7 @@ const Table& table() {
         add(conditional_requests(), RequestGroup::Structure);
         add(state_requests(), RequestGroup::Structure);
         add(detail_requests(), RequestGroup::Attribute);
+        add(procedural_requests(), RequestGroup::Structure);
         add(ris_requests(), RequestGroup::Structure);
         add(option_requests(), RequestGroup::Option);
         add(display_requests(), RequestGroup::Option);

@@ -16,6 +16,7 @@ std::span<const RequestRow> structure_requests();
 std::span<const RequestRow> conditional_requests();
 std::span<const RequestRow> state_requests();
 std::span<const RequestRow> detail_requests();
+std::span<const RequestRow> procedural_requests();
 std::span<const RequestRow> ris_requests();
 std::span<const RequestRow> option_requests();
 std::span<const RequestRow> display_requests();

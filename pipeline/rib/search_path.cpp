@@ -18,7 +18,9 @@ std::string environment(const std::string& name) {
 
 std::string expand_variables(const std::string& text) {
     std::string expanded;
-    for (size_t i = 0; i < text.size();) {
+    const bool is_home = text[0] == '~' && (text.size() == 1 || text[1] == '/');
+    if (is_home) expanded = environment("HOME");
+    for (size_t i = is_home ? 1 : 0; i < text.size();) {
         const bool braces = text[i] == '$' && i + 1 < text.size() && text[i + 1] == '{';
         if (text[i] == '%' || braces) {
             const size_t begin = i + (braces ? 2 : 1), end = text.find(braces ? '}' : '%', begin);

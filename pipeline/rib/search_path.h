@@ -7,8 +7,8 @@
 namespace trapeze::rib {
 
 /// Expands "&" (the previous path), "@" and empty entries (standard places: none), $NAME, ${NAME} and %NAME%
-/// (the environment). A relative folder is searched beside the file that names it, then from the working
-/// folder.
+/// (the environment), ~ at the beginning (the home folder). A relative folder is searched beside the file
+/// that names it, then from the working folder.
 std::vector<std::string> expand_search_path(const std::string& path, const std::vector<std::string>& previous,
                                             const std::string& folder_of_file);
 

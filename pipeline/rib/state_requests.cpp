@@ -56,6 +56,11 @@ void system(Reader& r, ArgumentCursor& c) {
     r.warn_once("commands in files are never run; skipped", "unsupported-System");
 }
 
+void volume_pixel_samples(Reader& r, ArgumentCursor& c) {
+    c.numbers(2, "the samples");
+    r.count_without_effect();
+}
+
 constexpr RequestRow kRows[] = {
     {"Resource", resource},
     {"ResourceBegin", [](Reader& r, ArgumentCursor&) { r.begin_resources(); }},
@@ -65,7 +70,7 @@ constexpr RequestRow kRows[] = {
      [](Reader& r, ArgumentCursor& c) { r.name_scoped_coordinate_system(c.string("the name")); }},
     {"Camera", camera},
     {"System", system},
-    {"VolumePixelSamples", [](Reader&, ArgumentCursor& c) { c.numbers(2, "the samples"); }},
+    {"VolumePixelSamples", volume_pixel_samples},
     {"ArchiveRecord", [](Reader&, ArgumentCursor& c) { skip_rest(c); }},  // a comment
 };
 

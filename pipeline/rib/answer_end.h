@@ -1,0 +1,24 @@
+/// Where the answer of a RunProgram ends: at a byte 0377 (RISpec 5.8) that is part of no string, comment or
+/// encoded value.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace trapeze::rib {
+
+/// Looks through bytes as they arrive.
+class AnswerEnd {
+  public:
+    /// `bytes` are all that have arrived. The place of the end, once it is there.
+    std::optional<size_t> find(std::string_view bytes);
+
+  private:
+    enum class Within { Text, String, Comment };
+
+    size_t next_ = 0;  ///< the first byte not looked at
+    Within within_ = Within::Text;
+};
+
+}  // namespace trapeze::rib

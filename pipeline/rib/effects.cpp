@@ -1,0 +1,60 @@
+#include "pipeline/rib/effects.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace trapeze::rib {
+namespace {
+
+struct Value {
+    std::string_view category, name;  ///< an empty name: all of the category
+};
+
+constexpr Value kOptions[] = {{"user", ""},
+                              {"searchpath", "archive"},
+                              {"searchpath", "procedural"},
+                              {"searchpath", "shader"},
+                              {"searchpath", "texture"},
+                              {"limits", "texturememory"},
+                              {"rib", "varsubst"},
+                              {"shadow", "bias"},
+                              {"shadow", "bias0"}};
+
+constexpr Value kAttributes[] = {
+    {"user", ""},          {"identifier", "name"},   {"displacementbound", ""}, {"visibility", "camera"},
+    {"dice", "binary"},    {"dice", "rasterorient"}, {"dice", "hair"},          {"dice", "minlength"},
+    {"trimcurve", "sense"}};
+
+constexpr std::string_view kHider[] = {"depthfilter"};
+
+constexpr std::string_view kDisplay[] = {"quantize",     "dither",         "type",
+                                         "exrpixeltype", "exrcompression", "compression"};
+
+template <size_t kCount>
+bool has(const Value (&values)[kCount], std::string_view category, std::string_view name) {
+    return std::any_of(std::begin(values), std::end(values), [&](const Value& value) {
+        return value.category == category && (value.name.empty() || value.name == name);
+    });
+}
+
+template <size_t kCount>
+bool has(const std::string_view (&names)[kCount], std::string_view name) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+}  // namespace
+
+bool option_has_effect(std::string_view category, std::string_view name) {
+    return has(kOptions, category, name);
+}
+bool attribute_has_effect(std::string_view category, std::string_view name) {
+    return has(kAttributes, category, name);
+}
+bool hider_parameter_has_effect(std::string_view name) {
+    return has(kHider, name);
+}
+bool display_parameter_has_effect(std::string_view name) {
+    return has(kDisplay, name);
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,61 @@
+/// Procedural primitives (RISpec 5.8): their geometry is read at once, within a block of their own.
+#include <charconv>
+
+#include "pipeline/rib/reader.h"
+
+namespace trapeze::rib {
+
+/// Runs `read` between AttributeBegin and AttributeEnd; blocks that it leaves open are closed.
+template <class Read>
+void Reader::read_in_block(Read&& read) {
+    begin_block(Block::Attribute);
+    const size_t depth = blocks_.size();
+    const auto id = blocks_.back().id;
+    read();
+    while (blocks_.size() > depth && blocks_[depth - 1].id == id) {
+        error(std::string(block_name(blocks_.back().kind)) + " of line " +
+              std::to_string(blocks_.back().at.line) + " is still open; closed here");
+        close_block();
+    }
+    // What was read may have closed this block too.
+    if (blocks_.size() >= depth && blocks_[depth - 1].id == id) close_block();
+}
+
+void Reader::check_procedural() const {
+    if (motion_) throw RequestError{"inside a motion block", {}};
+    if (!in_world_ && !object_) throw RequestError{"geometry outside of a world", {}};
+}
+
+void Reader::delayed_archive(const std::string& name) {
+    check_procedural();
+    read_in_block([&] { read_archive(name); });
+}
+
+void Reader::run_program(const std::string& command, const std::string& data,
+                         const std::vector<float>& bound) {
+    check_procedural();
+    if (!read_options_.allow_programs) {
+        ++summary_.unsupported[request_name_];
+        warn_once("programs are run only where that is allowed (--allow-programs); skipped",
+                  "programs-not-allowed");
+        return;
+    }
+    if (!frame_wanted_) return;
+    const std::string name = "<program " + clipped(command) + ">";
+    if (!may_read_archive(name, {})) return;
+    char detail[32];
+    const float area = bound.empty() ? 0 : raster_area(bound);
+    const auto end = std::to_chars(detail, detail + sizeof detail, std::min(area, 1e38f)).ptr;
+    const Programs::Answer answer =
+        programs_.ask(command, std::string(detail, end) + " " + data + "\n", folders("procedural"),
+                      std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000)),
+                      read_options_.max_source_bytes);
+    if (!answer.problem.empty()) error("the program " + in_quotes(command) + " " + answer.problem);
+    if (answer.text.empty()) return;
+    const uint32_t id = diagnostics_.add_source(name, at_);
+    open_files_.push_back(name);
+    read_in_block([&] { read_text(answer.text, {id, 1, 1}); });
+    open_files_.pop_back();
+}
+
+}  // namespace trapeze::rib

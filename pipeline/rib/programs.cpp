@@ -1,0 +1,190 @@
+#include "pipeline/rib/programs.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include "pipeline/rib/answer_end.h"
+
+extern char** environ;
+
+namespace trapeze::rib {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr size_t kMostPrograms = 64;
+constexpr std::chrono::milliseconds kTimeToEnd{500};  ///< after its input is closed
+
+class Descriptor {
+  public:
+    explicit Descriptor(int fd = -1) : fd_(fd) {}
+    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept {
+        std::swap(fd_, other.fd_);
+        return *this;
+    }
+    ~Descriptor() { close(); }
+    void close() {
+        if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+    }
+    int get() const { return fd_; }
+
+  private:
+    int fd_;
+};
+
+std::string program_path(const std::string& name, const std::vector<std::string>& folders) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (fs::path(name).is_relative())
+        for (const std::string& folder : folders) {
+            const fs::path path = fs::path(folder.empty() ? "." : folder) / name;
+            if (fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0) return path.string();
+        }
+    return name;  // as it is, or along PATH
+}
+
+}  // namespace
+
+class Programs::Program {
+  public:
+    /// Why it cannot be started, or nothing.
+    std::string start(const std::string& command, const std::vector<std::string>& folders);
+    Answer ask(const std::string& request, std::chrono::milliseconds time_limit, size_t most_bytes);
+    ~Program() { stop(kTimeToEnd); }
+
+  private:
+    void stop(std::chrono::milliseconds time);
+    bool read_some(std::string& text);
+
+    pid_t pid_ = -1;
+    Descriptor input_,
+        output_;  ///< the program's; its input is a socket, which can be written without a signal
+};
+
+std::string Programs::Program::start(const std::string& command, const std::vector<std::string>& folders) {
+    std::istringstream stream(command);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    if (words.empty()) return "there is no command";
+    const std::string path = program_path(words[0], folders);
+    int ends[2], pipe_ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return std::strerror(errno);
+    input_ = Descriptor(ends[0]);
+    const Descriptor its_input(ends[1]);
+    if (pipe2(pipe_ends, O_CLOEXEC) != 0) return std::strerror(errno);
+    output_ = Descriptor(pipe_ends[0]);
+    const Descriptor its_output(pipe_ends[1]);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, its_input.get(), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, its_output.get(), STDOUT_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    const int error = posix_spawnp(&pid_, path.c_str(), &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    if (error == 0) return {};
+    pid_ = -1;
+    return std::strerror(error);
+}
+
+/// Ends it and its group: kindly at first.
+void Programs::Program::stop(std::chrono::milliseconds time) {
+    input_.close();
+    output_.close();
+    if (pid_ < 0) return;
+    bool ended = false;
+    for (const auto until = Clock::now() + time; !ended && Clock::now() < until;) {
+        ended = waitpid(pid_, nullptr, WNOHANG) == pid_;
+        if (!ended) usleep(2000);
+    }
+    kill(-pid_, SIGKILL);
+    if (!ended) waitpid(pid_, nullptr, 0);
+    pid_ = -1;
+}
+
+/// False at the end of its output.
+bool Programs::Program::read_some(std::string& text) {
+    constexpr size_t kBlock = 65536;
+    const size_t old = text.size();
+    text.resize(old + kBlock);
+    const ssize_t got = read(output_.get(), text.data() + old, kBlock);
+    text.resize(old + static_cast<size_t>(std::max<ssize_t>(got, 0)));
+    return got > 0 || (got < 0 && errno == EINTR);
+}
+
+Programs::Answer Programs::Program::ask(const std::string& request, std::chrono::milliseconds time_limit,
+                                        size_t most_bytes) {
+    Answer answer;
+    AnswerEnd end;
+    size_t sent = 0;
+    for (const auto until = Clock::now() + time_limit;;) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
+        pollfd waits[] = {{output_.get(), POLLIN, 0},
+                          {sent < request.size() ? input_.get() : -1, POLLOUT, 0}};
+        const int ready = left.count() > 0 ? poll(waits, 2, static_cast<int>(left.count())) : 0;
+        if (ready == 0) {
+            answer.problem = "does not answer";
+            return answer;
+        }
+        if (ready < 0) continue;  // a signal
+        if (waits[1].revents != 0) {
+            const ssize_t count =
+                send(input_.get(), request.data() + sent, request.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+            sent = count >= 0                          ? sent + static_cast<size_t>(count)
+                   : errno == EAGAIN || errno == EINTR ? sent
+                                                       : request.size();  // it reads no more
+        }
+        if (waits[0].revents == 0) continue;
+        const bool goes_on = read_some(answer.text);
+        if (const auto place = end.find(answer.text)) {
+            answer.text.resize(*place);
+            return answer;
+        }
+        if (!goes_on) answer.problem = "ended before its answer did (with a byte 0377)";
+        if (answer.text.size() > most_bytes) answer.problem = "answers with too much";
+        if (!answer.problem.empty()) return answer;
+    }
+}
+
+Programs::Programs() = default;
+Programs::~Programs() = default;
+
+Programs::Answer Programs::ask(const std::string& command, const std::string& request,
+                               const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
+                               size_t most_bytes) {
+    const auto known = programs_.find(command);
+    if (known != programs_.end() && !known->second) return {{}, "has failed before"};
+    if (known == programs_.end()) {
+        if (programs_.size() >= kMostPrograms) return {{}, "is one program too many"};
+        auto program = std::make_unique<Program>();
+        if (const std::string problem = program->start(command, folders); !problem.empty()) {
+            programs_[command] = nullptr;
+            return {{}, "cannot be started: " + problem};
+        }
+        programs_[command] = std::move(program);
+    }
+    Answer answer = programs_[command]->ask(request, time_limit, most_bytes);
+    if (!answer.problem.empty()) programs_[command] = nullptr;
+    return answer;
+}
+
+}  // namespace trapeze::rib
