@@ -82,6 +82,21 @@ BezierPatch BezierPatch::restricted(V2f lo, V2f hi) const {
     return part;
 }
 
+void BezierCurve::at(float t, Control* value, Control* by_t) const {
+    const Weights w = weights(3, t);
+    *value = *by_t = {};
+    for (int i = 0; i < 4; ++i) {
+        add(*value, p[i], w.w[i]);
+        add(*by_t, p[i], w.d[i]);
+    }
+}
+
+BezierCurve BezierCurve::restricted(float lo, float hi) const {
+    BezierCurve part = *this;
+    restrict_line(part.p.data(), 1, 3, lo, hi);
+    return part;
+}
+
 M44f bezier_from_basis(const M44f& basis) {
     // The inverse of Bezier's basis; in double, so that Bezier's own comes out as the identity.
     constexpr double kInverse[4][4] = {
@@ -94,6 +109,14 @@ M44f bezier_from_basis(const M44f& basis) {
             m[i][j] = std::abs(sum) < 1e-7 ? 0.0f : static_cast<float>(sum);
         }
     return m;
+}
+
+void to_bezier(const M44f& bezier_from_basis, BezierCurve& curve) {
+    const std::array<Control, 4> q = curve.p;
+    for (int i = 0; i < 4; ++i) {
+        curve.p[i] = {};
+        for (int k = 0; k < 4; ++k) add(curve.p[i], q[k], bezier_from_basis[i][k]);
+    }
 }
 
 void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch) {

@@ -22,8 +22,20 @@ struct BezierPatch {
     BezierPatch restricted(V2f lo, V2f hi) const;
 };
 
+/// A cubic curve in Bezier form.
+struct BezierCurve {
+    std::array<Control, 4> p{};
+
+    void at(float t, Control* value, Control* by_t) const;
+    /// The same curve over a part of its parameter.
+    BezierCurve restricted(float lo, float hi) const;
+};
+
 /// Takes four control points of a basis (RISpec 5.2: P(u) = [u^3 u^2 u 1] * basis * points) to Bezier's.
 M44f bezier_from_basis(const M44f& basis);
+
+/// Changes four control points of another basis into Bezier form.
+void to_bezier(const M44f& bezier_from_basis, BezierCurve& curve);
 
 /// Changes a 4x4 net of other bases into Bezier form.
 void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch);

@@ -162,7 +162,7 @@ class Dicer {
             grid_.Ng.set(i, n * outside);
         }
         borrow_normals();
-        const V2f faces = surface_.surface().faces_per_unit();
+        const V2f faces = surface_.surface().faces_per_unit(subpatch_.face);
         for (size_t i = 0; i < count_; ++i) {
             grid_.dPdu.set(i, scratch_.dPdu[i] * faces.x);
             grid_.dPdv.set(i, scratch_.dPdv[i] * faces.y);

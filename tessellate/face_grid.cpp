@@ -13,6 +13,7 @@ std::array<SurfaceSide, 4> FaceGrid::sides(int face) const {
 uint32_t FaceGrid::vertex_at(int i, int j) const {
     i %= vertex_columns(), j %= vertex_rows();
     if ((bottom_is_point && j == 0) || (top_is_point && j == rows)) i = 0;
+    if ((left_is_point && i == 0) || (right_is_point && i == columns)) j = 0;
     return static_cast<uint32_t>(j * vertex_columns() + i);
 }
 

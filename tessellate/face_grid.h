@@ -12,6 +12,7 @@ struct FaceGrid {
     int columns = 1, rows = 1;
     bool u_wraps = false, v_wraps = false;
     bool bottom_is_point = false, top_is_point = false;  ///< not with v_wraps
+    bool left_is_point = false, right_is_point = false;  ///< not with u_wraps
 
     int face_count() const { return columns * rows; }
     uint32_t edge_count() const {
@@ -40,7 +41,7 @@ struct FaceGrid {
     uint32_t edge_along_v(int i, int j) const {
         return static_cast<uint32_t>(columns * vertex_rows() + i % vertex_columns() * rows + j);
     }
-    /// A pole's row has one vertex, its first.
+    /// A pole's row or column has one vertex, its first.
     uint32_t vertex_at(int i, int j) const;
 };
 

@@ -7,6 +7,7 @@ namespace {
 struct ByTopology {
     const Primitive& primitive;
     Diagnostics& diagnostics;
+    const Camera* camera;
 
     std::unique_ptr<Surface> operator()(const PolygonMesh&) const {
         return make_polygon_surface(primitive, diagnostics);
@@ -20,6 +21,12 @@ struct ByTopology {
     std::unique_ptr<Surface> operator()(const PatchMesh&) const {
         return make_patch_surface(primitive, diagnostics);
     }
+    std::unique_ptr<Surface> operator()(const NuPatch&) const {
+        return make_nu_patch_surface(primitive, diagnostics);
+    }
+    std::unique_ptr<Surface> operator()(const Curves&) const {
+        return make_curves_surface(primitive, camera, diagnostics);
+    }
     template <class Other>
     std::unique_ptr<Surface> operator()(const Other&) const {
         diagnostics.error(primitive.location, "this kind of primitive cannot be diced yet");
@@ -29,8 +36,14 @@ struct ByTopology {
 
 }  // namespace
 
-std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics) {
-    return std::visit(ByTopology{primitive, diagnostics}, primitive.shape().topology);
+std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics,
+                                      const Camera* camera) {
+    return std::visit(ByTopology{primitive, diagnostics, camera}, primitive.shape().topology);
+}
+
+bool depends_on_view(const Topology& topology) {
+    return std::holds_alternative<Curves>(topology) || std::holds_alternative<Points>(topology) ||
+           std::holds_alternative<Blobby>(topology);
 }
 
 }  // namespace trapeze

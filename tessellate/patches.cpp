@@ -25,7 +25,7 @@ class PatchSurface : public Surface {
     std::array<SurfaceSide, 4> sides(int face) const override { return faces_.sides(face); }
     EdgeLine edge(uint32_t edge) const override { return faces_.edge(edge); }
     SurfacePoint vertex(uint32_t vertex) const override { return faces_.vertex(vertex); }
-    V2f faces_per_unit() const override {
+    V2f faces_per_unit(int) const override {
         return {static_cast<float>(faces_.columns), static_cast<float>(faces_.rows)};
     }
 

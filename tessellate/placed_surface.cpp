@@ -13,23 +13,6 @@ M44f lerp(const M44f& a, const M44f& b, float t) {
     return m;
 }
 
-/// Vertices move linearly between the transform's keys: so do the matrix' elements.
-std::vector<M44f> matrices_at_keys(const Primitive& primitive, int keys) {
-    const std::vector<M44f>& given = primitive.camera_from_object;
-    const int segments = static_cast<int>(given.size()) - 1;
-    std::vector<M44f> matrices(keys, given.front());
-    if (segments == 0 || keys == 1) return matrices;
-    const int keys_per_segment = (keys - 1) / segments;
-    for (int key = 0; key < keys; ++key) {
-        const int first = std::min(key / keys_per_segment, segments);
-        const int rest = key - first * keys_per_segment;
-        matrices[key] = rest == 0 ? given[first]
-                                  : lerp(given[first], given[first + 1],
-                                         static_cast<float>(rest) / static_cast<float>(keys_per_segment));
-    }
-    return matrices;
-}
-
 bool really_moves(const Primitive& primitive) {
     const std::vector<M44f>& m = primitive.camera_from_object;
     return primitive.shape_keys.size() > 1 ||
@@ -46,6 +29,23 @@ Box3f transformed(const M44f& m, const Box3f& box) {
 }
 
 }  // namespace
+
+/// Vertices move linearly between the transform's keys: so do the matrix' elements.
+std::vector<M44f> matrices_at_keys(const Primitive& primitive, int keys) {
+    const std::vector<M44f>& given = primitive.camera_from_object;
+    const int segments = static_cast<int>(given.size()) - 1;
+    std::vector<M44f> matrices(keys, given.front());
+    if (segments == 0 || keys == 1) return matrices;
+    const int keys_per_segment = (keys - 1) / segments;
+    for (int key = 0; key < keys; ++key) {
+        const int first = std::min(key / keys_per_segment, segments);
+        const int rest = key - first * keys_per_segment;
+        matrices[key] = rest == 0 ? given[first]
+                                  : lerp(given[first], given[first + 1],
+                                         static_cast<float>(rest) / static_cast<float>(keys_per_segment));
+    }
+    return matrices;
+}
 
 SurfaceScratch* EvaluationScratch::of(const Surface& surface) {
     for (Entry& entry : entries_)
@@ -90,10 +90,14 @@ PlacedSurface::PlacedSurface(const Surface& surface, const Primitive& primitive,
       camera_from_object_(
           matrices_at_keys(primitive, moves && really_moves(primitive) ? primitive.key_count() : 1)) {}
 
-PlacedSurface::ShapeMix PlacedSurface::mix_of(int key) const {
-    const int segments = static_cast<int>(primitive_->shape_keys.size()) - 1;
-    if (segments == 0 || key_count() == 1) return {};
-    const int keys_per_segment = (key_count() - 1) / segments;
+ShapeMix PlacedSurface::mix_of(int key) const {
+    return surface_->has_motion_keys() ? ShapeMix{key, 0} : shape_mix(*primitive_, key, key_count());
+}
+
+ShapeMix shape_mix(const Primitive& primitive, int key, int key_count) {
+    const int segments = static_cast<int>(primitive.shape_keys.size()) - 1;
+    if (segments == 0 || key_count == 1) return {};
+    const int keys_per_segment = (key_count - 1) / segments;
     const int first = key / keys_per_segment;
     return {first, static_cast<float>(key % keys_per_segment) / static_cast<float>(keys_per_segment)};
 }

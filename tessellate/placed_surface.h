@@ -29,6 +29,16 @@ class EvaluationScratch {
     std::array<std::vector<V3f>, kSlots> points_;
 };
 
+/// The shape keys between which a motion key lies.
+struct ShapeMix {
+    int first = 0;
+    float to_next = 0;  ///< 0: the first alone
+};
+/// Of motion key `key` of `key_count`, which is 1 or the primitive's number of keys.
+ShapeMix shape_mix(const Primitive& primitive, int key, int key_count);
+/// The primitive's transform at each of so many motion keys.
+std::vector<M44f> matrices_at_keys(const Primitive& primitive, int key_count);
+
 class PlacedSurface {
   public:
     /// `moves`: whether the frame has more than one key at all.
@@ -51,11 +61,6 @@ class PlacedSurface {
     Box3f bound(int face, V2f lo, V2f hi, int key) const;
 
   private:
-    /// The shape keys between which a motion key lies.
-    struct ShapeMix {
-        int first = 0;
-        float to_next = 0;  ///< 0: the first alone
-    };
     ShapeMix mix_of(int key) const;
 
     const Surface* surface_;

@@ -33,7 +33,7 @@ struct MadeQuadric {
     }
     /// Whole-quadric parameters.
     Point at_quadric(float u, float v) const {
-        const V2f n = surface->faces_per_unit();
+        const V2f n = surface->faces_per_unit(0);
         const int columns = static_cast<int>(n.x), rows = static_cast<int>(n.y);
         const int i = std::min(static_cast<int>(u * n.x), columns - 1);
         const int j = std::min(static_cast<int>(v * n.y), rows - 1);

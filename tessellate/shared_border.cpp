@@ -89,7 +89,7 @@ class PieceMaker {
         surface_.positions_and_derivatives(face_, scratch_.uv, 1, scratch_.evaluation, scratch_.P,
                                            scratch_.dPdu, scratch_.dPdv);
         const float outside = attributes().reverse_orientation ? -1.0f : 1.0f;
-        const V2f faces = surface_.surface().faces_per_unit();
+        const V2f faces = surface_.surface().faces_per_unit(face_);
         for (size_t i = 0; i < count; ++i) {
             V3f du = scratch_.dPdu[i], dv = scratch_.dPdv[i];
             V3f normal = unit_normal(du, dv);

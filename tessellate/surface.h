@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 
+#include "core/camera.h"
 #include "core/math.h"
 #include "core/scene.h"
 #include "core/shading_grid.h"
@@ -70,6 +71,10 @@ class Surface {
     /// Null when none is needed. Never shared between threads.
     virtual std::unique_ptr<SurfaceScratch> make_scratch() const { return nullptr; }
 
+    /// Of surfaces that depend on where they are seen from: the keys that evaluate() and bound() are asked
+    /// for are the moving primitive's (Primitive::key_count), not those of its shape.
+    virtual bool has_motion_keys() const { return false; }
+
     /// Object-space positions and derivatives by the face's u and v at points of one face, for one of the
     /// primitive's shape keys. dPdu and dPdv may be empty spans: not wanted. A pure function of its arguments
     /// for each point, whatever the batch: the same (face, uv, key) gives the same bits.
@@ -89,9 +94,9 @@ class Surface {
     /// grows the result.
     virtual Box3f bound(int /*face*/, V2f /*lo*/, V2f /*hi*/, int /*shape_key*/) const { return {}; }
 
-    /// How many faces the unit of grid.u and grid.v spans: 1 unless they run over a whole mesh. Derivatives
-    /// in the grid are by grid.u and grid.v, those of evaluate() by the face's.
-    virtual V2f faces_per_unit() const { return {1, 1}; }
+    /// How many times a face the unit of grid.u and grid.v spans: 1 unless they run over a whole mesh.
+    /// Derivatives in the grid are by grid.u and grid.v, those of evaluate() by the face's.
+    virtual V2f faces_per_unit(int /*face*/) const { return {1, 1}; }
 
     /// A flat normal for each face (polygons): N is then dPdu x dPdv of the face without sharing across
     /// edges.
@@ -104,6 +109,18 @@ std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagno
 std::unique_ptr<Surface> make_subdivision_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_quadric_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_patch_surface(const Primitive& primitive, Diagnostics& diagnostics);
-std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics);  ///< by topology
+std::unique_ptr<Surface> make_nu_patch_surface(const Primitive& primitive, Diagnostics& diagnostics);
+/// Those whose shape depends on the view; without a camera the eye is at the origin, and pixels have no size.
+std::unique_ptr<Surface> make_curves_surface(const Primitive& primitive, const Camera* camera,
+                                             Diagnostics& diagnostics);
+std::unique_ptr<Surface> make_points_surface(const Primitive& primitive, const Camera* camera,
+                                             Diagnostics& diagnostics);
+std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const Camera* camera,
+                                             Diagnostics& diagnostics);
+/// By topology.
+std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics,
+                                      const Camera* camera = nullptr);
+/// Whether primitives of one shape in different places have different surfaces.
+bool depends_on_view(const Topology& topology);
 
 }  // namespace trapeze

@@ -100,14 +100,20 @@ class SurfaceCache {
   public:
     std::shared_ptr<const Surface>& of(const Primitive& primitive) {
         Key key;
-        for (const auto& shape : primitive.shape_keys) key.first.push_back(shape.get());
-        key.second = primitive.attributes->texture_coordinates;
+        for (const auto& shape : primitive.shape_keys) key.shapes.push_back(shape.get());
+        key.texture_coordinates = primitive.attributes->texture_coordinates;
+        if (depends_on_view(primitive.shape().topology)) key.primitive = &primitive;
         return surfaces_[key];
     }
     size_t size() const { return surfaces_.size(); }
 
   private:
-    using Key = std::pair<std::vector<const Shape*>, std::array<float, 8>>;
+    struct Key {
+        std::vector<const Shape*> shapes;
+        std::array<float, 8> texture_coordinates{};
+        const Primitive* primitive = nullptr;
+        auto operator<=>(const Key&) const = default;
+    };
     std::map<Key, std::shared_ptr<const Surface>> surfaces_;
 };
 
@@ -138,7 +144,8 @@ void make_surfaces(const RenderContext& context, std::vector<TessellatedPrimitiv
         if (cache.size() > before) makers.push_back(i);
     }
     tbb::parallel_for(size_t{0}, makers.size(), [&](size_t m) {
-        *slots[makers[m]] = make_surface(context.scene->primitives[makers[m]], *context.diagnostics);
+        *slots[makers[m]] =
+            make_surface(context.scene->primitives[makers[m]], *context.diagnostics, &context.camera);
     });
     for (size_t i = 0; i < primitives.size(); ++i) primitives[i].surface = *slots[i];
 }

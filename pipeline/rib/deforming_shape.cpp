@@ -31,6 +31,15 @@ struct SameTopology {
         return a.bicubic == b.bicubic && a.nu == b.nu && a.nv == b.nv && a.u_wraps == b.u_wraps &&
                a.v_wraps == b.v_wraps && a.u_step == b.u_step && a.v_step == b.v_step;
     }
+    bool operator()(const NuPatch& a, const NuPatch& b) const {
+        return a.nu == b.nu && a.nv == b.nv && a.u_order == b.u_order && a.v_order == b.v_order &&
+               a.u_knots == b.u_knots && a.v_knots == b.v_knots && a.u_begin == b.u_begin &&
+               a.u_end == b.u_end && a.v_begin == b.v_begin && a.v_end == b.v_end;
+    }
+    bool operator()(const Curves& a, const Curves& b) const {
+        return a.cubic == b.cubic && a.periodic == b.periodic && a.step == b.step && a.basis == b.basis &&
+               a.vertices_per_curve == b.vertices_per_curve;
+    }
     template <class A, class B>
     bool operator()(const A&, const B&) const {
         return false;

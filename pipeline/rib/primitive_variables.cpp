@@ -18,6 +18,7 @@ constexpr StandardVariable kStandard[] = {
     {"Np", ValueType::Normal},         {"Cs", ValueType::Color},
     {"Os", ValueType::Color},          {"s", ValueType::Float},
     {"t", ValueType::Float},           {"st", ValueType::Float, 2},
+    {"width", ValueType::Float},       {"constantwidth", ValueType::Float},
 };
 
 void remove(ParameterList& list, std::string_view name) {

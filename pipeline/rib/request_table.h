@@ -28,6 +28,8 @@ Options& changeable_options(Reader& reader);
 std::span<const RequestRow> transform_requests();
 std::span<const RequestRow> polygon_requests();
 std::span<const RequestRow> curved_surface_requests();
+std::span<const RequestRow> curve_requests();
+std::span<const RequestRow> nu_patch_requests();
 std::span<const RequestRow> map_requests();
 
 }  // namespace trapeze::rib

@@ -1,0 +1,83 @@
+/// Curves, valid and not.
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string points(int count) {
+    std::string text = "\"P\" [";
+    for (int i = 0; i < count; ++i) text += std::to_string(i) + " 0 0 ";
+    return text + "] ";
+}
+
+TEST(ReadCurves, LinearAndCubicOfEveryWrap) {
+    const Outcome r = read_world(
+        "Curves \"linear\" [2 3] \"nonperiodic\" " + points(5) +
+        "\"width\" [1 2 3 4 5] \"uniform color Cs\" [1 0 0 0 1 0] "
+        "Basis \"b-spline\" 1 \"catmull-rom\" 1 Curves \"cubic\" [4 6] \"periodic\" " +
+        points(10) +
+        "\"constantwidth\" .1 \"varying float k\" [0 1 2 3 4 5 6 7 8 9] Basis \"bezier\" 3 \"bezier\" 3 "
+        "Curves \"cubic\" [7 4] \"nonperiodic\" " +
+        points(11) + "\"width\" [1 2 3 4 5] \"vertex float k\" [0 1 2 3 4 5 6 7 8 9 10]");
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.count(), 3u);
+    const auto& linear = std::get<Curves>(r.primitive(0).shape().topology);
+    EXPECT_FALSE(linear.cubic);
+    EXPECT_THAT(linear.vertices_per_curve, ElementsAre(2, 3));
+    const auto& cubic = std::get<Curves>(r.primitive(1).shape().topology);
+    EXPECT_TRUE(cubic.cubic && cubic.periodic);
+    EXPECT_EQ(cubic.step, 1);
+    EXPECT_FLOAT_EQ(cubic.basis[1][0], 1.0f);
+    EXPECT_EQ(r.primitive(1).shape().variables.find("constantwidth")->floats, std::vector<float>{.1f});
+    EXPECT_EQ(r.summary.faces, 6u);
+    EXPECT_EQ(r.summary.points, 26u);
+}
+
+TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
+    const std::pair<std::string, const char*> wrong[] = {
+        {"\"cubic\" [3] \"nonperiodic\" " + points(3), "curve 0 has 3 points, needs at least 4"},
+        {"\"cubic\" [4 6] \"nonperiodic\" " + points(10), "curve 1 has 6 points, which do not fit"},
+        {"\"cubic\" [4] \"periodic\" " + points(4), "do not fit the basis' step of 3"},
+        {"\"linear\" [1] \"nonperiodic\" " + points(1), "needs at least 2"},
+        {"\"linear\" [-4] \"nonperiodic\" " + points(1), "needs at least 2"},
+        {"\"linear\" [2] \"nonperiodic\" " + points(3), "\"P\" has 3 points, needs 2"},
+        {"\"linear\" [2] \"nonperiodic\" \"constantwidth\" 1", "\"P\" is missing"},
+        {"\"linear\" [] \"nonperiodic\" " + points(2), "has no curves"},
+        {"\"quadratic\" [2] \"nonperiodic\" " + points(2), "neither linear nor cubic"},
+        {"\"linear\" [2] \"closed\" " + points(2), "neither periodic nor nonperiodic"},
+        {"\"linear\" [2000000000 2000000000] \"nonperiodic\" " + points(2), "more than 268435456 points"},
+    };
+    for (const auto& [text, message] : wrong) {
+        const Outcome r = read_world("Curves " + text + "\nSphere 1 -1 1 360");
+        ASSERT_EQ(r.messages.size(), 1u) << text;
+        EXPECT_THAT(r.messages[0], HasSubstr(message)) << text;
+        EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: Curves")) << text;
+        EXPECT_EQ(r.count(), 1u) << text;  // the sphere
+    }
+}
+
+TEST(ReadCurves, WidthsOfAWrongNumberAreLeftOut) {
+    const Outcome r =
+        read_world("Curves \"linear\" [3] \"nonperiodic\" " + points(3) + "\"width\" [1 2] \"N\" [0 0 1]");
+    ASSERT_EQ(r.messages.size(), 2u);
+    EXPECT_THAT(r.messages[0], HasSubstr("\"width\" has 2 values, needs 3"));
+    EXPECT_THAT(r.messages[1], HasSubstr("\"N\" has 1 values, needs 3"));
+    ASSERT_EQ(r.count(), 1u);
+    EXPECT_EQ(r.primitive().shape().variables.find("width"), nullptr);
+}
+
+TEST(ReadCurves, Deform) {
+    const std::string curve = "Curves \"linear\" [2] \"nonperiodic\" \"constantwidth\" .1 ";
+    const Outcome r = read_text("Shutter 0 1 WorldBegin MotionBegin [0 1] " + curve + "\"P\" [0 0 0 1 0 0] " +
+                                curve + "\"P\" [0 0 0 1 5 0] MotionEnd WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.primitive().shape_keys.size(), 2u);
+    EXPECT_EQ(r.primitive().shape_keys[1]->variables.find("P")->floats[4], 5);
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test

@@ -1,0 +1,55 @@
+/// B-spline basis functions over one knot vector, and its non-empty spans [Piegl97, ch. 2]. In double: knots
+/// of orders up to 32 lose digits.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace trapeze {
+
+inline constexpr int kLargestOrder = 32;
+
+/// The basis functions that are not 0 at a parameter, and their derivatives: those of control points
+/// first .. first + order - 1.
+struct BasisValues {
+    int first = 0;
+    std::array<double, kLargestOrder> value{}, slope{};
+};
+
+class KnotSpans {
+  public:
+    /// The part begin..end of the knots' range; knots never fall, there are points + order of them.
+    KnotSpans(std::span<const float> knots, int order, float begin, float end);
+
+    int count() const { return static_cast<int>(spans_.size()); }
+    int order() const { return order_; }
+    /// The knot interval of a span, counted from the first, empty ones too.
+    int segment(int span) const { return spans_[span].knot - (order_ - 1); }
+    /// The spline's parameter at 0..1 of a span; exact at its ends.
+    double parameter(int span, float t) const;
+    double length(int span) const { return spans_[span].end - spans_[span].begin; }
+    double total_length() const { return spans_.back().end - spans_.front().begin; }
+    /// Where a span's share t is in the whole range and in its knot interval, both 0..1.
+    float share_of_range(int span, float t) const;
+    float share_of_segment(int span, float t) const;
+
+    /// Derivatives are by t.
+    BasisValues basis(int span, float t) const;
+    /// The weight of control point first + i in Bezier control point j of [lo, hi] of a span:
+    /// weights[j * order + i].
+    void bezier_weights(int span, float lo, float hi, std::span<double> weights) const;
+    int first_point(int span) const { return segment(span); }
+
+  private:
+    struct Span {
+        int knot = 0;  ///< the knot before it
+        double begin = 0, end = 1;
+    };
+
+    std::vector<double> knots_;
+    int order_;
+    std::vector<Span> spans_;
+};
+
+}  // namespace trapeze
