@@ -125,6 +125,7 @@ bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm
         case Op::DisplacementMessage:
             return copy_variable(displacement, name, type, out, text);
         case Op::AtmosphereMessage:
+        case Op::IncidentMessage:  // the volume between the eye and the surface
             return copy_variable(atmosphere, name, type, out, text);
         case Op::AttributeMessage:
             return find_attribute(name, type, out, text);
@@ -135,8 +136,7 @@ bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm
             if (name == "version") return set_value(std::array{0.0f, 1.0f, 0.0f, 0.0f}, type, out);
             return name == "versionstring" && set_text("0.1.0", type, text);
         default:
-            return false;  // incident() and opposite(): volumes on the other sides of a surface are not
-                           // traced
+            return false;  // opposite(): no volume behind a surface is run
     }
 }
 

@@ -94,6 +94,8 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     set_variables(frame, grids, context_, shaded);
     shader.connect(layer, frames);
     messages_.running = bound.program().name;
+    // Lights may ask the surface that asks them.
+    if (bound.program().kind == rsl::ShaderKind::Surface) messages_.surface = &frame;
     const SceneSpaces spaces(*context_.scene, context_.camera, &bound.instance(), grids.front()->primitive);
     vm::Context surroundings;
     surroundings.points = &points;

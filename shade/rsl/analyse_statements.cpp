@@ -166,7 +166,9 @@ void Analyser::gather(Statement& s) {
         else
             error(s.expressions[i]->at, "gather writes \"" + name.text + "\" to a variable");
     }
+    ++frame().loops;
     for (StatementPtr& child : s.children) scoped(child);
+    --frame().loops;
 }
 
 void Analyser::jump(const Statement& s) {

@@ -348,6 +348,7 @@ TEST(Analysis, JumpsNeedLoops) {
     EXPECT_EQ(in_surface("while (Kd > 1) { for (;;) { break 2; continue 3; } }"),
               "error 1:104: continue 3 stands in only 2 loops\n");
     EXPECT_EQ(in_surface("illuminance(P) { break; }"), "");
+    EXPECT_EQ(in_surface("gather(\"illuminance\", P, N, 0, 1) { break; } else { continue; }"), "");
     EXPECT_EQ(said("void f() { break; } surface t() { while (1) f(); }"),
               "error 1:12: break stands outside of loops\n");
 }

@@ -78,7 +78,9 @@ void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
     if (op == Op::FaceForward && inputs.size() == 2) inputs.push_back(global("Ng", Base::Normal));
     if (op == Op::Du) inputs.push_back(global("u", Base::Float));
     if (op == Op::Dv) inputs.push_back(global("v", Base::Float));
-    if (op >= Op::Ambient && op <= Op::Phong) inputs.insert(inputs.begin(), global("P", Base::Point));
+    if (op < Op::Ambient || op > Op::Phong) return;
+    inputs.insert(inputs.begin(), global("P", Base::Point));
+    global("N", Base::Normal);  // lights may ask for it
 }
 
 /// Functions that are other operations than their table's.

@@ -175,6 +175,7 @@ void Generator::light_block(const Statement& s) {
     Op op = Op::Solar, end = Op::EndSolar;
     if (s.kind == Statement::Kind::Illuminance) {
         op = Op::Illuminance, end = Op::EndIlluminance;
+        global("N", Base::Normal);  // lights may ask for it
         outputs.push_back(global("Cl", Base::Color));
         if (s.expressions[0]->type.base != Base::String) inputs.push_back(constant_text(""));
     } else {

@@ -43,6 +43,7 @@ size_t target_of(const rsl::Code& code, const Blocks& blocks, size_t i) {
             return blocks.end[i];
         case Op::EndLoop:
         case Op::EndIlluminance:
+        case Op::EndGather:
             return blocks.opening[i];
         case Op::LoopTest:
             return blocks.end[around];

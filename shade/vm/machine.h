@@ -93,6 +93,8 @@ class Run {
     bool steps_are_spent(const Step& opening, size_t steps);
     bool turns_are_spent(const Step& opening);
     size_t next_light(const std::vector<Step>& steps, size_t opening);
+    size_t enter_gather(const std::vector<Step>& steps, size_t at);
+    size_t next_gather(const std::vector<Step>& steps, size_t at);
     size_t enter_illuminate(const Step& step, size_t at);
 
     Machine& machine_;
@@ -101,6 +103,7 @@ class Run {
     Machine::Level& level_;
     MaskStack& masks_;
     std::vector<size_t> next_lights_;  ///< of the Illuminance blocks that are being run
+    std::vector<int> gather_turns_;    ///< that Gather blocks which are being run still have to take
     std::unordered_map<const Step*, int> turns_;
     int64_t loop_steps_ = 0;
     size_t current_light_ = 0;

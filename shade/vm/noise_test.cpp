@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/math.h"
+#include "shade/vm/exact_noise.h"
 #include "shade/vm/kernel_harness.h"
 #include "shade/vm/random.h"
 
@@ -25,65 +26,6 @@ std::vector<double> flatten(const Inputs& in) {
     return x;
 }
 
-uint32_t hash_of(const std::vector<int64_t>& cell, uint32_t begin, uint32_t last_factor) {
-    constexpr uint32_t kFactors[] = {0x8da6b343u, 0xd8163841u, 0xcb1ab31fu, 0x9e3779b1u};
-    uint32_t h = begin;
-    for (size_t k = 0; k < cell.size(); ++k) h ^= static_cast<uint32_t>(cell[k]) * kFactors[k];
-    h = (h ^ h >> 15) * 0x2c1b3c6du;
-    return (h ^ h >> 12) * last_factor;
-}
-
-/// The gradient that the highest bits stand for, written out.
-std::vector<double> gradient(uint32_t h, size_t dimensions) {
-    const auto sign = [&](int bit) { return h >> bit & 1 ? -1.0 : 1.0; };
-    const unsigned four = h >> 28, two = h >> 30;
-    switch (dimensions) {
-        case 1:
-            return {sign(31) * (1 + four % 8)};
-        case 2:
-            return h >> 29 & 1 ? std::vector{2 * sign(30), sign(31)} : std::vector{sign(31), 2 * sign(30)};
-        case 3: {
-            std::vector<double> g(3);
-            g[four < 8 ? 0 : 1] = sign(28);
-            g[four < 4 ? 1 : four == 12 || four == 14 ? 0 : 2] = sign(29);
-            return g;
-        }
-        default: {
-            std::vector<double> g(4);
-            const double signs[] = {sign(27), sign(28), sign(29)};
-            int next = 0;
-            for (unsigned axis = 0; axis < 4; ++axis)
-                if (axis != 3 - two) g[axis] = signs[next++];
-            return g;
-        }
-    }
-}
-
-/// As a sum over the corners of the cell, in doubles.
-double exact_noise(const std::vector<double>& x, const std::vector<double>& period, int component) {
-    constexpr double kScales[] = {0.125, 0.3308, 0.491, 0.4172};
-    const size_t n = x.size();
-    double sum = 0;
-    for (unsigned corner = 0; corner < 1u << n; ++corner) {
-        std::vector<int64_t> cell(n);
-        std::vector<double> offset(n);
-        double weight = 1;
-        for (size_t k = 0; k < n; ++k) {
-            const int64_t at = static_cast<int64_t>(std::floor(x[k])) + (corner >> k & 1);
-            const double f = x[k] - std::floor(x[k]), fade = f * f * f * (f * (f * 6 - 15) + 10);
-            offset[k] = x[k] - static_cast<double>(at);
-            weight *= corner >> k & 1 ? fade : 1 - fade;
-            const int64_t repeat = period.empty() ? 0 : std::max<int64_t>(1, std::floor(period[k]));
-            cell[k] = repeat ? (at % repeat + repeat) % repeat : at;
-        }
-        const auto g = gradient(hash_of(cell, 0, 0x297a2d39u) << (5 * component), n);
-        double product = 0;
-        for (size_t k = 0; k < n; ++k) product += g[k] * offset[k];
-        sum += weight * product;
-    }
-    return std::clamp(0.5 + kScales[n - 1] * sum, 0.0, 1.0);
-}
-
 std::vector<int> widths_of(int output, int dimensions, bool periodic) {
     std::vector<int> widths{output};
     for (int times = 0; times < (periodic ? 2 : 1); ++times)
@@ -100,7 +42,7 @@ TEST(Noise, IsASumOverCorners) {
         for (int output : {1, 3}) {
             SCOPED_TRACE(testing::Message() << dimensions << " dimensions to " << output);
             const auto exact = [&](const Inputs& in, double* out) {
-                for (int k = 0; k < output; ++k) out[k] = exact_noise(flatten(in), {}, k);
+                for (int k = 0; k < output; ++k) out[k] = test::exact_noise(flatten(in), {}, k);
             };
             check_kernel({Op::Noise, widths_of(output, dimensions, false), exact, {coordinate}, 0, 3e-6});
         }
@@ -119,7 +61,7 @@ TEST(Noise, MayBePeriodic) {
                 const auto all = flatten(in);
                 const auto half = all.begin() + dimensions;
                 for (int k = 0; k < output; ++k)
-                    out[k] = exact_noise({all.begin(), half}, {half, all.end()}, k);
+                    out[k] = test::exact_noise({all.begin(), half}, {half, all.end()}, k);
             };
             KernelCheck check{
                 Op::PeriodicNoise, widths_of(output, dimensions, true), exact, {coordinate}, 0, 3e-6};
@@ -244,7 +186,7 @@ TEST(CellNoise, HashesItsCell) {
                     cell.push_back(static_cast<int64_t>(
                         std::floor(x < 2147483520.0 ? std::max(x, -2147483520.0) : 2147483520.0)));
                 for (int k = 0; k < output; ++k)
-                    out[k] = (hash_of(cell, 0x3c6ef372u, kFactors[k]) >> 8) * 0x1p-24;
+                    out[k] = (test::hash_of(cell, 0x3c6ef372u, kFactors[k]) >> 8) * 0x1p-24;
             };
             check_kernel({Op::CellNoise, widths_of(output, dimensions, false), exact, {[&] {
                               return numbers.any();
