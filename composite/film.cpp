@@ -20,6 +20,7 @@ DepthFilter depth_filter_of(const RenderContext& context) {
     const std::string name = context.scene->options.hider_parameters.string_or("depthfilter", "min");
     if (name == "max") return DepthFilter::Max;
     if (name == "average") return DepthFilter::Average;
+    if (name == "midpoint") return DepthFilter::Midpoint;
     if (name != "min" && context.diagnostics)
         context.diagnostics->warning(
             {}, "Hider \"depthfilter\" \"" + name + "\" is not supported; min is used", "depthfilter");
@@ -40,7 +41,7 @@ class PixelDepth {
         if (depth >= kInfinity) return;
         if (count_ == 0)
             value_ = depth;
-        else if (filter_ == DepthFilter::Min)
+        else if (filter_ == DepthFilter::Min || filter_ == DepthFilter::Midpoint)
             value_ = std::min(value_, depth);
         else if (filter_ == DepthFilter::Max)
             value_ = std::max(value_, depth);
@@ -201,6 +202,7 @@ void Film::accumulate(const SampleTile& samples, const HitBuffer& hits, const Gr
 template <int kTaps>
 void Film::accumulate_taps(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums) {
     std::vector<float> weights(kernel_.tap_count());
+    const bool midpoint = depth_filter_ == DepthFilter::Midpoint;
     const bool colored = !sums.rgba.empty(), ids = !image_.id.empty();
     size_t sample = 0;
     for (int py = samples.pixels.y0; py < samples.pixels.y1; ++py)
@@ -217,7 +219,7 @@ void Film::accumulate_taps(const SampleTile& samples, const HitBuffer& hits, con
                     if (ids) primitive.add(x, y, kNoPrimitive);
                     continue;
                 }
-                const SampleColor color = resolve_layers(samples.rays[sample], seen, grids);
+                const SampleColor color = resolve_layers(samples.rays[sample], seen, grids, midpoint);
                 add_sample<kTaps>(x, y, px, py, color.rgba, weights.data(), sums);
                 depth.add(color.depth);
                 if (ids) primitive.add(x, y, color.primitive);

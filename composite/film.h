@@ -24,7 +24,7 @@
 namespace trapeze {
 
 /// Hider "depthfilter": what the depths of a pixel's samples make.
-enum class DepthFilter { Min, Max, Average };
+enum class DepthFilter { Min, Max, Average, Midpoint };
 
 class Film {
   public:

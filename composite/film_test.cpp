@@ -283,7 +283,7 @@ TEST(Film, DepthFilters) {
         add_grids(grids, 1, 1, look);
     }
     for (const auto& [name, expected] :
-         {std::pair{"min", 2.0f}, {"max", 4.0f}, {"average", 3.0f}, {"midpoint", 2.0f}}) {
+         {std::pair{"min", 2.0f}, {"max", 4.0f}, {"average", 3.0f}, {"medium", 2.0f}}) {
         RasterScene scene(16, 16, 2);
         Parameter parameter{"depthfilter", {StorageClass::Uniform, ValueType::String, 1}, {}, {name}};
         scene.scene.options.hider_parameters.set(parameter);
@@ -299,7 +299,7 @@ TEST(Film, DepthFilters) {
             film.add(samples, hits, grids);
         }
         EXPECT_EQ(film.finish().z[5 * 16 + 5], expected) << name;
-        EXPECT_EQ(scene.diagnostics.count(Severity::Warning), name == std::string("midpoint") ? 1u : 0u);
+        EXPECT_EQ(scene.diagnostics.count(Severity::Warning), name == std::string("medium") ? 1u : 0u);
     }
 }
 

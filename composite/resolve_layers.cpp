@@ -62,9 +62,10 @@ void add_aovs(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, co
 
 }  // namespace
 
-SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids) {
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, bool midpoint) {
     SampleColor sample;
-    if (!hits.empty() && resolve_opaque(ray, hits.front(), grids, sample)) return sample;
+    int layers = 0;
+    if (!hits.empty() && !midpoint && resolve_opaque(ray, hits.front(), grids, sample)) return sample;
     V3f transmission(1), color(0), alpha(0);
     for (const Hit& hit : hits) {
         const MicropolygonId id = MicropolygonId::unpack(hit.id);
@@ -73,18 +74,17 @@ SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const 
         const Layer layer = layer_at(ray, grid, id);
         for (int c = 0; c < 3; ++c) {
             const float opacity = std::clamp(layer.opacity[c], 0.0f, 1.0f);
-            if (!grid.matte) {
-                color[c] += transmission[c] * layer.color[c];
-                alpha[c] += transmission[c] * opacity;
-            }
+            if (!grid.matte) color[c] += transmission[c] * layer.color[c];
+            if (grid.matte != 1) alpha[c] += transmission[c] * opacity;
             transmission[c] *= 1 - opacity;
         }
-        if (shows(grid, layer) && sample.primitive == ~uint32_t{0}) {
-            sample.depth = hit.depth;
-            sample.primitive = grid.primitive;
+        if (shows(grid, layer) && ++layers <= 2) {
+            if (layers == 1) sample.depth = hit.depth, sample.primitive = grid.primitive;
+            if (layers == 2 && midpoint) sample.depth = (sample.depth + hit.depth) / 2;
         }
-        if (transmission == V3f(0)) break;
+        if (transmission == V3f(0) && (!midpoint || layers >= 2)) break;
     }
+    if (midpoint && layers == 1) sample.depth = kInfinity;
     for (int c = 0; c < 3; ++c) sample.rgba[c] = color[c];
     // An equal alpha in all channels is kept exactly: (1 + 1 + 1) * (1 / 3) need not be 1.
     const bool gray = alpha.x == alpha.y && alpha.y == alpha.z;

@@ -20,8 +20,13 @@ struct SampleColor {
 
 /// Composites a sample's hits, front to back. Ci is premultiplied by Oi (RISpec 3.4), each channel has its
 /// own opacity. A matte micropolygon holds out: it adds neither colour nor alpha but hides what is behind it
-/// by its Oi.
-SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids);
+/// by its Oi; Matte 2 (Aqsis) adds its alpha.
+///
+/// `midpoint`: the depth is that half-way between the first two layers that count, infinite when there is
+/// one: what shadow maps want, so that no surface shadows itself. Hits must not end at the
+/// first opaque one.
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids,
+                           bool midpoint = false);
 
 /// The same for output variables, as aov.h says: `values` gets layout.channel_count numbers. Grids that carry
 /// other channels than the layout's count as having 0 everywhere.

@@ -86,6 +86,37 @@ TEST(ResolveLayers, MatteHoldsOut) {
     EXPECT_EQ(hidden.depth, kInfinity);
 }
 
+TEST(ResolveLayers, Matte2KeepsItsAlpha) {
+    Grids grids;
+    GridLook matte = glass({0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, 2, 1);
+    matte.matte = 2;
+    add_grids(grids, 1, 1, matte);
+    add_grids(grids, 1, 1, flat({1, 1, 1}, 3, 2));
+    const Hit hits[] = {{2, id_of(0)}, {3, id_of(1)}};
+    expect_rgba(resolve_layers(kRay, hits, grids), 0.75f, 0.75f, 0.75f, 1);
+    expect_rgba(resolve_layers(kRay, std::span(hits).first(1), grids), 0, 0, 0, 0.25f);
+}
+
+TEST(ResolveLayers, MidpointsLieBetweenTheFirstTwoLayers) {
+    Grids grids;
+    GridLook held = flat({9, 9, 9}, 1, 5);
+    held.matte = 1;
+    add_grids(grids, 1, 1, glass({0, 0, 0}, {0, 0, 0}, 1, 1));
+    add_grids(grids, 1, 1, flat({1, 0.5f, 0}, 2, 2));
+    add_grids(grids, 1, 1, flat({0, 1, 0}, 5, 3));
+    add_grids(grids, 1, 1, flat({0, 0, 1}, 9, 4));
+    add_grids(grids, 1, 1, held);
+    const Hit hits[] = {{1, id_of(0)}, {2, id_of(1)}, {5, id_of(2)}, {9, id_of(3)}};
+    const SampleColor sample = resolve_layers(kRay, hits, grids, true);
+    EXPECT_EQ(sample.depth, 3.5f);
+    EXPECT_EQ(sample.primitive, 2u);
+    expect_rgba(sample, 1, 0.5f, 0, 1);
+    EXPECT_EQ(resolve_layers(kRay, std::span(hits).first(2), grids, true).depth, kInfinity);
+    EXPECT_EQ(resolve_layers(kRay, std::span(hits).first(1), grids, true).depth, kInfinity);
+    const Hit behind_matte[] = {{1, id_of(4)}, {2, id_of(1)}, {5, id_of(2)}};
+    EXPECT_EQ(resolve_layers(kRay, behind_matte, grids, true).depth, 3.5f);
+}
+
 TEST(ResolveLayers, AWhollyTransparentLayerHasNoDepth) {
     Grids grids;
     add_grids(grids, 1, 1, glass({0, 0, 0}, {0, 0, 0}, 2, 1));

@@ -118,8 +118,11 @@ HWY_INLINE void make_samples(const RunRegions& regions, const RunPixels& pixels,
         const PixelLanes<kOnePixel> pixel{pixels, hn::BitCast(I(), hn::LoadU(du, regions.pixel.data() + i))};
         const WordLanes sample_hash =
             hash(hn::Add(pixel.word(pixels.hash), hn::LoadU(du, &regions.index[i])));
-        const FloatLanes in_x = place(hn::LoadU(d, &regions.column[i]), jitter(sample_hash, kSubpixelX), nx);
-        const FloatLanes in_y = place(hn::LoadU(d, &regions.row[i]), jitter(sample_hash, kSubpixelY), ny);
+        const FloatLanes middle = hn::Set(d, 0.5f);
+        const FloatLanes at_x = regions.jittered ? jitter(sample_hash, kSubpixelX) : middle;
+        const FloatLanes at_y = regions.jittered ? jitter(sample_hash, kSubpixelY) : middle;
+        const FloatLanes in_x = place(hn::LoadU(d, &regions.column[i]), at_x, nx);
+        const FloatLanes in_y = place(hn::LoadU(d, &regions.row[i]), at_y, ny);
         const FloatLanes x = hn::Min(hn::Add(pixel.number(pixels.x), in_x), pixel.number(pixels.x_limit));
         const FloatLanes y = hn::Min(hn::Add(hn::Set(d, pixels.y), in_y), hn::Set(d, pixels.y_limit));
         FloatLanes lens_u = hn::Zero(d), lens_v = hn::Zero(d), time = hn::Zero(d);

@@ -20,6 +20,7 @@ inline constexpr size_t kMaxRunPixels = 64;
 struct RunRegions {
     int nx = 1, ny = 1;
     bool lens = false, motion = false;
+    bool jittered = true;                      ///< in the subpixel; else in its middle
     size_t pixels = 1;                         ///< of a whole run
     std::vector<uint32_t> index;               ///< within the pixel
     std::vector<uint32_t> pixel;               ///< within the run

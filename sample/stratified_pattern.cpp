@@ -36,7 +36,10 @@ StratifiedPattern::StratifiedPattern(const RenderContext& context)
       motion_(context.motion),
       lens_of_(lens_permutation(nx_, ny_, context.seed)),
       time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)),
-      regions_(nx_, ny_, camera_.has_lens(), motion_, lens_of_, time_of_) {}
+      regions_(nx_, ny_, camera_.has_lens(), motion_, lens_of_, time_of_) {
+    // Hider "jitter" 0: depth maps want the depths at the middles of pixels.
+    regions_.jittered = !context.scene || context.scene->options.hider_parameters.float_or("jitter", 1) != 0;
+}
 
 uint32_t StratifiedPattern::pixel_hash(int px, int py) const {
     return hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));

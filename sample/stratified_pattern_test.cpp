@@ -237,6 +237,20 @@ TEST(StratifiedPattern, WithoutMotionOrLensTheseAreZero) {
     }
 }
 
+TEST(StratifiedPattern, WithoutJitterSamplesLieInTheMiddlesOfTheirRegions) {
+    TestFrame frame = frame_of_samples(4, 2);
+    Scene scene;
+    scene.options.hider_parameters.set({"jitter", {}, {0}, {}});
+    frame.context.scene = &scene;
+    const SampleTile tile = tile_of(frame, {3, 5, 5, 6});
+    ASSERT_EQ(tile.size(), 16u);
+    for (size_t i = 0; i < tile.size(); ++i) {
+        EXPECT_FLOAT_EQ(tile.x[i],
+                        3 + static_cast<float>(i / 8) + 0.125f + 0.25f * static_cast<float>(i % 4));
+        EXPECT_FLOAT_EQ(tile.y[i], 5.25f + 0.5f * static_cast<float>(i / 4 % 2));
+    }
+}
+
 TEST(StratifiedPattern, SeedsGiveOtherSamples) {
     TestFrame frame = frame_of_samples(4, 4);
     const SampleTile first = tile_of(frame, {0, 0, 4, 4});

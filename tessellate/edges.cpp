@@ -1,6 +1,7 @@
 #include "tessellate/edges.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/grid.h"
@@ -35,7 +36,7 @@ class EdgeCutter {
             cut(interval);
             return;
         }
-        interval.segments = static_cast<uint8_t>(estimate.clamped_segments(rate));
+        interval.segments = static_cast<uint8_t>(estimate.clamped_segments(rate_));
         out_.push_back(interval);
     }
 
@@ -70,9 +71,10 @@ bool RateEstimate::wants_split(float pixels_per_segment) const {
     return even > kMaxGridSide || uneven > 1.5f * even + 2;  // false for NaN
 }
 
-int RateEstimate::clamped_segments(float pixels_per_segment) const {
-    const float n = std::ceil(segments(pixels_per_segment));
-    return n >= 1 ? static_cast<int>(std::min<float>(n, kMaxGridSide)) : 1;  // also NaN
+int RateEstimate::clamped_segments(const EdgeRate& rate) const {
+    const float n = std::ceil(segments(rate.pixels_per_segment));
+    const int wanted = n >= 1 ? static_cast<int>(std::min<float>(n, kMaxGridSide)) : 1;  // also NaN
+    return rate.binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted))) : wanted;
 }
 
 void EdgeTessellations::add(const PlacedSurface& surface, const EdgeLine& line, const ScreenMetric& metric,

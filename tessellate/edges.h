@@ -45,6 +45,7 @@ struct EdgeRate {
     float pixels_per_segment = 1;
     int max_depth = 14;
     int max_intervals = 4096;  ///< then the rest is 16 segments for each interval
+    bool binary = false;       ///< numbers of segments are powers of two (Attribute "dice" "binary")
 };
 
 /// Whether pieces of these lengths, uniform in the parameter, want a split: too many segments, or too uneven
@@ -59,7 +60,7 @@ struct RateEstimate {
     }
     float segments(float pixels_per_segment) const { return sum / pixels_per_segment; }
     bool wants_split(float pixels_per_segment) const;
-    int clamped_segments(float pixels_per_segment) const;  ///< 1..16
+    int clamped_segments(const EdgeRate& rate) const;  ///< 1..16
 };
 
 /// The intervals of many edges, numbered from 0.

@@ -17,8 +17,9 @@ float nearest_to_origin(const V& p, const V& d) {
 
 }  // namespace
 
-ScreenMetric::ScreenMetric(const Camera& camera)
+ScreenMetric::ScreenMetric(const Camera& camera, bool raster_oriented)
     : perspective_(camera.perspective),
+      least_foreshortening_(raster_oriented ? kLeastForeshortening : 1.0f),
       pixels_x_(std::abs(1 / camera.plane_scale_x)),
       pixels_y_(std::abs(1 / camera.plane_scale_y)),
       pixels_(std::max(pixels_x_, pixels_y_)) {
@@ -45,14 +46,14 @@ float ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
         const float x = (q.x * q_scale - p.x * p_scale) * pixels_x_;
         const float y = (q.y * q_scale - p.y * p_scale) * pixels_y_;
         return std::max(std::sqrt(x * x + y * y),
-                        kLeastForeshortening * std::sqrt(d.dot(d)) * pixels_ * 2 / (p.z + q.z));
+                        least_foreshortening_ * std::sqrt(d.dot(d)) * pixels_ * 2 / (p.z + q.z));
     }
     const float angle = std::atan2(p.cross(q).length(), p.dot(q));
     const float nearest = (p + d * nearest_to_origin(p, d)).length();
     // A bound for pieces through the eye itself, whose splitting the depth limit ends.
     const float distance = std::max(nearest, d.length() / 64);
     const float square_on = distance > 0 ? d.length() / distance : 0.0f;
-    return std::max(angle / view_cosine_, kLeastForeshortening * square_on) * pixels_ / view_cosine_;
+    return std::max(angle / view_cosine_, least_foreshortening_ * square_on) * pixels_ / view_cosine_;
 }
 
 float ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {
@@ -60,7 +61,7 @@ float ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {
     const V2f from_center = V2f(p.x, p.y) - center_, across(d.x, d.y);
     const float outside = (from_center + across * nearest_to_origin(from_center, across)).length();
     const float x = d.x * pixels_x_, y = d.y * pixels_y_;
-    const float pixels = std::max(std::sqrt(x * x + y * y), kLeastForeshortening * std::abs(d.z) * pixels_);
+    const float pixels = std::max(std::sqrt(x * x + y * y), least_foreshortening_ * std::abs(d.z) * pixels_);
     return outside > radius_ ? pixels * radius_ / outside : pixels;
 }
 

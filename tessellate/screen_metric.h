@@ -10,7 +10,8 @@ namespace trapeze {
 
 class ScreenMetric {
   public:
-    explicit ScreenMetric(const Camera& camera);
+    /// Not raster oriented (Attribute "dice" "rasterorient" 0): pieces count as if seen square on.
+    explicit ScreenMetric(const Camera& camera, bool raster_oriented = true);
 
     /// Pixels from p to q, camera space. Not less than a quarter of what the piece would have if it were seen
     /// square on: edge-on surfaces may turn to the viewer while the shutter is open, or be displaced.
@@ -21,6 +22,7 @@ class ScreenMetric {
     float orthographic_length(const V3f& p, const V3f& q) const;
 
     bool perspective_;
+    float least_foreshortening_;
     float pixels_x_, pixels_y_, pixels_;  ///< per unit of the image plane
     float view_cosine_;                   ///< of the angle to the image's farthest corner
     V2f center_{0, 0};                    ///< of the window, orthographic

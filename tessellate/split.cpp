@@ -106,7 +106,7 @@ class FaceSplitter {
             }
             for (int d = 0; d < 2; ++d) {
                 want[d].split |= along[d].wants_split(rate);
-                want[d].segments = std::max(want[d].segments, along[d].clamped_segments(rate));
+                want[d].segments = std::max(want[d].segments, along[d].clamped_segments(context_.rate));
                 want[d].pixels = std::max(want[d].pixels, along[d].sum);
             }
         }

@@ -1,4 +1,5 @@
 #include "tessellate/tessellate.h"
+#include "tessellate/blur_factor.h"
 
 #include <tbb/parallel_for.h>
 
@@ -151,11 +152,17 @@ void make_surfaces(const RenderContext& context, std::vector<TessellatedPrimitiv
 }
 
 void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
-                          const ScreenMetric& metric, const RasterBound& raster, TessellatedPrimitive& out) {
+                          const ScreenMetric& raster_metric, const RasterBound& raster,
+                          TessellatedPrimitive& out) {
     if (!out.surface || !primitive.attributes->visible_to_camera || context.is_cancelled()) return;
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
+    const Attributes& attributes = *primitive.attributes;
+    const float blur = blur_factor(*out.placed, context.camera, raster_metric);
+    const ScreenMetric square_on(context.camera, false);
+    const ScreenMetric& metric = attributes.dice.raster_oriented ? raster_metric : square_on;
     EdgeRate rate;
-    rate.pixels_per_segment = std::sqrt(std::max(primitive.attributes->shading_rate, kLeastShadingRate));
+    rate.binary = attributes.dice.binary;
+    rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur);
     out.pixels_per_segment = rate.pixels_per_segment;
     out.surface_edges = tessellate_edges(*out.placed, metric, rate);
     out.vertices = VertexTable(*out.placed);

@@ -44,9 +44,13 @@ size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t
     maker.dice_seconds += watch.lap();
     shading.shade(batch, maker.shade_scratch, maker.shade_stats);
     int64_t not_finite = 0;
-    for (const ShadingGrid* grid : batch)
+    // The midpoint of two depths wants hits beyond the first opaque one.
+    const bool goes_on = scene.options.hider_parameters.string_or("depthfilter", "") == "midpoint";
+    for (const ShadingGrid* grid : batch) {
         maker.grids.push_back(
             pack_grid(*grid, maker.arena, &not_finite, may_be_cut(scene, *grid->primitive)));
+        if (goes_on) maker.grids.back().opaque = false;
+    }
     maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
     maker.shade_seconds += watch.lap();
     return next;

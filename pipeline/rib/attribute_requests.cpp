@@ -103,6 +103,12 @@ void basis(Reader& r, ArgumentCursor& c) {
     state.u_basis = u, state.v_basis = v, state.u_step = u_step, state.v_step = v_step;
 }
 
+/// Older files say in words what newer ones say by numbers.
+bool is_on(const std::string& text) {
+    return text != "0" && text != "off" && text != "no" && text != "false" && text != "invisible" &&
+           text != "transparent";
+}
+
 void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
     if (name == "binary") dice.binary = value != 0;
     if (name == "rasterorient") dice.raster_oriented = value != 0;
@@ -126,7 +132,10 @@ void attribute(Reader& r, ArgumentCursor& c) {
             state.displacement_bound.coordinate_system = text;
         if (category == "identifier" && value.name == "name") state.attributes.name = text;
         if (category == "visibility" && value.name == "camera")
-            state.attributes.visible_to_camera = number != 0;
+            state.attributes.visible_to_camera = value.is_string() ? is_on(text) : number != 0;
+        // BMRT's: a bit for the camera, one for reflections, one for shadows.
+        if (category == "render" && value.name == "visibility" && !value.floats.empty())
+            state.attributes.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
         if (category == "dice") set_dice(state.attributes.dice, value.name, number);
         if (category == "cull" && value.name == "backfacing") state.attributes.cull_backfacing = number != 0;
     }

@@ -20,12 +20,18 @@ constexpr Value kOptions[] = {{"user", ""},
                               {"shadow", "bias"},
                               {"shadow", "bias0"}};
 
-constexpr Value kAttributes[] = {
-    {"user", ""},          {"identifier", "name"},   {"displacementbound", ""}, {"visibility", "camera"},
-    {"dice", "binary"},    {"dice", "rasterorient"}, {"dice", "hair"},          {"dice", "minlength"},
-    {"trimcurve", "sense"}};
+constexpr Value kAttributes[] = {{"user", ""},
+                                 {"identifier", "name"},
+                                 {"displacementbound", ""},
+                                 {"visibility", "camera"},
+                                 {"render", "visibility"},
+                                 {"dice", "binary"},
+                                 {"dice", "rasterorient"},
+                                 {"dice", "hair"},
+                                 {"dice", "minlength"},
+                                 {"trimcurve", "sense"}};
 
-constexpr std::string_view kHider[] = {"depthfilter"};
+constexpr std::string_view kHider[] = {"depthfilter", "jitter"};
 
 constexpr std::string_view kDisplay[] = {"quantize",     "dither",         "type",
                                          "exrpixeltype", "exrcompression", "compression"};

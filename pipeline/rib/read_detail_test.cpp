@@ -112,6 +112,22 @@ TEST(ReadApproximation, FactorsAndDiceBecomeAttributes) {
     EXPECT_EQ(a.dice.min_length, 3);
 }
 
+TEST(ReadAttributes, VisibilityHasManyForms) {
+    const auto visible = [](const std::string& attribute) {
+        const Outcome outcome = read_world("Attribute " + attribute + kSphere);
+        EXPECT_THAT(outcome.messages, IsEmpty());
+        return outcome.attributes().visible_to_camera;
+    };
+    EXPECT_TRUE(visible("\"visibility\" \"int camera\" [1] "));
+    EXPECT_FALSE(visible("\"visibility\" \"int camera\" [0] "));
+    EXPECT_FALSE(visible("\"visibility\" \"camera\" 0 "));
+    EXPECT_FALSE(visible("\"visibility\" \"string camera\" [\"off\"] "));
+    EXPECT_TRUE(visible("\"visibility\" \"string camera\" [\"on\"] "));
+    EXPECT_TRUE(visible("\"visibility\" \"string transmission\" [\"transparent\"] "));
+    EXPECT_TRUE(visible("\"render\" \"integer visibility\" [7] "));
+    EXPECT_FALSE(visible("\"render\" \"integer visibility\" [6] "));
+}
+
 TEST(ReadApproximation, ObjectsKeepTheirOwn) {
     const Outcome outcome = read_world(
         "ObjectBegin 1 GeometricApproximation \"motionfactor\" 2 "
