@@ -4,6 +4,7 @@
 
 #include "pipeline/rib/effects.h"
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/ri_values.h"
 
 namespace trapeze::rib {
 namespace {
@@ -122,7 +123,8 @@ void attribute(Reader& r, ArgumentCursor& c) {
     AttributeState& state = r.change_attributes();
     for (const Parameter& value : values.values) {
         state.attributes.user[category].set(value);
-        if (!attribute_has_effect(category, value.name))
+        const bool is_executed = category == "Ri" && execute_ri_value(r, value);
+        if (!is_executed && !attribute_has_effect(category, value.name))
             r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         const float number = value.floats.empty() ? 0 : value.floats[0];
         const std::string text = value.strings.empty() ? "" : value.strings[0];

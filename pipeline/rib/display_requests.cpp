@@ -55,10 +55,32 @@ std::optional<DisplayVariable> variable_named(Reader& r, const std::string& mode
     return {};
 }
 
+/// PRMan's "Ci,a" and the like: of a list of channels the picture's own, as RISpec writes them.
+std::string picture_mode(Reader& r, const std::string& mode) {
+    if (mode.find(',') == std::string::npos) return mode;
+    std::string picture, rest;
+    for (size_t begin = 0; begin <= mode.size();) {
+        const size_t end = std::min(mode.find(',', begin), mode.size());
+        std::string channel = mode.substr(begin, end - begin);
+        begin = end + 1;
+        std::erase(channel, ' ');
+        if (channel == "Ci" || channel == "rgb" || channel == "rgba") channel = "rgb";
+        const bool is_picture = channel == "rgb" || channel == "a" || channel == "z";
+        if (is_picture && picture.find(channel) == std::string::npos) picture += channel;
+        if (!is_picture) rest += (rest.empty() ? "" : ",") + channel;
+    }
+    if (!rest.empty() && !picture.empty())
+        r.warn_once(
+            "a file holds colour, alpha and depth, or one variable; " + in_quotes(rest) + " is left out",
+            "display-channels");
+    return picture.empty() ? mode : picture;
+}
+
 void display(Reader& r, ArgumentCursor& c) {
     Display d;
     d.location = r.at();
     d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
+    d.mode = picture_mode(r, d.mode);
     d.parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : d.parameters.values)
         if (!display_parameter_has_effect(value.name)) r.count_without_effect(' ' + in_quotes(value.name));

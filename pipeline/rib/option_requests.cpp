@@ -6,6 +6,7 @@
 
 #include "pipeline/rib/effects.h"
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/ri_values.h"
 
 namespace trapeze::rib {
 namespace {
@@ -60,7 +61,9 @@ void crop_window(Reader& r, ArgumentCursor& c) {
 
 void projection(Reader& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
-    const std::string name = c.string("the projection's name");
+    std::string name = c.string("the projection's name");
+    if (name == "PxrCamera" || name == "PxrPerspective") name = "perspective";  // RIS's plugins
+    if (name == "PxrOrthographic") name = "orthographic";
     const float fov = r.parameters(c).float_or("fov", 90);
     require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
     if (name != "perspective" && name != "orthographic") {
@@ -166,7 +169,8 @@ void option(Reader& r, ArgumentCursor& c) {
     for (const Parameter& value : values.values) {
         if (category == "searchpath" && !value.strings.empty())
             r.set_search_path(value.name, value.strings[0]);
-        if (!option_has_effect(category, value.name))
+        const bool is_executed = category == "Ri" && execute_ri_value(r, value);
+        if (!is_executed && !option_has_effect(category, value.name))
             r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         o.user[category].set(value);
     }

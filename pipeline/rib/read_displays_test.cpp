@@ -50,7 +50,7 @@ TEST(ReadDisplays, ColourDepthAndIdsAreNoVariables) {
 
 TEST(ReadDisplays, WhatHasNotOneOrThreeNumbersIsNoVariable) {
     for (const char* mode : {"foo", "varying", "varying color", "color[2] foo", "string foo", "matrix foo",
-                             "hpoint Pw", "color a-b", "color foo bar", "rgba,N"})
+                             "hpoint Pw", "color a-b", "color foo bar"})
         EXPECT_FALSE(variable_of(mode)) << mode;
     EXPECT_FALSE(variable_of("color " + std::string(300, 'x')));
 }

@@ -151,6 +151,39 @@ TEST(ErrorHandlers, DecideWhatErrorsAre) {
                 ElementsAre(HasSubstr("\"shout\" is not known")));
 }
 
+TEST(Ris, OptionsAndAttributesMayBeValues) {
+    const Outcome outcome = read_text(
+        "Option \"Ri\" \"int[2] FormatResolution\" [320 200] \"float FormatPixelAspectRatio\" [1.5] "
+        "\"float[2] Clipping\" [0.5 50] \"float[2] Shutter\" [0 0.5] \"float[4] ScreenWindow\" [-2 2 -1 1]\n"
+        "Projection \"PxrCamera\" \"float fov\" [40] Display \"a.exr\" \"openexr\" \"Ci, a,z\"\n"
+        "WorldBegin Attribute \"Ri\" \"int Sides\" [1] \"string Orientation\" [\"rh\"] \"int Matte\" [2] "
+        "\"int Nonsense\" [3] " +
+        kSphere + "WorldEnd");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    const Options& o = outcome.scene().options;
+    EXPECT_EQ(o.width, 320);
+    EXPECT_EQ(o.height, 200);
+    EXPECT_EQ(o.pixel_aspect, 1.5f);
+    EXPECT_EQ(o.far_clip, 50);
+    EXPECT_EQ(o.shutter_close, 0.5f);
+    EXPECT_EQ((*o.screen_window)[0], -2);
+    EXPECT_EQ(o.projection, "perspective");
+    EXPECT_EQ(o.fov, 40);
+    EXPECT_EQ(o.displays.at(0).mode, "rgbaz");
+    EXPECT_EQ(outcome.attributes().sides, 1);
+    EXPECT_EQ(outcome.attributes().matte, 2);
+    EXPECT_EQ(outcome.summary.without_effect.size(), 1u);
+}
+
+TEST(Ris, WrongValuesAndFurtherChannelsAreSaid) {
+    EXPECT_THAT(read_text("Option \"Ri\" \"float[2] Clipping\" [5 1]\n"
+                          "Display \"a\" \"openexr\" \"Ci,a,normal\"\n"
+                          "WorldBegin Attribute \"Ri\" \"string Orientation\" [\"up\"] WorldEnd")
+                    .messages,
+                ElementsAre(HasSubstr("a.rib:1:1: error: Option: needs 0 <= near < far"),
+                            HasSubstr("\"normal\" is left out"), HasSubstr("Attribute: \"up\" is none of")));
+}
+
 TEST(Ris, SurfacesHaveTheirColourAndOneNoteSaysSo) {
     const Outcome outcome = read_text(
         "Integrator \"PxrPathTracer\" \"pt\" Light \"PxrDomeLight\" \"l\" \"float intensity\" [1]\n"
