@@ -2,6 +2,7 @@
 /// RISpec 3.2; PRMan's and Pixie's), and blocks that are skipped whole.
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "pipeline/rib/conditions.h"
 #include "pipeline/rib/reader.h"
@@ -72,7 +73,10 @@ ConditionValue Reader::variable(const std::string& name) const {
         return attribute_value(attributes().attributes, name.substr(kAttribute.size()));
     if (name.starts_with(kOption)) return option_value(scope_.options, name.substr(kOption.size()));
     ConditionValue value = attribute_value(attributes().attributes, name);
-    return value.is_undefined() ? option_value(scope_.options, name) : value;
+    if (value.is_undefined()) value = option_value(scope_.options, name);
+    const char* const in_environment = value.is_undefined() ? std::getenv(name.c_str()) : nullptr;
+    if (in_environment) value.text = in_environment;
+    return value;
 }
 
 bool Reader::holds(const std::string& expression) {
@@ -142,18 +146,21 @@ void Reader::close_conditionals() {
     }
 }
 
-/// PRMan's Option "rib" "string varsubst": from then on texts in requests may name options and attributes.
+/// PRMan's Option "ribparse" "string varsubst" (older: "rib"): from then on texts in requests may name
+/// options and attributes.
 void Reader::substitute(RequestText& request) const {
-    if (scope_.options.user.empty()) return;
-    const auto rib = scope_.options.user.find("rib");
-    if (rib == scope_.options.user.end()) return;
-    const std::string marker = rib->second.string_or("varsubst", "");
-    if (marker.empty() || is_conditional(request.name)) return;
-    for (Argument& argument : request.arguments)
-        for (std::string& text : argument.strings)
-            if (text.find(marker) != std::string::npos)
-                text = substitute_variables(text, marker,
-                                            [this](const std::string& name) { return variable(name); });
+    if (scope_.options.user.empty() || is_conditional(request.name)) return;
+    for (const char* category : {"ribparse", "rib"}) {
+        const auto list = scope_.options.user.find(category);
+        if (list == scope_.options.user.end()) continue;
+        const std::string marker = list->second.string_or("varsubst", "");
+        if (marker.empty()) continue;
+        for (Argument& argument : request.arguments)
+            for (std::string& text : argument.strings)
+                if (text.find(marker) != std::string::npos)
+                    text = substitute_variables(text, marker,
+                                                [this](const std::string& name) { return variable(name); });
+    }
 }
 
 }  // namespace trapeze::rib

@@ -120,10 +120,10 @@ const char* const kFloats[] = {"Ka",
                                "veining"};
 const char* const kColors[] = {"specularcolor", "lightcolor", "background", "opacity", "bgcolor", "fogcolor"};
 const char* const kPoints[] = {"from", "to"};
-const char* const kStrings[] = {"texturename", "shadowname",       "mapname",     "name",
-                                "archive",     "shader",           "texture",     "procedural",
-                                "display",     "resource",         "depthfilter", "filename",
-                                "xmlfilename", "coordinatesystem", "compression", "displaymapname"};
+const char* const kStrings[] = {
+    "texturename", "shadowname",       "mapname",     "name",           "archive",      "shader",
+    "texture",     "procedural",       "display",     "resource",       "depthfilter",  "filename",
+    "xmlfilename", "coordinatesystem", "compression", "displaymapname", "__instanceid", "__category"};
 
 }  // namespace
 

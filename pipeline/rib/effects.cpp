@@ -17,6 +17,7 @@ constexpr Value kOptions[] = {{"user", ""},
                               {"searchpath", "texture"},
                               {"limits", "texturememory"},
                               {"rib", "varsubst"},
+                              {"ribparse", "varsubst"},
                               {"shadow", "bias"},
                               {"shadow", "bias0"}};
 

@@ -37,7 +37,8 @@ void procedural2(Reader& r, ArgumentCursor& c) {
         r.delayed_archive(file);
     } else if (kind == "RunProgram" || kind == "RunProgram2") {
         if (file.empty()) throw RequestError{"\"filename\" is missing", {}};
-        const Parameter* const bound = parameters.find("__bound");
+        const Parameter* const hidden = parameters.find("__bound");
+        const Parameter* const bound = hidden ? hidden : parameters.find("bound");
         const bool is_box = bound && bound->floats.size() == 6;
         r.run_program(file, parameters.string_or("data", ""), is_box ? bound->floats : std::vector<float>());
     } else {

@@ -127,10 +127,17 @@ TEST(ReadConditionals, DeepOnesEnd) {
     EXPECT_THAT(outcome.messages[0], HasSubstr("nested more than 1000 deep"));
 }
 
+TEST(ReadConditionals, TheEnvironmentIsTheLastResort) {
+    ASSERT_EQ(setenv("TRAPEZE_TEST_PASS", "shadow", 1), 0);
+    const std::string test = "IfBegin \"$TRAPEZE_TEST_PASS == 'shadow'\" " + ball("s") + "IfEnd ";
+    EXPECT_EQ(surfaces(read_world(test)), "s");
+    EXPECT_EQ(surfaces(read_world("Attribute \"user\" \"string TRAPEZE_TEST_PASS\" [\"x\"] " + test)), "");
+}
+
 TEST(ReadConditionals, TextsNameVariablesOnceAskedTo) {
     const Outcome outcome =
         read_text("Option \"user\" \"string who\" [\"bob\"] WorldBegin Surface \"$who\" " + kSphere +
-                  "WorldEnd Option \"rib\" \"string varsubst\" [\"$\"] FrameBegin 3 WorldBegin "
+                  "WorldEnd Option \"ribparse\" \"string varsubst\" [\"$\"] FrameBegin 3 WorldBegin "
                   "Surface \"$who\" Attribute \"identifier\" \"name\" [\"${user:who}_$Frame\"] " +
                   kSphere + "WorldEnd FrameEnd");
     EXPECT_THAT(outcome.messages, IsEmpty());

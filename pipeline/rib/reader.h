@@ -120,7 +120,7 @@ class Reader {
     /// Begins or ends a block that is skipped whole; the request's name says which.
     void skip_block();
     /// What `name` stands for in conditions: an attribute or option, "Attribute:" or "Option:" before it or
-    /// not.
+    /// not, else a variable of the environment.
     ConditionValue variable(const std::string& name) const;
 
   private:
