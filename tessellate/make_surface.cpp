@@ -27,10 +27,11 @@ struct ByTopology {
     std::unique_ptr<Surface> operator()(const Curves&) const {
         return make_curves_surface(primitive, camera, diagnostics);
     }
-    template <class Other>
-    std::unique_ptr<Surface> operator()(const Other&) const {
-        diagnostics.error(primitive.location, "this kind of primitive cannot be diced yet");
-        return nullptr;
+    std::unique_ptr<Surface> operator()(const Points&) const {
+        return make_points_surface(primitive, camera, diagnostics);
+    }
+    std::unique_ptr<Surface> operator()(const Blobby&) const {
+        return make_blobby_surface(primitive, camera, diagnostics);
     }
 };
 

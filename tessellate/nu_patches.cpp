@@ -45,8 +45,8 @@ class NuPatchSurface : public Surface {
     EdgeLine edge(uint32_t edge) const override { return faces_.edge(edge); }
     SurfacePoint vertex(uint32_t vertex) const override { return faces_.vertex(vertex); }
     V2f faces_per_unit(int face) const override {
-        return {static_cast<float>(u_.total_length() / u_.length(faces_.column_of(face))),
-                static_cast<float>(v_.total_length() / v_.length(faces_.row_of(face)))};
+        return {static_cast<float>(1 / u_.length(faces_.column_of(face))),
+                static_cast<float>(1 / v_.length(faces_.row_of(face)))};
     }
 
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
@@ -256,6 +256,11 @@ bool NuPatchSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfa
         grid.v[i] = v_.share_of_range(faces_.row_of(face), uv[i].y);
     }
     set_texture_coordinates(*primitive_.attributes, grid);
+    // Unlike other surfaces' u and v, which run from 0 to 1, these are the knots' (RISpec 5).
+    for (size_t i = 0; i < uv.size(); ++i) {
+        grid.u[i] = static_cast<float>(u_.parameter(faces_.column_of(face), uv[i].x));
+        grid.v[i] = static_cast<float>(v_.parameter(faces_.row_of(face), uv[i].y));
+    }
     return set_variables(primitive_.shape().variables, NuPatchValues(*this, face, uv), grid);
 }
 

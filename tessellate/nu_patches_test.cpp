@@ -110,13 +110,13 @@ TEST(NuPatches, EveryKnotVectorReproducesThePlane) {
             for (int face = 0; face < made.surface->face_count(); ++face)
                 for (const V2f& uv : {V2f(0, 0), V2f(0.3f, 0.7f), V2f(1, 1)}) {
                     const MadePatch::Point at = made.at(face, uv);
-                    EXPECT_NEAR(at.P.x, u.begin + at.uv.x * (u.end - u.begin), 1e-5f);
-                    EXPECT_NEAR(at.P.y, v.begin + at.uv.y * (v.end - v.begin), 1e-5f);
+                    EXPECT_NEAR(at.P.x, at.uv.x, 1e-5f);
+                    EXPECT_NEAR(at.P.y, at.uv.y, 1e-5f);
                     EXPECT_NEAR(at.P.z, 2 * at.P.x - 3 * at.P.y, 3e-5f);
-                    EXPECT_NEAR(at.dPdu.x, u.end - u.begin, 1e-4f);
+                    EXPECT_NEAR(at.dPdu.x, 1, 1e-4f);
                     EXPECT_NEAR(at.dPdu.y, 0, 1e-4f);
-                    EXPECT_NEAR(at.dPdv.y, v.end - v.begin, 1e-4f);
-                    EXPECT_NEAR(at.dPdv.z, -3 * (v.end - v.begin), 3e-4f);
+                    EXPECT_NEAR(at.dPdv.y, 1, 1e-4f);
+                    EXPECT_NEAR(at.dPdv.z, -3, 3e-4f);
                 }
         }
 }
@@ -195,8 +195,8 @@ TEST(NuPatches, RangesWithinTheKnotsAreParts) {
     EXPECT_LT((a.at(0, {0.5f, 0.25f}).P - b.at(0, {0, 0}).P).length(), 1e-6f);
     EXPECT_LT((a.at(1, {0.5f, 0.5f}).P - b.at(1, {0.5f, 0.5f}).P).length(), 1e-6f);
     EXPECT_LT((a.at(2, {0.25f, 0.75f}).P - b.at(2, {1, 1}).P).length(), 1e-6f);
-    EXPECT_EQ(b.at(0, {0, 0}).uv, V2f(0, 0));
-    EXPECT_EQ(b.at(2, {1, 1}).uv, V2f(1, 1));
+    EXPECT_EQ(b.at(0, {0, 0}).uv, V2f(0.5f, 0.25f));
+    EXPECT_EQ(b.at(2, {1, 1}).uv, V2f(2.25f, 0.75f));
 }
 
 TEST(NuPatches, VariablesOfEveryClass) {
@@ -222,8 +222,10 @@ TEST(NuPatches, VariablesOfEveryClass) {
     EXPECT_FLOAT_EQ(value(2, 2), 31);
     EXPECT_FLOAT_EQ(value(3, 1), 4.5f);
     EXPECT_FLOAT_EQ(value(4, 1), 5);
-    EXPECT_FLOAT_EQ(grid.u[0], 0.5f);
-    EXPECT_FLOAT_EQ(grid.u[2], 1);
+    EXPECT_FLOAT_EQ(grid.u[0], 1);  // the knots'
+    EXPECT_FLOAT_EQ(grid.u[2], 2);
+    EXPECT_FLOAT_EQ(grid.s[0], 0.5f);  // the unit square's
+    EXPECT_FLOAT_EQ(grid.s[2], 1);
 }
 
 TEST(NuPatches, BoundsHoldTheSurface) {

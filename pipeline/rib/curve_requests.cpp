@@ -46,8 +46,21 @@ void curves(Reader& r, ArgumentCursor& c) {
     r.add_shape("Curves", std::move(shape), count);
 }
 
+void points(Reader& r, ArgumentCursor& c) {
+    ParameterList list = read_variables(r, c, PointForm::Mesh);
+    Points points;
+    points.count = point_count_of(list);
+    if (points.count == 0) throw RequestError{"\"P\" is missing", {}};
+    if (points.count > kMostPoints)
+        throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
+    Shape shape{points, {}};
+    shape.variables = checked_variables(r, std::move(list), shape.topology);
+    r.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
+}
+
 constexpr RequestRow kRows[] = {
     {"Curves", curves},
+    {"Points", points},
 };
 
 }  // namespace

@@ -36,6 +36,11 @@ struct SameTopology {
                a.u_knots == b.u_knots && a.v_knots == b.v_knots && a.u_begin == b.u_begin &&
                a.u_end == b.u_end && a.v_begin == b.v_begin && a.v_end == b.v_end;
     }
+    bool operator()(const Points& a, const Points& b) const { return a.count == b.count; }
+    bool operator()(const Blobby& a, const Blobby& b) const {
+        return a.leaf_count == b.leaf_count && a.code == b.code && a.floats.size() == b.floats.size() &&
+               a.strings == b.strings;
+    }
     bool operator()(const Curves& a, const Curves& b) const {
         return a.cubic == b.cubic && a.periodic == b.periodic && a.step == b.step && a.basis == b.basis &&
                a.vertices_per_curve == b.vertices_per_curve;
@@ -53,6 +58,11 @@ ShapePointer between(const Shape& a, const Shape& b, float t) {
         const auto& end = std::get<Quadric>(b.topology);
         for (int i = 0; i < quadric->value_count; ++i)
             quadric->values[i] += t * (end.values[i] - quadric->values[i]);
+    }
+    if (auto* blobby = std::get_if<Blobby>(&shape->topology)) {
+        const auto& end = std::get<Blobby>(b.topology);
+        for (size_t i = 0; i < blobby->floats.size(); ++i)
+            blobby->floats[i] += t * (end.floats[i] - blobby->floats[i]);
     }
     for (Parameter& variable : shape->variables.values) {
         const std::vector<float>& end = b.variables.find(variable.name)->floats;
