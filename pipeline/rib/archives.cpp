@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "pipeline/rib/reader.h"
+#include "pipeline/rib/zip_archive.h"
 
 namespace trapeze::rib {
 namespace {
@@ -16,6 +17,14 @@ std::string canonical(const std::string& path) {
     std::error_code problem;
     const fs::path unique = fs::canonical(path, problem);
     return problem ? path : unique.string();
+}
+
+/// A file, or a member of a zip archive.
+bool is_readable(const std::string& path) {
+    std::error_code ignored;
+    if (fs::is_regular_file(path, ignored)) return true;
+    const auto member = zip_member_named(path);
+    return member && has_zip_member(*member);
 }
 
 }  // namespace
@@ -52,15 +61,14 @@ std::optional<std::string> Reader::find_archive(const std::string& name) const {
     std::error_code ignored;
     const fs::path path(name);
     if (path.is_absolute())
-        return fs::is_regular_file(path, ignored) || fs::is_fifo(path, ignored) ? std::optional(name)
-                                                                                : std::nullopt;
+        return is_readable(name) || fs::is_fifo(path, ignored) ? std::optional(name) : std::nullopt;
     std::vector<std::string> folders{current_folder()};
     if (const auto paths = scope_.options.search_paths.find("archive");
         paths != scope_.options.search_paths.end())
         folders.insert(folders.end(), paths->second.begin(), paths->second.end());
     folders.push_back("");
     for (const std::string& folder : folders)
-        if (const fs::path candidate = fs::path(folder) / path; fs::is_regular_file(candidate, ignored))
+        if (const fs::path candidate = fs::path(folder) / path; is_readable(candidate.string()))
             return candidate.string();
     return {};
 }

@@ -7,7 +7,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <utility>
+
+#include "pipeline/rib/zip_archive.h"
 
 namespace trapeze::rib {
 namespace {
@@ -42,11 +46,12 @@ std::string read_all(std::FILE* file, size_t max_bytes, std::string* problem) {
     return bytes;
 }
 
-/// Undoes gzip (several members too).
-std::string inflated(const std::string& packed, size_t max_bytes, std::string* problem) {
+}  // namespace
+
+std::string inflated(const std::string& packed, Packing packing, size_t max_bytes, std::string* problem) {
     z_stream stream{};
     std::string bytes;
-    if (inflateInit2(&stream, 15 + 32) != Z_OK) {
+    if (inflateInit2(&stream, packing == Packing::Gzip ? 15 + 32 : -15) != Z_OK) {
         *problem = "zlib does not start";
         return bytes;
     }
@@ -70,7 +75,7 @@ std::string inflated(const std::string& packed, size_t max_bytes, std::string* p
             break;
         }
         if (status == Z_STREAM_END) {
-            if (left == 0 || inflateReset(&stream) != Z_OK) break;
+            if (left == 0 || packing == Packing::Deflate || inflateReset(&stream) != Z_OK) break;
         } else if (status != Z_OK) {
             *problem = "gzip data is damaged or cut off; read as far as it goes";
             break;
@@ -83,9 +88,13 @@ std::string inflated(const std::string& packed, size_t max_bytes, std::string* p
     return bytes;
 }
 
-}  // namespace
-
 std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error) {
+    std::error_code ignored;
+    if (const auto member = zip_member_named(path); member && !std::filesystem::exists(path, ignored)) {
+        auto text = read_zip_member(*member, max_bytes, error);
+        if (!text) return {};
+        return SourceText{std::move(*text), {}};
+    }
     std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
     if (!file) {
         *error = std::strerror(errno);
@@ -98,7 +107,7 @@ std::optional<SourceText> read_source(const std::string& path, size_t max_bytes,
         return {};
     }
     const bool gzip = source.text.size() >= 2 && source.text[0] == '\x1f' && source.text[1] == '\x8b';
-    if (gzip) source.text = inflated(source.text, max_bytes, &source.problem);
+    if (gzip) source.text = inflated(source.text, Packing::Gzip, max_bytes, &source.problem);
     return source;
 }
 

@@ -12,7 +12,13 @@ struct SourceText {
     std::string problem;  ///< why there is none, or not all of it; empty when all is well
 };
 
-/// Reads "-" as standard input. Gzip is known by its first two bytes. Never holds more than max_bytes.
+enum class Packing { Gzip, Deflate };
+
+/// Undoes gzip (several members too) or deflate, up to max_bytes. *problem stays empty when all is well.
+std::string inflated(const std::string& packed, Packing packing, size_t max_bytes, std::string* problem);
+
+/// Reads "-" as standard input, "job.zip!member" as that member of an archive. Gzip is known by its first two
+/// bytes. Never holds more than max_bytes.
 std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error);
 
 }  // namespace trapeze::rib
