@@ -144,8 +144,8 @@ void Reader::deliver_world() {
         scene_.camera_from_named[name] = M44f(space.at(open));
     for (const char* category : {"archive", "shader", "texture"})
         options.search_paths[category] = folders(category);
-    const bool wanted =
-        frame_wanted_ && (options.frame != 0 || !read_options_.wants_frame || read_options_.wants_frame(0));
+    const bool wanted = frame_wanted_ && (is_open(Block::Frame) || !read_options_.wants_frame ||
+                                          read_options_.wants_frame(options.frame));
     scene_.solids = std::move(solids_.solids);
     scene_.options = std::move(options);
     scene_.clipping_planes = scope_.clipping_planes;

@@ -28,8 +28,6 @@ constexpr Value kAttributes[] = {{"user", ""},
                                  {"render", "visibility"},
                                  {"dice", "binary"},
                                  {"dice", "rasterorient"},
-                                 {"dice", "hair"},
-                                 {"dice", "minlength"},
                                  {"trimcurve", "sense"}};
 
 constexpr std::string_view kHider[] = {"depthfilter", "jitter"};

@@ -64,7 +64,8 @@ void projection(Reader& r, ArgumentCursor& c) {
     std::string name = c.string("the projection's name");
     if (name == "PxrCamera" || name == "PxrPerspective") name = "perspective";  // RIS's plugins
     if (name == "PxrOrthographic") name = "orthographic";
-    const float fov = r.parameters(c).float_or("fov", 90);
+    const ParameterList parameters = r.parameters(c);
+    const float fov = parameters.float_or("fov", 90);
     require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
     if (name != "perspective" && name != "orthographic") {
         if (!name.empty() && name != "null")
@@ -74,6 +75,11 @@ void projection(Reader& r, ArgumentCursor& c) {
         o.projection = name;
     }
     o.fov = fov;
+    // PxrCamera's lens.
+    const float f_stop = parameters.float_or("fStop", 0), length = parameters.float_or("focalLength", 0),
+                distance = parameters.float_or("focalDistance", 0);
+    if (f_stop > 0 && f_stop < kInfinity && length > 0 && distance > 0)
+        o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
     // RISpec 4.1.1: what came before belongs to the screen; what follows places the world before the camera.
     r.state().transform = MovingTransform();
 }

@@ -154,8 +154,10 @@ TEST(ErrorHandlers, DecideWhatErrorsAre) {
 TEST(Ris, OptionsAndAttributesMayBeValues) {
     const Outcome outcome = read_text(
         "Option \"Ri\" \"int[2] FormatResolution\" [320 200] \"float FormatPixelAspectRatio\" [1.5] "
+        "\"int Frame\" [7] \"string PixelFilterName\" [\"box\"] \"float[2] PixelFilterWidth\" [3 4] "
         "\"float[2] Clipping\" [0.5 50] \"float[2] Shutter\" [0 0.5] \"float[4] ScreenWindow\" [-2 2 -1 1]\n"
-        "Projection \"PxrCamera\" \"float fov\" [40] Display \"a.exr\" \"openexr\" \"Ci, a,z\"\n"
+        "Projection \"PxrCamera\" \"float fov\" [40] \"float fStop\" [3.5] \"float focalLength\" [0.8] "
+        "\"float focalDistance\" [5] Display \"a.exr\" \"openexr\" \"Ci, a,z\"\n"
         "WorldBegin Attribute \"Ri\" \"int Sides\" [1] \"string Orientation\" [\"rh\"] \"int Matte\" [2] "
         "\"int Nonsense\" [3] " +
         kSphere + "WorldEnd");
@@ -169,6 +171,11 @@ TEST(Ris, OptionsAndAttributesMayBeValues) {
     EXPECT_EQ((*o.screen_window)[0], -2);
     EXPECT_EQ(o.projection, "perspective");
     EXPECT_EQ(o.fov, 40);
+    EXPECT_EQ(o.f_stop, 3.5f);
+    EXPECT_EQ(o.focal_distance, 5);
+    EXPECT_EQ(o.frame, 7);
+    EXPECT_EQ(o.filter.name, "box");
+    EXPECT_EQ(o.filter.width_y, 4);
     EXPECT_EQ(o.displays.at(0).mode, "rgbaz");
     EXPECT_EQ(outcome.attributes().sides, 1);
     EXPECT_EQ(outcome.attributes().matte, 2);

@@ -1,5 +1,6 @@
 #include "pipeline/rib/ri_values.h"
 
+#include <cmath>
 #include <string_view>
 
 namespace trapeze::rib {
@@ -32,15 +33,47 @@ constexpr RiValue kValues[] = {
     {"DetailRange", "DetailRange"},
 };
 
+Argument text_argument(const std::string& value, SourceLocation at) {
+    Argument argument;
+    argument.kind = Argument::Kind::String;
+    argument.at = at, argument.strings.push_back(value);
+    return argument;
+}
+
 Argument number(double value, SourceLocation at) {
     Argument argument;
     argument.at = at, argument.number = value;
     return argument;
 }
 
+/// Each of these is half of a PixelFilter: the other stays.
+bool execute_filter(Reader& reader, const Parameter& value) {
+    PixelFilter filter = reader.options().filter;
+    if (value.name == "PixelFilterName" && value.strings.size() == 1)
+        filter.name = value.strings[0];
+    else if (value.name == "PixelFilterWidth" && value.floats.size() == 2)
+        filter.width_x = value.floats[0], filter.width_y = value.floats[1];
+    else
+        return false;
+    RequestText text;
+    text.arguments = {text_argument(filter.name, reader.at()), number(filter.width_x, reader.at()),
+                      number(filter.width_y, reader.at())};
+    ArgumentCursor cursor(text);
+    find_request("PixelFilter")->handler(reader, cursor);
+    return true;
+}
+
+bool set_frame(Reader& reader, const Parameter& value) {
+    if (value.name != "Frame" || value.floats.size() != 1 || !(std::abs(value.floats[0]) < 1e9f))
+        return false;
+    reader.options().frame = static_cast<int>(value.floats[0]);
+    return true;
+}
+
 }  // namespace
 
 bool execute_ri_value(Reader& reader, const Parameter& value) {
+    if (execute_filter(reader, value) || set_frame(reader, value)) return true;
     for (const RiValue& known : kValues) {
         if (known.value != value.name) continue;
         RequestText text;
