@@ -14,7 +14,8 @@
 namespace trapeze {
 namespace {
 
-const std::vector<std::string> kCommands = {"render", "check", "info", "compare", "scene", "study", "shader"};
+const std::vector<std::string> kCommands = {"render",  "check", "info",  "cat",
+                                            "compare", "scene", "study", "shader"};
 
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
@@ -232,6 +233,16 @@ void add_study_options(CLI::App& app, Arguments& a) {
     add_work_options(app, a);
 }
 
+void add_cat_options(CLI::App& app, Arguments& a) {
+    app.add_option("-o,--output", a.output, "the file to write; - is standard output, the default")
+        ->type_name("FILE.rib");
+    app.add_flag("-b,--binary", a.cat.binary, "writes the binary encoding");
+    app.add_flag("-z,--gzip", a.cat.gzip, "compresses; also when FILE ends with .gz");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+    app.add_flag("--keep-archives", a.cat.keep_archives,
+                 "leaves ReadArchive as it is, instead of the archive's requests in its place");
+}
+
 void add_shader_options(CLI::App& app, Arguments& a) {
     ShaderArguments& s = a.shader;
     app.add_option("file", s.file, "a shader's source; - is standard input")
@@ -308,6 +319,8 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     CLI::App* check = app.add_subcommand(
         "check", "reads scenes and reports all that is wrong or not supported; renders nothing");
     CLI::App* info = app.add_subcommand("info", "says what is in scenes");
+    CLI::App* cat = app.add_subcommand(
+        "cat", "writes scenes as one RIB file: ASCII or binary, archives read, conditions resolved");
     CLI::App* compare = app.add_subcommand(
         "compare", "measures visibility methods side by side on a scene: times, counts, errors");
     CLI::App* scene =
@@ -315,11 +328,12 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     CLI::App* study = app.add_subcommand(
         "study", "repeats a table or figure of the micropolygon ray tracing paper on this machine");
     CLI::App* shader = app.add_subcommand("shader", "checks a shader's source, and says what it takes");
-    for (CLI::App* command : {render, check, info, compare}) {
+    for (CLI::App* command : {render, check, info, cat, compare}) {
         add_inputs(*command, arguments);
         command->footer(kExitCodeHelp);
     }
     add_render_options(*render, arguments);
+    add_cat_options(*cat, arguments);
     add_compare_options(*compare, arguments);
     add_scene_options(*scene, arguments);
     add_study_options(*study, arguments);
@@ -340,6 +354,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     }
     if (check->parsed()) arguments.command = Command::Check;
     if (info->parsed()) arguments.command = Command::Info;
+    if (cat->parsed()) arguments.command = Command::Cat;
     if (compare->parsed()) arguments.command = Command::Compare;
     if (scene->parsed()) arguments.command = Command::Scene;
     if (study->parsed()) arguments.command = Command::Study;

@@ -11,7 +11,7 @@
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info, Compare, Scene, Study, Shader };
+enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader };
 
 /// What `trapeze compare` alone has.
 struct CompareArguments {
@@ -35,6 +35,13 @@ struct StudyArguments {
     bool quick = false;
     int rounds = 3;
     std::string report, json;  ///< files; empty: none
+};
+
+/// What `trapeze cat` alone has; the file to write is Arguments::output, empty or "-": standard output.
+struct CatArguments {
+    bool binary = false;
+    bool gzip = false;           ///< also when the output's name ends with .gz
+    bool keep_archives = false;  ///< ReadArchive stays as it is
 };
 
 /// What `trapeze shader` alone has.
@@ -64,6 +71,7 @@ struct Arguments {
     int regions_at_least = 1;
     std::string progress = "auto";
     std::string stats_file;
+    CatArguments cat;
     CompareArguments compare;
     SceneArguments scene;
     StudyArguments study;

@@ -10,6 +10,7 @@ namespace trapeze {
 int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int info_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);

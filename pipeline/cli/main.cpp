@@ -21,6 +21,9 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
         case Command::Info:
             code = info_command(arguments, terminal, diagnostics);
             break;
+        case Command::Cat:
+            code = cat_command(arguments, terminal, diagnostics);
+            break;
         case Command::Compare:
             code = compare_command(arguments, terminal, diagnostics);
             break;

@@ -4,11 +4,21 @@
 #include "pipeline/rib/reader.h"
 
 namespace trapeze::rib {
+namespace {
+
+RequestText bare_request(const char* name, SourceLocation at) {
+    RequestText request;
+    request.name = name, request.at = at;
+    return request;
+}
+
+}  // namespace
 
 /// Runs `read` between AttributeBegin and AttributeEnd; blocks that it leaves open are closed.
 template <class Read>
 void Reader::read_in_block(Read&& read) {
     begin_block(Block::Attribute);
+    hands_on(bare_request("AttributeBegin", at_));
     const size_t depth = blocks_.size();
     const auto id = blocks_.back().id;
     read();
@@ -17,6 +27,7 @@ void Reader::read_in_block(Read&& read) {
               std::to_string(blocks_.back().at.line) + " is still open; closed here");
         close_block();
     }
+    hands_on(bare_request("AttributeEnd", at_));
     // What was read may have closed this block too.
     if (blocks_.size() >= depth && blocks_[depth - 1].id == id) close_block();
 }

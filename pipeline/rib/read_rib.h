@@ -17,6 +17,10 @@
 
 namespace trapeze {
 
+namespace rib {
+struct RequestText;
+}
+
 struct ReadOptions {
     std::optional<float> shading_rate;  ///< instead of every ShadingRate
     std::function<bool(int)>
@@ -35,6 +39,11 @@ struct ReadOptions {
     bool allow_programs = false;   ///< Procedural "RunProgram" runs what the file names
     double program_seconds = 120;  ///< a program's time for one answer
 
+    /// Called for each known request whose arguments can be read, whether it is supported or not, in the
+    /// order in which they are carried out: conditional blocks are resolved, and the requests of an archive
+    /// come where it is read, after the ReadArchive (or between an AttributeBegin and an AttributeEnd after a
+    /// Procedural). False: the request is not carried out. May be empty.
+    std::function<bool(const rib::RequestText&)> on_request;
     bool keep_geometry = true;                  ///< false: primitives are validated and counted, not kept
     size_t max_source_bytes = size_t{8} << 30;  ///< of any one file, unpacked
 

@@ -97,6 +97,7 @@ void Reader::execute(RequestText& text) {
         return;
     }
     ++summary_.requests[text.name];
+    if (!request->handler && text.problem.empty()) hands_on(text);
     if (!request->handler) {
         ++summary_.unsupported[text.name];
         diagnostics_.warning(at_, text.name + " is not supported yet; skipped", "unsupported-" + text.name);
@@ -109,11 +110,12 @@ void Reader::execute(RequestText& text) {
         if (!is_block) return;
     }
     try {
+        substitute(text);
+        if (!hands_on(text)) return;
         if (motion_ &&
             (request->group == RequestGroup::Attribute || request->group == RequestGroup::Option) &&
             !is_first_in_motion(text.name))
             return;
-        substitute(text);
         ArgumentCursor cursor(text);
         request->handler(*this, cursor);
         if (!cursor.done())
@@ -122,6 +124,12 @@ void Reader::execute(RequestText& text) {
         const bool is_shape = request->group == RequestGroup::Geometry;
         error(problem.at, problem.text + (is_shape ? "; primitive skipped" : "; request skipped"));
     }
+}
+
+/// Whether the request is to be carried out.
+bool Reader::hands_on(const RequestText& text) {
+    if (!read_options_.on_request || is_conditional(text.name) || !frame_wanted_) return true;
+    return read_options_.on_request(text);
 }
 
 std::string Reader::current_file() const {

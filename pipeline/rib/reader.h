@@ -142,6 +142,7 @@ class Reader {
 
     void read_text(std::string_view text, SourceLocation first, EncodedNames names = {});
     void execute(RequestText& request);
+    bool hands_on(const RequestText& request);
     std::string current_file() const;  ///< the innermost that is a file on disk; may be empty
     std::string current_folder() const;
 

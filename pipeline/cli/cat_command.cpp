@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+
+#include "composite/output_file.h"
+#include "pipeline/cli/commands.h"
+#include "pipeline/cli/exit_codes.h"
+#include "pipeline/rib/cat_rib.h"
+
+namespace trapeze {
+namespace {
+
+/// Standard output or a file that appears when all is written.
+class CatOutput {
+  public:
+    explicit CatOutput(const std::string& path) {
+        if (!path.empty() && path != "-") file_.emplace(path);
+    }
+    bool open() { return !file_ || file_->open(); }
+    void write(std::string_view bytes) {
+        if (file_)
+            good_ = good_ && file_->write(bytes.data(), bytes.size());
+        else
+            good_ = good_ && std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    }
+    bool close() { return good_ && (file_ ? file_->commit() : std::fflush(stdout) == 0); }
+    std::string error() const { return file_ ? file_->error() : std::strerror(errno); }
+
+  private:
+    std::optional<OutputFile> file_;
+    bool good_ = true;
+};
+
+}  // namespace
+
+int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
+    const CatArguments& cat = arguments.cat;
+    CatOutput output(arguments.output);
+    const auto cannot_write = [&] {
+        diagnostics.error({}, fmt::format("cannot write \"{}\": {}", arguments.output, output.error()));
+        return kExitNoOutput;
+    };
+    if (!output.open()) return cannot_write();
+    rib::CatOptions options;
+    options.encoding = cat.binary ? rib::RibEncoding::Binary : rib::RibEncoding::Ascii;
+    options.gzip = cat.gzip || arguments.output.ends_with(".gz");
+    options.keep_archives = cat.keep_archives;
+    const ReadSummary summary = rib::cat_rib(arguments.inputs, options, diagnostics,
+                                             [&](std::string_view bytes) { output.write(bytes); });
+    if (!output.close()) return cannot_write();
+    uint64_t requests = 0;
+    for (const auto& [name, count] : summary.requests) requests += count;
+    terminal.say(fmt::format("{} requests, {} errors, {} warnings", requests,
+                             diagnostics.count(Severity::Error), diagnostics.count(Severity::Warning)));
+    return diagnostics.count(Severity::Error) > 0 ? kExitErrors : kExitOk;
+}
+
+}  // namespace trapeze
