@@ -32,6 +32,12 @@ bool suits(ValueType given, Base wanted) {
     return false;
 }
 
+/// A value that nobody declared is a string, or an array of floats: the shader says what they are.
+bool looks_like(const Parameter& given, size_t floats) {
+    return given.declaration.type == ValueType::Float && given.declaration.array_length > 1 && floats > 1 &&
+           given.floats.size() == floats;
+}
+
 std::string_view type_name(Base base) {
     static constexpr std::string_view kNames[] = {"void",   "bool",   "float",  "color", "point",
                                                   "vector", "normal", "matrix", "string"};
@@ -97,7 +103,8 @@ bool BoundShader::take_from_instance(const rsl::ProgramParameter& parameter, Val
     const Base base = parameter.type.base;
     const size_t width = static_cast<size_t>(rsl::width_of(base));
     const size_t count = width ? given->floats.size() / std::max<size_t>(width, 1) : given->strings.size();
-    if (!suits(given->declaration.type, base) || count < elements) {
+    const bool is_suitable = suits(given->declaration.type, base) || looks_like(*given, elements * width);
+    if (!is_suitable || count < elements) {
         if (diagnostics)
             diagnostics->warning(
                 instance_.location,

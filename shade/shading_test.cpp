@@ -34,6 +34,21 @@ TEST(Shading, UnknownShadersAreReportedWhereTheyAreNamed) {
     EXPECT_EQ(after.P[0].c, before.P[0].c);
 }
 
+TEST(Shading, UndeclaredColoursAreWhatTheShaderSays) {
+    const auto shaded = [](ValueType type, int length, std::vector<float> values, size_t warnings) {
+        TestScene scene;
+        scene.light("distantlight");
+        scene.surface("plastic",
+                      {{"specularcolor", {StorageClass::Uniform, type, length}, std::move(values), {}}});
+        const ShadingGrid grid = scene.shaded();
+        EXPECT_EQ(scene.reported.size(), warnings);
+        return grid.Ci.c;
+    };
+    const auto declared = shaded(ValueType::Color, 1, {1, 0, 0}, 0);
+    EXPECT_EQ(shaded(ValueType::Float, 3, {1, 0, 0}, 0), declared);
+    EXPECT_NE(shaded(ValueType::Float, 2, {1, 0}, 1), declared);
+}
+
 TEST(Shading, EachPrimitiveHasItsOwnShaders) {
     TestScene scene;
     scene.surface("constant");

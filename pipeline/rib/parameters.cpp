@@ -33,8 +33,14 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
         while (value.kind == Argument::Kind::Number && cursor.next_is_number() && !cursor.next_is_array())
             numbers.push_back(cursor.number("a value"));
         auto declared = declarations_.resolve(token);
-        if (!declared && undeclared == Undeclared::Guess && token.find(' ') == std::string::npos)
+        if (!declared && undeclared != Undeclared::LeaveOut && token.find(' ') == std::string::npos) {
             declared = {token, guessed(numbers.size(), value.strings.size())};
+            if (undeclared == Undeclared::ShaderKnows)
+                diagnostics_.warning(name_at,
+                                     request_name_ + ": " + in_quotes(token) +
+                                         " is not declared; it is what the shader says it is",
+                                     "undeclared-" + token);
+        }
         if (!declared) {
             diagnostics_.error(name_at,
                                request_name_ + ": " + in_quotes(token) + " is not declared; left out",
@@ -74,7 +80,7 @@ std::vector<float> Reader::rgb(std::vector<float> colors) const {
 }
 
 ParameterList Reader::shader_parameters(ArgumentCursor& cursor) {
-    ParameterList list = parameters(cursor);
+    ParameterList list = parameters(cursor, Undeclared::ShaderKnows);
     std::erase_if(list.values, [&](const Parameter& p) {
         const size_t got = p.is_string() ? p.strings.size() : p.floats.size();
         const int wanted = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();

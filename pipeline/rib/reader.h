@@ -15,9 +15,9 @@
 
 namespace trapeze::rib {
 
-/// What becomes of parameters that nobody declared: primitives and shaders leave them out, options and
-/// attributes keep them as what they look like.
-enum class Undeclared { LeaveOut, Guess };
+/// What becomes of parameters that nobody declared: primitives leave them out, options and attributes keep
+/// them as what they look like; so do shaders, which know better what they are.
+enum class Undeclared { LeaveOut, Guess, ShaderKnows };
 
 class Reader {
   public:
