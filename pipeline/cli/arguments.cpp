@@ -14,8 +14,8 @@
 namespace trapeze {
 namespace {
 
-const std::vector<std::string> kCommands = {"render",  "check", "info",  "cat",
-                                            "compare", "scene", "study", "shader"};
+const std::vector<std::string> kCommands = {"render", "check", "info",   "cat",       "compare",
+                                            "scene",  "study", "shader", "compliance"};
 
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789.+-eE") == std::string::npos;
@@ -328,6 +328,11 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     CLI::App* study = app.add_subcommand(
         "study", "repeats a table or figure of the micropolygon ray tracing paper on this machine");
     CLI::App* shader = app.add_subcommand("shader", "checks a shader's source, and says what it takes");
+    CLI::App* compliance =
+        app.add_subcommand("compliance", "writes what of the RenderMan Interface is supported, as Markdown");
+    compliance->add_option("--scenes", arguments.scenes_folder, "where tiny and gallery lie, whose RIB files show requests")
+        ->capture_default_str()
+        ->type_name("DIR");
     for (CLI::App* command : {render, check, info, cat, compare}) {
         add_inputs(*command, arguments);
         command->footer(kExitCodeHelp);
@@ -358,6 +363,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     if (compare->parsed()) arguments.command = Command::Compare;
     if (scene->parsed()) arguments.command = Command::Scene;
     if (study->parsed()) arguments.command = Command::Study;
+    if (compliance->parsed()) arguments.command = Command::Compliance;
     if (shader->parsed()) arguments.command = Command::Shader;
     std::string error;
     if (!samplers_are_right(arguments, &error)) {

@@ -11,7 +11,7 @@
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader };
+enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader, Compliance };
 
 /// What `trapeze compare` alone has.
 struct CompareArguments {
@@ -76,8 +76,9 @@ struct Arguments {
     SceneArguments scene;
     StudyArguments study;
     ShaderArguments shader;
-    std::vector<std::string> first_rib;  ///< RIB to execute before the inputs
-    bool allow_programs = false;         ///< that scenes name
+    std::string scenes_folder = "scenes";  ///< of `trapeze compliance`: tiny and gallery are in it
+    std::vector<std::string> first_rib;         ///< RIB to execute before the inputs
+    bool allow_programs = false;                ///< that scenes name
     bool strict = false, quiet = false, color = true;
 };
 

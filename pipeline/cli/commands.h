@@ -14,6 +14,7 @@ int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& dia
 int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+int compliance_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 
 /// True when all inputs can be opened; reports those that cannot.

@@ -33,6 +33,9 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
         case Command::Shader:
             code = shader_command(arguments, terminal, diagnostics);
             break;
+        case Command::Compliance:
+            code = compliance_command(arguments, terminal, diagnostics);
+            break;
         case Command::Scene:
             code = scene_command(arguments, terminal, diagnostics);
             break;

@@ -47,7 +47,28 @@ bool has(const std::string_view (&names)[kCount], std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+template <size_t kCount>
+std::vector<std::string> listed(const Value (&values)[kCount]) {
+    std::vector<std::string> names;
+    for (const Value& value : values)
+        names.push_back(std::string(value.category) + " " +
+                        (value.name.empty() ? "(all)" : std::string(value.name)));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+template <size_t kCount>
+std::vector<std::string> listed(const std::string_view (&values)[kCount]) {
+    std::vector<std::string> names(std::begin(values), std::end(values));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 }  // namespace
+
+EffectiveSettings effective_settings() {
+    return {listed(kOptions), listed(kAttributes), listed(kHider), listed(kDisplay)};
+}
 
 bool option_has_effect(std::string_view category, std::string_view name) {
     return has(kOptions, category, name);

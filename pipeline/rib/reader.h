@@ -243,6 +243,8 @@ struct Request {
 /// Null for unknown names.
 const Request* find_request(std::string_view name);
 bool is_request(std::string_view name);
+/// All known ones, sorted.
+std::vector<std::string> request_names();
 /// The known request most like a misspelt name, or nothing.
 std::string suggestion_for(const std::string& name);
 

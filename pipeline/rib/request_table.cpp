@@ -71,6 +71,12 @@ const Request* find_request(std::string_view name) {
     return row == table().end() ? nullptr : &row->second;
 }
 
+std::vector<std::string> request_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, request] : table()) names.push_back(name);
+    return names;
+}
+
 std::string suggestion_for(const std::string& name) {
     if (name.size() > 40) return {};
     std::string best;

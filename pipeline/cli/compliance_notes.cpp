@@ -1,0 +1,184 @@
+#include "pipeline/cli/compliance_notes.h"
+
+namespace trapeze {
+namespace {
+
+constexpr RequestNote kRequests[] = {
+    {"AreaLightSource", "shines from the origin of its shader space, with a warning"},
+    {"Atmosphere", "at visible points; no volume between surfaces"},
+    {"Bound", "read; the renderer finds bounds itself"},
+    {"ColorSamples", "colours are turned into RGB where they are read"},
+    {"Deformation", "no such shaders"},
+    {"Detail", "cross-faded by opacity"},
+    {"Exterior", "kept; nothing runs it until rays are traced"},
+    {"GeometricApproximation", "motionfactor, focusfactor; flatness is read"},
+    {"GeometricRepresentation", "read; all is drawn as it is"},
+    {"Hider", "hidden; others are warned about and hidden is used; jitter, depthfilter"},
+    {"Imager", "over the finished picture, after filtering"},
+    {"Interior", "kept; nothing runs it until rays are traced"},
+    {"MakeBump", "as MakeTexture"},
+    {"MotionBegin", "any number of keys for transforms and geometry; of other requests the first counts"},
+    {"Perspective", "read; surfaces are not transformed by projections"},
+    {"PixelVariance", "read; every pixel has all its samples"},
+    {"Procedural", "archives at once; programs where the command line allows them; no DynamicLoad"},
+    {"Projection", "perspective and orthographic"},
+    {"Quantize", "8, 16 bits and floats, by display"},
+    {"ShaderLayer", "surface, displacement and atmosphere"},
+    {"System", "never run"},
+};
+
+constexpr Capability kCapabilities[] = {
+    {"Solid Modeling", "supported",
+     "SolidBegin and SolidEnd with primitive, union, intersection and difference to any depth, resolved "
+     "along "
+     "each sample's ray: exact with motion blur and depth of field. A ray that starts inside a solid behind "
+     "which an opaque surface stands is taken to start outside."},
+    {"Trim Curves", "supported", "TrimCurve on NuPatch, with Attribute \"trimcurve\" \"sense\"."},
+    {"Level of Detail", "supported", "Detail, DetailRange and RelativeDetail; transitions fade by opacity."},
+    {"Motion Blur", "supported",
+     "Transforms and deforming geometry with any number of keys, also within instances. Shading is at "
+     "shutter "
+     "open; parameters of shaders and lights take their values there."},
+    {"Depth of Field", "supported", "Every sample has its own point of the lens."},
+    {"Special Camera Projections", "not supported", "Perspective and orthographic alone."},
+    {"Displacements", "supported",
+     "P is moved and normals are found again; closed surfaces stay closed. Attribute \"displacementbound\" "
+     "is "
+     "needed, and a shader that goes beyond it is reported with the bound that it needs."},
+    {"Deformations", "not supported", "Deformation shaders are not run."},
+    {"Spectral Colors", "supported with limits", "ColorSamples converts to three samples when RIB is read."},
+    {"Programmable Shading", "supported",
+     "RenderMan Shading Language 3.2: surface, displacement, light, volume and imager shaders."},
+    {"Volume Shading", "supported with limits",
+     "Atmosphere shaders run at visible points. Interior and Exterior are kept."},
+    {"Ray Tracing", "not supported", "trace() and its kin see nothing, with one warning."},
+    {"Global Illumination", "not supported", "occlusion() and indirectdiffuse() are 0, with one warning."},
+    {"Area Lights", "not supported", "AreaLightSource shines from the origin of its space, with a warning."},
+    {"Texture, Environment and Shadow Mapping", "supported",
+     "The Make requests and what OpenImageIO reads; bump() gives 0."},
+};
+
+constexpr const char* kRispec[] = {"version",
+                                   "Declare",
+                                   "FrameBegin",
+                                   "FrameEnd",
+                                   "WorldBegin",
+                                   "WorldEnd",
+                                   "Format",
+                                   "FrameAspectRatio",
+                                   "ScreenWindow",
+                                   "CropWindow",
+                                   "Projection",
+                                   "Clipping",
+                                   "ClippingPlane",
+                                   "DepthOfField",
+                                   "Shutter",
+                                   "PixelVariance",
+                                   "PixelSamples",
+                                   "PixelFilter",
+                                   "Exposure",
+                                   "Imager",
+                                   "Quantize",
+                                   "Display",
+                                   "Hider",
+                                   "ColorSamples",
+                                   "RelativeDetail",
+                                   "Option",
+                                   "AttributeBegin",
+                                   "AttributeEnd",
+                                   "Color",
+                                   "Opacity",
+                                   "TextureCoordinates",
+                                   "LightSource",
+                                   "AreaLightSource",
+                                   "Illuminate",
+                                   "Surface",
+                                   "Displacement",
+                                   "Atmosphere",
+                                   "Interior",
+                                   "Exterior",
+                                   "ShadingRate",
+                                   "ShadingInterpolation",
+                                   "Matte",
+                                   "Bound",
+                                   "Detail",
+                                   "DetailRange",
+                                   "GeometricApproximation",
+                                   "Orientation",
+                                   "ReverseOrientation",
+                                   "Sides",
+                                   "Identity",
+                                   "Transform",
+                                   "ConcatTransform",
+                                   "Perspective",
+                                   "Translate",
+                                   "Rotate",
+                                   "Scale",
+                                   "Skew",
+                                   "CoordinateSystem",
+                                   "CoordSysTransform",
+                                   "TransformBegin",
+                                   "TransformEnd",
+                                   "Attribute",
+                                   "Polygon",
+                                   "GeneralPolygon",
+                                   "PointsPolygons",
+                                   "PointsGeneralPolygons",
+                                   "Basis",
+                                   "Patch",
+                                   "PatchMesh",
+                                   "NuPatch",
+                                   "TrimCurve",
+                                   "SubdivisionMesh",
+                                   "Sphere",
+                                   "Cone",
+                                   "Cylinder",
+                                   "Hyperboloid",
+                                   "Paraboloid",
+                                   "Disk",
+                                   "Torus",
+                                   "Points",
+                                   "Curves",
+                                   "Blobby",
+                                   "Procedural",
+                                   "Geometry",
+                                   "SolidBegin",
+                                   "SolidEnd",
+                                   "ObjectBegin",
+                                   "ObjectEnd",
+                                   "ObjectInstance",
+                                   "MotionBegin",
+                                   "MotionEnd",
+                                   "MakeTexture",
+                                   "MakeLatLongEnvironment",
+                                   "MakeCubeFaceEnvironment",
+                                   "MakeShadow",
+                                   "ErrorHandler",
+                                   "ReadArchive"};
+
+constexpr RequestNote kFunctions[] = {
+    {"bump", "gives 0"},
+    {"trace", "black, with one warning"},
+    {"transmission", "1 everywhere, with one warning"},
+    {"occlusion", "0, with one warning"},
+    {"gather", "its rays hit nothing, with one warning"},
+    {"incident", "0: rays are not traced"},
+    {"opposite", "0: rays are not traced"},
+};
+
+}  // namespace
+
+std::span<const RequestNote> request_notes() {
+    return kRequests;
+}
+std::span<const Capability> capabilities() {
+    return kCapabilities;
+}
+std::span<const char* const> rispec_requests() {
+    return kRispec;
+}
+std::span<const RequestNote> function_notes() {
+    return kFunctions;
+}
+
+}  // namespace trapeze
