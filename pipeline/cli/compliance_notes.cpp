@@ -161,7 +161,6 @@ constexpr RequestNote kFunctions[] = {
     {"trace", "black, with one warning"},
     {"transmission", "1 everywhere, with one warning"},
     {"occlusion", "0, with one warning"},
-    {"gather", "its rays hit nothing, with one warning"},
     {"incident", "0: rays are not traced"},
     {"opposite", "0: rays are not traced"},
 };
