@@ -130,6 +130,8 @@ void attribute(Reader& r, ArgumentCursor& c) {
         const std::string text = value.strings.empty() ? "" : value.strings[0];
         if (category == "displacementbound" && value.name == "sphere")
             state.displacement_bound.sphere = std::abs(number);
+        if (category == "bound" && value.name == "displacement")  // before RISpec 3.1
+            state.displacement_bound = {std::abs(number), "object"};
         if (category == "displacementbound" && value.name == "coordinatesystem")
             state.displacement_bound.coordinate_system = text;
         if (category == "identifier" && value.name == "name") state.attributes.name = text;

@@ -23,6 +23,7 @@ constexpr Value kOptions[] = {{"user", ""},
 
 constexpr Value kAttributes[] = {{"user", ""},
                                  {"identifier", "name"},
+                                 {"bound", "displacement"},
                                  {"displacementbound", ""},
                                  {"visibility", "camera"},
                                  {"render", "visibility"},

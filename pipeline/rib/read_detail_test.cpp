@@ -128,6 +128,13 @@ TEST(ReadAttributes, VisibilityHasManyForms) {
     EXPECT_FALSE(visible("\"render\" \"integer visibility\" [6] "));
 }
 
+TEST(ReadAttributes, OldFilesBoundDisplacementsToo) {
+    const Outcome outcome = read_world("Scale 2 2 2 Attribute \"bound\" \"displacement\" 0.1 " + kSphere);
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    EXPECT_NEAR(outcome.attributes().displacement_bound, 0.2f, 1e-6f);
+    EXPECT_THAT(outcome.summary.without_effect, IsEmpty());
+}
+
 TEST(ReadApproximation, ObjectsKeepTheirOwn) {
     const Outcome outcome = read_world(
         "ObjectBegin 1 GeometricApproximation \"motionfactor\" 2 "
