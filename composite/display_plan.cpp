@@ -37,6 +37,19 @@ std::optional<FileFormat> look_up(const Table& table, std::string_view name) {
     return {};
 }
 
+bool opens_window(const Display& display) {
+    return std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), lower(display.type)) !=
+           std::end(kWindowDrivers);
+}
+
+/// A window beside a file of the same name, as many scenes have it: to be looked at, not to be kept.
+bool is_window_of_a_file(const Display& display, const Options& options) {
+    return opens_window(display) &&
+           std::any_of(options.displays.begin(), options.displays.end(), [&](const Display& other) {
+               return other.name == display.name && !opens_window(other) && lower(other.type) != "null";
+           });
+}
+
 /// Driver and extension to format and path. Nothing: driver "null".
 bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
     const std::string driver = lower(display.type);
@@ -52,9 +65,7 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
     }
     const auto by_extension =
         look_up(kExtensions, lower(std::filesystem::path(display.name).extension().string()));
-    const bool window =
-        std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), driver) != std::end(kWindowDrivers);
-    if (window) {
+    if (opens_window(display)) {
         if (!by_extension) plan.path += ".exr";
         diagnostics.warning(
             display.location,
@@ -174,7 +185,7 @@ std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
                                         const AovLayout& layout, Diagnostics& diagnostics) {
     DisplayPlan plan;
-    if (!choose_format(display, diagnostics, plan)) return {};
+    if (is_window_of_a_file(display, options) || !choose_format(display, diagnostics, plan)) return {};
     const bool variable = display.variable && !is_depth(*display.variable) && !plan.depth_map;
     if (!(variable ? choose_variable(display, layout, diagnostics, plan)
                    : choose_channels(display, diagnostics, plan)))

@@ -66,6 +66,21 @@ TEST(DisplayPlan, DriverThenExtensionChoosesTheFormat) {
     EXPECT_FALSE(planned({"a.exr", "null", "rgba", {}, {}}).plan);
 }
 
+TEST(DisplayPlan, WindowsDoNotOverwriteFiles) {
+    Options options;
+    options.displays = {{"a.tif", "file", "rgba", {}, {}},
+                        {"a.tif", "framebuffer", "rgb", {}, {}},
+                        {"b.tif", "framebuffer", "rgb", {}, {}},
+                        {"c.tif", "null", "rgb", {}, {}},
+                        {"c.tif", "it", "rgb", {}, {}}};
+    const bool written[] = {true, false, true, false, true};
+    for (size_t i = 0; i < options.displays.size(); ++i) {
+        const Planned result = planned(options.displays[i], options);
+        EXPECT_EQ(result.plan.has_value(), written[i]) << i;
+        EXPECT_EQ(result.warnings, i == 2 || i == 4 ? 1u : 0u) << i;
+    }
+}
+
 TEST(DisplayPlan, Modes) {
     const struct {
         const char* mode;
