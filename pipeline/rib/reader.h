@@ -38,6 +38,7 @@ class Reader {
     Scope& scope() { return scope_; }
     Options& options() { return scope_.options; }
     bool in_world() const { return in_world_; }
+    bool in_motion() const { return motion_.has_value(); }
     std::map<std::string, DisplayChannel>& display_channels() { return scope_.display_channels; }
     Declarations& declarations() { return declarations_; }
 

@@ -8,9 +8,9 @@ namespace trapeze::rib {
 namespace {
 
 /// The rest of RISpec 3.2, and what later RenderMans added: skipped whole.
-constexpr const char* kUnsupported[] = {"Deformation",   "Geometry",     "TrimCurve",     "Volume",
-                                        "MakeOcclusion", "MakeBrickMap", "MakeTexture3D", "VPInterior",
-                                        "VPAtmosphere",  "VPSurface",    "Shader"};
+constexpr const char* kUnsupported[] = {"Deformation",  "TrimCurve",     "Volume",     "MakeOcclusion",
+                                        "MakeBrickMap", "MakeTexture3D", "VPInterior", "VPAtmosphere",
+                                        "VPSurface",    "Shader"};
 
 using Table = std::map<std::string, Request, std::less<>>;
 
@@ -37,6 +37,7 @@ const Table& table() {
         add(curve_requests(), RequestGroup::Geometry);
         add(nu_patch_requests(), RequestGroup::Geometry);
         add(blobby_requests(), RequestGroup::Geometry);
+        add(geometry_requests(), RequestGroup::Geometry);
         add(map_requests(), RequestGroup::Option);
         for (const char* name : kUnsupported) rows.try_emplace(name);
         return rows;

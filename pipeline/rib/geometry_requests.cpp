@@ -1,0 +1,72 @@
+/// RISpec 5.6: Geometry, shapes that the renderer knows by name.
+#include "pipeline/rib/primitive_variables.h"
+#include "pipeline/rib/request_table.h"
+#include "pipeline/rib/teapot.h"
+
+namespace trapeze::rib {
+namespace {
+
+void add(Reader& r, const char* kind, Topology topology, ParameterList list) {
+    Shape shape{std::move(topology), std::move(list)};
+    r.add_shape(kind, std::move(shape), 1);
+}
+
+void teapot(Reader& r, const ParameterList& given) {
+    if (r.in_motion()) throw RequestError{"a teapot does not deform; move it by its transformation", {}};
+    PatchMesh mesh;
+    mesh.bicubic = true;
+    mesh.nu = mesh.nv = 4;
+    mesh.u_basis = mesh.v_basis = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
+    const ParameterList variables = checked_variables(r, given, mesh);
+    for (const std::array<V3f, 16>& points : teapot_patches()) {
+        Parameter P{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
+        for (const V3f& p : points) P.floats.insert(P.floats.end(), {p.x, p.y, p.z});
+        ParameterList list = variables;
+        list.set(std::move(P));
+        add(r, "Patch", mesh, std::move(list));
+    }
+}
+
+void sphere(Reader& r, const ParameterList& given) {
+    Quadric q;
+    q.values = {1, -1, 1, 360};
+    q.value_count = 4;
+    add(r, "Sphere", q, checked_variables(r, given, q));
+}
+
+/// Edges of length 1 about the origin.
+void cube(Reader& r, const ParameterList& given) {
+    PolygonMesh mesh;
+    mesh.loops_per_polygon.assign(6, 1);
+    mesh.vertices_per_loop.assign(6, 4);
+    // Corner c is at the signs of its bits; seen from outside, (1 - 0) x (3 - 0) points to the viewer.
+    mesh.vertices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    mesh.vertex_count = 8;
+    Parameter P{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
+    for (int c = 0; c < 8; ++c)
+        for (int axis = 0; axis < 3; ++axis) P.floats.push_back(c >> axis & 1 ? 0.5f : -0.5f);
+    ParameterList list = checked_variables(r, given, mesh);
+    list.set(std::move(P));
+    add(r, "PointsPolygons", std::move(mesh), std::move(list));
+}
+
+void geometry(Reader& r, ArgumentCursor& c) {
+    const std::string name = c.string("the name");
+    const ParameterList given = read_variables(r, c, PointForm::None);
+    if (name == "teapot") return teapot(r, given);
+    if (name == "sphere") return sphere(r, given);
+    if (name == "cube") return cube(r, given);
+    r.warn_once("no geometry " + in_quotes(name) + "; known are teapot, sphere and cube", "geometry-" + name);
+}
+
+constexpr RequestRow kRows[] = {
+    {"Geometry", geometry},
+};
+
+}  // namespace
+
+std::span<const RequestRow> geometry_requests() {
+    return kRows;
+}
+
+}  // namespace trapeze::rib
