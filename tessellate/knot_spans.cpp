@@ -22,6 +22,14 @@ float KnotSpans::share_of_range(int span, float t) const {
     return static_cast<float>((parameter(span, t) - spans_.front().begin) / total_length());
 }
 
+double KnotSpans::spans_before(double share) const {
+    const double x = spans_.front().begin + share * total_length();
+    const auto after = std::upper_bound(spans_.begin(), spans_.end(), x,
+                                        [](double p, const Span& s) { return p < s.begin; });
+    const auto span = after == spans_.begin() ? after : after - 1;
+    return static_cast<double>(span - spans_.begin()) + (x - span->begin) / (span->end - span->begin);
+}
+
 float KnotSpans::share_of_segment(int span, float t) const {
     const int knot = spans_[span].knot;
     return static_cast<float>((parameter(span, t) - knots_[knot]) / (knots_[knot + 1] - knots_[knot]));

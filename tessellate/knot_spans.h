@@ -34,6 +34,10 @@ class KnotSpans {
     float share_of_range(int span, float t) const;
     float share_of_segment(int span, float t) const;
 
+    /// How many spans lie before a share of the whole range, in spans and parts of them; goes on evenly
+    /// beyond the range.
+    double spans_before(double share) const;
+
     /// Derivatives are by t.
     BasisValues basis(int span, float t) const;
     /// The weight of control point first + i in Bezier control point j of [lo, hi] of a span:

@@ -6,6 +6,7 @@
 #include "tessellate/knot_spans.h"
 #include "tessellate/surface.h"
 #include "tessellate/surface_variables.h"
+#include "tessellate/trimmed_patch.h"
 
 namespace trapeze {
 namespace {
@@ -304,7 +305,10 @@ std::unique_ptr<Surface> make_nu_patch_surface(const Primitive& primitive, Diagn
         }
         points.push_back(P ? ControlPoints{P->floats.data(), 3} : ControlPoints{Pw->floats.data(), 4});
     }
-    return std::make_unique<NuPatchSurface>(primitive, std::move(points));
+    auto surface = std::make_unique<NuPatchSurface>(primitive, std::move(points));
+    const NuPatch& patch = std::get<NuPatch>(primitive.shape().topology);
+    if (patch.trim_loops.empty()) return surface;
+    return make_trimmed_patch(patch, std::move(surface));
 }
 
 }  // namespace trapeze

@@ -134,6 +134,11 @@ void attribute(Reader& r, ArgumentCursor& c) {
             state.displacement_bound = {std::abs(number), "object"};
         if (category == "displacementbound" && value.name == "coordinatesystem")
             state.displacement_bound.coordinate_system = text;
+        if (category == "trimcurve" && value.name == "sense") {
+            if (text != "inside" && text != "outside")
+                r.error("the sense " + in_quotes(text) + " is neither inside nor outside");
+            state.trim_outside = text == "outside";
+        }
         if (category == "identifier" && value.name == "name") state.attributes.name = text;
         if (category == "visibility" && value.name == "camera")
             state.attributes.visible_to_camera = value.is_string() ? is_on(text) : number != 0;

@@ -42,6 +42,8 @@ struct AttributeState {
     bool orientation_reversed = false;
     M44f u_basis, v_basis;
     int u_step = 3, v_step = 3;
+    std::shared_ptr<const std::vector<std::vector<TrimCurve>>> trim_loops;  ///< null: none
+    bool trim_outside = false;
 };
 
 using NamedSpaces = std::map<std::string, MovingTransform>;  ///< camera_from_space

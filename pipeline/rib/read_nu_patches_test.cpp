@@ -66,5 +66,57 @@ TEST(ReadNuPatches, RangesEndWithTheKnots) {
     EXPECT_EQ(patch.u_end, 3);
 }
 
+const std::string kPatch = "NuPatch " + kU + kV + kP;
+const std::string kSquare = "[1] [2] [0 0 1 2 3 4 4] [0] [4] [5] [0 1 1 0 0] [0 0 1 1 0] [1 1 1 1 1] ";
+
+TEST(ReadTrimCurves, LastUntilTheirBlockEnds) {
+    const Outcome r = read_world(kPatch + "AttributeBegin TrimCurve " + kSquare + kPatch +
+                                 "Attribute \"trimcurve\" \"string sense\" [\"outside\"] TrimCurve 1 " +
+                                 kSquare + kPatch + "TrimCurve [] " + kPatch + "AttributeEnd " + kPatch);
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.count(), 5u);
+    const auto patch = [&](size_t i) { return std::get<NuPatch>(r.primitive(i).shape().topology); };
+    for (const size_t i : {0, 3, 4}) EXPECT_TRUE(patch(i).trim_loops.empty());
+    ASSERT_EQ(patch(1).trim_loops.size(), 1u);
+    EXPECT_EQ(patch(1).trim_loops[0][0].points[2], V3f(1, 1, 1));
+    EXPECT_EQ(patch(1).trim_loops[0][0].end, 4);
+    EXPECT_FALSE(patch(1).trim_outside);
+    EXPECT_TRUE(patch(2).trim_outside);
+}
+
+TEST(ReadTrimCurves, SeveralCurvesMakeALoop) {
+    const Outcome r = read_world(
+        "TrimCurve [2 1] [2 2 3] [0 0 1 1 0 0 1 2 2 0 0 0 1 1 1] [0 0 0] [1 2 1] [2 3 3] "
+        "[0 1 1 0 0 .2 .4 .2] [0 0 1 1 0 .2 .2 .4] [1 1 1 1 1 1 .5 1] " +
+        kPatch);
+    EXPECT_THAT(r.messages, IsEmpty());
+    const auto& loops = std::get<NuPatch>(r.primitive().shape().topology).trim_loops;
+    ASSERT_EQ(loops.size(), 2u);
+    EXPECT_EQ(loops[0].size(), 2u);
+    EXPECT_THAT(loops[0][1].knots, ElementsAre(0, 0, 1, 2, 2));
+    EXPECT_EQ(loops[1][0].points[1], V3f(.4f, .2f, .5f));
+}
+
+TEST(ReadTrimCurves, WhatIsWrongIsSaid) {
+    const std::pair<std::string, const char*> wrong[] = {
+        {"[1] [2] [0 0 1 1] [0] [1] [3] [0 1 1] [0 0 1] [1 1 1]", "the knots are 4, needs 5"},
+        {"[1] [2 2] [0 0 1 1] [0] [1] [2] [0 1] [0 0] [1 1]", "the orders are 2, needs 1"},
+        {"[1] [4] [0 0 1 1] [0] [1] [2] [0 1] [0 0] [1 1]", "curve 0 has the order 4 and 2 points"},
+        {"[1] [2] [0 1 0 1] [0] [1] [2] [0 1] [0 0] [1 1]", "the knots of curve 0 fall"},
+        {"[1] [2] [0 0 1 1] [1] [1] [2] [0 1] [0 0] [1 1]", "the range of curve 0 is empty"},
+        {"[1] [2] [0 0 1 1] [0] [1] [2] [0 1] [0 0] [1 0]", "a weight of curve 0 is not positive"},
+        {"[1] [2] [0 0 1 1] [0] [1] [2] [0 1] [0 0 1] [1 1]", "the points' coordinates are 3, needs 2"},
+        {"[-1]", "a loop of -1 curves"},
+        {"[1] [2]", "the knots"},
+    };
+    for (const auto& [text, message] : wrong) {
+        const Outcome r = read_world("TrimCurve " + text + "\n" + kPatch);
+        ASSERT_EQ(r.messages.size(), 1u) << text;
+        EXPECT_THAT(r.messages[0], HasSubstr(message)) << text;
+        EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: TrimCurve")) << text;
+        EXPECT_EQ(r.count(), 1u) << text;
+    }
+}
+
 }  // namespace
 }  // namespace trapeze::rib::test

@@ -8,9 +8,9 @@ namespace trapeze::rib {
 namespace {
 
 /// The rest of RISpec 3.2, and what later RenderMans added: skipped whole.
-constexpr const char* kUnsupported[] = {"Deformation",  "TrimCurve",     "Volume",     "MakeOcclusion",
-                                        "MakeBrickMap", "MakeTexture3D", "VPInterior", "VPAtmosphere",
-                                        "VPSurface",    "Shader"};
+constexpr const char* kUnsupported[] = {"Deformation",  "Volume",        "MakeOcclusion",
+                                        "MakeBrickMap", "MakeTexture3D", "VPInterior",
+                                        "VPAtmosphere", "VPSurface",     "Shader"};
 
 using Table = std::map<std::string, Request, std::less<>>;
 
@@ -35,6 +35,7 @@ const Table& table() {
         add(polygon_requests(), RequestGroup::Geometry);
         add(curved_surface_requests(), RequestGroup::Geometry);
         add(curve_requests(), RequestGroup::Geometry);
+        add(trim_requests(), RequestGroup::Attribute);
         add(nu_patch_requests(), RequestGroup::Geometry);
         add(blobby_requests(), RequestGroup::Geometry);
         add(geometry_requests(), RequestGroup::Geometry);

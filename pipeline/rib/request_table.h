@@ -30,6 +30,7 @@ std::span<const RequestRow> polygon_requests();
 std::span<const RequestRow> curved_surface_requests();
 std::span<const RequestRow> curve_requests();
 std::span<const RequestRow> nu_patch_requests();
+std::span<const RequestRow> trim_requests();
 std::span<const RequestRow> blobby_requests();
 std::span<const RequestRow> geometry_requests();
 std::span<const RequestRow> map_requests();
