@@ -75,6 +75,22 @@ TEST(Illuminance, ChoosesLightsByCone) {
     within(", vector (-sin(0.5), 0, -cos(0.5)), 0.1", 10);
 }
 
+TEST(Illuminance, KeepsItsConeInEachTurn) {
+    // The axis and the angle are computed, and the body needs registers of its own, and changes what the
+    // angle was made from.
+    LitProbe probe;
+    probe.light(1, "", 0), probe.light(10, "", 0.5f), probe.light(100, "", 1.4f), probe.light(1000, "", 2);
+    probe.expect(
+        "float angle = 0.3 * (s + 2) / (s + 2); vector x = 0; illuminance(P, normalize(N * (t + 1)), angle * "
+        "2) {"
+        " angle = 0; x = normalize(L + I * s); x = x * length(x ^ I) + vector (s, t, 1); Ci += Cl + 0 * x . "
+        "x; }",
+        11);
+    LitProbe changed;
+    changed.light(1, "", 0), changed.light(10, "", 0.5f), changed.light(100, "", 1.4f);
+    changed.expect("float angle = 0.6 + 0 * s; illuminance(P, N, angle) { angle = 3; Ci += Cl; }", 11);
+}
+
 TEST(Illuminance, IsALoopThatJumpsLeave) {
     const auto of_four = [](const std::string& body, float value) {
         LitProbe probe;

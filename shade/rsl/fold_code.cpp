@@ -132,8 +132,9 @@ class Folder {
 
     void open(size_t i, Instruction& instruction, Code& folded) {
         const bool repeats = opens_loop(instruction.op);
-        follow_copies(instruction);
+        // A loop over lights asks for its inputs in each turn: they must be what no turn sets.
         if (repeats) set_all_written(i, blocks_.end[i]);
+        follow_copies(instruction);
         for (size_t k = 0; k < instruction.outputs; ++k) set_again(instruction.operands[k]);
         undo_.emplace_back();
         if (instruction.op == Op::If) {

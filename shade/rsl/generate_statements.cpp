@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "shade/rsl/generator.h"
 
 namespace trapeze::rsl {
@@ -188,9 +190,34 @@ void Generator::light_block(const Statement& s) {
     // Light from all sides comes from where the surface looks.
     if (op == Op::Solar && inputs.empty()) inputs.push_back(global("Ns", Base::Normal));
     if (op == Op::Illuminate) inputs.insert(inputs.begin(), global("Ps", Base::Point));
+    const size_t opening = code_->size();
     open(op, outputs, inputs);
     statement(*s.children[0]);
     close(end);
+    if (op == Op::Illuminance) keep_inputs(opening);
+}
+
+/// A loop over lights asks for its inputs again in each turn: those that its body changes become copies.
+void Generator::keep_inputs(size_t opening) {
+    std::vector<RegisterId> written;
+    for (size_t i = opening + 1; i < code_->size(); ++i)
+        for (size_t k = 0; k < (*code_)[i].outputs; ++k) written.push_back((*code_)[i].operands[k]);
+    std::sort(written.begin(), written.end());
+    for (size_t k = 0; k < (*code_)[opening].input_count(); ++k) {
+        const RegisterId input = (*code_)[opening].input(k);
+        if (!std::binary_search(written.begin(), written.end(), input)) continue;
+        Instruction copy;
+        copy.op = Op::Move;
+        copy.outputs = 1;
+        copy.region = (*code_)[opening].region;
+        copy.operands = {temporary(base_of(input)), input};
+        copy.at = (*code_)[opening].at;
+        program_->registers[copy.output()].region = copy.region;
+        Instruction& block = (*code_)[opening];
+        block.operands[block.outputs + k] = copy.output();
+        code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(opening), std::move(copy));
+        ++opening;
+    }
 }
 
 void Generator::gather_statement(const Statement& s) {

@@ -39,6 +39,8 @@ std::vector<Lifetime> lifetimes(const rsl::Program& program) {
             const bool temporary = program.reg(id).kind == Register::Kind::Temporary;
             const size_t made = life.first;
             life.cover(i, i);
+            // What opens such a block is asked for again in each turn.
+            if (repeats(code[i].op)) life.cover(i, blocks.end[i]);
             for (size_t b = blocks.around[i]; b != Blocks::kNone; b = blocks.around[b]) {
                 if (!repeats(code[b].op)) continue;
                 if (!temporary) life.cover(b, blocks.end[b]);
