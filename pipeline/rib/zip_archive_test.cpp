@@ -11,9 +11,9 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string bytes(uint32_t value, int count) {
+std::string bytes(uint64_t value, int count) {
     std::string text;
-    for (int i = 0; i < count; ++i) text += static_cast<char>(value >> (8 * i));
+    for (int i = 0; i < count; ++i) text += static_cast<char>(i < 8 ? value >> (8 * i) : 0);
     return text;
 }
 
