@@ -54,6 +54,7 @@ void write_moving(RibWriter& rib, std::string_view request, const Numbers& middl
 void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
 
 std::string hair_scene(const SceneParameters& parameters);
+std::string furball_scene(const SceneParameters& parameters);
 std::string halberd_scene(const SceneParameters& parameters);
 std::string flowers_scene(const SceneParameters& parameters);
 std::string car_study_scene(const SceneParameters& parameters);
