@@ -1,24 +1,40 @@
-/// Shading of whole grids of 16x16 micropolygons: vertices a second, through the room's door.
-
+/// Shading of whole grids of 16x16 micropolygons: vertices a second, through the room's door; and what
+/// compiling a shader takes. `--simd NAME` limits the instruction set, as the program's option does.
+///
+/// What a surface's time goes to shows in differences: "constant" is what any grid costs (variables in,
+/// colours out), "plastic_unlit" adds the surface's own arithmetic, "plastic_distant" the light. Grids of one
+/// micropolygon have a sixteenth of the lanes: what they cost is mostly the interpreter's, a step after the
+/// other.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "core/simd_limit.h"
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/generate.h"
+#include "shade/rsl/infer_storage.h"
+#include "shade/rsl/optimise.h"
+#include "shade/shader_folder_harness.h"
 #include "shade/shading.h"
+#include "shade/vm/executable.h"
 
 namespace trapeze {
 namespace {
 
 /// A grid that bends towards the viewer at z = 5 or so, in front of one primitive.
-ShadingGrid bent_grid(const Scene& scene) {
+ShadingGrid bent_grid(const Scene& scene, int side) {
     ShadingGrid grid;
-    grid.shape = {16, 16};
+    grid.shape = {static_cast<uint8_t>(side), static_cast<uint8_t>(side)};
     grid.primitive = &scene.primitives.front();
     const size_t count = grid.vertex_count();
     grid.P.resize(1);
     for (Triples* triples : {&grid.P[0], &grid.N, &grid.Ng, &grid.dPdu, &grid.dPdv}) triples->resize(count);
     grid.Cs.fill(count, V3f(0.8f, 0.5f, 0.2f));
     grid.Os.fill(count, V3f(1));
-    for (int j = 0; j <= 16; ++j)
-        for (int i = 0; i <= 16; ++i) {
+    for (int j = 0; j <= side; ++j)
+        for (int i = 0; i <= side; ++i) {
             const float x = (static_cast<float>(i) - 8) / 16, y = (static_cast<float>(j) - 8) / 16;
             const V3f normal = V3f(x, y, -1).normalized();
             const size_t at = grid.shape.row_index(i, j);
@@ -51,13 +67,35 @@ Scene scene_with(const char* surface, const char* light, int lights, const char*
     return scene;
 }
 
+/// Shaders that are no standard ones, in a folder for as long as the program runs.
+const std::string& shaders_of_the_bench() {
+    static const ShaderFolder folder;
+    static const bool written = [] {
+        folder.write(
+            "six_octaves",
+            "surface six_octaves(float Kd = 0.8, veining = 3;) {"
+            "  point PP = transform(\"shader\", P) * veining; float sum = 0, size = 1; uniform float i;"
+            "  for (i = 0; i < 6; i += 1) { sum += abs(0.5 - noise(PP * size)) / size; size *= 2; }"
+            "  color c = mix(color (0.2, 0.2, 0.5), color (1, 1, 0.9), smoothstep(0.1, 0.6, sum));"
+            "  Oi = Os; Ci = Oi * c * Kd * diffuse(faceforward(normalize(N), I)); }");
+        folder.write(
+            "octaves_alone",
+            "surface octaves_alone() { float sum = 0, size = 1; uniform float i;"
+            "  for (i = 0; i < 6; i += 1) { sum += noise(P * size); size *= 2; } Ci = sum; Oi = 1; }");
+        return true;
+    }();
+    (void)written;
+    return folder.path();
+}
+
 void shade(benchmark::State& state, const char* surface, const char* light, int lights,
-           const char* displacement) {
-    const Scene scene = scene_with(surface, light, lights, displacement);
+           const char* displacement, int side = 16) {
+    Scene scene = scene_with(surface, light, lights, displacement);
+    scene.options.search_paths["shader"] = {shaders_of_the_bench()};
     RenderContext context;
     context.scene = &scene;
     const Shading shading(context);
-    const ShadingGrid undisplaced = bent_grid(scene);
+    const ShadingGrid undisplaced = bent_grid(scene, side);
     ShadingGrid grid = undisplaced;
     ShadeScratch scratch;
     ShadeStats stats;
@@ -85,11 +123,96 @@ void dented_matte(benchmark::State& state) {
     shade(state, "matte", "distantlight", 1, "dented");
 }
 
+void constant(benchmark::State& state) {
+    shade(state, "constant", "distantlight", 1, nullptr);
+}
+void plastic_unlit(benchmark::State& state) {
+    shade(state, "plastic", "distantlight", 0, nullptr);
+}
+void plastic_one_micropolygon(benchmark::State& state) {
+    shade(state, "plastic", "distantlight", 1, nullptr, 1);
+}
+void six_octaves(benchmark::State& state) {
+    shade(state, "six_octaves", "distantlight", 1, nullptr);
+}
+void octaves_alone(benchmark::State& state) {
+    shade(state, "octaves_alone", "distantlight", 0, nullptr);
+}
+void octaves_one_micropolygon(benchmark::State& state) {
+    shade(state, "octaves_alone", "distantlight", 0, nullptr, 1);
+}
+
+/// 500 lines: functions, loops, conditions, built-in functions.
+std::string long_shader() {
+    std::string text;
+    for (int f = 0; f < 20; ++f) {
+        const std::string n = std::to_string(f);
+        text += "float f" + n +
+                "(point p; float x) {\n    float a = x, i;\n    for (i = 0; i < 3; i += 1)\n        "
+                "a += noise(p * i) * " +
+                n +
+                ";\n    if (a > 0.5) {\n        a = smoothstep(0, 1, a);\n    } else {\n"
+                "        a = clamp(a, 0, x);\n    }\n    return a;\n}\n";
+    }
+    text +=
+        "surface long(float Kd = 1) {\n    float a = s, b = t;\n    color c = Cs;\n    vector v = "
+        "normalize(I);\n";
+    for (int k = 0; k < 55; ++k) {
+        const std::string n = std::to_string(k % 20), m = std::to_string(k);
+        text += "    a += f" + n + "(P + " + m + ", b);\n    c = mix(c, color (a, b, " + m +
+                ") / 100, 0.5);\n    if (a > b)\n        b += length(v ^ vector (a, 1, 2));\n    v = "
+                "normalize(v + a);\n";
+    }
+    return text + "    Oi = Os;\n    Ci = Oi * c * Kd * diffuse(normalize(N));\n}\n";
+}
+
+void compile_500_lines(benchmark::State& state) {
+    const rsl::Source source{"long.sl", long_shader()};
+    size_t instructions = 0;
+    for (auto _ : state) {
+        Diagnostics diagnostics;
+        const auto unit = rsl::compile_front(source, {}, diagnostics);
+        auto program = rsl::generate(*unit->shaders.front(), diagnostics);
+        rsl::optimise(*program);
+        rsl::infer_storage(*program, [](const rsl::ProgramParameter&) { return false; });
+        instructions = program->code.size();
+        const vm::Executable executable(std::move(*program));
+        benchmark::DoNotOptimize(executable.code().data());
+    }
+    state.counters["instructions"] = static_cast<double>(instructions);
+}
+
 BENCHMARK(plastic_distant)->Threads(1)->Threads(2)->UseRealTime();
 BENCHMARK(plastic_spot)->Threads(1)->Threads(2)->UseRealTime();
 BENCHMARK(plastic_four_points)->Threads(1)->Threads(2)->UseRealTime();
 BENCHMARK(matte_distant)->Threads(1)->Threads(2)->UseRealTime();
 BENCHMARK(dented_matte)->Threads(1)->Threads(2)->UseRealTime();
+BENCHMARK(constant);
+BENCHMARK(plastic_unlit);
+BENCHMARK(plastic_one_micropolygon);
+BENCHMARK(six_octaves);
+BENCHMARK(octaves_alone);
+BENCHMARK(octaves_one_micropolygon);
+BENCHMARK(compile_500_lines)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trapeze
+
+int main(int argc, char** argv) {
+    for (int i = 1; i + 1 < argc; ++i) {
+        if (std::strcmp(argv[i], "--simd") != 0) continue;
+        std::string error;
+        if (!trapeze::limit_simd(argv[i + 1], &error)) {
+            std::fprintf(stderr, "shade_bench: %s\n", error.c_str());
+            return 2;
+        }
+        // Google Benchmark takes it for a mistake.
+        std::copy(argv + i + 2, argv + argc, argv + i);
+        argc -= 2;
+        break;
+    }
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}
