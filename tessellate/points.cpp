@@ -70,6 +70,7 @@ class PointsSurface : public Surface {
         return {static_cast<int>(vertex / 4), kCorners[vertex % 4]};
     }
     bool has_motion_keys() const override { return true; }
+    bool is_hole(int face) const override;
 
     void evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override;
@@ -133,6 +134,18 @@ EdgeLine PointsSurface::edge(uint32_t edge) const {
     line.from = kCorners[kFrom[side]], line.to = kCorners[kTo[side]];
     line.start = {false, first + kFrom[side], 0}, line.finish = {false, first + kTo[side], 0};
     return line;
+}
+
+/// Disks in the eye's own plane or behind it are not seen; nothing else would end their splitting.
+bool PointsSurface::is_hole(int face) const {
+    constexpr float kRounding = 1e-6f;
+    if (primitive_.attributes->displacement_bound > 0) return false;
+    for (size_t key = 0; key < facing_.size(); ++key) {
+        const Disk d = disk(face, static_cast<int>(key));
+        const V3f at = transform_point(facing_[key].camera_from_object(), d.centre);
+        if (at.z > kRounding * (at.length() + std::abs(d.radius) * facing_[key].scale())) return false;
+    }
+    return true;
 }
 
 PointsSurface::Disk PointsSurface::disk(int point, int key) const {

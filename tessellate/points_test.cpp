@@ -115,6 +115,16 @@ TEST(Points, EverySizeCoversTheAreaOfItsCircle) {
     }
 }
 
+TEST(Points, ThoseInTheEyesPlaneAreLeftOut) {
+    test::TestScene scene;
+    const Primitive primitive =
+        primitive_of({places({0, 0, -5, 0.2f, 0, -5.0000005f, 0, 0, -9, 0, 0, 0})}, {});
+    scene.add(primitive.shape_keys[0]);
+    const test::DicedScene diced(scene);
+    ASSERT_GT(diced.grids.size(), 0u);  // the last one's
+    for (const Grid& grid : diced.grids) EXPECT_NEAR(grid.vertex_at_key(0, 0, 0, 1).z, 5, 1e-5f);
+}
+
 TEST(Points, MoveWithTheirWidths) {
     Points points;
     points.count = 1;
