@@ -99,6 +99,17 @@ void Analyser::loop(Statement& s) {
     --frame().loops;
 }
 
+/// "name", value, ... behind the arguments of a loop over lights or of a light's block.
+void Analyser::ignore_options(Statement& s, const std::string& word) {
+    const size_t given = s.expressions.size();
+    for (size_t i = s.kind == Statement::Kind::Solar ? 0 : 1; i < given; ++i) {
+        if (s.expressions[i]->kind != Expression::Kind::Text || (given - i) % 2 != 0) continue;
+        messages_.warning(s.expressions[i]->at, "optional arguments of " + word + " are ignored");
+        s.expressions.resize(i);
+        return;
+    }
+}
+
 /// illuminance([category,] P [, axis, angle]), illuminate(P [, axis, angle]), solar([axis, angle]).
 void Analyser::light_loop(Statement& s) {
     const bool illuminance = s.kind == Statement::Kind::Illuminance;
@@ -111,8 +122,9 @@ void Analyser::light_loop(Statement& s) {
     if (!in_place)
         error(s.at, word + " belongs into " + (illuminance ? "surface and volume" : "light") + " shaders");
 
+    ignore_options(s, word);
     std::vector<Base> wanted;
-    size_t given = s.expressions.size();
+    const size_t given = s.expressions.size();
     if (illuminance && given > 0) {
         // The category is known by being a string.
         choices_.clear();
@@ -125,11 +137,6 @@ void Analyser::light_loop(Statement& s) {
     if (given > wanted.size()) {
         wanted.push_back(Base::Vector);
         wanted.push_back(Base::Float);
-    }
-    if (illuminance && given > wanted.size() && (given - wanted.size()) % 2 == 0) {
-        messages_.warning(s.expressions[wanted.size()]->at, "optional arguments of illuminance are ignored");
-        s.expressions.resize(wanted.size());
-        given = wanted.size();
     }
     if (given != wanted.size()) {
         error(s.at, word + " takes " +

@@ -69,6 +69,7 @@ class Analyser {
     void block(Statement& s);
     void declaration(Statement& s);
     void light_loop(Statement& s);
+    void ignore_options(Statement& s, const std::string& word);
     void gather(Statement& s);
     void jump(const Statement& s);
     void return_statement(Statement& s);
@@ -112,6 +113,7 @@ class Analyser {
     std::vector<Signature> candidates(const Expression& call);
     int cost_of(const Signature& signature, const Expression& call) const;
     int cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const;
+    bool lacks_knots(const Expression& call);
     void explain(const std::vector<Signature>& all, const Expression& call);
     void unknown_function(const Expression& call);
     void enter_function(Expression& call, const Function& original);

@@ -71,7 +71,7 @@ std::string tree(const std::string& statement) {
     const auto unit = compiled(
         "float f(float x) { return x; } color f(color x) { return x; }\n"
         "surface t() { float a, b; color c; point p; vector v; normal n; matrix m; string s1; float "
-        "arr[3]; " +
+        "arr[4]; " +
             statement + " }",
         heard);
     if (!unit) return heard.all();
@@ -88,9 +88,8 @@ TEST(Analysis, ShadersAreRight) {
             static const std::map<std::string, size_t> kWarnings{
                 {"lightcount.sl", 1}, {"borrowed.sl", 1}, {"dialects.sl", 10}};
             const auto expected = kWarnings.find(path.filename());
-            EXPECT_EQ(heard.lines.size(), expected == kWarnings.end() ? 0 : expected->second)
-                << path << "\n"
-                << heard.all();
+            EXPECT_EQ(heard.lines.size(), expected == kWarnings.end() ? 0 : expected->second) << path << "\n"
+                                                                                              << heard.all();
         }
 }
 
@@ -300,6 +299,29 @@ TEST(Analysis, ComponentsAreAssigned) {
     EXPECT_EQ(in_surface("vector v; v[0] = 1; v[1] += 2; matrix m; m[0][1] = 3; color c[2]; c[1][0] = 4;"),
               "");
     EXPECT_EQ(in_surface("(P + P)[0] = 1;"), "error 1:74: this cannot be assigned to\n");
+}
+
+TEST(Analysis, SplinesHaveFourKnots) {
+    EXPECT_EQ(in_surface("Ci = spline(s, color 0, color 1);"),
+              "error 1:72: a spline has at least four knots, not 2\n");
+    EXPECT_EQ(in_surface("Ci = spline(\"linear\", s, 1, 2, 3);"),
+              "error 1:72: a spline has at least four knots, not 3\n");
+    EXPECT_EQ(in_surface("float k[3] = 1; float x = spline(s, k);"),
+              "error 1:93: a spline has at least four knots, not 3\n");
+    EXPECT_EQ(in_surface("float k[4] = 1; float x = spline(\"bezier\", s, k) + spline(s, 1, 2, 3, 4, 5);"),
+              "");
+}
+
+TEST(Analysis, OptionsOfLightBlocksAreIgnored) {
+    EXPECT_EQ(in_surface("illuminance(\"a\", P, N, 1, \"lightcache\", \"reuse\") ;"),
+              "warning 1:93: optional arguments of illuminance are ignored\n");
+    EXPECT_EQ(in_surface("illuminance(P, \"send:light:x\", Kd) ;"),
+              "warning 1:82: optional arguments of illuminance are ignored\n");
+    EXPECT_EQ(said("light t() { illuminate(P, N, 1, \"inshadows\", 1) Cl = 1; }"),
+              "warning 1:33: optional arguments of illuminate are ignored\n");
+    EXPECT_EQ(said("light t() { solar(\"x\", 1) Cl = 1; }"),
+              "warning 1:19: optional arguments of solar are ignored\n");
+    EXPECT_EQ(in_surface("illuminance(\"a\", P) ;"), "");
 }
 
 TEST(Analysis, ManyIndicesTakeNoTime) {

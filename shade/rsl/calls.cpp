@@ -120,8 +120,23 @@ Choices Analyser::examine_call(Expression& e) {
     return Choices::unknown();
 }
 
+/// Whether a spline has too few knots, which is said.
+bool Analyser::lacks_knots(const Expression& call) {
+    constexpr size_t kFewest = 4;  // one cubic segment
+    if (call.children.empty()) return false;
+    const Expression& last = *call.children.back();
+    const bool named = choices_of(*call.children.front()).has(Base::String);
+    const size_t before = named ? 2 : 1, given = call.children.size();
+    size_t knots = given > before ? given - before : 0;
+    if (last.type.is_array()) knots = last.type.length > 0 ? static_cast<size_t>(last.type.length) : kFewest;
+    if (knots >= kFewest) return false;
+    error(call.at, "a spline has at least four knots, not " + std::to_string(knots));
+    return true;
+}
+
 /// Says what is wrong with the one function that a call can mean, or lists all.
 void Analyser::explain(const std::vector<Signature>& all, const Expression& call) {
+    if (all.back().builtin && all.back().builtin->op == Op::Spline && lacks_knots(call)) return;
     const auto fits = [&](const Signature& s) { return count_fits(s, call.children.size()); };
     const auto fitting = std::count_if(all.begin(), all.end(), fits);
     if (fitting == 1) {
@@ -175,6 +190,7 @@ void Analyser::settle_call(Expression& e, Base base) {
     }
     if (!best) return;  // reported
     e.builtin = best->builtin;
+    if (e.builtin && e.builtin->op == Op::Spline) lacks_knots(e);
     for (size_t i = 0; i < e.children.size(); ++i) settle_argument(e, i, *best);
     if (best->function)
         enter_function(e, *best->function);
