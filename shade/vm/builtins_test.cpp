@@ -226,6 +226,15 @@ TEST(Builtins, TextsAreFormattedAndCompared) {
     EXPECT_EQ(run.at("r", 0), 1);
 }
 
+TEST(Builtins, PrintfHasAnEnd) {
+    ShaderRun run(
+        "surface test() { float i, j; for (i = 0; i < 500; i += 1) for (j = 0; j < 500; j += 1) "
+        "printf(\"x\"); }");
+    run.run();
+    EXPECT_EQ(run.scene().reported.size(), 100'000u + 1);
+    EXPECT_NE(run.scene().reported.back().text.find("printf() has said enough"), std::string::npos);
+}
+
 TEST(Builtins, PrintfSpeaksOnceForWhatIsUniformAndElseForEachVertex) {
     ShaderRun once("surface test() { uniform float k = 3; printf(\"k is %g\\n\", k); }");
     once.run();

@@ -75,6 +75,8 @@ class Run {
         return operand.data[static_cast<size_t>(component) * operand.stride + (lane & operand.lane_mask)];
     }
     void warn(const Step& step, std::string text, std::string kind);
+    /// Counts a line of printf(); false when there have been so many that a loop must have gone wrong.
+    bool may_print() { return ++printed_ <= kMostPrinted; }
 
   private:
     size_t control(const std::vector<Step>& steps, size_t at);
@@ -105,7 +107,9 @@ class Run {
     std::vector<size_t> next_lights_;  ///< of the Illuminance blocks that are being run
     std::vector<int> gather_turns_;    ///< that Gather blocks which are being run still have to take
     std::unordered_map<const Step*, int> turns_;
+    static constexpr int kMostPrinted = 100'000;
     int64_t loop_steps_ = 0;
+    int printed_ = 0;
     size_t current_light_ = 0;
     size_t scratch_used_ = 0;
 };

@@ -91,6 +91,9 @@ void print(Run& run, const Step& step, std::span<const Operand> operands) {
     const uint32_t* running = run.masks().current();
     for (size_t lane = 0; lane < vertices; ++lane) {
         if (!running[lane]) continue;
+        if (!run.may_print())
+            return run.warn(step, "printf() has said enough: the rest of this grid's is left out",
+                            "rsl-printed-too-much");
         std::string text = format_text(run.frame().text_input(step, 0), values_at(run, step, operands, lane));
         while (!text.empty() && text.back() == '\n') text.pop_back();
         diagnostics->note(step.at, std::move(text));
