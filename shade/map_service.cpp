@@ -1,6 +1,7 @@
 #include "shade/map_service.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "shade/differences.h"
@@ -122,9 +123,10 @@ void MapService::look_up(Run& run, const Step& step, std::span<const Operand> op
             return shadow(run, step, operands);
         case Op::TextureInfo:
             return texture_info(run, step, operands);
+        case Op::Bump:
+            return bump(run, step, operands);
         default:
-            for (const Plane& plane : outputs_of(run, operands[0]))
-                std::fill(plane.begin(), plane.end(), 0.0f);
+            return;
     }
 }
 
@@ -138,6 +140,47 @@ void MapService::texture(Run& run, const Step& step, std::span<const Operand> op
     const std::vector<Plane> out = outputs_of(run, operands[0]);
     textures_.texture(picture, {s.middle, t.middle, s.along_u, t.along_u, s.along_v, t.along_v},
                       options_of(run, step, operands), lanes_of(run), out);
+}
+
+/// What to add to a normal N: with heights F over s and t, the surface P + F N / |N| has the normal
+/// dPds x dPdt + dF/ds (n x dPdt) - dF/dt (n x dPds), n = N / |N| [Blinn78]. Inputs: N, dPds, dPdt,
+/// coordinates. Slopes are differences over the width of the lookup.
+void MapService::bump(Run& run, const Step& step, std::span<const Operand> operands) {
+    const size_t first = step.outputs + 5u;
+    const bool corners = step.immediate >= 11;
+    const Coordinate s = corners ? quad(run, operands, first, 2, 0) : vertex_values(run, operands[first], 0);
+    const Coordinate t =
+        corners ? quad(run, operands, first + 1, 2, 0) : vertex_values(run, operands[first + 1], 0);
+    const Textures::Picture* picture = textures_.find(run.frame().text_input(step, 0), step.at);
+    const MapOptions options = options_of(run, step, operands);
+    const size_t lanes = run.lanes();
+    const Plane s_step = scratch_plane(run), t_step = scratch_plane(run);
+    const Plane s_beside = scratch_plane(run), t_beside = scratch_plane(run);
+    constexpr float kLeastStep = 1.0f / 4096;
+    for (size_t i = 0; i < lanes; ++i) {
+        s_step[i] = std::max(std::abs(s.along_u[i]) + std::abs(s.along_v[i]), kLeastStep) / 2;
+        t_step[i] = std::max(std::abs(t.along_u[i]) + std::abs(t.along_v[i]), kLeastStep) / 2;
+        s_beside[i] = s.middle[i] + s_step[i], t_beside[i] = t.middle[i] + t_step[i];
+    }
+    const auto heights = [&](ConstPlane at_s, ConstPlane at_t) {
+        const Plane out = scratch_plane(run);
+        textures_.texture(picture, {at_s, at_t, s.along_u, t.along_u, s.along_v, t.along_v}, options,
+                          lanes_of(run), {&out, 1});
+        return out;
+    };
+    const Plane here = heights(s.middle, t.middle);
+    const Plane along_s = heights(s_beside, t.middle), along_t = heights(s.middle, t_beside);
+    const auto triple = [&](size_t input, size_t i) {
+        const Operand& operand = operands[step.outputs + input];
+        return V3f(Run::at(operand, 0, i), Run::at(operand, 1, i), Run::at(operand, 2, i));
+    };
+    const std::vector<Plane> out = outputs_of(run, operands[0]);
+    for (size_t i = 0; i < lanes; ++i) {
+        const V3f n = triple(2, i).normalized();
+        const float by_s = (along_s[i] - here[i]) / s_step[i], by_t = (along_t[i] - here[i]) / t_step[i];
+        const V3f change = n.cross(triple(4, i)) * by_s - n.cross(triple(3, i)) * by_t;
+        for (int k = 0; k < 3; ++k) out[static_cast<size_t>(k)][i] = change[k];
+    }
 }
 
 void MapService::environment(Run& run, const Step& step, std::span<const Operand> operands) {

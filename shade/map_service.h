@@ -19,6 +19,7 @@ class MapService : public vm::Maps {
     void texture(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
     void environment(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
     void shadow(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
+    void bump(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
     void texture_info(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
 
     Textures& textures_;

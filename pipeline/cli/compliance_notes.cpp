@@ -54,8 +54,7 @@ constexpr Capability kCapabilities[] = {
     {"Ray Tracing", "not supported", "trace() and its kin see nothing, with one warning."},
     {"Global Illumination", "not supported", "occlusion() and indirectdiffuse() are 0, with one warning."},
     {"Area Lights", "not supported", "AreaLightSource shines from the origin of its space, with a warning."},
-    {"Texture, Environment and Shadow Mapping", "supported",
-     "The Make requests and what OpenImageIO reads; bump() gives 0."},
+    {"Texture, Environment and Shadow Mapping", "supported", "The Make requests and what OpenImageIO reads."},
 };
 
 constexpr const char* kRispec[] = {"version",
@@ -157,11 +156,8 @@ constexpr const char* kRispec[] = {"version",
                                    "ReadArchive"};
 
 constexpr RequestNote kFunctions[] = {
-    {"bump", "gives 0"},
-    {"trace", "black, with one warning"},
-    {"transmission", "1 everywhere, with one warning"},
-    {"occlusion", "0, with one warning"},
-    {"incident", "0: rays are not traced"},
+    {"trace", "black, with one warning"},   {"transmission", "1 everywhere, with one warning"},
+    {"occlusion", "0, with one warning"},   {"incident", "0: rays are not traced"},
     {"opposite", "0: rays are not traced"},
 };
 

@@ -213,10 +213,11 @@ RegisterId Generator::map_value(const Expression& e, std::optional<RegisterId> i
     const size_t positional = positional_count(*e.builtin, e.children.size());
     int32_t coordinates = 0;
     for (size_t i = 1; i < positional; ++i, ++coordinates) inputs.push_back(value(*e.children[i]));
-    if (coordinates == 0 && e.builtin->op == Op::Texture) {
+    const Op op = e.builtin->op;
+    if ((op == Op::Texture && coordinates == 0) || (op == Op::Bump && coordinates == 3)) {
         inputs.push_back(global("s", Base::Float));
         inputs.push_back(global("t", Base::Float));
-        coordinates = 2;
+        coordinates += 2;
     }
     for (size_t i = positional; i < e.children.size(); ++i) inputs.push_back(value(*e.children[i]));
     const RegisterId out = into ? *into : temporary(e.type.base);
