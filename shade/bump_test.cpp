@@ -31,9 +31,10 @@ TEST_F(BumpTest, TiltsNormalsAgainstTheSlope) {
     const std::string name = "\"" + file + "\"";
     // Displaced: (s, 1 - t, 4 - F), so that N' = dP'ds x dP'dt = (1, 0, -.5) x (0, -1, -.25).
     const V3f expected = V3f(1, 0, -0.5f).cross(V3f(0, -1, -0.25f)) - V3f(0, 0, -1);
-    for (const std::string call :
-         {"bump(" + name + ", N, dPdu, dPdv)", "bump(" + name + ", N * 3, dPdu, dPdv, s, t)",
-          "bump(" + name + ", N, dPdu, dPdv, s, t, s, t, s, t, s, t, \"width\", 0)"}) {
+    const std::vector<std::string> calls = {
+        "bump(" + name + ", N, dPdu, dPdv)", "bump(" + name + ", N * 3, dPdu, dPdv, s, t)",
+        "bump(" + name + ", N, dPdu, dPdv, s, t, s, t, s, t, s, t, \"width\", 0)"};
+    for (const std::string& call : calls) {
         const ShadingGrid grid = bump(call);
         for (int j = 2; j <= 6; ++j)
             for (int i = 2; i <= 6; ++i)  // away from the picture's border

@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace trapeze {
@@ -24,6 +26,15 @@ VertexTable::VertexTable(const PlacedSurface& surface) : key_count_(surface.key_
                               {positions_.data() + v * key_count_, key_count_});
         }
     });
+}
+
+float VertexTable::reach() const {
+    float reach = 0;
+    for (const V3f& p : positions_)
+        for (int k = 0; k < 3; ++k)
+            if (!(std::abs(p[k]) <= reach))
+                reach = std::isfinite(p[k]) ? std::abs(p[k]) : std::numeric_limits<float>::infinity();
+    return reach;
 }
 
 void border_positions(const PlacedSurface& surface, const VertexTable& vertices,

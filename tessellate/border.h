@@ -14,6 +14,8 @@ class VertexTable {
     std::span<const V3f> keys_of(uint32_t vertex) const {
         return {positions_.data() + static_cast<size_t>(vertex) * key_count_, key_count_};
     }
+    /// The largest coordinate, by its amount; infinite if one is no number.
+    float reach() const;
     size_t bytes() const { return positions_.capacity() * sizeof(V3f); }
 
   private:

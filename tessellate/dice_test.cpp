@@ -301,6 +301,22 @@ TEST(Tessellation, SubpatchesAreSmall) {
     EXPECT_EQ(tessellation.stats().grids, tessellation.subpatches().size());
 }
 
+/// What is too far to be diced in reasonable time is said, and what is merely far is diced.
+TEST(Tessellation, SurfacesBeyondAllBoundsAreLeftOut) {
+    for (const float radius : {1e9f, 1e13f, 1e20f, 3e38f}) {
+        TestScene scene;
+        M44f tilt;
+        tilt.rotate(V3f(0.5f, 0, 0));
+        scene.add(test::shape_of(test::quadric(Quadric::Kind::Disk, {0, radius, 360})),
+                  tilt * test::translation(0, 0, 4));
+        const Diced diced(scene);
+        const bool too_far = radius > 1e12f;
+        EXPECT_EQ(scene.diagnostics.count(Severity::Error), too_far ? 1u : 0u);
+        EXPECT_EQ(diced.tessellation.stats().primitives, too_far ? 0u : 1u);
+        EXPECT_EQ(diced.grids.empty(), too_far);
+    }
+}
+
 TEST(Tessellation, InvisibleAndBrokenPrimitivesAreLeftOut) {
     TestScene scene;
     scene.add(test::shape_of(PatchMesh{}));  // no points

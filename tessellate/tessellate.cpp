@@ -1,6 +1,7 @@
 #include "tessellate/tessellate.h"
 #include "tessellate/blur_factor.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,6 +18,9 @@ namespace {
 constexpr int kFacesPerTask = 64, kEdgesPerTask = 512;
 /// Shading rates below this (in pixels' area) are taken as this: a bound on absurd input.
 constexpr float kLeastShadingRate = 1e-4f;
+/// Farther from the eye, the rounding of positions is larger than what a camera can tell apart: no piece can
+/// be found out of view, and all would be diced.
+constexpr float kFarthest = 1e11f;
 
 /// A primitive's part of a Tessellation.
 struct TessellatedPrimitive {
@@ -156,6 +160,17 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
                           TessellatedPrimitive& out) {
     if (!out.surface || !primitive.attributes->visible_to_camera || context.is_cancelled()) return;
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
+    out.vertices = VertexTable(*out.placed);
+    if (const float reach = out.vertices.reach(); reach > kFarthest) {
+        context.diagnostics->error(
+            primitive.location,
+            fmt::format(
+                "reaches {:.3g} from the camera, where surfaces beyond {:.0g} cannot be diced; left out",
+                reach, kFarthest));
+        out.placed.reset();
+        out.vertices = {};
+        return;
+    }
     const Attributes& attributes = *primitive.attributes;
     const float blur = blur_factor(*out.placed, context.camera, raster_metric);
     const ScreenMetric square_on(context.camera, false);
@@ -165,7 +180,6 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur);
     out.pixels_per_segment = rate.pixels_per_segment;
     out.surface_edges = tessellate_edges(*out.placed, metric, rate);
-    out.vertices = VertexTable(*out.placed);
     SplitContext split;
     split.surface = out.placed.get();
     split.surface_edges = &out.surface_edges;
