@@ -54,7 +54,7 @@ std::vector<const ShadingGrid*> to_read(std::span<ShadingGrid* const> grids) {
 }  // namespace
 
 bool can_share_run(const Material& material, const ShadingGrid& a, const ShadingGrid& b) {
-    if (a.primitive != b.primitive) return false;
+    if (material.asks_object_space && a.primitive != b.primitive) return false;
     return same_uniforms(material.displacement, a, b) && same_uniforms(material.surface, a, b) &&
            same_uniforms(material.atmosphere, a, b);
 }

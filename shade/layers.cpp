@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/scene.h"
-#include "shade/grid_shader.h"
 
 namespace trapeze {
 namespace {
@@ -52,11 +51,24 @@ std::string resolve(const LayerConnection& wanted, const Layers& layers, Layered
     return {};
 }
 
+bool asks_object_space(const rsl::Program& program) {
+    return std::ranges::any_of(program.code, [&](const rsl::Instruction& instruction) {
+        if (instruction.op != rsl::Op::SpaceMatrix) return false;
+        for (size_t i = 0; i < instruction.input_count(); ++i) {
+            const rsl::Register& name = program.reg(instruction.input(i));
+            // A name that is computed, or a parameter, may be any.
+            if (name.kind != rsl::Register::Kind::Constant || name.texts.empty() || name.texts[0] == "object")
+                return true;
+        }
+        return false;
+    });
+}
+
 }  // namespace
 
-bool LayeredShader::writes(std::string_view variable) const {
+bool LayeredShader::asks_object_space() const {
     return std::ranges::any_of(
-        layers, [&](const BoundShader* layer) { return writes_variable(layer->program(), variable); });
+        layers, [](const BoundShader* layer) { return trapeze::asks_object_space(layer->program()); });
 }
 
 void LayeredShader::connect(size_t to, std::span<vm::Frame* const> frames) const {

@@ -19,8 +19,9 @@ struct LayeredShader {
     std::vector<Connection> connections;
 
     const BoundShader& last() const { return *layers.back(); }
-    /// Whether a layer may set the predefined variable.
-    bool writes(std::string_view variable) const;
+
+    /// Whether a layer may ask for the space named "object".
+    bool asks_object_space() const;
 
     /// Copies what earlier layers have into the parameters of layer `to`. frames[i] is layer i's, all of as
     /// many lanes.

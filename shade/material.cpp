@@ -50,6 +50,8 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
         material.atmosphere = layered(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
         if (!material.atmosphere) warn_missing("Atmosphere", *attributes.atmosphere, "there is none");
     }
+    for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
+        material.asks_object_space |= shader && shader->asks_object_space();
     for (const auto& instance : attributes.lights)
         if (const Lamp* shining = lamp(*instance)) material.lights.push_back(shining);
 }

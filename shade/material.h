@@ -24,6 +24,8 @@ struct Material {
     const LayeredShader* surface = nullptr;
     const LayeredShader* displacement = nullptr;  ///< may be null
     const LayeredShader* atmosphere = nullptr;    ///< may be null
+    /// A shader asks for object space, and so grids of different primitives cannot share a run.
+    bool asks_object_space = false;
     std::vector<const Lamp*> lights;
     /// The farthest that the displacement shader has moved a vertex, in camera space.
     mutable std::atomic<float> displacement_reach{0};

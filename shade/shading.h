@@ -33,7 +33,7 @@ class Shading {
     /// depends on the grid alone.
     void shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const;
 
-    /// The same for several grids: small ones that come one after the other and have the same primitive and
+    /// The same for several grids: small ones that come one after the other and have the same attributes and
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
 

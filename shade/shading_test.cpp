@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "shade/shader_folder_harness.h"
 #include "shade/test_scene.h"
 
 namespace trapeze {
@@ -99,15 +100,24 @@ TEST(Shading, ThreadsShadeAlike) {
     }
 }
 
+class BatchOf : public testing::TestWithParam<const char*> {};
+
 /// Grids of all sizes, primitives and uniform values, in one call: each as if it were alone.
-TEST(Shading, BatchesGiveEachGridTheSameBits) {
+TEST_P(BatchOf, GivesEachGridTheSameBits) {
     TestScene scene;
-    scene.surface("brick");
+    const ShaderFolder folder;
+    folder.write("placed",
+                 "surface placed(string space = \"object\"; float Kd = 1;) {"
+                 "  Ci = Kd * color(transform(space, P)); Oi = 1; }");
+    folder.write("plain", "surface plain(float Kd = 1;) { Ci = Kd * color(transform(\"object\", P)); }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.surface(GetParam());
     scene.light("spotlight"), scene.light("pointlight");
     scene.attributes->displacement_bound = 10;
     scene.displacement("dented");
     scene.declare("Kd", {StorageClass::Uniform, ValueType::Float, 1});
     scene.scene.primitives.push_back(scene.scene.primitives[0]);
+    scene.scene.primitives[1].camera_from_object[0][3][0] = 2;
     std::vector<ShadingGrid> grids;
     for (uint32_t i = 0; i < 40; ++i) {
         ShadingGrid& grid = grids.emplace_back(scene.grid(1 + static_cast<int>(i * 7 % 16), 1 + i % 3));
@@ -136,6 +146,9 @@ TEST(Shading, BatchesGiveEachGridTheSameBits) {
     EXPECT_NE(grids[7].Ci.c, grids[8].Ci.c);
     EXPECT_EQ(stats.shaded_vertices, alone_stats.shaded_vertices);
 }
+
+INSTANTIATE_TEST_SUITE_P(Shading, BatchOf, testing::Values("brick", "plain", "placed"),
+                         [](const auto& shader) { return std::string(shader.param); });
 
 }  // namespace
 }  // namespace trapeze

@@ -175,7 +175,7 @@ std::vector<BuiltinCase> asking_cases() {
         {"float a = texture(\"m\", X, Y, 1, 0, 1, 1, 0, 1); r = a;", TRAPEZE_GIVES(80 + x), 1e-4},
         {"color a = texture(\"m\", X, Y, 1, 0, 1, 1, 0, 1); r = K(a);", TRAPEZE_GIVES(111 * (80 + x) + 210),
          1e-2},
-        {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv));", TRAPEZE_GIVES(111 * (30 + x) + 210), 1e-2},
+        {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv));", TRAPEZE_GIVES(111 * (50 + x) + 210), 1e-2},
         {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv, X, Y));", TRAPEZE_GIVES(111 * (50 + x) + 210),
          1e-2},
         {"r = K(bump(\"m\", normal (X, 0, 1), dPdu, dPdv, X, Y, 1, 0, 1, 1, 0, 1));",
