@@ -6,8 +6,8 @@
 
 #include "core/simd_limit.h"
 #include "pipeline/cli/exit_codes.h"
-#include "pipeline/cli/version.h"
 #include "pipeline/compare/sampler_list.h"
+#include "pipeline/frame/version.h"
 #include "pipeline/study/study.h"
 #include "sample/visibility_method.h"
 

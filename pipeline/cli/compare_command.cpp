@@ -10,12 +10,12 @@
 #include "pipeline/cli/on_threads.h"
 #include "pipeline/cli/read_settings.h"
 #include "pipeline/cli/text_files.h"
-#include "pipeline/cli/version.h"
 #include "pipeline/compare/report/html_report.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sampler_list.h"
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/write_pictures.h"
+#include "pipeline/frame/version.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {

@@ -1,25 +1,8 @@
 #include "pipeline/cli/read_settings.h"
 
-#include <cstdlib>
-#include <filesystem>
+#include "pipeline/rib/user_defaults.h"
 
 namespace trapeze {
-
-std::string user_defaults_file() {
-    namespace fs = std::filesystem;
-    const char* const config = std::getenv("XDG_CONFIG_HOME");
-    const char* const home = std::getenv("HOME");
-    fs::path folder;
-    if (config && *config)
-        folder = config;
-    else if (home && *home)
-        folder = fs::path(home) / ".config";
-    else
-        return {};
-    const fs::path file = folder / "trapeze" / "trapeze.rib";
-    std::error_code ignored;
-    return fs::is_regular_file(file, ignored) ? file.string() : std::string();
-}
 
 ReadOptions read_options(const Arguments& arguments) {
     ReadOptions options;

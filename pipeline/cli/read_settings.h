@@ -6,10 +6,6 @@
 
 namespace trapeze {
 
-/// The user's file of RIB that is read before every scene: $XDG_CONFIG_HOME/trapeze/trapeze.rib, where that
-/// is not set ~/.config/trapeze/trapeze.rib. Empty when there is none.
-std::string user_defaults_file();
-
 /// The defaults file, --option, --allow-programs.
 ReadOptions read_options(const Arguments& arguments);
 

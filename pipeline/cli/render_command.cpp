@@ -6,13 +6,13 @@
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
-#include "pipeline/cli/make_map.h"
 #include "pipeline/cli/on_threads.h"
 #include "pipeline/cli/read_settings.h"
 #include "pipeline/cli/text_files.h"
-#include "pipeline/cli/version.h"
+#include "pipeline/frame/make_map.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/frame/stopwatch.h"
+#include "pipeline/frame/write_frame.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
@@ -120,20 +120,11 @@ void RenderJob::render_world(Scene&& scene) {
     terminal_.end_progress();
     if (result) {
         FrameStats& stats = result->stats;
-        Stopwatch writing;
-        OutputInfo info;
-        info.software = std::string("Trapeze ") + kVersion;
-        info.metadata = {
-            {"sampler", stats.sampler},
-            {"samples", std::to_string(context.samples_x) + "x" + std::to_string(context.samples_y)},
-            {"renderTime", std::to_string(stats.seconds.total)}};
         std::vector<std::string> written;
-        if (!write_displays(result->image, context, info, &written)) output_failed_ = true;
+        if (!write_frame(*result, context, &written)) output_failed_ = true;
         written_ += static_cast<int>(written.size());
-        const double write_seconds = writing.lap();
-        stats.seconds.composite += write_seconds;
         stats.seconds.read = read_seconds - last_read_seconds_;
-        stats.seconds.total += write_seconds + stats.seconds.read;
+        stats.seconds.total += stats.seconds.read;
         last_read_seconds_ = read_seconds;
         frames_.push_back(stats);
     }

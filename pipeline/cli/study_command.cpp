@@ -6,8 +6,8 @@
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/on_threads.h"
 #include "pipeline/cli/text_files.h"
-#include "pipeline/cli/version.h"
 #include "pipeline/compare/shared_frame.h"
+#include "pipeline/frame/version.h"
 #include "pipeline/study/report/study_report.h"
 #include "pipeline/study/study.h"
 

@@ -32,6 +32,8 @@ class RibWriter {
     void integers(std::span<const int> values);   ///< an array
     void strings(std::span<const std::string> values);
     void comment(std::string_view text);  ///< a line of its own; "##..." for structure hints
+    /// RIB as it is, in lines of its own; the caller answers for it.
+    void verbatim(std::string_view rib) { comment(rib); }
 
     /// A whole request, as it was read.
     void write(const RequestText& request);

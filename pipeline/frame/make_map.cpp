@@ -1,4 +1,4 @@
-#include "pipeline/cli/make_map.h"
+#include "pipeline/frame/make_map.h"
 
 #include <fmt/format.h>
 

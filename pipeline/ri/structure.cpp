@@ -1,0 +1,133 @@
+/// Solids, objects and motion blocks (RISpec 5.7, 5.9, 6), archives (7).
+#include <cstdarg>
+#include <cstdio>
+
+#include "pipeline/ri/call.h"
+#include "pipeline/ri/parameters.h"
+
+namespace trapeze::ri {
+namespace {
+
+constexpr RtInt kMostTimes = 1000;  ///< of "...", which has no end of its own
+
+void begin_motion(Context& context, std::span<const float> times) {
+    for (size_t i = 1; i < times.size(); ++i)
+        if (!(times[i - 1] < times[i])) throw CallError{RIE_BADMOTION, "the times do not rise"};
+    if (times.empty()) throw CallError{RIE_BADMOTION, "there are no times"};
+    context.open(Block::Motion);
+    context.writer().request("MotionBegin");
+    context.writer().numbers(times);
+}
+
+std::string formatted(const char* format, va_list arguments) {
+    va_list again;
+    va_copy(again, arguments);
+    const int length = std::vsnprintf(nullptr, 0, format, again);
+    va_end(again);
+    if (length < 0) throw CallError{RIE_CONSISTENCY, "the format cannot be printed"};
+    std::string text(static_cast<size_t>(length) + 1, '\0');
+    std::vsnprintf(text.data(), text.size(), format, arguments);
+    text.pop_back();
+    return text;
+}
+
+/// Every line of it behind the mark.
+std::string commented(const std::string& mark, const std::string& text) {
+    std::string lines = mark;
+    for (size_t i = 0; i < text.size(); ++i) {
+        lines += text[i];
+        if (text[i] == '\n' && i + 1 < text.size()) lines += mark;
+    }
+    if (lines.ends_with('\n')) lines.pop_back();
+    return lines;
+}
+
+void record(Context& context, const std::string& type, const std::string& text) {
+    if (type == "comment")
+        context.writer().comment(commented("#", text));
+    else if (type == "structure")
+        context.writer().comment(commented("##", text));
+    else if (type == "verbatim")
+        context.writer().verbatim(text);
+    else
+        throw CallError{RIE_BADTOKEN, "\"" + type + "\" is none of comment, structure, verbatim"};
+}
+
+}  // namespace
+}  // namespace trapeze::ri
+
+using namespace trapeze::ri;
+
+RtVoid RiSolidBegin(RtToken operation) {
+    call("RiSolidBegin", [&](Context& context) {
+        const std::string name = required(operation, "the operation");
+        if (name != "primitive" && name != "union" && name != "intersection" && name != "difference")
+            throw CallError{RIE_BADTOKEN,
+                            "\"" + name + "\" is none of primitive, union, intersection, difference"};
+        context.open(Block::Solid);
+        context.writer().request("SolidBegin");
+        context.writer().string(name);
+    });
+}
+
+RtObjectHandle RiObjectBegin() {
+    RtObjectHandle handle = nullptr;
+    call("RiObjectBegin", [&](Context& context) {
+        context.open(Block::Object);
+        context.spaces.begin_object();
+        ++context.objects;
+        context.writer().request("ObjectBegin");
+        context.writer().number(static_cast<double>(context.objects));
+        handle = reinterpret_cast<RtObjectHandle>(context.objects);
+    });
+    return handle;
+}
+
+RtVoid RiObjectInstance(RtObjectHandle handle) {
+    call("RiObjectInstance", [&](Context& context) {
+        const auto number = reinterpret_cast<uintptr_t>(handle);
+        if (number < 1 || number > context.objects) throw CallError{RIE_BADHANDLE, "no such object"};
+        context.writer().request("ObjectInstance");
+        context.writer().number(static_cast<double>(number));
+    });
+}
+
+RtVoid RiMotionBegin(RtInt n, ...) {
+    std::vector<float> times;
+    va_list rest;
+    va_start(rest, n);
+    guarded("RiMotionBegin", [&] {
+        if (n > kMostTimes) throw CallError{RIE_LIMIT, "too many times"};
+        for (int i = 0; i < n; ++i) times.push_back(static_cast<float>(va_arg(rest, double)));
+    });
+    va_end(rest);
+    RiMotionBeginV(static_cast<RtInt>(times.size()), times.data());
+}
+
+RtVoid RiMotionBeginV(RtInt n, RtFloat times[]) {
+    call("RiMotionBegin", [&](Context& context) { begin_motion(context, array_of(times, n, "times")); });
+}
+
+RtVoid RiArchiveRecord(RtToken type, const char* format, ...) {
+    va_list rest;
+    va_start(rest, format);
+    call("RiArchiveRecord", [&](Context& context) {
+        const std::string kind = required(type, "the type");
+        record(context, kind, formatted(required(format, "the format"), rest));
+    });
+    va_end(rest);
+}
+
+RtVoid RiReadArchiveV(RtToken name, RtArchiveCallback callback, RtInt n, RtToken tokens[],
+                      RtPointer values[]) {
+    call("RiReadArchive", [&](Context& context) {
+        required(name, "the name");
+        const auto parameters = checked_parameters(context, {n, tokens, values});
+        if (callback)
+            context.complain(RIE_UNIMPLEMENT, RIE_WARNING,
+                             "archives' comments are not read: no callback is called");
+        context.writer().request("ReadArchive");
+        context.writer().string(name);
+        write_parameters(context.writer(), parameters);
+    });
+}
