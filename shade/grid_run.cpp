@@ -120,6 +120,7 @@ void GridRun::displace_borders(const LayeredShader& shader) {
         const std::vector<const ShadingGrid*> read = to_read(run);
         const vm::Points points = points_of(read, true);
         Frames frames;
+        messages_.displacement = nullptr;  // of another run, with other lanes
         for (ShadingGrid* pieces : run) remember_undisplaced(*pieces);
         for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
             const vm::Frame& frame = run_layer(shader, layer, read, points, false, frames);
@@ -138,6 +139,7 @@ void GridRun::displace() {
     std::vector<BorderWeld> welds;
     for (const ShadingGrid* grid : grids_) welds.emplace_back(*grid);
     displace_borders(shader);
+    messages_.displacement = nullptr;
     Frames frames;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
         const vm::Frame& frame = run_layer(shader, layer, read_, points_, false, frames);

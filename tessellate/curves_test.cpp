@@ -294,6 +294,26 @@ TEST(Curves, JointsHaveNoGaps) {
             }
 }
 
+/// Attribute "dice" "minlength": micropolygons of so many pixels along the curve at the least.
+TEST(Curves, MicropolygonsHaveTheirLeastLength) {
+    const auto count = [](float least) {
+        test::TestScene scene;
+        scene.attributes->dice.min_length = least;
+        ParameterList list;
+        list.set(points({-1, 0, 0, -0.3f, 0, 0, 0.3f, 0, 0, 1, 0, 0}));
+        list.set(parameter("constantwidth", StorageClass::Constant, ValueType::Float, {0.01f}));
+        scene.keep_all().add(test::shape_of(cubic({4}, kBezier, 3), std::move(list)));
+        int micropolygons = 0;
+        for (const Grid& grid : test::DicedScene(scene).grids)
+            micropolygons += grid.shape.micropolygon_count();
+        return micropolygons;
+    };
+    const int fine = count(0), same = count(0.5f), coarse = count(4);
+    EXPECT_EQ(same, fine);
+    EXPECT_GT(fine, 12);
+    EXPECT_NEAR(coarse, fine / 4.0, fine / 8.0);
+}
+
 TEST(Curves, ThinHairsAreOneMicropolygonWide) {
     test::TestScene scene;
     ParameterList list;

@@ -178,6 +178,8 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     EdgeRate rate;
     rate.binary = attributes.dice.binary;
     rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur);
+    if (std::holds_alternative<Curves>(primitive.shape().topology))
+        rate.pixels_per_segment = std::max(rate.pixels_per_segment, attributes.dice.min_length);
     out.pixels_per_segment = rate.pixels_per_segment;
     out.surface_edges = tessellate_edges(*out.placed, metric, rate);
     SplitContext split;

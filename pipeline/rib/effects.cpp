@@ -29,6 +29,7 @@ constexpr Value kAttributes[] = {{"user", ""},
                                  {"render", "visibility"},
                                  {"dice", "binary"},
                                  {"dice", "rasterorient"},
+                                 {"dice", "minlength"},
                                  {"trimcurve", "sense"}};
 
 constexpr std::string_view kHider[] = {"depthfilter", "jitter"};
