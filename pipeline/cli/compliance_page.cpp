@@ -120,6 +120,10 @@ std::string compliance_page(const std::vector<std::string>& paths) {
         "## Optional capabilities\n\n";
     for (const Capability& c : capabilities())
         text += fmt::format("**{}**: {}. {}\n\n", c.name, c.standing, c.text);
+    text +=
+        "**C binding**: supported. Every call of RISpec 3.2, varargs and V forms (pipeline/ri/ri.h), as a "
+        "static library. The callback of RiReadArchive is not called, and filter functions are RISpec's "
+        "own.\n\n";
     text += "## Requests of RISpec 3.2\n\n" + request_table(rispec, scenes);
     text += "\n## Requests of later RenderMans\n\n" + request_table(later, scenes);
     const rib::EffectiveSettings settings = rib::effective_settings();

@@ -29,6 +29,15 @@ constexpr size_t kBatchGrids = 64;
 /// The fewest subpatches that a thread takes at a time.
 constexpr size_t kGrain = 4;
 
+Grid packed(const Scene& scene, const ShadingGrid& grid, GridArena& arena, int64_t* not_finite) {
+    const bool cut = may_be_cut(scene, *grid.primitive);
+    // The midpoint of two depths wants hits beyond the first opaque one.
+    const bool midpoint = scene.options.hider_parameters.string_or("depthfilter", "") == "midpoint";
+    Grid made = pack_grid(grid, arena, not_finite, cut || midpoint);
+    if (!cut) made.facing = facing_for_sides(grid.primitive->attributes->sides, grid.reverse_orientation);
+    return made;
+}
+
 /// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
 size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t end,
                   const Tessellation& tessellation, const Shading& shading, GridMaker& maker) {
@@ -44,13 +53,8 @@ size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t
     maker.dice_seconds += watch.lap();
     shading.shade(batch, maker.shade_scratch, maker.shade_stats);
     int64_t not_finite = 0;
-    // The midpoint of two depths wants hits beyond the first opaque one.
-    const bool goes_on = scene.options.hider_parameters.string_or("depthfilter", "") == "midpoint";
-    for (const ShadingGrid* grid : batch) {
-        maker.grids.push_back(
-            pack_grid(*grid, maker.arena, &not_finite, may_be_cut(scene, *grid->primitive)));
-        if (goes_on) maker.grids.back().opaque = false;
-    }
+    for (const ShadingGrid* grid : batch)
+        maker.grids.push_back(packed(scene, *grid, maker.arena, &not_finite));
     maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
     maker.shade_seconds += watch.lap();
     return next;

@@ -5,6 +5,7 @@
 /// colours out), "plastic_unlit" adds the surface's own arithmetic, "plastic_distant" the light. Grids of one
 /// micropolygon have a sixteenth of the lanes: what they cost is mostly the interpreter's, a step after the
 /// other.
+#include <OpenImageIO/imageio.h>
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -67,6 +68,16 @@ Scene scene_with(const char* surface, const char* light, int lights, const char*
     return scene;
 }
 
+/// 512 x 512, three channels.
+void write_stripes(const std::string& path) {
+    constexpr int kSide = 512;
+    std::vector<float> pixels;
+    for (int i = 0; i < kSide * kSide * 3; ++i) pixels.push_back(static_cast<float>(i / 24 % 2));
+    if (const auto file = OIIO::ImageOutput::create(path);
+        file && file->open(path, OIIO::ImageSpec(kSide, kSide, 3, OIIO::TypeDesc::FLOAT)))
+        file->write_image(OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
 /// Shaders that are no standard ones, in a folder for as long as the program runs.
 const std::string& shaders_of_the_bench() {
     static const ShaderFolder folder;
@@ -82,6 +93,10 @@ const std::string& shaders_of_the_bench() {
             "octaves_alone",
             "surface octaves_alone() { float sum = 0, size = 1; uniform float i;"
             "  for (i = 0; i < 6; i += 1) { sum += noise(P * size); size *= 2; } Ci = sum; Oi = 1; }");
+        folder.write("textured",
+                     "surface textured() { Oi = 1;"
+                     "  Ci = texture(\"stripes.exr\", 0.5 + xcomp(P) / 2, 0.5 + ycomp(P) / 2); }");
+        write_stripes(folder.path() + "/stripes.exr");
         return true;
     }();
     (void)written;
@@ -91,7 +106,7 @@ const std::string& shaders_of_the_bench() {
 void shade(benchmark::State& state, const char* surface, const char* light, int lights,
            const char* displacement, int side = 16) {
     Scene scene = scene_with(surface, light, lights, displacement);
-    scene.options.search_paths["shader"] = {shaders_of_the_bench()};
+    scene.options.search_paths["shader"] = scene.options.search_paths["texture"] = {shaders_of_the_bench()};
     RenderContext context;
     context.scene = &scene;
     const Shading shading(context);
@@ -137,6 +152,9 @@ void six_octaves(benchmark::State& state) {
 }
 void octaves_alone(benchmark::State& state) {
     shade(state, "octaves_alone", "distantlight", 0, nullptr);
+}
+void textured(benchmark::State& state) {
+    shade(state, "textured", "distantlight", 0, nullptr);
 }
 void octaves_one_micropolygon(benchmark::State& state) {
     shade(state, "octaves_alone", "distantlight", 0, nullptr, 1);
@@ -193,6 +211,7 @@ BENCHMARK(plastic_one_micropolygon);
 BENCHMARK(six_octaves);
 BENCHMARK(octaves_alone);
 BENCHMARK(octaves_one_micropolygon);
+BENCHMARK(textured);
 BENCHMARK(compile_500_lines)->Unit(benchmark::kMillisecond);
 
 }  // namespace
