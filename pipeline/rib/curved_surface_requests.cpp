@@ -1,4 +1,6 @@
 /// RISpec 5.2, 5.4: patches and quadrics.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "pipeline/rib/primitive_variables.h"
@@ -68,6 +70,26 @@ constexpr QuadricRow kQuadrics[] = {
     {Quadric::Kind::Torus, "Torus", 5},
 };
 
+/// RISpec 5.4: spheres reach from -radius to radius, whatever zmin and zmax say, and paraboloids from their
+/// apex on. Rounded numbers are no mistake.
+void end_with_surface(Reader& r, Quadric& q) {
+    constexpr float kRounding = 1 + 1e-5f;
+    if (q.kind == Quadric::Kind::Sphere) {
+        const float radius = std::abs(q.values[0]);
+        for (const int i : {1, 2}) {
+            float& z = q.values[i];
+            if (std::abs(z) > radius * kRounding)
+                r.warn_once(std::string(i == 1 ? "zmin" : "zmax") + " is beyond the sphere, which ends there",
+                            i == 1 ? "sphere-zmin" : "sphere-zmax");
+            z = std::clamp(z, -radius, radius);
+        }
+    }
+    if (q.kind == Quadric::Kind::Paraboloid && q.values[1] / q.values[2] < 0) {
+        r.warn_once("zmin and zmax lie on both sides of the apex; zmin is 0", "paraboloid-zmin");
+        q.values[1] = 0;
+    }
+}
+
 template <int kRow>
 void quadric(Reader& r, ArgumentCursor& c) {
     const QuadricRow& row = kQuadrics[kRow];
@@ -85,6 +107,7 @@ void quadric(Reader& r, ArgumentCursor& c) {
     std::copy(values.begin(), values.end(), q.values.begin());
     if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0) throw RequestError{"the radius is 0", {}};
     if (q.kind == Quadric::Kind::Paraboloid && q.values[2] == 0) throw RequestError{"zmax is 0", {}};
+    end_with_surface(r, q);
     Shape shape{q, {}};
     shape.variables = checked_variables(r, read_variables(r, c, PointForm::None), shape.topology);
     r.add_shape(row.name, std::move(shape), 1);
