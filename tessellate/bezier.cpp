@@ -111,6 +111,16 @@ M44f bezier_from_basis(const M44f& basis) {
     return m;
 }
 
+bool pieces_join(const M44f& bezier_from_basis, int step) {
+    constexpr float kNone = 1e-6f;
+    const float *const begin = bezier_from_basis[0], *const end = bezier_from_basis[3];
+    for (int i = 0; i < 4 + step; ++i) {  // control points of both pieces
+        const float by_first = i < 4 ? end[i] : 0.0f, by_next = i >= step ? begin[i - step] : 0.0f;
+        if (std::abs(by_first - by_next) > kNone) return false;
+    }
+    return true;
+}
+
 void to_bezier(const M44f& bezier_from_basis, BezierCurve& curve) {
     const std::array<Control, 4> q = curve.p;
     for (int i = 0; i < 4; ++i) {

@@ -34,6 +34,10 @@ struct BezierCurve {
 /// Takes four control points of a basis (RISpec 5.2: P(u) = [u^3 u^2 u 1] * basis * points) to Bezier's.
 M44f bezier_from_basis(const M44f& basis);
 
+/// Whether pieces of a basis, `step` control points after each other, begin where the one before ends,
+/// wherever the control points are.
+bool pieces_join(const M44f& bezier_from_basis, int step);
+
 /// Changes four control points of another basis into Bezier form.
 void to_bezier(const M44f& bezier_from_basis, BezierCurve& curve);
 

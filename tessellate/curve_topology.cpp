@@ -2,7 +2,8 @@
 
 namespace trapeze {
 
-CurveTopology::CurveTopology(const Curves& curves, int segments_per_face) : curves_(curves) {
+CurveTopology::CurveTopology(const Curves& curves, int segments_per_face, bool joins)
+    : curves_(curves), joins_(joins) {
     const size_t count = curves.vertices_per_curve.size();
     for (std::vector<int>* first : {&first_vertex_, &first_varying_, &first_face_}) first->reserve(count + 1);
     int vertex = 0, varying = 0, face = 0;
@@ -33,6 +34,7 @@ CurveTopology::Strip CurveTopology::strip(int face) const {
 }
 
 uint32_t CurveTopology::joint_after(int face) const {
+    if (!joins_) return faces() + static_cast<uint32_t>(face);
     const int curve = curve_of_face_[face];
     if (face + 1 < first_face_[curve + 1]) return static_cast<uint32_t>(face + 1);
     return curves_.periodic ? static_cast<uint32_t>(first_face_[curve])
@@ -49,10 +51,10 @@ EdgeLine CurveTopology::edge(uint32_t edge) const {
     EdgeLine line;
     uint32_t from, to;  // vertices
     if (edge >= 3 * faces()) {
-        const uint32_t curve = edge - 3 * faces();
-        line.face = first_face_[curve + 1] - 1;
+        const uint32_t end = edge - 3 * faces();
+        line.face = face_at_end(end);
         line.from = {0, 1}, line.to = {1, 1};
-        from = 2 * (faces() + curve), to = from + 1;
+        from = 2 * (faces() + end), to = from + 1;
     } else {
         line.face = static_cast<int>(edge / 3);
         const uint32_t kind = edge % 3;
@@ -70,7 +72,7 @@ SurfacePoint CurveTopology::vertex(uint32_t vertex) const {
     const uint32_t joint = vertex / 2;
     const float u = static_cast<float>(vertex % 2);
     if (joint < faces()) return {static_cast<int>(joint), {u, 0}};
-    return {first_face_[joint - faces() + 1] - 1, {u, 1}};
+    return {face_at_end(joint - faces()), {u, 1}};
 }
 
 }  // namespace trapeze

@@ -78,6 +78,10 @@ CurvePiece CurvePieces::piece(const CurveVariable& variable, int curve, int segm
     return piece;
 }
 
+bool joins(const Curves& curves) {
+    return !curves.cubic || pieces_join(bezier_from_basis(curves.basis), curves.step);
+}
+
 bool joins_smoothly(const Curves& curves) {
     if (!curves.cubic) return false;
     const M44f& b = curves.basis;

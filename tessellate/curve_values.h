@@ -45,6 +45,8 @@ class CurvePieces {
     M44f bezier_from_basis_;
 };
 
+/// Whether segments begin where those before them end, wherever the control points are.
+bool joins(const Curves& curves);
 /// Whether segments join with one direction and speed whatever the control points are.
 bool joins_smoothly(const Curves& curves);
 

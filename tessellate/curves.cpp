@@ -85,7 +85,7 @@ CurvesSurface::CurvesSurface(const Primitive& primitive, const Camera* camera,
     : primitive_(primitive),
       curves_(std::get<Curves>(primitive.shape().topology)),
       keys_(std::move(keys)),
-      topology_(curves_, joins_smoothly(curves_) ? kSmoothSegmentsPerFace : 1),
+      topology_(curves_, joins_smoothly(curves_) ? kSmoothSegmentsPerFace : 1, joins(curves_)),
       pieces_(curves_, topology_) {
     for (const M44f& m : matrices_at_keys(primitive, primitive.key_count())) facing_.emplace_back(m, camera);
 }

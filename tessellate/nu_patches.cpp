@@ -61,6 +61,7 @@ class NuPatchSurface : public Surface {
 
     size_t point(int i, int j) const { return static_cast<size_t>(j) * patch_.nu + i; }
     bool welds(bool along_u) const;
+    void find_tears(bool along_u);
     bool is_pole(bool along_u, bool at_end) const;
     int pole_side(int face, V2f uv) const;
     void find_poles();
@@ -81,6 +82,8 @@ NuPatchSurface::NuPatchSurface(const Primitive& primitive, std::vector<ControlPo
       v_(patch_.v_knots, patch_.v_order, patch_.v_begin, patch_.v_end) {
     faces_.columns = u_.count(), faces_.rows = v_.count();
     faces_.u_wraps = welds(true), faces_.v_wraps = welds(false);
+    find_tears(true);
+    find_tears(false);
     find_poles();
 }
 
@@ -118,6 +121,24 @@ bool NuPatchSurface::welds(bool along_u) const {
 V3f place_of(const ControlPoints& points, size_t point) {
     const float* const p = points.at(point);
     return V3f(p[0], p[1], p[2]) / (points.rational() ? p[3] : 1.0f);
+}
+
+/// A knot as often as the order says lets the surface jump, from one control point to the next; often those
+/// are in one place.
+void NuPatchSurface::find_tears(bool along_u) {
+    const KnotSpans& spans = along_u ? u_ : v_;
+    std::vector<bool> torn(spans.count());
+    for (int i = 0; i + 1 < spans.count(); ++i) {
+        const int last = spans.first_point(i) + spans.order() - 1, next = spans.first_point(i + 1);
+        if (next <= last) continue;
+        for (const ControlPoints& points : points_)
+            for (int line = 0; line < (along_u ? patch_.nv : patch_.nu); ++line) {
+                const V3f a = place_of(points, along_u ? point(last, line) : point(line, last));
+                const V3f b = place_of(points, along_u ? point(next, line) : point(line, next));
+                if (!((a - b).length() <= 1e-6f * (a.length() + b.length()))) torn[i] = true;
+            }
+    }
+    (along_u ? faces_.u_lines : faces_.v_lines).tear(torn, along_u ? faces_.u_wraps : faces_.v_wraps);
 }
 
 /// Whether a border is but one point, to the last places of the numbers.

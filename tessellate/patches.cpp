@@ -1,5 +1,6 @@
 /// Patch and PatchMesh (RISpec 5.2): a face for each patch, evaluated in Bezier form.
 #include <algorithm>
+#include <cmath>
 
 #include "tessellate/bezier.h"
 #include "tessellate/face_grid.h"
@@ -42,6 +43,8 @@ class PatchSurface : public Surface {
 
   private:
     BezierPatch positions(int face, int shape_key) const;
+    bool meets(int face, int next, bool along_u) const;
+    void find_tears(bool along_u);
 
     const Primitive& primitive_;
     const PatchMesh& mesh_;
@@ -59,6 +62,41 @@ PatchSurface::PatchSurface(const Primitive& primitive, std::vector<ControlPoints
     if (!mesh_.bicubic) return;
     u_bezier_ = bezier_from_basis(mesh_.u_basis);
     v_bezier_ = bezier_from_basis(mesh_.v_basis);
+    find_tears(true);
+    find_tears(false);
+}
+
+/// Whether two patches have the same curve where they are neighbours, to the last places of the numbers.
+bool PatchSurface::meets(int face, int next, bool along_u) const {
+    constexpr float kSame = 1e-5f;
+    for (size_t key = 0; key < points_.size(); ++key) {
+        const BezierPatch a = positions(face, static_cast<int>(key)),
+                          b = positions(next, static_cast<int>(key));
+        float size = 0, apart = 0;
+        for (int i = 0; i < 4; ++i) {
+            const Control &p = a.p[along_u ? i * 4 + 3 : 12 + i], &q = b.p[along_u ? i * 4 : i];
+            for (int k = 0; k < 4; ++k)
+                size = std::max(size, std::abs(p[k])), apart = std::max(apart, std::abs(p[k] - q[k]));
+        }
+        if (!(apart <= kSame * size)) return false;
+    }
+    return true;
+}
+
+/// Bases whose steps are not theirs, and those of coefficients, make patches that may lie apart.
+void PatchSurface::find_tears(bool along_u) {
+    if (pieces_join(along_u ? u_bezier_ : v_bezier_, along_u ? mesh_.u_step : mesh_.v_step)) return;
+    const bool wraps = along_u ? faces_.u_wraps : faces_.v_wraps;
+    const int count = along_u ? faces_.columns : faces_.rows, lines = along_u ? faces_.rows : faces_.columns;
+    std::vector<bool> torn(count);
+    for (int i = 0; i < count; ++i)
+        for (int line = 0; line < lines && (i + 1 < count || wraps); ++line) {
+            const auto face = [&](int at) {
+                return along_u ? line * faces_.columns + at : at * faces_.columns + line;
+            };
+            if (!meets(face(i), face((i + 1) % count), along_u)) torn[i] = true;
+        }
+    (along_u ? faces_.u_lines : faces_.v_lines).tear(torn, wraps);
 }
 
 BezierPatch PatchSurface::net(int face, const float* values, int count, size_t stride) const {

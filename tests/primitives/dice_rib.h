@@ -17,6 +17,8 @@ namespace trapeze::test {
 
 /// Object-space position at (u, v).
 using ClosedForm = std::function<V3d(double, double)>;
+/// The same of what has pieces: that of the piece in which a place lies, going on beyond it.
+using PiecewiseForm = std::function<ClosedForm(double u, double v)>;
 
 /// A vertex of a grid, camera space.
 struct DicedVertex {
@@ -30,9 +32,12 @@ struct DicedGrid {
     std::vector<DicedVertex> vertices;
 
     const DicedVertex& at(int i, int j) const { return vertices[shape.row_index(i, j)]; }
+    Imath::V2d middle() const {
+        return {(vertices.front().u + vertices.back().u) / 2, (vertices.front().v + vertices.back().v) / 2};
+    }
 };
 
-/// RIB text as a world of which all is diced: nothing is outside of the view.
+/// RIB text as a world of which all is diced: what is outside of the view might be displaced into it.
 struct DicedRib {
     rib::test::Outcome read;
     TestScene scene;
@@ -41,7 +46,8 @@ struct DicedRib {
     explicit DicedRib(const std::string& world, const std::string& before_world = "")
         : read(rib::test::read_text(
               "Format 60 60 1 ScreenWindow -12 12 -12 12 Projection \"orthographic\" Clipping 0.01 1000 " +
-              before_world + "\nWorldBegin\n" + world + "\nWorldEnd\n")) {
+              before_world + "\nWorldBegin Attribute \"displacementbound\" \"sphere\" 1e4\n" + world +
+              "\nWorldEnd\n")) {
         if (read.worlds.empty()) return;
         scene.scene = std::move(read.worlds[0]);
         const RenderContext context = scene.context();
@@ -160,8 +166,8 @@ struct Tolerance {
 /// All vertices of the primitive in `text`, in a placement, are the form's: positions, normals, derivatives
 /// and parameters. (A displacement that nobody runs keeps the parameters of moved border vertices with them;
 /// without it only those within grids are compared.)
-inline void expect_form(const std::string& text, const ClosedForm& form, const Placement& placement,
-                        const Tolerance& tolerance = {}, bool with_borders = true) {
+inline void expect_pieces(const std::string& text, const PiecewiseForm& piece_at, const Placement& placement,
+                          const Tolerance& tolerance = {}, bool with_borders = true) {
     SCOPED_TRACE(text + " (" + placement.name + (with_borders ? ")" : ", without borders)"));
     const DicedRib diced(placement.text() + (with_borders ? "Displacement \"none\" " : "") + text);
     EXPECT_THAT(diced.read.messages, ::testing::IsEmpty());
@@ -170,13 +176,16 @@ inline void expect_form(const std::string& text, const ClosedForm& form, const P
     const V3d origin = in_camera_space(placement, V3d(0, 0, 0));
     double size = 0, by_u = 0, by_v = 0, area = 0;
     std::vector<std::pair<DicedVertex, FormPoint>> pairs;
-    for (const DicedGrid& grid : diced.grids)
+    for (const DicedGrid& grid : diced.grids) {
+        const Imath::V2d middle = grid.middle();
+        const ClosedForm form = piece_at(middle.x, middle.y);
         for (const DicedVertex& vertex : grid.vertices) {
             const FormPoint p = form_point(form, placement, vertex.u, vertex.v);
             size = std::max(size, (p.P - origin).length()), area = std::max(area, p.area);
             by_u = std::max(by_u, p.dPdu.length()), by_v = std::max(by_v, p.dPdv.length());
             if (with_borders || !vertex.is_border) pairs.emplace_back(vertex, p);
         }
+    }
     size += 1e-7 * origin.length() / tolerance.position;  // what adding the translation rounds away
     double off = 0, off_u = 0, off_v = 0, off_n = 0, off_ng = 0, off_unit = 0, off_st = 0;
     for (const auto& [vertex, p] : pairs) {
@@ -196,6 +205,12 @@ inline void expect_form(const std::string& text, const ClosedForm& form, const P
     EXPECT_LE(off_ng, tolerance.normal);
     EXPECT_LE(off_unit, 1e-5);
     EXPECT_LE(off_st, 1.2e-7);  // bilinear in the default corners
+}
+
+inline void expect_form(const std::string& text, const ClosedForm& form, const Placement& placement,
+                        const Tolerance& tolerance = {}, bool with_borders = true) {
+    expect_pieces(
+        text, [&](double, double) { return form; }, placement, tolerance, with_borders);
 }
 
 /// In every placement, borders and all; and once without what keeps borders and parameters together.

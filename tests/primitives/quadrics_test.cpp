@@ -1,4 +1,5 @@
 /// The seven quadrics (RISpec 5.4): every partial sweep and range against the equations of the specification.
+#include "tests/primitives/blends.h"
 #include "tests/primitives/dice_rib.h"
 
 namespace trapeze::test {
@@ -12,11 +13,6 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 /// Degrees. Backwards, more than once round, and very little.
 const std::vector<double> kSweeps = {360, -360, 90, -135, 271, 720, -450, 3600, 0.5};
 
-std::string number(double value) {
-    std::string text = std::to_string(value);
-    return text + " ";
-}
-
 V3d turn(const V3d& p, double theta) {
     const double c = std::cos(theta), s = std::sin(theta);
     return {p.x * c - p.y * s, p.x * s + p.y * c, p.z};
@@ -29,7 +25,7 @@ void expect_swept(const std::string& request, const std::string& numbers,
     for (size_t i = 0; i < kSweeps.size(); ++i) {
         const double theta = kSweeps[i] * kDegree;
         const ClosedForm form = [&](double u, double v) { return turn(profile(v), u * theta); };
-        const std::string text = request + " " + numbers + number(kSweeps[i]);
+        const std::string text = request + " " + numbers + decimal(kSweeps[i]);
         Tolerance wide = tolerance;
         // An angle of many turns is rounded as it is large.
         wide.position = wide.position * std::max(1.0, std::abs(kSweeps[i]) / 360);
@@ -56,7 +52,7 @@ TEST(QuadricForms, Sphere) {
                                  {-1.5, -1.5, 1.5},
                                  {-2, -1, 2}}) {
         const double lo = std::asin(r.zmin / r.radius), hi = std::asin(r.zmax / r.radius);
-        expect_swept("Sphere", number(r.radius) + number(r.zmin) + number(r.zmax), [&](double v) {
+        expect_swept("Sphere", decimal(r.radius) + decimal(r.zmin) + decimal(r.zmax), [&](double v) {
             const double phi = lo + v * (hi - lo);
             return V3d(r.radius * std::cos(phi), 0, r.radius * std::sin(phi));
         });
@@ -65,13 +61,13 @@ TEST(QuadricForms, Sphere) {
 
 TEST(QuadricForms, Cone) {
     for (const auto& [height, radius] : {std::pair{2.0, 1.0}, {-1.5, 1.0}, {0.5, -2.0}, {3.0, 0.01}})
-        expect_swept("Cone", number(height) + number(radius),
+        expect_swept("Cone", decimal(height) + decimal(radius),
                      [&](double v) { return V3d(radius * (1 - v), 0, height * v); });
 }
 
 TEST(QuadricForms, Cylinder) {
     for (const SphereRange& r : {SphereRange{1, -1, 1}, {2, 3, 4}, {0.5, 2, -2}, {-1, 0, 1}})
-        expect_swept("Cylinder", number(r.radius) + number(r.zmin) + number(r.zmax),
+        expect_swept("Cylinder", decimal(r.radius) + decimal(r.zmin) + decimal(r.zmax),
                      [&](double v) { return V3d(r.radius, 0, r.zmin + v * (r.zmax - r.zmin)); });
 }
 
@@ -83,7 +79,7 @@ TEST(QuadricForms, Hyperboloid) {
                                                     {{2, -1, 0.5}, {1, 3, -1}},  // downwards
                                                     {{1, 0, 0}, {-1, 0, 0.5}}};  // through the axis
     for (const auto& [p1, p2] : lines) {
-        const auto text = [](const V3d& p) { return number(p.x) + number(p.y) + number(p.z); };
+        const auto text = [](const V3d& p) { return decimal(p.x) + decimal(p.y) + decimal(p.z); };
         expect_swept("Hyperboloid", text(p1) + text(p2),
                      [p1 = p1, p2 = p2](double v) { return p1 + (p2 - p1) * v; });
     }
@@ -93,7 +89,7 @@ TEST(QuadricForms, Paraboloid) {
     for (const SphereRange& r :
          {SphereRange{1, 0.5, 2}, {2, 2.5, 3}, {1.5, 3, 1}, {1, -1, -2}, {-1, 0.25, 2}}) {
         // zmax is where the radius is rmax, whichever end is higher.
-        expect_swept("Paraboloid", number(r.radius) + number(r.zmin) + number(r.zmax), [&](double v) {
+        expect_swept("Paraboloid", decimal(r.radius) + decimal(r.zmin) + decimal(r.zmax), [&](double v) {
             const double z = r.zmin + v * (r.zmax - r.zmin);
             return V3d(r.radius * std::sqrt(z / r.zmax), 0, z);
         });
@@ -112,7 +108,7 @@ TEST(QuadricForms, Paraboloid) {
 
 TEST(QuadricForms, Disk) {
     for (const auto& [height, radius] : {std::pair{0.0, 1.0}, {-1.5, 2.0}, {0.5, -1.0}, {0.0, 0.01}})
-        expect_swept("Disk", number(height) + number(radius),
+        expect_swept("Disk", decimal(height) + decimal(radius),
                      [&](double v) { return V3d(radius * (1 - v), 0, height); });
 }
 
@@ -132,7 +128,7 @@ TEST(QuadricForms, Torus) {
         Tolerance tolerance;
         tolerance.position *= 2, tolerance.normal *= 2;  // two angles
         expect_swept(
-            "Torus", number(r.major) + number(r.minor) + number(r.from) + number(r.to),
+            "Torus", decimal(r.major) + decimal(r.minor) + decimal(r.from) + decimal(r.to),
             [&](double v) {
                 const double phi = (r.from + v * (r.to - r.from)) * kDegree;
                 return V3d(r.major + r.minor * std::cos(phi), 0, r.minor * std::sin(phi));
