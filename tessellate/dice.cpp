@@ -153,12 +153,9 @@ class Dicer {
         for (size_t i = 0; i < count_; ++i) {
             V3f& du = scratch_.dPdu[i];
             V3f& dv = scratch_.dPdv[i];
-            V3f n = unit_normal(du, dv);
-            if (n == V3f(0, 0, 0)) {
-                nearby_derivatives(surface_, {subpatch_.face, scratch_.uv[i]}, scratch_.evaluation, &du, &dv);
-                n = unit_normal(du, dv);
-                if (n == V3f(0, 0, 0)) scratch_.degenerate.push_back(static_cast<int>(i));
-            }
+            const V3f n =
+                normal_at(surface_, {subpatch_.face, scratch_.uv[i]}, scratch_.evaluation, &du, &dv);
+            if (n == V3f(0, 0, 0)) scratch_.degenerate.push_back(static_cast<int>(i));
             grid_.Ng.set(i, n * outside);
         }
         borrow_normals();

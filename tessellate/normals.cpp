@@ -4,6 +4,18 @@
 
 namespace trapeze {
 
+namespace {
+
+void nearby_derivatives(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
+                        V3f* dPdv) {
+    constexpr float kShare = 1.0f / 1024;
+    const V2f nearby = at.uv + (V2f(0.5f, 0.5f) - at.uv) * kShare;
+    V3f P;
+    surface.positions_and_derivatives(at.face, {&nearby, 1}, 1, scratch, {&P, 1}, {dPdu, 1}, {dPdv, 1});
+}
+
+}  // namespace
+
 V3f unit_normal(const V3f& dPdu, const V3f& dPdv) {
     // Scaled first: derivatives of tiny faces have squares that underflow.
     const auto scale = [](const V3f& v) {
@@ -17,12 +29,12 @@ V3f unit_normal(const V3f& dPdu, const V3f& dPdv) {
     return length > kParallel ? n / length : V3f(0, 0, 0);
 }
 
-void nearby_derivatives(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
-                        V3f* dPdv) {
-    constexpr float kShare = 1.0f / 1024;
-    const V2f nearby = at.uv + (V2f(0.5f, 0.5f) - at.uv) * kShare;
-    V3f P;
-    surface.positions_and_derivatives(at.face, {&nearby, 1}, 1, scratch, {&P, 1}, {dPdu, 1}, {dPdv, 1});
+V3f normal_at(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
+              V3f* dPdv) {
+    const V3f normal = unit_normal(*dPdu, *dPdv);
+    if (normal != V3f(0, 0, 0)) return normal;
+    nearby_derivatives(surface, at, scratch, dPdu, dPdv);
+    return unit_normal(*dPdu, *dPdv);
 }
 
 }  // namespace trapeze

@@ -8,9 +8,10 @@ namespace trapeze {
 /// dPdu x dPdv, unit length, or 0 when they are parallel, 0 or not finite.
 V3f unit_normal(const V3f& dPdu, const V3f& dPdv);
 
-/// Camera-space derivatives at a point next to one where they have no normal (a pole, a collapsed edge):
-/// moved towards the middle of its face. A function of the point alone, so that all who share it agree.
-void nearby_derivatives(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
-                        V3f* dPdv);
+/// The unit normal of camera-space derivatives at a point; where they have none (a pole, a collapsed edge),
+/// these become those next to it, moved towards the middle of its face. A function of the point alone, so
+/// that all who share it agree. 0 when there is none there either.
+V3f normal_at(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
+              V3f* dPdv);
 
 }  // namespace trapeze

@@ -92,12 +92,8 @@ class PieceMaker {
         const V2f faces = surface_.surface().faces_per_unit(face_);
         for (size_t i = 0; i < count; ++i) {
             V3f du = scratch_.dPdu[i], dv = scratch_.dPdv[i];
-            V3f normal = unit_normal(du, dv);
-            if (normal == V3f(0, 0, 0)) {
-                nearby_derivatives(surface_, {face_, scratch_.uv[i]}, scratch_.evaluation, &du, &dv);
-                normal = unit_normal(du, dv);
-                if (normal == V3f(0, 0, 0)) normal = V3f(0, 0, -outside);  // towards the eye
-            }
+            V3f normal = normal_at(surface_, {face_, scratch_.uv[i]}, scratch_.evaluation, &du, &dv);
+            if (normal == V3f(0, 0, 0)) normal = V3f(0, 0, -outside);  // towards the eye
             grid.P[0].set(i, scratch_.P[i]);
             grid.Ng.set(i, normal * outside);
             grid.dPdu.set(i, du * faces.x);
