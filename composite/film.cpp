@@ -16,15 +16,18 @@ PixelRect grown(const PixelRect& r, int x, int y) {
     return {r.x0 - x, r.y0 - y, r.x1 + x, r.y1 + y};
 }
 
+std::string depth_filter_name(const Options& options) {
+    return options.hider_parameters.string_or("depthfilter", "min");
+}
+
+/// The same with a warning where the name is not known.
 DepthFilter depth_filter_of(const RenderContext& context) {
-    const std::string name = context.scene->options.hider_parameters.string_or("depthfilter", "min");
-    if (name == "max") return DepthFilter::Max;
-    if (name == "average") return DepthFilter::Average;
-    if (name == "midpoint") return DepthFilter::Midpoint;
-    if (name != "min" && context.diagnostics)
+    const DepthFilter filter = depth_filter(context.scene->options);
+    const std::string name = depth_filter_name(context.scene->options);
+    if (filter == DepthFilter::Min && name != "min" && context.diagnostics)
         context.diagnostics->warning(
             {}, "Hider \"depthfilter\" \"" + name + "\" is not supported; min is used", "depthfilter");
-    return DepthFilter::Min;
+    return filter;
 }
 
 bool wants_ids(const Options& options) {
@@ -78,6 +81,13 @@ class CentrePrimitive {
 };
 
 }  // namespace
+
+DepthFilter depth_filter(const Options& options) {
+    const std::string name = depth_filter_name(options);
+    if (name == "max") return DepthFilter::Max;
+    if (name == "average") return DepthFilter::Average;
+    return name == "midpoint" ? DepthFilter::Midpoint : DepthFilter::Min;
+}
 
 /// A tile's own sums, over its pixels and all that its samples may reach.
 struct Film::Sums {

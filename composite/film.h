@@ -26,6 +26,10 @@ namespace trapeze {
 /// Hider "depthfilter": what the depths of a pixel's samples make.
 enum class DepthFilter { Min, Max, Average, Midpoint };
 
+/// As Hider "depthfilter" says; Min for a name that is not known. Midpoint wants a sample's hits beyond the
+/// first opaque one.
+DepthFilter depth_filter(const Options& options);
+
 class Film {
   public:
     /// Reads the crop, PixelFilter, Exposure and Hider of the context's scene. Image::id is recorded when

@@ -62,15 +62,16 @@ Facing facing_for_sides(int sides, bool reverse_orientation) {
     return reverse_orientation ? Facing::PositiveOnly : Facing::NegativeOnly;
 }
 
-Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite, bool see_through) {
+Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite,
+               const PackOptions& options) {
     const Attributes& attributes = *shading.primitive->attributes;
     const size_t count = shading.vertex_count();
     Grid grid;
     grid.shape = shading.shape;
     grid.key_count = static_cast<uint8_t>(shading.key_count);
     grid.facing =
-        see_through ? Facing::Both : facing_for_sides(attributes.sides, shading.reverse_orientation);
-    grid.opaque = !see_through && all_opaque(shading.Oi, count);
+        options.both_sides ? Facing::Both : facing_for_sides(attributes.sides, shading.reverse_orientation);
+    grid.opaque = !options.keep_hits_behind && all_opaque(shading.Oi, count);
     grid.smooth = attributes.smooth_shading;
     grid.matte = static_cast<uint8_t>(attributes.matte);
     grid.primitive = shading.primitive_index;

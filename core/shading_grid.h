@@ -93,10 +93,15 @@ struct ShadingGrid {
 /// area is negative.
 Facing facing_for_sides(int sides, bool reverse_orientation);
 
+struct PackOptions {
+    bool keep_hits_behind = false;  ///< the grid does not count as opaque, whatever Oi
+    bool both_sides = false;        ///< hit from both, whatever Sides
+};
+
 /// Packs a shaded grid: positions into tiles, Ci and Oi into halves, output variables into floats. Values
 /// that are not finite become 0 (colours and output variables) or the nearest finite vertex's position;
 /// *not_finite counts them. Output variables are clamped to +-kInfinity, so that sums of them are finite.
-/// `see_through`: not opaque whatever Oi, and hit from both sides; its hits may be cut away.
-Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite, bool see_through = false);
+Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite,
+               const PackOptions& options = {});
 
 }  // namespace trapeze

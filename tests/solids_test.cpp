@@ -58,8 +58,8 @@ struct BallScene {
             tessellation.dice(i, grid, scratch);
             grid.Ci = grid.Cs, grid.Oi = grid.Os;
             int64_t not_finite = 0;
-            grids.grids.push_back(
-                pack_grid(grid, arena, &not_finite, may_be_cut(scene.scene, *grid.primitive)));
+            const bool cut = may_be_cut(scene.scene, *grid.primitive);
+            grids.grids.push_back(pack_grid(grid, arena, &not_finite, {cut, cut}));
         }
     }
 

@@ -6,6 +6,7 @@
 
 #include <deque>
 
+#include "composite/film.h"
 #include "pipeline/frame/stopwatch.h"
 #include "sample/cut_hits.h"
 
@@ -23,19 +24,12 @@ struct GridMaker {
     double dice_seconds = 0, shade_seconds = 0;
 };
 
-/// Grids are shaded in batches of so many vertices, so that small ones do not run half-empty vectors.
-constexpr size_t kBatchVertices = 256;
-constexpr size_t kBatchGrids = 64;
 /// The fewest subpatches that a thread takes at a time.
 constexpr size_t kGrain = 4;
 
-Grid packed(const Scene& scene, const ShadingGrid& grid, GridArena& arena, int64_t* not_finite) {
-    const bool cut = may_be_cut(scene, *grid.primitive);
-    // The midpoint of two depths wants hits beyond the first opaque one.
-    const bool midpoint = scene.options.hider_parameters.string_or("depthfilter", "") == "midpoint";
-    Grid made = pack_grid(grid, arena, not_finite, cut || midpoint);
-    if (!cut) made.facing = facing_for_sides(grid.primitive->attributes->sides, grid.reverse_orientation);
-    return made;
+PackOptions packing(const Scene& scene, const Primitive& primitive) {
+    const bool cut = may_be_cut(scene, primitive);
+    return {cut || depth_filter(scene.options) == DepthFilter::Midpoint, cut};
 }
 
 /// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
@@ -44,7 +38,7 @@ size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t
     Stopwatch watch;
     std::vector<ShadingGrid*> batch;
     size_t vertices = 0, next = first;
-    for (; next < end && vertices < kBatchVertices && batch.size() < kBatchGrids; ++next) {
+    for (; next < end && vertices < Shading::kBatchVertices; ++next) {
         if (maker.shading_grids.size() <= batch.size()) maker.shading_grids.emplace_back();
         batch.push_back(&maker.shading_grids[batch.size()]);
         tessellation.dice(region.subpatches[next], *batch.back(), maker.dice_scratch);
@@ -54,7 +48,7 @@ size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t
     shading.shade(batch, maker.shade_scratch, maker.shade_stats);
     int64_t not_finite = 0;
     for (const ShadingGrid* grid : batch)
-        maker.grids.push_back(packed(scene, *grid, maker.arena, &not_finite));
+        maker.grids.push_back(pack_grid(*grid, maker.arena, &not_finite, packing(scene, *grid->primitive)));
     maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
     maker.shade_seconds += watch.lap();
     return next;
