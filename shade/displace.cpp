@@ -43,6 +43,10 @@ float move_key(const Plane3& moves, const M44d& key_from_first, Triples& P) {
     return static_cast<float>(longest);
 }
 
+Plane3 part(const Plane3& planes, size_t first, size_t count) {
+    return {planes.x.subspan(first, count), planes.y.subspan(first, count), planes.z.subspan(first, count)};
+}
+
 void store(ConstPlane3 planes, size_t vertices, Triples& out) {
     for (int k = 0; k < 3; ++k) out.c[k].assign(planes[k].begin(), planes[k].begin() + vertices);
 }
@@ -50,12 +54,11 @@ void store(ConstPlane3 planes, size_t vertices, Triples& out) {
 }  // namespace
 
 Displaced displaced_by(const vm::Frame& frame, size_t first, size_t count) {
-    const auto part = [&](std::string_view name) -> ConstPlane3 {
+    const auto values = [&](std::string_view name) -> ConstPlane3 {
         if (!writes_variable(frame.program(), name)) return {};
-        const Plane3 all = variable_planes(frame, name);
-        return {all.x.subspan(first, count), all.y.subspan(first, count), all.z.subspan(first, count)};
+        return part(variable_planes(frame, name), first, count);
     };
-    return {part("P"), part("N")};
+    return {values("P"), values("N")};
 }
 
 M44d key_from_first(const Primitive& primitive, int key, int key_count) {
@@ -85,7 +88,10 @@ float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& po
         load(grid.N.c[k], vertices, N[k]);
         load(grid.P.front().c[k], vertices, P[k]);
     }
-    find_normals(grid.shape, P, grid.reverse_orientation, N);
+    const auto in_piece = static_cast<size_t>(grid.shape.vertex_count());
+    for (size_t first = 0; first < vertices; first += in_piece)
+        find_normals(grid.shape, part(P, first, in_piece), grid.reverse_orientation,
+                     part(N, first, in_piece));
     store(N, vertices, grid.Ng);
     store(displaced.N.size() != 0 ? displaced.N : ConstPlane3(N), vertices, grid.N);
     return longest;

@@ -121,13 +121,12 @@ void GridRun::displace_borders(const LayeredShader& shader) {
         const vm::Points points = points_of(read, true);
         Frames frames;
         messages_.displacement = nullptr;  // of another run, with other lanes
-        for (ShadingGrid* pieces : run) remember_undisplaced(*pieces);
         for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
             const vm::Frame& frame = run_layer(shader, layer, read, points, false, frames);
             messages_.displacement = &frame;
             size_t first = 0;
             for (ShadingGrid* pieces : run) {
-                displace_pieces(displaced_by(frame, first, pieces->vertex_count()), *pieces);
+                displace_grid(displaced_by(frame, first, pieces->vertex_count()), *pieces, scratch_.pool);
                 first += pieces->vertex_count();
             }
         }

@@ -101,6 +101,15 @@ Coordinate vertex_values(Run& run, const Operand& operand, size_t component) {
     return {values, differences(run, GridAxis::U, values), differences(run, GridAxis::V, values)};
 }
 
+/// s and t from inputs `first` and the next, or from four corners.
+struct MapPlace {
+    Coordinate s, t;
+};
+MapPlace map_place(Run& run, std::span<const Operand> operands, size_t first, bool corners) {
+    if (!corners) return {vertex_values(run, operands[first], 0), vertex_values(run, operands[first + 1], 0)};
+    return {quad(run, operands, first, 2, 0), quad(run, operands, first + 1, 2, 0)};
+}
+
 /// A triple by components, from one input or from four corners.
 std::array<Coordinate, 3> triple_values(Run& run, const Step& step, std::span<const Operand> operands) {
     std::array<Coordinate, 3> values;
@@ -131,11 +140,7 @@ void MapService::look_up(Run& run, const Step& step, std::span<const Operand> op
 }
 
 void MapService::texture(Run& run, const Step& step, std::span<const Operand> operands) {
-    const size_t first = step.outputs + 2u;
-    const bool corners = step.immediate >= 8;
-    const Coordinate s = corners ? quad(run, operands, first, 2, 0) : vertex_values(run, operands[first], 0);
-    const Coordinate t =
-        corners ? quad(run, operands, first + 1, 2, 0) : vertex_values(run, operands[first + 1], 0);
+    const auto [s, t] = map_place(run, operands, step.outputs + 2u, step.immediate >= 8);
     const Textures::Picture* picture = textures_.find(run.frame().text_input(step, 0), step.at);
     const std::vector<Plane> out = outputs_of(run, operands[0]);
     textures_.texture(picture, {s.middle, t.middle, s.along_u, t.along_u, s.along_v, t.along_v},
@@ -146,11 +151,8 @@ void MapService::texture(Run& run, const Step& step, std::span<const Operand> op
 /// dPds x dPdt + dF/ds (n x dPdt) - dF/dt (n x dPds), n = N / |N| [Blinn78]. Inputs: N, dPds, dPdt,
 /// coordinates. Slopes are differences over the width of the lookup.
 void MapService::bump(Run& run, const Step& step, std::span<const Operand> operands) {
-    const size_t first = step.outputs + 5u;
-    const bool corners = step.immediate >= 11;
-    const Coordinate s = corners ? quad(run, operands, first, 2, 0) : vertex_values(run, operands[first], 0);
-    const Coordinate t =
-        corners ? quad(run, operands, first + 1, 2, 0) : vertex_values(run, operands[first + 1], 0);
+    const MapPlace place = map_place(run, operands, step.outputs + 5u, step.immediate >= 11);
+    const Coordinate &s = place.s, &t = place.t;
     const Textures::Picture* picture = textures_.find(run.frame().text_input(step, 0), step.at);
     const MapOptions options = options_of(run, step, operands);
     const size_t lanes = run.lanes();

@@ -11,10 +11,6 @@ namespace {
 /// A bound met but for rounding is kept.
 constexpr float kBoundTolerance = 1.0001f;
 
-/// Grids are added to a batch until it has so many vertices: enough that the interpreter's work for each
-/// operation is small against the operation, few enough that the planes stay in the second cache.
-constexpr size_t kBatchVertices = 256;
-
 }  // namespace
 
 struct ShadeScratch::State {

@@ -33,6 +33,10 @@ class Shading {
     /// depends on the grid alone.
     void shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const;
 
+    /// Grids are added to a batch until it has so many vertices: enough that the interpreter's work for each
+    /// operation is small against the operation, few enough that the planes stay in the second cache.
+    static constexpr size_t kBatchVertices = 256;
+
     /// The same for several grids: small ones that come one after the other and have the same attributes and
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;

@@ -8,16 +8,9 @@
 
 namespace trapeze {
 
-/// To be called before pieces are displaced: keeps their positions as P[1].
-void remember_undisplaced(ShadingGrid& pieces);
-
-/// Moves the vertices of border pieces, and finds their normals from the moved P unless the shader set N.
-/// Vertices that would move to no finite place stay.
-void displace_pieces(const Displaced& displaced, ShadingGrid& pieces);
-
 class BorderWeld {
   public:
-    /// Of a grid that is not displaced yet, nor its border.
+    /// Of a grid that is not displaced yet, nor its border: where they are, both share.
     explicit BorderWeld(const ShadingGrid& grid);
 
     /// The grid and its border are displaced: moves the grid's border vertices, at all keys, by as much as

@@ -224,33 +224,11 @@ HWY_INLINE V exponential(V x) {
     return scale_by_power(power, hn::ConvertTo(DI(), n));
 }
 
-/// x = 2^exponent * (1 + f), 1 + f from sqrt(1/2) to sqrt(2), for normal positive x.
-struct Scientific {
-    VI exponent;
-    V f;
-};
-HWY_INLINE Scientific split_exponent(V x) {
-    const DI di;
-    const VI bits = hn::BitCast(di, x);
-    const VI exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
-    const V mantissa = hn::BitCast(D(), hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
-    return {exponent, hn::Sub(mantissa, set(1))};
-}
-
 HWY_INLINE V logarithm(V x) {
     const Scientific split = split_exponent(at_least(x, set(kLeastNormal)));
     const V f = split.f, e = hn::ConvertTo(D(), split.exponent);
-    V p = set(7.0376836292e-2f);
-    p = step(p, f, -1.1514610310e-1f);
-    p = step(p, f, 1.1676998740e-1f);
-    p = step(p, f, -1.2420140846e-1f);
-    p = step(p, f, 1.4249322787e-1f);
-    p = step(p, f, -1.6668057665e-1f);
-    p = step(p, f, 2.0000714765e-1f);
-    p = step(p, f, -2.4999993993e-1f);
-    p = step(p, f, 3.3333331174e-1f);
     const V ff = hn::Mul(f, f);
-    V rest = hn::Add(hn::Mul(hn::Mul(f, ff), p), hn::Mul(e, set(-2.12194440e-4f)));
+    V rest = hn::Add(hn::Mul(hn::Mul(f, ff), logarithm_series(f)), hn::Mul(e, set(-2.12194440e-4f)));
     rest = hn::Sub(rest, hn::Mul(ff, set(0.5f)));
     return hn::Add(hn::Add(f, rest), hn::Mul(e, set(0.693359375f)));
 }

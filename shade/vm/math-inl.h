@@ -27,12 +27,6 @@ using VU = hn::Vec<DU>;
 HWY_INLINE V set(float x) {
     return hn::Set(D(), x);
 }
-HWY_INLINE V load(ConstPlane p, size_t i) {
-    return hn::Load(D(), p.data() + i);
-}
-HWY_INLINE void store(V v, Plane p, size_t i) {
-    hn::Store(v, D(), p.data() + i);
-}
 
 /// max(0, x); 0 for NaN.
 HWY_INLINE V positive(V x) {
@@ -59,14 +53,22 @@ HWY_INLINE V inverse_length(V x, V y, V z) {
     return hn::IfThenElseZero(hn::Gt(squared, hn::Zero(D())), hn::Div(set(1), hn::Sqrt(squared)));
 }
 
-/// Of a normal positive number. x = 2^e * m with m in [sqrt(1/2), sqrt(2)) (0x3f3504f3 is the float
-/// sqrt(1/2)); ln m by the polynomial of Cephes' logf, good to about 1e-7.
-HWY_INLINE V log2(V x) {
+/// x = 2^exponent * (1 + f), 1 + f from sqrt(1/2) to sqrt(2) (0x3f3504f3 is the float sqrt(1/2)), for normal
+/// positive x.
+struct Scientific {
+    VI exponent;
+    V f;
+};
+HWY_INLINE Scientific split_exponent(V x) {
     const DI di;
-    const VI bits = hn::Sub(hn::BitCast(di, x), hn::Set(di, 0x3f3504f3));
-    const VI exponent = hn::ShiftRight<23>(bits);
-    const VI mantissa = hn::Sub(hn::BitCast(di, x), hn::ShiftLeft<23>(exponent));
-    const V f = hn::Sub(hn::BitCast(D(), mantissa), set(1));
+    const VI bits = hn::BitCast(di, x);
+    const VI exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f3504f3)));
+    const V mantissa = hn::BitCast(D(), hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
+    return {exponent, hn::Sub(mantissa, set(1))};
+}
+
+/// ln(1 + f) = f - f^2 / 2 + f^3 * this: the polynomial of Cephes' logf, good to about 1e-7.
+HWY_INLINE V logarithm_series(V f) {
     V p = set(7.0376836292e-2f);
     p = step(p, f, -1.1514610310e-1f);
     p = step(p, f, 1.1676998740e-1f);
@@ -75,9 +77,14 @@ HWY_INLINE V log2(V x) {
     p = step(p, f, -1.6668057665e-1f);
     p = step(p, f, 2.0000714765e-1f);
     p = step(p, f, -2.4999993993e-1f);
-    p = step(p, f, 3.3333331174e-1f);
+    return step(p, f, 3.3333331174e-1f);
+}
+
+/// Of a normal positive number.
+HWY_INLINE V log2(V x) {
+    const auto [exponent, f] = split_exponent(x);
     const V ff = hn::Mul(f, f);
-    const V ln = hn::Add(f, hn::Mul(ff, hn::Sub(hn::Mul(f, p), set(0.5f))));
+    const V ln = hn::Add(f, hn::Mul(ff, hn::Sub(hn::Mul(f, logarithm_series(f)), set(0.5f))));
     return hn::Add(hn::ConvertTo(D(), exponent), hn::Mul(ln, set(1.44269504f)));
 }
 
