@@ -1,4 +1,5 @@
-/// Writes RIB as text: requests, one a line, arrays broken at the line's end.
+/// What the scenes' generators write: requests with arguments of all kinds, through the writer of RIB, into a
+/// text.
 #pragma once
 
 #include <span>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "pipeline/rib/rib_writer.h"
 
 namespace trapeze::scenes {
 
@@ -19,17 +21,21 @@ class RibBlock;
 
 class RibWriter {
   public:
-    const std::string& text() const { return text_; }
+    RibWriter();
 
-    void comment(std::string_view words);
-    void blank_line() { text_ += '\n'; }
+    const std::string& text() {
+        writer_.flush();
+        return text_;
+    }
+
+    void comment(std::string_view words) { writer_.comment("# " + std::string(words)); }
+    void blank_line() { writer_.comment(""); }
 
     /// Numbers as they are, strings in quotes, vectors as arrays.
     template <class... Arguments>
     void request(std::string_view name, const Arguments&... arguments) {
-        begin_line(name);
+        writer_.request(name);
         (argument(arguments), ...);
-        text_ += '\n';
     }
 
     /// A transformation at the shutter's opening and closing; once where these are the same.
@@ -38,22 +44,17 @@ class RibWriter {
     RibBlock block(std::string_view kind);  ///< "Attribute": AttributeBegin ... AttributeEnd
 
   private:
-    friend class RibBlock;
-    void begin_line(std::string_view name);
-    void word(std::string_view text);  ///< after a space or a line's end
     void argument(double number);
-    void argument(int number) { argument(static_cast<double>(number)); }
-    void argument(std::string_view text);
-    void argument(const char* text) { argument(std::string_view(text)); }
+    void argument(int number) { writer_.number(number); }
+    void argument(std::string_view text) { writer_.string(text); }
+    void argument(const char* text) { writer_.string(text); }
     void argument(std::span<const double> numbers);
-    void argument(std::span<const int> numbers);
     void argument(const Numbers& numbers) { argument(std::span<const double>(numbers)); }
-    void argument(const Integers& numbers) { argument(std::span<const int>(numbers)); }
-    void argument(const Words& words);
+    void argument(const Integers& numbers) { writer_.integers(numbers); }
+    void argument(const Words& words) { writer_.strings(words); }
 
-    std::string text_ = "##RenderMan RIB-Structure 1.1\n";
-    size_t line_begin_ = 0;
-    int indent_ = 0;
+    std::string text_;
+    rib::RibWriter writer_;
 };
 
 class RibBlock {
