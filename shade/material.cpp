@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "shade/stand_in_light.h"
+
 namespace trapeze {
 namespace {
 
@@ -95,17 +97,18 @@ const LayeredShader* Materials::surface(const ShaderInstance* instance, const Na
 const Lamp* Materials::lamp(const LightInstance& instance) {
     const auto [at, is_new] = lamps_.try_emplace(&instance);
     if (!is_new) return at->second.get();
-    auto executable =
-        library_.find(instance.shader.name, rsl::ShaderKind::Light, {}, instance.shader.location);
+    const ShaderInstance* shader = &instance.shader;
+    auto executable = library_.find(shader->name, rsl::ShaderKind::Light, {}, shader->location);
     if (!executable) {
-        warn_missing("LightSource", instance.shader, "the light is left out");
-        return nullptr;
+        shader = &stand_ins_.emplace_back(stand_in_light(instance.shader));
+        warn_missing("LightSource", instance.shader, shader->name + " is used");
+        executable = library_.find(shader->name, rsl::ShaderKind::Light, {}, shader->location);
+        if (!executable) return nullptr;
     }
     auto made = std::make_unique<Lamp>();
-    made->spaces = std::make_unique<SceneSpaces>(*context_.scene, context_.camera, &instance.shader, nullptr);
-    made->shader =
-        std::make_unique<BoundShader>(std::move(executable), instance.shader, *made->spaces, diagnostics_);
-    made->position = instance.shader.camera_from_shader.translation();
+    made->spaces = std::make_unique<SceneSpaces>(*context_.scene, context_.camera, shader, nullptr);
+    made->shader = std::make_unique<BoundShader>(std::move(executable), *shader, *made->spaces, diagnostics_);
+    made->position = shader->camera_from_shader.translation();
     at->second = std::move(made);
     return at->second.get();
 }

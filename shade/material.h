@@ -56,6 +56,7 @@ class Materials {
     using Key = std::pair<const ShaderInstance*, Names>;
     std::map<Key, LayeredShader> shaders_;  ///< without layers: there is no such shader
     std::deque<BoundShader> layers_;
+    std::deque<ShaderInstance> stand_ins_;  ///< of lights whose shaders are not found
     std::unordered_map<const LightInstance*, std::unique_ptr<Lamp>> lamps_;
     std::deque<Material> materials_;
     std::vector<uint32_t> of_primitive_;

@@ -60,6 +60,7 @@ const std::vector<Expected> kExpected = {
     {"shadowspot", "light", {"shadowname = \"\"", "samples = 16", "width = 1", "coneangle = radians(30)"}},
     {"shadowdistant", "light", {"shadowname = \"\"", "samples = 16", "width = 1"}},
     {"shadowpoint", "light", {"sfpx = \"\"", "sfnz = \"\"", "samples = 16", "width = 1"}},
+    {"standinlight", "light", {"intensity = 1", "lightcolor = 1", "spot = 0", "falloff = 0"}},
     {"uberlight",
      "light",
      {"lighttype = \"spot\"", "cuton", "cutoff", "width", "height", "wedge", "hedge", "roundness",

@@ -1,0 +1,71 @@
+#include "shade/stand_in_light.h"
+
+#include <gtest/gtest.h>
+
+#include "shade/test_scene.h"
+
+namespace trapeze {
+namespace {
+
+float number_of(const ShaderInstance& instance, const char* name) {
+    const Parameter* found = instance.parameters.find(name);
+    return found && found->floats.size() == 1 ? found->floats[0] : -1;
+}
+
+TEST(StandInLight, TheNameTellsTheKind) {
+    const auto stands_in = [](const char* name) { return stand_in_light(shader(name)).name; };
+    EXPECT_EQ(stands_in("MyAmbientLight"), "ambientlight");
+    EXPECT_EQ(stands_in("env_occlusion"), "ambientlight");
+    EXPECT_EQ(stands_in("mtorDirectionalLight"), "distantlight");
+    EXPECT_EQ(stands_in("sun"), "distantlight");
+    EXPECT_EQ(stands_in("liquidpoint"), "standinlight");
+    EXPECT_EQ(stands_in("key"), "standinlight");
+}
+
+TEST(StandInLight, SoDoTheParameters) {
+    const ShaderInstance aimed =
+        stand_in_light(shader("key", {point("from", V3f(1, 2, 3)), point("to", V3f(0))}));
+    EXPECT_EQ(aimed.name, "distantlight");
+    ASSERT_TRUE(aimed.parameters.find("from"));
+    EXPECT_EQ(aimed.parameters.find("from")->floats, (std::vector<float>{1, 2, 3}));
+    const ShaderInstance cone = stand_in_light(shader("key", {number("coneAngle", 90)}));
+    EXPECT_EQ(number_of(cone, "spot"), 1);
+    EXPECT_NEAR(number_of(cone, "coneangle"), 0.785398f, 1e-5f);  // 45 degrees about the axis
+    EXPECT_NEAR(number_of(stand_in_light(shader("key", {number("coneangle", 0.5f)})), "coneangle"), 0.5f, 0);
+}
+
+TEST(StandInLight, LargeIntensitiesFadeWithTheDistanceUnlessToldOtherwise) {
+    EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 1)})), "falloff"), 0);
+    EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 75)})), "falloff"), 2);
+    EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 75), number("decayRate", 0)})),
+                        "falloff"),
+              0);
+    EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("falloff", 2)})), "falloff"), 2);
+    EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("falloff", 45)})), "falloff"), 0);
+}
+
+TEST(StandInLight, WhatItDoesNotKnowIsLeftOut) {
+    ShaderInstance missing = shader("lamp", {number("wobble", 3), text("intensity", "bright")});
+    missing.camera_from_shader[3][0] = 7;
+    const ShaderInstance light = stand_in_light(missing);
+    EXPECT_EQ(light.parameters.values.size(), 1u);  // falloff
+    EXPECT_EQ(light.camera_from_shader[3][0], 7);
+}
+
+/// The scene is lit as by a pointlight that does not fade, and said once.
+TEST(StandInLight, ShinesOnSurfaces) {
+    TestScene scene;
+    scene.surface("matte", {number("Ka", 0)});
+    scene.light("lamp", {number("intensity", 2)});
+    const ShadingGrid grid = scene.shaded();
+    ASSERT_EQ(scene.reported.size(), 1u);
+    EXPECT_EQ(scene.reported[0].text, "LightSource: there is no shader \"lamp\"; standinlight is used");
+    for (size_t v = 0; v < grid.vertex_count(); ++v) {
+        const V3f P = grid.P[0].at(v);  // from the origin; normals are towards it
+        const float expected = 2 * P.z / P.length() * grid.Cs.at(v).x;
+        EXPECT_NEAR(grid.Ci.at(v).x, expected, 1e-5f);
+    }
+}
+
+}  // namespace
+}  // namespace trapeze
