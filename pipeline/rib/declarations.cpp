@@ -26,7 +26,7 @@ std::optional<ValueType> type_named(std::string_view word) {
     if (word == "vector") return ValueType::Vector;
     if (word == "normal") return ValueType::Normal;
     if (word == "hpoint") return ValueType::HPoint;
-    if (word == "matrix") return ValueType::Matrix;
+    if (word == "matrix" || word == "mpoint") return ValueType::Matrix;  // mpoint: a point's, of blobbies
     return {};
 }
 
@@ -67,7 +67,9 @@ std::optional<Declaration> declaration_of(const std::vector<std::string>& words)
     if (i < words.size() && words[i][0] == '[') {
         const std::string& w = words[i++];
         int length = 0;
-        const auto [end, error] = std::from_chars(w.data() + 1, w.data() + w.size() - 1, length);
+        auto [end, error] = std::from_chars(w.data() + 1, w.data() + w.size() - 1, length);
+        if (error == std::errc() && *end == '.')  // programs that write all numbers as floats: [ 2.0 ]
+            while (*++end == '0') continue;
         if (error != std::errc() || *end != ']' || length < 1 || length > kLongestArray) return {};
         declaration.array_length = length;
     }
@@ -116,7 +118,6 @@ const char* const kFloats[] = {"Ka",
                                "gamma",
                                "jitter",
                                "endofframe",
-                               "casts_shadows",
                                "veining"};
 const char* const kColors[] = {"specularcolor", "lightcolor", "background", "opacity", "bgcolor", "fogcolor"};
 const char* const kPoints[] = {"from", "to"};
@@ -141,6 +142,7 @@ Declarations::Declarations() {
     add(kPoints, ValueType::Point);
     add(kStrings, ValueType::String);
     known_["sphere"] = {StorageClass::Uniform, ValueType::Float, 1};
+    for (const auto& [name, declaration] : known_) predeclared_.insert(name);
 }
 
 std::optional<std::pair<std::string, Declaration>> Declarations::resolve(const std::string& token) const {

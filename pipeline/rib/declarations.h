@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -20,13 +21,20 @@ class Declarations {
   public:
     Declarations();  ///< RISpec's predeclared names
 
-    void declare(const std::string& name, const Declaration& declaration) { known_[name] = declaration; }
+    void declare(const std::string& name, const Declaration& declaration) {
+        known_[name] = declaration;
+        predeclared_.erase(name);
+    }
     /// A parameter's token, which may carry its declaration: the bare name and its type, or nothing when it
     /// is unknown.
     std::optional<std::pair<std::string, Declaration>> resolve(const std::string& token) const;
 
+    /// A bare name of RISpec's own, that nobody has declared anew.
+    bool is_predeclared(const std::string& token) const { return predeclared_.contains(token); }
+
   private:
     std::map<std::string, Declaration, std::less<>> known_;
+    std::set<std::string> predeclared_;
 };
 
 }  // namespace trapeze::rib

@@ -14,6 +14,9 @@ TEST(Declarations, ClassTypeAndLength) {
               (Declaration{StorageClass::FaceVarying, ValueType::Float, 2}));
     EXPECT_EQ(parse_declaration("constant string [3]"),
               (Declaration{StorageClass::Constant, ValueType::String, 3}));
+    EXPECT_EQ(parse_declaration("integer [ 2.0 ]"),
+              (Declaration{StorageClass::Uniform, ValueType::Integer, 2}));
+    EXPECT_EQ(parse_declaration("vertex mpoint"), (Declaration{StorageClass::Vertex, ValueType::Matrix, 1}));
     EXPECT_EQ(parse_declaration("int"), (Declaration{StorageClass::Uniform, ValueType::Integer, 1}));
     EXPECT_EQ(parse_declaration("matrix")->floats_per_item(), 16);
 }
@@ -21,7 +24,7 @@ TEST(Declarations, ClassTypeAndLength) {
 TEST(Declarations, WhatIsNone) {
     for (const char* text :
          {"", "uniform", "colour", "uniform colour", "float[0]", "float[-1]", "float[99999999999]", "float[2",
-          "float[]", "float[2x]", "float x y", "varying uniform float"})
+          "float[]", "float[2x]", "float[2.5]", "float[2.", "float x y", "varying uniform float"})
         EXPECT_EQ(parse_declaration(text), std::nullopt) << text;
 }
 
@@ -42,6 +45,10 @@ TEST(Declarations, DeclareReplaces) {
     EXPECT_EQ(declarations.resolve("tint")->second.type, ValueType::Color);
     declarations.declare("tint", *parse_declaration("float"));
     EXPECT_EQ(declarations.resolve("tint")->second.type, ValueType::Float);
+    EXPECT_TRUE(declarations.is_predeclared("Kd"));
+    declarations.declare("Kd", *parse_declaration("string"));
+    EXPECT_FALSE(declarations.is_predeclared("Kd"));
+    EXPECT_FALSE(declarations.is_predeclared("tint"));
 }
 
 /// RISpec appendix A: the parameters of the standard shaders need no declaration.

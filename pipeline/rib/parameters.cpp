@@ -15,6 +15,13 @@ Declaration guessed(size_t numbers, size_t strings) {
             static_cast<int>(std::clamp<size_t>(length, 1, kLongestArray))};
 }
 
+bool fits(const Declaration& declaration, size_t numbers, size_t strings) {
+    const size_t item = component_count(declaration.type) * static_cast<size_t>(declaration.array_length);
+    const bool is_string = declaration.type == ValueType::String;
+    const size_t got = is_string ? strings : numbers;
+    return (is_string ? numbers : strings) == 0 && got > 0 && got % item == 0;
+}
+
 }  // namespace
 
 ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) {
@@ -33,6 +40,10 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
         while (value.kind == Argument::Kind::Number && cursor.next_is_number() && !cursor.next_is_array())
             numbers.push_back(cursor.number("a value"));
         auto declared = declarations_.resolve(token);
+        // A shader's or a renderer's own parameter of a name that RISpec gives another type to.
+        if (declared && undeclared != Undeclared::LeaveOut && declarations_.is_predeclared(token) &&
+            !scope_.color_samples && !fits(declared->second, numbers.size(), value.strings.size()))
+            declared = {token, guessed(numbers.size(), value.strings.size())};
         if (!declared && undeclared != Undeclared::LeaveOut && token.find(' ') == std::string::npos) {
             declared = {token, guessed(numbers.size(), value.strings.size())};
             if (undeclared == Undeclared::ShaderKnows)

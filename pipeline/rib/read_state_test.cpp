@@ -215,13 +215,15 @@ TEST(ReadState, OtherAttributesAreKeptAsTheyLook) {
 TEST(ReadState, ShaderParameters) {
     const Outcome r = read_world(
         "Declare \"tint\" \"uniform color\" Translate 1 0 0 Surface \"plastic\" \"Kd\" .5 "
-        "\"tint\" 1 0 0 \"uniform float[2] pair\" [3 4] \"unknown\" [1] \"Kd\" \"text\" "
-        "\"specularcolor\" [1 2] " +
+        "\"tint\" 1 0 0 \"uniform float[2] pair\" [3 4] \"unknown\" [1] \"tint\" \"text\" "
+        "\"tint\" [1 2] \"opacity\" [0.25] " +
         kSphere + "Surface \"x\" \"unknown\" [1]");
     const ShaderInstance& shader = *r.attributes().surface;
     EXPECT_EQ(shader.parameters.float_or("Kd", 0), 0.5f);
     EXPECT_EQ(shader.parameters.find("tint")->floats, (std::vector<float>{1, 0, 0}));
     EXPECT_EQ(shader.parameters.find("pair")->declaration.array_length, 2);
+    // Of another type than the standard shaders' parameter of that name: the shader's own.
+    EXPECT_EQ(shader.parameters.find("opacity")->declaration.type, ValueType::Float);
     EXPECT_EQ(shader.camera_from_shader.translation(), V3f(1, 0, 0));
     EXPECT_EQ(r.messages.size(), 3u);  // the second "unknown" is of the same kind
 }
