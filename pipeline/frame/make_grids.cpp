@@ -27,9 +27,16 @@ struct GridMaker {
 /// The fewest subpatches that a thread takes at a time.
 constexpr size_t kGrain = 4;
 
+/// Points, and curves without normals, have no back.
+bool faces_the_eye(const Shape& shape) {
+    if (std::holds_alternative<Points>(shape.topology)) return true;
+    return std::holds_alternative<Curves>(shape.topology) && !shape.variables.find("N");
+}
+
 PackOptions packing(const Scene& scene, const Primitive& primitive) {
     const bool cut = may_be_cut(scene, primitive);
-    return {cut || depth_filter(scene.options) == DepthFilter::Midpoint, cut};
+    return {cut || depth_filter(scene.options) == DepthFilter::Midpoint,
+            cut || faces_the_eye(primitive.shape())};
 }
 
 /// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
