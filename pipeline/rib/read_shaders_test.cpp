@@ -82,5 +82,23 @@ TEST(ReadShaders, AreaLightsShineFromTheirOriginWithAWarning) {
     EXPECT_EQ(r.attributes(1).lights[0]->shader.camera_from_shader.translation(), V3f(0, 2, 0));
 }
 
+TEST(ReadShaders, LightsMayLackHandles) {
+    const Outcome r = read_world(
+        "LightSource \"pointlight\" \"intensity\" 3 \"from\" [1 2 3] "
+        "LightSource \"ambientlight\" \"intensity\" [2] "
+        "LightSource \"distantlight\" \"fill\" \"intensity\" [4] "
+        "LightSource \"spotlight\" \"rim\" " +
+        kSphere);
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("LightSource: the light has no handle")));
+    const auto& lights = r.attributes().lights;
+    ASSERT_EQ(lights.size(), 4u);
+    EXPECT_EQ(lights[0]->shader.parameters.float_or("intensity", 0), 3);
+    EXPECT_THAT(lights[0]->shader.parameters.find("from")->floats, ElementsAre(1, 2, 3));
+    EXPECT_EQ(lights[1]->shader.parameters.float_or("intensity", 0), 2);
+    EXPECT_EQ(lights[2]->handle, "fill");
+    EXPECT_EQ(lights[2]->shader.parameters.float_or("intensity", 0), 4);
+    EXPECT_EQ(lights[3]->handle, "rim");
+}
+
 }  // namespace
 }  // namespace trapeze::rib::test

@@ -69,10 +69,20 @@ void connect_shader_layers(Reader& r, ArgumentCursor& c) {
     current = std::move(connected);
 }
 
+/// Some files leave the handle out: what follows the name is a parameter then, and no handle with parameters.
+bool has_handle(const ArgumentCursor& c) {
+    const Argument *first = c.peek(), *second = c.peek(1);
+    if (!first || !second || first->kind != Argument::Kind::String) return true;
+    return second->kind == Argument::Kind::String;
+}
+
 std::shared_ptr<LightInstance> light_of(Reader& r, ArgumentCursor& c) {
     auto light = std::make_shared<LightInstance>();
     light->shader = r.shader(c, "light");
-    light->handle = c.handle("the handle");
+    if (has_handle(c))
+        light->handle = c.handle("the handle");
+    else
+        r.warn_once("the light has no handle, and cannot be switched", "light-without-handle");
     light->shader.parameters = r.shader_parameters(c);
     return light;
 }
