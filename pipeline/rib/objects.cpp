@@ -6,6 +6,9 @@
 namespace trapeze::rib {
 namespace {
 
+/// Of instances in objects, which can double with every line of a file.
+constexpr size_t kMostInObject = size_t{1} << 20;
+
 bool same(const ParameterList& a, const ParameterList& b) {
     if (a.values.size() != b.values.size()) return false;
     for (size_t i = 0; i < a.values.size(); ++i) {
@@ -80,11 +83,11 @@ void Reader::begin_object(const std::string& handle) {
 }
 
 void Reader::instance(const std::string& handle) {
-    if (object_) throw RequestError{"inside an object definition", {}};
     if (motion_) throw RequestError{"inside a motion block", {}};
     const auto found = scope_.objects.find(handle);
     if (found == scope_.objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
-    if (!in_world_) throw RequestError{"outside of a world", {}};
+    if (found->second == object_) throw RequestError{"an object in its own definition", {}};
+    if (!in_world_ && !object_) throw RequestError{"outside of a world", {}};
     RetainedObject& object = *found->second;
     instanced_primitives_ += object.primitives.size();
     if (instanced_primitives_ > read_options_.most_instanced_primitives) {
@@ -95,32 +98,46 @@ void Reader::instance(const std::string& handle) {
                            "instance-limit");
         return;
     }
-    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    if (object_ && object_->primitives.size() + object.primitives.size() > kMostInObject)
+        throw RequestError{"the object has more than " + std::to_string(kMostInObject) + " primitives", {}};
     const AttributeState* merged_from = nullptr;
     std::shared_ptr<const AttributeState> merged;
     const int first_solid = place_solids(object.solids);
     const bool some_bare = std::any_of(object.primitives.begin(), object.primitives.end(),
                                        [](const ObjectPrimitive& p) { return p.solid < 0; });
-    const int around = some_bare ? solid_of_surface(solids_) : -1;
+    const int around = some_bare ? solid_of_surface(solids_here()) : -1;
     for (ObjectPrimitive& primitive : object.primitives) {
         const int solid = primitive.solid >= 0 ? first_solid + primitive.solid : around;
-        if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
-            primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
-            primitive.keys_open = open, primitive.keys_close = close;
-        }
-        MovingTransform transform = state_.transform;
-        transform.concat(primitive.object_from_shape);
-        if (primitive.attributes == object.attributes) {
-            emit(primitive.request, primitive.keys, transform, state_.attributes, at_, solid);
-            continue;
-        }
-        if (merged_from != primitive.attributes.get()) {
+        const bool own = primitive.attributes != object.attributes;
+        if (own && merged_from != primitive.attributes.get()) {
             merged_from = primitive.attributes.get();
             merged = instance_attributes(*state_.attributes, *object.attributes, *primitive.attributes,
                                          camera_from_current());
         }
-        emit(primitive.request, primitive.keys, transform, merged, at_, solid);
+        place_instance(primitive, own ? merged : state_.attributes, solid);
     }
+}
+
+/// A primitive of an object with the current transformation: into the scene, or into the object that is being
+/// defined.
+void Reader::place_instance(ObjectPrimitive& primitive,
+                            const std::shared_ptr<const AttributeState>& attributes, int solid) {
+    MovingTransform transform = state_.transform;
+    transform.concat(primitive.object_from_shape);
+    if (object_) {
+        ObjectPrimitive& copy = object_->primitives.emplace_back(primitive);
+        copy.object_from_shape = std::move(transform);
+        copy.attributes = attributes;
+        copy.at = at_;
+        copy.solid = solid;
+        return;
+    }
+    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
+        primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
+        primitive.keys_open = open, primitive.keys_close = close;
+    }
+    emit(primitive.request, primitive.keys, transform, attributes, at_, solid);
 }
 
 }  // namespace trapeze::rib

@@ -62,6 +62,16 @@ TEST(ReadSolids, InstancesHaveSolidsOfTheirOwn) {
     for (size_t i = 0; i < 6; ++i) EXPECT_EQ(r.primitive(i).solid, expected[i]);
 }
 
+TEST(ReadSolids, ObjectsInSolidsOfObjects) {
+    const Outcome r = read_world("ObjectBegin 1 " + kLeaf + "ObjectEnd ObjectBegin 2 SolidBegin \"union\" " +
+                                 kLeaf + "ObjectInstance 1 SolidEnd ObjectEnd ObjectInstance 2");
+    EXPECT_THAT(r.messages, IsEmpty());
+    expect_solids(r, {{Operation::Union, -1, 0}, {Operation::Primitive, 0, 0}, {Operation::Primitive, 0, 1}});
+    ASSERT_EQ(r.count(), 2u);
+    EXPECT_EQ(r.primitive(0).solid, 1);
+    EXPECT_EQ(r.primitive(1).solid, 2);
+}
+
 TEST(ReadSolids, MovingSurfacesBelongToTheirSolid) {
     const Outcome r = read_world(
         "SolidBegin \"primitive\" MotionBegin [0 1] Sphere 1 -1 1 360 Sphere 2 -2 2 360 MotionEnd SolidEnd");

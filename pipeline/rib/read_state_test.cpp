@@ -228,6 +228,22 @@ TEST(ReadState, ShaderParameters) {
     EXPECT_EQ(r.messages.size(), 3u);  // the second "unknown" is of the same kind
 }
 
+TEST(ReadState, ObjectsMayHoldInstancesOfOthers) {
+    const Outcome r = read_world("ObjectBegin 1 Translate 1 0 0 Color 0 0 1 " + kSphere + "ObjectEnd " +
+                                 "ObjectBegin 2 ObjectInstance 1 Surface \"metal\" Translate 0 2 0 "
+                                 "ObjectInstance 1 ObjectInstance 2 ObjectEnd Surface \"matte\" Color 1 0 0 "
+                                 "Translate 0 0 5 ObjectInstance 2 ObjectInstance 1");
+    EXPECT_THAT(r.messages,
+                ElementsAre(::testing::HasSubstr("ObjectInstance: an object in its own definition")));
+    ASSERT_EQ(r.count(), 3u);
+    EXPECT_EQ(r.primitive(0).camera_from_object[0].translation(), V3f(1, 0, 5));
+    EXPECT_EQ(r.primitive(1).camera_from_object[0].translation(), V3f(1, 2, 5));
+    EXPECT_EQ(r.primitive(2).camera_from_object[0].translation(), V3f(1, 0, 5));
+    EXPECT_EQ(r.attributes(0).surface->name, "matte");
+    EXPECT_EQ(r.attributes(1).surface->name, "metal");
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(r.attributes(i).color, V3f(0, 0, 1));
+}
+
 TEST(ReadState, InstancesTakeTheirOwnAttributes) {
     const Outcome r =
         read_text("WorldBegin ObjectBegin 1 Translate 1 0 0 " + kSphere + "Color 0 1 0 Surface \"metal\" " +

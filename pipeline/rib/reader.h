@@ -168,6 +168,8 @@ class Reader {
     SolidList& solids_here() { return object_ ? object_->solids : solids_; }
     int solid_of_surface(SolidList& list);
     int place_solids(const SolidList& object);
+    void place_instance(ObjectPrimitive& primitive, const std::shared_ptr<const AttributeState>& attributes,
+                        int solid);
     void close_solid();
 
     /// `solid` is the scene's that the primitive bounds, or -1.

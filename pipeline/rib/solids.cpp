@@ -65,11 +65,12 @@ int Reader::solid_of_surface(SolidList& list) {
     return list.add(Solid::Operation::Primitive, list.open);
 }
 
-/// Copies an object's solids into the scene's open one; returns where they begin.
+/// Copies an object's solids into the open one, here; returns where they begin.
 int Reader::place_solids(const SolidList& object) {
-    const int first = static_cast<int>(solids_.solids.size());
+    SolidList& list = solids_here();
+    const int first = static_cast<int>(list.solids.size());
     for (const Solid& solid : object.solids)
-        solids_.add(solid.operation, solid.parent >= 0 ? solid.parent + first : solids_.open);
+        list.add(solid.operation, solid.parent >= 0 ? solid.parent + first : list.open);
     return first;
 }
 
