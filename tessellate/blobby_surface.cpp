@@ -154,6 +154,12 @@ PolygonMesh quads(const BlobbyMesh& mesh) {
     return polygons;
 }
 
+/// Orientation "inside" turns the normals, a mirrored space does not.
+bool shows_inside(const Primitive& primitive) {
+    const bool mirrored = primitive.camera_from_object.front().determinant() < 0;
+    return primitive.attributes->reverse_orientation != mirrored;
+}
+
 }  // namespace
 
 std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const Camera* camera,
@@ -163,7 +169,9 @@ std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const C
         diagnostics.warning(primitive.location, "Blobby: repelling planes are not supported; left out",
                             "blobby-planes");
     const float cell = cell_size(field, primitive, camera);
-    const BlobbyMesh mesh = blobby_mesh(field, cell);
+    BlobbyMesh mesh = blobby_mesh(field, cell);
+    if (shows_inside(primitive))
+        for (V3f& normal : mesh.normals) normal = -normal;
     if (mesh.vertices.empty()) {
         diagnostics.warning(primitive.location, "Blobby: its field has no surface", "blobby-empty");
         return nullptr;
