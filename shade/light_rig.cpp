@@ -6,13 +6,15 @@
 #include <new>
 
 #include "core/scene.h"
+#include "shade/vm/light_kernels.h"
 
 namespace trapeze {
 namespace {
 
 constexpr size_t kL = 0, kDirection = 3, kCl = 6, kLit = 9, kPlanes = 10;
 
-vm::Operand three(float* first, size_t lanes) {
+/// Of varying components.
+vm::Operand planes_of(float* first, size_t lanes) {
     vm::Operand operand;
     operand.data = first;
     operand.lane_mask = ~size_t{0};
@@ -126,35 +128,15 @@ void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     arriving.diffuse = 1 - std::clamp(output_number(frame, "__nondiffuse", 0), 0.0f, 1.0f);
     arriving.specular = 1 - std::clamp(output_number(frame, "__nonspecular", 0), 0.0f, 1.0f);
     const rsl::RegisterId* Cl = program.find_global("Cl");
-    for (size_t k = 0; k < 3; ++k) {
-        float* out = planes + (kCl + k) * lanes_;
-        if (!Cl) {
-            std::fill_n(out, lanes_, 0.0f);
-            continue;
-        }
-        const vm::Operand& color = frame.operand(*Cl);
-        const float* from = color.data + k * color.stride;
-        if (arriving.ambient)
-            std::memcpy(out, from, lanes_ * sizeof(float));
-        else
-            for (size_t i = 0; i < lanes_; ++i) out[i] = output.lit[i] ? from[i] : 0.0f;
-    }
-    if (arriving.ambient) return;
-    // Surfaces see L the other way round: to the light.
-    for (size_t i = 0; i < 3 * lanes_; ++i) output.L[i] = -output.L[i];
-    static constexpr int kTriples[] = {3, 3};
-    const std::array operands{three(planes + kDirection * lanes_, lanes_), three(output.L, lanes_)};
-    vm::find_kernel(rsl::Op::Normalize, kTriples)(lanes_, operands);
-    darken_own_place(planes);
-}
-
-/// A light does not reach the point at which it is: there is no direction to it, and 1 / L.L is nothing.
-void LightRig::darken_own_place(float* planes) const {
-    const float* direction = planes + kDirection * lanes_;
-    for (size_t i = 0; i < lanes_; ++i) {
-        if (direction[i] != 0 || direction[lanes_ + i] != 0 || direction[2 * lanes_ + i] != 0) continue;
-        for (size_t k = 0; k < 3; ++k) planes[(kCl + k) * lanes_ + i] = 0;
-    }
+    const vm::Operand arrives = planes_of(planes + kCl * lanes_, lanes_);
+    if (!Cl) std::fill_n(arrives.data, 3 * lanes_, 0.0f);
+    const vm::Operand sent = Cl ? frame.operand(*Cl) : arrives;
+    if (arriving.ambient)
+        copy_operand(sent, 3, lanes_, arrives);
+    else
+        vm::receive_light(lanes_, planes_of(planes + kLit * lanes_, lanes_), sent,
+                          planes_of(planes + kL * lanes_, lanes_),
+                          planes_of(planes + kDirection * lanes_, lanes_), arrives);
 }
 
 bool LightRig::in_category(size_t light, std::string_view wanted) {

@@ -41,7 +41,6 @@ class LightRig : public vm::Lights {
         std::unique_ptr<float, void (*)(void*)> planes{nullptr, nullptr};
     };
     void run(size_t light, Slot& slot, const vm::Operand& P);
-    void darken_own_place(float* planes) const;
     void set_variables(vm::Frame& frame, const Lamp& lamp, const vm::Operand& P) const;
 
     vm::Machine* machine_ = nullptr;

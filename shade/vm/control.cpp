@@ -1,9 +1,11 @@
 // The machine's control flow.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <cstring>
 
+#include "shade/vm/light_kernels.h"
 #include "shade/vm/machine.h"
 
 namespace trapeze::vm {
@@ -24,15 +26,13 @@ float lane_of(bool set) {
     return lane;
 }
 
-V3f triple_at(const Operand& operand, size_t lane) {
-    return {Run::at(operand, 0, lane), Run::at(operand, 1, lane), Run::at(operand, 2, lane)};
-}
-
-/// Whether v lies within an angle of the axis; everything does from a half-turn on.
-bool in_cone(const V3f& v, const V3f& axis, float angle) {
-    if (angle >= 3.14159265f) return true;
-    const float lengths = v.length() * axis.length();
-    return lengths > 0 && v.dot(axis) >= lengths * std::cos(angle);
+/// A plane, or several of so many lanes, as an operand.
+Operand varying(float* data, size_t lanes) {
+    Operand operand;
+    operand.data = data;
+    operand.lane_mask = ~size_t{0};
+    operand.stride = lanes;
+    return operand;
 }
 
 }  // namespace
@@ -201,11 +201,11 @@ size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
         if (with_cone) {
             const Operand &axis = frame_.input(step, 2), &angle = frame_.input(step, 3);
             float* cone = scratch(1);
-            for (size_t i = 0; i < lanes(); ++i) {
-                const V3f L(light.L[i], light.L[lanes() + i], light.L[2 * lanes() + i]);
-                cone[i] =
-                    lane_of(lane_is_set(light.lit[i]) && in_cone(L, triple_at(axis, i), at(angle, 0, i)));
-            }
+            const Operand inside = varying(cone, lanes());
+            cone_mask(lanes(), varying(const_cast<float*>(light.L), lanes()), axis, angle, inside);
+            static constexpr int kBools[] = {1, 1, 1};
+            find_kernel(Op::And, kBools)(
+                lanes(), std::array{inside, inside, varying(const_cast<float*>(light.lit), lanes())});
             reached = cone;
         }
         masks_.start_turn(reached);
@@ -254,32 +254,33 @@ const float* Run::P_data() const {
 size_t Run::enter_illuminate(const Step& step, size_t at_step) {
     const bool solar = step.op == Op::Solar;
     const size_t inputs = step.count - step.outputs;
-    const size_t first = solar ? 0 : 2;
     const Operand& L = frame_.operands_of(step)[0];
+    leave_light(step, L);
     float* lit = scratch(1);
-    for (size_t i = 0; i < lanes(); ++i) {
-        V3f direction;
-        if (!solar)
-            direction = triple_at(frame_.input(step, 0), i) - triple_at(frame_.input(step, 1), i);
-        else
-            direction = triple_at(frame_.input(step, 0), i) * (inputs == 1 ? -1.0f : 1.0f);
-        bool reached = true;
-        if (!solar && inputs > first)
-            reached = in_cone(direction, triple_at(frame_.input(step, first), i),
-                              at(frame_.input(step, first + 1), 0, i));
-        lit[i] = lane_of(reached);
-        for (int k = 0; k < 3; ++k) L.data[static_cast<size_t>(k) * L.stride + i] = direction[k];
-    }
+    if (!solar && inputs > 2)
+        cone_mask(lanes(), L, frame_.input(step, 2), frame_.input(step, 3), varying(lit, lanes()));
+    else
+        std::fill_n(lit, lanes(), lane_of(true));
     masks_.enter_if(lit);
     if (LightOutput* out = context_.light_output) {
-        const uint32_t* running = masks_.current();
-        for (size_t i = 0; i < lanes(); ++i) {
-            if (!running[i]) continue;
-            out->lit[i] = ~0u;
-            for (size_t k = 0; k < 3; ++k) out->L[k * lanes() + i] = L.data[k * L.stride + i];
-        }
+        copy_running(!masks_.all(), lit, 1, varying(reinterpret_cast<float*>(out->lit), lanes()));
+        copy_running(!masks_.all(), L.data, 3, varying(out->L, lanes()));
     }
     return masks_.none() ? step.target : at_step + 1;
+}
+
+/// The way from the light to each point: from its place, or along its axis, or against Ns when it shines
+/// from all sides (RISpec 3.2, solar).
+void Run::leave_light(const Step& step, const Operand& L) {
+    static constexpr int kTriples[] = {3, 3, 3};
+    const std::span<const int> widths(kTriples);
+    const Operand& first = frame_.input(step, 0);
+    if (step.op != Op::Solar)
+        find_kernel(Op::Subtract, widths)(lanes(), std::array{L, first, frame_.input(step, 1)});
+    else if (step.count - step.outputs == 1)
+        find_kernel(Op::Negate, widths.first(2))(lanes(), std::array{L, first});
+    else
+        find_kernel(Op::Move, widths.first(2))(lanes(), std::array{L, first});
 }
 
 }  // namespace trapeze::vm

@@ -84,6 +84,23 @@ void find_cone(size_t lanes, const Operand& vectors, const Operand& axes, const 
     }
 }
 
+void turn_to_surface(size_t lanes, const Operand& lit, const Operand& color, const Operand& L,
+                     const Operand& direction, const Operand& Cl) {
+    const Input reached(lit), sent(color), from_light(L);
+    const Output to_light(L), unit(direction), arriving(Cl);
+    const V zero = hn::Zero(D());
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V3 way = from_light.get3(i);
+        const V3 back{hn::Neg(way.x), hn::Neg(way.y), hn::Neg(way.z)};
+        const V3 u = scale(back, inverse_length(back));
+        const M apart = hn::Or(hn::Or(hn::Ne(u.x, zero), hn::Ne(u.y, zero)), hn::Ne(u.z, zero));
+        const M shines = hn::And(reached.mask(i), apart);
+        for (int k = 0; k < 3; ++k) arriving.put(hn::IfThenElseZero(shines, sent.get(i, k)), i, k);
+        to_light.put3(back, i);
+        unit.put3(u, i);
+    }
+}
+
 /// specularbrdf(L, N, V, roughness), L of any length.
 template <int width>
 void specular_brdf(size_t lanes, Operands o) {
@@ -114,6 +131,7 @@ HWY_EXPORT(sum_diffuse);
 HWY_EXPORT(sum_specular);
 HWY_EXPORT(sum_phong);
 HWY_EXPORT(find_cone);
+HWY_EXPORT(turn_to_surface);
 HWY_EXPORT(find_specular_brdf);
 
 void add_light(size_t lanes, const Operand& Cl, float share, const Operand& out) {
@@ -134,6 +152,10 @@ void add_phong(size_t lanes, const Operand& N, const Operand& V, const Operand& 
 void cone_mask(size_t lanes, const Operand& v, const Operand& axis, const Operand& angle,
                const Operand& out) {
     HWY_DYNAMIC_DISPATCH(find_cone)(lanes, v, axis, angle, out);
+}
+void receive_light(size_t lanes, const Operand& lit, const Operand& color, const Operand& L,
+                   const Operand& direction, const Operand& Cl) {
+    HWY_DYNAMIC_DISPATCH(turn_to_surface)(lanes, lit, color, L, direction, Cl);
 }
 
 Kernel find_light_kernels(rsl::Op op, std::span<const int> widths) {

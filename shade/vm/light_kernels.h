@@ -29,4 +29,10 @@ void add_phong(size_t lanes, const Operand& N, const Operand& V, const Operand& 
 /// axis of no length lies in no smaller cone. In illuminance, v is L; in illuminate, the way from the light.
 void cone_mask(size_t lanes, const Operand& v, const Operand& axis, const Operand& angle, const Operand& out);
 
+/// What a light sends, as surfaces see it. L comes in as the way from the light and goes out as the way to
+/// it, `direction` is that of unit length, and `Cl` is `color` where lanes are lit. A light does not reach
+/// the point at which it is: there is no direction to it, and 1 / L.L is nothing.
+void receive_light(size_t lanes, const Operand& lit, const Operand& color, const Operand& L,
+                   const Operand& direction, const Operand& Cl);
+
 }  // namespace trapeze::vm

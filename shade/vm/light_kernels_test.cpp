@@ -127,6 +127,28 @@ TEST_P(LightKernels, ConesHoldWhatIsNearTheirAxis) {
     });
 }
 
+TEST_P(LightKernels, SurfacesSeeTheWayToTheLight) {
+    Register lit(1, false, kCount), sent = before, arriving(3, false, kCount), direction(3, false, kCount);
+    lit.fill([this] { return std::bit_cast<float>(numbers_.below(3) ? ~0u : 0u); });
+    Register way(3, false, kCount);
+    for (size_t i = 0; i < kCount; ++i)
+        for (int k = 0; k < 3; ++k) way.set(i, k, i % 32 == 5 ? 0 : numbers_.between(-9, 9));
+    for_each_target([&] {
+        Register to_light = way;
+        receive_light(kCount, lit.operand(), GetParam() ? Cl.operand() : sent.operand(), to_light.operand(),
+                      direction.operand(), arriving.operand());
+        for (size_t i = 0; i < kCount; ++i) {
+            const V3d from = at(way, i);
+            const bool shines = std::bit_cast<uint32_t>(lit.at(i, 0)) && from.length() > 0;
+            for (int k = 0; k < 3; ++k) {
+                EXPECT_EQ(to_light.at(i, k), -way.at(i, k));
+                EXPECT_NEAR(direction.at(i, k), from.length() > 0 ? -from[k] / from.length() : 0, 1e-6);
+                EXPECT_EQ(arriving.at(i, k), shines ? (GetParam() ? Cl : sent).at(i, k) : 0) << i;
+            }
+        }
+    });
+}
+
 INSTANTIATE_TEST_SUITE_P(Uniform, LightKernels, testing::Bool());
 
 }  // namespace

@@ -98,6 +98,7 @@ class Run {
     size_t enter_gather(const std::vector<Step>& steps, size_t at);
     size_t next_gather(const std::vector<Step>& steps, size_t at);
     size_t enter_illuminate(const Step& step, size_t at);
+    void leave_light(const Step& step, const Operand& L);
 
     Machine& machine_;
     Frame& frame_;

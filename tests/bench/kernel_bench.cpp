@@ -12,6 +12,7 @@
 #include "shade/vm/light_kernels.h"
 #include "shade/vm/neighbours.h"
 #include "shade/vm/spline.h"
+#include "tests/bench/fused_plastic.h"
 
 namespace trapeze::vm {
 namespace {
@@ -113,6 +114,11 @@ void specular(benchmark::State& state) {
     const auto& o = p.operands;
     measure(state, [&] { add_specular(kLanesOfGrid, o[1], o[2], o[3], o[4], o[5], 1, o[0]); });
 }
+void plastic_in_one_loop(benchmark::State& state) {
+    const Planes p({3, 3, 3, 3, 3, 3}, 0, 1);
+    const auto& o = p.operands;
+    measure(state, [&] { fused_plastic(kLanesOfGrid, o[2], o[3], o[4], o[5], o[0], o[1]); });
+}
 void normals(benchmark::State& state) {
     const Planes p({3, 3}, 0, 1);
     const GridSpan span{0, {16, 16}, false};
@@ -128,6 +134,7 @@ void derivatives_u(benchmark::State& state) {
 BENCHMARK(rgb_to_hsv);
 BENCHMARK(diffuse);
 BENCHMARK(specular);
+BENCHMARK(plastic_in_one_loop);
 BENCHMARK(normals);
 BENCHMARK(derivatives_u);
 
