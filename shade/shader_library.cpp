@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/foreign_paths.h"
 #include "shade/rsl/front_end.h"
 #include "shade/rsl/generate.h"
 #include "shade/rsl/infer_storage.h"
@@ -45,6 +46,19 @@ ShaderLibrary::ShaderLibrary(const Options& options, Diagnostics* diagnostics) :
 
 ShaderLibrary::~ShaderLibrary() = default;
 
+/// Nameless when there is none.
+rsl::Source ShaderLibrary::source_named(const std::string& name) const {
+    for (const std::string& folder : folders_) {
+        const fs::path path = fs::path(folder) / (name + ".sl");
+        if (auto text = file_text(path)) return {path.string(), std::move(*text)};
+    }
+    // What renderers call the surface that is drawn when none is named.
+    const std::string standard = name == "default" ? "defaultsurface" : name;
+    const std::string_view text = standard_shader(standard);
+    if (text.empty()) return {};
+    return {standard + ".sl", std::string(text)};
+}
+
 ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, SourceLocation asked_at) {
     std::unique_ptr<Compiled>& entry = shaders_[name];
     if (entry) return *entry;
@@ -55,20 +69,14 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
     // Some scenes name compiled shaders with their path, or the source itself.
     for (const std::string_view ending : {".sl", ".slo", ".slx", ".sdr", ".sle", ".sdl"})
         if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
-    for (const std::string& folder : folders_) {
-        const fs::path path = fs::path(folder) / (stem + ".sl");
-        if (auto text = file_text(path)) {
-            source = {path.string(), std::move(*text)};
-            break;
-        }
+    // A name from another machine is also tried without its leading folders.
+    std::vector<std::string> names = other_names(stem);
+    names.insert(names.begin(), stem);
+    for (size_t i = 0; i < names.size() && source.name.empty(); ++i) {
+        source = source_named(names[i]);
+        stem = names[i].substr(names[i].find_last_of('/') + 1);
     }
-    if (source.name.empty()) {
-        // What renderers call the surface that is drawn when none is named.
-        if (stem == "default") stem = "defaultsurface";
-        const std::string_view text = standard_shader(stem);
-        if (text.empty()) return *entry;
-        source = {stem + ".sl", std::string(text)};
-    }
+    if (source.name.empty()) return *entry;
     rsl::CompileOptions options;
     options.include_folders = folders_;
     const auto unit = rsl::compile_front(source, options, diagnostics);

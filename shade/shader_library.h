@@ -11,6 +11,7 @@
 #include "core/diagnostics.h"
 #include "core/scene.h"
 #include "shade/rsl/ast.h"
+#include "shade/rsl/front_end.h"
 #include "shade/vm/executable.h"
 
 namespace trapeze {
@@ -30,6 +31,7 @@ class ShaderLibrary {
 
   private:
     struct Compiled;
+    rsl::Source source_named(const std::string& name) const;
     Compiled& compiled(const std::string& name, SourceLocation asked_at);
 
     std::vector<std::string> folders_;

@@ -50,6 +50,18 @@ TEST(Shading, UndeclaredColoursAreWhatTheShaderSays) {
     EXPECT_NE(shaded(ValueType::Float, 2, {1, 0}, 1), declared);
 }
 
+TEST(Shading, ShadersOfOtherMachinesAreFoundByTheirNames) {
+    TestScene scene;
+    const ShaderFolder folder;
+    folder.write("green", "surface green() { Ci = color(0, 1, 0); Oi = 1; }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.surface("C:\\show\\shaders\\green");
+    EXPECT_EQ(scene.shaded().Ci.at(0), V3f(0, 1, 0));
+    scene.surface("/show/shaders/constant.slo");
+    EXPECT_EQ(scene.shaded().Ci.at(0), scene.grid().Cs.at(0) * scene.grid().Os.at(0));
+    EXPECT_TRUE(scene.reported.empty());
+}
+
 TEST(Shading, EachPrimitiveHasItsOwnShaders) {
     TestScene scene;
     scene.surface("constant");

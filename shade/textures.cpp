@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <filesystem>
 #include <thread>
 
 #include "shade/linear_image_input.h"
 #include "shade/map_matrices.h"
+#include "shade/texture_files.h"
 #include "shade/textures_impl.h"
 
 namespace trapeze {
@@ -26,15 +26,9 @@ float memory_megabytes_of(const Options& options) {
     return kilobytes > 0 ? kilobytes / 1024 : kDefaultMemoryMegabytes;
 }
 
-std::string resolved_path(const std::string& name, const std::vector<std::string>& folders) {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    if (fs::path(name).is_relative())
-        for (const std::string& folder : folders) {
-            const fs::path path = fs::path(folder) / name;
-            if (fs::is_regular_file(path, ignored)) return path.string();
-        }
-    return name;
+/// The name by which shaders of RenderMan ask for rays instead of a map.
+bool is_traced(std::string_view name) {
+    return name == "raytrace";
 }
 
 }  // namespace
@@ -114,8 +108,14 @@ std::string Textures::Impl::add_file(OIIO::ustring path) {
 
 /// Empty when it is open, else what is wrong.
 std::string Textures::Impl::open(Picture& picture) {
+    if (is_traced(picture.name)) return "rays are not traced";
+    auto file = map_file(picture.name, folders);
+    if (!file && (file = source_of_texture(picture.name, folders)) && diagnostics)
+        diagnostics->warning(picture.location,
+                             fmt::format("texture \"{}\" is not found; \"{}\" is used", picture.name, *file));
+    if (!file) return "is not found";
     start();
-    const OIIO::ustring path(resolved_path(picture.name, folders));
+    const OIIO::ustring path(*file);
     const std::string problem = add_file(path);
     const ThreadState thread(*this);
     picture.handle = system->get_texture_handle(path, thread.get());
@@ -149,8 +149,13 @@ Textures::Impl::Entry<Textures::Picture>& Textures::Impl::entry(std::string_view
 
 template <class Map>
 const Map* Textures::Impl::report(Entry<Map>& made, std::string_view name, SourceLocation location) {
-    if (!made.map && !made.reported && diagnostics)
-        diagnostics->error(location, fmt::format("texture \"{}\": {}", name, made.problem));
+    if (!made.map && !made.reported && diagnostics) {
+        std::string text = fmt::format("texture \"{}\": {}", name, made.problem);
+        if (is_traced(name))
+            diagnostics->warning(location, std::move(text));
+        else
+            diagnostics->error(location, std::move(text));
+    }
     made.reported = true;
     return made.map.get();
 }

@@ -112,7 +112,21 @@ TEST_F(TexturesTest, AreFoundAlongTheSearchPath) {
     EXPECT_NE(textures.find("here.png", {}), nullptr);
     EXPECT_EQ(textures.find("there.png", {}), nullptr);
     EXPECT_EQ(textures.find("", {}), nullptr);
-    EXPECT_EQ(reported_.size(), 1u);
+    ASSERT_EQ(reported_.size(), 1u);
+    EXPECT_EQ(reported_[0].text, "texture \"there.png\": is not found");
+}
+
+TEST_F(TexturesTest, TheirSourcesStandInForThem) {
+    write("here.png", 4);
+    options_.search_paths["texture"] = {folder_.string()};
+    Textures textures(options_, &diagnostics_);
+    EXPECT_NE(textures.find("here.tex", {}), nullptr);
+    ASSERT_EQ(reported_.size(), 1u);
+    EXPECT_EQ(reported_[0].severity, Severity::Warning);
+    EXPECT_EQ(textures.find("raytrace", {}), nullptr);
+    ASSERT_EQ(reported_.size(), 2u);
+    EXPECT_EQ(reported_[1].severity, Severity::Warning);
+    EXPECT_EQ(reported_[1].text, "texture \"raytrace\": rays are not traced");
 }
 
 TEST_F(TexturesTest, BrokenOnesAreReportedOnceAndBlack) {

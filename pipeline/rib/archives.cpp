@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/foreign_paths.h"
 #include "pipeline/rib/reader.h"
 #include "pipeline/rib/zip_archive.h"
 
@@ -56,8 +57,20 @@ void Reader::record_archive(RequestText& request, Scanner& scanner, std::string_
                                      first, std::move(names)};
 }
 
-/// Beside the file that names it, along the search path, from the working folder.
-std::optional<std::string> Reader::find_archive(const std::string& name) const {
+/// Beside the file that names it, along the search path, from the working folder. A file that is not found
+/// there may have been named by another machine: it is looked for without its leading folders.
+std::optional<std::string> Reader::find_archive(const std::string& name) {
+    if (const auto found = find_archive_named(name)) return found;
+    for (const std::string& other : other_names(name))
+        if (const auto found = find_archive_named(other)) {
+            warn_once(in_quotes(name) + " is not found; " + in_quotes(*found) + " is read",
+                      "archive-elsewhere " + name);
+            return found;
+        }
+    return {};
+}
+
+std::optional<std::string> Reader::find_archive_named(const std::string& name) const {
     std::error_code ignored;
     const fs::path path(name);
     if (path.is_absolute())

@@ -48,6 +48,21 @@ TEST(ReadArchives, AlongTheSearchPath) {
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("ReadArchive: \"z.rib\" is not found; nothing read")));
 }
 
+TEST(ReadArchives, OfOtherMachinesAreFoundWithoutTheirLeadingFolders) {
+    const Folder folder;
+    folder.write("sub/x.rib", kSphere);
+    const Outcome r = read_files(folder, {folder.write("a.rib",
+                                                       "WorldBegin ReadArchive \"//D/show/sub/x.rib\" "
+                                                       "ReadArchive \"Z:\\\\show\\\\sub\\\\x.rib\" "
+                                                       "ReadArchive \"//D/show/sub/x.rib\" WorldEnd")});
+    EXPECT_EQ(r.count(), 3u);
+    ASSERT_EQ(r.messages.size(), 2u);
+    for (const std::string& message : r.messages) {
+        EXPECT_THAT(message, HasSubstr("warning: ReadArchive"));
+        EXPECT_THAT(message, HasSubstr("sub/x.rib\" is read"));
+    }
+}
+
 TEST(ReadArchives, InlineOnesHaveTheirPlacesInTheFile) {
     const Outcome r = read_text("ArchiveBegin \"ball\"\n" + kSphere +
                                 "\nSphere 1\nArchiveEnd\nWorldBegin\n"

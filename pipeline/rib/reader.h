@@ -148,7 +148,8 @@ class Reader {
     std::string current_folder() const;
 
     void record_archive(RequestText& request, Scanner& scanner, std::string_view text);
-    std::optional<std::string> find_archive(const std::string& name) const;
+    std::optional<std::string> find_archive(const std::string& name);
+    std::optional<std::string> find_archive_named(const std::string& name) const;
     /// An empty key: one that may read itself.
     bool may_read_archive(const std::string& name, const std::string& key);
 
