@@ -149,19 +149,22 @@ const Parameter* floats_of(const ParameterList& list, std::string_view name, siz
 void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
     const Parameter* own = floats_of(display.parameters, "quantize", 4);
     const bool color = plan.rgb || plan.alpha || plan.aov_is_color;
-    const Parameter* given = own;
-    if (!given && plan.aov) given = floats_of(options.quantize, plan.aov->name, 4);
-    if (!given && plan.aov && !plan.aov_is_color) plan.quantization.one = 0;
+    const Parameter* given = plan.aov ? floats_of(options.quantize, plan.aov->name, 4) : nullptr;
+    if (!given && plan.aov && !plan.aov_is_color) plan.quantization.make_float();
     if (!given && (!plan.aov || plan.aov_is_color))
         given = floats_of(options.quantize, color ? "rgba" : "z", 4);
     if (given) plan.quantization = {given->floats[0], given->floats[1], given->floats[2], given->floats[3]};
+    if (own) {  // zero one min max; the dither is apart
+        plan.quantization.zero = own->floats[0], plan.quantization.one = own->floats[1];
+        plan.quantization.min = own->floats[2], plan.quantization.max = own->floats[3];
+    }
     plan.quantization.dither = display.parameters.float_or("dither", plan.quantization.dither);
-    if (!color && !plan.aov) plan.quantization.one = 0;  // depth
+    if (!color && !plan.aov) plan.quantization.make_float();  // depth
     plan.float_pixels =
         own && std::all_of(own->floats.begin(), own->floats.begin() + 4, [](float v) { return v == 0; });
     const std::string type =
         lower(display.parameters.string_or("exrpixeltype", display.parameters.string_or("type", "")));
-    if (type == "float") plan.float_pixels = true, plan.quantization.one = 0;
+    if (type == "float") plan.float_pixels = true, plan.quantization.make_float();
     if (type == "half") plan.float_pixels = false;
     if (plan.aov && !plan.aov_is_color) plan.float_pixels = true;
     plan.compression = lower(

@@ -13,11 +13,14 @@ namespace trapeze {
 
 enum class FileFormat { OpenExr, Tiff, Png, Jpeg, Targa, Bmp };
 
-/// RISpec, Quantize: round(one * value + dither * random in [-1, 1)) clamped to [min, max]. one = 0: floats.
+/// RISpec 4.1.2, Quantize: round(one * value + dither * random in [-1, 1)) clamped to [min, max], one = 0:
+/// floats. A Display's own "quantize" says besides where 0 goes.
 struct Quantization {
     float one = 255, min = 0, max = 255, dither = 0.5f;
+    float zero = 0;
 
-    bool to_float() const { return one == 0; }
+    bool to_float() const { return one == zero; }
+    void make_float() { one = zero = 0; }
 };
 
 struct DisplayPlan {

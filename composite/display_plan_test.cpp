@@ -162,8 +162,9 @@ TEST(DisplayPlan, VariablesAreQuantizedByTheirOwnNameOrAsColourOrNotAtAll) {
               65535);
     EXPECT_EQ(planned_variable(shows(ValueType::Float, "bar", "a.tif"), options).plan->quantization.one, 100);
     Display own = shows(ValueType::Float, "bar", "a.tif");
-    own.parameters.set(floats("quantize", {10, 0, 255, 0}));
+    own.parameters.set(floats("quantize", {5, 10, 0, 255}));
     EXPECT_EQ(planned_variable(own, options).plan->quantization.one, 10);
+    EXPECT_EQ(planned_variable(own, options).plan->quantization.zero, 5);
 }
 
 TEST(DisplayPlan, VariablesBeyondTheMostChannelsAreNotWritten) {
@@ -221,6 +222,13 @@ TEST(DisplayPlan, QuantizeOfTheDisplayBeatsThatOfTheOptions) {
     options.quantize.set(floats("rgba", {65535, 0, 65535, 0.25f}));
     EXPECT_EQ(planned(display, options).plan->quantization.one, 65535);
     EXPECT_EQ(planned(display, options).plan->quantization.dither, 0.25f);
+    display.parameters.set(floats("quantize", {16, 240, 1, 250}));
+    const Quantization own = planned(display, options).plan->quantization;
+    EXPECT_EQ(own.zero, 16);
+    EXPECT_EQ(own.one, 240);
+    EXPECT_EQ(own.min, 1);
+    EXPECT_EQ(own.max, 250);
+    EXPECT_EQ(own.dither, 0.25f);
     display.parameters.set(floats("quantize", {0, 0, 0, 0}));
     EXPECT_TRUE(planned(display, options).plan->quantization.to_float());
     EXPECT_FALSE(planned({"a.exr", "exr", "rgba", {}, {}}, options).plan->float_pixels);

@@ -85,7 +85,7 @@ float encoded(const Encoding& e, const float* pixel, int channel) {
 int quantized(const Quantization& q, float value, int x, int y, int channel) {
     const uint32_t bits =
         hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(channel));
-    const float level = q.one * value + q.dither * (2 * unit_float(bits) - 1);
+    const float level = q.zero + (q.one - q.zero) * value + q.dither * (2 * unit_float(bits) - 1);
     const float high = std::clamp(q.max, 0.0f, 65535.0f), low = std::clamp(q.min, 0.0f, high);
     return static_cast<int>(std::clamp(std::floor(level + 0.5f), low, high));
 }

@@ -8,6 +8,8 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include <cmath>
 
 #include "composite/raster_harness.h"
@@ -182,15 +184,17 @@ int srgb_byte(double linear) {
     return static_cast<int>(std::lround(255 * encoded));
 }
 
-Parameter quantize(float one, float max, float dither) {
-    return {"quantize", {StorageClass::Uniform, ValueType::Float, 4}, {one, 0, max, dither}, {}};
+/// A display's own: 0 to 0 and 1 to `one`.
+void quantize(Display& display, float one, float max, float dither) {
+    display.parameters.set({"quantize", {StorageClass::Uniform, ValueType::Float, 4}, {0, one, 0, max}, {}});
+    display.parameters.set({"dither", {StorageClass::Uniform, ValueType::Float, 1}, {dither}, {}});
 }
 
 TEST(WriteDisplays, PngIsSrgbWithUnassociatedAlpha) {
     const TemporaryFolder folder;
     RasterScene scene(40, 30, 1);
     Display display{folder.file("a.png"), "file", "rgba", {}, {}};
-    display.parameters.set(quantize(255, 255, 0));
+    quantize(display, 255, 255, 0);
     scene.scene.options.displays = {display};
     ASSERT_TRUE(write(numbered_image(scene), scene).good);
     OIIO::ImageSpec spec;
@@ -212,7 +216,7 @@ TEST(WriteDisplays, TiffIsAssociatedAndCropped) {
     set_crop(scene);
     scene.scene.camera_from_world = M44f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1);
     Display display{folder.file("a.tif"), "tiff", "rgba", {}, {}};
-    display.parameters.set(quantize(255, 255, 0));
+    quantize(display, 255, 255, 0);
     scene.scene.options.displays = {display};
     ASSERT_TRUE(write(numbered_image(scene), scene).good);
     OIIO::ImageSpec spec;
@@ -238,8 +242,8 @@ TEST(WriteDisplays, TiffFloats16BitsAndDepth) {
     RasterScene scene(40, 30, 1);
     Display floats{folder.file("f.tif"), "tiff", "rgb", {}, {}},
         words{folder.file("w.tif"), "tiff", "a", {}, {}};
-    floats.parameters.set(quantize(0, 0, 0));
-    words.parameters.set(quantize(65535, 65535, 0));
+    quantize(floats, 0, 0, 0);
+    quantize(words, 65535, 65535, 0);
     scene.scene.options.displays = {floats, words, {folder.file("z.tif"), "tiff", "z", {}, {}}};
     const Image image = numbered_image(scene);
     ASSERT_TRUE(write(image, scene).good);
@@ -284,7 +288,7 @@ TEST(WriteDisplays, AGammaOfTheUserIsNotEncodedAgain) {
     RasterScene scene(40, 30, 1);
     scene.scene.options.exposure_gamma = 2.2f;
     Display display{folder.file("a.png"), "png", "rgb", {}, {}};
-    display.parameters.set(quantize(255, 255, 0));
+    quantize(display, 255, 255, 0);
     scene.scene.options.displays = {display};
     ASSERT_TRUE(write(numbered_image(scene), scene).good);
     OIIO::ImageSpec spec;
@@ -297,7 +301,7 @@ TEST(WriteDisplays, DitherKeepsTheMean) {
     RasterScene scene(64, 64, 1);
     scene.scene.options.exposure_gamma = 2.2f;  // no curve between value and level
     Display display{folder.file("a.tif"), "tiff", "rgb", {}, {}};
-    display.parameters.set(quantize(255, 255, 0.5f));
+    quantize(display, 255, 255, 0.5f);
     scene.scene.options.displays = {display};
     Image image = numbered_image(scene);
     for (float& value : image.rgba) value = 100.25f / 255;
@@ -311,6 +315,39 @@ TEST(WriteDisplays, DitherKeepsTheMean) {
     }
     EXPECT_NEAR(sum / static_cast<double>(pixels.size()), 100.25,
                 0.02);  // 5 deviations of the mean of 12288 levels
+}
+
+/// Levels lie evenly within the amplitude on both sides, and 0 and 1 where the display puts them.
+TEST(WriteDisplays, DitherHasItsAmplitudeAndZeroItsPlace) {
+    const TemporaryFolder folder;
+    RasterScene scene(64, 64, 1);
+    scene.scene.options.exposure_gamma = 2.2f;
+    Image image = numbered_image(scene);
+    for (float& value : image.rgba) value = 0.5f;
+    const auto levels = [&](float zero, float one, float min, float max, float dither) {
+        Display display{folder.file("a.tif"), "tiff", "rgb", {}, {}};
+        display.parameters.set(
+            {"quantize", {StorageClass::Uniform, ValueType::Float, 4}, {zero, one, min, max}, {}});
+        display.parameters.set({"dither", {StorageClass::Uniform, ValueType::Float, 1}, {dither}, {}});
+        scene.scene.options.displays = {display};
+        EXPECT_TRUE(write(image, scene).good);
+        OIIO::ImageSpec spec;
+        std::map<int, double> share;
+        const auto pixels = stored<uint8_t>(folder.file("a.tif"), OIIO::TypeDesc::UINT8, &spec);
+        for (const uint8_t value : pixels) share[value] += 1 / static_cast<double>(pixels.size());
+        return share;
+    };
+    const auto none = levels(0, 200, 0, 255, 0);
+    ASSERT_EQ(none.size(), 1u);
+    EXPECT_EQ(none.begin()->first, 100);
+    const auto wide = levels(0, 200, 0, 255, 2);  // levels from 98 to 102: halves at the ends
+    ASSERT_EQ(wide.size(), 5u);
+    for (const auto& [level, share] : wide)
+        EXPECT_NEAR(share, level == 98 || level == 102 ? 0.125 : 0.25, 0.02) << level;
+    EXPECT_EQ(levels(40, 60, 0, 255, 0).begin()->first, 50);
+    EXPECT_EQ(levels(255, 0, 0, 255, 0).begin()->first, 128);  // turned round
+    EXPECT_EQ(levels(0, 255, 200, 255, 0).begin()->first, 200);
+    EXPECT_EQ(levels(0, 255, 0, 99, 0).begin()->first, 99);
 }
 
 TEST(WriteDisplays, ManyFormatsAreReadable) {

@@ -85,7 +85,7 @@ TEST(WriteVariables, OutputVariablesInTiffs) {
     Display foo = testing::aov_display("foo", ValueType::Float, folder.file("foo.tif")),
             bytes = testing::aov_display("Ci", ValueType::Color, folder.file("Ci.tif"));
     foo.type = bytes.type = "tiff";
-    bytes.parameters.set({"quantize", {StorageClass::Uniform, ValueType::Float, 4}, {64, 0, 255, 0}, {}});
+    bytes.parameters.set({"quantize", {StorageClass::Uniform, ValueType::Float, 4}, {0, 64, 0, 255}, {}});
     bytes.parameters.set({"dither", {StorageClass::Uniform, ValueType::Float, 1}, {0}, {}});
     scene.scene.options.displays = {foo, bytes};
     scene.scene.options.exposure_gamma = 2;  // so that nothing is encoded
