@@ -67,6 +67,12 @@ void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, 
     }
 }
 
+FindDepthHeight Shading::depth_heights() const {
+    return [impl = impl_.get()](const std::string& name, SourceLocation location) {
+        return impl->textures.height_over(name, location, impl->context.scene->camera_from_world);
+    };
+}
+
 void Shading::report_displacement_bounds() const {
     Diagnostics* diagnostics = impl_->context.diagnostics;
     if (!diagnostics) return;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "core/depth_height.h"
 #include "core/render_context.h"
 #include "core/shading_grid.h"
 #include "core/stats.h"
@@ -40,6 +41,9 @@ class Shading {
     /// The same for several grids: small ones that come one after the other and have the same attributes and
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
+
+    /// Of the scene's depth maps, as shadow() finds them; valid as long as this.
+    FindDepthHeight depth_heights() const;
 
     /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond
     /// the displacement bound, with the bound that was needed.

@@ -15,6 +15,7 @@
 
 #include "core/random.h"
 #include "shade/map_matrices.h"
+#include "shade/map_space.h"
 #include "shade/textures_impl.h"
 
 namespace trapeze {
@@ -22,8 +23,6 @@ namespace {
 
 using map_lanes::value;
 
-/// What is as deep holds nothing.
-constexpr float kNothing = 1e30f;
 /// The bias where none is asked for, as a part of the depth.
 constexpr float kDefaultBias = 1e-3f;
 /// A plane seen nearly edge on is followed no farther than to this part of P's depth, nearer or farther.
@@ -40,16 +39,16 @@ class DepthReader {
     DepthReader(const DepthReader&) = delete;
     DepthReader& operator=(const DepthReader&) = delete;
 
-    /// Of a pixel; kNothing outside the file.
+    /// Of a pixel; kInfinity outside the file.
     float at(int x, int y) {
-        if (x < map_.x0 || x >= map_.x1 || y < map_.y0 || y >= map_.y1) return kNothing;
+        if (x < map_.x0 || x >= map_.x1 || y < map_.y0 || y >= map_.y1) return kInfinity;
         Tile& tile = tiles_[static_cast<size_t>((x / kTile & 1) + 2 * (y / kTile & 1))];
         const OIIO::ROI& roi = tile.roi;
         if (x < roi.xbegin || x >= roi.xend || y < roi.ybegin || y >= roi.yend) fetch(x, y, tile);
-        if (!tile.pixels) return kNothing;
+        if (!tile.pixels) return kInfinity;
         const float depth = tile.pixels[static_cast<size_t>(y - roi.ybegin) * roi.width() +
                                         static_cast<size_t>(x - roi.xbegin)];
-        return depth > 0 && depth < kNothing ? depth : kNothing;
+        return depth > 0 && depth < kInfinity ? depth : kInfinity;
     }
     bool failed() const { return failed_; }
 
@@ -83,39 +82,6 @@ class DepthReader {
     const Textures::DepthMap& map_;
     std::array<Tile, 4> tiles_;
     bool failed_ = false;
-};
-
-/// A point in a map: pixels, depth, and the depth's form that is linear over planes.
-struct MapPoint {
-    float x = 0, y = 0, depth = 0, linear = 0;
-    bool seen = false;  ///< before the map's camera
-};
-
-class MapSpace {
-  public:
-    MapSpace(const Textures::DepthMap& map, const M44f& camera_from_world) : map_(map) {
-        const M44d world_from_current = M44d(camera_from_world).inverse();
-        camera_ = M44f(world_from_current * M44d(map.camera_from_world));
-        screen_ = M44f(world_from_current * M44d(map.screen_from_world));
-    }
-
-    MapPoint operator()(const V3f& p) const {
-        MapPoint at;
-        at.depth = p.x * camera_[0][2] + p.y * camera_[1][2] + p.z * camera_[2][2] + camera_[3][2];
-        const float w = p.x * screen_[0][3] + p.y * screen_[1][3] + p.z * screen_[2][3] + screen_[3][3];
-        if (!(at.depth > 0) || !(w > 0)) return at;
-        const float x = p.x * screen_[0][0] + p.y * screen_[1][0] + p.z * screen_[2][0] + screen_[3][0];
-        const float y = p.x * screen_[0][1] + p.y * screen_[1][1] + p.z * screen_[2][1] + screen_[3][1];
-        at.x = (0.5f + 0.5f * x / w) * map_.full_width;
-        at.y = (0.5f - 0.5f * y / w) * map_.full_height;
-        at.linear = map_.perspective ? 1 / at.depth : at.depth;
-        at.seen = std::isfinite(at.x) && std::isfinite(at.y);
-        return at;
-    }
-
-  private:
-    const Textures::DepthMap& map_;
-    M44f camera_, screen_;  ///< of the map, from the current space
 };
 
 /// Where a lookup's samples lie, and the plane they are compared with.

@@ -19,6 +19,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/depth_height.h"
 #include "core/diagnostics.h"
 #include "core/math.h"
 #include "core/scene.h"
@@ -111,6 +112,11 @@ class Textures {
     /// shadow_lookup.cpp. Nothing is in shadow outside the map, behind its camera, or of a null map.
     void shadow(const DepthMap* map, const ShadowLookup& at, const M44f& camera_from_world,
                 const MapOptions& options, Lanes lanes, Plane out) const;
+
+    /// Heights of points over what a shadow map saw, between its pixels' middles along planes. Empty for a
+    /// name that find_shadow() has no map for, and for a map that is too large to be kept (which is
+    /// reported). What is returned needs this object no more.
+    DepthHeight height_over(std::string_view name, SourceLocation location, const M44f& camera_from_world);
 
     /// texture() of three channels, for all vertices.
     void lookup(const Picture& picture, const Lookup& at, size_t vertices, Plane3 out) const;

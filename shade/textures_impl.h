@@ -63,6 +63,11 @@ struct Textures::Impl {
 
     ~Impl();
 
+    /// Whole depth maps, for as long as somebody uses them; with a mutex of their own.
+    std::mutex depths_mutex;
+    std::map<std::string, std::weak_ptr<const std::vector<float>>, std::less<>> depths;
+    std::shared_ptr<const std::vector<float>> all_depths(const DepthMap& map, SourceLocation location);
+
     /// Makes the cache, which a render without textures goes without. The mutex is held.
     void start();
     Entry<Picture>& entry(std::string_view name, SourceLocation location);

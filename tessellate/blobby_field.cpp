@@ -44,6 +44,27 @@ BlobbyLeaf leaf_of(int code, const std::vector<float>& floats, size_t at) {
     return leaf;
 }
 
+BlobbyLeaf repelling_plane(const std::vector<float>& floats, size_t at, const GroundHeight& height) {
+    BlobbyLeaf leaf;
+    leaf.ends = false;
+    if (height)
+        leaf.ground = std::make_shared<RepellingGround>(
+            RepellingGround{{floats[at], floats[at + 1], floats[at + 2], floats[at + 3]}, height});
+    return leaf;
+}
+
+/// A small part of the bumps' extent.
+float ground_step(std::span<const BlobbyLeaf> leaves) {
+    Box3f box;
+    for (const BlobbyLeaf& leaf : leaves)
+        if (const Box3f support = leaf.support(); !support.isEmpty()) box.extendBy(support);
+    const float diagonal = box.isEmpty() ? 1 : box.size().length();
+    return std::isfinite(diagonal) ? std::max(1e-3f * diagonal, 1e-20f) : 1;
+}
+
+/// Subtract takes its second operand from its first, divide divides its first by its second. (RISpec's
+/// table 5.3 names subtract's operands the other way about, and PRMan's Application Note 31 exchanges the
+/// numbers 4 and 5; what programs write, and other renderers do, is this.)
 Kind operator_kind(int code) {
     constexpr Kind kKinds[] = {Kind::Add,      Kind::Multiply, Kind::Maximum, Kind::Minimum,
                                Kind::Subtract, Kind::Divide,   Kind::Negate,  Kind::Same};
@@ -77,6 +98,7 @@ FieldValue combined(Kind kind, const FieldValue& a, const FieldValue& b) {
 }  // namespace
 
 FieldValue BlobbyLeaf::at(const V3f& p) const {
+    if (ground) return ground->at(p);
     if (!ends) return {constant, {0, 0, 0}};
     const V3f local = transform_point(leaf_from_object, p), along = end - begin;
     const float length2 = along.dot(along);
@@ -183,22 +205,31 @@ BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
     return out;
 }
 
-BlobbyField blobby_field(const Blobby& blobby) {
+BlobbyField blobby_field(const Blobby& blobby, const FindGround& find_ground) {
     BlobbyField field;
     const std::vector<int>& code = blobby.code;
     for (size_t at = 0; at < code.size();) {
         const int op = code[at++];
         BlobbyInstruction in;
         if (op >= 1000) {
-            field.has_planes |= op == 1003;
-            const size_t index = code[at + (op == 1003 ? 1 : 0)];
-            at += op == 1003 ? 2 : 1;
             in.kind = Kind::Leaf;
             in.leaf = static_cast<int>(field.leaves.size());
-            field.leaves.push_back(leaf_of(op, blobby.floats, index));
-            if (!field.leaves.back().ends) {
+            if (op == 1003) {
+                const std::string& name = blobby.strings[code[at++]];
+                field.leaves.push_back(repelling_plane(blobby.floats, code[at++],
+                                                       find_ground ? find_ground(name) : GroundHeight()));
+            } else if (op == 1004) {  // a field of compiled code: 0
+                field.leaves.emplace_back().ends = false;
+                at += 5;
+            } else {
+                field.leaves.push_back(leaf_of(op, blobby.floats, code[at++]));
+            }
+            const BlobbyLeaf& leaf = field.leaves.back();
+            if (leaf.ground) {
+                field.grounds.push_back(in.leaf);
+            } else if (!leaf.ends) {
                 in.kind = Kind::Constant;
-                in.constant = field.leaves.back().constant;
+                in.constant = leaf.constant;
             }
         } else {
             in.kind = operator_kind(op);
@@ -208,6 +239,7 @@ BlobbyField blobby_field(const Blobby& blobby) {
         }
         field.program.instructions.push_back(in);
     }
+    for (const int leaf : field.grounds) field.leaves[leaf].ground->step = ground_step(field.leaves);
     return field;
 }
 

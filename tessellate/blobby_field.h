@@ -1,33 +1,31 @@
-/// The field of a Blobby (RISpec 5.6): leaves are bumps (1 - r^2)^3 that end at r = 1, operators combine
-/// them. What is above kThreshold is inside.
+/// The field of a Blobby (RISpec 5.6): leaves are bumps (1 - r^2)^3 that end at r = 1, constants and
+/// repelling planes; operators combine them. What is above kThreshold is inside.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/math.h"
 #include "core/shapes.h"
+#include "tessellate/repelling_ground.h"
 
 namespace trapeze {
 
 /// A single ellipsoid is drawn at half its extent: (1 - 1/4)^3.
 inline constexpr float kBlobbyThreshold = 27.0f / 64;
 
-struct FieldValue {
-    float value = 0;
-    V3f gradient{0, 0, 0};
-};
-
 /// A bump round a segment of some space, or round the origin.
 struct BlobbyLeaf {
-    bool ends = true;  ///< false: it is everywhere `constant`
-    float constant = 0;
+    bool ends = true;    ///< false: it is everywhere `constant`, or goes by the height above the ground
+    float constant = 0;  ///< 0 for a repelling plane whose ground is not known
+    std::shared_ptr<RepellingGround> ground;
     M44f object_from_leaf, leaf_from_object;
     V3f begin{0, 0, 0}, end{0, 0, 0};
     float radius = 1;
 
     FieldValue at(const V3f& p) const;
-    /// Object-space box beyond which it is 0; empty for one that is 0 everywhere.
+    /// Object-space box beyond which it is 0; empty for one that is 0 everywhere, and for what does not end.
     Box3f support() const;
     /// Where a point goes when this leaf becomes another of its kind.
     V3f carried(const V3f& p, const BlobbyLeaf& other) const;
@@ -67,9 +65,15 @@ struct BlobbyProgram {
 struct BlobbyField {
     std::vector<BlobbyLeaf> leaves;  ///< in the order of the per-leaf variables
     BlobbyProgram program;
-    bool has_planes = false;  ///< repelling planes, which are left out
+
+    /// Repelling planes with a ground, ascending. They act where a bump reaches and nowhere else, so that the
+    /// surface ends.
+    std::vector<int> grounds;
 };
 
-BlobbyField blobby_field(const Blobby& blobby);
+/// By the name of a depth file; empty when there is none.
+using FindGround = std::function<GroundHeight(const std::string& name)>;
+
+BlobbyField blobby_field(const Blobby& blobby, const FindGround& find_ground = {});
 
 }  // namespace trapeze

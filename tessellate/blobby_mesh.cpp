@@ -5,214 +5,182 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_map>
 
 namespace trapeze {
 namespace {
 
-constexpr int kSide = 8, kSize = kSide * kSide * kSide;  ///< of a block of grid points
-constexpr size_t kMostBlocks = 40000;
-constexpr double kMostOperations = 1e9;   ///< instructions run over all points
-constexpr float kLargestIndex = 1 << 20;  ///< of a grid point along an axis
+constexpr int kSide = BlobbyBlock::kSide, kSize = BlobbyBlock::kSize;
+constexpr GridIndex kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-struct Index {
-    int i = 0, j = 0, k = 0;
-
-    bool operator==(const Index&) const = default;
-    Index operator+(const Index& o) const { return {i + o.i, j + o.j, k + o.k}; }
-    Index operator-(const Index& o) const { return {i - o.i, j - o.j, k - o.k}; }
-};
-
-struct IndexHash {
-    size_t operator()(const Index& b) const {
-        uint64_t h = static_cast<uint32_t>(b.i) * 0x9e3779b97f4a7c15ull;
-        h ^= static_cast<uint32_t>(b.j) * 0xc2b2ae3d27d4eb4full + (h >> 29);
-        h ^= static_cast<uint32_t>(b.k) * 0x165667b19e3779f9ull + (h >> 31);
-        return h ^ (h >> 32);
-    }
-};
-
-constexpr Index kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
-/// Grid points of a cube, with the leaves that reach there.
-struct Block {
-    Index at;  ///< in blocks
-    std::vector<int> leaves;
-    BlobbyProgram program;
-    std::vector<float> values;
-    std::vector<int> cells;  ///< vertices of the cells whose least corners are its points; -1: none
-};
-
-int floor_div(int a) {
-    return a >= 0 ? a / kSide : (a - kSide + 1) / kSide;
+bool is_inside(float value) {
+    return value > kBlobbyThreshold;
 }
+
+/// A cell of a block.
+struct CellName {
+    int block = -1, cell = 0;
+
+    bool operator==(const CellName&) const = default;
+};
+
+/// Where the surface meets an edge of the grid, and the cells round the edge, seen from outside.
+struct Crossing {
+    std::array<CellName, 4> cells;
+    V3f point;
+};
+
+/// The values at all corners of a block's cells.
+class BlockCorners {
+  public:
+    BlockCorners(const BlobbyBlocks& blocks, const BlobbyBlock& block, std::vector<FieldValue>& scratch) {
+        size_t n = 0;
+        for (int k = 0; k <= kSide; ++k)
+            for (int j = 0; j <= kSide; ++j)
+                for (int i = 0; i <= kSide; ++i) {
+                    const GridIndex p = block.at + GridIndex{i, j, k} * (1 << block.level);
+                    values_[n++] = blocks.value(block, blocks.place(p), scratch);
+                }
+    }
+    float at(const GridIndex& p) const { return values_[(p.k * (kSide + 1) + p.j) * (kSide + 1) + p.i]; }
+
+  private:
+    std::array<float, (kSide + 1) * (kSide + 1) * (kSide + 1)> values_;
+};
 
 class Net {
   public:
-    Net(const BlobbyField& field, float cell) : field_(field), cell_(cell) {}
+    Net(const BlobbyField& field, const BlobbyBlocks& blocks) : field_(field), blocks_(blocks) {}
 
-    /// False when there would be too many.
-    bool find_blocks();
-    void evaluate();
     BlobbyMesh mesh();
 
   private:
-    V3f place(const Index& p) const {
-        return V3f(static_cast<float>(p.i), static_cast<float>(p.j), static_cast<float>(p.k)) * cell_;
-    }
-    static int within(const Index& p, const Index& block) {
-        const Index q{p.i - block.i * kSide, p.j - block.j * kSide, p.k - block.k * kSide};
-        return (q.k * kSide + q.j) * kSide + q.i;
-    }
-    static Index block_of(const Index& p) { return {floor_div(p.i), floor_div(p.j), floor_div(p.k)}; }
-    static Index point(const Block& block, int n) {
-        return Index{block.at.i * kSide, block.at.j * kSide, block.at.k * kSide} +
-               Index{n % kSide, n / kSide % kSide, n / (kSide * kSide)};
-    }
-    const Block* find(const Index& block) const {
-        const auto found = numbers_.find(block);
-        return found == numbers_.end() ? nullptr : &blocks_[found->second];
-    }
-    /// Beyond all leaves the field is constant.
-    float value(const Index& p) const {
-        const Index b = block_of(p);
-        const Block* block = find(b);
-        return block ? block->values[within(p, b)] : background_;
-    }
-    int vertex(const Index& cell) const {
-        const Index b = block_of(cell);
-        const Block* block = find(b);
-        return block && !block->cells.empty() ? block->cells[within(cell, b)] : -1;
-    }
-    static bool is_inside(float value) { return value > kBlobbyThreshold; }
-    bool cell_vertex(const Index& cell, V3f* p) const;
-    void number_vertices(BlobbyMesh& mesh);
-    void add_quads(BlobbyMesh& mesh) const;
+    std::vector<Crossing> crossings(int block) const;
+    bool cells_round(int block, const GridIndex& edge, int axis, std::array<CellName, 4>& cells) const;
+    V3f meeting_point(const BlobbyBlock& block, const GridIndex& from, const GridIndex& to, float at_from,
+                      float at_to, std::vector<FieldValue>& scratch) const;
+    void add_polygons(const std::vector<std::vector<Crossing>>& crossings, BlobbyMesh& mesh) const;
+    void settle(BlobbyMesh& mesh) const;
 
     const BlobbyField& field_;
-    const float cell_;
-    float background_ = 0;
-    std::vector<Block> blocks_;
-    std::unordered_map<Index, size_t, IndexHash> numbers_;
+    const BlobbyBlocks& blocks_;
 };
 
-bool Net::find_blocks() {
-    for (size_t leaf = 0; leaf < field_.leaves.size(); ++leaf) {
-        const Box3f box = field_.leaves[leaf].support();
-        if (box.isEmpty()) continue;
-        Index lo, hi;
-        const auto index = [&](float x, float margin) {
-            return static_cast<int>(
-                std::floor(std::clamp(x / cell_, -kLargestIndex, kLargestIndex) + margin));
-        };
-        lo = block_of({index(box.min.x, -2), index(box.min.y, -2), index(box.min.z, -2)});
-        hi = block_of({index(box.max.x, 3), index(box.max.y, 3), index(box.max.z, 3)});
-        const double count = (hi.i - lo.i + 1.0) * (hi.j - lo.j + 1.0) * (hi.k - lo.k + 1.0);
-        if (!(count <= static_cast<double>(kMostBlocks))) return false;
-        for (int k = lo.k; k <= hi.k; ++k)
-            for (int j = lo.j; j <= hi.j; ++j)
-                for (int i = lo.i; i <= hi.i; ++i) {
-                    const Index at{i, j, k};
-                    const auto [entry, is_new] = numbers_.try_emplace(at, blocks_.size());
-                    if (is_new) blocks_.push_back({at, {}, {}, {}, {}});
-                    blocks_[entry->second].leaves.push_back(static_cast<int>(leaf));
-                }
-        if (blocks_.size() > kMostBlocks) return false;
+/// The cells round an edge, which starts at `edge` and is as long as the block's cells. False when the edge
+/// is not to be made a polygon of here: it is if none of the cells is finer, and this block is the first
+/// among those of its level.
+bool Net::cells_round(int block, const GridIndex& edge, int axis, std::array<CellName, 4>& cells) const {
+    const int level = blocks_.all()[block].level;
+    const GridIndex b = kAxes[(axis + 1) % 3], c = kAxes[(axis + 2) % 3];
+    const GridIndex finest[4] = {edge - b - c, edge - c, edge, edge - b};
+    int first = -1;
+    for (int n = 0; n < 4; ++n) {
+        const BlobbyBlocks::Found found = blocks_.at(finest[n]);
+        if (found.level < level || found.block < 0) return false;
+        if (found.level == level && first < 0) first = found.block;
+        const GridIndex q = finest[n] - blocks_.all()[found.block].at;
+        cells[n] = {found.block,
+                    ((q.k >> found.level) * kSide + (q.j >> found.level)) * kSide + (q.i >> found.level)};
     }
-    double operations =
-        static_cast<double>(blocks_.size()) * static_cast<double>(field_.program.instructions.size());
-    if (operations > kMostOperations) return false;  // to reduce the programs
-    tbb::parallel_for(size_t{0}, blocks_.size(),
-                      [&](size_t b) { blocks_[b].program = field_.program.reduced(blocks_[b].leaves); });
-    for (const Block& block : blocks_)
-        operations += static_cast<double>(block.program.instructions.size()) * kSize;
-    return operations <= kMostOperations;
+    return first == block;
 }
 
-void Net::evaluate() {
-    std::vector<FieldValue> results;
-    background_ = field_.program.reduced({}).at({0, 0, 0}, field_.leaves, results).value;
-    tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t b) {
-        Block& block = blocks_[b];
-        std::vector<FieldValue> scratch;
-        block.values.resize(kSize);
-        for (int n = 0; n < kSize; ++n)
-            block.values[n] = block.program.at(place(point(block, n)), field_.leaves, scratch).value;
-    });
-}
-
-/// The mean of the places where the cell's edges meet the surface; false when none does.
-bool Net::cell_vertex(const Index& cell, V3f* p) const {
-    float values[8];
-    int inside = 0;
-    for (int c = 0; c < 8; ++c) {
-        values[c] = value(cell + Index{c & 1, c >> 1 & 1, c >> 2});
-        inside += is_inside(values[c]);
-    }
-    if (inside == 0 || inside == 8) return false;
-    V3f sum(0, 0, 0);
-    int count = 0;
-    for (int c = 0; c < 8; ++c)
-        for (int axis = 0; axis < 3; ++axis) {
-            const int other = c | 1 << axis;
-            if (other == c || is_inside(values[c]) == is_inside(values[other])) continue;
-            const float share = (kBlobbyThreshold - values[c]) / (values[other] - values[c]);
-            V3f at(static_cast<float>(c & 1), static_cast<float>(c >> 1 & 1), static_cast<float>(c >> 2));
-            at[axis] += std::isfinite(share) ? share : 0.5f;
-            sum += at, ++count;
+V3f Net::meeting_point(const BlobbyBlock& block, const GridIndex& from, const GridIndex& to, float at_from,
+                       float at_to, std::vector<FieldValue>& scratch) const {
+    const V3f begin = blocks_.place(from), end = blocks_.place(to);
+    float share = (kBlobbyThreshold - at_from) / (at_to - at_from);
+    if (!field_.grounds.empty()) {
+        // Close to the ground the field is anything but linear.
+        constexpr int kHalvings = 12;
+        float lo = 0, hi = 1;
+        for (int k = 0; k < kHalvings; ++k) {
+            share = (lo + hi) / 2;
+            const float value = blocks_.value(block, begin + (end - begin) * share, scratch);
+            (is_inside(value) == is_inside(at_from) ? lo : hi) = share;
         }
-    *p = place(cell) + sum * (cell_ / static_cast<float>(count));
-    return true;
+    }
+    return begin + (end - begin) * (std::isfinite(share) ? share : 0.5f);
 }
 
-void Net::number_vertices(BlobbyMesh& mesh) {
-    std::vector<std::vector<V3f>> points(blocks_.size()), normals(blocks_.size());
-    tbb::parallel_for(size_t{0}, blocks_.size(), [&](size_t b) {
-        Block& block = blocks_[b];
+std::vector<Crossing> Net::crossings(int number) const {
+    const BlobbyBlock& block = blocks_.all()[number];
+    std::vector<FieldValue> scratch;
+    std::vector<Crossing> found;
+    const BlockCorners corners(blocks_, block, scratch);
+    for (int axis = 0; axis < 3; ++axis) {
+        const GridIndex along = kAxes[axis];
+        for (int k = 0; k + along.k <= kSide; ++k)
+            for (int j = 0; j + along.j <= kSide; ++j)
+                for (int i = 0; i + along.i <= kSide; ++i) {
+                    const GridIndex p{i, j, k};
+                    const float at_from = corners.at(p), at_to = corners.at(p + along);
+                    if (is_inside(at_from) == is_inside(at_to)) continue;
+                    const int size = 1 << block.level;
+                    const GridIndex from = block.at + p * size;
+                    Crossing crossing;
+                    if (!cells_round(number, from, axis, crossing.cells)) continue;
+                    if (!is_inside(at_from)) std::swap(crossing.cells[1], crossing.cells[3]);
+                    crossing.point = meeting_point(block, from, from + along * size, at_from, at_to, scratch);
+                    found.push_back(crossing);
+                }
+    }
+    return found;
+}
+
+/// A cell's vertex is the mean of the places where the surface meets edges of its.
+void Net::add_polygons(const std::vector<std::vector<Crossing>>& crossings, BlobbyMesh& mesh) const {
+    std::vector<std::vector<int>> vertices(blocks_.all().size());
+    std::vector<int> counts;
+    const auto vertex_of = [&](const CellName& name, const V3f& p) {
+        std::vector<int>& of_block = vertices[name.block];
+        if (of_block.empty()) of_block.assign(kSize, -1);
+        int& vertex = of_block[name.cell];
+        if (vertex < 0) {
+            vertex = static_cast<int>(mesh.points.size());
+            mesh.points.push_back({0, 0, 0});
+            mesh.leaf_list_of_point.push_back(name.block);
+            counts.push_back(0);
+        }
+        mesh.points[vertex] += p, ++counts[vertex];
+        return vertex;
+    };
+    for (const std::vector<Crossing>& of_block : crossings)
+        for (const Crossing& crossing : of_block) {
+            int size = 0;
+            for (int n = 0; n < 4; ++n) {
+                if (crossing.cells[n] == crossing.cells[(n + 3) % 4]) continue;  // a large cell on two sides
+                mesh.vertices.push_back(vertex_of(crossing.cells[n], crossing.point));
+                ++size;
+            }
+            mesh.sizes.push_back(size);
+        }
+    for (size_t v = 0; v < counts.size(); ++v) mesh.points[v] /= static_cast<float>(counts[v]);
+}
+
+void Net::settle(BlobbyMesh& mesh) const {
+    mesh.normals.resize(mesh.points.size());
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, mesh.points.size(), 256), [&](const auto& range) {
         std::vector<FieldValue> scratch;
-        for (int n = 0; n < kSize; ++n) {
-            V3f p;
-            if (!cell_vertex(point(block, n), &p)) continue;
-            if (block.cells.empty()) block.cells.assign(kSize, -1);
-            block.cells[n] = static_cast<int>(points[b].size());
-            p = onto_surface(field_, block.program, p, cell_, scratch);
+        for (size_t v = range.begin(); v < range.end(); ++v) {
+            const BlobbyBlock& block = blocks_.all()[mesh.leaf_list_of_point[v]];
+            V3f& p = mesh.points[v];
+            p = onto_surface(field_, block.program, p, blocks_.cell(block.level), scratch);
             const V3f g = block.program.at(p, field_.leaves, scratch).gradient;
             const float length = g.length();
-            points[b].push_back(p);
-            normals[b].push_back(length > 0 && std::isfinite(length) ? -g / length : V3f(0, 0, 0));
+            mesh.normals[v] = length > 0 && std::isfinite(length) ? -g / length : V3f(0, 0, 0);
         }
     });
-    for (size_t b = 0; b < blocks_.size(); ++b) {
-        for (int& n : blocks_[b].cells)
-            if (n >= 0) n += static_cast<int>(mesh.points.size());
-        mesh.points.insert(mesh.points.end(), points[b].begin(), points[b].end());
-        mesh.normals.insert(mesh.normals.end(), normals[b].begin(), normals[b].end());
-        mesh.leaf_list_of_point.resize(mesh.points.size(), static_cast<int>(b));
-        mesh.leaf_lists.push_back(std::move(blocks_[b].leaves));
-    }
-}
-
-/// For each edge of the grid that meets the surface, the cells round it, seen from outside.
-void Net::add_quads(BlobbyMesh& mesh) const {
-    for (const Block& block : blocks_)
-        for (int n = 0; n < kSize; ++n) {
-            const Index p = point(block, n);
-            const bool inside = is_inside(block.values[n]);
-            for (int axis = 0; axis < 3; ++axis) {
-                if (inside == is_inside(value(p + kAxes[axis]))) continue;
-                const Index b = kAxes[(axis + 1) % 3], c = kAxes[(axis + 2) % 3];
-                std::array<int, 4> quad{vertex(p - b - c), vertex(p - c), vertex(p), vertex(p - b)};
-                if (!inside) std::swap(quad[1], quad[3]);
-                mesh.vertices.insert(mesh.vertices.end(), quad.begin(), quad.end());
-            }
-        }
 }
 
 BlobbyMesh Net::mesh() {
     BlobbyMesh mesh;
-    mesh.cell = cell_;
-    number_vertices(mesh);
-    add_quads(mesh);
+    std::vector<std::vector<Crossing>> found(blocks_.all().size());
+    tbb::parallel_for(size_t{0}, found.size(), [&](size_t b) { found[b] = crossings(static_cast<int>(b)); });
+    add_polygons(found, mesh);
+    settle(mesh);
+    for (const BlobbyBlock& block : blocks_.all()) {
+        mesh.leaf_lists.push_back(block.leaves);
+        mesh.list_cells.push_back(blocks_.cell(block.level));
+    }
     return mesh;
 }
 
@@ -220,25 +188,34 @@ BlobbyMesh Net::mesh() {
 
 V3f onto_surface(const BlobbyField& field, const BlobbyProgram& program, V3f p, float reach,
                  std::vector<FieldValue>& scratch) {
-    constexpr int kSteps = 4;
+    constexpr int kSteps = 8, kHalvings = 6;
     const V3f from = p;
+    FieldValue f = program.at(p, field.leaves, scratch);
     for (int step = 0; step < kSteps; ++step) {
-        const FieldValue f = program.at(p, field.leaves, scratch);
-        const float steepness = f.gradient.dot(f.gradient);
-        const V3f move = f.gradient * ((kBlobbyThreshold - f.value) / steepness);
-        if (!(steepness > 0) || !((p + move - from).length() <= reach)) break;
-        p += move;
+        const float away = kBlobbyThreshold - f.value, steepness = f.gradient.dot(f.gradient);
+        if (!(steepness > 0) || std::abs(away) < 1e-6f) break;
+        V3f move = f.gradient * (away / steepness);
+        bool is_nearer = false;
+        for (int half = 0; half < kHalvings && !is_nearer; ++half, move *= 0.5f) {
+            if (!((p + move - from).length() <= reach)) continue;
+            const FieldValue there = program.at(p + move, field.leaves, scratch);
+            if (!(std::abs(kBlobbyThreshold - there.value) < std::abs(away))) continue;
+            p += move, f = there, is_nearer = true;
+        }
+        if (!is_nearer) break;
     }
     return p;
 }
 
-BlobbyMesh blobby_mesh(const BlobbyField& field, float cell) {
+BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells) {
     // A coarser grid costs less; one that is larger than all leaves costs almost nothing.
-    for (int tries = 0; tries < 64; ++tries, cell *= 1.25f + 0.25f * static_cast<float>(tries)) {
-        Net net(field, cell);
-        if (!net.find_blocks()) continue;
-        net.evaluate();
-        return net.mesh();
+    float coarser = 1;
+    for (int tries = 0; tries < 64; ++tries, coarser *= 1.25f + 0.25f * static_cast<float>(tries)) {
+        BlobbyBlocks blocks(field, cells, coarser);
+        if (!blocks.find()) continue;
+        BlobbyMesh mesh = Net(field, blocks).mesh();
+        mesh.coarser = coarser;
+        return mesh;
     }
     return {};
 }

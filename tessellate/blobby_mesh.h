@@ -1,26 +1,28 @@
-/// A Blobby's surface as a mesh of quads: surface nets over a sparse grid of the leaves' neighbourhoods.
-/// Every sign change along an edge of the grid makes a quad of the vertices of its four cells, so that the
-/// mesh is closed.
+/// A Blobby's surface as a mesh: surface nets over the blocks of blobby_blocks.h, as dual contouring has them
+/// on octrees [Ju02, "Dual Contouring of Hermite Data"]. Every sign change along an edge of the grid, of the
+/// finest cells round it, makes a polygon of these cells' vertices: the mesh is closed, whatever the cells'
+/// sizes.
 #pragma once
 
 #include <vector>
 
-#include "tessellate/blobby_field.h"
+#include "tessellate/blobby_blocks.h"
 
 namespace trapeze {
 
 struct BlobbyMesh {
     std::vector<V3f> points;
     std::vector<V3f> normals;   ///< away from what is inside, unit length
-    std::vector<int> vertices;  ///< four for each quad; (1 - 0) x (3 - 0) points outwards
-    /// The leaves that may bear on a point: a list for many, by number.
+    std::vector<int> sizes;     ///< of the polygons: 4, and 3 where cells of several sizes meet
+    std::vector<int> vertices;  ///< of one polygon after the other; (1 - 0) x (last - 0) points outwards
+    /// The leaves that may bear on a point, and its cell's size: a list for many, by number.
     std::vector<std::vector<int>> leaf_lists;
+    std::vector<float> list_cells;
     std::vector<int> leaf_list_of_point;
-    float cell = 0;  ///< of the grid, as it became
+    float coarser = 1;  ///< than was asked for, to keep time and memory within bounds
 };
 
-/// cell: the grid's, in object space; made larger until time and memory are within bounds.
-BlobbyMesh blobby_mesh(const BlobbyField& field, float cell);
+BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells);
 
 /// Moves a point along the gradient onto the surface; by no more than `reach`, and not where the field is
 /// flat.

@@ -15,14 +15,16 @@ namespace trapeze {
 namespace {
 
 /// Sides of the mesh's quads, in micropolygons.
-constexpr float kMicropolygonsPerCell = 2;
+constexpr float kMicropolygonsPerCell = 3;
 /// Without a camera: cells along the diagonal.
 constexpr float kCellsWithoutCamera = 64;
+/// What is nearer to the eye than this part of the Blobby's diagonal is made as if it were that far away.
+constexpr float kNearest = 0.01f;
 
 class BlobbySurface : public Surface {
   public:
     BlobbySurface(Primitive mesh, Diagnostics& diagnostics)
-        : mesh_(std::move(mesh)), polygons_(make_polygon_surface(mesh_, diagnostics)) {}
+        : mesh_(std::move(mesh)), polygons_(make_bilinear_surface(mesh_, diagnostics)) {}
 
     bool is_valid() const { return polygons_ != nullptr; }
 
@@ -52,31 +54,67 @@ class BlobbySurface : public Surface {
     const std::unique_ptr<Surface> polygons_;
 };
 
-/// In object space, from the size that a micropolygon has where the leaves are nearest to the camera.
-float cell_size(const BlobbyField& field, const Primitive& primitive, const Camera* camera) {
-    Box3f box;
-    float finest = kInfinity;
-    for (const BlobbyLeaf& leaf : field.leaves) {
-        const Box3f support = leaf.support();
-        if (support.isEmpty()) continue;
-        box.extendBy(support);
-        const V3f size = support.size();
-        finest = std::min({finest, size.x, size.y, size.z});
+/// In object space, three micropolygons as the screen has them where a box is nearest to the camera: at the
+/// least depth of what of it may be in the picture, which is a part of its distance. What is out of the
+/// picture may have cells of any size.
+class ScreenCells {
+  public:
+    ScreenCells(const Primitive& primitive, const Camera& camera, float diagonal)
+        : camera_(camera),
+          camera_from_object_(primitive.camera_from_object),
+          scale_(CameraFacing(camera_from_object_.front(), &camera).scale()),
+          nearest_(kNearest * diagonal * scale_),
+          side_(kMicropolygonsPerCell * std::sqrt(std::max(primitive.attributes->shading_rate, 1e-4f))) {
+        // With some to spare, for displacement and for the lens.
+        const auto reach = [](float scale, float offset, int pixels) {
+            return 1.5f * std::max(std::abs(offset), std::abs(scale * static_cast<float>(pixels) + offset));
+        };
+        across_ = {reach(camera.plane_scale_x, camera.plane_offset_x, camera.width),
+                   reach(camera.plane_scale_y, camera.plane_offset_y, camera.height)};
+        depth_of_distance_ = 1 / std::sqrt(1 + across_.dot(across_));
     }
-    if (box.isEmpty()) return 1;
-    const float diagonal = box.size().length();
-    float cell = diagonal / kCellsWithoutCamera;
-    if (camera) {
-        const CameraFacing facing(primitive.camera_from_object.front(), camera);
-        const float radius = diagonal / 2 * facing.scale();
-        const float z = transform_point(facing.camera_from_object(), box.center()).z - radius;
-        const V2f pixels = camera->pixels_per_length(std::max(z, 0.02f * radius));
-        const float rate = std::sqrt(std::max(primitive.attributes->shading_rate, 1e-4f));
-        cell = kMicropolygonsPerCell * rate / (std::max(pixels.x, pixels.y) * facing.scale());
+
+    float operator()(const Box3f& where) const {
+        Box3f seen;
+        for (const M44f& m : camera_from_object_)
+            for (int corner = 0; corner < 8; ++corner) {
+                const V3f p(corner & 1 ? where.max.x : where.min.x, corner & 2 ? where.max.y : where.min.y,
+                            corner & 4 ? where.max.z : where.min.z);
+                seen.extendBy(transform_point(m, p));
+            }
+        if (camera_.perspective && is_out_of_view(seen)) return kInfinity;
+        V3f closest;
+        for (int k = 0; k < 3; ++k) closest[k] = std::clamp(0.0f, seen.min[k], seen.max[k]);
+        const float depth = std::max({seen.min.z, closest.length() * depth_of_distance_, nearest_});
+        const V2f pixels = camera_.pixels_per_length(depth);
+        return side_ / (std::max(pixels.x, pixels.y) * scale_);
     }
-    // Small leaves far away keep their shape roughly: four cells across what is drawn of them.
-    cell = std::min(cell, finest / 8);
-    return std::isfinite(cell) ? std::clamp(cell, diagonal * 1e-4f, diagonal) : diagonal;
+
+  private:
+    bool is_out_of_view(const Box3f& seen) const {
+        if (seen.max.z < 0) return true;
+        for (int k = 0; k < 2; ++k) {
+            const float reach = across_[k] * seen.max.z;
+            if (seen.min[k] > reach || seen.max[k] < -reach) return true;
+        }
+        return false;
+    }
+
+    const Camera& camera_;
+    std::vector<M44f> camera_from_object_;
+    float scale_, nearest_;
+    float side_;  ///< pixels
+    V2f across_;  ///< how far from the axis the picture reaches at depth 1
+    float depth_of_distance_ = 1;
+};
+
+CellSizes cell_sizes(const BlobbyField& field, const Primitive& primitive, const Camera* camera) {
+    Box3f all;
+    for (const BlobbyLeaf& leaf : field.leaves)
+        if (const Box3f support = leaf.support(); !support.isEmpty()) all.extendBy(support);
+    const float diagonal = all.isEmpty() ? 1 : all.size().length();
+    if (!camera) return [cell = diagonal / kCellsWithoutCamera](const Box3f&) { return cell; };
+    return ScreenCells(primitive, *camera, diagonal);
 }
 
 /// The leaves' shares in a point of the mesh, which add up to 1.
@@ -140,15 +178,31 @@ std::vector<V3f> moved_points(const BlobbyField& field, const BlobbyMesh& mesh, 
         V3f at(0, 0, 0);
         for (size_t i = 0; i < leaves.size(); ++i)
             at += field.leaves[leaves[i]].carried(mesh.points[p], later.leaves[leaves[i]]) * w[i];
-        points[p] = onto_surface(later, later.program, at, 8 * mesh.cell, scratch);
+        points[p] =
+            onto_surface(later, later.program, at, 8 * mesh.list_cells[mesh.leaf_list_of_point[p]], scratch);
     });
     return points;
 }
 
-PolygonMesh quads(const BlobbyMesh& mesh) {
+/// At one of the shape's keys. Its grounds stand still in the world; a Blobby that moves over them by its
+/// transformation alone keeps the shape that it has as the shutter opens.
+BlobbyField field_at(const Primitive& primitive, size_t key, const FindDepthHeight* depth_heights) {
+    const auto& blobby = std::get<Blobby>(primitive.shape_keys[key]->topology);
+    if (!depth_heights) return blobby_field(blobby);
+    const std::vector<M44f>& places = primitive.camera_from_object;
+    const size_t shapes = primitive.shape_keys.size();
+    const size_t place = shapes > 1 ? key * (places.size() - 1) / (shapes - 1) : 0;
+    return blobby_field(blobby, [&](const std::string& name) -> GroundHeight {
+        const DepthHeight height = (*depth_heights)(name, primitive.location);
+        if (!height) return {};
+        return [height, m = places[place]](const V3f& p) { return height(transform_point(m, p)); };
+    });
+}
+
+PolygonMesh polygons_of(const BlobbyMesh& mesh) {
     PolygonMesh polygons;
-    polygons.loops_per_polygon.assign(mesh.vertices.size() / 4, 1);
-    polygons.vertices_per_loop.assign(mesh.vertices.size() / 4, 4);
+    polygons.loops_per_polygon.assign(mesh.sizes.size(), 1);
+    polygons.vertices_per_loop = mesh.sizes;
     polygons.vertices = mesh.vertices;
     polygons.vertex_count = static_cast<int>(mesh.points.size());
     return polygons;
@@ -162,30 +216,26 @@ bool shows_inside(const Primitive& primitive) {
 
 }  // namespace
 
-std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const Camera* camera,
+std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const SurfaceView& view,
                                              Diagnostics& diagnostics) {
-    const BlobbyField field = blobby_field(std::get<Blobby>(primitive.shape().topology));
-    if (field.has_planes)
-        diagnostics.warning(primitive.location, "Blobby: repelling planes are not supported; left out",
-                            "blobby-planes");
-    const float cell = cell_size(field, primitive, camera);
-    BlobbyMesh mesh = blobby_mesh(field, cell);
+    const BlobbyField field = field_at(primitive, 0, view.depth_heights);
+    BlobbyMesh mesh = blobby_mesh(field, cell_sizes(field, primitive, view.camera));
     if (shows_inside(primitive))
         for (V3f& normal : mesh.normals) normal = -normal;
     if (mesh.vertices.empty()) {
         diagnostics.warning(primitive.location, "Blobby: its field has no surface", "blobby-empty");
         return nullptr;
     }
-    if (mesh.cell > 2 * cell)
+    if (mesh.coarser > 2)
         diagnostics.warning(primitive.location, "Blobby: too large for its size on the screen; made coarsely",
                             "blobby-coarse");
     Primitive polygons = primitive;
     polygons.shape_keys.clear();
-    const PolygonMesh topology = quads(mesh);
+    const PolygonMesh topology = polygons_of(mesh);
     polygons.shape_keys.push_back(std::make_shared<const Shape>(
         Shape{topology, mesh_variables(field, mesh, primitive.shape().variables)}));
     for (size_t key = 1; key < primitive.shape_keys.size(); ++key) {
-        const BlobbyField later = blobby_field(std::get<Blobby>(primitive.shape_keys[key]->topology));
+        const BlobbyField later = field_at(primitive, key, view.depth_heights);
         ParameterList list;
         list.set(triples("P", ValueType::Point, moved_points(field, mesh, later)));
         polygons.shape_keys.push_back(std::make_shared<const Shape>(Shape{topology, std::move(list)}));

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/random.h"
 #include "tessellate/blobby_mesh.h"
@@ -21,6 +23,11 @@ Blobby blobby(int leaves, std::vector<int> code, std::initializer_list<std::vect
     b.code = std::move(code);
     for (const auto& part : floats) b.floats.insert(b.floats.end(), part.begin(), part.end());
     return b;
+}
+
+/// The same everywhere.
+CellSizes cells_of(float size) {
+    return [size](const Box3f&) { return size; };
 }
 
 /// (1 - r^2)^3.
@@ -56,6 +63,13 @@ TEST(Blobby, FieldsOfEveryLeafAndOperator) {
         const BlobbyField field = blobby_field(blobby(3, code, {identity, segment, {c}}));
         EXPECT_NEAR(value_at(field, p).value, wanted, 1e-6f) << operation[0];
     }
+}
+
+/// 1004: its five operands are passed over.
+TEST(Blobby, FieldsOfCompiledCodeAreZero) {
+    Blobby b = blobby(2, {1004, 0, 2, 3, 0, 0, 1001, 0, 0, 2, 0, 1}, {ellipsoid({1, 1, 1}, {0, 0, 0})});
+    b.strings = {"field.so"};
+    EXPECT_NEAR(value_at(blobby_field(b), V3f(0.5f, 0, 0)).value, bump(0.25f), 1e-6f);
 }
 
 /// Some program of everything, over ellipsoids, a segment and a constant.
@@ -115,7 +129,7 @@ TEST(Blobby, ReducedProgramsGiveTheSameFieldWhereLeavesReach) {
 
 TEST(Blobby, OneEllipsoidIsDrawnAtHalfItsExtent) {
     const BlobbyField field = blobby_field(blobby(1, {1001, 0}, {ellipsoid({2, 1, 0.5f}, {1, 2, 3})}));
-    const BlobbyMesh mesh = blobby_mesh(field, 0.04f);
+    const BlobbyMesh mesh = blobby_mesh(field, cells_of(0.04f));
     ASSERT_GT(mesh.points.size(), 500u);
     for (size_t i = 0; i < mesh.points.size(); ++i) {
         const V3f q = mesh.points[i] - V3f(1, 2, 3), local(q.x / 2, q.y, q.z / 0.5f);
@@ -123,7 +137,7 @@ TEST(Blobby, OneEllipsoidIsDrawnAtHalfItsExtent) {
         const V3f normal = V3f(local.x / 2, local.y, local.z / 0.5f).normalized();
         EXPECT_GT(mesh.normals[i].dot(normal), 0.9999f);
     }
-    for (size_t i = 0; i < mesh.vertices.size(); i += 4) {
+    for (size_t i = 0; i + 4 <= mesh.vertices.size(); i += 4) {
         const V3f p = mesh.points[mesh.vertices[i]];
         const V3f along = mesh.points[mesh.vertices[i + 1]] - p, up = mesh.points[mesh.vertices[i + 3]] - p;
         if (along.cross(up).length() > 1e-6f) {
@@ -136,7 +150,7 @@ TEST(Blobby, SegmentsAreDrawnAtHalfTheirRadius) {
     std::vector<float> segment{-1, 0, 0, 1, 0, 0, 0.8f};
     const std::vector<float> m = ellipsoid({1, 1, 1}, {0, 0, 5});
     segment.insert(segment.end(), m.begin(), m.end());
-    const BlobbyMesh mesh = blobby_mesh(blobby_field(blobby(1, {1002, 0}, {segment})), 0.1f);
+    const BlobbyMesh mesh = blobby_mesh(blobby_field(blobby(1, {1002, 0}, {segment})), cells_of(0.1f));
     ASSERT_GT(mesh.points.size(), 100u);
     for (const V3f& p : mesh.points) {
         const V3f nearest(std::clamp(p.x, -1.0f, 1.0f), 0, 5);
@@ -151,7 +165,7 @@ Blobby two_balls(float distance, int operation) {
 
 /// On the plane between two balls the sum is twice one ball's field.
 TEST(Blobby, SumsBlend) {
-    const BlobbyMesh mesh = blobby_mesh(blobby_field(two_balls(1, 0)), 0.02f);
+    const BlobbyMesh mesh = blobby_mesh(blobby_field(two_balls(1, 0)), cells_of(0.02f));
     // 2 (1 - (1/4 + y^2))^3 = 27/64.
     const float waist = std::sqrt(0.75f - std::cbrt(27.0f / 128));
     float closest = 1;
@@ -233,6 +247,91 @@ TEST(Blobby, MeshesAreClosed) {
         EXPECT_EQ(count.leaks, 0);
         EXPECT_EQ(count.wrong_sides, 0);
         EXPECT_EQ(count.open_sides, 0u);
+    }
+}
+
+/// Some program over many leaves, of sizes from 0.06 to 0.6.
+BlobbyField cloud_of_many_sizes(int count) {
+    Blobby b;
+    b.leaf_count = count;
+    for (uint32_t n = 0; n < static_cast<uint32_t>(count); ++n) {
+        b.code.insert(b.code.end(), {1001, static_cast<int>(16 * n)});
+        const float size = 0.06f * std::pow(10.0f, unit_float(hash(n, 4)));
+        const auto leaf = ellipsoid(V3f(size, size, size), random_point(n));
+        b.floats.insert(b.floats.end(), leaf.begin(), leaf.end());
+    }
+    b.code.insert(b.code.end(), {0, count});
+    for (int n = 0; n < count; ++n) b.code.push_back(n);
+    return blobby_field(b);
+}
+
+/// Every side of a polygon is one of a neighbour's, the other way about.
+void expect_closed(const BlobbyMesh& mesh) {
+    std::map<std::pair<int, int>, int> balance;
+    const int* vertices = mesh.vertices.data();
+    for (const int size : mesh.sizes) {
+        ASSERT_GE(size, 3);
+        for (int n = 0; n < size; ++n) {
+            const int from = vertices[n], to = vertices[(n + 1) % size];
+            balance[std::minmax(from, to)] += from < to ? 1 : -1;
+        }
+        vertices += size;
+    }
+    EXPECT_EQ(vertices, mesh.vertices.data() + mesh.vertices.size());
+    for (const auto& [side, count] : balance) EXPECT_EQ(count, 0) << side.first << '-' << side.second;
+}
+
+TEST(Blobby, MeshesOfManyCellSizesAreClosed) {
+    const CellSizes sizes[] = {
+        cells_of(0.2f),
+        [](const Box3f& where) { return 0.03f + 0.2f * std::max(where.min.x, 0.0f); },
+        [](const Box3f& where) { return where.min.x > 0.3f ? 1.0f : 0.025f; },  // as abrupt as can be
+        [](const Box3f& where) { return 0.015f * std::exp2(4 * (where.min.z + 1.5f)); },
+    };
+    for (const CellSizes& cells : sizes) {
+        const BlobbyMesh mesh = blobby_mesh(cloud_of_many_sizes(60), cells);
+        ASSERT_GT(mesh.points.size(), 500u);
+        EXPECT_EQ(mesh.coarser, 1);
+        expect_closed(mesh);
+        const auto [least, most] = std::ranges::minmax(mesh.list_cells);
+        EXPECT_GE(most, 2 * least);
+    }
+}
+
+TEST(Blobby, CellsFollowTheSizesThatAreAskedFor) {
+    const BlobbyField field = blobby_field(
+        blobby(1, {1002, 0}, {{0, 0, 0, 16, 0, 0, 2, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}));
+    // A cylinder of radius 1 along x whose cells may be larger and larger along it.
+    const auto wanted = [](float x) { return 0.03f * std::exp2(x / 4); };
+    const BlobbyMesh mesh =
+        blobby_mesh(field, [&](const Box3f& where) { return wanted(std::max(where.min.x, 0.0f)); });
+    expect_closed(mesh);
+    size_t counts[4] = {};
+    for (size_t i = 0; i < mesh.points.size(); ++i) {
+        const float x = std::clamp(mesh.points[i].x, 0.0f, 16.0f);
+        const float cell = mesh.list_cells[mesh.leaf_list_of_point[i]];
+        EXPECT_LT(cell, 1.5f * wanted(x));
+        EXPECT_GT(cell, 0.25f * wanted(x));
+        if (x > 0 && x < 16) ++counts[static_cast<int>(x / 4)];
+    }
+    // Each quarter has a quarter of the points of the one before, for cells twice as large.
+    EXPECT_GT(counts[0], 2 * counts[1]);
+    EXPECT_GT(counts[1], 2 * counts[2]);
+    EXPECT_GT(counts[2], 2 * counts[3]);
+    EXPECT_GT(counts[3], 50u);
+}
+
+/// However they lie on the grid.
+TEST(Blobby, SmallBallsAreNotLost) {
+    for (uint32_t n = 0; n < 300; ++n) {
+        const BlobbyField field = blobby_field(
+            blobby(2, {1001, 0, 1001, 16, 0, 2, 0, 1},
+                   {ellipsoid({5, 5, 5}, {0, 0, 0}), ellipsoid(V3f(0.2f), V3f(9, 0, 0) + random_point(n))}));
+        // Cells of 50 balls' diameters would do for the screen.
+        const BlobbyMesh mesh = blobby_mesh(field, cells_of(10));
+        const V3f centre = V3f(9, 0, 0) + random_point(n);
+        const auto is_near = [&](const V3f& p) { return (p - centre).length() < 0.12f; };
+        EXPECT_GE(std::ranges::count_if(mesh.points, is_near), 6) << n;
     }
 }
 

@@ -58,7 +58,7 @@ struct MadeCurves {
         primitive.attributes = attributes;
         primitive.shape_keys = {test::shape_of(curves, std::move(list))};
         primitive.camera_from_object = std::move(camera_from_object);
-        surface = make_surface(primitive, diagnostics, camera);
+        surface = make_surface(primitive, diagnostics, {camera, nullptr});
     }
     struct Point {
         V3f P, dPdu, dPdv;

@@ -7,7 +7,7 @@ namespace {
 struct ByTopology {
     const Primitive& primitive;
     Diagnostics& diagnostics;
-    const Camera* camera;
+    const SurfaceView& view;
 
     std::unique_ptr<Surface> operator()(const PolygonMesh&) const {
         return make_polygon_surface(primitive, diagnostics);
@@ -25,21 +25,21 @@ struct ByTopology {
         return make_nu_patch_surface(primitive, diagnostics);
     }
     std::unique_ptr<Surface> operator()(const Curves&) const {
-        return make_curves_surface(primitive, camera, diagnostics);
+        return make_curves_surface(primitive, view.camera, diagnostics);
     }
     std::unique_ptr<Surface> operator()(const Points&) const {
-        return make_points_surface(primitive, camera, diagnostics);
+        return make_points_surface(primitive, view.camera, diagnostics);
     }
     std::unique_ptr<Surface> operator()(const Blobby&) const {
-        return make_blobby_surface(primitive, camera, diagnostics);
+        return make_blobby_surface(primitive, view, diagnostics);
     }
 };
 
 }  // namespace
 
 std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics,
-                                      const Camera* camera) {
-    return std::visit(ByTopology{primitive, diagnostics, camera}, primitive.shape().topology);
+                                      const SurfaceView& view) {
+    return std::visit(ByTopology{primitive, diagnostics, view}, primitive.shape().topology);
 }
 
 bool depends_on_view(const Topology& topology) {

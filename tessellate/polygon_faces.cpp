@@ -17,6 +17,7 @@ class FaceMaker {
         : mesh_(mesh), positions_(positions) {}
 
     PolygonFaces run();
+    PolygonFaces whole();
 
   private:
     void polygon(int number, std::span<const int> loop_sizes);
@@ -43,6 +44,14 @@ PolygonFaces FaceMaker::run() {
         polygon(static_cast<int>(i),
                 std::span(mesh_.vertices_per_loop).subspan(loop, mesh_.loops_per_polygon[i]));
         loop += mesh_.loops_per_polygon[i];
+    }
+    return std::move(faces_);
+}
+
+PolygonFaces FaceMaker::whole() {
+    for (size_t i = 0; i < mesh_.vertices_per_loop.size(); ++i) {
+        gather(std::span(mesh_.vertices_per_loop).subspan(i, 1));
+        if (loops_[0] >= 3) add(static_cast<int>(i), corners_);
     }
     return std::move(faces_);
 }
@@ -125,6 +134,10 @@ void FaceMaker::polygon(int number, std::span<const int> loop_sizes) {
 
 PolygonFaces make_polygon_faces(const PolygonMesh& mesh, std::span<const float> positions) {
     return FaceMaker(mesh, positions).run();
+}
+
+PolygonFaces make_whole_faces(const PolygonMesh& mesh) {
+    return FaceMaker(mesh, {}).whole();
 }
 
 }  // namespace trapeze

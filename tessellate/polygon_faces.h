@@ -20,4 +20,7 @@ struct PolygonFaces {
 /// its vertices only. Faces that would name a vertex twice are left out. `positions`: three floats a vertex.
 PolygonFaces make_polygon_faces(const PolygonMesh& mesh, std::span<const float> positions);
 
+/// The same of polygons of three and four corners without holes, where quads stay whole, flat or not.
+PolygonFaces make_whole_faces(const PolygonMesh& mesh);
+
 }  // namespace trapeze

@@ -148,27 +148,44 @@ bool is_consistent(const PolygonMesh& mesh) {
                        [&](int v) { return v >= 0 && v < mesh.vertex_count; });
 }
 
-}  // namespace
-
-std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagnostics& diagnostics) {
+bool is_valid(const Primitive& primitive, Diagnostics& diagnostics) {
     const PolygonMesh& mesh = std::get<PolygonMesh>(primitive.shape().topology);
     for (const auto& shape : primitive.shape_keys) {
         const Parameter* P = shape->variables.find("P");
         if (P && P->floats.size() >= 3 * static_cast<size_t>(mesh.vertex_count)) continue;
         diagnostics.error(primitive.location, "Polygon: has no vertex positions P; skipped",
                           "polygon-points");
-        return nullptr;
+        return false;
     }
     if (!is_consistent(mesh)) {
         diagnostics.error(primitive.location, "Polygon: its counts do not agree; skipped", "polygon-counts");
-        return nullptr;
+        return false;
     }
-    PolygonFaces faces = make_polygon_faces(mesh, primitive.shape().variables.find("P")->floats);
+    return true;
+}
+
+std::unique_ptr<Surface> surface_of(const Primitive& primitive, PolygonFaces faces,
+                                    Diagnostics& diagnostics) {
     if (faces.sizes.empty()) {
         diagnostics.warning(primitive.location, "Polygon: has no area; skipped", "polygon-empty");
         return nullptr;
     }
     return std::make_unique<PolygonSurface>(primitive, std::move(faces));
+}
+
+}  // namespace
+
+std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagnostics& diagnostics) {
+    if (!is_valid(primitive, diagnostics)) return nullptr;
+    const auto& mesh = std::get<PolygonMesh>(primitive.shape().topology);
+    return surface_of(primitive, make_polygon_faces(mesh, primitive.shape().variables.find("P")->floats),
+                      diagnostics);
+}
+
+std::unique_ptr<Surface> make_bilinear_surface(const Primitive& primitive, Diagnostics& diagnostics) {
+    if (!is_valid(primitive, diagnostics)) return nullptr;
+    return surface_of(primitive, make_whole_faces(std::get<PolygonMesh>(primitive.shape().topology)),
+                      diagnostics);
 }
 
 }  // namespace trapeze

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "core/camera.h"
+#include "core/depth_height.h"
 #include "core/math.h"
 #include "core/scene.h"
 #include "core/shading_grid.h"
@@ -106,20 +107,27 @@ class Surface {
 /// One file for each kind of surface. The primitive outlives the surface. Null, with a diagnostic, when it
 /// cannot be made.
 std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagnostics& diagnostics);
+/// Polygons of three and four corners that stand for a curved surface: quads are bilinear, flat or not.
+std::unique_ptr<Surface> make_bilinear_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_subdivision_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_quadric_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_patch_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_nu_patch_surface(const Primitive& primitive, Diagnostics& diagnostics);
+/// What surfaces see of the frame that they are for. Both may be null.
+struct SurfaceView {
+    const Camera* camera = nullptr;
+    const FindDepthHeight* depth_heights = nullptr;
+};
 /// Those whose shape depends on the view; without a camera the eye is at the origin, and pixels have no size.
 std::unique_ptr<Surface> make_curves_surface(const Primitive& primitive, const Camera* camera,
                                              Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_points_surface(const Primitive& primitive, const Camera* camera,
                                              Diagnostics& diagnostics);
-std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const Camera* camera,
+std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const SurfaceView& view,
                                              Diagnostics& diagnostics);
 /// By topology.
 std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics,
-                                      const Camera* camera = nullptr);
+                                      const SurfaceView& view = {});
 /// Whether primitives of one shape in different places have different surfaces.
 bool depends_on_view(const Topology& topology);
 

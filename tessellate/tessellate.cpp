@@ -139,7 +139,8 @@ DiceScratch::~DiceScratch() = default;
 namespace {
 
 /// One surface for each slot that the cache hands out, made in parallel.
-void make_surfaces(const RenderContext& context, std::vector<TessellatedPrimitive>& primitives) {
+void make_surfaces(const RenderContext& context, const FindDepthHeight& depth_heights,
+                   std::vector<TessellatedPrimitive>& primitives) {
     SurfaceCache cache;
     std::vector<std::shared_ptr<const Surface>*> slots(primitives.size());
     std::vector<size_t> makers;
@@ -149,8 +150,8 @@ void make_surfaces(const RenderContext& context, std::vector<TessellatedPrimitiv
         if (cache.size() > before) makers.push_back(i);
     }
     tbb::parallel_for(size_t{0}, makers.size(), [&](size_t m) {
-        *slots[makers[m]] =
-            make_surface(context.scene->primitives[makers[m]], *context.diagnostics, &context.camera);
+        *slots[makers[m]] = make_surface(context.scene->primitives[makers[m]], *context.diagnostics,
+                                         {&context.camera, depth_heights ? &depth_heights : nullptr});
     });
     for (size_t i = 0; i < primitives.size(); ++i) primitives[i].surface = *slots[i];
 }
@@ -196,11 +197,12 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
 
 }  // namespace
 
-Tessellation::Tessellation(const RenderContext& context) : impl_(std::make_unique<Impl>(context.camera)) {
+Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights)
+    : impl_(std::make_unique<Impl>(context.camera)) {
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
     primitives.resize(scene.primitives.size());
-    make_surfaces(context, primitives);
+    make_surfaces(context, depth_heights, primitives);
     const ScreenMetric& metric = impl_->metric;
     const RasterBound raster(context.camera, sampled_pixels(context.camera, scene.options));
     tbb::parallel_for(size_t{0}, primitives.size(), [&](size_t i) {

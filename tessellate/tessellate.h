@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/depth_height.h"
 #include "core/render_context.h"
 #include "core/shading_grid.h"
 #include "core/stats.h"
@@ -36,8 +37,9 @@ class DiceScratch {
 
 class Tessellation {
   public:
-    /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads.
-    explicit Tessellation(const RenderContext& context);
+    /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads. Without
+    /// depth maps the surfaces that would look into some go without.
+    explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {});
     ~Tessellation();
 
     /// In the order that defines Grid::ordinal.

@@ -2,6 +2,8 @@
 /// geometry says they are.
 #include <OpenImageIO/imagebuf.h>
 
+#include <algorithm>
+
 #include "tests/program.h"
 
 namespace trapeze::testing {
@@ -77,6 +79,54 @@ FrameEnd
 }
 
 INSTANTIATE_TEST_SUITE_P(Drivers, ShadowPasses, ::testing::Values("zfile", "shadow", "openexr"));
+
+/// A ball that reaches through a table, whose depth the first pass sees from above: without the table its
+/// lowest point is at y = -0.4; a repelling plane lifts it off, and it ends in a flat foot.
+TEST(BlobbyPasses, RepellingPlanesKeepBlobbiesOffWhatADepthFileSaw) {
+    WorkFolder folder;
+    const auto rib = [](const char* leaves) {
+        return std::string(kCamera) + R"(
+FrameBegin 1
+Display "table.z" "zfile" "z"
+Translate 0 0 5
+Rotate -90 1 0 0
+WorldBegin
+Polygon "P" [-2 0 -2  -2 0 2  2 0 2  2 0 -2]
+WorldEnd
+FrameEnd
+FrameBegin 2
+Display "seen.exr" "openexr" "rgba"
+Translate 0 0 5
+WorldBegin
+Surface "constant"
+Translate 0 .6 0
+Blobby )" + leaves +
+               R"(
+WorldEnd
+FrameEnd
+)";
+    };
+    folder.write("plain.rib", rib("1 [1001 0] [2 0 0 0  0 2 0 0  0 0 2 0  0 0 0 1]"));
+    folder.write("lifted.rib", rib("2 [1001 0 1003 0 16 0 2 0 1] [2 0 0 0  0 2 0 0  0 0 2 0  0 0 0 1  "
+                                   ".4 .01 .3 .08] [\"table.z\"]"));
+    for (const bool lifted : {false, true}) {
+        const Outcome outcome = run_program(folder, lifted ? "render lifted.rib" : "render plain.rib");
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        const Picture seen(folder / "seen.exr");
+        EXPECT_EQ(seen.at(0, 1, 3), 1);
+        EXPECT_EQ(seen.at(0, 0.2f, 3), 1);
+        for (const float y : {-0.1f, -0.3f}) EXPECT_EQ(seen.at(0, y, 3), lifted ? 0 : 1) << y;
+        EXPECT_EQ(seen.at(0, -0.5f, 3), 0);
+    }
+    // One warning where the file is missing; the ball is whole.
+    folder.write("missing.rib", rib("3 [1001 0 1003 0 16 1003 0 16 0 3 0 1 2] [2 0 0 0  0 2 0 0  0 0 2 0  "
+                                    "0 0 0 1  .4 .01 .3 .08] [\"none.z\"]"));
+    const Outcome outcome = run_program(folder, "render missing.rib");
+    EXPECT_NE(outcome.err.find("none.z"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_EQ(Picture(folder / "seen.exr").at(0, -0.3f, 3), 1);
+}
 
 TEST(EnvironmentPasses, MirrorsShowTheFaceTheyAreTurnedTo) {
     WorkFolder folder;

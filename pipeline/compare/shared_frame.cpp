@@ -41,7 +41,9 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     frame.pixels = sampled_pixels(frame.context.camera, frame.scene->options);
 
     Stopwatch watch;
-    const Tessellation tessellation(frame.context);
+    const Shading shading(frame.context);
+    watch.lap();
+    const Tessellation tessellation(frame.context, shading.depth_heights());
     frame.stats.tessellate = tessellation.stats();
     frame.stats.tessellate.grids = frame.stats.tessellate.micropolygons = 0;  // counted as they are made
     frame.stats.seconds.tessellate = watch.lap();
@@ -49,7 +51,6 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     const auto region = whole_region(frame, tessellation, budget);
     if (!region) return {};
 
-    const Shading shading(frame.context);
     Progress progress(settings.on_progress);
     progress.begin_part(0, 1, region->subpatches.size());
     frame.grids = make_grids(frame.context, *region, tessellation, shading, frame.stats, progress);

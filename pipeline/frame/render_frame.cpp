@@ -71,11 +71,12 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     FrameResult result;
     FrameStats& stats = result.stats;
 
-    const Tessellation tessellation(context);
+    const Shading shading(context);
+    watch.lap();
+    const Tessellation tessellation(context, shading.depth_heights());
     stats.tessellate = tessellation.stats();
     stats.tessellate.grids = stats.tessellate.micropolygons = 0;  // counted as they are made
     stats.seconds.tessellate = watch.lap();
-    const Shading shading(context);
     const Imager imager(context);
     const auto pattern = sampler->make_pattern(context);
     Film film(context);

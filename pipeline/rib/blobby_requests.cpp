@@ -8,18 +8,22 @@ namespace trapeze::rib {
 namespace {
 
 constexpr int kMostLeaves = 1 << 24;
-constexpr int kFirstLeaf = 1000, kFirstOfTwo = 4, kFirstOfOne = 6, kOperators = 8;
+constexpr int kFirstOfTwo = 4, kFirstOfOne = 6, kOperators = 8;
+constexpr int kFirstLeaf = 1000, kRepellingPlane = 1003, kImplicitField = 1004;
 
 /// The floats that a leaf of a kind reads; -1: no such kind.
 int floats_of_leaf(int code) {
     constexpr int kFloats[] = {1, 16, 23, 4};  // constant, ellipsoid, segment, repelling plane
-    return code >= kFirstLeaf && code < kFirstLeaf + 4 ? kFloats[code - kFirstLeaf] : -1;
+    return code >= kFirstLeaf && code <= kRepellingPlane ? kFloats[code - kFirstLeaf] : -1;
 }
 
 /// Walks over the program and checks that every index is in range.
 class ProgramCheck {
   public:
     explicit ProgramCheck(const Blobby& blobby) : blobby_(blobby) {}
+
+    /// PRMan's fields of compiled code (1004), which are 0 here.
+    bool has_implicit_fields() const { return has_implicit_fields_; }
 
     void run() {
         while (at_ < blobby_.code.size()) {
@@ -46,23 +50,36 @@ class ProgramCheck {
     }
 
     void leaf(int code) {
-        const int count = floats_of_leaf(code);
-        if (count < 0) throw RequestError{"no operation " + std::to_string(code), {}};
-        if (code == kFirstLeaf + 3) {
-            const int string = next();
-            if (string < 0 || static_cast<size_t>(string) >= blobby_.strings.size())
-                throw RequestError{"leaf " + std::to_string(leaves_) + " wants string " +
-                                       std::to_string(string) + " of " +
-                                       std::to_string(blobby_.strings.size()),
-                                   {}};
+        if (code == kImplicitField) {
+            has_string(next());
+            const int floats = next();
+            has_floats(floats, next());
+            const int strings = next(), first = next();
+            if (strings > 0) has_string(first), has_string(static_cast<int64_t>(first) + strings - 1);
+            has_implicit_fields_ = true;
+        } else {
+            const int count = floats_of_leaf(code);
+            if (count < 0) throw RequestError{"no operation " + std::to_string(code), {}};
+            if (code == kRepellingPlane) has_string(next());
+            has_floats(count, next());
         }
-        const int first = next();
+        ++leaves_;
+    }
+
+    void has_string(int64_t string) const {
+        if (string < 0 || string >= static_cast<int64_t>(blobby_.strings.size()))
+            throw RequestError{"leaf " + std::to_string(leaves_) + " wants string " + std::to_string(string) +
+                                   " of " + std::to_string(blobby_.strings.size()),
+                               {}};
+    }
+
+    void has_floats(int count, int first) const {
+        if (count <= 0) return;
         if (first < 0 || static_cast<int64_t>(first) + count > static_cast<int64_t>(blobby_.floats.size()))
             throw RequestError{"leaf " + std::to_string(leaves_) + " wants " + std::to_string(count) +
                                    " floats from " + std::to_string(first) + " on, of " +
                                    std::to_string(blobby_.floats.size()),
                                {}};
-        ++leaves_;
     }
 
     void operation(int code) {
@@ -78,6 +95,7 @@ class ProgramCheck {
     const Blobby& blobby_;
     size_t at_ = 0;
     int leaves_ = 0, results_ = 0;
+    bool has_implicit_fields_ = false;
 };
 
 void blobby(Reader& r, ArgumentCursor& c) {
@@ -88,7 +106,10 @@ void blobby(Reader& r, ArgumentCursor& c) {
     // The strings may be left out: then a parameter's name follows, which is no array.
     if (c.next_is_array() && (c.next_is_string() || c.peek()->floats.empty()))
         blobby.strings = c.string_array("the strings");
-    ProgramCheck(blobby).run();
+    ProgramCheck check(blobby);
+    check.run();
+    if (check.has_implicit_fields())
+        r.warn_once("fields of compiled code (1004) are not supported; they are 0", "blobby-implicit-field");
     const auto leaves = static_cast<uint64_t>(blobby.leaf_count);
     Shape shape{std::move(blobby), {}};
     shape.variables = checked_variables(r, read_variables(r, c, PointForm::None), shape.topology);

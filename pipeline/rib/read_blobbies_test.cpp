@@ -36,7 +36,11 @@ TEST(ReadBlobbies, WhatIsWrongIsSaidWithItsPlace) {
         {"1 [1001 0 0 2 0] [" + kUnit + "]", "the code ends within an operation"},
         {"1 [1001 0 0 0] [" + kUnit + "]", "an operation of 0 operands"},
         {"1 [1001 0 8 0] [" + kUnit + "]", "no operation 8"},
-        {"1 [1004 0] [" + kUnit + "]", "no operation 1004"},
+        {"1 [1005 0] [" + kUnit + "]", "no operation 1005"},
+        {"1 [1004 0 0 0 0 0] [" + kUnit + "] []", "leaf 0 wants string 0 of 0"},
+        {"1 [1004 0 2 15 0 0] [" + kUnit + "] [\"a.so\"]", "leaf 0 wants 2 floats from 15 on, of 16"},
+        {"1 [1004 0 0 0 2147483647 1] [" + kUnit + "] [\"a.so\" \"x\"]", "wants string 2147483647 of 2"},
+        {"1 [1004 0 0 0 0] [" + kUnit + "] [\"a.so\"]", "the code ends within an operation"},
         {"1 [1003 0 0] [1 2 3 4] []", "leaf 0 wants string 0 of 0"},
         {"0 [] []", "the code is empty"},
     };
@@ -47,6 +51,14 @@ TEST(ReadBlobbies, WhatIsWrongIsSaidWithItsPlace) {
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: Blobby")) << text;
         EXPECT_EQ(r.count(), 1u) << text;  // the sphere
     }
+}
+
+TEST(ReadBlobbies, FieldsOfCompiledCodeAreNothing) {
+    const Outcome r = read_world("Blobby 2 [1001 0 1004 0 2 14 1 1 0 2 0 1] [" + kUnit +
+                                 "] [\"field.so\" \"its argument\"]");
+    ASSERT_EQ(r.messages.size(), 1u);
+    EXPECT_THAT(r.messages[0], HasSubstr("warning: Blobby: fields of compiled code (1004)"));
+    EXPECT_EQ(std::get<Blobby>(r.primitive().shape().topology).leaf_count, 2);
 }
 
 TEST(ReadBlobbies, Deform) {

@@ -1,0 +1,43 @@
+/// A Blobby's repelling plane, opcode 1003 (RISpec 5.6): a field that pushes the surface away from the ground
+/// that a depth map saw, and lets it bulge just above, as a drop does that lies on a table.
+#pragma once
+
+#include <functional>
+
+#include "core/math.h"
+
+namespace trapeze {
+
+struct FieldValue {
+    float value = 0;
+    V3f gradient{0, 0, 0};
+};
+
+/// Of the height z above the ground [Pixar, PRMan Application Note 31, "Blobby Implicit Surfaces"]:
+///
+///     (bulge * bump(z / peak) - barrier / z) (1 - ease(z / reach)),   and 0 from `reach` on
+///
+/// bump(r) = (r (2 - r))^3 between 0 and 2 and 0 elsewhere, ease(r) = r^2 (3 - 2 r) between 0 and 1. At and
+/// below the ground z counts as 1e-6: nothing is inside there.
+struct Repulsion {
+    float reach = 0;    ///< the first of the request's four floats, A
+    float barrier = 0;  ///< B: how hard the ground pushes
+    float peak = 0;     ///< C: the height where the bulge is greatest
+    float bulge = 0;    ///< D: that greatest value
+
+    float at(float z) const;
+    float slope(float z) const;  ///< by z
+};
+
+/// Of an object-space point; kInfinity where there is no ground.
+using GroundHeight = std::function<float(const V3f& p)>;
+
+struct RepellingGround {
+    Repulsion repulsion;
+    GroundHeight height;
+    float step = 1e-3f;  ///< for the height's gradient
+
+    FieldValue at(const V3f& p) const;
+};
+
+}  // namespace trapeze
