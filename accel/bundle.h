@@ -33,6 +33,10 @@ struct RayBundle {
     };
     std::vector<Layer> layers;  ///< in no order
 
+    /// Rays that will be wanted next, and which of them: fetched on the way. May be empty.
+    const AxisRay* coming_rays = nullptr;
+    std::span<const uint32_t> coming;
+
     /// When set, what each ray costs is added.
     uint32_t *tests = nullptr, *nodes = nullptr;
 };

@@ -47,9 +47,15 @@ class WideRayTraced final : public Visibility {
         nearest.resize(samples.size());
         scratch.hits.clear();
         scratch.hit_sample.clear();
-        for (size_t first = 0; first < all.size(); first += RayBundle::kRays)
-            resolve_bundle(samples, all.subspan(first, std::min(RayBundle::kRays, all.size() - first)),
-                           nearest, scratch, stats);
+        const auto bundle_at = [&](size_t first) {
+            first = std::min(first, all.size());
+            return all.subspan(first, std::min(RayBundle::kRays, all.size() - first));
+        };
+        for (size_t first = 0; first < all.size(); first += RayBundle::kRays) {
+            scratch.bundle->coming_rays = samples.rays.data();
+            scratch.bundle->coming = bundle_at(first + RayBundle::kRays);
+            resolve_bundle(samples, bundle_at(first), nearest, scratch, stats);
+        }
         if (all_opaque_)
             close_gaps(samples.size(), hits);
         else

@@ -86,7 +86,7 @@ def main():
     parser.add_argument("bench")
     parser.add_argument("--simd")
     parser.add_argument("shaders", nargs="*", metavar="BENCHMARK")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     simd = ["--simd", options.simd] if options.simd else []
     print(f"{'':26}{'ns/vertex':>10}" + "".join(f"{name:>12}" for name in NAMES))
     for name in options.shaders or SHADERS:
