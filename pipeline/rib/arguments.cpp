@@ -94,6 +94,11 @@ bool find_request_name(Scanner& scanner, Diagnostics& diagnostics) {
     }
 }
 
+/// Where the last argument begins, or the request.
+uint32_t last_line(const RequestText& request) {
+    return request.arguments.empty() ? request.at.line : request.arguments.back().at.line;
+}
+
 }  // namespace
 
 std::string clipped(std::string_view text) {
@@ -148,6 +153,12 @@ bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, 
                 note_problem(request, token.at, "a ] without its [");
                 break;
             case TokenKind::Bad:
+                // What stands on a line of its own is none of the request's.
+                if (token.text == kStrayCharacters && token.at.line > last_line(request)) {
+                    diagnostics.error(token.at, std::string(token.text) + "; skipped");
+                    scanner.skip();
+                    return true;
+                }
                 note_problem(request, token.at, std::string(token.text));
                 break;
             case TokenKind::Floats: {

@@ -58,6 +58,9 @@ std::vector<std::string> words_of(std::string_view text) {
 std::optional<Declaration> declaration_of(const std::vector<std::string>& words) {
     Declaration declaration;
     size_t i = 0;
+    // "reference color tint": the name of another node's output, of RIS.
+    const bool is_reference = !words.empty() && words[0] == "reference";
+    if (is_reference) ++i;
     if (i < words.size())
         if (const auto storage = storage_named(words[i])) declaration.storage = *storage, ++i;
     if (i >= words.size()) return {};
@@ -74,6 +77,7 @@ std::optional<Declaration> declaration_of(const std::vector<std::string>& words)
         declaration.array_length = length;
     }
     if (i != words.size()) return {};
+    if (is_reference) declaration.type = ValueType::String;
     return declaration;
 }
 

@@ -17,14 +17,16 @@ TEST(Declarations, ClassTypeAndLength) {
     EXPECT_EQ(parse_declaration("integer [ 2.0 ]"),
               (Declaration{StorageClass::Uniform, ValueType::Integer, 2}));
     EXPECT_EQ(parse_declaration("vertex mpoint"), (Declaration{StorageClass::Vertex, ValueType::Matrix, 1}));
+    EXPECT_EQ(parse_declaration("reference color[2]"),
+              (Declaration{StorageClass::Uniform, ValueType::String, 2}));
     EXPECT_EQ(parse_declaration("int"), (Declaration{StorageClass::Uniform, ValueType::Integer, 1}));
     EXPECT_EQ(parse_declaration("matrix")->floats_per_item(), 16);
 }
 
 TEST(Declarations, WhatIsNone) {
-    for (const char* text :
-         {"", "uniform", "colour", "uniform colour", "float[0]", "float[-1]", "float[99999999999]", "float[2",
-          "float[]", "float[2x]", "float[2.5]", "float[2.", "float x y", "varying uniform float"})
+    for (const char* text : {"", "uniform", "reference", "colour", "uniform colour", "float[0]", "float[-1]",
+                             "float[99999999999]", "float[2", "float[]", "float[2x]", "float[2.5]",
+                             "float[2.", "float x y", "varying uniform float"})
         EXPECT_EQ(parse_declaration(text), std::nullopt) << text;
 }
 

@@ -169,7 +169,7 @@ void Scanner::scan() {
             while (next_ < end_ && !is_letter(*next_) && !ends_number(*next_) && !is_digit(*next_) &&
                    !is_high(*next_))
                 ++next_;
-            be_bad("characters that RIB does not have", next_);
+            be_bad(kStrayCharacters, next_);
             return;
         }
         token_.text = {start, static_cast<size_t>(next_ - start)};

@@ -13,6 +13,9 @@ namespace trapeze::rib {
 /// Floats: an encoded array. Definitions of codes are no tokens.
 enum class TokenKind { End, Word, Number, String, Open, Close, Bad, Floats };
 
+/// The text of Bad tokens that are neither words, numbers nor strings.
+inline constexpr char kStrayCharacters[] = "characters that RIB does not have";
+
 struct Token {
     TokenKind kind = TokenKind::End;
     SourceLocation at;
