@@ -79,6 +79,7 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
     if (source.name.empty()) return *entry;
     rsl::CompileOptions options;
     options.include_folders = folders_;
+    options.carried_file = standard_header;
     const auto unit = rsl::compile_front(source, options, diagnostics);
     if (!unit || unit->shaders.empty()) {
         diagnostics.error(asked_at, fmt::format("shader \"{}\" has errors and is not used", name));

@@ -13,6 +13,7 @@
 #include "shade/rsl/generate.h"
 #include "shade/rsl/infer_storage.h"
 #include "shade/rsl/optimise.h"
+#include "shade/shaders/standard_shaders.h"
 
 namespace trapeze {
 namespace {
@@ -80,6 +81,7 @@ int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& 
     }
     rsl::CompileOptions options;
     options.include_folders = a.include_folders;
+    options.carried_file = standard_header;
     for (const std::string& define : a.defines) {
         const size_t equals = define.find('=');
         options.defines.emplace_back(define.substr(0, equals),

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct CompileOptions {
     std::vector<std::pair<std::string, std::string>> defines;      ///< macros: name, replacement
     std::function<std::optional<std::string>(const std::string&)>  ///< a file's text, or nothing
         read_file;                                                 ///< empty: from disk
+    /// The text of a file that is found nowhere, by its name without folders; empty text: none. May be empty.
+    std::function<std::string_view(std::string_view)> carried_file;
 };
 
 /// The tree as written, not analysed. Null when there were errors; all are reported.

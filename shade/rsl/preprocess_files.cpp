@@ -293,6 +293,12 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
         enter(path, path, std::move(*text), at.at);
         return;
     }
+    const std::string bare = fs::path(name).filename().string();
+    if (options_.carried_file)
+        if (const std::string_view text = options_.carried_file(bare); !text.empty()) {
+            enter(bare, bare, std::string(text), at.at);
+            return;
+        }
     messages_.error(at.at, "file " + shown(name) + " is not found" +
                                (options_.include_folders.empty() ? "" : " in any of the folders to search"));
 }

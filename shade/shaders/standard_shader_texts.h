@@ -12,5 +12,6 @@ struct StandardShaderText {
 
 /// Sorted by name.
 std::span<const StandardShaderText> standard_shader_texts();
+std::span<const StandardShaderText> standard_header_texts();
 
 }  // namespace trapeze

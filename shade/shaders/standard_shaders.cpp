@@ -3,11 +3,22 @@
 #include "shade/shaders/standard_shader_texts.h"
 
 namespace trapeze {
+namespace {
+
+std::string_view text_named(std::string_view name, std::span<const StandardShaderText> texts) {
+    for (const StandardShaderText& text : texts)
+        if (text.name == name) return text.text;
+    return {};
+}
+
+}  // namespace
 
 std::string_view standard_shader(std::string_view name) {
-    for (const StandardShaderText& shader : standard_shader_texts())
-        if (shader.name == name) return shader.text;
-    return {};
+    return text_named(name, standard_shader_texts());
+}
+
+std::string_view standard_header(std::string_view name) {
+    return text_named(name, standard_header_texts());
 }
 
 std::vector<std::string_view> standard_shader_names() {
