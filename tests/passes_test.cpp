@@ -166,5 +166,35 @@ FrameEnd
     expect(-1.5f, 0.05f, 1, 1, 0);  // faces the camera: shows -z
 }
 
+/// `-o` names the picture that is left when all maps have been made; passes are found whatever their name.
+TEST(Passes, AreFoundWhenTheOutputIsNamed) {
+    WorkFolder folder;
+    folder.write("a.rib", std::string(kCamera) + R"(
+FrameBegin 1
+Display "glaze.exr" "file" "rgb"
+WorldBegin
+Surface "constant"
+Color 0 1 0
+Polygon "P" [-3 -3 5  3 -3 5  3 3 5  -3 3 5]
+WorldEnd
+FrameEnd
+MakeTexture "glaze.exr" "glaze.tex" "clamp" "clamp" "box" 1 1
+FrameBegin 2
+Display "seen.exr" "file" "rgb"
+WorldBegin
+LightSource "ambientlight" 1
+Surface "paintedplastic" "Ka" 1 "texturename" ["glaze.tex"]
+Polygon "P" [-3 -3 5  3 -3 5  3 3 5  -3 3 5]
+WorldEnd
+FrameEnd
+)");
+    const Outcome outcome = run_program(folder, "render a.rib -o out.exr");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.2.exr"));
+    const Picture seen(folder / "out.exr");
+    EXPECT_NEAR(seen.at(0.5f, 0.5f, 0), 0, 1e-3f);
+    EXPECT_NEAR(seen.at(0.5f, 0.5f, 1), 1, 1e-3f);
+}
+
 }  // namespace
 }  // namespace trapeze::testing

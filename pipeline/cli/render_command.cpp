@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "composite/display_plan.h"
 #include "composite/write_displays.h"
@@ -54,7 +56,8 @@ class RenderJob {
   private:
     void render_world(Scene&& scene);
     void override_options(Options& options) const;
-    void override_displays(Options& options) const;
+    void override_displays(Options& options);
+    void make_map_of_pictures(MapRequest request);
     bool write_stats() const;
     int exit_code() const;
 
@@ -66,6 +69,11 @@ class RenderJob {
     Stopwatch total_;
     std::vector<FrameStats> frames_;
     int worlds_ = 0, pictures_ = 0, written_ = 0;
+    struct Renamed {
+        std::string file;
+        bool is_pass = false;  ///< a map was made of it
+    };
+    std::map<std::string, Renamed> renamed_;  ///< by `-o`: pictures by the names that displays give them
     bool output_failed_ = false;
 };
 
@@ -78,7 +86,7 @@ void RenderJob::override_options(Options& options) const {
     }
 }
 
-void RenderJob::override_displays(Options& options) const {
+void RenderJob::override_displays(Options& options) {
     if (options.displays.empty()) {
         // RISpec's default display is one picture of a fixed name; ours has the scene's.
         const std::string& input = arguments_.inputs.front();
@@ -87,11 +95,26 @@ void RenderJob::override_displays(Options& options) const {
     }
     if (!arguments_.output.empty()) {
         Display& first = options.displays.front();
+        const std::string given = first.name;
         first.name = pictures_ == 1 ? arguments_.output : numbered(arguments_.output, pictures_);
         first.type = "file";
+        std::erase_if(renamed_, [&](const auto& entry) { return entry.second.file == first.name; });
+        renamed_[given] = {first.name};
     }
     if (!arguments_.driver.empty())
         for (Display& display : options.displays) display.type = arguments_.driver;
+}
+
+/// A picture that a map is made of was a pass, whatever `-o` has called it: it is found under that name,
+/// which the next picture takes.
+void RenderJob::make_map_of_pictures(MapRequest request) {
+    for (std::string& picture : request.pictures) {
+        const auto found = renamed_.find(picture);
+        if (found == renamed_.end()) continue;
+        picture = found->second.file;
+        if (!std::exchange(found->second.is_pass, true)) --pictures_;
+    }
+    make_map(request, diagnostics_);
 }
 
 void RenderJob::render_world(Scene&& scene) {
@@ -159,7 +182,7 @@ int RenderJob::run() {
                                [&](const FrameRange& range) { return range.has(frame); });
         };
     options.on_map = [this](const MapRequest& request) {
-        if (!interrupt_.requested()) make_map(request, diagnostics_);
+        if (!interrupt_.requested()) make_map_of_pictures(request);
     };
     on_threads(arguments_.threads, [&] {
         read_rib(arguments_.inputs, options, diagnostics_,
