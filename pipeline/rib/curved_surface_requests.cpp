@@ -90,6 +90,18 @@ void end_with_surface(Reader& r, Quadric& q) {
     }
 }
 
+/// Each turn is drawn over the last one: of a great many, so many as nobody meant, work has no end.
+void end_turning(Reader& r, Quadric& q) {
+    constexpr float kMost = 3600;  // degrees
+    const auto limited = [&](float sweep) {
+        if (std::abs(sweep) > kMost) r.warn_once("turns more than ten times; ten are drawn", "quadric-turns");
+        return std::clamp(sweep, -kMost, kMost);
+    };
+    float& theta = q.values[q.value_count - 1];
+    theta = limited(theta);
+    if (q.kind == Quadric::Kind::Torus) q.values[3] = q.values[2] + limited(q.values[3] - q.values[2]);
+}
+
 template <int kRow>
 void quadric(Reader& r, ArgumentCursor& c) {
     const QuadricRow& row = kQuadrics[kRow];
@@ -108,6 +120,7 @@ void quadric(Reader& r, ArgumentCursor& c) {
     if (q.kind == Quadric::Kind::Sphere && q.values[0] == 0) throw RequestError{"the radius is 0", {}};
     if (q.kind == Quadric::Kind::Paraboloid && q.values[2] == 0) throw RequestError{"zmax is 0", {}};
     end_with_surface(r, q);
+    end_turning(r, q);
     Shape shape{q, {}};
     shape.variables = checked_variables(r, read_variables(r, c, PointForm::None), shape.topology);
     r.add_shape(row.name, std::move(shape), 1);

@@ -184,6 +184,19 @@ TEST(QuadricForms, RangesEndWithTheSurface) {
     }
 }
 
+/// Numbers that only make work are cut down, and said.
+TEST(QuadricForms, TurnsEndSomewhere) {
+    for (const char* text : {"Sphere 1 -1 1 1e30", "Disk 0 1 -1e9", "Torus 1 0.5 0 1e20 360",
+                             "Torus 1 0.5 10 -1e6 -1e6", "Cone 1 1 3601"}) {
+        SCOPED_TRACE(text);
+        const DicedRib diced(std::string("Translate 0 0 20 ") + text);
+        EXPECT_THAT(diced.read.messages, ElementsAre(HasSubstr("more than ten times")));
+        EXPECT_GT(diced.vertex_count(), 100u);
+        EXPECT_LT(diced.vertex_count(), 200'000u);
+        EXPECT_NEAR(diced.parameter_area(), 1, 1e-3);
+    }
+}
+
 /// Sweeps of any number of whole turns close (odd ones: the others are left as often as they are entered).
 TEST(QuadricForms, ClosedOnesHaveNoHoles) {
     const auto in_ball = [](uint32_t n) {
