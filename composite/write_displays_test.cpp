@@ -8,8 +8,6 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include <cmath>
 
 #include "composite/raster_harness.h"
@@ -294,60 +292,6 @@ TEST(WriteDisplays, AGammaOfTheUserIsNotEncodedAgain) {
     OIIO::ImageSpec spec;
     const auto pixels = stored<uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8, &spec);
     EXPECT_EQ(pixels[3 * 32], std::lround(255 * 0.5));
-}
-
-TEST(WriteDisplays, DitherKeepsTheMean) {
-    const TemporaryFolder folder;
-    RasterScene scene(64, 64, 1);
-    scene.scene.options.exposure_gamma = 2.2f;  // no curve between value and level
-    Display display{folder.file("a.tif"), "tiff", "rgb", {}, {}};
-    quantize(display, 255, 255, 0.5f);
-    scene.scene.options.displays = {display};
-    Image image = numbered_image(scene);
-    for (float& value : image.rgba) value = 100.25f / 255;
-    ASSERT_TRUE(write(image, scene).good);
-    OIIO::ImageSpec spec;
-    const auto pixels = stored<uint8_t>(folder.file("a.tif"), OIIO::TypeDesc::UINT8, &spec);
-    double sum = 0;
-    for (const uint8_t value : pixels) {
-        EXPECT_TRUE(value == 100 || value == 101) << int{value};
-        sum += value;
-    }
-    EXPECT_NEAR(sum / static_cast<double>(pixels.size()), 100.25,
-                0.02);  // 5 deviations of the mean of 12288 levels
-}
-
-/// Levels lie evenly within the amplitude on both sides, and 0 and 1 where the display puts them.
-TEST(WriteDisplays, DitherHasItsAmplitudeAndZeroItsPlace) {
-    const TemporaryFolder folder;
-    RasterScene scene(64, 64, 1);
-    scene.scene.options.exposure_gamma = 2.2f;
-    Image image = numbered_image(scene);
-    for (float& value : image.rgba) value = 0.5f;
-    const auto levels = [&](float zero, float one, float min, float max, float dither) {
-        Display display{folder.file("a.tif"), "tiff", "rgb", {}, {}};
-        display.parameters.set(
-            {"quantize", {StorageClass::Uniform, ValueType::Float, 4}, {zero, one, min, max}, {}});
-        display.parameters.set({"dither", {StorageClass::Uniform, ValueType::Float, 1}, {dither}, {}});
-        scene.scene.options.displays = {display};
-        EXPECT_TRUE(write(image, scene).good);
-        OIIO::ImageSpec spec;
-        std::map<int, double> share;
-        const auto pixels = stored<uint8_t>(folder.file("a.tif"), OIIO::TypeDesc::UINT8, &spec);
-        for (const uint8_t value : pixels) share[value] += 1 / static_cast<double>(pixels.size());
-        return share;
-    };
-    const auto none = levels(0, 200, 0, 255, 0);
-    ASSERT_EQ(none.size(), 1u);
-    EXPECT_EQ(none.begin()->first, 100);
-    const auto wide = levels(0, 200, 0, 255, 2);  // levels from 98 to 102: halves at the ends
-    ASSERT_EQ(wide.size(), 5u);
-    for (const auto& [level, share] : wide)
-        EXPECT_NEAR(share, level == 98 || level == 102 ? 0.125 : 0.25, 0.02) << level;
-    EXPECT_EQ(levels(40, 60, 0, 255, 0).begin()->first, 50);
-    EXPECT_EQ(levels(255, 0, 0, 255, 0).begin()->first, 128);  // turned round
-    EXPECT_EQ(levels(0, 255, 200, 255, 0).begin()->first, 200);
-    EXPECT_EQ(levels(0, 255, 0, 99, 0).begin()->first, 99);
 }
 
 TEST(WriteDisplays, ManyFormatsAreReadable) {
