@@ -214,8 +214,11 @@ void Film::accumulate_taps(const SampleTile& samples, const HitBuffer& hits, con
     std::vector<float> weights(kernel_.tap_count());
     const bool midpoint = depth_filter_ == DepthFilter::Midpoint;
     const bool colored = !sums.rgba.empty(), ids = !image_.id.empty();
+    const auto row = static_cast<size_t>(samples.pixels.width()) * samples.samples_per_pixel;
+    HitLayers layers;
     size_t sample = 0;
-    for (int py = samples.pixels.y0; py < samples.pixels.y1; ++py)
+    for (int py = samples.pixels.y0; py < samples.pixels.y1; ++py) {
+        if (colored) layers.interpolate(samples, hits, sample, std::min(sample + row, samples.size()), grids);
         for (int px = samples.pixels.x0; px < samples.pixels.x1; ++px) {
             const size_t end =
                 std::min(samples.size(), sample + static_cast<size_t>(samples.samples_per_pixel));
@@ -229,13 +232,14 @@ void Film::accumulate_taps(const SampleTile& samples, const HitBuffer& hits, con
                     if (ids) primitive.add(x, y, kNoPrimitive);
                     continue;
                 }
-                const SampleColor color = resolve_layers(samples.rays[sample], seen, grids, midpoint);
+                const SampleColor color = resolve_layers(seen, layers, hits.first[sample], grids, midpoint);
                 add_sample<kTaps>(x, y, px, py, color.rgba, weights.data(), sums);
                 depth.add(color.depth);
                 if (ids) primitive.add(x, y, color.primitive);
             }
             if (colored) record_pixel(px, py, depth.value(), primitive.value());
         }
+    }
 }
 
 template <int kTaps>

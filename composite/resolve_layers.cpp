@@ -5,32 +5,14 @@
 namespace trapeze {
 namespace {
 
-struct Layer {
-    V3f color, opacity;
-};
-
-/// Reyes shading interpolation (RISpec, ShadingInterpolation): a constant micropolygon has its vertex 00's
-/// colour; a smooth one interpolates on the triangle that the predicate found.
-Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id) {
-    if (!grid.smooth) return {grid.color(id.u, id.v), grid.opacity(id.u, id.v)};
-    const QuadWeights weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
-    Layer layer{V3f(0), V3f(0)};
-    for (int corner = 0; corner < 4; ++corner) {
-        const int i = id.u + (corner & 1), j = id.v + (corner >> 1);
-        layer.color += weights.w[corner] * grid.color(i, j);
-        if (!grid.opaque) layer.opacity += weights.w[corner] * grid.opacity(i, j);
-    }
-    if (grid.opaque) layer.opacity = V3f(1);  // weights sum to 1 only within rounding
-    return layer;
-}
-
 /// What the loop below makes of a first hit that hides everything, to the bit.
-bool resolve_opaque(const AxisRay& ray, const Hit& hit, const Grids& grids, SampleColor& sample) {
+template <class LayerOf>
+bool resolve_opaque(const Hit& hit, const Grids& grids, const LayerOf& layer_of, SampleColor& sample) {
     const MicropolygonId id = MicropolygonId::unpack(hit.id);
     if (id.grid >= grids.grids.size()) return false;
     const Grid& grid = grids.grids[id.grid];
     if (!grid.opaque || grid.matte) return false;
-    const V3f color = grid.smooth ? layer_at(ray, grid, id).color : grid.color(id.u, id.v);
+    const V3f color = layer_of(0, grid, id).color;
     sample.rgba[0] = color.x, sample.rgba[1] = color.y, sample.rgba[2] = color.z, sample.rgba[3] = 1;
     sample.depth = hit.depth;
     sample.primitive = grid.primitive;
@@ -60,18 +42,19 @@ void add_aovs(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, co
         }
 }
 
-}  // namespace
-
-SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, bool midpoint) {
+/// `layer_of(i, grid, id)`: hit i's layer.
+template <class LayerOf>
+SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of) {
     SampleColor sample;
     int layers = 0;
-    if (!hits.empty() && !midpoint && resolve_opaque(ray, hits.front(), grids, sample)) return sample;
+    if (!hits.empty() && !midpoint && resolve_opaque(hits.front(), grids, layer_of, sample)) return sample;
     V3f transmission(1), color(0), alpha(0);
-    for (const Hit& hit : hits) {
+    for (size_t i = 0; i < hits.size(); ++i) {
+        const Hit& hit = hits[i];
         const MicropolygonId id = MicropolygonId::unpack(hit.id);
         if (id.grid >= grids.grids.size()) continue;
         const Grid& grid = grids.grids[id.grid];
-        const Layer layer = layer_at(ray, grid, id);
+        const Layer layer = layer_of(i, grid, id);
         for (int c = 0; c < 3; ++c) {
             const float opacity = std::clamp(layer.opacity[c], 0.0f, 1.0f);
             if (!grid.matte) color[c] += transmission[c] * layer.color[c];
@@ -90,6 +73,21 @@ SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const 
     const bool gray = alpha.x == alpha.y && alpha.y == alpha.z;
     sample.rgba[3] = gray ? alpha.x : (alpha.x + alpha.y + alpha.z) / 3;
     return sample;
+}
+
+}  // namespace
+
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, bool midpoint) {
+    return resolve(hits, grids, midpoint, [&ray](size_t, const Grid& grid, const MicropolygonId& id) {
+        return layer_at(ray, grid, id);
+    });
+}
+
+SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
+                           const Grids& grids, bool midpoint) {
+    return resolve(hits, grids, midpoint, [&layers, first_hit](size_t i, const Grid&, const MicropolygonId&) {
+        return layers[first_hit + i];
+    });
 }
 
 void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "composite/hit_layers.h"
 #include "core/aov.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
@@ -27,6 +28,10 @@ struct SampleColor {
 /// first opaque one.
 SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids,
                            bool midpoint = false);
+
+/// The same of hits whose layers are known: hits[0] is number `first_hit` of its buffer.
+SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
+                           const Grids& grids, bool midpoint = false);
 
 /// The same for output variables, as aov.h says: `values` gets layout.channel_count numbers. Grids that carry
 /// other channels than the layout's count as having 0 everywhere.

@@ -103,26 +103,48 @@ HWY_INLINE hn::Mask<D> inside(D d, const QuadLanes<V>& q) {
                                           p::crossing(q.a01, q.b01, abs01, q.a00, q.b00, abs00))));
 }
 
+/// Edge functions of a quad's sides, and what they weigh its corners by on the triangle that holds the ray:
+/// weights() of the scalar form.
+template <class V>
+struct SideLanes {
+    V c_bottom, c_right, c_top, c_left;
+};
+template <class V>
+struct WeightLanes {
+    V w00, w10, w01, w11;
+};
+template <class V>
+HWY_INLINE SideLanes<V> side_lanes(const QuadLanes<V>& q) {
+    namespace p = predicate_lanes;
+    return {p::edge(q.a00, q.b00, q.a10, q.b10), p::edge(q.a10, q.b10, q.a11, q.b11),
+            p::edge(q.a11, q.b11, q.a01, q.b01), p::edge(q.a01, q.b01, q.a00, q.b00)};
+}
+template <class D, class V>
+HWY_INLINE WeightLanes<V> weight_lanes(D d, const QuadLanes<V>& q, const SideLanes<V>& c) {
+    namespace p = predicate_lanes;
+    using M = hn::Mask<D>;
+    const V zero = hn::Zero(d);
+    const V c_diagonal = p::edge(q.a00, q.b00, q.a11, q.b11);
+    const M bottom_below = hn::Lt(c.c_bottom, zero);
+    const M lower = hn::And(p::alike(bottom_below, hn::Lt(c.c_right, zero)),
+                            hn::Xor(bottom_below, hn::Lt(c_diagonal, zero)));
+    return {hn::IfThenElse(lower, c.c_right, c.c_top), hn::IfThenElse(lower, hn::Neg(c_diagonal), zero),
+            hn::IfThenElse(lower, zero, c_diagonal), hn::IfThenElse(lower, c.c_bottom, c.c_left)};
+}
+
 /// Depths of rays that pass inside; false where the quad faces the wrong way.
 template <class D, class V>
 HWY_INLINE hn::Mask<D> depth_inside(D d, const QuadLanes<V>& q, Facing facing, V& depth) {
     namespace p = predicate_lanes;
     using M = hn::Mask<D>;
     const V zero = hn::Zero(d);
-    const V c_bottom = p::edge(q.a00, q.b00, q.a10, q.b10), c_right = p::edge(q.a10, q.b10, q.a11, q.b11);
-    const V c_top = p::edge(q.a11, q.b11, q.a01, q.b01), c_left = p::edge(q.a01, q.b01, q.a00, q.b00);
+    const SideLanes<V> c = side_lanes(q);
     M hit = hn::Not(hn::FirstN(d, 0));
     if (facing != Facing::Both) {
-        const V twice_area = hn::Add(hn::Add(c_bottom, c_right), hn::Add(c_top, c_left));
+        const V twice_area = hn::Add(hn::Add(c.c_bottom, c.c_right), hn::Add(c.c_top, c.c_left));
         hit = facing == Facing::PositiveOnly ? hn::Ge(twice_area, zero) : hn::Lt(twice_area, zero);
     }
-    const V c_diagonal = p::edge(q.a00, q.b00, q.a11, q.b11);
-    const M bottom_below = hn::Lt(c_bottom, zero);
-    const M lower = hn::And(p::alike(bottom_below, hn::Lt(c_right, zero)),
-                            hn::Xor(bottom_below, hn::Lt(c_diagonal, zero)));
-    const V w00 = hn::IfThenElse(lower, c_right, c_top),
-            w10 = hn::IfThenElse(lower, hn::Neg(c_diagonal), zero);
-    const V w01 = hn::IfThenElse(lower, zero, c_diagonal), w11 = hn::IfThenElse(lower, c_bottom, c_left);
+    const auto [w00, w10, w01, w11] = weight_lanes(d, q, c);
     const V sum = hn::Add(hn::Add(w00, w10), hn::Add(w01, w11));
     const V weighted = hn::Add(hn::Add(hn::Mul(w00, q.z00), hn::Mul(w10, q.z10)),
                                hn::Add(hn::Mul(w01, q.z01), hn::Mul(w11, q.z11)));
@@ -141,6 +163,24 @@ HWY_INLINE hn::Mask<D> hit_micropolygon(D d, V ox, V oy, V oz, V ux, V uy, const
     const hn::Mask<D> hit = inside(d, q);
     if (hn::AllFalse(d, hit)) return hit;
     return hn::And(hit, depth_inside(d, q, facing, depth));
+}
+
+/// hit_weights() in lanes.
+template <class D, class V>
+HWY_INLINE WeightLanes<V> hit_weights(D d, const QuadLanes<V>& q) {
+    const WeightLanes<V> w = weight_lanes(d, q, side_lanes(q));
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const V sum = hn::Add(hn::Add(w.w00, w.w10), hn::Add(w.w01, w.w11));
+    const auto share = [&](V weight) HWY_ATTR {
+        const V normalised = hn::Div(weight, sum);
+        return hn::IfThenElseZero(hn::Gt(normalised, zero),
+                                  predicate_lanes::min_of(normalised, one));  // also takes NaN to 0
+    };
+    const V s00 = share(w.w00), s10 = share(w.w10), s01 = share(w.w01), s11 = share(w.w11);
+    const V total = hn::Add(hn::Add(hn::Add(s00, s10), s01), s11);
+    const auto some = hn::Gt(total, zero);
+    return {hn::IfThenElse(some, hn::Div(s00, total), one), hn::IfThenElseZero(some, hn::Div(s10, total)),
+            hn::IfThenElseZero(some, hn::Div(s01, total)), hn::IfThenElseZero(some, hn::Div(s11, total))};
 }
 
 /// Lanes of position_at().
