@@ -29,11 +29,12 @@ bool is_variable_name(std::string_view name) {
 
 /// Of one that has one or three numbers.
 std::optional<DisplayVariable> variable_of(const std::string& name, const Declaration& declaration) {
-    constexpr ValueType kTypes[] = {ValueType::Float, ValueType::Color, ValueType::Point, ValueType::Vector,
-                                    ValueType::Normal};
+    constexpr ValueType kTypes[] = {ValueType::Float, ValueType::Integer, ValueType::Color,
+                                    ValueType::Point, ValueType::Vector,  ValueType::Normal};
     const bool fits = std::find(std::begin(kTypes), std::end(kTypes), declaration.type) != std::end(kTypes);
     if (!fits || declaration.array_length != 1 || !is_variable_name(name)) return {};
-    return DisplayVariable{name, declaration.type};
+    const bool is_integer = declaration.type == ValueType::Integer;  // a float of shaders
+    return DisplayVariable{name, is_integer ? ValueType::Float : declaration.type};
 }
 
 /// Colour, alpha, depth, or ids: what no variable can hide.

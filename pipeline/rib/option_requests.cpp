@@ -102,6 +102,10 @@ void depth_of_field(Reader& r, ArgumentCursor& c) {
     }
     const auto v = c.numbers(3, "the lens");
     const float f_stop = v[0], length = v[1], distance = v[2];
+    if (f_stop >= kInfinity || length == 0) {  // a pinhole; the rest may be anything
+        o.f_stop = kInfinity;
+        return;
+    }
     require(f_stop > 0 && length >= 0 && distance > 0, "needs a positive f-stop and focal distance");
     o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
 }

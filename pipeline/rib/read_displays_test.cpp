@@ -71,6 +71,13 @@ TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
     EXPECT_FALSE(displays[1].variable) << "a frame's channels end with it";
 }
 
+TEST(ReadDisplays, ChannelsOfIntegersAreFloats) {
+    const Outcome r =
+        read_text("DisplayChannel \"int layer\" Display \"a.exr\" \"openexr\" \"layer\" WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    expect_variable(r.scene().options.displays[0].variable, "layer", ValueType::Float);
+}
+
 TEST(ReadDisplays, WrongChannelsAreErrors) {
     const Outcome r = read_text("DisplayChannel \"string foo\"\nDisplayChannel \"rgb\"\nWorldBegin WorldEnd");
     EXPECT_THAT(r.messages,

@@ -44,6 +44,16 @@ TEST(ReadForms, BracketsAreOptionalRoundFixedNumbersOfValues) {
     }
 }
 
+TEST(ReadForms, PinholesAreWrittenInManyWays) {
+    for (const char* lens : {"", "\"-\"", "1e38 0 0", "1e+38 1 1", "22 0 0"}) {
+        const Outcome r =
+            read_text("DepthOfField 2 1 5 DepthOfField " + std::string(lens) + " WorldBegin WorldEnd");
+        EXPECT_THAT(r.messages, IsEmpty()) << lens;
+        EXPECT_EQ(r.scene().options.f_stop, kInfinity) << lens;
+    }
+    EXPECT_EQ(read_text("DepthOfField 0 1 5 WorldBegin WorldEnd").messages.size(), 1u);
+}
+
 TEST(ReadForms, FiltersThatNobodyKnowsBecomeGaussian) {
     const Outcome outcome = read_text("PixelFilter \"wobbly\" 3 3\nWorldBegin WorldEnd\n");
     EXPECT_EQ(outcome.scene().options.filter.name, "gaussian");
