@@ -14,7 +14,17 @@ Attributes& change(Reader& r) {
 }
 
 V3f color_of(Reader& r, ArgumentCursor& c, const char* what) {
-    const auto v = r.rgb(c.numbers(r.samples_per_color(), what));
+    const size_t samples = r.samples_per_color();
+    std::vector<float> given = c.next_is_array() ? c.number_array(what) : c.numbers(1, samples, what);
+    if (given.size() != samples && given.size() != 1 && given.size() != samples + 1)
+        throw RequestError{std::string(what) + " has " + std::to_string(given.size()) + " numbers, needs " +
+                               std::to_string(samples),
+                           {}};
+    if (given.size() < samples)
+        r.warn_once("one number for " + std::string(what) + "; all of it is taken to be that", "grey-color");
+    if (given.size() > samples) r.warn_once("a number too many for " + std::string(what), "long-color");
+    given.resize(samples, given[0]);
+    const auto v = r.rgb(given);
     return {v[0], v[1], v[2]};
 }
 

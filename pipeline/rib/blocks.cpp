@@ -112,6 +112,7 @@ void Reader::begin_world() {
     open_scope();
     camera_ = state_.transform;
     in_world_ = true;
+    report_homeless();
     scene_ = Scene();
     solids_ = {};
     instanced_primitives_ = 0;

@@ -84,10 +84,10 @@ void Reader::begin_object(const std::string& handle) {
 
 void Reader::instance(const std::string& handle) {
     if (motion_) throw RequestError{"inside a motion block", {}};
+    if (!takes_geometry()) return;
     const auto found = scope_.objects.find(handle);
     if (found == scope_.objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
     if (found->second == object_) throw RequestError{"an object in its own definition", {}};
-    if (!in_world_ && !object_) throw RequestError{"outside of a world", {}};
     RetainedObject& object = *found->second;
     instanced_primitives_ += object.primitives.size();
     if (instanced_primitives_ > read_options_.most_instanced_primitives) {

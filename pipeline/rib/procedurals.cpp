@@ -32,19 +32,19 @@ void Reader::read_in_block(Read&& read) {
     if (blocks_.size() >= depth && blocks_[depth - 1].id == id) close_block();
 }
 
-void Reader::check_procedural() const {
+bool Reader::takes_procedural() {
     if (motion_) throw RequestError{"inside a motion block", {}};
-    if (!in_world_ && !object_) throw RequestError{"geometry outside of a world", {}};
+    return takes_geometry();
 }
 
 void Reader::delayed_archive(const std::string& name) {
-    check_procedural();
+    if (!takes_procedural()) return;
     read_in_block([&] { read_archive(name); });
 }
 
 void Reader::run_program(const std::string& command, const std::string& data,
                          const std::vector<float>& bound) {
-    check_procedural();
+    if (!takes_procedural()) return;
     if (!read_options_.allow_programs) {
         ++summary_.unsupported[request_name_];
         warn_once("programs are run only where that is allowed (--allow-programs); skipped",

@@ -9,6 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 std::string zipped(const std::string& text) {
     const Folder folder;
@@ -70,9 +71,27 @@ TEST(ReadArchives, InlineOnesHaveTheirPlacesInTheFile) {
     EXPECT_EQ(r.count(), 2u);
     EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
     EXPECT_THAT(r.messages, ElementsAre("a.rib:3:1: error: Sphere: has 1 numbers, needs 4; primitive skipped"
-                                        "\n    included from a.rib:6:13",
-                                        "a.rib:3:1: error: Sphere: has 1 numbers, needs 4; primitive skipped"
-                                        "\n    included from a.rib:7:1"));
+                                        "\n    included from a.rib:6:13"));
+}
+
+TEST(ReadArchives, ArchivesAreReadWithoutAWorld) {
+    const Outcome r = read_text(
+        "# a part\nAttributeBegin\nSphere 1 -1 1 360\nSphere 1\nSolidBegin \"primitive\"\n"
+        "MotionBegin [0 1]\nSphere 1 -1 1 360\nSphere 2 -1 1 360\nMotionEnd\nSolidEnd\n"
+        "ObjectInstance 7\nProcedural \"DelayedReadArchive\" [\"b.rib\"] [-1 1 -1 1 -1 1]\nAttributeEnd\n");
+    EXPECT_THAT(r.messages,
+                ElementsAre(StartsWith("a.rib:4:1: error: Sphere: has 1 numbers"),
+                            StartsWith("a.rib:3:1: note: 5 primitives outside of a world, in an input")));
+    EXPECT_TRUE(r.worlds.empty());
+}
+
+TEST(ReadArchives, GeometryBeforeAWorldIsAnError) {
+    const Outcome r = read_text("Sphere 1 -1 1 360\nSphere 1 -1 1 360\nWorldBegin\n" + kSphere +
+                                "WorldEnd\nSphere 1 -1 1 360");
+    EXPECT_THAT(r.messages,
+                ElementsAre("a.rib:1:1: error: Sphere: geometry outside of a world; 2 primitives skipped",
+                            "a.rib:5:1: error: Sphere: geometry outside of a world; primitive skipped"));
+    EXPECT_EQ(r.count(), 1u);
 }
 
 TEST(ReadArchives, InlineOnesNestAndMayBeRedefinedWhileRead) {

@@ -163,5 +163,11 @@ TEST(ReadForms, MotionsThatMultiplyGetKeysWhereTheyBend) {
         SizeIs(2));
 }
 
+TEST(ReadForms, TextsOfDosEndWithTheirSign) {
+    const Outcome outcome = read_text("WorldBegin\r\n" + kSphere + "\r\nWorldEnd\r\n\x1A");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    EXPECT_EQ(outcome.count(), 1u);
+}
+
 }  // namespace
 }  // namespace trapeze::rib::test

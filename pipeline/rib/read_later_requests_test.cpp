@@ -128,10 +128,27 @@ TEST(ColorSamples, OneIsEnoughAndWrongOnesAreSaid) {
                   .attributes()
                   .color,
               V3f(0.25f, 0.5f, 1));
-    EXPECT_THAT(
-        read_text("ColorSamples [] []\nColorSamples [1 1 1 1] [1 1 1 1]\nColorSamples [1 1 1] [1]").messages,
-        ElementsAre(HasSubstr("needs two matrices"), HasSubstr("needs two matrices"),
-                    HasSubstr("needs two matrices")));
+    for (const char* text :
+         {"ColorSamples [] []", "ColorSamples [1 1 1 1] [1 1 1 1]", "ColorSamples [1 1 1] [1]"})
+        EXPECT_THAT(read_text(text).messages, ElementsAre(HasSubstr("needs two matrices"))) << text;
+}
+
+TEST(Colors, OneNumberIsGreyAndAFourthIsLeftOut) {
+    const Outcome outcome =
+        read_world("Color .5 Opacity [0.25] " + kSphere + "\nColor [1 0 0 1] Opacity 1 1 1 " + kSphere);
+    EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("2:1: warning: Color: one number for the colour"),
+                                              HasSubstr("3:1: warning: Color: a number too many")));
+    EXPECT_EQ(outcome.attributes(0).color, V3f(0.5f));
+    EXPECT_EQ(outcome.attributes(0).opacity, V3f(0.25f));
+    EXPECT_EQ(outcome.attributes(1).color, V3f(1, 0, 0));
+    EXPECT_EQ(outcome.attributes(1).opacity, V3f(1));
+}
+
+TEST(ErrorMessages, ThoseThatDifferInNumbersAreShownOnce) {
+    const Outcome outcome = read_world("Sphere 1\nSphere 1 2\nDisk 1\nColor [1 2]");
+    EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("2:1: error: Sphere: has 1 numbers, needs 4"),
+                                              HasSubstr("error: Disk: has 1 numbers, needs 3"),
+                                              HasSubstr("error: Color: the colour has 2")));
 }
 
 TEST(ErrorHandlers, DecideWhatErrorsAre) {
@@ -145,8 +162,8 @@ TEST(ErrorHandlers, DecideWhatErrorsAre) {
     const Outcome aborted = read_text(wrong + "ErrorHandler \"abort\" WorldBegin " + kSphere + "WorldEnd " +
                                       wrong + "WorldBegin " + kSphere + "WorldEnd IfBegin \"1\"");
     EXPECT_EQ(aborted.worlds.size(), 1u);
-    ASSERT_EQ(aborted.messages.size(), 3u);
-    EXPECT_THAT(aborted.messages[2], HasSubstr("reading ends at the first error"));
+    ASSERT_EQ(aborted.messages.size(), 2u);
+    EXPECT_THAT(aborted.messages[1], HasSubstr("reading ends at the first error"));
     EXPECT_THAT(read_text("ErrorHandler \"shout\" WorldBegin WorldEnd").messages,
                 ElementsAre(HasSubstr("\"shout\" is not known")));
 }

@@ -92,10 +92,10 @@ TEST(ReadSolids, WrongOnesAreReported) {
         "SolidBegin \"union\"\nWorldBegin\nSolidBegin \"xor\"\n"
         "SolidBegin \"primitive\"\nSolidBegin \"union\"\nSolidEnd\nSolidEnd\nWorldEnd\n");
     ASSERT_EQ(r.messages.size(), 4u);
-    EXPECT_THAT(r.messages[0], HasSubstr("a.rib:1"));
-    EXPECT_THAT(r.messages[1], HasSubstr("\"xor\" is none of"));
-    EXPECT_THAT(r.messages[2], HasSubstr("inside a primitive solid"));
-    EXPECT_THAT(r.messages[3], HasSubstr("no SolidBegin is open"));
+    EXPECT_THAT(r.messages[0], HasSubstr("\"xor\" is none of"));
+    EXPECT_THAT(r.messages[1], HasSubstr("inside a primitive solid"));
+    EXPECT_THAT(r.messages[2], HasSubstr("no SolidBegin is open"));
+    EXPECT_THAT(r.messages[3], HasSubstr("a.rib:1"));
 }
 
 }  // namespace

@@ -15,6 +15,17 @@ std::shared_ptr<const AttributeState> default_attributes() {
     return state;
 }
 
+/// A message without its numbers: files that are wrong in one place are wrong alike in many.
+std::string kind_of(Severity severity, const std::string& text) {
+    std::string kind = severity == Severity::Error ? "error-" : "warning-";
+    for (const char c : text)
+        if (c < '0' || c > '9')
+            kind += c;
+        else if (!kind.ends_with('#'))
+            kind += '#';
+    return kind;
+}
+
 }  // namespace
 
 Reader::Reader(const ReadOptions& options, Diagnostics& diagnostics,
@@ -25,7 +36,8 @@ Reader::Reader(const ReadOptions& options, Diagnostics& diagnostics,
 
 void Reader::error(SourceLocation at, const std::string& text) {
     const Severity severity = on_error_ == OnError::Ignore ? Severity::Warning : Severity::Error;
-    diagnostics_.report(severity, at.line ? at : at_, request_name_ + ": " + text, {});
+    const std::string whole = request_name_ + ": " + text;
+    diagnostics_.report(severity, at.line ? at : at_, whole, kind_of(severity, whole));
 }
 
 void Reader::warn_once(const std::string& text, const std::string& kind) {
@@ -166,6 +178,7 @@ void Reader::finish() {
         error("never closed; closed at the end of the input");
         close_block();
     }
+    report_homeless();
 }
 
 }  // namespace trapeze::rib

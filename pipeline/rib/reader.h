@@ -174,13 +174,15 @@ class Reader {
     void close_solid();
 
     /// `solid` is the scene's that the primitive bounds, or -1.
+    bool takes_geometry();
+    void report_homeless();
     void emit(const std::string& request, const std::vector<ShapePointer>& keys,
               const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
               SourceLocation at, int solid);
     std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
                                                           const std::vector<M44f>& camera_from_object);
     float raster_area(const std::vector<float>& bound) const;
-    void check_procedural() const;
+    bool takes_procedural();
     template <class Read>
     void read_in_block(Read&& read);
     const MovingTransform* named_space(const std::string& name) const;
@@ -204,8 +206,14 @@ class Reader {
     MovingTransform camera_;  ///< camera_from_world
     bool in_world_ = false, frame_wanted_ = true;
     Scene scene_;
-    SolidList solids_;                        ///< the scene's
-    uint64_t instanced_primitives_ = 0;       ///< of this world
+    SolidList solids_;                   ///< the scene's
+    uint64_t instanced_primitives_ = 0;  ///< of this world
+    /// Primitives before the first world.
+    struct {
+        uint64_t count = 0;
+        SourceLocation first;
+        std::string request;
+    } homeless_;
     std::shared_ptr<RetainedObject> object_;  ///< being defined
 
     /// The last primitive's, for the next ones that look alike.

@@ -111,8 +111,33 @@ void Reader::emit(const std::string& request, const std::vector<ShapePointer>& s
     scene_.primitives.push_back(std::move(primitive));
 }
 
+/// Whether a scene or an object is open to take it. What stands before all worlds may be an archive, which is
+/// said at the end of the input.
+bool Reader::takes_geometry() {
+    if (in_world_ || object_) return true;
+    if (summary_.worlds > 0) throw RequestError{"geometry outside of a world", {}};
+    if (homeless_.count++ == 0) homeless_.first = at_, homeless_.request = request_name_;
+    return false;
+}
+
+/// Says what of takes_geometry() found no world, now that the first one begins, or none came.
+void Reader::report_homeless() {
+    if (homeless_.count == 0) return;
+    const std::string count =
+        homeless_.count == 1 ? "1 primitive" : std::to_string(homeless_.count) + " primitives";
+    if (in_world_) {
+        std::swap(request_name_, homeless_.request);
+        error(homeless_.first, "geometry outside of a world; " + count + " skipped");
+        std::swap(request_name_, homeless_.request);
+    } else
+        diagnostics_.note(
+            homeless_.first,
+            count + " outside of a world, in an input that has none: an archive for other files to read");
+    homeless_.count = 0;
+}
+
 void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
-    if (!in_world_ && !object_) throw RequestError{"geometry outside of a world", {}};
+    if (!takes_geometry()) return;
     if (motion_) {
         if (motion_->request.empty()) motion_->request = request;
         if (motion_->request != request)

@@ -117,7 +117,8 @@ void Scanner::skip_space() {
         } else if (c == '\r') {
             ++next_;
             if (next_ >= end_ || *next_ != '\n') new_line();  // lines of the old Macintosh
-        } else if (c == ' ' || c == '\t' || c == ',' || c == '\f' || c == '\v') {
+        } else if (c == ' ' || c == '\t' || c == ',' || c == '\f' || c == '\v' ||
+                   c == '\x1A') {  // DOS' end of a text
             ++next_;
         } else if (c == '#') {
             while (next_ < end_ && *next_ != '\n' && *next_ != '\r') ++next_;

@@ -38,7 +38,6 @@ int SolidList::add(Solid::Operation operation, int parent) {
 }
 
 void Reader::begin_solid(Solid::Operation operation) {
-    if (!in_world_ && !object_) throw RequestError{"a solid outside of a world", {}};
     SolidList& list = solids_here();
     if (list.open >= 0 &&
         list.solids[static_cast<size_t>(list.open)].operation == Solid::Operation::Primitive)
