@@ -15,11 +15,12 @@ Attributes& change(Reader& r) {
 
 V3f color_of(Reader& r, ArgumentCursor& c, const char* what) {
     const size_t samples = r.samples_per_color();
+    const SourceLocation at = c.done() ? SourceLocation{} : c.peek()->at;
     std::vector<float> given = c.next_is_array() ? c.number_array(what) : c.numbers(1, samples, what);
     if (given.size() != samples && given.size() != 1 && given.size() != samples + 1)
         throw RequestError{std::string(what) + " has " + std::to_string(given.size()) + " numbers, needs " +
                                std::to_string(samples),
-                           {}};
+                           at};
     if (given.size() < samples)
         r.warn_once("one number for " + std::string(what) + "; all of it is taken to be that", "grey-color");
     if (given.size() > samples) r.warn_once("a number too many for " + std::string(what), "long-color");
