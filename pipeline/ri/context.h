@@ -45,6 +45,7 @@ class Context {
     rib::Declarations declarations;
     CountingState counting;
     Spaces spaces;
+    std::vector<std::string> archive_folders;  ///< Option "searchpath" "archive"
     uintptr_t lights = 0, objects = 0;  ///< so many handles have been given
     bool may_run_programs = false;      ///< the program itself asked for RiProcRunProgram
 

@@ -4,6 +4,7 @@
 #include "pipeline/ri/call.h"
 #include "pipeline/ri/names.h"
 #include "pipeline/ri/parameters.h"
+#include "pipeline/rib/search_path.h"
 
 namespace trapeze::ri {
 namespace {
@@ -33,6 +34,15 @@ void set_next_format(const RiArguments& arguments) {
         else
             throw CallError{RIE_BADTOKEN, "\"rib\" has no \"" + name + "\" that is \"" + text + "\""};
     }
+}
+
+/// Where RiReadArchive looks for comments; the RIB's reader looks there again.
+void keep_archive_folders(Context& context, const std::vector<RiParameter>& parameters) {
+    for (const RiParameter& parameter : parameters)
+        if (parameter.type == ValueType::String && parameter.count > 0 &&
+            parameter.token.ends_with("archive"))
+            context.archive_folders = rib::expand_search_path(*static_cast<const RtString*>(parameter.values),
+                                                              context.archive_folders, {});
 }
 
 /// The perspective's angle, wherever it stands.
@@ -221,5 +231,6 @@ RtVoid RiOptionV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
         context.writer().request("Option");
         context.writer().string(category);
         write_parameters(context.writer(), parameters);
+        if (category == "searchpath") keep_archive_folders(context, parameters);
     });
 }

@@ -1,9 +1,11 @@
 /// Solids, objects and motion blocks (RISpec 5.7, 5.9, 6), archives (7).
 #include <cstdarg>
 #include <cstdio>
+#include <filesystem>
 
 #include "pipeline/ri/call.h"
 #include "pipeline/ri/parameters.h"
+#include "pipeline/rib/comments.h"
 
 namespace trapeze::ri {
 namespace {
@@ -40,6 +42,28 @@ std::string commented(const std::string& mark, const std::string& text) {
     }
     if (lines.ends_with('\n')) lines.pop_back();
     return lines;
+}
+
+constexpr size_t kMostArchiveBytes = size_t{1} << 30;
+
+/// None, with a complaint, when the archive cannot be read now; reading the RIB will say so again.
+std::vector<rib::Comment> comments_of(Context& context, const std::string& name) {
+    std::vector<rib::Comment> comments;
+    const std::filesystem::path path(name);
+    std::vector<std::string> places{name};
+    if (path.is_relative())
+        for (const std::string& folder : context.archive_folders)
+            places.push_back((std::filesystem::path(folder) / path).string());
+    std::string first_error;
+    for (const std::string& place : places) {
+        std::string error;
+        const auto keep = [&](rib::Comment comment) { comments.push_back(std::move(comment)); };
+        if (rib::for_each_comment(place, kMostArchiveBytes, keep, &error)) return comments;
+        if (first_error.empty()) first_error = error;
+    }
+    context.complain(RIE_NOFILE, RIE_WARNING,
+                     "\"" + name + "\" cannot be read yet, and the callback is not called: " + first_error);
+    return {};
 }
 
 void record(Context& context, const std::string& type, const std::string& text) {
@@ -120,14 +144,17 @@ RtVoid RiArchiveRecord(RtToken type, const char* format, ...) {
 
 RtVoid RiReadArchiveV(RtToken name, RtArchiveCallback callback, RtInt n, RtToken tokens[],
                       RtPointer values[]) {
+    std::vector<trapeze::rib::Comment> comments;
     call("RiReadArchive", [&](Context& context) {
         required(name, "the name");
         const auto parameters = checked_parameters(context, {n, tokens, values});
-        if (callback)
-            context.complain(RIE_UNIMPLEMENT, RIE_WARNING,
-                             "archives' comments are not read: no callback is called");
         context.writer().request("ReadArchive");
         context.writer().string(name);
         write_parameters(context.writer(), parameters);
+        if (callback) comments = comments_of(context, name);
     });
+    // The callback may call the interface.
+    std::string format = "%s";
+    for (const trapeze::rib::Comment& comment : comments)
+        callback(comment.is_structure ? RI_STRUCTURE : RI_COMMENT, format.data(), comment.text.c_str());
 }

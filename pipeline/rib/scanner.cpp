@@ -121,7 +121,9 @@ void Scanner::skip_space() {
                    c == '\x1A') {  // DOS' end of a text
             ++next_;
         } else if (c == '#') {
+            const char* const begin = next_;
             while (next_ < end_ && *next_ != '\n' && *next_ != '\r') ++next_;
+            if (on_comment_) on_comment_({begin, static_cast<size_t>(next_ - begin)});
         } else {
             return;
         }

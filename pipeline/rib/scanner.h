@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -53,6 +54,9 @@ class Scanner {
         return bad;
     }
 
+    /// To be called with each comment that is passed over, from its "#" to the end of its line.
+    void on_comment(std::function<void(std::string_view)> listener) { on_comment_ = std::move(listener); }
+
     const EncodedNames& encoded_names() const { return names_; }
 
     /// Where the next token begins: bytes from the beginning of the text.
@@ -83,6 +87,7 @@ class Scanner {
     uint32_t source_, line_;
     uint32_t first_column_;  ///< of the text's first line, which may begin within a line of the file
     EncodedNames names_;
+    std::function<void(std::string_view)> on_comment_;
     Token token_;
     bool has_token_ = false;
 };
