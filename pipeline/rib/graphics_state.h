@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/scene.h"
+#include "pipeline/rib/arguments.h"
 #include "pipeline/rib/moving_transform.h"
 
 namespace trapeze::rib {
@@ -110,6 +111,7 @@ struct Scope {
     std::vector<ClippingPlane> clipping_planes;
     std::optional<ColorSamples> color_samples;
     float relative_detail = 1;
+    bool has_pixel_samples = false;  ///< PixelSamples was given: a hider's sample counts are not looked at
     std::map<std::string, std::shared_ptr<const LightInstance>> lights;
     std::map<std::string, DisplayChannel> display_channels;
     std::map<std::string, std::shared_ptr<RetainedObject>> objects;
@@ -132,7 +134,7 @@ struct MotionBlock {
     bool absolute = false;  ///< Transform
     std::vector<TransformArguments> transforms;
     std::vector<std::shared_ptr<const Shape>> shapes;
-    int others = 0;  ///< requests of other kinds (colours, shaders), of which the first counts
+    std::vector<RequestText> others;  ///< requests of other kinds (colours, shaders), which do not move
 };
 
 }  // namespace trapeze::rib

@@ -10,6 +10,36 @@ namespace {
 constexpr size_t kMostTimes = 1000;
 constexpr int kMostMovingFactors = 1000;  ///< motion blocks that act on one transformation
 
+/// Whether numbers may be taken between those of the two.
+bool has_same_form(const RequestText& a, const RequestText& b) {
+    return std::equal(a.arguments.begin(), a.arguments.end(), b.arguments.begin(), b.arguments.end(),
+                      [](const Argument& x, const Argument& y) {
+                          return x.kind == y.kind && x.strings == y.strings &&
+                                 x.floats.size() == y.floats.size();
+                      });
+}
+
+bool has_same_arguments(const RequestText& a, const RequestText& b) {
+    return has_same_form(a, b) && std::equal(a.arguments.begin(), a.arguments.end(), b.arguments.begin(),
+                                             [](const Argument& x, const Argument& y) {
+                                                 return x.number == y.number && x.floats == y.floats;
+                                             });
+}
+
+/// Where names or counts differ, the earlier one.
+RequestText between(const RequestText& a, const RequestText& b, float t) {
+    RequestText text = a;
+    if (!has_same_form(a, b)) return text;
+    for (size_t i = 0; i < text.arguments.size(); ++i) {
+        Argument& argument = text.arguments[i];
+        const Argument& later = b.arguments[i];
+        argument.number += t * (later.number - argument.number);
+        for (size_t k = 0; k < argument.floats.size(); ++k)
+            argument.floats[k] += t * (later.floats[k] - argument.floats[k]);
+    }
+    return text;
+}
+
 }  // namespace
 
 void Reader::begin_motion(std::vector<float> times) {
@@ -26,15 +56,46 @@ void Reader::begin_motion(std::vector<float> times) {
     motion_->times = std::move(times);
 }
 
-bool Reader::is_first_in_motion(const std::string& request) {
-    if (motion_->request.empty()) motion_->request = request;
-    if (motion_->request != request) throw RequestError{"this is a motion block of " + motion_->request, {}};
-    if (motion_->times.size() > 1)
-        warn_once("motion of this request is not supported; the first is used", "motion-of-" + request);
-    return motion_->others++ == 0;
+void Reader::hold_in_motion(RequestText text) {
+    if (motion_->request.empty()) motion_->request = text.name;
+    if (motion_->request != text.name)
+        throw RequestError{"this is a motion block of " + motion_->request, {}};
+    motion_->others.push_back(std::move(text));
+}
+
+void Reader::carry_out_held(MotionBlock block) {
+    const std::vector<float>& times = block.times;
+    std::vector<RequestText>& keys = block.others;
+    at_ = keys[0].at, request_name_ = block.request;
+    RequestText text = keys[0];
+    if (keys.size() != times.size()) {
+        error(block.request + " occurs " + std::to_string(keys.size()) + " times for " +
+              std::to_string(times.size()) + " times of the motion; the first is used");
+    } else {
+        const float open = scope_.options.shutter_open;
+        const size_t next = std::upper_bound(times.begin(), times.end(), open) - times.begin();
+        if (next == times.size())
+            text = keys.back();
+        else if (next > 0)
+            text = between(keys[next - 1], keys[next],
+                           (open - times[next - 1]) / (times[next] - times[next - 1]));
+        const bool moves = std::any_of(keys.begin() + 1, keys.end(), [&](const RequestText& key) {
+            return !has_same_arguments(key, keys[0]);
+        });
+        if (moves)
+            diagnostics_.note(at_,
+                              block.request + ": does not move; its values as the shutter opens are used",
+                              "motion-of-" + block.request);
+    }
+    try {
+        carry_out(*find_request(block.request), text);
+    } catch (const RequestError& problem) {
+        error(problem.at, problem.text + "; request skipped");
+    }
 }
 
 void Reader::finish_motion(MotionBlock block) {
+    if (!block.others.empty()) return carry_out_held(std::move(block));
     const size_t given = std::max(block.transforms.size(), block.shapes.size());
     if (given == 0) return;
     const bool complete = given == block.times.size();

@@ -151,6 +151,16 @@ bool MovingTransform::moves_between(float open, float close) const {
     return false;
 }
 
+bool MovingTransform::may_bend(float open, float close) const {
+    int moving = 0;
+    for (const Factor* f = newest_.get(); f; f = f->older.get()) {
+        if (!f->moving || !f->moving->moves_between(open, close)) continue;
+        const TransformKind kind = f->moving->kind;
+        if (kind == TransformKind::Rotate || kind == TransformKind::Skew || ++moving > 1) return true;
+    }
+    return false;
+}
+
 bool MovingTransform::is_nearly_linear(float open, float close, int keys) const {
     const auto segment = static_cast<double>(close - open) / (keys - 1);
     M44d from = at(open);

@@ -42,6 +42,8 @@ class MovingTransform {
     /// Keys that the motion in the shutter wants: 1, or 2^m + 1 so that keys given on a dyadic division of
     /// the shutter are met and no segment turns by more than about ten degrees, or bends as much.
     int wanted_keys(float open, float close) const;
+    /// False when every point moves straight: at most one motion acts in the shutter, and it turns nothing.
+    bool may_bend(float open, float close) const;
     int moving_factors() const { return newest_ ? newest_->moving_factors : 0; }
 
   private:

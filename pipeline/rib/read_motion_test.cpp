@@ -41,8 +41,11 @@ TEST(ReadMotion, TransformationsGetTheKeysTheyNeed) {
 }
 
 TEST(ReadMotion, RotationsAreSubdivided) {
-    const Outcome r = read_shutter(
-        "0 1", "MotionBegin [0 1] Rotate 0 0 0 1 Rotate 40 0 0 1 MotionEnd Translate 1 0 0 " + kSphere);
+    // In a picture so small that ten degrees a segment are enough (motion_paths_test.cpp has larger ones).
+    const Outcome r = read_text(
+        "Format 16 16 1 Shutter 0 1 WorldBegin MotionBegin [0 1] Rotate 0 0 0 1 Rotate 40 0 0 1 MotionEnd "
+        "Translate 1 0 0 " +
+        kSphere + "WorldEnd");
     const auto& keys = r.primitive().camera_from_object;
     ASSERT_EQ(keys.size(), 5u);
     for (const M44f& key : keys) EXPECT_NEAR(key.translation().length(), 1, 1e-6);
@@ -95,15 +98,53 @@ TEST(ReadMotion, MovingObjectsAreResolvedOnceForAllInstances) {
     EXPECT_EQ(r.primitive(0).shape_keys, r.primitive(1).shape_keys);
 }
 
-TEST(ReadMotion, OfColoursAndShadersTheFirstCounts) {
+TEST(ReadMotion, ColoursAndShadersAreThoseAsTheShutterOpens) {
+    const char* const text =
+        "MotionBegin [0 1] Color 1 0 0 Color 0 1 0 MotionEnd "
+        "MotionBegin [0 1] Surface \"matte\" Surface \"metal\" MotionEnd "
+        "MotionBegin [0 .5 1] LightSource \"pointlight\" 1 \"intensity\" [0] "
+        "LightSource \"pointlight\" 1 \"intensity\" [8] LightSource \"pointlight\" 1 \"intensity\" [4] "
+        "MotionEnd ";
+    const struct {
+        const char* shutter;
+        V3f color;
+        float intensity;
+    } rows[] = {{"0 1", {1, 0, 0}, 0},
+                {"-2 1", {1, 0, 0}, 0},
+                {"0.25 1", {0.75f, 0.25f, 0}, 4},
+                {"0.75 1", {0.25f, 0.75f, 0}, 6},
+                {"1 1", {0, 1, 0}, 4},
+                {"3 4", {0, 1, 0}, 4}};
+    for (const auto& row : rows) {
+        const Outcome r = read_shutter(row.shutter, text + kSphere);
+        EXPECT_EQ(r.attributes().color, row.color) << row.shutter;
+        const bool is_over = std::string_view(row.shutter) == "1 1" || row.shutter[0] == '3';
+        EXPECT_EQ(r.attributes().surface->name, is_over ? "metal" : "matte") << row.shutter;
+        ASSERT_EQ(r.attributes().lights.size(), 1u);
+        EXPECT_EQ(r.attributes().lights[0]->shader.parameters.float_or("intensity", -1), row.intensity);
+        EXPECT_THAT(r.messages,
+                    ElementsAre(HasSubstr("note: Color: does not move; its values as the shutter opens"),
+                                HasSubstr("note: Surface: does not move"),
+                                HasSubstr("note: LightSource: does not move")));
+    }
+}
+
+TEST(ReadMotion, WhatStaysTheSameIsNotNoted) {
     const Outcome r = read_shutter("0 1",
-                                   "MotionBegin [0 1] Color 1 0 0 Color 0 1 0 MotionEnd MotionBegin [0 1] "
-                                   "Surface \"matte\" Surface \"metal\" MotionEnd " +
-                                       kSphere);
+                                   "MotionBegin [0 1] Color 1 0 0 Color 1 0 0 MotionEnd MotionBegin [0 1] "
+                                   "Opacity [.5 .5 .5] Opacity .5 .5 .5 MotionEnd " +
+                                       std::string(kSphere));
     EXPECT_EQ(r.attributes().color, V3f(1, 0, 0));
-    EXPECT_EQ(r.attributes().surface->name, "matte");
-    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("warning: Color: motion of this request is not supported"),
-                                        HasSubstr("warning: Surface: motion")));
+    EXPECT_EQ(r.attributes().opacity, V3f(0.5f));
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("note: Opacity")));  // written in two ways
+    const Outcome few =
+        read_shutter("0 1", "MotionBegin [0 1] Color 1 0 0 MotionEnd " + std::string(kSphere));
+    EXPECT_EQ(few.attributes().color, V3f(1, 0, 0));
+    EXPECT_THAT(few.messages, ElementsAre(HasSubstr("Color occurs 1 times for 2 times")));
+    const Outcome bad = read_shutter(
+        "0 1", "MotionBegin [0 1] Color 1 Color 1 MotionEnd ErrorHandler 3 " + std::string(kSphere));
+    EXPECT_THAT(bad.messages, Not(testing::IsEmpty()));
+    EXPECT_EQ(bad.count(), 1u);
 }
 
 TEST(ReadMotion, WrongBlocksAreReported) {

@@ -124,18 +124,20 @@ void Reader::execute(RequestText& text) {
     try {
         substitute(text);
         if (!hands_on(text)) return;
-        if (motion_ &&
-            (request->group == RequestGroup::Attribute || request->group == RequestGroup::Option) &&
-            !is_first_in_motion(text.name))
-            return;
-        ArgumentCursor cursor(text);
-        request->handler(*this, cursor);
-        if (!cursor.done())
-            error(cursor.peek()->at, "more arguments than the request has; the rest is ignored");
+        if (motion_ && (request->group == RequestGroup::Attribute || request->group == RequestGroup::Option))
+            hold_in_motion(std::move(text));
+        else
+            carry_out(*request, text);
     } catch (const RequestError& problem) {
         const bool is_shape = request->group == RequestGroup::Geometry;
         error(problem.at, problem.text + (is_shape ? "; primitive skipped" : "; request skipped"));
     }
+}
+
+void Reader::carry_out(const Request& request, RequestText& text) {
+    ArgumentCursor cursor(text);
+    request.handler(*this, cursor);
+    if (!cursor.done()) error(cursor.peek()->at, "more arguments than the request has; the rest is ignored");
 }
 
 /// Whether the request is to be carried out.

@@ -19,6 +19,8 @@ namespace trapeze::rib {
 /// them as what they look like; so do shaders, which know better what they are.
 enum class Undeclared { LeaveOut, Guess, ShaderKnows };
 
+struct Request;
+
 class Reader {
   public:
     Reader(const ReadOptions& options, Diagnostics& diagnostics,
@@ -111,6 +113,9 @@ class Reader {
         ++summary_.without_effect[request_name_ + what];
     }
 
+    /// It asks for what is so in any case; `what` says why.
+    void count_settled(const std::string& what) { ++summary_.settled[request_name_ + what]; }
+
     void set_search_path(const std::string& category, const std::string& path);
 
     // --- parts of a stream that are read but not executed ---
@@ -161,8 +166,10 @@ class Reader {
     /// Those of the search path, and the file's.
     std::vector<std::string> folders(const std::string& category) const;
 
-    /// Whether an attribute or option in a motion block is the one that counts.
-    bool is_first_in_motion(const std::string& request);
+    /// Attributes and options in a motion block: carried out at its end, once, as the shutter opens.
+    void hold_in_motion(RequestText text);
+    void carry_out_held(MotionBlock block);
+    void carry_out(const Request& request, RequestText& text);
     void finish_motion(MotionBlock block);
     MovingTransform root_transform() const;
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/rib/motion_paths.h"
 #include "pipeline/rib/reader.h"
 
 namespace trapeze::rib {
@@ -91,7 +92,8 @@ void Reader::emit(const std::string& request, const std::vector<ShapePointer>& s
     primitive.location = at;
     primitive.solid = solid;
     primitive.shape_keys = shape_keys;
-    const int keys = close > open ? transform.wanted_keys(open, close) : 1;
+    const int keys =
+        close > open ? keys_for_paths(transform, open, close, shape_keys, make_camera(scope_.options)) : 1;
     for (int k = 0; k < keys; ++k)
         primitive.camera_from_object.push_back(M44f(transform.at(key_time(open, close, k, keys))));
     const auto& spaces = primitive.camera_from_object;
