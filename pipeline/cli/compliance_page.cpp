@@ -122,8 +122,7 @@ std::string compliance_page(const std::vector<std::string>& paths) {
         text += fmt::format("**{}**: {}. {}\n\n", c.name, c.standing, c.text);
     text +=
         "**C binding**: supported. Every call of RISpec 3.2, varargs and V forms (pipeline/ri/ri.h), as a "
-        "static library. The callback of RiReadArchive is not called, and filter functions are RISpec's "
-        "own.\n\n";
+        "static library. Filter functions are RISpec's own.\n\n";
     text += "## Requests of RISpec 3.2\n\n" + request_table(rispec, scenes);
     text += "\n## Requests of later RenderMans\n\n" + request_table(later, scenes);
     const rib::EffectiveSettings settings = rib::effective_settings();
@@ -132,6 +131,9 @@ std::string compliance_page(const std::vector<std::string>& paths) {
         "lists them.\n\n";
     text += "- Option: " + joined(settings.options) + "- Attribute: " + joined(settings.attributes);
     text += "- Hider: " + joined(settings.hider) + "- Display: " + joined(settings.display);
+    text += "\n## Settings that need no effect\n\nThey ask for what is so in any case.\n\n";
+    for (const rib::SettledSetting& s : rib::settled_attributes())
+        text += fmt::format("- Attribute {} {}: {}.\n", s.category, s.name, s.why);
     const auto names = standard_shader_names();
     text += "\n## Standard shaders\n\n" + joined({names.begin(), names.end()});
     text +=

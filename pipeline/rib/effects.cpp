@@ -32,7 +32,16 @@ constexpr Value kAttributes[] = {{"user", ""},
                                  {"dice", "minlength"},
                                  {"trimcurve", "sense"}};
 
-constexpr std::string_view kHider[] = {"depthfilter", "jitter"};
+constexpr SettledSetting kSettledAttributes[] = {
+    {"cull", "backfacing", "all that is in view is shaded, whichever way it faces"},
+    {"cull", "hidden", "all that is in view is shaded, hidden or not"},
+    {"dice", "hair", "curves thinner than a micropolygon are one wide in any case"},
+    {"stitch", "enable", "grids join without cracks in any case"},
+    {"stitch", "newgroup", "grids join without cracks in any case"},
+    {"stitch", "traceenable", "grids join without cracks in any case"},
+};
+
+constexpr std::string_view kHider[] = {"depthfilter", "jitter", "maxsamples", "minsamples"};
 
 constexpr std::string_view kDisplay[] = {"quantize",     "dither",         "type",
                                          "exrpixeltype", "exrcompression", "compression"};
@@ -70,6 +79,16 @@ std::vector<std::string> listed(const std::string_view (&values)[kCount]) {
 
 EffectiveSettings effective_settings() {
     return {listed(kOptions), listed(kAttributes), listed(kHider), listed(kDisplay)};
+}
+
+std::span<const SettledSetting> settled_attributes() {
+    return kSettledAttributes;
+}
+const SettledSetting* settled_attribute(std::string_view category, std::string_view name) {
+    const auto found = std::ranges::find_if(kSettledAttributes, [&](const SettledSetting& setting) {
+        return setting.category == category && setting.name == name;
+    });
+    return found == std::end(kSettledAttributes) ? nullptr : &*found;
 }
 
 bool option_has_effect(std::string_view category, std::string_view name) {

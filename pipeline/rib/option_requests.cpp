@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kLargestPicture = 65536;  ///< pixels along a side
 constexpr float kMostSamples = 64;      ///< along a side of a pixel
+/// A path tracer's noise wants more samples than a surface that is shaded before it is sampled.
+constexpr float kMostHiderSamples = 256;
 constexpr size_t kMostColorSamples = 1000;
 
 /// RISpec's and the usual others; composite/filters.cpp has what they mean.
@@ -126,6 +128,17 @@ void pixel_samples(Reader& r, ArgumentCursor& c) {
     if (x > kMostSamples || y > kMostSamples) r.error("more than 64 samples along a side; 64 are used");
     changeable_options(r).samples_x = std::min(x, kMostSamples);
     r.options().samples_y = std::min(y, kMostSamples);
+    r.scope().has_pixel_samples = true;
+}
+
+/// PRMan's path tracer takes a pixel's samples from its hider: as many as it may take at most, as a square.
+/// Without that, at least as many as it asks for.
+void set_samples_of_hider(Reader& r) {
+    const ParameterList& given = r.options().hider_parameters;
+    const float samples = std::max(given.float_or("maxsamples", 0), given.float_or("minsamples", 0));
+    if (!(samples >= 1) || r.scope().has_pixel_samples) return;
+    const float side = std::ceil(std::sqrt(std::min(samples, kMostHiderSamples)));
+    r.options().samples_x = r.options().samples_y = side;
 }
 
 void pixel_filter(Reader& r, ArgumentCursor& c) {
@@ -170,6 +183,7 @@ void hider(Reader& r, ArgumentCursor& c) {
     o.hider_parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : o.hider_parameters.values)
         if (!hider_parameter_has_effect(value.name)) r.count_without_effect(' ' + in_quotes(value.name));
+    set_samples_of_hider(r);
 }
 
 void option(Reader& r, ArgumentCursor& c) {

@@ -199,6 +199,45 @@ TEST(Ris, OptionsAndAttributesMayBeValues) {
     EXPECT_EQ(outcome.summary.without_effect.size(), 1u);
 }
 
+TEST(Ris, HidersSayHowManySamplesWherePixelSamplesDoesNot) {
+    const struct {
+        const char* options;
+        float side;
+    } rows[] = {
+        {"", 2},
+        {"Hider \"hidden\"", 2},
+        {"Hider \"raytrace\" \"int minsamples\" [4] \"int maxsamples\" [64]", 8},
+        {"Hider \"raytrace\" \"int maxsamples\" [50]", 8},
+        {"Hider \"raytrace\" \"int minsamples\" [9]", 3},
+        {"Hider \"raytrace\" \"int maxsamples\" [100000]", 16},
+        {"Hider \"raytrace\" \"int maxsamples\" [-1]", 2},
+        {"PixelSamples 3 3 Hider \"raytrace\" \"int maxsamples\" [64]", 3},
+        {"Hider \"raytrace\" \"int maxsamples\" [64] PixelSamples 3 3", 3},
+        {"FrameBegin 1 PixelSamples 3 3 FrameEnd Hider \"raytrace\" \"int maxsamples\" [64]", 8},
+    };
+    for (const auto& row : rows) {
+        const Outcome outcome = read_text(std::string(row.options) + " WorldBegin " + kSphere + " WorldEnd");
+        EXPECT_EQ(outcome.scene().options.samples_x, row.side) << row.options;
+        EXPECT_EQ(outcome.scene().options.samples_y, row.side) << row.options;
+        EXPECT_THAT(outcome.summary.without_effect, IsEmpty()) << row.options;
+    }
+}
+
+TEST(Settings, ThatAskForWhatIsSoInAnyCaseAreNotCalledIgnored) {
+    const Outcome outcome = read_world(
+        "Attribute \"dice\" \"hair\" [1] Attribute \"cull\" \"backfacing\" [0] \"hidden\" [0] "
+        "Attribute \"stitch\" \"enable\" [1] Attribute \"stitch\" \"enable\" [0] "
+        "Attribute \"stitch\" \"other\" [1]");
+    EXPECT_THAT(outcome.summary.without_effect,
+                ElementsAre(testing::Pair("Attribute \"stitch\" \"other\"", 1u)));
+    const auto& settled = outcome.summary.settled;
+    EXPECT_EQ(settled.size(), 4u);
+    EXPECT_EQ(settled.at("Attribute \"stitch\" \"enable\": grids join without cracks in any case"), 2u);
+    EXPECT_EQ(settled.count(
+                  "Attribute \"dice\" \"hair\": curves thinner than a micropolygon are one wide in any case"),
+              1u);
+}
+
 TEST(Ris, WrongValuesAndFurtherChannelsAreSaid) {
     EXPECT_THAT(read_text("Option \"Ri\" \"float[2] Clipping\" [5 1]\n"
                           "Display \"a\" \"openexr\" \"Ci,a,normal\"\n"
