@@ -321,6 +321,32 @@ TEST(Blobby, CellsFollowTheSizesThatAreAskedFor) {
     EXPECT_GT(counts[3], 50u);
 }
 
+/// A ball of radius 1, 240 pixels a unit at distance 1: cells of three pixels near by, of a sixth of the
+/// leaf's extent far away, and no smaller however far.
+TEST(Blobby, FacesFollowTheScreen) {
+    Options options;
+    options.projection = "perspective";
+    const Camera camera = make_camera(options);
+    const struct {
+        float distance, cell, share;  ///< three cells across: how they lie matters
+    } rows[] = {{12, 3.0f / 240 * 10, 0.1f},
+                {20, 3.0f / 240 * 18, 0.1f},
+                {200, 4.0f / 6, 0.33f},
+                {2000, 4.0f / 6, 0.33f}};
+    for (const auto& row : rows) {
+        Primitive primitive;
+        primitive.attributes = std::make_shared<Attributes>();
+        primitive.shape_keys = {shape_of(blobby(1, {1001, 0}, {ellipsoid({2, 2, 2}, {0, 0, row.distance})}))};
+        primitive.camera_from_object = {M44f()};
+        Diagnostics diagnostics;
+        const auto surface = make_surface(primitive, diagnostics, {&camera, nullptr});
+        ASSERT_NE(surface, nullptr);
+        // A surface net has a quad for every edge of the grid that it meets: 3/2 of its area in cells.
+        const float expected = 1.5f * 4 * static_cast<float>(M_PI) / (row.cell * row.cell);
+        EXPECT_NEAR(surface->face_count(), expected, row.share * expected) << row.distance;
+    }
+}
+
 /// However they lie on the grid.
 TEST(Blobby, SmallBallsAreNotLost) {
     for (uint32_t n = 0; n < 300; ++n) {

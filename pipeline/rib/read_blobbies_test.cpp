@@ -31,7 +31,6 @@ TEST(ReadBlobbies, WhatIsWrongIsSaidWithItsPlace) {
         {"1 [1001 1] [" + kUnit + "]", "leaf 0 wants 16 floats from 1 on, of 16"},
         {"1 [1001 -1] [" + kUnit + "]", "from -1 on"},
         {"1 [1001 2147483647] [" + kUnit + "]", "from 2147483647 on"},
-        {"2 [1001 0] [" + kUnit + "]", "the code has 1 leaves, not 2"},
         {"1 [1001 0 0 2 0 1] [" + kUnit + "]", "operand 1 is not among the 1 results before it"},
         {"1 [1001 0 0 2 0] [" + kUnit + "]", "the code ends within an operation"},
         {"1 [1001 0 0 0] [" + kUnit + "]", "an operation of 0 operands"},
@@ -51,6 +50,15 @@ TEST(ReadBlobbies, WhatIsWrongIsSaidWithItsPlace) {
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: Blobby")) << text;
         EXPECT_EQ(r.count(), 1u) << text;  // the sphere
     }
+}
+
+TEST(ReadBlobbies, TheCodeSaysHowManyLeavesThereAre) {
+    const Outcome r =
+        read_world("Blobby 3 [1001 0 1001 0 0 2 0 1] [" + kUnit + "] \"varying float k\" [1 2]");
+    ASSERT_EQ(r.messages.size(), 1u);
+    EXPECT_THAT(r.messages[0], HasSubstr("warning: Blobby: the code has 2 leaves, not 3"));
+    EXPECT_EQ(std::get<Blobby>(r.primitive().shape().topology).leaf_count, 2);
+    EXPECT_EQ(r.primitive().shape().variables.find("k")->floats.size(), 2u);
 }
 
 TEST(ReadBlobbies, FieldsOfCompiledCodeAreNothing) {
