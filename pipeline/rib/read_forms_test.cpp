@@ -163,6 +163,17 @@ TEST(ReadForms, MotionsThatMultiplyGetKeysWhereTheyBend) {
         SizeIs(2));
 }
 
+TEST(ReadForms, StringsMayStandInSingleQuotes) {
+    const Outcome outcome =
+        read_text("Display \"a.tif\" 'file' 'rgba'\nWorldBegin\nSurface['matte']" + kSphere + "\nWorldEnd");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    EXPECT_EQ(outcome.scene().options.displays.at(0).type, "file");
+    EXPECT_EQ(outcome.attributes().surface->name, "matte");
+    // An apostrophe is none.
+    EXPECT_THAT(read_text("WorldBegin\n' " + kSphere + "\nSphere 1 -1 1 360 # it's\nWorldEnd").messages,
+                ElementsAre(HasSubstr("characters that RIB does not have")));
+}
+
 TEST(ReadForms, TextsOfDosEndWithTheirSign) {
     const Outcome outcome = read_text("WorldBegin\r\n" + kSphere + "\r\nWorldEnd\r\n\x1A");
     EXPECT_THAT(outcome.messages, IsEmpty());

@@ -162,6 +162,8 @@ void Scanner::scan() {
         ++next_;
     } else if (c == '"') {
         scan_string();
+    } else if (c == '\'' && scan_single_quoted()) {
+        return;
     } else if (!scan_number()) {
         const char* const start = next_;
         if (is_letter(c)) {
@@ -280,6 +282,17 @@ bool Scanner::scan_definition(const EncodedValue& value, std::string_view bytes)
     auto& names = value.encoding == Encoding::DefineRequest ? names_.requests : names_.strings;
     names[decoded_code(value, bytes)] = token_.string;
     return false;
+}
+
+/// A string in the quotes of other languages, as some files write theirs: 'rgba'. Says whether it is one.
+bool Scanner::scan_single_quoted() {
+    const std::string_view rest(next_ + 1, static_cast<size_t>(end_ - next_ - 1));
+    const size_t length = rest.find_first_of("'\"\r\n");
+    if (length == std::string_view::npos || rest[length] != '\'') return false;
+    token_.kind = TokenKind::String;
+    token_.string = rest.substr(0, length);
+    next_ += length + 2;
+    return true;
 }
 
 void Scanner::scan_string() {

@@ -70,6 +70,7 @@ class Scanner {
     void skip_space();
     bool scan_number();
     void scan_string();
+    bool scan_single_quoted();
     bool fast_number(double* value);
     bool scan_encoded();
     bool scan_definition(const EncodedValue& value, std::string_view bytes);
