@@ -12,6 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kDeepestInclude = 64;
+constexpr int kMostFoldersAbove = 4;  ///< that are searched
 
 /// One name for each file, however it is reached.
 std::string canonical(const std::string& path) {
@@ -58,7 +59,8 @@ void Reader::record_archive(RequestText& request, Scanner& scanner, std::string_
 }
 
 /// Beside the file that names it, along the search path, from the working folder. A file that is not found
-/// there may have been named by another machine: it is looked for without its leading folders.
+/// there may have been named by another machine, or from its project's folder: it is looked for without its
+/// leading folders, and then from the folders above.
 std::optional<std::string> Reader::find_archive(const std::string& name) {
     if (const auto found = find_archive_named(name)) return found;
     for (const std::string& other : other_names(name))
@@ -67,6 +69,22 @@ std::optional<std::string> Reader::find_archive(const std::string& name) {
                       "archive-elsewhere " + name);
             return found;
         }
+    // Exporters name files from their project's folder, and write those that name them below it.
+    std::vector<std::string> names = other_names(name);
+    names.insert(names.begin(), name);
+    fs::path above = fs::path(current_folder());
+    for (int level = 0; level < kMostFoldersAbove; ++level) {
+        above /= "..";
+        for (const std::string& other : names) {
+            const std::string candidate = (above / other).string();
+            if (fs::path(other).is_absolute() || other.find('/') == std::string::npos ||
+                !is_readable(candidate))
+                continue;
+            warn_once(in_quotes(name) + " is not found; " + in_quotes(candidate) + " is read",
+                      "archive-elsewhere " + name);
+            return candidate;
+        }
+    }
     return {};
 }
 

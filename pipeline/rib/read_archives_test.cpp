@@ -74,6 +74,22 @@ TEST(ReadArchives, InlineOnesHaveTheirPlacesInTheFile) {
                                         "\n    included from a.rib:6:13"));
 }
 
+TEST(ReadArchives, FilesBelowAProjectNameOthersFromItsFolder) {
+    const Folder folder;
+    folder.write("film/rib/job/ball.rib", kSphere);
+    folder.write("ball.rib", kSphere);
+    const std::string main = folder.write(
+        "film/rib/0001/0001.rib",
+        "WorldBegin\nReadArchive \"rib/job/ball.rib\"\nReadArchive \"/home/artist/film/rib/job/ball.rib\"\n"
+        "ReadArchive \"ball.rib\"\nWorldEnd\n");
+    const Outcome r = read_files(folder, {main});
+    EXPECT_EQ(r.count(), 2u);
+    EXPECT_THAT(
+        r.messages,
+        ElementsAre(HasSubstr("\"rib/job/ball.rib\" is not found; \""), HasSubstr("ball.rib\" is read"),
+                    HasSubstr("error: ReadArchive: \"ball.rib\" is not found; nothing read")));
+}
+
 TEST(ReadArchives, ArchivesAreReadWithoutAWorld) {
     const Outcome r = read_text(
         "# a part\nAttributeBegin\nSphere 1 -1 1 360\nSphere 1\nSolidBegin \"primitive\"\n"

@@ -174,6 +174,18 @@ TEST(ReadForms, StringsMayStandInSingleQuotes) {
                 ElementsAre(HasSubstr("characters that RIB does not have")));
 }
 
+TEST(ReadForms, ShapesWithoutPointsAreNoErrors) {
+    const Outcome outcome = read_world(
+        "PointsPolygons [] [] \"P\" []\nPoints \"vertex point P\" [] \"constantwidth\" [1]\n"
+        "Curves \"cubic\" [] \"nonperiodic\" \"P\" []\nPointsPolygons [] [] \"P\" [] \"st\" []\n" +
+        kSphere);
+    EXPECT_EQ(outcome.count(), 1u);
+    EXPECT_THAT(outcome.messages,
+                ElementsAre(HasSubstr("warning: PointsPolygons: \"P\" is empty; there is nothing to draw"),
+                            HasSubstr("warning: Points: \"P\" is empty"),
+                            HasSubstr("warning: Curves: \"P\" is empty")));
+}
+
 TEST(ReadForms, TextsOfDosEndWithTheirSign) {
     const Outcome outcome = read_text("WorldBegin\r\n" + kSphere + "\r\nWorldEnd\r\n\x1A");
     EXPECT_THAT(outcome.messages, IsEmpty());

@@ -15,6 +15,19 @@ std::shared_ptr<const AttributeState> default_attributes() {
     return state;
 }
 
+/// Exporters write objects without points as shapes of an empty "P".
+bool has_no_points(const RequestText& text) {
+    for (size_t i = 0; i + 1 < text.arguments.size(); ++i) {
+        const Argument& name = text.arguments[i];
+        const Argument& value = text.arguments[i + 1];
+        if (name.kind == Argument::Kind::String &&
+            (name.strings[0] == "P" || name.strings[0].ends_with(" P")) &&
+            value.kind == Argument::Kind::Array && value.strings.empty() && value.floats.empty())
+            return true;
+    }
+    return false;
+}
+
 /// A message without its numbers: files that are wrong in one place are wrong alike in many.
 std::string kind_of(Severity severity, const std::string& text) {
     std::string kind = severity == Severity::Error ? "error-" : "warning-";
@@ -135,6 +148,10 @@ void Reader::execute(RequestText& text) {
 }
 
 void Reader::carry_out(const Request& request, RequestText& text) {
+    if (request.group == RequestGroup::Geometry && has_no_points(text)) {
+        warn_once("\"P\" is empty; there is nothing to draw", "empty-" + text.name);
+        return;
+    }
     ArgumentCursor cursor(text);
     request.handler(*this, cursor);
     if (!cursor.done()) error(cursor.peek()->at, "more arguments than the request has; the rest is ignored");
