@@ -119,7 +119,7 @@ void add_work_options(CLI::App& app, Arguments& a) {
         ->check(CLI::IsMember({"auto", "bar", "lines", "json", "prman", "none"}))
         ->capture_default_str();
     add_parsed(app, "--memory", a.memory_bytes, parse_size,
-               "for grids and tree (default: 3/4 of the machine's)", "SIZE like 4G");
+               "for grids and tree, and as much for a file and its scene (default: 3/4 of the machine's)", "SIZE like 4G");
     app.add_flag("-q,--quiet", a.quiet, "only errors");
 }
 

@@ -107,7 +107,8 @@ std::optional<std::string> Reader::find_archive_named(const std::string& name) c
 bool Reader::may_read_archive(const std::string& name, const std::string& key) {
     const char* problem = nullptr;
     if (!key.empty() && std::any_of(open_files_.begin(), open_files_.end(), [&](const std::string& open) {
-            return open == key || canonical(open) == key;
+            // Inline archives and answers, "<archive a>", are no files to be looked for.
+            return open == key || (key.front() != '<' && !open.starts_with('<') && canonical(open) == key);
         }))
         problem = " reads itself; not read again";
     else if (open_files_.size() >= kDeepestInclude)

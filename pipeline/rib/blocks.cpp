@@ -153,6 +153,7 @@ void Reader::deliver_world() {
     resolved_ = {};
     if (wanted) on_world_(std::move(scene_));
     scene_ = Scene();
+    scene_bytes_ = 0;
 }
 
 }  // namespace trapeze::rib

@@ -1,5 +1,6 @@
 /// MotionBegin, MotionEnd, and transformations, which may move.
 #include "pipeline/rib/reader.h"
+#include "pipeline/rib/scene_size.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,9 +133,11 @@ void Reader::finish_motion(MotionBlock block) {
                                        0,
                                        0,
                                        solid_of_surface(object_->solids)});
-    else
-        emit(block.request, shapes_at_keys(block.shapes, block.times, open, close), state_.transform,
-             state_.attributes, block.at, solid_of_surface(solids_));
+    else {
+        const auto keys = shapes_at_keys(block.shapes, block.times, open, close);
+        if (keeps_geometry() && !has_room(keys.size() * bytes_of(*keys.front()))) return;
+        emit(block.request, keys, state_.transform, state_.attributes, block.at, solid_of_surface(solids_));
+    }
 }
 
 MovingTransform Reader::root_transform() const {

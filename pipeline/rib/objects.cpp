@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "pipeline/rib/reader.h"
+#include "pipeline/rib/scene_size.h"
 
 namespace trapeze::rib {
 namespace {
@@ -125,6 +126,7 @@ void Reader::place_instance(ObjectPrimitive& primitive,
     MovingTransform transform = state_.transform;
     transform.concat(primitive.object_from_shape);
     if (object_) {
+        if (keeps_geometry() && !has_room(sizeof(ObjectPrimitive))) return;
         ObjectPrimitive& copy = object_->primitives.emplace_back(primitive);
         copy.object_from_shape = std::move(transform);
         copy.attributes = attributes;
@@ -136,6 +138,8 @@ void Reader::place_instance(ObjectPrimitive& primitive,
     if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
         primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
         primitive.keys_open = open, primitive.keys_close = close;
+        if (primitive.keys.size() > 1 && !has_room(primitive.keys.size() * bytes_of(*primitive.keys.front())))
+            return;
     }
     emit(primitive.request, primitive.keys, transform, attributes, at_, solid);
 }

@@ -57,7 +57,7 @@ void Reader::run_program(const std::string& command, const std::string& data,
     char detail[32];
     const float area = bound.empty() ? 0 : raster_area(bound);
     const auto end = std::to_chars(detail, detail + sizeof detail, std::min(area, 1e38f)).ptr;
-    const Programs::Answer answer =
+    const ProgramAnswer answer =
         programs_.ask(command, std::string(detail, end) + " " + data + "\n", folders("procedural"),
                       std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000)),
                       read_options_.max_source_bytes);

@@ -1,21 +1,17 @@
 #include "pipeline/rib/programs.h"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <utility>
-
-#include "pipeline/rib/answer_end.h"
 
 extern char** environ;
 
@@ -62,12 +58,13 @@ class Programs::Program {
   public:
     /// Why it cannot be started, or nothing.
     std::string start(const std::string& command, const std::vector<std::string>& folders);
-    Answer ask(const std::string& request, std::chrono::milliseconds time_limit, size_t most_bytes);
+    ProgramAnswer ask(const std::string& request, std::chrono::milliseconds time_limit, size_t most_bytes) {
+        return ask_program(input_.get(), output_.get(), request, time_limit, most_bytes);
+    }
     ~Program() { stop(kTimeToEnd); }
 
   private:
     void stop(std::chrono::milliseconds time);
-    bool read_some(std::string& text);
 
     pid_t pid_ = -1;
     Descriptor input_,
@@ -121,56 +118,12 @@ void Programs::Program::stop(std::chrono::milliseconds time) {
     pid_ = -1;
 }
 
-/// False at the end of its output.
-bool Programs::Program::read_some(std::string& text) {
-    constexpr size_t kBlock = 65536;
-    const size_t old = text.size();
-    text.resize(old + kBlock);
-    const ssize_t got = read(output_.get(), text.data() + old, kBlock);
-    text.resize(old + static_cast<size_t>(std::max<ssize_t>(got, 0)));
-    return got > 0 || (got < 0 && errno == EINTR);
-}
-
-Programs::Answer Programs::Program::ask(const std::string& request, std::chrono::milliseconds time_limit,
-                                        size_t most_bytes) {
-    Answer answer;
-    AnswerEnd end;
-    size_t sent = 0;
-    for (const auto until = Clock::now() + time_limit;;) {
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
-        pollfd waits[] = {{output_.get(), POLLIN, 0},
-                          {sent < request.size() ? input_.get() : -1, POLLOUT, 0}};
-        const int ready = left.count() > 0 ? poll(waits, 2, static_cast<int>(left.count())) : 0;
-        if (ready == 0) {
-            answer.problem = "does not answer";
-            return answer;
-        }
-        if (ready < 0) continue;  // a signal
-        if (waits[1].revents != 0) {
-            const ssize_t count =
-                send(input_.get(), request.data() + sent, request.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
-            sent = count >= 0                          ? sent + static_cast<size_t>(count)
-                   : errno == EAGAIN || errno == EINTR ? sent
-                                                       : request.size();  // it reads no more
-        }
-        if (waits[0].revents == 0) continue;
-        const bool goes_on = read_some(answer.text);
-        if (const auto place = end.find(answer.text)) {
-            answer.text.resize(*place);
-            return answer;
-        }
-        if (!goes_on) answer.problem = "ended before its answer did (with a byte 0377)";
-        if (answer.text.size() > most_bytes) answer.problem = "answers with too much";
-        if (!answer.problem.empty()) return answer;
-    }
-}
-
 Programs::Programs() = default;
 Programs::~Programs() = default;
 
-Programs::Answer Programs::ask(const std::string& command, const std::string& request,
-                               const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
-                               size_t most_bytes) {
+ProgramAnswer Programs::ask(const std::string& command, const std::string& request,
+                            const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
+                            size_t most_bytes) {
     const auto known = programs_.find(command);
     if (known != programs_.end() && !known->second) return {{}, "has failed before"};
     if (known == programs_.end()) {
@@ -182,7 +135,7 @@ Programs::Answer Programs::ask(const std::string& command, const std::string& re
         }
         programs_[command] = std::move(program);
     }
-    Answer answer = programs_[command]->ask(request, time_limit, most_bytes);
+    ProgramAnswer answer = programs_[command]->ask(request, time_limit, most_bytes);
     if (!answer.problem.empty()) programs_[command] = nullptr;
     return answer;
 }

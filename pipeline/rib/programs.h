@@ -8,15 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/rib/program_answer.h"
+
 namespace trapeze::rib {
 
 class Programs {
   public:
-    struct Answer {
-        std::string text;     ///< as far as it came
-        std::string problem;  ///< empty when it is whole
-    };
-
     Programs();
     ~Programs();
     Programs(const Programs&) = delete;
@@ -25,9 +22,9 @@ class Programs {
     /// Sends a request to the program of that command line (words apart by spaces, no shell), which is
     /// started at its first; its name is looked for in the folders, then in PATH. A program that does not
     /// answer within the limits is ended, with all that it has started in its group, and asked no more.
-    Answer ask(const std::string& command, const std::string& request,
-               const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
-               size_t most_bytes);
+    ProgramAnswer ask(const std::string& command, const std::string& request,
+                      const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
+                      size_t most_bytes);
 
   private:
     class Program;

@@ -51,6 +51,7 @@ struct ReadOptions {
     uint64_t most_archives_read = uint64_t{1} << 20;
     uint64_t most_bytes_read = uint64_t{64} << 30;           ///< of all files and inline archives
     uint64_t most_instanced_primitives = uint64_t{1} << 24;  ///< of a world
+    uint64_t most_scene_bytes = uint64_t{1} << 40;           ///< of a world's primitives in memory, about
 };
 
 /// What was in the input.

@@ -183,6 +183,9 @@ class Reader {
     /// `solid` is the scene's that the primitive bounds, or -1.
     bool takes_geometry();
     void report_homeless();
+    /// Adds to what the world's primitives take; false, and an error, when that is too much.
+    bool has_room(uint64_t bytes);
+    bool keeps_geometry() const { return read_options_.keep_geometry && frame_wanted_; }
     void emit(const std::string& request, const std::vector<ShapePointer>& keys,
               const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
               SourceLocation at, int solid);
@@ -215,6 +218,7 @@ class Reader {
     Scene scene_;
     SolidList solids_;                   ///< the scene's
     uint64_t instanced_primitives_ = 0;  ///< of this world
+    uint64_t scene_bytes_ = 0;           ///< of this world's primitives, and of objects before it
     /// Primitives before the first world.
     struct {
         uint64_t count = 0;

@@ -4,6 +4,7 @@
 
 #include "pipeline/rib/motion_paths.h"
 #include "pipeline/rib/reader.h"
+#include "pipeline/rib/scene_size.h"
 
 namespace trapeze::rib {
 namespace {
@@ -84,6 +85,17 @@ std::shared_ptr<const Attributes> Reader::resolved_attributes(
     return attributes;
 }
 
+bool Reader::has_room(uint64_t bytes) {
+    scene_bytes_ += bytes;
+    if (scene_bytes_ <= read_options_.most_scene_bytes) return true;
+    diagnostics_.error(at_,
+                       request_name_ + ": the scene takes more than " +
+                           std::to_string(read_options_.most_scene_bytes >> 20) +
+                           " MiB, which is the limit; this and further primitives are left out",
+                       "scene-limit");
+    return false;
+}
+
 void Reader::emit(const std::string& request, const std::vector<ShapePointer>& shape_keys,
                   const MovingTransform& transform, const std::shared_ptr<const AttributeState>& state,
                   SourceLocation at, int solid) {
@@ -107,9 +119,15 @@ void Reader::emit(const std::string& request, const std::vector<ShapePointer>& s
     summary_.points += point_count(*shape_keys.front());
     if (primitive.key_count() > 1) ++summary_.moving_primitives;
     const float weight = state->detail.weight();
-    if (!read_options_.keep_geometry || !frame_wanted_ || weight <= 0) return;
+    if (!keeps_geometry() || weight <= 0) return;
     if (weight < 1) primitive.shape_keys = with_opacity_scaled(shape_keys, weight);
+    const bool more_shapes = primitive.shape_keys.front() != shape_keys.front();
+    const std::shared_ptr<const Attributes> last = resolved_.attributes;
     primitive.attributes = resolved_attributes(state, spaces);
+    uint64_t bytes = bytes_of(primitive);
+    if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
+    if (more_shapes) bytes += primitive.shape_keys.size() * bytes_of(primitive.shape());
+    if (!has_room(bytes)) return;
     scene_.primitives.push_back(std::move(primitive));
 }
 
@@ -146,6 +164,8 @@ void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
             throw RequestError{"this is a motion block of " + motion_->request, {}};
     }
     summary_.faces += faces;
+    // Poses of a motion are counted at its end, at the keys that the scene has.
+    if (keeps_geometry() && !motion_ && !has_room(bytes_of(shape))) return;
     auto shared = std::make_shared<const Shape>(std::move(shape));
     if (motion_)
         motion_->shapes.push_back(std::move(shared));
