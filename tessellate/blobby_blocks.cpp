@@ -10,8 +10,7 @@ namespace {
 
 constexpr int kSide = BlobbyBlock::kSide, kCorners = (kSide + 1) * (kSide + 1) * (kSide + 1);
 constexpr size_t kMostBlocks = 200'000;
-constexpr double kMostOperations = 1e9;  ///< instructions run over all points, and looked at before
-constexpr float kLeastCell = 1e-5f;      ///< of the diagonal of all leaves
+constexpr float kLeastCell = 1e-5f;  ///< of the diagonal of all leaves
 constexpr int kMostLevels = 20;
 /// A block's cells may be larger than wanted by this much, so that sizes are met on an average.
 constexpr float kTolerance = 1.4f;
@@ -36,8 +35,9 @@ float smallest_extent(const BlobbyLeaf& leaf, const Box3f& support) {
 
 }  // namespace
 
-BlobbyBlocks::BlobbyBlocks(const BlobbyField& field, const CellSizes& cells, float coarser)
-    : field_(field), cells_(cells), coarser_(coarser) {
+BlobbyBlocks::BlobbyBlocks(const BlobbyField& field, const CellSizes& cells, float coarser,
+                           double most_operations)
+    : field_(field), cells_(cells), coarser_(coarser), most_operations_(most_operations) {
     Box3f all;
     float finest = kInfinity;
     for (const BlobbyLeaf& leaf : field.leaves) {
@@ -120,12 +120,12 @@ bool BlobbyBlocks::refine(int node, const GridIndex& at, const std::vector<int>&
         operations_ += static_cast<double>(of_block.instructions.size()) * kCorners;
         nodes_[node].block = static_cast<int>(blocks_.size());
         blocks_.push_back({at, level, std::move(near), std::move(of_block)});
-        return blocks_.size() <= kMostBlocks && operations_ <= kMostOperations;
+        return blocks_.size() <= kMostBlocks && operations_ <= most_operations_;
     }
     const int first = static_cast<int>(nodes_.size());
     nodes_[node].first_child = first;
     nodes_.resize(nodes_.size() + 8, Node{-1, -1, level - 1});
-    if (nodes_.size() > 16 * kMostBlocks) return false;
+    if (nodes_.size() > 16 * kMostBlocks || operations_ > most_operations_) return false;
     std::vector<int> kept = within;
     const BlobbyProgram of_all = reduced(program, kept);
     const int half = kSide << (level - 1);

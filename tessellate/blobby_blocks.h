@@ -35,10 +35,13 @@ struct BlobbyBlock {
     BlobbyProgram program;    ///< of these alone
 };
 
+/// Instructions run over all points, and looked at before: some ten seconds' work.
+inline constexpr double kMostBlobbyOperations = 1e9;
+
 class BlobbyBlocks {
   public:
     /// cells: in object space; `coarser` than they ask for.
-    BlobbyBlocks(const BlobbyField& field, const CellSizes& cells, float coarser);
+    BlobbyBlocks(const BlobbyField& field, const CellSizes& cells, float coarser, double most_operations);
 
     /// False when there would be too many blocks, or too much to compute.
     bool find();
@@ -71,6 +74,7 @@ class BlobbyBlocks {
     const BlobbyField& field_;
     const CellSizes& cells_;
     const float coarser_;
+    const double most_operations_;
     float finest_ = 1;
     int top_ = 0;  ///< the root's level
     V3f origin_{0, 0, 0};

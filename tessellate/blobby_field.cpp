@@ -23,10 +23,16 @@ bool invert(const M44f& m, M44f* inverse) {
     return std::all_of(&(*inverse)[0][0], &(*inverse)[0][0] + 16, [](float v) { return std::isfinite(v); });
 }
 
-/// One with a matrix that cannot be inverted has no extent.
+bool is_finite(const V3f& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// One with a matrix that cannot be inverted has no extent, nor one that reaches beyond all numbers.
 BlobbyLeaf placed(BlobbyLeaf leaf, const M44f& object_from_leaf) {
     leaf.object_from_leaf = object_from_leaf;
-    if (!(leaf.radius > 0) || !invert(object_from_leaf, &leaf.leaf_from_object)) leaf.ends = false;
+    leaf.ends = leaf.radius > 0 && invert(object_from_leaf, &leaf.leaf_from_object);
+    const Box3f support = leaf.support();
+    leaf.ends = leaf.ends && is_finite(support.min) && is_finite(support.max);
     return leaf;
 }
 

@@ -207,11 +207,11 @@ V3f onto_surface(const BlobbyField& field, const BlobbyProgram& program, V3f p, 
     return p;
 }
 
-BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells) {
+BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells, double most_operations) {
     // A coarser grid costs less; one that is larger than all leaves costs almost nothing.
     float coarser = 1;
     for (int tries = 0; tries < 64; ++tries, coarser *= 1.25f + 0.25f * static_cast<float>(tries)) {
-        BlobbyBlocks blocks(field, cells, coarser);
+        BlobbyBlocks blocks(field, cells, coarser, most_operations);
         if (!blocks.find()) continue;
         BlobbyMesh mesh = Net(field, blocks).mesh();
         mesh.coarser = coarser;

@@ -22,7 +22,8 @@ struct BlobbyMesh {
     float coarser = 1;  ///< than was asked for, to keep time and memory within bounds
 };
 
-BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells);
+BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells,
+                       double most_operations = kMostBlobbyOperations);
 
 /// Moves a point along the gradient onto the surface; by no more than `reach`, and not where the field is
 /// flat.

@@ -147,6 +147,9 @@ Parameter triples(const char* name, ValueType type, const std::vector<V3f>& valu
     return parameter;
 }
 
+/// Of a variable at all points; larger arrays are left out.
+constexpr size_t kMostValues = size_t{1} << 27;
+
 ParameterList mesh_variables(const BlobbyField& field, const BlobbyMesh& mesh, const ParameterList& given) {
     ParameterList list;
     for (const Parameter& variable : given.values) {
@@ -157,6 +160,7 @@ ParameterList mesh_variables(const BlobbyField& field, const BlobbyMesh& mesh, c
         value.declaration.storage = constant ? StorageClass::Constant : StorageClass::Vertex;
         if (!constant) {
             const size_t item = variable.declaration.floats_per_item();
+            if (mesh.points.size() > kMostValues / std::max<size_t>(item, 1)) continue;
             value.floats.assign(mesh.points.size() * item, 0.0f);
             for_each_point(field, mesh, [&](size_t p, std::span<const int> leaves, std::span<const float> w) {
                 for (size_t i = 0; i < leaves.size(); ++i)
@@ -171,15 +175,30 @@ ParameterList mesh_variables(const BlobbyField& field, const BlobbyMesh& mesh, c
     return list;
 }
 
+/// Many times what the picture needs: round the eye, or for leaves that stretch far beyond what is seen of
+/// them, a surface wants more than anyone sees.
+double most_operations(const Primitive& primitive, const Camera* camera) {
+    constexpr double kOfAMicropolygon = 1000, kAtLeast = 2e7;
+    if (!camera) return kMostBlobbyOperations;
+    const double rate = std::max(static_cast<double>(primitive.attributes->shading_rate), 1e-4);
+    const double micropolygons = static_cast<double>(camera->width) * camera->height / rate;
+    return std::clamp(kOfAMicropolygon * micropolygons, kAtLeast, kMostBlobbyOperations);
+}
+
 std::vector<V3f> moved_points(const BlobbyField& field, const BlobbyMesh& mesh, const BlobbyField& later) {
     std::vector<V3f> points(mesh.points.size());
+    // Where it takes too long, points stay where the leaves carry them.
+    const bool settles =
+        static_cast<double>(points.size()) *
+            static_cast<double>(later.program.instructions.size() + later.program.operands.size()) <
+        kMostBlobbyOperations / 10;
     for_each_point(field, mesh, [&](size_t p, std::span<const int> leaves, std::span<const float> w) {
         thread_local std::vector<FieldValue> scratch;
         V3f at(0, 0, 0);
         for (size_t i = 0; i < leaves.size(); ++i)
             at += field.leaves[leaves[i]].carried(mesh.points[p], later.leaves[leaves[i]]) * w[i];
-        points[p] =
-            onto_surface(later, later.program, at, 8 * mesh.list_cells[mesh.leaf_list_of_point[p]], scratch);
+        const float reach = 8 * mesh.list_cells[mesh.leaf_list_of_point[p]];
+        points[p] = settles ? onto_surface(later, later.program, at, reach, scratch) : at;
     });
     return points;
 }
@@ -219,7 +238,8 @@ bool shows_inside(const Primitive& primitive) {
 std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const SurfaceView& view,
                                              Diagnostics& diagnostics) {
     const BlobbyField field = field_at(primitive, 0, view.depth_heights);
-    BlobbyMesh mesh = blobby_mesh(field, cell_sizes(field, primitive, view.camera));
+    BlobbyMesh mesh = blobby_mesh(field, cell_sizes(field, primitive, view.camera),
+                                  most_operations(primitive, view.camera));
     if (shows_inside(primitive))
         for (V3f& normal : mesh.normals) normal = -normal;
     if (mesh.vertices.empty()) {

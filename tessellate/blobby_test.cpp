@@ -367,6 +367,9 @@ TEST(Blobby, AbsurdOnesAreSurvived) {
         blobby(1, {1001, 0}, {ellipsoid({1e30f, 1e30f, 1e30f}, {0, 0, 0})}),
         blobby(1, {1001, 0}, {ellipsoid({1e-20f, 1e-20f, 1e-20f}, {1e6f, 0, 0})}),
         blobby(1, {1000, 0}, {{5}}),  // everywhere inside
+        blobby(1, {1001, 0}, {ellipsoid({1e-30f, 1e25f, 1e25f}, {3e38f, 0, 0})}),
+        blobby(1, {1002, 0},
+               {{3e38f, 0, 0, -3e38f, 0, 0, 3e38f, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3e38f, 0, 0, 1}}),
         blobby(2, {1001, 0, 1001, 16, 0, 2, 0, 1},
                {ellipsoid({1, 1, 1}, {-1e7f, 0, 0}), ellipsoid({1, 1, 1}, {1e7f, 0, 0})}),
         blobby(2, {1001, 0, 1000, 16, 5, 0, 1}, {ellipsoid({1, 1, 1}, {0, 0, 0}), {0}}),  // by zero

@@ -67,7 +67,7 @@ void MeshTopology::number_edges() {
         const std::span<const int> corners = face_vertices(face);
         for (size_t i = 0; i < corners.size(); ++i) {
             const int a = corners[i], b = corners[(i + 1) % corners.size()];
-            const auto [low, high] = std::minmax(a, b);
+            const int low = std::min(a, b), high = std::max(a, b);
             const uint64_t key = static_cast<uint64_t>(low) << 32 | static_cast<uint32_t>(high);
             corner_edge_[first_corner_[face] + i] = numbers.number(
                 key,

@@ -6,8 +6,8 @@
 namespace trapeze {
 namespace {
 
-/// A face never makes more than about this many subpatches by its interior's size: a bound on absurd input.
-constexpr size_t kMaxSubpatchesOfFace = size_t{1} << 20;
+/// Intervals of a made edge that take about as long as a part.
+constexpr size_t kIntervalsLikeAPart = 8;
 /// Samples of a rectangle along u and v: for small ones, else.
 constexpr int kCoarse = 2, kFine = 4;
 
@@ -44,7 +44,7 @@ class FaceSplitter {
 
     void split_face(int face) {
         face_ = face;
-        first_subpatch_ = out_.subpatches.size();
+        parts_ = 0;
         Node node;
         node.sides = surface_.surface().sides(face);
         split(node);
@@ -60,9 +60,10 @@ class FaceSplitter {
         }
         const bool must_u = !in_interval(node.sides[kBottom]) || !in_interval(node.sides[kTop]);
         const bool must_v = !in_interval(node.sides[kLeft]) || !in_interval(node.sides[kRight]);
-        const bool room = out_.subpatches.size() - first_subpatch_ < kMaxSubpatchesOfFace;
+        const bool room = parts_ < context_.most_parts_of_face;
         const bool split_u = must_u || (want[0].split && room && node.depth_u < context_.rate.max_depth);
         const bool split_v = must_v || (want[1].split && room && node.depth_v < context_.rate.max_depth);
+        out_.limited |= !room && (want[0].split || want[1].split);
         if (!split_u && !split_v) return emit(node, want);
 
         if (!node.inside) {
@@ -73,6 +74,7 @@ class FaceSplitter {
             }
             node.inside = seen.inside;
         }
+        ++parts_;
         const bool along_u = split_u && (!split_v || want[0].pixels >= want[1].pixels);
         for (const Node& half : halves(node, along_u, room)) split(half);
     }
@@ -145,6 +147,7 @@ class FaceSplitter {
         const size_t number = context_.surface_edges->size() + out_.made_lines.size();
         out_.made_lines.push_back(line);
         out_.made.add(surface_, line, *context_.metric, rate, scratch_);
+        parts_ += out_.made.of(static_cast<uint32_t>(out_.made.size() - 1)).size() / kIntervalsLikeAPart;
         return static_cast<uint32_t>(number);
     }
 
@@ -232,7 +235,7 @@ class FaceSplitter {
     EvaluationScratch scratch_;
     std::vector<Box3f> boxes_;
     int face_ = 0;
-    size_t first_subpatch_ = 0;
+    size_t parts_ = 0;  ///< of the face, seen or not, and its made edges' likes
 };
 
 }  // namespace
@@ -251,6 +254,7 @@ void Splits::append(Splits&& other, uint32_t surface_edges) {
     bounds.insert(bounds.end(), other.bounds.begin(), other.bounds.end());
     made.append(other.made);
     culled += other.culled;
+    limited |= other.limited;
 }
 
 Splits split_faces(const SplitContext& context, int first_face, int end_face) {

@@ -26,6 +26,7 @@ struct SplitContext {
     const RasterBound* raster = nullptr;
     EdgeRate rate;
     float displacement_bound = 0;
+    size_t most_parts_of_face = size_t{1} << 20;  ///< about; then its interior is not split further
 };
 
 /// Subpatches, and the edges that were made between them, numbered from the surface's edge count on.
@@ -35,6 +36,7 @@ struct Splits {
     std::vector<EdgeLine> made_lines;
     EdgeTessellations made;
     uint64_t culled = 0;
+    bool limited = false;  ///< by most_parts_of_face
 
     void append(Splits&& other, uint32_t surface_edges);
 };

@@ -156,6 +156,16 @@ void make_surfaces(const RenderContext& context, const FindDepthHeight& depth_he
     for (size_t i = 0; i < primitives.size(); ++i) primitives[i].surface = *slots[i];
 }
 
+/// Many times the grids that fill the picture: a bound on absurd input, such as a surface that comes near
+/// infinity again and again.
+size_t most_parts_of_face(const Options& options, const EdgeRate& rate) {
+    constexpr double kTimesThePicture = 64, kAtLeast = 256, kAtMost = 1 << 20;
+    const double grid_side = static_cast<double>(kMaxGridSide) * static_cast<double>(rate.pixels_per_segment);
+    const double pixels = static_cast<double>(options.width) * options.height;
+    return static_cast<size_t>(
+        std::clamp(kTimesThePicture * pixels / (grid_side * grid_side), kAtLeast, kAtMost));
+}
+
 void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
                           const ScreenMetric& raster_metric, const RasterBound& raster,
                           TessellatedPrimitive& out) {
@@ -181,6 +191,8 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur);
     if (std::holds_alternative<Curves>(primitive.shape().topology))
         rate.pixels_per_segment = std::max(rate.pixels_per_segment, attributes.dice.min_length);
+    const size_t most_parts = most_parts_of_face(context.scene->options, rate);
+    rate.max_intervals = static_cast<int>(std::min<size_t>(most_parts, rate.max_intervals));
     out.pixels_per_segment = rate.pixels_per_segment;
     out.surface_edges = tessellate_edges(*out.placed, metric, rate);
     SplitContext split;
@@ -191,7 +203,13 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     split.raster = &raster;
     split.rate = rate;
     split.displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
+    split.most_parts_of_face = most_parts;
     out.splits = split_all(split, context);
+    if (out.splits.limited)
+        context.diagnostics->warning(primitive.location,
+                                     "a face wants more micropolygons than many times those of the picture; "
+                                     "they are made larger",
+                                     "face-limit");
     shrink(out.splits);
 }
 
