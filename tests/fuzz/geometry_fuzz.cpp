@@ -1,61 +1,13 @@
-/// From RIB of strangers to grids: primitives with any counts, knots, trims, codes and control points are
-/// split and diced, and every grid is packed. Input is what stands in a world. Built and replayed as
-/// rib_fuzz.cpp is, with tests/fuzz/seeds/geometry as corpus.
-#include <cmath>
+/// From RIB of strangers to grids: primitives with any counts and control points. Input is what stands in a
+/// world. Built and replayed as rib_fuzz.cpp is, with tests/fuzz/seeds/geometry as corpus.
+#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
-#include "pipeline/rib/read_rib.h"
-#include "tessellate/tessellate.h"
-
-namespace {
-
-using namespace trapeze;
-
-/// Enough to come through every primitive of the input, little enough to do it often.
-constexpr size_t kMostPrimitives = 40, kMostGrids = 200;
-
-void dice(const Scene& scene, Diagnostics& diagnostics) {
-    RenderContext context;
-    context.scene = &scene;
-    context.camera = make_camera(scene.options);
-    context.motion = true;
-    context.diagnostics = &diagnostics;
-    const Tessellation tessellation(context);
-    DiceScratch scratch;
-    ShadingGrid grid;
-    GridArena arena;
-    const size_t count = tessellation.subpatches().size(), step = 1 + count / kMostGrids;
-    for (size_t i = 0; i < count; i += step) {
-        tessellation.dice(i, grid, scratch);
-        grid.Ci = grid.Cs, grid.Oi = grid.Os;
-        int64_t not_finite = 0;
-        const Grid packed = pack_grid(grid, arena, &not_finite);
-        for (int k = 0; k < packed.plane_count() * packed.shape.plane_size(); ++k)
-            if (!std::isfinite(packed.positions[k])) std::abort();
-    }
-}
-
-}  // namespace
+#include "tests/fuzz/dice_text.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     constexpr size_t kMostBytes = size_t{1} << 15;
-    const std::string text =
-        "Format 24 24 1 Projection \"perspective\" Shutter 0 1 Translate 0 0 4 WorldBegin\n" +
-        std::string(reinterpret_cast<const char*>(data), std::min(size, kMostBytes));
-    Diagnostics diagnostics([](const Diagnostic&) {});
-    ReadOptions options;
-    options.shading_rate = 8;
-    options.most_archives_read = 10;
-    options.most_bytes_read = uint64_t{1} << 16;
-    options.most_instanced_primitives = kMostPrimitives;
-    int worlds = 0;
-    read_rib_text(text, "fuzz", options, diagnostics, [&](Scene&& scene) {
-        scene.options.width = std::min(scene.options.width, 64);
-        scene.options.height = std::min(scene.options.height, 64);
-        if (scene.primitives.size() > kMostPrimitives) scene.primitives.resize(kMostPrimitives);
-        if (++worlds <= 2) dice(scene, diagnostics);
-    });
+    trapeze::fuzz::dice_world({reinterpret_cast<const char*>(data), std::min(size, kMostBytes)});
     return 0;
 }

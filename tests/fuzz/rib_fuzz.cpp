@@ -1,6 +1,6 @@
-/// The RIB reader on bytes from strangers. With clang: -fsanitize=fuzzer,address,undefined and
-/// tests/fuzz/seeds/rib as corpus. With any compiler: linked with replay_main.cpp it runs the seeds and
-/// mutations of them.
+/// The RIB reader on bytes from strangers: text, binary, gzip, and the member "a" of a zip archive. With
+/// clang: -fsanitize=fuzzer,address,undefined and tests/fuzz/seeds/rib as corpus. With any compiler: linked
+/// with replay_main.cpp it runs the seeds and mutations of them.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -27,7 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     find_answer_end({reinterpret_cast<const char*>(data), size});
     const int file = memfd_create("rib", 0);
     if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) return 0;
-    const std::vector<std::string> files{"/proc/self/fd/" + std::to_string(file)};
+    const bool is_zip = size >= 2 && data[0] == 'P' && data[1] == 'K';
+    const std::vector<std::string> files{"/proc/self/fd/" + std::to_string(file) + (is_zip ? "!a" : "")};
     trapeze::Diagnostics diagnostics;
     trapeze::ReadOptions options;
     // Bombs end here.
