@@ -4,6 +4,7 @@
 
 #include "core/foreign_paths.h"
 #include "pipeline/rib/reader.h"
+#include "pipeline/rib/search_path.h"
 #include "pipeline/rib/zip_archive.h"
 
 namespace trapeze::rib {
@@ -12,7 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kDeepestInclude = 64;
-constexpr int kMostFoldersAbove = 4;  ///< that are searched
 
 /// One name for each file, however it is reached.
 std::string canonical(const std::string& path) {

@@ -123,8 +123,10 @@ std::vector<std::string> Reader::folders(const std::string& category) const {
     const auto path = scope_.options.search_paths.find(category);
     std::vector<std::string> all;
     if (path != scope_.options.search_paths.end()) all = path->second;
-    const std::string folder = current_folder();
-    all.insert(all.end(), {folder.empty() ? "." : folder, ""});
+    const std::string folder = current_folder().empty() ? "." : current_folder();
+    all.insert(all.end(), {folder, ""});
+    // Projects keep their scenes in a folder of their own, and name files from the one above.
+    all.insert(all.end(), {folder + "/..", folder + "/../.."});
     return all;
 }
 

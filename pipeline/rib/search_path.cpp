@@ -1,11 +1,16 @@
 #include "pipeline/rib/search_path.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/foreign_paths.h"
+
 namespace trapeze::rib {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool is_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -41,6 +46,24 @@ std::string expand_variables(const std::string& text) {
     return expanded;
 }
 
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+/// A folder that is not where it is said to be: without its leading folders, or seen from the folders above
+/// the file.
+std::string folder_elsewhere(const std::string& folder, const std::string& folder_of_file) {
+    std::vector<std::string> names = other_names(folder);
+    if (fs::path(folder).is_relative()) names.insert(names.begin(), folder);
+    fs::path from = folder_of_file.empty() ? "." : folder_of_file;
+    for (int level = 0; level <= kMostFoldersAbove; ++level, from /= "..")
+        for (const std::string& name : names)
+            if (const fs::path candidate = from / name; !name.empty() && is_folder(candidate))
+                return candidate.string();
+    return {};
+}
+
 }  // namespace
 
 std::vector<std::string> expand_search_path(const std::string& path, const std::vector<std::string>& previous,
@@ -54,12 +77,17 @@ std::vector<std::string> expand_search_path(const std::string& path, const std::
         if (entry.empty() || entry == "@" || entry == "&") continue;
         const std::string folder = expand_variables(entry);
         if (folder.empty()) continue;
-        if (std::filesystem::path(folder).is_absolute()) {
+        const size_t before = folders.size();
+        if (fs::path(folder).is_absolute()) {
             folders.push_back(folder);
         } else {
-            folders.push_back((std::filesystem::path(folder_of_file) / folder).string());
+            folders.push_back((fs::path(folder_of_file) / folder).string());
             if (!folder_of_file.empty()) folders.push_back(folder);
         }
+        if (std::any_of(folders.begin() + static_cast<std::ptrdiff_t>(before), folders.end(), is_folder))
+            continue;
+        if (const std::string found = folder_elsewhere(folder, folder_of_file); !found.empty())
+            folders.push_back(found);
     }
     return folders;
 }

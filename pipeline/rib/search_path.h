@@ -6,9 +6,14 @@
 
 namespace trapeze::rib {
 
+/// So far up files are looked for that are not where their names say.
+inline constexpr int kMostFoldersAbove = 4;
+
 /// Expands "&" (the previous path), "@" and empty entries (standard places: none), $NAME, ${NAME} and %NAME%
 /// (the environment), ~ at the beginning (the home folder). A relative folder is searched beside the file
-/// that names it, then from the working folder.
+/// that names it, then from the working folder. One that is in none of these places may have been named by
+/// another machine, or from its project's folder: it is looked for without its leading folders, from that of
+/// the file and those above.
 std::vector<std::string> expand_search_path(const std::string& path, const std::vector<std::string>& previous,
                                             const std::string& folder_of_file);
 
