@@ -19,7 +19,8 @@ struct Layer {
 /// colour; a smooth one interpolates on the triangle that the predicate found.
 Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id);
 
-/// Layers of hits that lie in a row in a HitBuffer, in planes. Reused, so that nothing is allocated.
+/// Layers of hits that lie in a row in a HitBuffer, in planes. One serves for many rows, and keeps its
+/// memory.
 class HitLayers {
   public:
     /// Those of samples `begin` to `end`, as layer_at() gives them, to the bit. A hit on a grid that is not

@@ -5,29 +5,21 @@
 namespace trapeze {
 namespace {
 
-using OIIO::ImageSpec;
-using OIIO::TypeDesc;
-
 constexpr int kSize = 16;
 
 class DepthHeightTest : public MapFilesTest {
   protected:
-    /// Looks along +z from the origin of world: x and y from -1 to 1, or of 90 degrees.
+    /// depth(x, y) from -1 to 1, y up.
     std::string depth_map(const std::string& name, bool perspective,
                           const std::function<float(float x, float y)>& depth,
                           const M44f& camera_from_world = M44f()) {
-        ImageSpec spec(kSize, kSize, 1, TypeDesc::FLOAT);
-        const M44f screen_from_camera =
-            perspective ? M44f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, -0.1f, 0) : M44f();
-        const M44f screen = camera_from_world * screen_from_camera;
-        spec.attribute("worldtocamera", OIIO::TypeMatrix, &camera_from_world);
-        spec.attribute("worldtoscreen", OIIO::TypeMatrix, &screen);
-        return write(name, spec, [&](int x, int y, int) {
+        const auto at_pixel = [&](int x, int y) {
             const auto middle = [](int pixel) {
                 return (static_cast<float>(pixel) + 0.5f) / (kSize / 2) - 1;
             };
             return depth(middle(x), -middle(y));
-        });
+        };
+        return write_depth_map(name, kSize, perspective, at_pixel, camera_from_world);
     }
 
     Textures textures_{options_, &diagnostics_};

@@ -41,6 +41,20 @@ class MapFilesTest : public testing::Test {
         return path(name);
     }
 
+    /// A depth map of side x side pixels whose camera looks along +z from the origin of its own space: x and
+    /// y from -1 to 1, or of 90 degrees. depth(x, y) from the top left.
+    std::string write_depth_map(const std::string& name, int side, bool perspective,
+                                const std::function<float(int, int)>& depth,
+                                const M44f& camera_from_world) const {
+        OIIO::ImageSpec spec(side, side, 1, OIIO::TypeDesc::FLOAT);
+        const M44f screen_from_camera =
+            perspective ? M44f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, -0.1f, 0) : M44f();
+        const M44f screen = camera_from_world * screen_from_camera;
+        spec.attribute("worldtocamera", OIIO::TypeMatrix, &camera_from_world);
+        spec.attribute("worldtoscreen", OIIO::TypeMatrix, &screen);
+        return write(name, spec, [&](int x, int y, int) { return depth(x, y); });
+    }
+
     /// Lives as long as the test.
     Plane plane(std::vector<float> values) {
         kept_.push_back(std::move(values));

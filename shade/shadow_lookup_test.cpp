@@ -14,17 +14,10 @@ class ShadowLookupTest : public MapFilesTest {
   protected:
     static constexpr int kSize = 64;
 
-    /// Looks along +z from the origin of world: x and y from -1 to 1, or of 90 degrees.
     std::string depth_map(const std::string& name, bool perspective,
                           const std::function<float(int, int)>& depth,
                           const M44f& camera_from_world = M44f()) {
-        ImageSpec spec(kSize, kSize, 1, TypeDesc::FLOAT);
-        const M44f screen_from_camera =
-            perspective ? M44f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, -0.1f, 0) : M44f();
-        const M44f screen = camera_from_world * screen_from_camera;
-        spec.attribute("worldtocamera", OIIO::TypeMatrix, &camera_from_world);
-        spec.attribute("worldtoscreen", OIIO::TypeMatrix, &screen);
-        return write(name, spec, [&](int x, int y, int) { return depth(x, y); });
+        return write_depth_map(name, kSize, perspective, depth, camera_from_world);
     }
     /// Something at depth 5 in the left half.
     std::string half(const M44f& camera_from_world = M44f()) {
