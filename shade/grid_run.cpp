@@ -75,8 +75,12 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
 
 void GridRun::run(const AovLayout& aovs) {
     if (material_.displacement) displace();
-    for (ShadingGrid* grid : grids_)
-        for (int k = 0; k < 3; ++k) grid->Ci.c[k] = grid->Cs.c[k], grid->Oi.c[k] = grid->Os.c[k];
+    // What the first layer does not name stays as the primitive has it; the rest is taken from the frame.
+    const rsl::Program& first = material_.surface->layers.front()->program();
+    for (ShadingGrid* grid : grids_) {
+        if (!first.find_global("Ci")) grid->Ci = grid->Cs;
+        if (!first.find_global("Oi")) grid->Oi = grid->Os;
+    }
     color(*material_.surface, false, messages_.surface);
     if (material_.atmosphere) color(*material_.atmosphere, true, messages_.atmosphere);
     if (!aovs.empty()) take_aovs(aovs, *messages_.surface, grids_);
@@ -91,7 +95,9 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     frames.push_back(&frame);
     frame.start(points.lanes);
     bound.set_parameters(frame, grids);
-    set_variables(frame, grids, context_, shaded);
+    // Lights that ask for the surface's variables may see them before the surface sets them.
+    const bool all = std::ranges::any_of(material_.lights, &Lamp::asks_surface);
+    set_variables(frame, grids, context_, shaded, all);
     shader.connect(layer, frames);
     messages_.running = bound.program().name;
     // Lights may ask the surface that asks them.

@@ -63,42 +63,65 @@ class Loader {
     std::span<const ShadingGrid* const> grids_;
 };
 
-void set_variable(const Loader& loader, vm::Frame& frame, rsl::RegisterId id, const RenderContext& context,
-                  bool shaded) {
-    const std::string& name = frame.reg(id).name;
-    const Operand& out = frame.operand(id);
-    if (name == "P" || name == "Ps") return loader.load_P(out);
-    if (name == "N") return loader.load(out, &ShadingGrid::N);
-    if (name == "Ng") return loader.load(out, &ShadingGrid::Ng);
-    if (name == "dPdu") return loader.load(out, &ShadingGrid::dPdu);
-    if (name == "dPdv") return loader.load(out, &ShadingGrid::dPdv);
-    if (name == "Cs") return loader.load(out, &ShadingGrid::Cs);
-    if (name == "Os") return loader.load(out, &ShadingGrid::Os);
-    if (name == "Ci") return loader.load(out, shaded ? &ShadingGrid::Ci : &ShadingGrid::Cs);
-    if (name == "Oi") return loader.load(out, shaded ? &ShadingGrid::Oi : &ShadingGrid::Os);
-    if (name == "u") return loader.load(out, &ShadingGrid::u);
-    if (name == "v") return loader.load(out, &ShadingGrid::v);
-    if (name == "s") return loader.load(out, &ShadingGrid::s);
-    if (name == "t") return loader.load(out, &ShadingGrid::t);
-    if (name == "du") return loader.load_steps(out, &ShadingGrid::u, true);
-    if (name == "dv") return loader.load_steps(out, &ShadingGrid::v, false);
-    const float zeros[16] = {};
-    if (name == "I") {
-        // From the eye to P; along the view when the projection is orthographic.
-        if (context.camera.perspective) return loader.load_P(out);
-        const float along[3] = {0, 0, 1};
-        return frame.set_uniform(id, along);
+void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& value,
+                  const RenderContext& context, bool shaded) {
+    const Operand& out = frame.operand(value.id);
+    const Options& options = context.scene->options;
+    using vm::Predefined;
+    switch (value.variable) {
+        case Predefined::P:
+        case Predefined::Ps:
+            return loader.load_P(out);
+        case Predefined::I: {
+            // From the eye to P; along the view when the projection is orthographic.
+            if (context.camera.perspective) return loader.load_P(out);
+            const float along[3] = {0, 0, 1};
+            return frame.set_uniform(value.id, along);
+        }
+        case Predefined::N:
+            return loader.load(out, &ShadingGrid::N);
+        case Predefined::Ng:
+            return loader.load(out, &ShadingGrid::Ng);
+        case Predefined::dPdu:
+            return loader.load(out, &ShadingGrid::dPdu);
+        case Predefined::dPdv:
+            return loader.load(out, &ShadingGrid::dPdv);
+        case Predefined::Cs:
+            return loader.load(out, &ShadingGrid::Cs);
+        case Predefined::Os:
+            return loader.load(out, &ShadingGrid::Os);
+        case Predefined::Ci:
+            return loader.load(out, shaded ? &ShadingGrid::Ci : &ShadingGrid::Cs);
+        case Predefined::Oi:
+            return loader.load(out, shaded ? &ShadingGrid::Oi : &ShadingGrid::Os);
+        case Predefined::u:
+            return loader.load(out, &ShadingGrid::u);
+        case Predefined::v:
+            return loader.load(out, &ShadingGrid::v);
+        case Predefined::s:
+            return loader.load(out, &ShadingGrid::s);
+        case Predefined::t:
+            return loader.load(out, &ShadingGrid::t);
+        case Predefined::du:
+            return loader.load_steps(out, &ShadingGrid::u, true);
+        case Predefined::dv:
+            return loader.load_steps(out, &ShadingGrid::v, false);
+        case Predefined::ncomps: {
+            const float three = 3;
+            return frame.set_uniform(value.id, &three);
+        }
+        case Predefined::time:
+            return frame.set_uniform(value.id, &options.shutter_open);
+        case Predefined::dtime: {
+            const float open = options.shutter_close - options.shutter_open;
+            return frame.set_uniform(value.id, &open);
+        }
+        case Predefined::Ns:
+        case Predefined::Other: {  // E, L, Cl, dPdtime...
+            const float zeros[16] = {};
+            if (rsl::width_of(frame.reg(value.id).type.base) > 0) frame.set_uniform(value.id, zeros);
+        }
     }
-    if (name == "ncomps") {
-        const float three = 3;
-        return frame.set_uniform(id, &three);
-    }
-    if (name == "time") return frame.set_uniform(id, &context.scene->options.shutter_open);
-    if (name == "dtime") {
-        const float open = context.scene->options.shutter_close - context.scene->options.shutter_open;
-        return frame.set_uniform(id, &open);
-    }
-    if (rsl::width_of(frame.reg(id).type.base) > 0) frame.set_uniform(id, zeros);  // E, L, Cl, dPdtime...
 }
 
 /// Follows from the bits of a position.
@@ -125,9 +148,10 @@ vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared) {
 }
 
 void set_variables(vm::Frame& frame, std::span<const ShadingGrid* const> grids, const RenderContext& context,
-                   bool shaded) {
+                   bool shaded, bool all) {
     const Loader loader(frame, grids);
-    for (const rsl::RegisterId id : frame.program().globals) set_variable(loader, frame, id, context, shaded);
+    for (const vm::StartValue& value : frame.executable().start_values())
+        if (all || value.needed) set_variable(loader, frame, value, context, shaded);
 }
 
 Plane3 variable_planes(const vm::Frame& frame, std::string_view name) {

@@ -71,20 +71,20 @@ const vm::Frame* LightRig::frame(size_t light) const {
 }
 
 void LightRig::set_variables(vm::Frame& frame, const Lamp& lamp, const vm::Operand& P) const {
-    const rsl::Program& program = frame.program();
-    for (const rsl::RegisterId id : program.globals) {
-        const std::string& name = program.reg(id).name;
+    using vm::Predefined;
+    for (const vm::StartValue& value : frame.executable().start_values()) {
+        const rsl::RegisterId id = value.id;
         const vm::Operand& operand = frame.operand(id);
-        const int width = rsl::width_of(program.reg(id).type.base);
-        if (name == "Ps" || name == "I") {  // the eye is at the origin
+        const Predefined variable = value.variable;
+        if (variable == Predefined::Ps || variable == Predefined::I) {  // the eye is at the origin
             copy_operand(P, 3, lanes_, operand);
-        } else if (name == "P") {
+        } else if (variable == Predefined::P) {
             frame.set_uniform(id, &lamp.position.x);
-        } else if ((name == "N" || name == "Ns") && N_.size() == lanes_) {
+        } else if ((variable == Predefined::N || variable == Predefined::Ns) && N_.size() == lanes_) {
             for (int k = 0; k < 3; ++k)
                 std::memcpy(operand.data + static_cast<size_t>(k) * operand.stride, N_[k].data(),
                             lanes_ * sizeof(float));
-        } else if (width > 0) {
+        } else if (rsl::width_of(frame.reg(id).type.base) > 0) {
             const float zeros[16] = {};
             frame.set_uniform(id, zeros);
         }

@@ -14,7 +14,8 @@ namespace trapeze {
 struct Lamp {
     std::unique_ptr<SceneSpaces> spaces;
     std::unique_ptr<BoundShader> shader;
-    V3f position;  ///< the origin of its shader space, in camera space: P of the light shader
+    V3f position;               ///< the origin of its shader space, in camera space: P of the light shader
+    bool asks_surface = false;  ///< by surface(): for variables of the surface that it shines on
 };
 
 /// A thread's; started for each grid.

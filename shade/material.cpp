@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "shade/stand_in_light.h"
 
 namespace trapeze {
@@ -109,6 +111,9 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
     made->spaces = std::make_unique<SceneSpaces>(*context_.scene, context_.camera, shader, nullptr);
     made->shader = std::make_unique<BoundShader>(std::move(executable), *shader, *made->spaces, diagnostics_);
     made->position = shader->camera_from_shader.translation();
+    made->asks_surface = std::ranges::any_of(made->shader->program().code, [](const rsl::Instruction& i) {
+        return i.op == rsl::Op::SurfaceMessage;
+    });
     at->second = std::move(made);
     return at->second.get();
 }

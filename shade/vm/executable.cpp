@@ -75,6 +75,7 @@ Executable::Executable(rsl::Program source, const LoopLimits& limits)
     for (const rsl::ProgramParameter& parameter : program_.parameters)
         initials_.push_back(make_steps(parameter.initial));
     code_ = make_steps(program_.code);
+    start_values_ = vm::start_values(program_);
     const rsl::RegisterId* P = program_.find_global("P");
     for (const rsl::Instruction& instruction : program_.code)
         for (size_t k = 0; k < instruction.outputs; ++k)

@@ -9,6 +9,7 @@
 
 #include "shade/rsl/program.h"
 #include "shade/vm/kernel.h"
+#include "shade/vm/start_values.h"
 
 namespace trapeze::vm {
 
@@ -63,6 +64,9 @@ class Executable {
     /// Texts at the start of a run: those of constants, others empty.
     const std::vector<std::string>& texts() const { return texts_; }
 
+    /// Of program().globals.
+    const std::vector<StartValue>& start_values() const { return start_values_; }
+
     /// The program never sets P.
     bool keeps_P() const { return keeps_P_; }
 
@@ -92,6 +96,7 @@ class Executable {
     std::vector<rsl::RegisterId> operands_;
     std::vector<Place> places_;
     std::vector<std::string> texts_;
+    std::vector<StartValue> start_values_;
     uint32_t uniform_planes_ = 0, varying_planes_ = 0, constant_planes_ = 0;
     std::unique_ptr<float, Free> constants_;
     bool keeps_P_ = true;

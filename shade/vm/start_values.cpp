@@ -1,0 +1,51 @@
+#include "shade/vm/start_values.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "shade/rsl/op_traits.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+
+constexpr std::pair<std::string_view, Predefined> kNames[] = {
+    {"P", Predefined::P},       {"Ps", Predefined::Ps},       {"N", Predefined::N},
+    {"Ns", Predefined::Ns},     {"Ng", Predefined::Ng},       {"dPdu", Predefined::dPdu},
+    {"dPdv", Predefined::dPdv}, {"Cs", Predefined::Cs},       {"Os", Predefined::Os},
+    {"Ci", Predefined::Ci},     {"Oi", Predefined::Oi},       {"u", Predefined::u},
+    {"v", Predefined::v},       {"s", Predefined::s},         {"t", Predefined::t},
+    {"du", Predefined::du},     {"dv", Predefined::dv},       {"I", Predefined::I},
+    {"time", Predefined::time}, {"dtime", Predefined::dtime}, {"ncomps", Predefined::ncomps}};
+
+Predefined predefined(std::string_view name) {
+    const auto* row = std::ranges::find(kNames, name, &std::pair<std::string_view, Predefined>::first);
+    return row != std::end(kNames) ? row->second : Predefined::Other;
+}
+
+/// Whether what comes first of the two is a look, or a write that may leave lanes as they are.
+bool is_needed(const rsl::Code& code, rsl::RegisterId id) {
+    for (const rsl::Instruction& instruction : code) {
+        const auto inputs = instruction.operands.begin() + instruction.outputs;
+        if (std::find(inputs, instruction.operands.end(), id) != instruction.operands.end()) return true;
+        // Lanes that have left run nothing of what follows.
+        if (instruction.op == Op::Leave) return true;
+        if (std::find(instruction.operands.begin(), inputs, id) == inputs) continue;
+        return instruction.region != 0 || instruction.masked || rsl::is_control(instruction.op) ||
+               rsl::keeps_output(instruction.op);
+    }
+    return true;
+}
+
+}  // namespace
+
+std::vector<StartValue> start_values(const rsl::Program& program) {
+    std::vector<StartValue> values;
+    for (const rsl::RegisterId id : program.globals)
+        values.push_back({id, predefined(program.reg(id).name), is_needed(program.code, id)});
+    return values;
+}
+
+}  // namespace trapeze::vm
