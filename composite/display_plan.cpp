@@ -27,8 +27,9 @@ constexpr Named kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileForm
                               {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
                               {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
                               {"bmp", FileFormat::Bmp}};
-constexpr std::string_view kWindowDrivers[] = {"framebuffer", "it",    "x11",    "windows",
-                                               "idisplay",    "piqsl", "houdini"};
+constexpr std::string_view kWindowDrivers[] = {"framebuffer", "it",      "x11",      "windows", "idisplay",
+                                               "piqsl",       "houdini", "rgl",      "mplay",   "xwindow",
+                                               "window",      "agshow",  "i-display"};
 
 template <class Table>
 std::optional<FileFormat> look_up(const Table& table, std::string_view name) {

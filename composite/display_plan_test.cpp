@@ -51,6 +51,7 @@ TEST(DisplayPlan, DriverThenExtensionChoosesTheFormat) {
         {"a.pic", "tiff", FileFormat::Tiff, "a.pic", 0, 0},
         {"a", "framebuffer", FileFormat::OpenExr, "a.exr", 1, 0},
         {"a.png", "it", FileFormat::Png, "a.png", 1, 0},
+        {"a", "rgl", FileFormat::OpenExr, "a.exr", 1, 0},
         {"a.z", "zfile", FileFormat::Tiff, "a.z", 0, 0},
         {"a.exr", "shadow", FileFormat::Tiff, "a.exr", 0, 0},
         {"a.pic", "vortech", FileFormat::OpenExr, "a.pic", 1, 0},

@@ -329,6 +329,23 @@ TEST(WriteDisplays, AFailureIsOneErrorAndTheOthersAreWritten) {
                             "\": there is no folder \"" + folder.file("none") + "\"");
 }
 
+TEST(WriteDisplays, FoldersBelowTheWorkingFolderAreMade) {
+    const TemporaryFolder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    RasterScene scene(40, 30, 1);
+    for (const char* name : {"./renders/1/a.exr", "../trapeze-none/a.exr", "C:/none/a.exr"})
+        scene.scene.options.displays.push_back({name, "file", "rgba", {}, {}});
+    Diagnostics diagnostics([](const Diagnostic&) {});
+    scene.context.diagnostics = &diagnostics;
+    const Written result = write(numbered_image(scene), scene);
+    std::filesystem::current_path(before);
+    EXPECT_FALSE(result.good);
+    EXPECT_EQ(result.paths, std::vector<std::string>{"./renders/1/a.exr"});
+    EXPECT_TRUE(std::filesystem::exists(folder.file("renders/1/a.exr")));
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"renders"});
+}
+
 TEST(WriteDisplays, AFullDiskLeavesNothing) {
     const TemporaryFolder folder;
     RasterScene scene(400, 300, 1);

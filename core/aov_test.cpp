@@ -37,6 +37,15 @@ TEST(AovLayout, NothingIsAskedForByColourAndDepth) {
     EXPECT_FALSE(is_depth({"z", ValueType::Color}));
 }
 
+TEST(AovLayout, NobodySeesWhatNullDisplaysShow) {
+    Options options;
+    options.displays = {Display{}, display_of("N", ValueType::Normal), display_of("s", ValueType::Float)};
+    options.displays[1].type = "null";
+    const AovLayout layout = aov_layout(options);
+    EXPECT_EQ(layout.find({"N", ValueType::Normal}), nullptr);
+    EXPECT_EQ(layout.channel_count, 1);
+}
+
 TEST(AovLayout, ItsChannelsAreBounded) {
     Options options;
     for (int i = 0; i < 100; ++i)

@@ -102,13 +102,16 @@ void display_channel(Reader& r, ArgumentCursor& c) {
     const std::string token = c.string("the channel");
     ParameterList parameters = r.parameters(c, Undeclared::Guess);
     changeable_options(r);
-    const auto variable = variable_named(r, token);
+    auto variable = variable_named(r, token);
     if (!variable) {
         if (!is_of_the_picture(token))
             throw RequestError{in_quotes(token) + " is no float, color, point, vector or normal", {}};
         return;
     }
-    r.display_channels()[variable->name] = {*variable, std::move(parameters)};
+    const std::string channel = variable->name, source = parameters.string_or("source", "");
+    // Others, "lpe:..." and the like, are not for names.
+    if (is_variable_name(source) && source.find(':') == std::string::npos) variable->name = source;
+    r.display_channels()[channel] = {*variable, std::move(parameters)};
 }
 
 constexpr RequestRow kRows[] = {{"Display", display}, {"DisplayChannel", display_channel}};

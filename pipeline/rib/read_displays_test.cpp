@@ -71,6 +71,17 @@ TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
     EXPECT_FALSE(displays[1].variable) << "a frame's channels end with it";
 }
 
+TEST(ReadDisplays, ChannelsMayBeOtherNamesOfVariables) {
+    const Outcome r = read_text(
+        "DisplayChannel \"color even\" \"string source\" [\"Ci\"] \"string statistics\" [\"even\"]\n"
+        "DisplayChannel \"color albedo\" \"string source\" [\"lpe:nothruput;noinfinitecheck;C\"]\n"
+        "Display \"a.exr\" \"openexr\" \"even\" Display \"+b.exr\" \"openexr\" \"albedo\" WorldBegin "
+        "WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    expect_variable(r.scene().options.displays.at(0).variable, "Ci", ValueType::Color);
+    expect_variable(r.scene().options.displays.at(1).variable, "albedo", ValueType::Color);
+}
+
 TEST(ReadDisplays, ChannelsOfIntegersAreFloats) {
     const Outcome r =
         read_text("DisplayChannel \"int layer\" Display \"a.exr\" \"openexr\" \"layer\" WorldBegin WorldEnd");
