@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "shade/grid_messages.h"
 #include "shade/map_service.h"
@@ -19,6 +20,23 @@ constexpr int kBatch = 256;  ///< pixels run together: about as many as a grid h
 const vm::Operand* variable(const vm::Frame& frame, std::string_view name) {
     const rsl::RegisterId* id = frame.program().find_global(name);
     return id ? &frame.operand(*id) : nullptr;
+}
+
+/// Imagers of exporters mostly put a colour behind the picture: where theirs is missing and has such a
+/// colour, ours does.
+std::optional<ShaderInstance> stand_in(const ShaderInstance& missing) {
+    for (const Parameter& parameter : missing.parameters.values)
+        for (const char* name : {"bgcolor", "background", "backgroundcolor", "color"})
+            if (parameter.name == name && parameter.floats.size() == 3) {
+                ShaderInstance made;
+                made.name = "background";
+                made.location = missing.location;
+                made.camera_from_shader = missing.camera_from_shader;
+                made.parameters.set(
+                    {"bgcolor", {StorageClass::Uniform, ValueType::Color, 1}, parameter.floats, {}});
+                return made;
+            }
+    return {};
 }
 
 /// Each pixel is a grid of its own: it has no neighbours, and its random numbers follow from its place.
@@ -62,16 +80,21 @@ struct Imager::Impl {
 Imager::Imager(const RenderContext& context) : impl_(std::make_unique<Impl>(context)) {
     const Scene& scene = *context.scene;
     if (!scene.options.imager) return;
-    const ShaderInstance& instance = *scene.options.imager;
+    ShaderInstance instance = *scene.options.imager;
     ShaderLibrary library(scene.options, context.diagnostics);
     auto executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
     if (!executable) {
+        auto instead = stand_in(instance);
         if (context.diagnostics)
             context.diagnostics->warning(
                 instance.location,
-                fmt::format("Imager: there is no shader \"{}\"; the picture stays as it is", instance.name),
+                fmt::format("Imager: there is no shader \"{}\"; {}", instance.name,
+                            instead ? "background is used" : "the picture stays as it is"),
                 "missing-shader Imager " + instance.name);
-        return;
+        if (!instead) return;
+        instance = std::move(*instead);
+        executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
+        if (!executable) return;
     }
     impl_->textures = std::make_unique<Textures>(scene.options, context.diagnostics);
     impl_->spaces = std::make_unique<SceneSpaces>(scene, context.camera, &instance, nullptr);

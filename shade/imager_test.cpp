@@ -35,6 +35,22 @@ TEST(Imager, BackgroundFillsWhatIsTransparent) {
               (Pixels{1, 0.5f, 0.25f, 1, 0.75f, 0.5f, 0.375f, 1, 1, 0, 0, 1}));
 }
 
+TEST(Imager, ABackgroundMayLeaveAlphaAsItIs) {
+    TestScene scene;
+    set_imager(scene, "background", {color("bgcolor", {1, 0.5f, 0.25f}), number("bgalpha", 0)});
+    EXPECT_EQ(imaged(scene, {0, 0, 0, 0, 0.25f, 0.25f, 0.25f, 0.5f}),
+              (Pixels{1, 0.5f, 0.25f, 0, 0.75f, 0.5f, 0.375f, 0.5f}));
+}
+
+/// MOSAICbackground of Blender's exporter, for one.
+TEST(Imager, AMissingOneWithABackgroundsColourIsABackground) {
+    TestScene scene;
+    set_imager(scene, "MOSAICbackground", {color("bgcolor", {1, 0.5f, 0.25f}), number("CompositeBlend", 1)});
+    EXPECT_EQ(imaged(scene, {0, 0, 0, 0}), (Pixels{1, 0.5f, 0.25f, 1}));
+    ASSERT_EQ(scene.reported.size(), 1u);
+    EXPECT_EQ(scene.reported[0].text, "Imager: there is no shader \"MOSAICbackground\"; background is used");
+}
+
 TEST(Imager, LongRowsAreRunInPartsAlike) {
     TestScene scene;
     set_imager(scene, "clamptoalpha");

@@ -105,8 +105,8 @@ ShaderInstance stand_in_light(const ShaderInstance& missing) {
                              : kind == Kind::Distant ? "distantlight"
                                                      : "standinlight";
     Maker maker(missing, name);
-    maker.take("intensity", {"intensity", "lightintensity"}, ValueType::Float);
-    maker.take("lightcolor", {"lightcolor", "lightcolour", "color", "colour"}, ValueType::Color);
+    maker.take("intensity", {"intensity", "lightintensity", "energy"}, ValueType::Float);
+    maker.take("lightcolor", {"lightcolor", "lightcolour", "color", "colour", "cl"}, ValueType::Color);
     if (kind == Kind::Ambient) return std::move(maker).made();
     maker.take("from", {"from"}, ValueType::Point);
     maker.take("to", {"to"}, ValueType::Point);

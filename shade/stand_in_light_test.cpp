@@ -34,6 +34,14 @@ TEST(StandInLight, SoDoTheParameters) {
     EXPECT_NEAR(number_of(stand_in_light(shader("key", {number("coneangle", 0.5f)})), "coneangle"), 0.5f, 0);
 }
 
+TEST(StandInLight, ExportersHaveNamesOfTheirOwnForPowerAndColour) {
+    const ShaderInstance light =
+        stand_in_light(shader("lamp", {number("Energy", 3), color("cl", {1, 0.5f, 0})}));
+    EXPECT_EQ(number_of(light, "intensity"), 3);
+    ASSERT_TRUE(light.parameters.find("lightcolor"));
+    EXPECT_EQ(light.parameters.find("lightcolor")->floats, (std::vector<float>{1, 0.5f, 0}));
+}
+
 TEST(StandInLight, LargeIntensitiesFadeWithTheDistanceUnlessToldOtherwise) {
     EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 1)})), "falloff"), 0);
     EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 75)})), "falloff"), 2);

@@ -123,7 +123,8 @@ const char* const kFloats[] = {"Ka",
                                "jitter",
                                "endofframe",
                                "veining"};
-const char* const kColors[] = {"specularcolor", "lightcolor", "background", "opacity", "bgcolor", "fogcolor"};
+const char* const kColors[] = {"specularcolor", "lightcolor", "background", "opacity",
+                               "bgcolor",       "fogcolor",   "color"};
 const char* const kPoints[] = {"from", "to"};
 const char* const kStrings[] = {
     "texturename", "shadowname",       "mapname",     "name",           "archive",      "shader",

@@ -25,6 +25,10 @@ class Declarations {
         known_[name] = declaration;
         predeclared_.erase(name);
     }
+    /// A name that was never declared is none to forget; RISpec's own stay.
+    void forget(const std::string& name) {
+        if (!predeclared_.contains(name)) known_.erase(name);
+    }
     /// A parameter's token, which may carry its declaration: the bare name and its type, or nothing when it
     /// is unknown.
     std::optional<std::pair<std::string, Declaration>> resolve(const std::string& token) const;

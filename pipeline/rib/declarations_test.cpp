@@ -5,6 +5,16 @@
 namespace trapeze::rib {
 namespace {
 
+TEST(Declarations, WhatIsForgottenWasDeclaredBefore) {
+    Declarations declarations;
+    declarations.declare("wobble", *parse_declaration("uniform float"));
+    declarations.forget("wobble");
+    EXPECT_FALSE(declarations.resolve("wobble"));
+    declarations.forget("nobody knows");
+    declarations.forget("P");
+    EXPECT_TRUE(declarations.resolve("P"));
+}
+
 TEST(Declarations, ClassTypeAndLength) {
     EXPECT_EQ(parse_declaration("uniform color"), (Declaration{StorageClass::Uniform, ValueType::Color, 1}));
     EXPECT_EQ(parse_declaration("float"), (Declaration{StorageClass::Uniform, ValueType::Float, 1}));

@@ -14,7 +14,7 @@ namespace {
 constexpr int kLargestPicture = 65536;  ///< pixels along a side
 constexpr float kMostSamples = 64;      ///< along a side of a pixel
 /// A path tracer's noise wants more samples than a surface that is shaded before it is sampled.
-constexpr float kMostHiderSamples = 256;
+constexpr float kMostHiderSamples = 64;
 constexpr size_t kMostColorSamples = 1000;
 
 /// RISpec's and the usual others; composite/filters.cpp has what they mean.
@@ -170,9 +170,18 @@ void quantize(Reader& r, ArgumentCursor& c) {
     changeable_options(r).quantize.set(std::move(value));
 }
 
+/// PRMan's own background has a color and an alpha, which no parameter of a shader can be called.
+void rename_background(ParameterList& parameters) {
+    for (Parameter& parameter : parameters.values) {
+        if (parameter.name == "color") parameter.name = "bgcolor";
+        if (parameter.name == "alpha") parameter.name = "bgalpha";
+    }
+}
+
 void imager(Reader& r, ArgumentCursor& c) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, "imager"));
     instance->parameters = r.shader_parameters(c);
+    if (instance->name == "background") rename_background(instance->parameters);
     const bool is_none = instance->name.empty() || instance->name == "null";
     changeable_options(r).imager = is_none ? nullptr : std::move(instance);
 }

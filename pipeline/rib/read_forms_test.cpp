@@ -44,6 +44,14 @@ TEST(ReadForms, BracketsAreOptionalRoundFixedNumbersOfValues) {
     }
 }
 
+TEST(ReadForms, WhatDoesNotTurnNeedsNoAxis) {
+    const Outcome r = read_text("WorldBegin Translate 1 2 3 Rotate 0 0 0 0 Sphere 1 -1 1 360 WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    EXPECT_EQ(r.primitive().camera_from_object[0].translation(), V3f(1, 2, 3));
+    EXPECT_THAT(read_text("WorldBegin Rotate 5 0 0 0 WorldEnd").messages,
+                ElementsAre(HasSubstr("the axis is 0")));
+}
+
 TEST(ReadForms, PinholesAreWrittenInManyWays) {
     for (const char* lens : {"", "\"-\"", "1e38 0 0", "1e+38 1 1", "22 0 0"}) {
         const Outcome r =

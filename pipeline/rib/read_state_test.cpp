@@ -88,6 +88,22 @@ TEST(ReadState, CameraOptions) {
     EXPECT_EQ(r.scene().camera_from_world.translation(), V3f(0, 0, 5));
 }
 
+/// Parameters of shaders cannot be called so.
+TEST(ReadState, TheBackgroundsColorAndAlphaHaveOtherNamesInItsShader) {
+    const Outcome r = read_text(
+        "Imager \"background\" \"color color\" [.1 .2 .3] \"float alpha\" [0] WorldBegin WorldEnd\n"
+        "Imager \"background\" \"color\" [.5 .5 .6] WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.worlds.size(), 2u);
+    const ParameterList& first = r.worlds[0].options.imager->parameters;
+    ASSERT_TRUE(first.find("bgcolor") && first.find("bgalpha"));
+    EXPECT_EQ(first.find("bgcolor")->floats, (std::vector<float>{.1f, .2f, .3f}));
+    EXPECT_EQ(first.find("bgalpha")->floats, (std::vector<float>{0}));
+    const ParameterList& second = r.worlds[1].options.imager->parameters;
+    ASSERT_TRUE(second.find("bgcolor"));
+    EXPECT_EQ(second.find("bgcolor")->floats, (std::vector<float>{.5f, .5f, .6f}));
+}
+
 TEST(ReadState, OptionsAreRestoredWithTheirFrames) {
     const Outcome r = read_text(
         "FrameBegin 3 Format 8 8 1 Translate 0 0 1 WorldBegin WorldEnd FrameEnd\n"

@@ -12,6 +12,7 @@ void version(Reader&, ArgumentCursor& c) {
 
 void declare(Reader& r, ArgumentCursor& c) {
     const std::string name = c.string("the name"), text = c.string("the declaration");
+    if (text.empty()) return r.declarations().forget(name);  // as Liquid and others write it
     const auto declaration = parse_declaration(text);
     if (!declaration) throw RequestError{in_quotes(text) + " is no declaration", {}};
     r.declarations().declare(name, *declaration);

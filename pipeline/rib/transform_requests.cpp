@@ -18,8 +18,11 @@ void perspective(Reader& r, ArgumentCursor& c) {
 }
 
 void rotate(Reader& r, ArgumentCursor& c) {
-    const std::vector<float> v = c.numbers(4, "the transformation");
-    if (v[1] == 0 && v[2] == 0 && v[3] == 0) throw RequestError{"the axis is 0", {}};
+    std::vector<float> v = c.numbers(4, "the transformation");
+    if (v[1] == 0 && v[2] == 0 && v[3] == 0) {
+        if (v[0] != 0) throw RequestError{"the axis is 0", {}};
+        v[3] = 1;  // exporters take the axis from a matrix, which has none when nothing turns
+    }
     r.transform(TransformKind::Rotate, v);
 }
 
