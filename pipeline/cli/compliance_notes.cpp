@@ -4,10 +4,10 @@ namespace trapeze {
 namespace {
 
 constexpr RequestNote kRequests[] = {
-    {"AreaLightSource", "shines from the origin of its shader space, with a warning"},
+    {"AreaLightSource", "shines from the middle of its first shape, with a warning"},
     {"Atmosphere", "at visible points; no volume between surfaces"},
     {"Bound", "read; the renderer finds bounds itself"},
-    {"Bxdf", "RIS shaders are not run: defaultsurface, in the Bxdf's colour"},
+    {"Bxdf", "RIS shaders are not run: rissurface, in the Bxdf's colour or texture"},
     {"ColorSamples", "colours are turned into RGB where they are read"},
     {"Deformation", "no such shaders"},
     {"Detail", "cross-faded by opacity"},
@@ -23,17 +23,17 @@ constexpr RequestNote kRequests[] = {
      "as SubdivisionMesh; edits of finer levels, which OpenSubdiv has not, are left out with one warning"},
     {"Hider",
      "hidden; others are warned about and hidden is used; jitter, depthfilter; minsamples and maxsamples "
-     "(as a square of 16x16 at most) where no PixelSamples is given"},
+     "(as a square of 8x8 at most) where no PixelSamples is given"},
     {"Imager", "over the finished picture, after filtering"},
     {"Integrator", "read; RIS shaders are not run"},
     {"Interior", "kept; nothing runs it until rays are traced"},
-    {"Light", "read; RIS shaders are not run"},
+    {"Light", "RIS shaders are not run: rislight, distantlight and ambientlight, without shadows"},
     {"LightFilter", "read; RIS shaders are not run"},
     {"MakeBump", "as MakeTexture"},
     {"MotionBegin",
      "any number of keys for transforms and geometry; other requests take their values as the shutter opens, "
      "with a note"},
-    {"Pattern", "read; RIS shaders are not run"},
+    {"Pattern", "RIS shaders are not run: Bxdfs have the mean of its colours, or its texture"},
     {"Perspective", "read; surfaces are not transformed by projections"},
     {"PixelVariance", "read; every pixel has all its samples"},
     {"Procedural", "archives at once; programs where the command line allows them; no DynamicLoad"},
@@ -70,7 +70,8 @@ constexpr Capability kCapabilities[] = {
      "Atmosphere shaders run at visible points. Interior and Exterior are kept."},
     {"Ray Tracing", "not supported", "trace() and its kin see nothing, with one warning."},
     {"Global Illumination", "not supported", "occlusion() and indirectdiffuse() are 0, with one warning."},
-    {"Area Lights", "not supported", "AreaLightSource shines from the origin of its space, with a warning."},
+    {"Area Lights", "not supported",
+     "AreaLightSource shines from the middle of its first shape, with a warning."},
     {"Texture, Environment and Shadow Mapping", "supported", "The Make requests and what OpenImageIO reads."},
 };
 

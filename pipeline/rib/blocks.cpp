@@ -153,6 +153,7 @@ void Reader::deliver_world() {
     scene_.options = std::move(options);
     scene_.clipping_planes = scope_.clipping_planes;
     resolved_ = {};
+    light_world();
     if (wanted) on_world_(std::move(scene_));
     scene_ = Scene();
     scene_bytes_ = 0;

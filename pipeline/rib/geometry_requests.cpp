@@ -50,13 +50,27 @@ void cube(Reader& r, const ParameterList& given) {
     add(r, "PointsPolygons", std::move(mesh), std::move(list));
 }
 
+/// The path tracer's rectangular light: a square of width 1.
+void rectangle(Reader& r, const ParameterList& given) {
+    const PatchMesh mesh;
+    ParameterList list = checked_variables(r, given, mesh);
+    list.set({"P",
+              {StorageClass::Vertex, ValueType::Point, 1},
+              {-.5f, -.5f, 0, .5f, -.5f, 0, -.5f, .5f, 0, .5f, .5f, 0},
+              {}});
+    add(r, "Patch", mesh, std::move(list));
+}
+
 void geometry(Reader& r, ArgumentCursor& c) {
     const std::string name = c.string("the name");
     const ParameterList given = read_variables(r, c, PointForm::None);
     if (name == "teapot") return teapot(r, given);
     if (name == "sphere") return sphere(r, given);
     if (name == "cube") return cube(r, given);
-    r.warn_once("no geometry " + in_quotes(name) + "; known are teapot, sphere and cube", "geometry-" + name);
+    if (name == "rectlight") return rectangle(r, given);
+    if (name == "envsphere" || name == "distantlight") return;  // lights that are too far away to be seen
+    r.warn_once("no geometry " + in_quotes(name) + "; known are teapot, sphere, cube and rectlight",
+                "geometry-" + name);
 }
 
 constexpr RequestRow kRows[] = {

@@ -11,6 +11,7 @@
 #include "core/scene.h"
 #include "pipeline/rib/arguments.h"
 #include "pipeline/rib/moving_transform.h"
+#include "pipeline/rib/ris_network.h"
 
 namespace trapeze::rib {
 
@@ -35,6 +36,13 @@ struct Detail {
     float weight() const;
 };
 
+/// A light that shines from the first shape after it.
+struct Emitter {
+    std::shared_ptr<LightInstance> light;
+    bool is_of_ris = false;  ///< else an AreaLightSource of RSL
+    bool is_placed = false;
+};
+
 struct AttributeState {
     Attributes attributes;
     Detail detail;
@@ -45,6 +53,7 @@ struct AttributeState {
     int u_step = 3, v_step = 3;
     std::shared_ptr<const std::vector<std::vector<TrimCurve>>> trim_loops;  ///< null: none
     bool trim_outside = false;
+    std::shared_ptr<Emitter> emitter;  ///< null: none
 };
 
 using NamedSpaces = std::map<std::string, MovingTransform>;  ///< camera_from_space
@@ -88,6 +97,7 @@ struct ObjectPrimitive {
 struct RetainedObject {
     std::shared_ptr<const AttributeState> attributes;  ///< at ObjectBegin
     std::vector<ObjectPrimitive> primitives;
+    std::vector<std::shared_ptr<const LightInstance>> lights;  ///< of RIS; in the object's space
     SolidList solids;
 };
 
@@ -115,6 +125,7 @@ struct Scope {
     std::map<std::string, std::shared_ptr<const LightInstance>> lights;
     std::map<std::string, DisplayChannel> display_channels;
     std::map<std::string, std::shared_ptr<RetainedObject>> objects;
+    RisNetwork ris;
 };
 
 struct OpenBlock {

@@ -90,6 +90,7 @@ void Reader::instance(const std::string& handle) {
     if (found == scope_.objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
     if (found->second == object_) throw RequestError{"an object in its own definition", {}};
     RetainedObject& object = *found->second;
+    place_lights(object);
     instanced_primitives_ += object.primitives.size();
     if (instanced_primitives_ > read_options_.most_instanced_primitives) {
         diagnostics_.error(at_,

@@ -72,14 +72,18 @@ TEST(ReadShaders, LayersEndSomewhere) {
     EXPECT_FALSE(r.messages.empty());
 }
 
-TEST(ReadShaders, AreaLightsShineFromTheirOriginWithAWarning) {
-    const Outcome r =
-        read_world("AttributeBegin Translate 0 2 0 AreaLightSource \"pointlight\" 5 \"intensity\" [3] " +
-                   kSphere + "AttributeEnd Illuminate 5 1 AreaLightSource \"\" 6 " + kSphere);
+TEST(ReadShaders, AreaLightsShineFromTheMiddleOfTheirFirstShapeWithAWarning) {
+    const Outcome r = read_world(
+        "AttributeBegin Translate 0 2 0 AreaLightSource \"pointlight\" 5 \"intensity\" [3] "
+        "Polygon \"P\" [0 0 0  4 0 0  4 2 0] " +
+        kSphere + "AttributeEnd Illuminate 5 1 AreaLightSource \"\" 6 " + kSphere +
+        "AreaLightSource \"pointlight\" 7 \"from\" [1 2 3] Translate 5 5 5 " + kSphere);
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_THAT(r.messages[0], HasSubstr("area lights"));
-    ASSERT_EQ(r.attributes(1).lights.size(), 1u);
-    EXPECT_EQ(r.attributes(1).lights[0]->shader.camera_from_shader.translation(), V3f(0, 2, 0));
+    ASSERT_EQ(r.attributes(2).lights.size(), 1u);
+    EXPECT_EQ(r.attributes(2).lights[0]->shader.camera_from_shader.translation(), V3f(2, 3, 0));
+    ASSERT_EQ(r.attributes(3).lights.size(), 2u);
+    EXPECT_EQ(r.attributes(3).lights[1]->shader.camera_from_shader.translation(), V3f(0, 0, 0));
 }
 
 TEST(ReadShaders, LightsMayLackHandles) {

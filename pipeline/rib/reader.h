@@ -1,6 +1,6 @@
 /// The reader's state and what requests do to it. Requests are rows of tables (request_table.h), grouped by
 /// file. The members are in reader.cpp (streams), archives.cpp, blocks.cpp, conditional_blocks.cpp,
-/// motion_blocks.cpp, objects.cpp, parameters.cpp and reader_scene.cpp.
+/// motion_blocks.cpp, objects.cpp, parameters.cpp, reader_scene.cpp and ris_world.cpp.
 #pragma once
 
 #include <map>
@@ -80,6 +80,8 @@ class Reader {
 
     void add_shape(std::string request, Shape shape, uint64_t faces);
     void add_light(std::shared_ptr<const LightInstance> light);
+    /// One that shines on all of the world, or on where its object is placed (RIS).
+    void add_world_light(std::shared_ptr<const LightInstance> light);
     std::shared_ptr<const LightInstance> light(const std::string& handle) const;
     /// The name of a shader, placed in the current space; its other arguments are still to come.
     ShaderInstance shader(ArgumentCursor& cursor, const char* kind);
@@ -179,6 +181,9 @@ class Reader {
     void place_instance(ObjectPrimitive& primitive, const std::shared_ptr<const AttributeState>& attributes,
                         int solid);
     void close_solid();
+    void place_lights(const RetainedObject& object);
+    void place_emitter(const Shape& shape);
+    void light_world();
 
     /// `solid` is the scene's that the primitive bounds, or -1.
     bool takes_geometry();

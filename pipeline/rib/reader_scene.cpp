@@ -164,6 +164,7 @@ void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
             throw RequestError{"this is a motion block of " + motion_->request, {}};
     }
     summary_.faces += faces;
+    place_emitter(shape);
     // Poses of a motion are counted at its end, at the keys that the scene has.
     if (keeps_geometry() && !motion_ && !has_room(bytes_of(shape))) return;
     auto shared = std::make_shared<const Shape>(std::move(shape));

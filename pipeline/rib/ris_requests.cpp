@@ -1,58 +1,77 @@
-/// Requests of PRMan's path tracer (RIS), which has other shaders than RSL: of them the colour of a surface
-/// is taken, so that its geometry can be seen.
+/// Requests of PRMan's path tracer (RIS), which has other shaders than RSL: surfaces have the colours, or the
+/// textures, that its Bxdfs and Patterns are told, and its lights shine without shadows.
 #include <algorithm>
 #include <string_view>
 
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/ris_lights.h"
+#include "pipeline/rib/ris_network.h"
 
 namespace trapeze::rib {
 namespace {
 
-/// Parameters that hold what a surface looks like from afar, the better ones first.
-constexpr std::string_view kColors[] = {"baseColor",         "diffuseColor", "emitColor", "frontColor",
-                                        "diffuseFrontColor", "color",        "tint"};
-
-std::string_view last_word(std::string_view token) {
-    const size_t space = token.rfind(' ');
-    return space == std::string_view::npos ? token : token.substr(space + 1);
-}
-
-/// The colour among a Bxdf's parameters; those that a Pattern computes have none.
-std::optional<V3f> color_of(ArgumentCursor& c) {
-    std::optional<V3f> color;
-    size_t rank = std::size(kColors);
-    while (!c.done()) {
-        const std::string token = c.string("a parameter's name");
-        if (c.done()) throw RequestError{in_quotes(token) + " has no value", {}};
-        Argument value = c.take("a value");
-        std::vector<float> numbers = value.take_numbers();
-        while (value.kind == Argument::Kind::Number && c.next_is_number() && !c.next_is_array())
-            numbers.push_back(c.number("a value"));
-        const auto place = static_cast<size_t>(
-            std::find(std::begin(kColors), std::end(kColors), last_word(token)) - std::begin(kColors));
-        if (numbers.size() != 3 || place >= rank) continue;
-        color = V3f(numbers[0], numbers[1], numbers[2]);
-        rank = place;
-    }
-    return color;
-}
-
 void note(Reader& r) {
     r.count_unsupported();
-    r.warn_once("RIS shading is not supported; geometry is drawn by defaultsurface, in the colours of Bxdfs",
-                "ris");
+    r.warn_once(
+        "RIS shading is not supported; Bxdfs are seen by their colours and textures, lights have no shadows",
+        "ris");
+}
+
+void set_color(ShaderInstance& shader, const char* name, const V3f& v) {
+    if (v.x != 0 || v.y != 0 || v.z != 0)
+        shader.parameters.set({name, {StorageClass::Uniform, ValueType::Color, 1}, {v.x, v.y, v.z}, {}});
+}
+
+/// The shader that shows a look; its colour is Cs.
+void show(const RisLook& look, ShaderInstance& shader) {
+    shader.name = look.is_constant ? "constant" : "rissurface";
+    if (look.is_constant) return;
+    set_color(shader, "specularcolor", look.specular);
+    set_color(shader, "emission", look.emission);
+    shader.parameters.set({"roughness", {StorageClass::Uniform, ValueType::Float, 1}, {look.roughness}, {}});
+    if (look.opacity < 1)
+        shader.parameters.set({"opacity", {StorageClass::Uniform, ValueType::Float, 1}, {look.opacity}, {}});
+    if (!look.texture.empty())
+        shader.parameters.set(
+            {"texturename", {StorageClass::Uniform, ValueType::String, 1}, {}, {look.texture}});
+}
+
+/// Exporters describe a material once, and name it by its id alone on every object that has it.
+RisLook known_look(RisNetwork& network, const std::string& shader, const RisParameters& parameters) {
+    const std::string id = parameters.text("__materialid");
+    const auto known = network.materials.find(id);
+    if (known != network.materials.end() && parameters.all().size() == 1) return known->second;
+    RisLook look = look_of_bxdf(shader, parameters, network);
+    if (!id.empty()) network.materials[id] = look;
+    return look;
 }
 
 void bxdf(Reader& r, ArgumentCursor& c) {
     ShaderInstance surface = r.shader(c, "bxdf");
-    c.handle("the handle");
-    const std::optional<V3f> color = color_of(c);
-    const bool is_constant = surface.name == "PxrConstant" || surface.name == "PxrBlack";
+    const std::string handle = c.handle("the handle");
+    const RisParameters parameters = RisParameters::read(c);
+    RisNetwork& network = r.scope().ris;
+    const RisLook look = network.bxdfs[handle] = known_look(network, surface.name, parameters);
     Attributes& a = r.change_attributes().attributes;
-    if (color) a.color = *color;
-    if (surface.name == "PxrBlack") a.color = V3f(0);
-    surface.name = is_constant ? "constant" : "defaultsurface";
+    a.color = look.color.value_or(look.is_constant ? V3f(1, 1, 1) : V3f(0.5f, 0.5f, 0.5f));
+    show(look, surface);
     a.surface = std::make_shared<const ShaderInstance>(std::move(surface));
+    note(r);
+}
+
+void pattern(Reader& r, ArgumentCursor& c) {
+    RisPattern made;
+    made.shader = c.string("the pattern's name");
+    const std::string handle = c.handle("the handle");
+    made.parameters = RisParameters::read(c);
+    r.scope().ris.patterns[handle] = std::move(made);
+    note(r);
+}
+
+void light(Reader& r, ArgumentCursor& c) {
+    const ShaderInstance shader = r.shader(c, "light");
+    const std::string handle = c.handle("the handle");
+    add_ris_light(r, handle, shader, RisParameters::read(c), false);
     note(r);
 }
 
@@ -62,11 +81,26 @@ void skip(Reader& r, ArgumentCursor& c) {
 }
 
 constexpr RequestRow kRows[] = {
-    {"Bxdf", bxdf},       {"Pattern", skip},  {"Light", skip},         {"LightFilter", skip},
-    {"Integrator", skip}, {"Displace", skip}, {"DisplayFilter", skip}, {"SampleFilter", skip},
+    {"Bxdf", bxdf},       {"Pattern", pattern}, {"Light", light},        {"LightFilter", skip},
+    {"Integrator", skip}, {"Displace", skip},   {"DisplayFilter", skip}, {"SampleFilter", skip},
 };
 
 }  // namespace
+
+void add_ris_light(Reader& r, const std::string& handle, const ShaderInstance& shader,
+                   const RisParameters& parameters, bool is_area_light) {
+    const auto lighting = r.attributes().attributes.user.find("lighting");
+    if (lighting != r.attributes().attributes.user.end() && lighting->second.float_or("mute", 0) != 0) return;
+    if (is_mesh_light(shader.name, is_area_light)) {
+        auto emitter = std::make_shared<Emitter>();
+        emitter->light = mesh_light(handle, shader, parameters);
+        emitter->is_of_ris = true;
+        r.add_world_light(emitter->light);
+        r.change_attributes().emitter = std::move(emitter);
+        return;
+    }
+    for (const auto& one : ris_lights(handle, shader, parameters)) r.add_world_light(one);
+}
 
 std::span<const RequestRow> ris_requests() {
     return kRows;

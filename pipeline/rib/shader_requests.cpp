@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/ris_lights.h"
 
 namespace trapeze::rib {
 namespace {
@@ -87,14 +88,25 @@ std::shared_ptr<LightInstance> light_of(Reader& r, ArgumentCursor& c) {
     return light;
 }
 
-/// Area Lights is an optional capability (RISpec 1.1): the light shines from the origin of its space, and
-/// the geometry that follows is geometry.
+/// Area Lights is an optional capability (RISpec 1.1): the light shines from the middle of the first shape
+/// that follows, and all that follows is geometry.
 void area_light_source(Reader& r, ArgumentCursor& c) {
+    if (const Argument* name = c.peek(); name && name->is_text() && is_ris_light(name->strings[0])) {
+        const ShaderInstance shader = r.shader(c, "light");
+        const std::string handle = c.handle("the handle");
+        return add_ris_light(r, handle, shader, RisParameters::read(c), true);
+    }
     auto light = light_of(r, c);
-    if (light->shader.name.empty() || light->shader.name == "null") return;  // ends an area light
-    r.warn_once("area lights are not sampled; the light shines from the origin of its shader space",
+    if (light->shader.name.empty() || light->shader.name == "null") {  // ends an area light
+        r.change_attributes().emitter = nullptr;
+        return;
+    }
+    r.warn_once("area lights are not sampled; the light shines from the middle of its first shape",
                 "area-light");
+    auto emitter = std::make_shared<Emitter>();
+    emitter->light = light;
     r.add_light(std::move(light));
+    r.change_attributes().emitter = std::move(emitter);
 }
 
 void illuminate(Reader& r, ArgumentCursor& c) {

@@ -1,0 +1,175 @@
+/// The path tracer's surfaces and lights (RIS), as the shading language's.
+#include <cmath>
+
+#include "pipeline/rib/test_reading.h"
+
+namespace trapeze::rib::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string kBall = "Sphere 1 -1 1 360\n";
+
+Outcome read_world(const std::string& text) {
+    Outcome outcome = read_text("WorldBegin\n" + text + "WorldEnd\n");
+    EXPECT_LE(outcome.messages.size(), 1u);  // that RIS is not supported
+    EXPECT_EQ(outcome.worlds.size(), 1u);
+    return outcome;
+}
+
+std::vector<float> numbers(const ShaderInstance& shader, const char* name) {
+    const Parameter* found = shader.parameters.find(name);
+    return found ? found->floats : std::vector<float>{};
+}
+
+std::string text_of(const ShaderInstance& shader, const char* name) {
+    return shader.parameters.string_or(name, "");
+}
+
+TEST(ReadRis, PatternsGiveTheMeanOfTheirColours) {
+    const Outcome r = read_world(
+        "Pattern \"PxrMix\" \"m\" \"color color1\" [1 0 0] \"color color2\" [0 0 1] \"float mix\" [.5]\n"
+        "Pattern \"PxrHSL\" \"h\" \"reference color inputRGB\" [\"m:resultRGB\"]\n"
+        "Bxdf \"PxrDisney\" \"b\" \"reference color baseColor\" [\"h:resultRGB\"]\n" +
+        kBall + "Bxdf \"PxrDiffuse\" \"b\" \"reference color diffuseColor\" [\"nowhere:resultRGB\"]\n" +
+        kBall +
+        "Pattern \"PxrBump\" \"loop\" \"reference color a\" [\"loop:result\"] \"color c\" [.2 .4 .6]\n"
+        "Bxdf \"PxrDiffuse\" \"b\" \"reference color diffuseColor\" [\"loop:result\"]\n" +
+        kBall);
+    EXPECT_EQ(r.attributes(0).color, V3f(0.5f, 0, 0.5f));
+    EXPECT_EQ(r.attributes(1).color, V3f(0.5f, 0.5f, 0.5f));
+    EXPECT_NEAR(r.attributes(2).color.y, 0.4f, 1e-6f);
+}
+
+TEST(ReadRis, TexturesAreThoseOfPatterns) {
+    const Outcome r = read_world(
+        "Pattern \"PxrTexture\" \"t\" \"string filename\" [\"wood.tex\"]\n"
+        "Pattern \"PxrColorCorrect\" \"c\" \"reference color inputRGB\" [\"t:resultRGB\"]\n"
+        "Bxdf \"PxrSurface\" \"b\" \"reference color diffuseColor\" [\"c:resultRGB\"]\n" +
+        kBall);
+    EXPECT_EQ(text_of(*r.attributes().surface, "texturename"), "wood.tex");
+    EXPECT_EQ(r.attributes().color, V3f(1, 1, 1));
+}
+
+TEST(ReadRis, MetalsHaveTheColourThatTheyReflect) {
+    const Outcome r = read_world(
+        "Bxdf \"PxrSurface\" \"gold\" \"float diffuseGain\" [0] \"color specularFaceColor\" [1 .75 .25]\n" +
+        kBall +
+        "Bxdf \"PxrSurface\" \"silver\" \"float diffuseGain\" [0] \"int specularFresnelMode\" [1] "
+        "\"color specularEdgeColor\" [1 1 1] \"color specularIor\" [3 3 3] "
+        "\"color specularExtinctionCoeff\" [0 0 0]\n" +
+        kBall);
+    EXPECT_NEAR(r.attributes(0).color.y, 0.6f, 1e-6f);
+    // ((3 - 1) / (3 + 1))^2 = 1/4
+    EXPECT_EQ(numbers(*r.attributes(1).surface, "specularcolor"), (std::vector<float>{.25f, .25f, .25f}));
+}
+
+/// As RenderMan for Maya writes it: the second names the first.
+TEST(ReadRis, MaterialsAreKnownByTheirIds) {
+    const Outcome r = read_world(
+        "AttributeBegin Bxdf \"PxrSurface\" \"s\" \"color diffuseColor\" [.1 .2 .3] "
+        "\"string __materialid\" [\"s1SG\"] AttributeEnd\n"
+        "Bxdf \"PxrSurface\" \"s\" \"string __materialid\" [\"s1SG\"]\n" +
+        kBall);
+    EXPECT_EQ(r.attributes().color, V3f(0.1f, 0.2f, 0.3f));
+}
+
+TEST(ReadRis, LayersAreTheMeanOfWhatTheyAreMadeOf) {
+    const Outcome r = read_world(
+        "Bxdf \"LamaDiffuse\" \"d\" \"color color\" [0 .5 0]\n"
+        "Bxdf \"LamaSurface\" \"s\" \"reference bxdf materialFront\" [\"d\"]\n" +
+        kBall);
+    EXPECT_EQ(r.attributes().color, V3f(0, 0.5f, 0));
+}
+
+TEST(ReadRis, LightsShineOnAllOfTheWorld) {
+    const Outcome r = read_world("Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
+                                 "AttributeBegin Translate 0 5 0 Rotate 90 1 0 0 Light \"PxrRectLight\" "
+                                 "\"key\" \"float exposure\" [3] "
+                                 "\"intensity\" [2] \"color lightColor\" [1 .5 .25] AttributeEnd\n" +
+                                 kBall);
+    for (size_t i = 0; i < 2; ++i) {
+        ASSERT_EQ(r.attributes(i).lights.size(), 1u);
+        const ShaderInstance& light = r.attributes(i).lights[0]->shader;
+        EXPECT_EQ(light.name, "rislight");
+        EXPECT_EQ(numbers(light, "lightcolor"), (std::vector<float>{16, 8, 4}));
+        EXPECT_EQ(text_of(light, "shape"), "rect");
+        EXPECT_EQ(light.camera_from_shader.translation(), V3f(0, 5, 0));
+    }
+}
+
+TEST(ReadRis, ALightOfAnObjectShinesWhereItIsPlaced) {
+    const Outcome r =
+        read_world("Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
+                   "ObjectBegin \"lamp\" Translate 0 1 0 Light \"PxrSphereLight\" \"l\" ObjectEnd\n"
+                   "AttributeBegin Translate 7 0 0 ObjectInstance \"lamp\" AttributeEnd\n"
+                   "AttributeBegin Attribute \"lighting\" \"int mute\" [1] Light \"PxrDistantLight\" \"off\" "
+                   "AttributeEnd\n");
+    ASSERT_EQ(r.attributes().lights.size(), 1u);
+    EXPECT_EQ(r.attributes().lights[0]->shader.camera_from_shader.translation(), V3f(7, 1, 0));
+}
+
+TEST(ReadRis, DomesAreAmbientAndShineFromAboveAndTheEye) {
+    const Outcome r = read_world(
+        "Light \"PxrDomeLight\" \"d\" \"float intensity\" [2]\n"
+        "Bxdf \"PxrDiffuse\" \"b\"\n" +
+        kBall);
+    const auto& lights = r.attributes().lights;
+    ASSERT_EQ(lights.size(), 3u);
+    EXPECT_EQ(lights[0]->shader.name, "ambientlight");
+    EXPECT_EQ(numbers(lights[0]->shader, "lightcolor"), (std::vector<float>{0.6f, 0.6f, 0.6f}));
+    EXPECT_EQ(numbers(lights[1]->shader, "to"), (std::vector<float>{0, 0, -1}));
+}
+
+/// The light of older versions, and its geometry: a square at (3, 2, 0) in the plane y = 2.
+TEST(ReadRis, AreaLightsShineFromTheirGeometry) {
+    const Outcome r = read_world(
+        "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"float exposure\" [1]\n"
+        "Bxdf \"PxrLightEmission\" \"e\" Translate 3 2 0\n"
+        "Polygon \"P\" [-1 0 -1  1 0 -1  1 0 1  -1 0 1]\n" +
+        kBall +
+        "AttributeEnd\n"
+        "Bxdf \"PxrDiffuse\" \"b\"\n" +
+        kBall);
+    ASSERT_EQ(r.attributes(2).lights.size(), 1u);
+    const ShaderInstance& light = r.attributes(2).lights[0]->shader;
+    EXPECT_EQ(light.camera_from_shader.translation(), V3f(3, 2, 0));
+    EXPECT_EQ(text_of(light, "shape"), "rect");
+    EXPECT_EQ(numbers(light, "twosided"), (std::vector<float>{1}));
+    const M44f& m = light.camera_from_shader;
+    EXPECT_EQ(std::abs(m[2][1]), 1);  // its z axis is y
+    EXPECT_EQ(V3f(m[0][0], m[0][1], m[0][2]).length(), 2);
+    EXPECT_EQ(V3f(m[1][0], m[1][1], m[1][2]).length(), 2);
+    EXPECT_EQ(r.attributes(0).surface->name, "constant");
+}
+
+TEST(ReadRis, WhereNothingLightsBxdfsTheEyeDoes) {
+    const Outcome r = read_world(kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall);
+    EXPECT_THAT(r.attributes(0).lights, IsEmpty());
+    ASSERT_EQ(r.attributes(1).lights.size(), 1u);
+    EXPECT_EQ(r.attributes(1).lights[0]->shader.name, "distantlight");
+}
+
+TEST(ReadRis, BxdfsAreShadedOnceAPixelAtLeast) {
+    const Outcome r = read_world("ShadingRate 20\n" + kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
+                                 "ShadingRate .25\n" + kBall);
+    EXPECT_EQ(r.attributes(0).shading_rate, 20);
+    EXPECT_EQ(r.attributes(1).shading_rate, 1);
+    EXPECT_EQ(r.attributes(2).shading_rate, 0.25f);
+}
+
+TEST(ReadRis, OddParametersAreNoErrors) {
+    const Outcome r = read_world(
+        "Bxdf \"PxrSurface\" \"s\" \"int[] utilityPattern\" [] \"float presence\" 1 \"x\" [\"y\"] "
+        "\"color diffuseColor\" .1 .2 .3\n" +
+        kBall);
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("RIS shading is not supported")));
+    EXPECT_EQ(r.attributes().color, V3f(0.1f, 0.2f, 0.3f));
+    EXPECT_THAT(read_text("WorldBegin Bxdf \"PxrSurface\" \"s\" \"color x\" WorldEnd").messages,
+                ElementsAre(HasSubstr("\"color x\" has no value")));
+}
+
+}  // namespace
+}  // namespace trapeze::rib::test

@@ -1,0 +1,173 @@
+#include "pipeline/rib/ris_lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trapeze::rib {
+namespace {
+
+/// A dome's light comes from everywhere; what is under something, or behind, has less of it. Without rays
+/// this is what tells forms apart: parts of the power that are ambient, from above and from the eye.
+constexpr float kDomeAmbient = 0.3f, kDomeAbove = 0.3f, kDomeEye = 0.4f;
+
+bool contains(std::string_view text, std::string_view part) {
+    return text.find(part) != std::string_view::npos;
+}
+
+void set_number(ShaderInstance& shader, const char* name, float value) {
+    shader.parameters.set({name, {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}});
+}
+
+void set_triple(ShaderInstance& shader, const char* name, ValueType type, const V3f& v) {
+    shader.parameters.set({name, {StorageClass::Uniform, type, 1}, {v.x, v.y, v.z}, {}});
+}
+
+/// Its radiance.
+V3f power(const RisParameters& p) {
+    const float scale =
+        p.number_or("intensity", 1) * std::exp2(std::clamp(p.number_or("exposure", 0), -64.0f, 64.0f));
+    V3f color(1, 1, 1);
+    for (const char* name : {"lightColor", "envTint", "skyTint", "lightcolor"})
+        if (const auto given = p.color(name)) color = *given;
+    return color * (std::isfinite(scale) ? scale : 1.0f);
+}
+
+std::shared_ptr<LightInstance> make(const std::string& handle, const ShaderInstance& from, const char* name,
+                                    const V3f& radiance) {
+    auto light = std::make_shared<LightInstance>();
+    light->handle = handle;
+    light->shader.name = name;
+    light->shader.location = from.location;
+    light->shader.camera_from_shader = from.camera_from_shader;
+    set_triple(light->shader, "lightcolor", ValueType::Color, radiance);
+    return light;
+}
+
+/// Along `direction` of its space.
+std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderInstance& from,
+                                       const V3f& radiance, const V3f& direction) {
+    auto light = make(handle, from, "distantlight", radiance);
+    set_triple(light->shader, "from", ValueType::Point, V3f(0, 0, 0));
+    set_triple(light->shader, "to", ValueType::Point, direction);
+    return light;
+}
+
+std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderInstance& from,
+                                        const RisParameters& p, const char* shape) {
+    auto light = make(handle, from, "rislight", power(p));
+    light->shader.parameters.set({"shape", {StorageClass::Uniform, ValueType::String, 1}, {}, {shape}});
+    // Those of the first versions are in any case.
+    const bool is_normalized = contains(from.name, "PxrStd") || p.number_or("areaNormalize", 0) != 0;
+    set_number(light->shader, "normalized", is_normalized ? 1.0f : 0.0f);
+    set_number(light->shader, "focus", std::clamp(p.number_or("emissionFocus", 0), 0.0f, 100.0f));
+    set_number(light->shader, "coneangle", std::clamp(p.number_or("coneAngle", 90), 0.0f, 180.0f));
+    set_number(light->shader, "conesoftness", std::clamp(p.number_or("coneSoftness", 0), 0.0f, 1.0f));
+    return light;
+}
+
+struct Box {
+    V3f low{0, 0, 0}, high{0, 0, 0};
+};
+
+Box box_of(const Quadric& q) {
+    const auto& v = q.values;
+    switch (q.kind) {
+        case Quadric::Kind::Cylinder:
+            return {V3f(-v[0], -v[0], v[1]), V3f(v[0], v[0], v[2])};
+        case Quadric::Kind::Cone:
+            return {V3f(-v[1], -v[1], 0), V3f(v[1], v[1], v[0])};
+        case Quadric::Kind::Disk:
+            return {V3f(-v[1], -v[1], v[0]), V3f(v[1], v[1], v[0])};
+        case Quadric::Kind::Torus: {
+            const float r = std::abs(v[0]) + std::abs(v[1]);
+            return {V3f(-r, -r, -v[1]), V3f(r, r, v[1])};
+        }
+        default: {
+            const float r = std::abs(v[0]);
+            return {V3f(-r, -r, -r), V3f(r, r, r)};
+        }
+    }
+}
+
+Box box_of(const Shape& shape) {
+    if (const auto* quadric = std::get_if<Quadric>(&shape.topology)) return box_of(*quadric);
+    const Parameter* points = shape.variables.find("P");
+    if (!points || points->floats.size() < 3) return {};
+    Box box{V3f(kInfinity), V3f(-kInfinity)};
+    for (size_t i = 0; i + 2 < points->floats.size(); i += 3)
+        for (int axis = 0; axis < 3; ++axis) {
+            const float x = points->floats[i + static_cast<size_t>(axis)];
+            box.low[axis] = std::min(box.low[axis], x);
+            box.high[axis] = std::max(box.high[axis], x);
+        }
+    return box;
+}
+
+}  // namespace
+
+bool is_ris_light(std::string_view shader) {
+    const size_t slash = shader.find_last_of("/\\");
+    const std::string_view name = slash == std::string_view::npos ? shader : shader.substr(slash + 1);
+    return name.starts_with("Pxr");
+}
+
+bool is_mesh_light(std::string_view shader, bool is_area_light) {
+    if (contains(shader, "MeshLight")) return true;
+    return is_area_light && contains(shader, "AreaLight");
+}
+
+std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
+                                          const RisParameters& parameters) {
+    return of_shape(handle, shader, parameters, "sphere");
+}
+
+void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape) {
+    const Box box = box_of(shape);
+    const V3f size = box.high - box.low, middle = (box.low + box.high) * 0.5f;
+    int thin = 0;
+    for (int axis = 1; axis < 3; ++axis)
+        if (size[axis] < size[thin]) thin = axis;
+    const bool is_flat = size[thin] <= 0.01f * std::max({size.x, size.y, size.z});
+    // Its z axis is the thin one; the other two have the lengths of the box.
+    M44f box_axes;
+    for (int row = 0; row < 3; ++row) {
+        const int axis = (thin + 1 + row) % 3;
+        for (int column = 0; column < 3; ++column) box_axes[row][column] = 0;
+        box_axes[row][axis] = row == 2 && is_flat ? 1 : size[axis];
+    }
+    for (int column = 0; column < 3; ++column) box_axes[3][column] = middle[column];
+    light.shader.camera_from_shader = box_axes * camera_from_shape;
+    if (!is_flat) return;
+    light.shader.parameters.set({"shape", {StorageClass::Uniform, ValueType::String, 1}, {}, {"rect"}});
+    set_number(light.shader, "twosided", 1);
+}
+
+V3f middle_of(const Shape& shape) {
+    const Box box = box_of(shape);
+    return (box.low + box.high) * 0.5f;
+}
+
+std::vector<std::shared_ptr<const LightInstance>> ris_lights(const std::string& handle,
+                                                             const ShaderInstance& shader,
+                                                             const RisParameters& p) {
+    const std::string_view name = shader.name;
+    if (contains(name, "Distant")) return {distant(handle, shader, power(p), V3f(0, 0, 1))};
+    if (contains(name, "Dome") || contains(name, "Env")) {
+        ShaderInstance eye = shader;
+        eye.camera_from_shader = M44f();
+        return {
+            make(handle, shader, "ambientlight", power(p) * kDomeAmbient),
+            distant(handle, shader, power(p) * kDomeAbove, V3f(0, 0, -1)),  // domes have their zenith at +z
+            distant(handle, eye, power(p) * kDomeEye, V3f(0, 0, 1))};
+    }
+    const char* const shape = contains(name, "Rect") || contains(name, "Portal") ? "rect"
+                              : contains(name, "Disk")                           ? "disk"
+                                                                                 : "sphere";
+    return {of_shape(handle, shader, p, shape)};
+}
+
+std::shared_ptr<const LightInstance> headlight() {
+    return distant({}, {}, V3f(1, 1, 1), V3f(0, 0, 1));
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,65 @@
+#include "pipeline/rib/ris_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace trapeze::rib {
+namespace {
+
+bool all_finite(const std::vector<float>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](float v) { return std::isfinite(v); });
+}
+
+}  // namespace
+
+bool RisParameter::is_color() const {
+    return type.starts_with("color") || (type.empty() && name.find("olor") != std::string::npos);
+}
+
+RisParameters RisParameters::read(ArgumentCursor& c) {
+    RisParameters result;
+    while (!c.done()) {
+        const std::string token = c.string("a parameter's name");
+        if (c.done()) throw RequestError{in_quotes(token) + " has no value", {}};
+        RisParameter parameter;
+        std::istringstream words(token);
+        for (std::string word; words >> word;) {
+            parameter.is_reference |= word == "reference";
+            parameter.type = std::exchange(parameter.name, word);
+        }
+        Argument value = c.take("a value");
+        parameter.strings = value.strings;
+        const bool is_number = value.kind == Argument::Kind::Number;
+        parameter.numbers = value.take_numbers();
+        while (is_number && c.next_is_number() && !c.next_is_array())
+            parameter.numbers.push_back(c.number("a value"));
+        result.values_.push_back(std::move(parameter));
+    }
+    return result;
+}
+
+const RisParameter* RisParameters::find(std::string_view name) const {
+    for (size_t i = values_.size(); i-- > 0;)
+        if (values_[i].name == name) return &values_[i];
+    return nullptr;
+}
+
+float RisParameters::number_or(std::string_view name, float otherwise) const {
+    const RisParameter* found = find(name);
+    if (!found || found->numbers.size() != 1 || !all_finite(found->numbers)) return otherwise;
+    return found->numbers[0];
+}
+
+std::optional<V3f> RisParameters::color(std::string_view name) const {
+    const RisParameter* found = find(name);
+    if (!found || found->numbers.size() != 3 || !all_finite(found->numbers)) return {};
+    return V3f(found->numbers[0], found->numbers[1], found->numbers[2]);
+}
+
+std::string RisParameters::text(std::string_view name) const {
+    const RisParameter* found = find(name);
+    return found && !found->is_reference && !found->strings.empty() ? found->strings[0] : std::string();
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,85 @@
+/// Lights that shine from shapes, and the path tracer's (RIS), which shine on all of a world, wherever they
+/// stand in it.
+#include <algorithm>
+#include <map>
+
+#include "pipeline/rib/reader.h"
+#include "pipeline/rib/ris_lights.h"
+
+namespace trapeze::rib {
+namespace {
+
+/// Each is looked at by every surface.
+constexpr size_t kMostWorldLights = 256;
+
+/// The space with another origin: a point of the shape's.
+M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_from_shape) {
+    const V3f origin = point * camera_from_shape;
+    for (int axis = 0; axis < 3; ++axis) camera_from_space[3][axis] = origin[axis];
+    return camera_from_space;
+}
+
+}  // namespace
+
+void Reader::add_world_light(std::shared_ptr<const LightInstance> light) {
+    if (object_) {
+        object_->lights.push_back(std::move(light));
+        return;
+    }
+    if (scope_.ris.lights.size() >= kMostWorldLights) {
+        warn_once("more than " + std::to_string(kMostWorldLights) + " lights; this and further ones are dark",
+                  "ris-lights");
+        return;
+    }
+    ++summary_.lights;
+    scope_.lights[light->handle] = light;
+    scope_.ris.lights.push_back(std::move(light));
+}
+
+/// Those of an object, where it is placed.
+void Reader::place_lights(const RetainedObject& object) {
+    for (const auto& light : object.lights) {
+        auto placed = std::make_shared<LightInstance>(*light);
+        placed->shader.camera_from_shader = placed->shader.camera_from_shader * camera_from_current();
+        add_world_light(std::move(placed));
+    }
+}
+
+void Reader::place_emitter(const Shape& shape) {
+    Emitter* const emitter = state_.attributes->emitter.get();
+    if (!emitter || std::exchange(emitter->is_placed, true)) return;
+    ShaderInstance& shader = emitter->light->shader;
+    if (emitter->is_of_ris)
+        place_mesh_light(*emitter->light, shape, camera_from_current());
+    else if (!shader.parameters.find("from"))
+        shader.camera_from_shader =
+            with_origin(shader.camera_from_shader, middle_of(shape), camera_from_current());
+}
+
+/// Adds the world's lights to all primitives. Bxdfs that nothing lights have a light at the eye, so that
+/// there is something to see, and are shaded once a pixel at least: path tracers do not look at ShadingRate.
+void Reader::light_world() {
+    const auto& lights = scope_.ris.lights;
+    const std::shared_ptr<const LightInstance> at_eye = headlight();
+    std::map<std::shared_ptr<const Attributes>, std::shared_ptr<const Attributes>> lit;
+    for (Primitive& primitive : scene_.primitives) {
+        const Attributes& unlit = *primitive.attributes;
+        const bool is_ris = unlit.surface && unlit.surface->name == "rissurface";
+        const bool is_dark = is_ris && unlit.lights.empty() && lights.empty();
+        const bool is_coarse = is_ris && unlit.shading_rate > 1 && !read_options_.shading_rate;
+        if (lights.empty() && !is_dark && !is_coarse) continue;
+        std::shared_ptr<const Attributes>& known = lit[primitive.attributes];
+        if (!known) {
+            auto made = std::make_shared<Attributes>(unlit);
+            for (const auto& light : lights)
+                if (std::find(made->lights.begin(), made->lights.end(), light) == made->lights.end())
+                    made->lights.push_back(light);
+            if (is_dark) made->lights.push_back(at_eye);
+            if (is_coarse) made->shading_rate = 1;
+            known = std::move(made);
+        }
+        primitive.attributes = known;
+    }
+}
+
+}  // namespace trapeze::rib

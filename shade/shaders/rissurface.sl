@@ -1,0 +1,26 @@
+/* What is seen from afar of surfaces that path tracers' shaders describe: their colour, or texture, lit; highlights
+   of specularcolor; what they send out themselves. What other surfaces would throw back at them is taken to be a
+   part, bounce, of all the light that comes by. */
+surface rissurface(
+    color specularcolor = 0, emission = 0;
+    float roughness = 0.1, opacity = 1, bounce = 0.15;
+    string texturename = "";)
+{
+    normal Nf = faceforward(normalize(N), I);
+    vector V = -normalize(I);
+    color base = Cs, passing = 0;
+    float isthere = 0;
+
+    if (texturename != "") {
+        textureinfo(texturename, "exists", isthere);
+        if (isthere == 1)
+            base *= color texture(texturename, s, 1 - t);
+        else
+            base *= 0.5;
+    }
+    illuminance(P)
+        passing += Cl;
+    Oi = Os * opacity;
+    Ci = Os * (opacity * base * (ambient() + diffuse(Nf) + bounce * passing) +
+               specularcolor * specular(Nf, V, roughness) + emission);
+}
