@@ -58,6 +58,7 @@ class RenderJob {
     void override_options(Options& options) const;
     void override_displays(Options& options);
     void make_map_of_pictures(MapRequest request);
+    bool has_folder_for_output() const;
     bool write_stats() const;
     int exit_code() const;
 
@@ -173,7 +174,19 @@ int RenderJob::exit_code() const {
     return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
 }
 
+/// Folders that scenes name are made where the pictures are written; one on the command line may be a
+/// mistake, which is said before anything is rendered.
+bool RenderJob::has_folder_for_output() const {
+    const fs::path folder = fs::path(arguments_.output).parent_path();
+    std::error_code failed;
+    if (folder.empty() || arguments_.driver == "null" || fs::is_directory(folder, failed)) return true;
+    diagnostics_.error(
+        {}, "cannot write \"" + arguments_.output + "\": there is no folder \"" + folder.string() + "\"");
+    return false;
+}
+
 int RenderJob::run() {
+    if (!has_folder_for_output()) return kExitNoOutput;
     ReadOptions options = read_options(arguments_);
     options.shading_rate = arguments_.shading_rate;
     if (arguments_.frames)
