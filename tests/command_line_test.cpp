@@ -137,6 +137,18 @@ TEST(CommandLine, TheOutputIsNotThatOfADepthPass) {
     EXPECT_FALSE(fs::exists(folder / "x.2.tif"));  // the painting is a pass too
 }
 
+TEST(CommandLine, ADepthPassAloneIsSeenAsAPictureToo) {
+    WorkFolder folder;
+    const std::string world = "Format 8 8 1 WorldBegin Translate 0 0 2 Sphere 1 -1 1 360 WorldEnd\n";
+    folder.write("pass.rib", "Display \"z.shd\" \"shadow\" \"z\" " + world);
+    EXPECT_EQ(run_program(folder, "render pass.rib -o a.png").exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "z.shd"));
+    EXPECT_TRUE(fs::exists(folder / "a.png"));
+    folder.write("depth.rib", "Display \"null\" \"null\" \"z\" " + world);
+    EXPECT_EQ(run_program(folder, "render depth.rib -o b.png").exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "b.png"));
+}
+
 TEST(CommandLine, AMapThatCannotBeMadeIsAnError) {
     WorkFolder folder;
     folder.write("a.rib", std::string("MakeShadow \"nowhere.z\" \"a.shd\"\n") + kSphere);

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "composite/display_plan.h"
@@ -34,6 +36,14 @@ bool has_missing_shader(const Diagnostics& diagnostics) {
     const auto kinds = diagnostics.kinds();
     return std::any_of(kinds.begin(), kinds.end(),
                        [](const auto& kind) { return kind.first.starts_with("missing-shader"); });
+}
+
+/// Whether depths can be written to a file of this name.
+bool holds_depth(const std::string& name) {
+    std::string extension = fs::path(name).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    constexpr std::string_view kColorsOnly[] = {".png", ".jpg", ".jpeg", ".tga", ".bmp"};
+    return std::find(std::begin(kColorsOnly), std::end(kColorsOnly), extension) == std::end(kColorsOnly);
 }
 
 /// A pass that makes a depth map for the worlds after it. What the command line says of the picture is not
@@ -99,6 +109,7 @@ void RenderJob::override_displays(Options& options) {
         const std::string given = first.name;
         first.name = pictures_ == 1 ? arguments_.output : numbered(arguments_.output, pictures_);
         first.type = "file";
+        if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
         std::erase_if(renamed_, [&](const auto& entry) { return entry.second.file == first.name; });
         renamed_[given] = {first.name};
     }
@@ -127,6 +138,9 @@ void RenderJob::render_world(Scene&& scene) {
         ++pictures_;
         override_options(scene.options);
         override_displays(scene.options);
+    } else if (pictures_ == 0 && !arguments_.output.empty() && arguments_.driver.empty()) {
+        // The next picture takes its place; where none comes, what the light sees is what there is to see.
+        scene.options.displays.push_back({arguments_.output, "file", "rgba", {}, {}});
     }
 
     RenderSettings settings;

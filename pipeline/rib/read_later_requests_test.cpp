@@ -238,6 +238,16 @@ TEST(Settings, ThatAskForWhatIsSoInAnyCaseAreNotCalledIgnored) {
               1u);
 }
 
+TEST(Ris, CamerasHaveTheirWindowAndPlanes) {
+    const Outcome r = read_text(
+        "Camera \"main\" \"float[4] Ri:ScreenWindow\" [-1.5 1.5 -1 1] \"float nearClip\" [.5] "
+        "\"float farClip\" [50] WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, ElementsAre());
+    EXPECT_EQ(r.scene().options.screen_window, (std::array<float, 4>{-1.5f, 1.5f, -1, 1}));
+    EXPECT_EQ(r.scene().options.near_clip, 0.5f);
+    EXPECT_EQ(r.scene().options.far_clip, 50);
+}
+
 TEST(Ris, WrongValuesAndFurtherChannelsAreSaid) {
     EXPECT_THAT(read_text("Option \"Ri\" \"float[2] Clipping\" [5 1]\n"
                           "Display \"a\" \"openexr\" \"Ci,a,normal\"\n"

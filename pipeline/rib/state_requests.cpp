@@ -1,5 +1,6 @@
 /// Requests about the state that RISpec 3.2 does not have, and ErrorHandler (RISpec 3).
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/ri_values.h"
 
 namespace trapeze::rib {
 namespace {
@@ -44,9 +45,20 @@ void error_handler(Reader& r, ArgumentCursor& c) {
 }
 
 /// PRMan's further cameras: what can be seen of them is their space.
+/// The space that the world is seen from, which its coordinate system is named for. Later versions keep the
+/// window and the planes of clipping with it.
 void camera(Reader& r, ArgumentCursor& c) {
     r.name_coordinate_system(c.string("the name"));
-    r.parameters(c, Undeclared::Guess);
+    const ParameterList parameters = r.parameters(c, Undeclared::Guess);
+    if (r.in_world()) return;
+    constexpr std::string_view kRi = "Ri:";
+    for (Parameter value : parameters.values)
+        if (value.name.starts_with(kRi)) {
+            value.name.erase(0, kRi.size());
+            execute_ri_value(r, value);
+        }
+    const float near = parameters.float_or("nearClip", 0), far = parameters.float_or("farClip", 0);
+    if (near > 0 && near < far) r.options().near_clip = near, r.options().far_clip = far;
 }
 
 /// Commands of strangers are not run.
