@@ -152,6 +152,31 @@ TEST(ReadRis, WhereNothingLightsBxdfsTheEyeDoes) {
     EXPECT_EQ(r.attributes(1).lights[0]->shader.name, "distantlight");
 }
 
+/// Each pattern asks for the one before it a hundred times: 100^8 ways to its colour.
+TEST(ReadRis, NetworksThatBranchEverywhereEnd) {
+    std::string text = "Pattern \"PxrColor\" \"p0\" \"color c\" [1 .5 0]\n";
+    for (int i = 1; i < 8; ++i) {
+        text += "Pattern \"PxrMix\" \"p" + std::to_string(i) + "\"";
+        for (int k = 0; k < 100; ++k)
+            text += " \"reference color c" + std::to_string(k) + "\" [\"p" + std::to_string(i - 1) + ":x\"]";
+        text += "\n";
+    }
+    const Outcome r =
+        read_world(text + "Bxdf \"PxrDiffuse\" \"b\" \"reference color diffuseColor\" [\"p7:x\"]\n" + kBall);
+    EXPECT_NEAR(r.attributes().color.y, 0.5f, 1e-5f);
+}
+
+TEST(ReadRis, ThereIsAnEndOfLights) {
+    std::string text = "ObjectBegin \"o\"\n";
+    for (int i = 0; i < 100; ++i) text += "Light \"PxrSphereLight\" \"l" + std::to_string(i) + "\"\n";
+    text += "ObjectEnd\n";
+    for (int i = 0; i < 100; ++i) text += "ObjectInstance \"o\"\n";
+    const Outcome r = read_text("WorldBegin " + text + "Bxdf \"PxrDiffuse\" \"b\" " + kBall + "WorldEnd");
+    EXPECT_EQ(r.attributes().lights.size(), 64u);
+    ASSERT_EQ(r.messages.size(), 2u);
+    EXPECT_THAT(r.messages[1], HasSubstr("more than 64 lights"));
+}
+
 TEST(ReadRis, BxdfsAreShadedOnceAPixelAtLeast) {
     const Outcome r = read_world("ShadingRate 20\n" + kBall + "Bxdf \"PxrDiffuse\" \"b\"\n" + kBall +
                                  "ShadingRate .25\n" + kBall);
@@ -163,7 +188,7 @@ TEST(ReadRis, BxdfsAreShadedOnceAPixelAtLeast) {
 TEST(ReadRis, OddParametersAreNoErrors) {
     const Outcome r = read_world(
         "Bxdf \"PxrSurface\" \"s\" \"int[] utilityPattern\" [] \"float presence\" 1 \"x\" [\"y\"] "
-        "\"color diffuseColor\" .1 .2 .3\n" +
+        "\"color diffuseColor\" .1 .2 .3 \"color specularFaceColor\" [0]\n" +
         kBall);
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("RIS shading is not supported")));
     EXPECT_EQ(r.attributes().color, V3f(0.1f, 0.2f, 0.3f));

@@ -8,6 +8,8 @@ namespace trapeze::rib {
 namespace {
 
 constexpr int kDeepest = 8;  ///< of patterns that stand behind each other
+/// Looked at for one colour: networks that branch at every pattern would have no end.
+constexpr int kMostPatterns = 256;
 
 /// Where nothing says what colour a surface has.
 const V3f kGrey(0.5f, 0.5f, 0.5f);
@@ -27,7 +29,13 @@ std::string handle_of(const std::string& reference) {
     return reference.substr(0, reference.find(':'));
 }
 
-std::optional<Tint> tint_of_pattern(const std::string& handle, const RisNetwork& network, int depth);
+/// How far patterns have been followed.
+struct Walk {
+    const RisNetwork& network;
+    int depth = 0, seen = 0;
+};
+
+std::optional<Tint> tint_of_pattern(const std::string& handle, Walk& walk);
 
 /// What references lead to, the mean of all that is known: textures count where nothing else does.
 class Mean {
@@ -59,25 +67,29 @@ void add_colors(const RisParameter& parameter, Mean& mean) {
     }
 }
 
-void add_references(const RisParameter& parameter, const RisNetwork& network, int depth, Mean& mean) {
+void add_references(const RisParameter& parameter, Walk& walk, Mean& mean) {
     for (const std::string& reference : parameter.strings)
-        if (const auto tint = tint_of_pattern(handle_of(reference), network, depth)) mean.add(*tint);
+        if (const auto tint = tint_of_pattern(handle_of(reference), walk)) mean.add(*tint);
 }
 
-std::optional<Tint> tint_of_pattern(const std::string& handle, const RisNetwork& network, int depth) {
-    const auto found = network.patterns.find(handle);
-    if (found == network.patterns.end() || depth >= kDeepest) return {};
+std::optional<Tint> tint_of_pattern(const std::string& handle, Walk& walk) {
+    const auto found = walk.network.patterns.find(handle);
+    if (found == walk.network.patterns.end() || walk.depth >= kDeepest || walk.seen >= kMostPatterns)
+        return {};
+    ++walk.seen;
     const RisParameters& parameters = found->second.parameters;
     for (const char* name : {"filename", "filename0", "fileTextureName"})
         if (const std::string file = parameters.text(name); !file.empty()) return Tint{V3f(1, 1, 1), file};
     Mean mean;
+    ++walk.depth;
     for (const RisParameter& parameter : parameters.all()) {
         const bool may_be_color = parameter.is_color() || parameter.type == "struct";
         if (parameter.is_reference && may_be_color)
-            add_references(parameter, network, depth + 1, mean);
+            add_references(parameter, walk, mean);
         else if (parameter.is_color())
             add_colors(parameter, mean);
     }
+    --walk.depth;
     return mean.result();
 }
 
@@ -89,7 +101,8 @@ std::optional<Tint> tint_of(const RisParameters& parameters, std::string_view na
     if (const auto color = parameters.color(name)) return Tint{*color, {}};
     if (!found->is_reference) return {};
     Mean mean;
-    add_references(*found, network, 0, mean);
+    Walk walk{network};
+    add_references(*found, walk, mean);
     return mean.result().value_or(Tint{kGrey, {}});
 }
 

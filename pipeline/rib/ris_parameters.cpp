@@ -53,8 +53,10 @@ float RisParameters::number_or(std::string_view name, float otherwise) const {
 
 std::optional<V3f> RisParameters::color(std::string_view name) const {
     const RisParameter* found = find(name);
-    if (!found || found->numbers.size() != 3 || !all_finite(found->numbers)) return {};
-    return V3f(found->numbers[0], found->numbers[1], found->numbers[2]);
+    if (!found || !all_finite(found->numbers)) return {};
+    const auto& v = found->numbers;
+    if (v.size() == 1) return V3f(v[0], v[0], v[0]);
+    return v.size() == 3 ? std::optional(V3f(v[0], v[1], v[2])) : std::nullopt;
 }
 
 std::string RisParameters::text(std::string_view name) const {

@@ -32,8 +32,8 @@ class RisParameters {
     const RisParameter* find(std::string_view name) const;
     /// A finite number, not a reference.
     float number_or(std::string_view name, float otherwise) const;
-    std::optional<V3f> color(std::string_view name) const;
-    std::string text(std::string_view name) const;  ///< empty when there is none
+    std::optional<V3f> color(std::string_view name) const;  ///< one number is a grey
+    std::string text(std::string_view name) const;          ///< empty when there is none
 
   private:
     std::vector<RisParameter> values_;

@@ -5,12 +5,13 @@
 
 #include "pipeline/rib/reader.h"
 #include "pipeline/rib/ris_lights.h"
+#include "pipeline/rib/scene_size.h"
 
 namespace trapeze::rib {
 namespace {
 
 /// Each is looked at by every surface.
-constexpr size_t kMostWorldLights = 256;
+constexpr size_t kMostWorldLights = 64;
 
 /// The space with another origin: a point of the shape's.
 M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_from_shape) {
@@ -22,23 +23,24 @@ M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_fr
 }  // namespace
 
 void Reader::add_world_light(std::shared_ptr<const LightInstance> light) {
-    if (object_) {
-        object_->lights.push_back(std::move(light));
-        return;
-    }
-    if (scope_.ris.lights.size() >= kMostWorldLights) {
+    auto& lights = object_ ? object_->lights : scope_.ris.lights;
+    if (lights.size() >= kMostWorldLights) {
         warn_once("more than " + std::to_string(kMostWorldLights) + " lights; this and further ones are dark",
                   "ris-lights");
         return;
     }
-    ++summary_.lights;
-    scope_.lights[light->handle] = light;
-    scope_.ris.lights.push_back(std::move(light));
+    if (!object_) {
+        ++summary_.lights;
+        scope_.lights[light->handle] = light;
+    }
+    lights.push_back(std::move(light));
 }
 
 /// Those of an object, where it is placed.
 void Reader::place_lights(const RetainedObject& object) {
     for (const auto& light : object.lights) {
+        if (!object_ && scope_.ris.lights.size() >= kMostWorldLights)
+            return add_world_light(light);  // says so
         auto placed = std::make_shared<LightInstance>(*light);
         placed->shader.camera_from_shader = placed->shader.camera_from_shader * camera_from_current();
         add_world_light(std::move(placed));
@@ -76,6 +78,7 @@ void Reader::light_world() {
                     made->lights.push_back(light);
             if (is_dark) made->lights.push_back(at_eye);
             if (is_coarse) made->shading_rate = 1;
+            if (!has_room(bytes_of(*made))) return;
             known = std::move(made);
         }
         primitive.attributes = known;
