@@ -13,7 +13,9 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -166,27 +168,44 @@ void run_scene(const SamplingSceneOptions& options, const Arguments& arguments) 
     std::fflush(stdout);
 }
 
+/// False, with the reason or the usage on stderr, when they are not as the head of this file has them.
+bool read_arguments(const std::vector<std::string>& given, Arguments& arguments) {
+    for (size_t i = 0; i < given.size(); i += 2) {
+        const std::string& key = given[i];
+        if (i + 1 == given.size() ||
+            !std::set<std::string>{"--methods", "--scenes", "--rounds", "--threads", "--areas", "--simd"}
+                 .contains(key)) {
+            std::fputs(
+                "usage: sampling_bench [--methods \"raytrace embree ...\"] [--scenes \"0 3 5\"] [--rounds "
+                "N]\n"
+                "                      [--threads N] [--areas N] [--simd best|avx512|avx2|sse4]\n",
+                stderr);
+            return false;
+        }
+        const std::string& value = given[i + 1];
+        std::string error;
+        if (key == "--simd" && !limit_simd(value.c_str(), &error)) {
+            std::fprintf(stderr, "%s\n", error.c_str());
+            return false;
+        }
+        if (key == "--methods") arguments.methods = words(value.c_str());
+        if (key == "--scenes")
+            for (const std::string& word : words(value.c_str()))
+                arguments.scenes.push_back(std::strtoul(word.c_str(), nullptr, 10));
+        if (key == "--rounds") arguments.rounds = std::atoi(value.c_str());
+        if (key == "--threads") arguments.threads = std::max(1, std::atoi(value.c_str()));
+        if (key == "--areas") arguments.areas = std::atoi(value.c_str());
+    }
+    return true;
+}
+
 }  // namespace
 }  // namespace trapeze
 
 int main(int argc, char** argv) {
     using namespace trapeze;
     Arguments arguments;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        const std::string key = argv[i];
-        if (key == "--methods") arguments.methods = words(argv[i + 1]);
-        if (key == "--scenes")
-            for (const std::string& word : words(argv[i + 1])) arguments.scenes.push_back(std::stoul(word));
-        if (key == "--rounds") arguments.rounds = std::stoi(argv[i + 1]);
-        if (key == "--threads") arguments.threads = std::stoi(argv[i + 1]);
-        if (key == "--simd") {
-            std::string error;
-            if (limit_simd(argv[i + 1], &error)) continue;
-            std::fprintf(stderr, "%s\n", error.c_str());
-            return 2;
-        }
-        if (key == "--areas") arguments.areas = std::stoi(argv[i + 1]);
-    }
+    if (!read_arguments({argv + 1, argv + argc}, arguments)) return 2;
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                       static_cast<size_t>(arguments.threads));
     tbb::task_arena arena(arguments.threads);
