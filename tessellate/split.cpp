@@ -240,6 +240,11 @@ class FaceSplitter {
 
 }  // namespace
 
+size_t Splits::bytes() const {
+    return subpatches.capacity() * sizeof(Subpatch) + bounds.capacity() * sizeof(PixelRect) +
+           made_lines.capacity() * sizeof(EdgeLine) + made.bytes();
+}
+
 void Splits::append(Splits&& other, uint32_t surface_edges) {
     const uint32_t offset = static_cast<uint32_t>(made_lines.size());
     const auto moved = [&](uint32_t edge) { return edge < surface_edges ? edge : edge + offset; };

@@ -38,6 +38,7 @@ struct Splits {
     uint64_t culled = 0;
     bool limited = false;  ///< by most_parts_of_face
 
+    size_t bytes() const;
     void append(Splits&& other, uint32_t surface_edges);
 };
 

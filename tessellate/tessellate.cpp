@@ -5,9 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "tessellate/dice.h"
@@ -16,6 +18,8 @@ namespace trapeze {
 namespace {
 
 constexpr int kFacesPerTask = 64, kEdgesPerTask = 512;
+/// Primitives that are split before their bytes are counted.
+constexpr size_t kPrimitivesAtOnce = 1024;
 /// Shading rates below this (in pixels' area) are taken as this: a bound on absurd input.
 constexpr float kLeastShadingRate = 1e-4f;
 /// Farther from the eye, the rounding of positions is larger than what a camera can tell apart: no piece can
@@ -39,10 +43,12 @@ struct TessellatedPrimitive {
                 &metric,
                 pixels_per_segment};
     }
-    size_t bytes() const {
-        return vertices.bytes() + surface_edges.bytes() + splits.made.bytes() +
-               splits.made_lines.capacity() * sizeof(EdgeLine) +
-               splits.subpatches.capacity() * sizeof(Subpatch);
+    size_t bytes() const { return vertices.bytes() + surface_edges.bytes() + splits.bytes(); }
+    void leave_out() {
+        placed.reset();
+        vertices = {};
+        surface_edges = {};
+        splits = {};
     }
 };
 
@@ -71,7 +77,8 @@ EdgeTessellations tessellate_edges(const PlacedSurface& placed, const ScreenMetr
     return edges;
 }
 
-Splits split_all(const SplitContext& context, const RenderContext& render) {
+/// Nothing when it takes more than `most_bytes`.
+std::optional<Splits> split_all(const SplitContext& context, const RenderContext& render, size_t most_bytes) {
     const Surface& surface = context.surface->surface();
     const int faces = surface.face_count();
     const size_t tasks = static_cast<size_t>((faces + kFacesPerTask - 1) / kFacesPerTask);
@@ -79,11 +86,14 @@ Splits split_all(const SplitContext& context, const RenderContext& render) {
     const int per_task = faces < 4 * kFacesPerTask ? 1 : kFacesPerTask;
     const size_t count = per_task == 1 ? static_cast<size_t>(faces) : tasks;
     std::vector<Splits> parts(count);
+    std::atomic<size_t> bytes{0};
     tbb::parallel_for(size_t{0}, count, [&](size_t task) {
         const int first = static_cast<int>(task) * per_task;
-        if (!render.is_cancelled())
-            parts[task] = split_faces(context, first, std::min(first + per_task, faces));
+        if (render.is_cancelled() || bytes.load(std::memory_order_relaxed) > most_bytes) return;
+        parts[task] = split_faces(context, first, std::min(first + per_task, faces));
+        bytes.fetch_add(parts[task].bytes(), std::memory_order_relaxed);
     });
+    if (bytes > most_bytes) return {};
     if (parts.size() == 1) return std::move(parts[0]);
     Splits splits;
     for (Splits& part : parts) {
@@ -167,7 +177,7 @@ size_t most_parts_of_face(const Options& options, const EdgeRate& rate) {
 }
 
 void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
-                          const ScreenMetric& raster_metric, const RasterBound& raster,
+                          const ScreenMetric& raster_metric, const RasterBound& raster, size_t most_bytes,
                           TessellatedPrimitive& out) {
     if (!out.surface || !primitive.attributes->visible_to_camera || context.is_cancelled()) return;
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
@@ -178,8 +188,7 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
             fmt::format(
                 "reaches {:.3g} from the camera, where surfaces beyond {:.0g} cannot be diced; left out",
                 reach, kFarthest));
-        out.placed.reset();
-        out.vertices = {};
+        out.leave_out();
         return;
     }
     const Attributes& attributes = *primitive.attributes;
@@ -204,7 +213,16 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     split.rate = rate;
     split.displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
     split.most_parts_of_face = most_parts;
-    out.splits = split_all(split, context);
+    std::optional<Splits> splits = split_all(split, context, most_bytes);
+    if (!splits) {
+        context.diagnostics->error(
+            primitive.location,
+            fmt::format("the grids into which it is split take more than {} MiB to list; left out",
+                        most_bytes >> 20));
+        out.leave_out();
+        return;
+    }
+    out.splits = std::move(*splits);
     if (out.splits.limited)
         context.diagnostics->warning(primitive.location,
                                      "a face wants more micropolygons than many times those of the picture; "
@@ -213,19 +231,45 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     shrink(out.splits);
 }
 
+/// All of them, or those before the first with which the bytes are too many: the same ones however many
+/// threads there are.
+void tessellate_all(const RenderContext& context, const ScreenMetric& metric, size_t most_bytes,
+                    std::vector<TessellatedPrimitive>& primitives) {
+    const Scene& scene = *context.scene;
+    const RasterBound raster(context.camera, sampled_pixels(context.camera, scene.options));
+    size_t bytes = 0;
+    for (size_t first = 0; first < primitives.size(); first += kPrimitivesAtOnce) {
+        const size_t end = std::min(first + kPrimitivesAtOnce, primitives.size());
+        tbb::parallel_for(first, end, [&](size_t i) {
+            tessellate_primitive(context, scene.primitives[i], metric, raster, most_bytes, primitives[i]);
+        });
+        for (size_t i = first; i < end; ++i) {
+            const size_t own = primitives[i].bytes();
+            if (own <= most_bytes - bytes) {
+                bytes += own;
+                continue;
+            }
+            context.diagnostics->error(
+                scene.primitives[i].location,
+                fmt::format("the grids into which primitives are split take more than {} MiB to list; this "
+                            "and those after it are left out",
+                            most_bytes >> 20));
+            for (; i < end; ++i) primitives[i].leave_out();
+            return;
+        }
+    }
+}
+
 }  // namespace
 
-Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights)
+Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights,
+                           size_t most_bytes)
     : impl_(std::make_unique<Impl>(context.camera)) {
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
     primitives.resize(scene.primitives.size());
     make_surfaces(context, depth_heights, primitives);
-    const ScreenMetric& metric = impl_->metric;
-    const RasterBound raster(context.camera, sampled_pixels(context.camera, scene.options));
-    tbb::parallel_for(size_t{0}, primitives.size(), [&](size_t i) {
-        tessellate_primitive(context, scene.primitives[i], metric, raster, primitives[i]);
-    });
+    tessellate_all(context, impl_->metric, most_bytes, primitives);
 
     size_t count = 0;
     for (const TessellatedPrimitive& p : primitives) count += p.splits.subpatches.size();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -38,8 +39,10 @@ class DiceScratch {
 class Tessellation {
   public:
     /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads. Without
-    /// depth maps the surfaces that would look into some go without.
-    explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {});
+    /// depth maps the surfaces that would look into some go without. What `most_bytes` do not hold is left
+    /// out, from the first primitive on with which it is too much, and that is an error.
+    explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {},
+                          size_t most_bytes = std::numeric_limits<size_t>::max());
     ~Tessellation();
 
     /// In the order that defines Grid::ordinal.

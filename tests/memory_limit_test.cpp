@@ -96,7 +96,8 @@ TEST(MemoryLimit, GzipThatUnpacksToMoreIsCut) {
 
 TEST(MemoryLimit, ASceneOfMoreIsCut) {
     WorkFolder folder;
-    write_bomb(folder / "a.rib.gz", kHead, "Polygon \"P\" [0 0 0 .01 0 0 0 .01 0]\nTranslate .00001 0 0\n", 60);
+    write_bomb(folder / "a.rib.gz", kHead, "Polygon \"P\" [0 0 0 .01 0 0 0 .01 0]\nTranslate .00001 0 0\n",
+               60);
     const Measured run = measured(folder, "render a.rib.gz -t 2 --memory 64M");
     expect_said(run, "the scene takes more than 64 MiB");
     EXPECT_EQ(run.outcome.exit_code, 1);
@@ -116,6 +117,38 @@ TEST(MemoryLimit, GridsOfMoreAreMadeInParts) {
     expect_bounded(run, 4);
     if (kSanitized) return;
     EXPECT_LT(run.mebibytes, whole.mebibytes);
+}
+
+/// Each fills the picture, and all are there to be split before the first is diced.
+TEST(MemoryLimit, PrimitivesOfMoreSplitsAreLeftOut) {
+    WorkFolder folder;
+    std::string text =
+        "Display \"a.exr\" \"file\" \"rgba\"\nFormat 512 512 1\nPixelSamples 1 1\nShadingRate "
+        "4\nWorldBegin\n";
+    for (int i = 0; i < 1000; ++i) text += kSphere;
+    folder.write("a.rib", text + "WorldEnd\n");
+    const Measured run = measured(folder, "render a.rib -t 2 --memory 4M");
+    expect_said(run, "the grids into which primitives are split take more than 4 MiB to list");
+    EXPECT_EQ(run.outcome.exit_code, 1);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.exr"));
+    expect_bounded(run, 4);
+}
+
+TEST(MemoryLimit, AMeshOfMoreSplitsIsLeftOut) {
+    WorkFolder folder;
+    std::string text =
+        "Display \"a.exr\" \"file\" \"rgba\"\nFormat 512 512 1\nPixelSamples 1 1\nShadingRate 4\nWorldBegin\n"
+        "PointsPolygons [";
+    constexpr int kFaces = 3000;
+    for (int i = 0; i < kFaces; ++i) text += "4 ";
+    text += "] [";
+    for (int i = 0; i < kFaces; ++i) text += "0 1 2 3 ";
+    folder.write("a.rib", text + "] \"P\" [-1 -1 1 1 -1 1 1 1 1 -1 1 1]\nSphere .5 -.5 .5 360\nWorldEnd\n");
+    const Measured run = measured(folder, "render a.rib -t 2 --memory 16M");
+    expect_said(run, "a.rib:6:1: error: the grids into which it is split take more than 16 MiB to list");
+    EXPECT_EQ(run.outcome.exit_code, 1);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.exr"));
+    expect_bounded(run, 4);
 }
 
 TEST(MemoryLimit, SolidsWithinSolidsAreRendered) {

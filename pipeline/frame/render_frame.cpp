@@ -73,7 +73,8 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
 
     const Shading shading(context);
     watch.lap();
-    const Tessellation tessellation(context, shading.depth_heights());
+    const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
+    const Tessellation tessellation(context, shading.depth_heights(), budget);
     stats.tessellate = tessellation.stats();
     stats.tessellate.grids = stats.tessellate.micropolygons = 0;  // counted as they are made
     stats.seconds.tessellate = watch.lap();
@@ -81,7 +82,6 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     const auto pattern = sampler->make_pattern(context);
     Film film(context);
 
-    const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
     const std::vector<Region> regions = split_into_regions(
         sampled_pixels(context.camera, context.scene->options), tessellation.subpatches(),
         {budget, settings.regions_at_least, aov_layout(context.scene->options).channel_count});
