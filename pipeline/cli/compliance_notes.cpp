@@ -23,7 +23,7 @@ constexpr RequestNote kRequests[] = {
      "as SubdivisionMesh; edits of finer levels, which OpenSubdiv has not, are left out with one warning"},
     {"Hider",
      "hidden; others are warned about and hidden is used; jitter, depthfilter; minsamples and maxsamples "
-     "(as a square of 8x8 at most) where no PixelSamples is given"},
+     "(as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
     {"Imager", "over the finished picture, after filtering"},
     {"Integrator", "read; RIS shaders are not run"},
     {"Interior", "kept; nothing runs it until rays are traced"},

@@ -7,6 +7,7 @@ namespace trapeze::rib {
 namespace {
 
 constexpr size_t kDeepestBlock = 10000;
+constexpr float kMostSharpSamples = 4;  ///< along each side of a pixel
 
 }  // namespace
 
@@ -142,6 +143,11 @@ void Reader::deliver_world() {
     ++summary_.worlds;
     Options& options = scope_.options;
     const float open = options.shutter_open;
+    // A hider's counts are of paths: where nothing is blurred, edges need fewer.
+    if (!scope_.has_pixel_samples && options.f_stop >= kInfinity && options.shutter_close <= open) {
+        options.samples_x = std::min(options.samples_x, kMostSharpSamples);
+        options.samples_y = std::min(options.samples_y, kMostSharpSamples);
+    }
     scene_.camera_from_world = M44f(camera_.at(open));
     for (const auto& [name, space] : scope_.named_spaces)
         scene_.camera_from_named[name] = M44f(space.at(open));

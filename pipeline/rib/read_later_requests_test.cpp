@@ -206,14 +206,15 @@ TEST(Ris, HidersSayHowManySamplesWherePixelSamplesDoesNot) {
     } rows[] = {
         {"", 2},
         {"Hider \"hidden\"", 2},
-        {"Hider \"raytrace\" \"int minsamples\" [4] \"int maxsamples\" [64]", 8},
-        {"Hider \"raytrace\" \"int maxsamples\" [50]", 8},
+        {"Hider \"raytrace\" \"int minsamples\" [4] \"int maxsamples\" [64]", 4},
+        {"Hider \"raytrace\" \"int maxsamples\" [50] DepthOfField 2 .1 5", 8},
         {"Hider \"raytrace\" \"int minsamples\" [9]", 3},
-        {"Hider \"raytrace\" \"int maxsamples\" [100000]", 8},
+        {"Hider \"raytrace\" \"int maxsamples\" [100000]", 4},
+        {"Hider \"raytrace\" \"int maxsamples\" [100000] Shutter 0 1", 8},
         {"Hider \"raytrace\" \"int maxsamples\" [-1]", 2},
         {"PixelSamples 3 3 Hider \"raytrace\" \"int maxsamples\" [64]", 3},
         {"Hider \"raytrace\" \"int maxsamples\" [64] PixelSamples 3 3", 3},
-        {"FrameBegin 1 PixelSamples 3 3 FrameEnd Hider \"raytrace\" \"int maxsamples\" [64]", 8},
+        {"FrameBegin 1 PixelSamples 3 3 FrameEnd Hider \"raytrace\" \"int maxsamples\" [16]", 4},
     };
     for (const auto& row : rows) {
         const Outcome outcome = read_text(std::string(row.options) + " WorldBegin " + kSphere + " WorldEnd");
