@@ -90,7 +90,12 @@ void display(Reader& r, ArgumentCursor& c) {
         for (const Parameter& parameter : channel->second.parameters.values)
             if (!d.parameters.find(parameter.name)) d.parameters.set(parameter);
     Options& o = changeable_options(r);
-    if (!d.name.empty() && d.name[0] == '+') {
+    const bool is_further = !d.name.empty() && d.name[0] == '+';
+    if (is_further && d.parameters.string_or("source", "").find("lpe:") != std::string::npos) {
+        r.warn_once("there are no paths of light to choose from; displays of them are left out", "lpe");
+        return;
+    }
+    if (is_further) {
         d.name.erase(0, 1);
         o.displays.push_back(std::move(d));
     } else {

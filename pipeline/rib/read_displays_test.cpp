@@ -74,12 +74,13 @@ TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
 TEST(ReadDisplays, ChannelsMayBeOtherNamesOfVariables) {
     const Outcome r = read_text(
         "DisplayChannel \"color even\" \"string source\" [\"Ci\"] \"string statistics\" [\"even\"]\n"
-        "DisplayChannel \"color albedo\" \"string source\" [\"lpe:nothruput;noinfinitecheck;C\"]\n"
-        "Display \"a.exr\" \"openexr\" \"even\" Display \"+b.exr\" \"openexr\" \"albedo\" WorldBegin "
-        "WorldEnd");
-    EXPECT_THAT(r.messages, IsEmpty());
-    expect_variable(r.scene().options.displays.at(0).variable, "Ci", ValueType::Color);
-    expect_variable(r.scene().options.displays.at(1).variable, "albedo", ValueType::Color);
+        "DisplayChannel \"color albedo\" \"string source\" [\"color lpe:nothruput;noinfinitecheck;C\"]\n"
+        "Display \"a.exr\" \"openexr\" \"even\" Display \"+b.exr\" \"openexr\" \"albedo\"\n"
+        "Display \"+c.exr\" \"openexr\" \"N\" WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("there are no paths of light to choose from")));
+    ASSERT_EQ(r.scene().options.displays.size(), 2u);
+    expect_variable(r.scene().options.displays[0].variable, "Ci", ValueType::Color);
+    EXPECT_EQ(r.scene().options.displays[1].name, "c.exr");
 }
 
 TEST(ReadDisplays, ChannelsOfIntegersAreFloats) {

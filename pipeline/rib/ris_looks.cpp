@@ -17,7 +17,8 @@ const V3f kGrey(0.5f, 0.5f, 0.5f);
 /// A colour, or the picture that it comes from.
 struct Tint {
     V3f color{1, 1, 1};
-    std::string texture;
+    std::string texture = {};
+    float scale_s = 1, scale_t = 1;
 };
 
 float brightness(const V3f& c) {
@@ -27,6 +28,18 @@ float brightness(const V3f& c) {
 /// "handle:output" without the output.
 std::string handle_of(const std::string& reference) {
     return reference.substr(0, reference.find(':'));
+}
+
+/// Of a pattern that reads a file: where its manifold lays it.
+Tint texture_of(const std::string& file, const RisParameters& parameters, const RisNetwork& network) {
+    Tint tint{V3f(1, 1, 1), file};
+    const RisParameter* manifold = parameters.find("manifold");
+    if (!manifold || manifold->strings.empty()) return tint;
+    const auto found = network.patterns.find(handle_of(manifold->strings[0]));
+    if (found == network.patterns.end()) return tint;
+    tint.scale_s = found->second.parameters.number_or("scaleS", 1);
+    tint.scale_t = found->second.parameters.number_or("scaleT", 1);
+    return tint;
 }
 
 /// How far patterns have been followed.
@@ -44,19 +57,19 @@ class Mean {
     void add(const Tint& tint) {
         if (tint.texture.empty())
             add(tint.color);
-        else if (texture_.empty())
-            texture_ = tint.texture;
+        else if (texture_.texture.empty())
+            texture_ = tint;
     }
     std::optional<Tint> result() const {
-        if (!texture_.empty()) return Tint{V3f(1, 1, 1), texture_};
+        if (!texture_.texture.empty()) return texture_;
         if (count_ == 0) return {};
-        return Tint{sum_ / static_cast<float>(count_), {}};
+        return Tint{sum_ / static_cast<float>(count_)};
     }
 
   private:
     V3f sum_{0, 0, 0};
     int count_ = 0;
-    std::string texture_;
+    Tint texture_;
 };
 
 /// Numbers of a colour, or of several in an array.
@@ -79,7 +92,8 @@ std::optional<Tint> tint_of_pattern(const std::string& handle, Walk& walk) {
     ++walk.seen;
     const RisParameters& parameters = found->second.parameters;
     for (const char* name : {"filename", "filename0", "fileTextureName"})
-        if (const std::string file = parameters.text(name); !file.empty()) return Tint{V3f(1, 1, 1), file};
+        if (const std::string file = parameters.text(name); !file.empty())
+            return texture_of(file, parameters, walk.network);
     Mean mean;
     ++walk.depth;
     for (const RisParameter& parameter : parameters.all()) {
@@ -98,12 +112,12 @@ std::optional<Tint> tint_of(const RisParameters& parameters, std::string_view na
                             const RisNetwork& network) {
     const RisParameter* found = parameters.find(name);
     if (!found) return {};
-    if (const auto color = parameters.color(name)) return Tint{*color, {}};
+    if (const auto color = parameters.color(name)) return Tint{*color};
     if (!found->is_reference) return {};
     Mean mean;
     Walk walk{network};
     add_references(*found, walk, mean);
-    return mean.result().value_or(Tint{kGrey, {}});
+    return mean.result().value_or(Tint{kGrey});
 }
 
 /// What a conductor, or glass, reflects of what comes straight.
@@ -121,13 +135,19 @@ V3f reflected(const RisParameters& parameters) {
     return result;
 }
 
+void take_texture(const Tint& tint, RisLook& look) {
+    if (tint.texture.empty()) return;
+    look.texture = tint.texture;
+    look.scale_s = tint.scale_s, look.scale_t = tint.scale_t;
+}
+
 /// PxrSurface, and layers of it.
 void take_lobes(const RisParameters& p, const RisNetwork& network, RisLook& look) {
     const auto add = [&](const char* gain, float without, const char* name, const V3f& otherwise) {
         const float weight = p.number_or(gain, without);
         if (weight == 0) return;
-        const Tint tint = tint_of(p, name, network).value_or(Tint{otherwise, {}});
-        if (!tint.texture.empty()) look.texture = tint.texture;
+        const Tint tint = tint_of(p, name, network).value_or(Tint{otherwise});
+        take_texture(tint, look);
         look.color = look.color.value_or(V3f(0, 0, 0)) + tint.color * weight;
     };
     add("diffuseGain", 1, "diffuseColor", V3f(0.18f, 0.18f, 0.18f));
@@ -173,7 +193,7 @@ void take_any_color(const RisParameters& parameters, const RisNetwork& network, 
     for (const std::string_view name : kColors)
         if (const auto tint = tint_of(parameters, name, network)) {
             look.color = tint->color;
-            look.texture = tint->texture;
+            take_texture(*tint, look);
             return;
         }
 }
@@ -199,6 +219,7 @@ RisLook look_of_bxdf(const std::string& shader, const RisParameters& parameters,
         if (!look.is_constant) look.emission = parameters.color("emitColor").value_or(V3f(0, 0, 0));
         if (is_one_of(shader, {"PxrGlass", "PxrDielectric", "LamaDielectric"}))
             look.opacity = 0.3f, look.specular = V3f(1, 1, 1);
+        if (shader == "PxrVolume") look.opacity = 0.2f;
     }
     look.opacity *= std::clamp(parameters.number_or("presence", 1), 0.0f, 1.0f);
     // RSL's exponent is 1 / roughness; the width of these lobes goes with the square of theirs.

@@ -25,8 +25,9 @@ struct RisLook {
     V3f emission{0, 0, 0};
     float roughness = 0.2f;  ///< of RSL's specular()
     float opacity = 1;
-    std::string texture;       ///< its colour is that of a file; empty: none
-    bool is_constant = false;  ///< light does not matter
+    float scale_s = 1, scale_t = 1;  ///< how often the texture repeats
+    std::string texture;             ///< its colour is that of a file; empty: none
+    bool is_constant = false;        ///< light does not matter
 
     bool operator==(const RisLook&) const = default;
 };

@@ -17,6 +17,10 @@ void note(Reader& r) {
         "ris");
 }
 
+void set_number(ShaderInstance& shader, const char* name, float value) {
+    shader.parameters.set({name, {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}});
+}
+
 void set_color(ShaderInstance& shader, const char* name, const V3f& v) {
     if (v.x != 0 || v.y != 0 || v.z != 0)
         shader.parameters.set({name, {StorageClass::Uniform, ValueType::Color, 1}, {v.x, v.y, v.z}, {}});
@@ -28,12 +32,12 @@ void show(const RisLook& look, ShaderInstance& shader) {
     if (look.is_constant) return;
     set_color(shader, "specularcolor", look.specular);
     set_color(shader, "emission", look.emission);
-    shader.parameters.set({"roughness", {StorageClass::Uniform, ValueType::Float, 1}, {look.roughness}, {}});
-    if (look.opacity < 1)
-        shader.parameters.set({"opacity", {StorageClass::Uniform, ValueType::Float, 1}, {look.opacity}, {}});
-    if (!look.texture.empty())
-        shader.parameters.set(
-            {"texturename", {StorageClass::Uniform, ValueType::String, 1}, {}, {look.texture}});
+    set_number(shader, "roughness", look.roughness);
+    if (look.opacity < 1) set_number(shader, "opacity", look.opacity);
+    if (look.texture.empty()) return;
+    shader.parameters.set({"texturename", {StorageClass::Uniform, ValueType::String, 1}, {}, {look.texture}});
+    set_number(shader, "scales", look.scale_s);
+    set_number(shader, "scalet", look.scale_t);
 }
 
 /// Exporters describe a material once, and name it by its id alone on every object that has it.

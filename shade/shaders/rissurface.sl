@@ -4,7 +4,8 @@
 surface rissurface(
     color specularcolor = 0, emission = 0;
     float roughness = 0.1, opacity = 1, bounce = 0.15;
-    string texturename = "";)
+    string texturename = "";
+    float scales = 1, scalet = 1;)
 {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
@@ -14,7 +15,7 @@ surface rissurface(
     if (texturename != "") {
         textureinfo(texturename, "exists", isthere);
         if (isthere == 1)
-            base *= color texture(texturename, s, 1 - t);
+            base *= color texture(texturename, s * scales, 1 - t * scalet);
         else
             base *= 0.5;
     }
