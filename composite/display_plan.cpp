@@ -27,9 +27,9 @@ constexpr Named kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileForm
                               {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
                               {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
                               {"bmp", FileFormat::Bmp}};
-constexpr std::string_view kWindowDrivers[] = {"framebuffer", "it",      "x11",      "windows", "idisplay",
-                                               "piqsl",       "houdini", "rgl",      "mplay",   "xwindow",
-                                               "window",      "agshow",  "i-display"};
+constexpr std::string_view kWindowDrivers[] = {
+    "framebuffer", "it",    "x11",     "windows", "idisplay", "piqsl",     "houdini",
+    "rgl",         "mplay", "xwindow", "window",  "agshow",   "i-display", "zframebuffer"};
 
 template <class Table>
 std::optional<FileFormat> look_up(const Table& table, std::string_view name) {
@@ -43,11 +43,22 @@ bool opens_window(const Display& display) {
            std::end(kWindowDrivers);
 }
 
-/// A window beside a file of the same name, as many scenes have it: to be looked at, not to be kept.
+/// The same of the picture, whether with alpha or without.
+bool show_the_same(const Display& a, const Display& b) {
+    const auto without_alpha = [](const Display& display) {
+        const std::string mode = lower(display.mode.empty() ? "rgba" : display.mode);
+        return mode.starts_with("rgba") ? mode.substr(0, 3) + mode.substr(4) : mode;
+    };
+    return without_alpha(a) == without_alpha(b);
+}
+
+/// A window beside a file of the same name or of the same picture, as many scenes have it: to be looked at,
+/// not to be kept.
 bool is_window_of_a_file(const Display& display, const Options& options) {
     return opens_window(display) &&
            std::any_of(options.displays.begin(), options.displays.end(), [&](const Display& other) {
-               return other.name == display.name && !opens_window(other) && lower(other.type) != "null";
+               return (other.name == display.name || show_the_same(other, display)) && !opens_window(other) &&
+                      lower(other.type) != "null";
            });
 }
 

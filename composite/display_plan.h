@@ -44,8 +44,8 @@ bool makes_depth_map(const Display& display);
 /// The names of the channels of its output variable.
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
 
-/// Nothing when there is nothing to write: driver "null", a window beside a file of the same name, or a mode
-/// or driver that is not supported, of which it warns. `layout` is aov_layout(options).
+/// Nothing when there is nothing to write: driver "null", a window beside a file of the same name or picture,
+/// or a mode or driver that is not supported, of which it warns. `layout` is aov_layout(options).
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
                                         const AovLayout& layout, Diagnostics& diagnostics);
 

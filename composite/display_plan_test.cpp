@@ -70,11 +70,13 @@ TEST(DisplayPlan, DriverThenExtensionChoosesTheFormat) {
 TEST(DisplayPlan, WindowsDoNotOverwriteFiles) {
     Options options;
     options.displays = {{"a.tif", "file", "rgba", {}, {}},
-                        {"a.tif", "framebuffer", "rgb", {}, {}},
-                        {"b.tif", "framebuffer", "rgb", {}, {}},
-                        {"c.tif", "null", "rgb", {}, {}},
-                        {"c.tif", "it", "rgb", {}, {}}};
-    const bool written[] = {true, false, true, false, true};
+                        {"a.tif", "framebuffer", "z", {}, {}},
+                        {"b.tif", "framebuffer", "rgbz", {}, {}},
+                        {"c.tif", "null", "a", {}, {}},
+                        {"c.tif", "it", "a", {}, {}},
+                        {"d.tif", "framebuffer", "rgb", {}, {}},
+                        {"", "zframebuffer", "", {}, {}}};
+    const bool written[] = {true, false, true, false, true, false, false};
     for (size_t i = 0; i < options.displays.size(); ++i) {
         const Planned result = planned(options.displays[i], options);
         EXPECT_EQ(result.plan.has_value(), written[i]) << i;

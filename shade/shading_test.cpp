@@ -67,7 +67,7 @@ TEST(Shading, EachPrimitiveHasItsOwnShaders) {
     scene.surface("constant");
     scene.scene.primitives.push_back(scene.scene.primitives[0]);
     auto second = std::make_shared<Attributes>();
-    second->surface = std::make_shared<ShaderInstance>(shader("null"));
+    second->surface = std::make_shared<ShaderInstance>(shader("plastic"));  // without lights: black
     scene.scene.primitives[1].attributes = second;
     ShadingGrid other = scene.grid();
     other.primitive_index = 1, other.primitive = &scene.scene.primitives[1];

@@ -116,13 +116,15 @@ TEST(Surfaces, DefaultsurfaceIsLitFromTheEyeAlone) {
     EXPECT_TRUE(scene.reported.empty());
 }
 
-TEST(Surfaces, NullDrawsNothing) {
+/// Passes that make depth maps use it: it hides what is behind it.
+TEST(Surfaces, NullHasItsOwnColourAndOpacity) {
     TestScene scene;
+    light(scene);
     scene.surface("null");
     const ShadingGrid grid = scene.shaded();
     for (size_t i = 0; i < grid.vertex_count(); ++i) {
-        EXPECT_EQ(grid.Ci.at(i), V3f(0));
-        EXPECT_EQ(grid.Oi.at(i), V3f(0));
+        EXPECT_EQ(grid.Ci.at(i), scene.grid().Cs.at(i));
+        EXPECT_EQ(grid.Oi.at(i), scene.grid().Os.at(i));
     }
 }
 

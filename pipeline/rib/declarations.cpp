@@ -1,5 +1,6 @@
 #include "pipeline/rib/declarations.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <vector>
@@ -7,14 +8,14 @@
 namespace trapeze::rib {
 namespace {
 
+/// In the order of StorageClass.
+constexpr std::string_view kStorageNames[] = {"constant", "uniform",     "varying",
+                                              "vertex",   "facevarying", "facevertex"};
+
 std::optional<StorageClass> storage_named(std::string_view word) {
-    if (word == "constant") return StorageClass::Constant;
-    if (word == "uniform") return StorageClass::Uniform;
-    if (word == "varying") return StorageClass::Varying;
-    if (word == "vertex") return StorageClass::Vertex;
-    if (word == "facevarying") return StorageClass::FaceVarying;
-    if (word == "facevertex") return StorageClass::FaceVertex;
-    return {};
+    const auto* found = std::find(std::begin(kStorageNames), std::end(kStorageNames), word);
+    if (found == std::end(kStorageNames)) return {};
+    return static_cast<StorageClass>(found - std::begin(kStorageNames));
 }
 
 std::optional<ValueType> type_named(std::string_view word) {
@@ -132,6 +133,10 @@ const char* const kStrings[] = {
     "xmlfilename", "coordinatesystem", "compression", "displaymapname", "__instanceid", "__category"};
 
 }  // namespace
+
+std::string_view name_of(StorageClass storage) {
+    return kStorageNames[static_cast<size_t>(storage)];
+}
 
 std::optional<Declaration> parse_declaration(std::string_view text) {
     return declaration_of(words_of(text));

@@ -17,6 +17,8 @@ inline constexpr int kLongestArray = 1000000;
 /// "[class] type[n]", words apart by spaces; nothing when it is not one.
 std::optional<Declaration> parse_declaration(std::string_view text);
 
+std::string_view name_of(StorageClass storage);
+
 class Declarations {
   public:
     Declarations();  ///< RISpec's predeclared names

@@ -68,10 +68,18 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
         const bool is_color = declaration.type == ValueType::Color;
         const size_t components = is_color ? samples_per_color() : component_count(declaration.type);
         const size_t item = components * static_cast<size_t>(declaration.array_length);
-        if (got == 0 || got % item != 0) {
+        if (got < item) {
             error(name_at, in_quotes(name) + " has " + std::to_string(got) + " values, needs a multiple of " +
                                std::to_string(item) + "; left out");
             continue;
+        }
+        if (got % item != 0) {
+            diagnostics_.warning(name_at,
+                                 request_name_ + ": " + in_quotes(name) + " has " + std::to_string(got) +
+                                     " values, no multiple of " + std::to_string(item) +
+                                     "; the rest is left over",
+                                 "surplus-numbers");
+            (is_string ? value.strings.resize(got - got % item) : numbers.resize(got - got % item));
         }
         if (is_color) numbers = rgb(std::move(numbers));
         list.set({name, declaration, std::move(numbers), std::move(value.strings)});

@@ -106,6 +106,42 @@ void expand_pz(ParameterList& list, const Topology& topology) {
     list.set(std::move(p));
 }
 
+/// Another class that wants as many values of the shape as there are.
+std::optional<StorageClass> class_of_count(size_t count, const VariableCounts& counts) {
+    if (count == 1) return StorageClass::Constant;
+    for (const auto storage :
+         {StorageClass::Vertex, StorageClass::FaceVarying, StorageClass::Varying, StorageClass::Uniform})
+        if (static_cast<size_t>(counts.of(storage)) == count) return storage;
+    return {};
+}
+
+/// Whether the variable has what its class wants of the shape, or can be given it: as many values as another
+/// class wants are of that class (one is for the whole shape), and values beyond those wanted are left over.
+/// Throws where points are too few.
+bool fit_to_shape(Reader& reader, Parameter& p, const VariableCounts& counts) {
+    const bool points = p.name == "P" || p.name == "Pw";
+    const auto item =
+        static_cast<size_t>(p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item());
+    const size_t got = (p.is_string() ? p.strings.size() : p.floats.size()) / item;
+    const auto wanted = static_cast<size_t>(counts.of(p.declaration.storage));
+    if (got == wanted) return true;
+    const std::string text = in_quotes(p.name) + " has " + std::to_string(got) +
+                             (points ? " points" : " values") + ", needs " + std::to_string(wanted);
+    if (const auto storage = points ? std::nullopt : class_of_count(got, counts)) {
+        p.declaration.storage = *storage;
+        reader.warn_once(text + "; it is taken as " + std::string(name_of(*storage)), "variable-class");
+        return true;
+    }
+    if (got > wanted && wanted > 0) {
+        (p.is_string() ? p.strings.resize(wanted) : p.floats.resize(wanted * item));
+        reader.warn_once(text + "; the rest is left over", "surplus-values");
+        return true;
+    }
+    if (points) throw RequestError{text, {}};
+    reader.error(text + "; the variable is left out");
+    return false;
+}
+
 }  // namespace
 
 ParameterList read_variables(Reader& reader, ArgumentCursor& cursor, PointForm form) {
@@ -125,18 +161,7 @@ int point_count_of(const ParameterList& list) {
 ParameterList checked_variables(Reader& reader, ParameterList list, const Topology& topology) {
     expand_pz(list, topology);
     const VariableCounts counts = variable_counts(topology);
-    std::erase_if(list.values, [&](const Parameter& p) {
-        const bool points = p.name == "P" || p.name == "Pw";
-        const int item = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();
-        const size_t got = (p.is_string() ? p.strings.size() : p.floats.size()) / static_cast<size_t>(item);
-        const auto wanted = static_cast<size_t>(counts.of(p.declaration.storage));
-        if (got == wanted) return false;
-        const std::string text = in_quotes(p.name) + " has " + std::to_string(got) +
-                                 (points ? " points" : " values") + ", needs " + std::to_string(wanted);
-        if (points) throw RequestError{text, {}};
-        reader.error(text + "; the variable is left out");
-        return true;
-    });
+    std::erase_if(list.values, [&](Parameter& p) { return !fit_to_shape(reader, p, counts); });
     split_st(list);
     return list;
 }

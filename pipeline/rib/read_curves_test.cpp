@@ -44,7 +44,7 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
         {"\"cubic\" [4] \"periodic\" " + points(4), "do not fit the basis' step of 3"},
         {"\"linear\" [1] \"nonperiodic\" " + points(1), "needs at least 2"},
         {"\"linear\" [-4] \"nonperiodic\" " + points(1), "needs at least 2"},
-        {"\"linear\" [2] \"nonperiodic\" " + points(3), "\"P\" has 3 points, needs 2"},
+        {"\"linear\" [3] \"nonperiodic\" " + points(2), "\"P\" has 2 points, needs 3"},
         {"\"linear\" [2] \"nonperiodic\" \"constantwidth\" 1", "\"P\" is missing"},
         {"\"linear\" [] \"nonperiodic\" " + points(2), "has no curves"},
         {"\"quadratic\" [2] \"nonperiodic\" " + points(2), "neither linear nor cubic"},
@@ -61,13 +61,14 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
 }
 
 TEST(ReadCurves, WidthsOfAWrongNumberAreLeftOut) {
-    const Outcome r =
-        read_world("Curves \"linear\" [3] \"nonperiodic\" " + points(3) + "\"width\" [1 2] \"N\" [0 0 1]");
-    ASSERT_EQ(r.messages.size(), 2u);
-    EXPECT_THAT(r.messages[0], HasSubstr("\"width\" has 2 values, needs 3"));
-    EXPECT_THAT(r.messages[1], HasSubstr("\"N\" has 1 values, needs 3"));
+    const std::string curve = "Curves \"linear\" [3] \"nonperiodic\" " + points(3);
+    const Outcome r = read_world(curve + "\"width\" [1 2]");
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("error: Curves: \"width\" has 2 values, needs 3")));
     ASSERT_EQ(r.count(), 1u);
     EXPECT_EQ(r.primitive().shape().variables.find("width"), nullptr);
+    const Outcome one = read_world(curve + "\"width\" [.5]");
+    EXPECT_THAT(one.messages, ElementsAre(HasSubstr("has 1 values, needs 3; it is taken as constant")));
+    EXPECT_EQ(one.primitive().shape().variables.find("width")->declaration.storage, StorageClass::Constant);
 }
 
 TEST(ReadCurves, Deform) {

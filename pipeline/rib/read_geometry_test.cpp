@@ -203,16 +203,60 @@ TEST(ReadGeometry, InvalidPrimitivesAreSkipped) {
 /// What is left out of a primitive that stays.
 TEST(ReadGeometry, WrongVariablesAreLeftOut) {
     for (const char* variable :
-         {"\"Cs\" [1 0 0]", "\"Cs\" [1 0 0 0]", "\"N\" [0 0 1 0 0 1 0 0 1]", "\"st\" [0 0 1 1]",
-          "\"uniform float k\" [1 2]", "\"facevarying float f\" [1 2 3]", "\"varying string N\" [\"a\"]",
-          "\"vertex color s\" [1 0 0 1 0 0 1 0 0 1 0 0]", "\"Pz\" [1 2 3 4]", "\"unknown\" [1]",
-          "\"constant string c\" [1]", "\"float k\" [\"x\"]", "\"float[3] k\" [1 2]"}) {
+         {"\"Cs\" [1 0]", "\"N\" [0 0 1 0 0 1 0 0 1]", "\"st\" [0 0 1 1]", "\"facevarying float f\" [1 2 3]",
+          "\"varying string N\" [\"a\"]", "\"vertex color s\" [1 0 0 1 0 0 1 0 0 1 0 0]", "\"Pz\" [1 2 3 4]",
+          "\"unknown\" [1]", "\"constant string c\" [1]", "\"float k\" [\"x\"]", "\"float[3] k\" [1 2]"}) {
         const Outcome r = read_world("Polygon " + kQuad + variable);
         ASSERT_EQ(r.messages.size(), 1u) << variable;
         EXPECT_THAT(r.messages[0], HasSubstr("left out")) << variable;
         ASSERT_EQ(r.count(), 1u) << variable;
         EXPECT_EQ(r.primitive().shape().variables.values.size(), 1u) << variable;
     }
+}
+
+/// As many values as another class wants, and values beyond those wanted.
+TEST(ReadGeometry, VariablesOfAnotherNumberAreFitted) {
+    const struct {
+        std::string variable;
+        StorageClass storage;
+        size_t floats;
+    } cases[] = {
+        {"\"Cs\" [1 0 0]", StorageClass::Constant, 3},
+        {"\"Cs\" [1 0 0 0]", StorageClass::Constant, 3},
+        {"\"Cs\" [1 0 0 0 1 0]", StorageClass::Uniform, 6},
+        {"\"uniform float f\" [1 2 3 4 5 6 7 8]", StorageClass::FaceVarying, 8},
+        {"\"uniform float f\" [1 2 3 4 5 6]", StorageClass::Vertex, 6},
+        {"\"uniform float f\" [1 2 3]", StorageClass::Uniform, 2},
+        {"\"float f\" [1 2 3 4 5 6 7]", StorageClass::Uniform, 2},
+        {"\"st\" [0 0 1 0 1 1 0 1 0 0 1 0 1]", StorageClass::Varying, 12},
+    };
+    for (const auto& c : cases) {
+        const Outcome r = read_world("PointsPolygons [4 4] [0 1 4 3 1 2 5 4] " + points(6) + c.variable);
+        ASSERT_EQ(r.messages.size(), c.storage == StorageClass::Constant && c.variable.size() > 15 ? 2u : 1u)
+            << c.variable;
+        EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:")) << c.variable;
+        EXPECT_THAT(r.messages[0], HasSubstr("warning: PointsPolygons: ")) << c.variable;
+        ASSERT_EQ(r.count(), 1u) << c.variable;
+        const Parameter& p = r.primitive().shape().variables.values.at(1);
+        EXPECT_EQ(p.declaration.storage, c.storage) << c.variable;
+        EXPECT_EQ(p.floats.size(), c.floats) << c.variable;
+    }
+}
+
+/// A bicubic patch's sixteen colours are of its points, whatever the class of Cs.
+TEST(ReadGeometry, PointsOfPolygonsMayBeTooMany) {
+    const Outcome r = read_world("Polygon \"P\" [0 0 0 1 0 0 1 1 0 0 1]");
+    ASSERT_EQ(r.messages.size(), 1u);
+    EXPECT_THAT(r.messages[0], HasSubstr("\"P\" has 11 values, no multiple of 3; the rest is left over"));
+    ASSERT_EQ(r.count(), 1u);
+    EXPECT_EQ(r.primitive().shape().variables.find("P")->floats.size(), 9u);
+    const Outcome patch = read_world("Patch \"bicubic\" " + points(16) + "\"Cs\" [" + [] {
+        std::string colors;
+        for (int i = 0; i < 48; ++i) colors += "1 ";
+        return colors;
+    }() + "]");
+    ASSERT_EQ(patch.count(), 1u);
+    EXPECT_EQ(patch.primitive().shape().variables.find("Cs")->declaration.storage, StorageClass::Vertex);
 }
 
 TEST(ReadGeometry, SingularAndOverflowingSpacesAreReported) {

@@ -1,6 +1,4 @@
-/* Draws nothing. */
+/* The surface's own colour and opacity, unshaded: for depth maps, which need no more. */
 surface null()
 {
-    Oi = 0;
-    Ci = 0;
 }
