@@ -71,7 +71,7 @@ TEST(DisplayPlan, WindowsDoNotOverwriteFiles) {
     Options options;
     options.displays = {{"a.tif", "file", "rgba", {}, {}},
                         {"a.tif", "framebuffer", "z", {}, {}},
-                        {"b.tif", "framebuffer", "rgbz", {}, {}},
+                        {"b.exr", "framebuffer", "rgbz", {}, {}},
                         {"c.tif", "null", "a", {}, {}},
                         {"c.tif", "it", "a", {}, {}},
                         {"d.tif", "framebuffer", "rgb", {}, {}},

@@ -113,6 +113,7 @@ void Reader::begin_world() {
     open_scope();
     camera_ = state_.transform;
     in_world_ = true;
+    world_depth_ = open_files_.size();
     report_homeless();
     scene_ = Scene();
     solids_ = {};

@@ -39,8 +39,9 @@ void format(Reader& r, ArgumentCursor& c) {
 
 void frame_aspect_ratio(Reader& r, ArgumentCursor& c) {
     const float aspect = c.number("the ratio");
-    require(aspect > 0, "the ratio must be positive");
-    changeable_options(r).frame_aspect = aspect;
+    require(std::isfinite(aspect), "the ratio must be finite");
+    // Later RenderMans write -1 for that of the picture, which is the default.
+    changeable_options(r).frame_aspect = aspect > 0 ? std::optional(aspect) : std::nullopt;
 }
 
 std::array<float, 4> four(ArgumentCursor& c, const char* what) {
@@ -83,7 +84,7 @@ void projection(Reader& r, ArgumentCursor& c) {
     if (f_stop > 0 && f_stop < kInfinity && length > 0 && distance > 0)
         o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
     // RISpec 4.1.1: what came before belongs to the screen; what follows places the world before the camera.
-    r.state().transform = MovingTransform();
+    if (!r.in_world()) r.state().transform = MovingTransform();
 }
 
 void clipping(Reader& r, ArgumentCursor& c) {
@@ -117,6 +118,7 @@ void shutter(Reader& r, ArgumentCursor& c) {
     const float open = v[0], close = v[1];
     require(open <= close, "closes before it opens");
     require(std::isfinite(close - open), "is open for too long");
+    require(!r.in_world(), "options cannot change inside a world");  // paths have been cut at its times
     changeable_options(r).shutter_open = open;
     r.options().shutter_close = close;
 }
@@ -276,7 +278,11 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 Options& changeable_options(Reader& reader) {
-    if (reader.in_world()) throw RequestError{"options cannot change inside a world", {}};
+    if (reader.in_world()) {
+        if (reader.in_archive_of_world()) throw RequestError{"options cannot change inside a world", {}};
+        reader.warn_once("an option, which belongs before WorldBegin; it is taken for this world",
+                         "option-in-world");
+    }
     return reader.options();
 }
 

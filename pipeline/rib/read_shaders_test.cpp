@@ -50,6 +50,20 @@ TEST(ReadShaders, ALayerOfTheSameNameIsReplacedAndBlocksRestoreLayers) {
     EXPECT_TRUE(r.attributes(2).displacement->earlier_layers.empty());
 }
 
+TEST(ReadShaders, NullAndNoNameAreNoShader) {
+    const Outcome r = read_world(
+        "Displacement \"dented\" Atmosphere \"fog\" Surface \"matte\" AttributeBegin "
+        "Displacement \"null\" Atmosphere \"null\" Surface \"null\" " +
+        kSphere + "AttributeEnd Displacement \"\" Surface \"\" " + kSphere);
+    EXPECT_THAT(r.messages, IsEmpty());
+    EXPECT_FALSE(r.attributes(0).displacement);
+    EXPECT_FALSE(r.attributes(0).atmosphere);
+    EXPECT_EQ(r.attributes(0).surface->name, "null");
+    EXPECT_FALSE(r.attributes(1).displacement);
+    EXPECT_FALSE(r.attributes(1).surface);
+    EXPECT_EQ(r.attributes(1).atmosphere->name, "fog");
+}
+
 TEST(ReadShaders, WrongLayersAreReported) {
     const Outcome r = read_world(
         "ShaderLayer \"light\" \"spot\" \"a\"\n"

@@ -5,6 +5,7 @@ namespace trapeze::rib::test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(ReadState, AttributesAreRestoredWithTheirBlocks) {
@@ -42,16 +43,44 @@ TEST(ReadState, PrimitivesThatLookAlikeShareTheirAttributes) {
     EXPECT_NE(r.attributes(2).reverse_orientation, r.attributes(3).reverse_orientation);
 }
 
-TEST(ReadState, OptionsAreFrozenInWorlds) {
-    const Outcome r = read_world(
-        "Format 10 20 1 PixelSamples 9 9 Projection \"perspective\" "
-        "Option \"limits\" \"gridsize\" [4] " +
-        kSphere);
-    EXPECT_EQ(r.messages.size(), 4u);
+TEST(ReadState, OptionsInAWorldAreTakenForIt) {
+    const Outcome r = read_text(
+        "WorldBegin Translate 1 0 0\nFormat 10 20 1\nProjection \"perspective\" \"fov\" 30\n"
+        "Imager \"background\" \"color\" [1 0 0]\n" +
+        kSphere + "WorldEnd WorldBegin WorldEnd");
+    ASSERT_EQ(r.messages.size(), 2u);
+    EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: warning: Format: an option, which belongs before"));
+    EXPECT_THAT(r.messages[1], HasSubstr("\"color\" is not declared"));
+    ASSERT_EQ(r.worlds.size(), 2u);
+    const Options& o = r.worlds[0].options;
+    EXPECT_EQ(o.width, 10);
+    EXPECT_EQ(o.fov, 30);
+    ASSERT_TRUE(o.imager);
+    EXPECT_EQ(o.imager->parameters.values.at(0).name, "bgcolor");
+    EXPECT_EQ(r.worlds[0].primitives.at(0).camera_from_object[0][3][0], 1);  // Projection moves nothing
+    EXPECT_EQ(r.worlds[1].options.width, 640);
+    EXPECT_FALSE(r.worlds[1].options.imager);
+}
+
+TEST(ReadState, OptionsOfArchivesAndTheShutterAreFrozenInWorlds) {
+    const Outcome r = read_text(
+        "ArchiveBegin \"other\" Format 10 20 1 Display \"b.exr\" \"exr\" \"rgb\" ArchiveEnd\n"
+        "WorldBegin ReadArchive \"other\" Shutter 0 1 WorldEnd");
+    ASSERT_EQ(r.messages.size(), 3u);
     for (const std::string& message : r.messages)
-        EXPECT_THAT(message, ::testing::HasSubstr("options cannot change inside a world; request skipped"));
+        EXPECT_THAT(message, HasSubstr("options cannot change inside a world; request skipped"));
     EXPECT_EQ(r.scene().options.width, 640);
-    EXPECT_EQ(r.count(), 1u);
+    EXPECT_TRUE(r.scene().options.displays.empty());
+}
+
+TEST(ReadState, AFrameAspectRatioBelowZeroIsThePictures) {
+    const Outcome r = read_text(
+        "FrameAspectRatio 2 Option \"Ri\" \"float FrameAspectRatio\" [-1] \"int[2] FormatResolution\" [30 "
+        "20] "
+        "WorldBegin WorldEnd");
+    EXPECT_TRUE(r.messages.empty());
+    EXPECT_FALSE(r.scene().options.frame_aspect);
+    EXPECT_EQ(r.scene().options.width, 30);
 }
 
 TEST(ReadState, CameraOptions) {

@@ -40,6 +40,8 @@ class Reader {
     Scope& scope() { return scope_; }
     Options& options() { return scope_.options; }
     bool in_world() const { return in_world_; }
+    /// In a world that another file opened: what is read now may be a whole scene of its own.
+    bool in_archive_of_world() const { return in_world_ && open_files_.size() > world_depth_; }
     bool in_motion() const { return motion_.has_value(); }
     std::map<std::string, DisplayChannel>& display_channels() { return scope_.display_channels; }
     Declarations& declarations() { return declarations_; }
@@ -254,6 +256,7 @@ class Reader {
     std::vector<Conditional> conditionals_;
     size_t first_conditional_ = 0;  ///< of the stream being read; those before it belong to outer streams
     std::vector<std::string> open_files_;  ///< for recursion; the last is being read
+    size_t world_depth_ = 0;               ///< of them, as the world was opened
     uint64_t archives_read_ = 0;
 };
 

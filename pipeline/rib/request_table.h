@@ -23,7 +23,7 @@ std::span<const RequestRow> display_requests();
 std::span<const RequestRow> attribute_requests();
 std::span<const RequestRow> shader_requests();
 std::span<const RequestRow> solid_requests();
-/// For requests that are fixed within a world: an error there.
+/// For requests that belong before the world: a warning in one, an error in archives that it reads.
 Options& changeable_options(Reader& reader);
 std::span<const RequestRow> transform_requests();
 std::span<const RequestRow> polygon_requests();

@@ -17,7 +17,10 @@ template <ShaderMember kWhere>
 void shader(Reader& r, ArgumentCursor& c, const char* kind) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
     instance->parameters = r.shader_parameters(c);
-    change(r).*kWhere = std::move(instance);
+    // Exporters write "null" for what does nothing; the surface of that name is a shader.
+    const bool is_none =
+        instance->name.empty() || (instance->name == "null" && kWhere != &Attributes::surface);
+    change(r).*kWhere = is_none ? nullptr : std::move(instance);
 }
 
 ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
