@@ -9,14 +9,17 @@ namespace {
 
 constexpr int64_t kMostPoints = 1 << 28;
 
-void check_curve(const Curves& curves, int vertices, size_t number) {
+/// Points beyond the last whole segment are left over, but where the curve closes.
+void check_curve(Reader& r, const Curves& curves, int vertices, size_t number) {
     const int least = curves.cubic ? (curves.periodic ? 3 : 4) : (curves.periodic ? 3 : 2);
     const bool fits = !curves.cubic || (curves.periodic ? vertices : vertices - 4) % curves.step == 0;
     if (vertices >= least && fits) return;
     const std::string has =
         "curve " + std::to_string(number) + " has " + std::to_string(vertices) + " points";
     if (vertices < least) throw RequestError{has + ", needs at least " + std::to_string(least), {}};
-    throw RequestError{has + ", which do not fit the basis' step of " + std::to_string(curves.step), {}};
+    const std::string misfit = has + ", which do not fit the basis' step of " + std::to_string(curves.step);
+    if (curves.periodic) throw RequestError{misfit, {}};
+    r.warn_once(misfit + "; the rest is left over", "surplus-points");
 }
 
 void curves(Reader& r, ArgumentCursor& c) {
@@ -34,7 +37,7 @@ void curves(Reader& r, ArgumentCursor& c) {
     if (curves.vertices_per_curve.empty()) throw RequestError{"has no curves", {}};
     int64_t sum = 0;
     for (size_t i = 0; i < curves.vertices_per_curve.size(); ++i) {
-        check_curve(curves, curves.vertices_per_curve[i], i);
+        check_curve(r, curves, curves.vertices_per_curve[i], i);
         sum += curves.vertices_per_curve[i];
     }
     if (sum > kMostPoints) throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};

@@ -5,6 +5,7 @@
 
 #include "pipeline/rib/primitive_variables.h"
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/whole_faces.h"
 
 namespace trapeze::rib {
 namespace {
@@ -27,15 +28,6 @@ void expect_length(size_t got, int64_t wanted, const char* what) {
         throw RequestError{
             std::string(what) + " has " + std::to_string(got) + " numbers, needs " + std::to_string(wanted),
             {}};
-}
-
-/// Points are counted from the list itself: the largest index decides how many are needed.
-void check_indices(const std::vector<int>& indices, int points) {
-    for (const int index : indices)
-        if (index < 0 || index >= points)
-            throw RequestError{"vertex " + std::to_string(index) + " is outside of the " +
-                                   std::to_string(points) + " points of \"P\"",
-                               {}};
 }
 
 /// What is wrong with a tag; empty when nothing is.
@@ -62,17 +54,26 @@ void check_tags(Reader& r, SubdivisionMesh& mesh) {
     });
 }
 
+uint64_t face_count(const PolygonMesh& mesh) {
+    return mesh.loops_per_polygon.size();
+}
+
+uint64_t face_count(const SubdivisionMesh& mesh) {
+    return mesh.vertices_per_face.size();
+}
+
 /// Reads the variables of a mesh whose points are counted by its "P".
 template <class Mesh>
-void add_mesh(Reader& r, ArgumentCursor& c, const char* request, Mesh mesh, uint64_t faces) {
-    if (faces == 0) throw RequestError{"has no faces", {}};
+void add_mesh(Reader& r, ArgumentCursor& c, const char* request, Mesh mesh) {
+    if (face_count(mesh) == 0) throw RequestError{"has no faces", {}};
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     mesh.vertex_count = point_count_of(list);
     if (mesh.vertex_count == 0) throw RequestError{"\"P\" is missing", {}};
-    check_indices(mesh.vertices, mesh.vertex_count);
     if constexpr (std::is_same_v<Mesh, SubdivisionMesh>) check_tags(r, mesh);
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r, std::move(list), shape.topology);
+    leave_out_broken_faces(r, shape);
+    const uint64_t faces = face_count(std::get<Mesh>(shape.topology));
     r.add_shape(request, std::move(shape), faces);
 }
 
@@ -100,7 +101,7 @@ void polygon(Reader& r, ArgumentCursor& c) {
 
 void general_polygon(Reader& r, ArgumentCursor& c) {
     std::vector<int> loops = c.int_array("the loops");
-    const int64_t sum = checked_sum(loops, 3, "a loop");
+    const int64_t sum = checked_sum(loops, 0, "a loop");
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     const int points = point_count_of(list);
     if (points != sum)
@@ -111,6 +112,7 @@ void general_polygon(Reader& r, ArgumentCursor& c) {
     mesh.vertex_count = points;
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r, std::move(list), shape.topology);
+    leave_out_broken_faces(r, shape);
     r.add_shape("GeneralPolygon", std::move(shape), 1);
 }
 
@@ -119,10 +121,9 @@ void points_polygons(Reader& r, ArgumentCursor& c) {
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
     mesh.loops_per_polygon.assign(mesh.vertices_per_loop.size(), 1);
     mesh.vertices = c.int_array("the vertices");
-    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_loop, 3, "a polygon"),
+    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_loop, 0, "a polygon"),
                   "the array of vertices");
-    const uint64_t faces = mesh.loops_per_polygon.size();
-    add_mesh(r, c, "PointsPolygons", std::move(mesh), faces);
+    add_mesh(r, c, "PointsPolygons", std::move(mesh));
 }
 
 void points_general_polygons(Reader& r, ArgumentCursor& c) {
@@ -130,12 +131,11 @@ void points_general_polygons(Reader& r, ArgumentCursor& c) {
     mesh.loops_per_polygon = c.int_array("the numbers of loops");
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
     mesh.vertices = c.int_array("the vertices");
-    expect_length(mesh.vertices_per_loop.size(), checked_sum(mesh.loops_per_polygon, 1, "a polygon"),
+    expect_length(mesh.vertices_per_loop.size(), checked_sum(mesh.loops_per_polygon, 0, "a polygon"),
                   "the numbers of vertices");
-    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_loop, 3, "a loop"),
+    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_loop, 0, "a loop"),
                   "the array of vertices");
-    const uint64_t faces = mesh.loops_per_polygon.size();
-    add_mesh(r, c, "PointsGeneralPolygons", std::move(mesh), faces);
+    add_mesh(r, c, "PointsGeneralPolygons", std::move(mesh));
 }
 
 /// Tags, numbers of their arguments (two or, with strings, three for each tag), integers, floats, strings.
@@ -192,23 +192,18 @@ SubdivisionMesh read_subdivision(ArgumentCursor& c) {
         throw RequestError{"no scheme " + in_quotes(scheme), {}};
     mesh.vertices_per_face = c.int_array("the numbers of vertices");
     mesh.vertices = c.int_array("the vertices");
-    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_face, 3, "a face"),
+    expect_length(mesh.vertices.size(), checked_sum(mesh.vertices_per_face, 0, "a face"),
                   "the array of vertices");
     if (mesh.scheme == SubdivisionMesh::Scheme::Loop &&
         std::any_of(mesh.vertices_per_face.begin(), mesh.vertices_per_face.end(),
-                    [](int n) { return n != 3; }))
+                    [](int n) { return n > 3; }))
         throw RequestError{"scheme \"loop\" needs triangles", {}};
     if (has_tags(c)) mesh.tags = subdivision_tags(c);
     return mesh;
 }
 
-void add_subdivision(Reader& r, ArgumentCursor& c, const char* request, SubdivisionMesh mesh) {
-    const uint64_t faces = mesh.vertices_per_face.size();
-    add_mesh(r, c, request, std::move(mesh), faces);
-}
-
 void subdivision_mesh(Reader& r, ArgumentCursor& c) {
-    add_subdivision(r, c, "SubdivisionMesh", read_subdivision(c));
+    add_mesh(r, c, "SubdivisionMesh", read_subdivision(c));
 }
 
 /// PRMan's, whose tags may also edit vertices, edges and faces of finer levels: that is left out.
@@ -219,7 +214,7 @@ void hierarchical_subdivision_mesh(Reader& r, ArgumentCursor& c) {
         if (is_edit) r.warn_once("edits of finer levels are not supported; left out", "hierarchical-edits");
         return is_edit;
     });
-    add_subdivision(r, c, "HierarchicalSubdivisionMesh", std::move(mesh));
+    add_mesh(r, c, "HierarchicalSubdivisionMesh", std::move(mesh));
 }
 
 constexpr RequestRow kRows[] = {

@@ -40,7 +40,6 @@ TEST(ReadCurves, LinearAndCubicOfEveryWrap) {
 TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
     const std::pair<std::string, const char*> wrong[] = {
         {"\"cubic\" [3] \"nonperiodic\" " + points(3), "curve 0 has 3 points, needs at least 4"},
-        {"\"cubic\" [4 6] \"nonperiodic\" " + points(10), "curve 1 has 6 points, which do not fit"},
         {"\"cubic\" [4] \"periodic\" " + points(4), "do not fit the basis' step of 3"},
         {"\"linear\" [1] \"nonperiodic\" " + points(1), "needs at least 2"},
         {"\"linear\" [-4] \"nonperiodic\" " + points(1), "needs at least 2"},
@@ -58,6 +57,18 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: Curves")) << text;
         EXPECT_EQ(r.count(), 1u) << text;  // the sphere
     }
+}
+
+TEST(ReadCurves, PointsBeyondTheLastSegmentAreLeftOver) {
+    const Outcome r =
+        read_world("Curves \"cubic\" [6 7] \"nonperiodic\" " + points(13) + "\"width\" [1 2 3 4 5]");
+    EXPECT_THAT(
+        r.messages,
+        ElementsAre(HasSubstr("warning: Curves: curve 0 has 6 points, which do not fit the basis' step")));
+    ASSERT_EQ(r.count(), 1u);
+    EXPECT_EQ(r.primitive().shape().variables.find("P")->floats.size(), 39u);
+    // A varying variable has a value for each end of the one segment and of the two.
+    EXPECT_EQ(r.primitive().shape().variables.find("width")->floats.size(), 5u);
 }
 
 TEST(ReadCurves, WidthsOfAWrongNumberAreLeftOut) {

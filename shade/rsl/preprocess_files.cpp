@@ -271,15 +271,7 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
         stopped_ = includes_ > kMostIncludes;
         return;
     }
-    namespace fs = std::filesystem;
-    std::vector<std::string> candidates;
-    const std::string beside = (fs::path(files_.back().path).parent_path() / name).string();
-    if (quoted) candidates.push_back(beside);
-    if (!fs::path(name).is_absolute())
-        for (const std::string& folder : options_.include_folders)
-            candidates.push_back((fs::path(folder) / name).string());
-    if (!quoted) candidates.push_back(beside);
-    for (const std::string& path : candidates) {
+    for (const std::string& path : places_of(name, quoted)) {
         if (once_.contains(path)) return;
         std::optional<std::string> text =
             options_.read_file ? options_.read_file(path) : read_file_from_disk(path, kMostBytes);
@@ -293,7 +285,7 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
         enter(path, path, std::move(*text), at.at);
         return;
     }
-    const std::string bare = fs::path(name).filename().string();
+    const std::string bare = std::filesystem::path(name).filename().string();
     if (options_.carried_file)
         if (const std::string_view text = options_.carried_file(bare); !text.empty()) {
             enter(bare, bare, std::string(text), at.at);
@@ -301,6 +293,24 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
         }
     messages_.error(at.at, "file " + shown(name) + " is not found" +
                                (options_.include_folders.empty() ? "" : " in any of the folders to search"));
+}
+
+/// Where a file that is included may be, in the order to look. Collections of shaders keep their headers
+/// above the folders of the kinds, or in one of their own, and leave it to the compiler's command line to say
+/// so.
+std::vector<std::string> FileReader::places_of(const std::string& name, bool quoted) const {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(files_.back().path).parent_path();
+    std::vector<std::string> places;
+    if (fs::path(name).is_absolute()) return {name};
+    if (quoted) places.push_back((folder / name).string());
+    for (const std::string& searched : options_.include_folders)
+        places.push_back((fs::path(searched) / name).string());
+    if (!quoted) places.push_back((folder / name).string());
+    for (const char* above : {"", "..", "../.."})
+        for (const char* headers : {"", "include", "headers"})
+            if (*above || *headers) places.push_back((folder / above / headers / name).string());
+    return places;
 }
 
 /// #line 10 "file", and # 10 "file" 1 as cpp writes it.

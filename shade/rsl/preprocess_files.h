@@ -55,6 +55,7 @@ class FileReader {
     bool read_parameters(const Line& line, size_t& i, Macro& macro);
     void undefine(const Token& at, const Line& line);
     void include(const Token& at, const Line& line);
+    std::vector<std::string> places_of(const std::string& name, bool quoted) const;
     void line(const Token& at, const Line& line);
     void say(const Token& at, const Line& line, bool error);
 

@@ -180,6 +180,19 @@ TEST(Includes, AreSearchedBesideAndInFolders) {
     EXPECT_EQ(files.heard.all(), "error 1:2: #include wants \"file\" or <file>\n");
 }
 
+TEST(Includes, AreSearchedAboveAndInFoldersOfHeaders) {
+    Files files({{"dir/../a.h", "above"},
+                 {"dir/include/b.h", "below"},
+                 {"dir/../../headers/c.h", "aside"},
+                 {"dir/../include/a.h", "further"},
+                 {"inc/d.h", "folder"},
+                 {"dir/../d.h", "above"}});
+    files.options.include_folders = {"inc"};
+    EXPECT_EQ(files.expand("#include \"a.h\"\n#include <b.h>\n#include \"c.h\"\n#include \"d.h\""),
+              "above below aside folder");
+    EXPECT_EQ(files.heard.all(), "");
+}
+
 TEST(Includes, MessagesKnowTheWay) {
     std::vector<Diagnostic> heard;
     Diagnostics diagnostics([&](const Diagnostic& d) { heard.push_back(d); });
