@@ -1,5 +1,7 @@
 #include "core/shapes.h"
 
+#include <algorithm>
+
 namespace trapeze {
 namespace {
 
@@ -31,7 +33,7 @@ VariableCounts counts_of(const NuPatch& patch) {
 
 VariableCounts counts_of(const Curves& curves) {
     int varying = 0, vertices = 0;
-    for (const int n : curves.vertices_per_curve) varying += curves.varying(n), vertices += n;
+    for (const int n : curves.vertices_per_curve) varying += std::max(0, curves.varying(n)), vertices += n;
     return {static_cast<int>(curves.vertices_per_curve.size()), varying, vertices, varying};
 }
 

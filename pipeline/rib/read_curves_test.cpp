@@ -42,7 +42,7 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
         {"\"cubic\" [3] \"nonperiodic\" " + points(3), "curve 0 has 3 points, needs at least 4"},
         {"\"cubic\" [4] \"periodic\" " + points(4), "do not fit the basis' step of 3"},
         {"\"linear\" [1] \"nonperiodic\" " + points(1), "needs at least 2"},
-        {"\"linear\" [-4] \"nonperiodic\" " + points(1), "needs at least 2"},
+        {"\"linear\" [-4] \"nonperiodic\" " + points(1), "curve 0 has -4 points"},
         {"\"linear\" [3] \"nonperiodic\" " + points(2), "\"P\" has 2 points, needs 3"},
         {"\"linear\" [2] \"nonperiodic\" \"constantwidth\" 1", "\"P\" is missing"},
         {"\"linear\" [] \"nonperiodic\" " + points(2), "has no curves"},
@@ -69,6 +69,27 @@ TEST(ReadCurves, PointsBeyondTheLastSegmentAreLeftOver) {
     EXPECT_EQ(r.primitive().shape().variables.find("P")->floats.size(), 39u);
     // A varying variable has a value for each end of the one segment and of the two.
     EXPECT_EQ(r.primitive().shape().variables.find("width")->floats.size(), 5u);
+}
+
+TEST(ReadCurves, CurvesOfTooFewPointsAreLeftOut) {
+    const Outcome r = read_world(
+        "Basis \"b-spline\" 1 \"b-spline\" 1 Curves \"cubic\" [3 5 0 1 2 4] \"nonperiodic\" " + points(15) +
+        "\"width\" [1 2 3 4 5 6] \"uniform float f\" [1 2 3 4 5 6] "
+        "\"vertex float g\" [1 2 3 4 5 6 7 8 9 10 11 12 13 14 15]");
+    EXPECT_THAT(r.messages,
+                ElementsAre(HasSubstr("warning: Curves: curve 0 has 3 points, needs at least 4; curves of")));
+    ASSERT_EQ(r.count(), 1u);
+    const Shape& shape = r.primitive().shape();
+    EXPECT_THAT(std::get<Curves>(shape.topology).vertices_per_curve, ElementsAre(5, 4));
+    EXPECT_THAT(shape.variables.find("width")->floats, ElementsAre(2, 3, 4, 5, 6));
+    EXPECT_THAT(shape.variables.find("f")->floats, ElementsAre(2, 6));
+    EXPECT_THAT(shape.variables.find("g")->floats, ElementsAre(4, 5, 6, 7, 8, 12, 13, 14, 15));
+    EXPECT_EQ(shape.variables.find("P")->floats.size(), 27u);
+
+    const Outcome lines =
+        read_world("Curves \"linear\" [1 2 0] \"nonperiodic\" " + points(3) + "\"width\" [1 2 3]");
+    ASSERT_EQ(lines.count(), 1u);
+    EXPECT_THAT(lines.primitive().shape().variables.find("width")->floats, ElementsAre(2, 3));
 }
 
 TEST(ReadCurves, WidthsOfAWrongNumberAreLeftOut) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pipeline/rib/kept_values.h"
+
 namespace trapeze::rib {
 namespace {
 
@@ -58,29 +60,13 @@ class FaceCheck {
     std::vector<char> kept_corners_, kept_faces_;
 };
 
-/// Of runs of `item` values those that are kept.
-template <class Value>
-void keep(std::vector<Value>& values, const std::vector<char>& kept, size_t item = 1) {
-    size_t to = 0;
-    for (size_t from = 0; from < kept.size(); ++from) {
-        if (!kept[from]) continue;
-        for (size_t k = 0; k < item; ++k, ++to)
-            if (to != from * item + k) values[to] = std::move(values[from * item + k]);
-    }
-    values.resize(to);
-}
-
 void keep(ParameterList& variables, const FaceCheck& check) {
     for (Parameter& p : variables.values) {
         const StorageClass storage = p.declaration.storage;
-        const bool of_faces = storage == StorageClass::Uniform;
-        if (!of_faces && storage != StorageClass::FaceVarying && storage != StorageClass::FaceVertex)
-            continue;
-        const std::vector<char>& kept = of_faces ? check.kept_faces() : check.kept_corners();
-        if (p.is_string())
-            keep(p.strings, kept, static_cast<size_t>(p.declaration.array_length));
-        else
-            keep(p.floats, kept, static_cast<size_t>(p.declaration.floats_per_item()));
+        if (storage == StorageClass::Uniform)
+            keep_items(p, check.kept_faces());
+        else if (storage == StorageClass::FaceVarying || storage == StorageClass::FaceVertex)
+            keep_items(p, check.kept_corners());
     }
 }
 
@@ -105,7 +91,7 @@ void leave_out(Reader& reader, PolygonMesh& mesh, ParameterList& variables) {
     }
     if (check.keeps_all()) return;
     check.report(reader);
-    keep(mesh.vertices, check.kept_corners());
+    keep_values(mesh.vertices, check.kept_corners());
     mesh.loops_per_polygon = std::move(loops_per_polygon);
     mesh.vertices_per_loop = std::move(vertices_per_loop);
     keep(variables, check);
@@ -130,8 +116,8 @@ void leave_out(Reader& reader, SubdivisionMesh& mesh, ParameterList& variables) 
     if (check.keeps_all()) return;
     check.report(reader);
     renumber_faces(mesh.tags, check.kept_faces());
-    keep(mesh.vertices, check.kept_corners());
-    keep(mesh.vertices_per_face, check.kept_faces());
+    keep_values(mesh.vertices, check.kept_corners());
+    keep_values(mesh.vertices_per_face, check.kept_faces());
     keep(variables, check);
 }
 
