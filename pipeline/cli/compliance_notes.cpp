@@ -36,7 +36,7 @@ constexpr RequestNote kRequests[] = {
     {"Pattern", "RIS shaders are not run: Bxdfs have the mean of its colours, or its texture"},
     {"Perspective", "read; surfaces are not transformed by projections"},
     {"PixelVariance", "read; every pixel has all its samples"},
-    {"Procedural", "archives at once; programs where the command line allows them; no DynamicLoad"},
+    {"Procedural", "at once, for infinite detail; programs and libraries where the command line allows them"},
     {"Projection", "perspective and orthographic"},
     {"Quantize", "8, 16 bits and floats, by display"},
     {"SampleFilter", "read; RIS shaders are not run"},

@@ -1,9 +1,12 @@
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "core/simd_limit.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/read_settings.h"
+#include "pipeline/ri/serve_procedural.h"
 
 namespace {
 
@@ -48,6 +51,7 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
 
 int main(int argc, char** argv) {
     using namespace trapeze;
+    if (argc == 3 && std::string_view(argv[1]) == kServeProcedural) return serve_procedural(argv[2]);
     Arguments arguments;
     if (const auto code = parse_arguments(argc, argv, arguments)) return *code;
     Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet});

@@ -16,6 +16,7 @@ ReadOptions read_options(const Arguments& arguments) {
     options.max_source_bytes = std::min(options.max_source_bytes, memory);
     options.most_scene_bytes = memory;
     options.allow_programs = arguments.allow_programs;
+    options.procedural_host = {"/proc/self/exe", kServeProcedural};
     return options;
 }
 

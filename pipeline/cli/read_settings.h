@@ -6,6 +6,9 @@
 
 namespace trapeze {
 
+/// The first argument with which this program is a procedural's host: `trapeze serve-procedural LIBRARY`.
+inline constexpr const char* kServeProcedural = "serve-procedural";
+
 /// The defaults file, --option, --allow-programs.
 ReadOptions read_options(const Arguments& arguments);
 

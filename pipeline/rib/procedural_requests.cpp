@@ -7,7 +7,7 @@ namespace {
 [[noreturn]] void refuse(const std::string& kind) {
     if (kind == "DynamicLoad" || kind == "DynamicLoad2")
         throw RequestError{
-            "\"DynamicLoad\" would run another renderer's machine code, which is not supported", {}};
+            in_quotes(kind) + " of Procedural2 wants another renderer's interface; not supported", {}};
     throw RequestError{"no procedural " + in_quotes(kind), {}};
 }
 
@@ -22,6 +22,8 @@ void procedural(Reader& r, ArgumentCursor& c) {
         r.delayed_archive(data[0]);
     else if (kind == "RunProgram")
         r.run_program(data[0], data[1], bound);
+    else if (kind == "DynamicLoad")
+        r.load_procedural(data[0], data[1], bound);
     else
         refuse(kind);
 }

@@ -1,5 +1,7 @@
 /// Procedural primitives (RISpec 5.8): their geometry is read at once, within a block of their own.
 #include <charconv>
+#include <filesystem>
+#include <sstream>
 
 #include "pipeline/rib/reader.h"
 
@@ -44,6 +46,32 @@ void Reader::delayed_archive(const std::string& name) {
 
 void Reader::run_program(const std::string& command, const std::string& data,
                          const std::vector<float>& bound) {
+    std::istringstream stream(command);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    ask_program_for_rib("program", command, words, data, bound);
+}
+
+/// The library is looked for as it is named, and with the ending that libraries have here.
+void Reader::load_procedural(const std::string& library, const std::string& data,
+                             const std::vector<float>& bound) {
+    if (read_options_.procedural_host.empty())
+        throw RequestError{"\"DynamicLoad\" is not supported here", {}};
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    std::vector<std::string> words = read_options_.procedural_host;
+    words.push_back(library);
+    for (const std::string& folder : folders("procedural"))
+        for (const char* ending : {"", ".so"}) {
+            const fs::path path = fs::absolute(fs::path(folder.empty() ? "." : folder) / (library + ending));
+            if (words.back() == library && fs::is_regular_file(path, ignored)) words.back() = path.string();
+        }
+    ask_program_for_rib("procedural", library, words, data, bound);
+}
+
+void Reader::ask_program_for_rib(const char* kind, const std::string& shown,
+                                 const std::vector<std::string>& command, const std::string& data,
+                                 const std::vector<float>& bound) {
     if (!takes_procedural()) return;
     if (!read_options_.allow_programs) {
         ++summary_.unsupported[request_name_];
@@ -52,7 +80,7 @@ void Reader::run_program(const std::string& command, const std::string& data,
         return;
     }
     if (!frame_wanted_) return;
-    const std::string name = "<program " + clipped(command) + ">";
+    const std::string name = "<" + std::string(kind) + " " + clipped(shown) + ">";
     if (!may_read_archive(name, {})) return;
     char detail[32];
     const float area = bound.empty() ? 0 : raster_area(bound);
@@ -61,7 +89,8 @@ void Reader::run_program(const std::string& command, const std::string& data,
         programs_.ask(command, std::string(detail, end) + " " + data + "\n", folders("procedural"),
                       std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000)),
                       read_options_.max_source_bytes);
-    if (!answer.problem.empty()) error("the program " + in_quotes(command) + " " + answer.problem);
+    if (!answer.problem.empty())
+        error("the " + std::string(kind) + " " + in_quotes(shown) + " " + answer.problem);
     if (answer.text.empty()) return;
     const uint32_t id = diagnostics_.add_source(name, at_);
     open_files_.push_back(name);

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 #include <utility>
 
 extern char** environ;
@@ -57,7 +56,7 @@ std::string program_path(const std::string& name, const std::vector<std::string>
 class Programs::Program {
   public:
     /// Why it cannot be started, or nothing.
-    std::string start(const std::string& command, const std::vector<std::string>& folders);
+    std::string start(Command words, const std::vector<std::string>& folders);
     ProgramAnswer ask(const std::string& request, std::chrono::milliseconds time_limit, size_t most_bytes) {
         return ask_program(input_.get(), output_.get(), request, time_limit, most_bytes);
     }
@@ -71,10 +70,7 @@ class Programs::Program {
         output_;  ///< the program's; its input is a socket, which can be written without a signal
 };
 
-std::string Programs::Program::start(const std::string& command, const std::vector<std::string>& folders) {
-    std::istringstream stream(command);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) words.push_back(word);
+std::string Programs::Program::start(Command words, const std::vector<std::string>& folders) {
     if (words.empty()) return "there is no command";
     const std::string path = program_path(words[0], folders);
     int ends[2], pipe_ends[2];
@@ -121,7 +117,7 @@ void Programs::Program::stop(std::chrono::milliseconds time) {
 Programs::Programs() = default;
 Programs::~Programs() = default;
 
-ProgramAnswer Programs::ask(const std::string& command, const std::string& request,
+ProgramAnswer Programs::ask(const Command& command, const std::string& request,
                             const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
                             size_t most_bytes) {
     const auto known = programs_.find(command);

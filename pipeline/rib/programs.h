@@ -19,16 +19,18 @@ class Programs {
     Programs(const Programs&) = delete;
     Programs& operator=(const Programs&) = delete;
 
-    /// Sends a request to the program of that command line (words apart by spaces, no shell), which is
+    using Command = std::vector<std::string>;
+
+    /// Sends a request to the program of that command (no shell), which is
     /// started at its first; its name is looked for in the folders, then in PATH. A program that does not
     /// answer within the limits is ended, with all that it has started in its group, and asked no more.
-    ProgramAnswer ask(const std::string& command, const std::string& request,
+    ProgramAnswer ask(const Command& command, const std::string& request,
                       const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
                       size_t most_bytes);
 
   private:
     class Program;
-    std::map<std::string, std::unique_ptr<Program>> programs_;  ///< null: has failed
+    std::map<Command, std::unique_ptr<Program>> programs_;  ///< null: has failed
 };
 
 }  // namespace trapeze::rib

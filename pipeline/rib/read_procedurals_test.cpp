@@ -52,7 +52,7 @@ TEST(ReadProcedurals, WhatCannotBeIsRefused) {
                                        "MotionBegin [0 1] Procedural \"DelayedReadArchive\" [\"none.rib\"] " +
                                        kBound + "MotionEnd " + kSphere);
     EXPECT_THAT(outcome.messages,
-                ElementsAre(HasSubstr("\"DynamicLoad\" would run another renderer's machine code"),
+                ElementsAre(HasSubstr("\"DynamicLoad\" is not supported here"),
                             HasSubstr("no procedural \"Magic\""), HasSubstr("the bound has 2 numbers"),
                             HasSubstr("\"none.rib\" is not found"), HasSubstr("\"filename\" is missing"),
                             HasSubstr("inside a motion block")));

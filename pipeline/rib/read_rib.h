@@ -36,7 +36,10 @@ struct ReadOptions {
     std::vector<Text> first_texts;
     std::string defaults_file;  ///< read before those and the files; empty: none
 
-    bool allow_programs = false;   ///< Procedural "RunProgram" runs what the file names
+    bool allow_programs = false;  ///< Procedural "RunProgram" and "DynamicLoad" run what the file names
+    /// A command that loads the library which is its last word, and answers as programs do; empty: there is
+    /// no "DynamicLoad".
+    std::vector<std::string> procedural_host;
     double program_seconds = 120;  ///< a program's time for one answer
 
     /// Called for each known request whose arguments can be read, whether it is supported or not, in the

@@ -93,8 +93,14 @@ class Reader {
 
     // --- procedurals ---
     void delayed_archive(const std::string& name);
-    /// The bound may be empty: not known.
+    /// A command: words apart by spaces. The bound may be empty: not known.
     void run_program(const std::string& command, const std::string& data, const std::vector<float>& bound);
+    void load_procedural(const std::string& library, const std::string& data,
+                         const std::vector<float>& bound);
+    /// Reads the answer; `kind` and `shown` are what messages call it.
+    void ask_program_for_rib(const char* kind, const std::string& shown,
+                             const std::vector<std::string>& command, const std::string& data,
+                             const std::vector<float>& bound);
 
     /// Of a box in the current space: xmin xmax ymin ymax zmin zmax.
     void set_detail(const std::vector<float>& bound);
