@@ -88,7 +88,7 @@ TrimArrays trim_arrays(ArgumentCursor& c, int64_t curves) {
                                    std::to_string(a.orders[i]) + " and " + std::to_string(a.counts[i]) +
                                    " points",
                                {}};
-        points += a.counts[i], knots += a.counts[i] + a.orders[i];
+        points += a.counts[i], knots += int64_t{a.counts[i]} + a.orders[i];
     }
     expect_length(a.knots, static_cast<size_t>(knots), "the knots");
     for (const std::vector<float>* axis : {&a.u, &a.v, &a.w})
