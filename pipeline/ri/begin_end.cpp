@@ -64,7 +64,7 @@ RtVoid RiEnd() {
     if (!context) return report({RIE_NOTSTARTED, RIE_ERROR, "RiEnd: RiBegin has not been called"});
     std::vector<Message> messages;
     guarded("RiEnd", [&] { messages = finish(*context); });
-    for (const Message& message : messages) report(message);
+    for (Message& message : messages) report(std::move(message));
 }
 
 RtContextHandle RiGetContext() {

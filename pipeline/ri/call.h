@@ -26,7 +26,7 @@ void guarded(const char* name, const Work& work) {
     } catch (const std::exception& error) {
         failed(RIE_BUG, RIE_SEVERE, error.what());
     }
-    if (wrong) report(*wrong);
+    if (wrong) report(std::move(*wrong));
 }
 
 /// A call that goes to the current context.

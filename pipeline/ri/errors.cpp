@@ -1,5 +1,6 @@
 #include "pipeline/ri/errors.h"
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 
@@ -34,9 +35,15 @@ void set_error_handler(RtErrorHandler handler) {
     current_handler() = handler ? handler : RiErrorPrint;
 }
 
-void report(const Message& message) {
+void report(Message message) {
     if (message.severity >= RIE_ERROR) RiLastError = message.code;
-    std::string text = message.text;  // the handler's argument is not const
+    // A handler that jumps away leaves nothing to be freed; one that calls the interface again, and is called
+    // for that, has the next text.
+    static thread_local std::array<std::string, 8> texts;
+    static thread_local size_t count = 0;
+    std::string& text = texts[count++ % texts.size()];
+    text = std::move(message.text);
+    message.text = {};
     current_handler()(message.code, message.severity, text.data());
 }
 

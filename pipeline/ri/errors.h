@@ -24,7 +24,7 @@ void set_error_handler(RtErrorHandler handler);
 
 /// Sets RiLastError, but for what is no error, and calls the handler, which may not return. No exception may
 /// be in flight.
-void report(const Message& message);
+void report(Message message);
 
 /// Throws RIE_MISSINGDATA for null.
 template <class T>
