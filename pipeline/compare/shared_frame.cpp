@@ -43,11 +43,11 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     Stopwatch watch;
     const Shading shading(frame.context);
     watch.lap();
-    const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
-    const Tessellation tessellation(frame.context, shading.depth_heights(), budget);
+    const Tessellation tessellation(frame.context, shading.depth_heights());
     frame.stats.tessellate = tessellation.stats();
     frame.stats.tessellate.grids = frame.stats.tessellate.micropolygons = 0;  // counted as they are made
     frame.stats.seconds.tessellate = watch.lap();
+    const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
     const auto region = whole_region(frame, tessellation, budget);
     if (!region) return {};
 
