@@ -85,10 +85,11 @@ class Maker {
     ShaderInstance made_;
 };
 
-/// Values beyond 4 are something else, such as a falloff in degrees.
-float falloff(const Given& given) {
+/// Values beyond 4 are something else, such as a falloff in degrees. Area lights fade with the square.
+float falloff(std::string_view name, const Given& given) {
     const auto said = given.number({"decay", "decayrate", "falloff", "attenuation"});
     if (said && *said >= 0 && *said <= 4) return *said;
+    if (has_any(name, {"area"})) return 2;
     return given.number({"intensity"}).value_or(1) >= kLargeIntensity ? 2.0f : 0.0f;
 }
 
@@ -111,7 +112,7 @@ ShaderInstance stand_in_light(const ShaderInstance& missing) {
     maker.take("from", {"from"}, ValueType::Point);
     maker.take("to", {"to"}, ValueType::Point);
     if (kind == Kind::Distant) return std::move(maker).made();
-    maker.set("falloff", ValueType::Float, {falloff(given)});
+    maker.set("falloff", ValueType::Float, {falloff(plain(missing.name), given)});
     if (kind == Kind::Point) return std::move(maker).made();
     maker.set("spot", ValueType::Float, {1});
     if (const auto angle = given.number({"coneangle"})) {

@@ -45,6 +45,7 @@ TEST(StandInLight, ExportersHaveNamesOfTheirOwnForPowerAndColour) {
 TEST(StandInLight, LargeIntensitiesFadeWithTheDistanceUnlessToldOtherwise) {
     EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 1)})), "falloff"), 0);
     EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 75)})), "falloff"), 2);
+    EXPECT_EQ(number_of(stand_in_light(shader("arealight", {number("intensity", 1)})), "falloff"), 2);
     EXPECT_EQ(number_of(stand_in_light(shader("lamp", {number("intensity", 75), number("decayRate", 0)})),
                         "falloff"),
               0);

@@ -100,6 +100,26 @@ TEST(ReadShaders, AreaLightsShineFromTheMiddleOfTheirFirstShapeWithAWarning) {
     EXPECT_EQ(r.attributes(3).lights[1]->shader.camera_from_shader.translation(), V3f(0, 0, 0));
 }
 
+TEST(ReadShaders, AreaLightsThatNothingSwitchesShineOnAll) {
+    const std::string block = "AttributeBegin AreaLightSource \"pointlight\" 5 " + kSphere + "AttributeEnd ";
+    const Outcome stray = read_world(block + kSphere +
+                                     "AttributeBegin AreaLightSource \"pointlight\" 6 "
+                                     "AttributeEnd");
+    EXPECT_EQ(stray.attributes(0).lights.size(), 1u);
+    ASSERT_EQ(stray.attributes(1).lights.size(), 1u);  // the second light has no shape
+    EXPECT_EQ(stray.attributes(1).lights[0]->handle, "5");
+    EXPECT_THAT(stray.messages,
+                ElementsAre(HasSubstr("area lights"), HasSubstr("light \"5\" is of a block")));
+
+    const Outcome switched =
+        read_world(block + kSphere + "AttributeBegin Illuminate 5 1 " + kSphere + "AttributeEnd");
+    EXPECT_EQ(switched.attributes(1).lights.size(), 0u);
+    EXPECT_EQ(switched.attributes(2).lights.size(), 1u);
+    const Outcome open = read_world(kSphere + "AreaLightSource \"pointlight\" 5 " + kSphere + kSphere);
+    EXPECT_EQ(open.attributes(0).lights.size(), 0u);
+    EXPECT_EQ(open.attributes(2).lights.size(), 1u);
+}
+
 TEST(ReadShaders, LightsMayLackHandles) {
     const Outcome r = read_world(
         "LightSource \"pointlight\" \"intensity\" 3 \"from\" [1 2 3] "

@@ -191,6 +191,7 @@ class Reader {
     void close_solid();
     void place_lights(const RetainedObject& object);
     void place_emitter(const Shape& shape);
+    void add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights);
     void light_world();
 
     /// `solid` is the scene's that the primitive bounds, or -1.

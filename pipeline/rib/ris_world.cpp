@@ -58,10 +58,27 @@ void Reader::place_emitter(const Shape& shape) {
             with_origin(shader.camera_from_shader, middle_of(shape), camera_from_current());
 }
 
+/// Area lights whose block ended, and that no Illuminate ever named, would shine on themselves alone: they
+/// are of files for renderers in which what shines is seen by all.
+void Reader::add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights) {
+    const auto& current = state_.attributes->attributes.lights;
+    for (const auto& emitter : scope_.emitters) {
+        const std::shared_ptr<const LightInstance> light = emitter->light;
+        if (!emitter->is_placed || std::find(current.begin(), current.end(), light) != current.end())
+            continue;
+        warn_once("light " + in_quotes(light->handle) +
+                      " is of a block that ended, and no Illuminate names it; "
+                      "it shines on all",
+                  "stray-area-light");
+        lights.push_back(light);
+    }
+}
+
 /// Adds the world's lights to all primitives. Bxdfs that nothing lights have a light at the eye, so that
 /// there is something to see, and are shaded once a pixel at least: path tracers do not look at ShadingRate.
 void Reader::light_world() {
-    const auto& lights = scope_.ris.lights;
+    auto lights = scope_.ris.lights;
+    add_strays(lights);
     const std::shared_ptr<const LightInstance> at_eye = headlight();
     std::map<std::shared_ptr<const Attributes>, std::shared_ptr<const Attributes>> lit;
     for (Primitive& primitive : scene_.primitives) {

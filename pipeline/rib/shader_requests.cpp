@@ -109,6 +109,7 @@ void area_light_source(Reader& r, ArgumentCursor& c) {
     auto emitter = std::make_shared<Emitter>();
     emitter->light = light;
     r.add_light(std::move(light));
+    r.scope().emitters.push_back(emitter);
     r.change_attributes().emitter = std::move(emitter);
 }
 
@@ -117,6 +118,7 @@ void illuminate(Reader& r, ArgumentCursor& c) {
     const bool on = c.done() || c.number("0 or 1") != 0;
     const auto light = r.light(handle);
     if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
+    std::erase_if(r.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
     auto& lights = change(r).lights;
     const auto place = std::find(lights.begin(), lights.end(), light);
     if (on && place == lights.end()) lights.push_back(light);
