@@ -12,7 +12,7 @@ namespace {
 constexpr int64_t kMostPoints = 1 << 28;
 
 int least_points(const Curves& curves) {
-    return curves.cubic ? (curves.periodic ? 3 : 4) : (curves.periodic ? 3 : 2);
+    return curves.cubic ? (curves.periodic ? 3 : 4) : 2;
 }
 
 std::string has_points(int vertices, size_t number) {

@@ -48,7 +48,13 @@ void make_cube_face_environment(Reader& r, ArgumentCursor& c) {
     request.fov = c.number("the field of view");
     if (!(request.fov >= 90 && request.fov < 180))
         throw RequestError{"the field of view must be from 90 to less than 180 degrees", {}};
-    take_filter(c, request);
+    request.filter = c.string("the filter");
+    if (request.filter == "black" || request.filter == "clamp" || request.filter == "periodic") {
+        // Some exporters write wrap modes, as for textures; a cube has none.
+        c.string("the wrap mode of t");
+        request.filter = c.string("the filter");
+    }
+    c.numbers(2, "the filter's widths");
     finish(r, c, std::move(request));
 }
 

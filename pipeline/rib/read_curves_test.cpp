@@ -37,6 +37,13 @@ TEST(ReadCurves, LinearAndCubicOfEveryWrap) {
     EXPECT_EQ(r.summary.points, 26u);
 }
 
+/// There and back again.
+TEST(ReadCurves, TwoPointsMayClose) {
+    const Outcome r = read_world("Curves \"linear\" [2] \"periodic\" " + points(2));
+    EXPECT_THAT(r.messages, IsEmpty());
+    EXPECT_EQ(r.count(), 1u);
+}
+
 TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
     const std::pair<std::string, const char*> wrong[] = {
         {"\"cubic\" [3] \"nonperiodic\" " + points(3), "curve 0 has 3 points, needs at least 4"},

@@ -171,6 +171,16 @@ TEST(ReadForms, MotionsThatMultiplyGetKeysWhereTheyBend) {
         SizeIs(2));
 }
 
+TEST(ReadForms, CommasAndSemicolonsAreSpace) {
+    const Outcome outcome = read_text(
+        "Projection \"perspective\"; Translate 0,0, 5;\nWorldBegin; Color [1;0;0];\nSphere 1 -1 1 360;Sphere "
+        "2 -1 1;360\n"
+        "WorldEnd;");
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    ASSERT_EQ(outcome.count(), 2u);
+    EXPECT_EQ(outcome.attributes().color, V3f(1, 0, 0));
+}
+
 TEST(ReadForms, StringsMayStandInSingleQuotes) {
     const Outcome outcome =
         read_text("Display \"a.tif\" 'file' 'rgba'\nWorldBegin\nSurface['matte']" + kSphere + "\nWorldEnd");

@@ -59,6 +59,16 @@ TEST(ReadMaps, RequestsAreReadWhole) {
     EXPECT_EQ(read.maps[4].map, "e.shd");
 }
 
+/// As for textures: some exporters write them.
+TEST(ReadMaps, ACubeMayHaveWrapModes) {
+    const Read read = read_maps(
+        "MakeCubeFaceEnvironment \"px\" \"nx\" \"py\" \"ny\" \"pz\" \"nz\" \"d.env\" 90 \"black\" \"clamp\" "
+        "\"sinc\" 2 2\n");
+    EXPECT_THAT(read.messages, testing::IsEmpty());
+    ASSERT_EQ(read.maps.size(), 1u);
+    EXPECT_EQ(read.maps[0].filter, "sinc");
+}
+
 const std::string kFrames =
     "FrameBegin 1 WorldBegin WorldEnd MakeShadow \"a.z\" \"in 1\" FrameEnd MakeShadow \"a.z\" \"after 1\"\n"
     "FrameBegin 2 WorldBegin WorldEnd FrameEnd\n";

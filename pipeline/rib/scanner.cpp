@@ -21,9 +21,13 @@ bool is_letter(char c) {
 bool is_high(char c) {
     return static_cast<unsigned char>(c) >= 0x80;
 }
+/// Commas and semicolons are C's, and stand in some files written by hand.
+bool is_separator(char c) {
+    return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\f' || c == '\v';
+}
+
 bool ends_number(char c) {
-    return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == ',' || c == ']' || c == '[' || c == '#' ||
-           c == '"';
+    return is_separator(c) || c == '\n' || c == '\r' || c == ']' || c == '[' || c == '#' || c == '"';
 }
 
 /// Whether rounding to float what was rounded to double already may differ from rounding once: the double
@@ -117,8 +121,7 @@ void Scanner::skip_space() {
         } else if (c == '\r') {
             ++next_;
             if (next_ >= end_ || *next_ != '\n') new_line();  // lines of the old Macintosh
-        } else if (c == ' ' || c == '\t' || c == ',' || c == '\f' || c == '\v' ||
-                   c == '\x1A') {  // DOS' end of a text
+        } else if (is_separator(c) || c == '\x1A') {          // DOS' end of a text
             ++next_;
         } else if (c == '#') {
             const char* const begin = next_;
