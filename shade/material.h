@@ -38,6 +38,8 @@ class Materials {
     /// Of a primitive of the scene, by its index.
     const Material& of(uint32_t primitive) const { return materials_[of_primitive_[primitive]]; }
     const std::deque<Material>& all() const { return materials_; }
+    /// Shaders that have turned out to have loops without an end.
+    size_t endless_count() const { return library_.endless_count(); }
 
   private:
     using Names = std::set<std::string>;

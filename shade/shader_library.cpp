@@ -127,6 +127,14 @@ std::shared_ptr<const vm::Executable> ShaderLibrary::find(std::string_view name,
     return executable;
 }
 
+size_t ShaderLibrary::endless_count() const {
+    size_t count = 0;
+    for (const auto& [name, shader] : shaders_)
+        for (const auto& [varying, executable] : shader->executables)
+            count += executable && executable->is_endless();
+    return count;
+}
+
 std::string_view kind_name(rsl::ShaderKind kind) {
     switch (kind) {
         case rsl::ShaderKind::Surface:

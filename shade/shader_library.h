@@ -29,6 +29,9 @@ class ShaderLibrary {
     std::shared_ptr<const vm::Executable> find(std::string_view name, rsl::ShaderKind kind,
                                                const std::set<std::string>& varying, SourceLocation asked_at);
 
+    /// How many of them have turned out to have loops without an end.
+    size_t endless_count() const;
+
   private:
     struct Compiled;
     rsl::Source source_named(const std::string& name) const;

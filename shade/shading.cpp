@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "shade/grid_run.h"
 #include "shade/take_aovs.h"
 
@@ -37,6 +39,7 @@ struct Shading::Impl {
     Textures textures;
     Materials materials;
     AovLayout aovs;
+    size_t known_endless = 0;
 };
 
 Shading::Shading(const RenderContext& context) : impl_(std::make_unique<Impl>(context)) {}
@@ -53,7 +56,8 @@ void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, 
         const Material& material = impl_->materials.of(grids[first]->primitive_index);
         batch.clear();
         size_t vertices = 0, next = first;
-        for (; next < grids.size() && (batch.empty() || vertices < kBatchVertices); ++next) {
+        const size_t most = impl_->known_endless ? 1 : kBatchVertices;
+        for (; next < grids.size() && (batch.empty() || vertices < most); ++next) {
             ShadingGrid& grid = *grids[next];
             if (&impl_->materials.of(grid.primitive_index) != &material ||
                 !can_share_run(material, *grids[first], grid))
@@ -65,6 +69,11 @@ void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, 
         stats.shaded_vertices += vertices;
         first = next;
     }
+}
+
+bool Shading::found_endless_loops() {
+    const size_t known = std::exchange(impl_->known_endless, impl_->materials.endless_count());
+    return impl_->known_endless > known;
 }
 
 FindDepthHeight Shading::depth_heights() const {

@@ -42,6 +42,11 @@ class Shading {
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
 
+    /// Whether a loop has turned out to be endless since the last call. The shader then has shorter limits:
+    /// what was shaded before is to be shaded again, so that no grid depends on the order of grids. From then
+    /// on each runs alone, for a batch shares its limits.
+    bool found_endless_loops();
+
     /// Of the scene's depth maps, as shadow() finds them; valid as long as this.
     FindDepthHeight depth_heights() const;
 

@@ -119,5 +119,26 @@ TEST(TwoRendersInOneProcess, DoNotSeeEachOther) {
     expect_same(alone_b, together_b, "second");
 }
 
+/// Some grids never end, others do after more turns than they would have afterwards: which of them come first
+/// must not show.
+TEST(Determinism, EndlessLoopsLeaveTheSameInEveryOrder) {
+    const WorkFolder folder;
+    folder.write("spin.sl",
+                 "surface spin() { float i = 0, end = 40 + 400 * t; if (s > 0.95) end = 1e20;\n"
+                 "while (i < end) i += 1; Ci = color(i / 1000, s, t); Oi = 1; }");
+    folder.write("a.rib",
+                 "Format 96 96 1 PixelSamples 1 1 WorldBegin Surface \"spin\"\n"
+                 "Polygon \"P\" [-1 -1 1 1 -1 1 1 1 1 -1 1 1] \"st\" [0 0 1 0 1 1 0 1]\nWorldEnd\n");
+    const std::string path = (folder / "a.rib").string();
+    const auto reference = render_scene(path, {}, 1, true);
+    ASSERT_EQ(reference.size(), 1u);
+    const std::vector<float>& rgba = reference[0].image.rgba;
+    EXPECT_GT(*std::max_element(rgba.begin(), rgba.end()), 0.2f);
+    for (const int threads : {2, 7}) expect_same(reference, render_scene(path, {}, threads, true), "threads");
+    RenderSettings split;
+    split.regions_at_least = 9;
+    expect_same(reference, render_scene(path, split, 2, true), "regions");
+}
+
 }  // namespace
 }  // namespace trapeze::testing

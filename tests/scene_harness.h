@@ -42,9 +42,10 @@ inline std::string test_name(const ::testing::TestParamInfo<std::string>& info) 
     return info.param.substr(0, info.param.find('.'));
 }
 
-/// All worlds of a scene, rendered with so many threads.
+/// All worlds of a scene, rendered with so many threads. There are errors in it when it is `wrong`, or shows
+/// how they are met, else none.
 inline std::vector<FrameResult> render_scene(const std::string& path, const RenderSettings& settings,
-                                             int threads = 2) {
+                                             int threads = 2, bool wrong = false) {
     std::vector<FrameResult> results;
     Diagnostics diagnostics;
     const std::vector<std::string> files{path};
@@ -57,7 +58,7 @@ inline std::vector<FrameResult> render_scene(const std::string& path, const Rend
             if (result) results.push_back(std::move(*result));
         });
     });
-    const bool wrong = is_wrong_on_purpose(std::filesystem::path(path).filename().string());
+    wrong = wrong || is_wrong_on_purpose(std::filesystem::path(path).filename().string());
     EXPECT_EQ(diagnostics.count(Severity::Error) > 0, wrong) << path;
     return results;
 }

@@ -41,7 +41,7 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     frame.pixels = sampled_pixels(frame.context.camera, frame.scene->options);
 
     Stopwatch watch;
-    const Shading shading(frame.context);
+    Shading shading(frame.context);
     watch.lap();
     const Tessellation tessellation(frame.context, shading.depth_heights());
     frame.stats.tessellate = tessellation.stats();
@@ -53,7 +53,11 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
 
     Progress progress(settings.on_progress);
     progress.begin_part(0, 1, region->subpatches.size());
-    frame.grids = make_grids(frame.context, *region, tessellation, shading, frame.stats, progress);
+    const FrameStats before = frame.stats;
+    do {
+        frame.stats = before;
+        frame.grids = make_grids(frame.context, *region, tessellation, shading, frame.stats, progress);
+    } while (!frame.context.is_cancelled() && shading.found_endless_loops());
     if (frame.context.is_cancelled()) return {};
     shading.report_displacement_bounds();
     frame.stats.grid_bytes = frame.grids.bytes();

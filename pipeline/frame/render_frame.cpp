@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/frame/progress.h"
@@ -71,7 +72,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     FrameResult result;
     FrameStats& stats = result.stats;
 
-    const Shading shading(context);
+    Shading shading(context);
     watch.lap();
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
     const Tessellation tessellation(context, shading.depth_heights(), budget);
@@ -80,17 +81,27 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     stats.seconds.tessellate = watch.lap();
     const Imager imager(context);
     const auto pattern = sampler->make_pattern(context);
-    Film film(context);
 
     const std::vector<Region> regions = split_into_regions(
         sampled_pixels(context.camera, context.scene->options), tessellation.subpatches(),
         {budget, settings.regions_at_least, aov_layout(context.scene->options).channel_count});
-    for (size_t r = 0; r < regions.size() && !context.is_cancelled(); ++r) {
+    std::optional<Film> film;
+    const FrameStats before = stats;
+    // Again from the start, when a shader is found to be endless: its limits are others then.
+    const auto begin_film = [&] { stats = before, film.emplace(context); };
+    begin_film();
+    size_t r = 0;
+    while (r < regions.size() && !context.is_cancelled()) {
         const Region& region = regions[r];
         const double begin = static_cast<double>(r) / regions.size(),
                      end = static_cast<double>(r + 1) / regions.size();
         progress.begin_part(begin, begin + 0.2 * (end - begin), region.subpatches.size());
         const Grids grids = make_grids(context, region, tessellation, shading, stats, progress);
+        if (shading.found_endless_loops()) {
+            begin_film();
+            r = 0;
+            continue;
+        }
 
         watch.lap();
         if (context.is_cancelled()) break;
@@ -106,14 +117,15 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
 
         progress.begin_part(begin + 0.2 * (end - begin), end,
                             tiles_of(region.pixels, visibility->tile_side()).size());
-        resolve_tiles(context, region.pixels, grids, *visibility, *pattern, film, stats,
+        resolve_tiles(context, region.pixels, grids, *visibility, *pattern, *film, stats,
                       [&progress] { progress.step(); });
+        ++r;
     }
     if (context.is_cancelled()) return {};
     shading.report_displacement_bounds();
 
     watch.lap();
-    result.image = film.finish();
+    result.image = film->finish();
     run_imager(imager, result.image);
     stats.seconds.composite += watch.lap();
     stats.samples = stats.sample.rays;

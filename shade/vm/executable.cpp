@@ -70,7 +70,7 @@ void Executable::Free::operator()(float* p) const {
 }
 
 Executable::Executable(rsl::Program source, const LoopLimits& limits)
-    : program_(std::move(source)), max_turns_(limits.turns), max_loop_steps_(limits.steps) {
+    : program_(std::move(source)), limits_(limits) {
     place_registers();
     for (const rsl::ProgramParameter& parameter : program_.parameters)
         initials_.push_back(make_steps(parameter.initial));

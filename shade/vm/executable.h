@@ -72,16 +72,17 @@ class Executable {
 
     /// Turns that a loop may take. Once a loop has turned out to be endless, other grids are not made to wait
     /// for as long.
-    int max_turns() const { return max_turns_.load(std::memory_order_relaxed); }
-    int64_t max_loop_steps() const { return max_loop_steps_.load(std::memory_order_relaxed); }
-    void found_endless() const {
-        max_turns_.store(std::min(max_turns(), kMaxTurnsAfterwards), std::memory_order_relaxed);
-        max_loop_steps_.store(std::min(max_loop_steps(), kMaxStepsAfterwards), std::memory_order_relaxed);
+    int max_turns() const {
+        return is_endless() ? std::min(limits_.turns, kAfterwards.turns) : limits_.turns;
     }
+    int64_t max_loop_steps() const {
+        return is_endless() ? std::min(limits_.steps, kAfterwards.steps) : limits_.steps;
+    }
+    void found_endless() const { endless_.store(true, std::memory_order_relaxed); }
+    bool is_endless() const { return endless_.load(std::memory_order_relaxed); }
 
   private:
-    static constexpr int kMaxTurnsAfterwards = 16;
-    static constexpr int64_t kMaxStepsAfterwards = 100'000;
+    static constexpr LoopLimits kAfterwards{256, 100'000};
 
     void place_registers();
     std::vector<Step> make_steps(const rsl::Code& code);
@@ -100,8 +101,8 @@ class Executable {
     uint32_t uniform_planes_ = 0, varying_planes_ = 0, constant_planes_ = 0;
     std::unique_ptr<float, Free> constants_;
     bool keeps_P_ = true;
-    mutable std::atomic<int> max_turns_;
-    mutable std::atomic<int64_t> max_loop_steps_;
+    LoopLimits limits_;
+    mutable std::atomic<bool> endless_{false};
 };
 
 }  // namespace trapeze::vm
