@@ -38,6 +38,10 @@ std::optional<FileFormat> look_up(const Table& table, std::string_view name) {
     return {};
 }
 
+std::optional<FileFormat> format_by_extension(const std::string& file) {
+    return look_up(kExtensions, lower(std::filesystem::path(file).extension().string()));
+}
+
 bool opens_window(const Display& display) {
     return std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), lower(display.type)) !=
            std::end(kWindowDrivers);
@@ -75,8 +79,7 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
         plan.format = *format;
         return true;
     }
-    const auto by_extension =
-        look_up(kExtensions, lower(std::filesystem::path(display.name).extension().string()));
+    const auto by_extension = format_by_extension(display.name);
     if (opens_window(display)) {
         if (!by_extension) plan.path += ".exr";
         diagnostics.warning(
@@ -184,6 +187,11 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
 }
 
 }  // namespace
+
+bool holds_depth(const std::string& file) {
+    const FileFormat format = format_by_extension(file).value_or(FileFormat::OpenExr);
+    return format == FileFormat::OpenExr || format == FileFormat::Tiff;
+}
 
 bool makes_depth_map(const Display& display) {
     const std::string driver = lower(display.type);

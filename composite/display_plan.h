@@ -41,6 +41,9 @@ struct DisplayPlan {
 /// Whether its driver writes depths for shadow maps: "zfile" and "shadow".
 bool makes_depth_map(const Display& display);
 
+/// Whether depths can be written to a file of this name, which a driver "file" writes as its extension says.
+bool holds_depth(const std::string& file);
+
 /// The names of the channels of its output variable.
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
 

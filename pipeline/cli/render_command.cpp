@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
-#include <string_view>
 #include <utility>
 
 #include "composite/display_plan.h"
@@ -36,14 +34,6 @@ bool has_missing_shader(const Diagnostics& diagnostics) {
     const auto kinds = diagnostics.kinds();
     return std::any_of(kinds.begin(), kinds.end(),
                        [](const auto& kind) { return kind.first.starts_with("missing-shader"); });
-}
-
-/// Whether depths can be written to a file of this name.
-bool holds_depth(const std::string& name) {
-    std::string extension = fs::path(name).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    constexpr std::string_view kColorsOnly[] = {".png", ".jpg", ".jpeg", ".tga", ".bmp"};
-    return std::find(std::begin(kColorsOnly), std::end(kColorsOnly), extension) == std::end(kColorsOnly);
 }
 
 /// A pass that makes a depth map for the worlds after it. What the command line says of the picture is not

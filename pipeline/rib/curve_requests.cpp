@@ -29,7 +29,7 @@ void check_step(Reader& r, const Curves& curves, int vertices, size_t number) {
 }
 
 /// Leaves out curves that have too few points for one segment, unless all have.
-void leave_out_stubs(Reader& r, Curves& curves, ParameterList& variables) {
+void leave_out_short_curves(Reader& r, Curves& curves, ParameterList& variables) {
     std::vector<char> kept, kept_varying, kept_points;
     const int least = least_points(curves);
     std::string first;
@@ -43,7 +43,7 @@ void leave_out_stubs(Reader& r, Curves& curves, ParameterList& variables) {
     }
     if (first.empty()) return;
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) throw RequestError{first, {}};
-    r.warn_once(first + "; curves of fewer are left out", "stubs");
+    r.warn_once(first + "; curves of fewer are left out", "short-curves");
     keep_values(curves.vertices_per_curve, kept);
     for (Parameter& p : variables.values) {
         const StorageClass storage = p.declaration.storage;
@@ -80,7 +80,7 @@ void curves(Reader& r, ArgumentCursor& c) {
     if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
     shape.variables = checked_variables(r, std::move(list), shape.topology);
     Curves& kept = std::get<Curves>(shape.topology);
-    leave_out_stubs(r, kept, shape.variables);
+    leave_out_short_curves(r, kept, shape.variables);
     const uint64_t count = kept.vertices_per_curve.size();
     r.add_shape("Curves", std::move(shape), count);
 }

@@ -1,6 +1,6 @@
 /// The reader's state and what requests do to it. Requests are rows of tables (request_table.h), grouped by
 /// file. The members are in reader.cpp (streams), archives.cpp, blocks.cpp, conditional_blocks.cpp,
-/// motion_blocks.cpp, objects.cpp, parameters.cpp, reader_scene.cpp and ris_world.cpp.
+/// motion_blocks.cpp, objects.cpp, parameters.cpp, reader_scene.cpp and world_lights.cpp.
 #pragma once
 
 #include <map>

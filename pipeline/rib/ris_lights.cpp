@@ -14,14 +14,6 @@ bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != std::string_view::npos;
 }
 
-void set_number(ShaderInstance& shader, const char* name, float value) {
-    shader.parameters.set({name, {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}});
-}
-
-void set_triple(ShaderInstance& shader, const char* name, ValueType type, const V3f& v) {
-    shader.parameters.set({name, {StorageClass::Uniform, type, 1}, {v.x, v.y, v.z}, {}});
-}
-
 /// Its radiance.
 V3f power(const RisParameters& p) {
     const float scale =
@@ -55,7 +47,7 @@ std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderIn
 std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderInstance& from,
                                         const RisParameters& p, const char* shape) {
     auto light = make(handle, from, "rislight", power(p));
-    light->shader.parameters.set({"shape", {StorageClass::Uniform, ValueType::String, 1}, {}, {shape}});
+    set_text(light->shader, "shape", shape);
     // Those of the first versions are in any case.
     const bool is_normalized = contains(from.name, "PxrStd") || p.number_or("areaNormalize", 0) != 0;
     set_number(light->shader, "normalized", is_normalized ? 1.0f : 0.0f);
@@ -138,7 +130,7 @@ void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& came
     for (int column = 0; column < 3; ++column) box_axes[3][column] = middle[column];
     light.shader.camera_from_shader = box_axes * camera_from_shape;
     if (!is_flat) return;
-    light.shader.parameters.set({"shape", {StorageClass::Uniform, ValueType::String, 1}, {}, {"rect"}});
+    set_text(light.shader, "shape", "rect");
     set_number(light.shader, "twosided", 1);
 }
 

@@ -64,4 +64,16 @@ std::string RisParameters::text(std::string_view name) const {
     return found && !found->is_reference && !found->strings.empty() ? found->strings[0] : std::string();
 }
 
+void set_number(ShaderInstance& shader, const char* name, float value) {
+    shader.parameters.set({name, {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}});
+}
+
+void set_triple(ShaderInstance& shader, const char* name, ValueType type, const V3f& value) {
+    shader.parameters.set({name, {StorageClass::Uniform, type, 1}, {value.x, value.y, value.z}, {}});
+}
+
+void set_text(ShaderInstance& shader, const char* name, std::string value) {
+    shader.parameters.set({name, {StorageClass::Uniform, ValueType::String, 1}, {}, {std::move(value)}});
+}
+
 }  // namespace trapeze::rib

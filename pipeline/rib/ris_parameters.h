@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math.h"
+#include "core/scene.h"
 #include "pipeline/rib/arguments.h"
 
 namespace trapeze::rib {
@@ -38,5 +39,10 @@ class RisParameters {
   private:
     std::vector<RisParameter> values_;
 };
+
+/// A uniform parameter of a shader that stands in for one of RIS.
+void set_number(ShaderInstance& shader, const char* name, float value);
+void set_triple(ShaderInstance& shader, const char* name, ValueType type, const V3f& value);
+void set_text(ShaderInstance& shader, const char* name, std::string value);
 
 }  // namespace trapeze::rib

@@ -17,13 +17,8 @@ void note(Reader& r) {
         "ris");
 }
 
-void set_number(ShaderInstance& shader, const char* name, float value) {
-    shader.parameters.set({name, {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}});
-}
-
 void set_color(ShaderInstance& shader, const char* name, const V3f& v) {
-    if (v.x != 0 || v.y != 0 || v.z != 0)
-        shader.parameters.set({name, {StorageClass::Uniform, ValueType::Color, 1}, {v.x, v.y, v.z}, {}});
+    if (v.x != 0 || v.y != 0 || v.z != 0) set_triple(shader, name, ValueType::Color, v);
 }
 
 /// The shader that shows a look; its colour is Cs.
@@ -35,7 +30,7 @@ void show(const RisLook& look, ShaderInstance& shader) {
     set_number(shader, "roughness", look.roughness);
     if (look.opacity < 1) set_number(shader, "opacity", look.opacity);
     if (look.texture.empty()) return;
-    shader.parameters.set({"texturename", {StorageClass::Uniform, ValueType::String, 1}, {}, {look.texture}});
+    set_text(shader, "texturename", look.texture);
     set_number(shader, "scales", look.scale_s);
     set_number(shader, "scalet", look.scale_t);
 }

@@ -44,7 +44,6 @@ void error_handler(Reader& r, ArgumentCursor& c) {
         r.warn_once(in_quotes(name) + " is not known; ignored", "error-handler-" + name);
 }
 
-/// PRMan's further cameras: what can be seen of them is their space.
 /// The space that the world is seen from, which its coordinate system is named for. Later versions keep the
 /// window and the planes of clipping with it.
 void camera(Reader& r, ArgumentCursor& c) {
