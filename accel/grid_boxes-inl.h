@@ -13,6 +13,7 @@
 
 #include "accel/block_slabs-inl.h"
 #include "accel/block_tests-inl.h"
+#include "accel/box_codes-inl.h"
 #include "accel/compact_lanes-inl.h"
 #include "core/lane_numbers-inl.h"
 
@@ -33,7 +34,7 @@ template <bool kMoves, bool kLens, bool kAlike>
 void meet_boxes_of(BundleState& t, size_t i, const float* planes, int boxes, const int* sides, uint8_t* met) {
     const F32 d;
     const ActiveRays& active = t.scratch.active;
-    const auto stride = static_cast<size_t>(boxes);
+    constexpr size_t stride = BoxPlanes::kMost;
     const VF local = kMoves ? hn::Load(d, active.local + i) : hn::Zero(d);
     const VF limit = hn::Load(d, active.limit + i);
     VF inverse[3], offset[3];
@@ -49,8 +50,8 @@ void meet_boxes_of(BundleState& t, size_t i, const float* planes, int boxes, con
         for (int k = 0; k < 3; ++k) {
             VF from = hn::Set(d, first[k][b]), to = hn::Set(d, last[k][b]);
             if constexpr (kMoves) {
-                from = hn::MulAdd(local, hn::Set(d, first[k][b + 6 * boxes]), from);
-                to = hn::MulAdd(local, hn::Set(d, last[k][b + 6 * boxes]), to);
+                from = hn::MulAdd(local, hn::Set(d, first[k][b + 6 * stride]), from);
+                to = hn::MulAdd(local, hn::Set(d, last[k][b + 6 * stride]), to);
             }
             VF enter = kLens ? hn::MulSub(from, inverse[k], offset[k]) : hn::Mul(from, inverse[k]);
             VF leave = kLens ? hn::MulSub(to, inverse[k], offset[k]) : hn::Mul(to, inverse[k]);
@@ -132,21 +133,22 @@ template <bool kMoves, bool kLens>
 uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
     const F32 d;
     const ActiveRays& active = t.scratch.active;
-    const auto stride = static_cast<size_t>(boxes);
-    for (size_t b = 0; b < stride; ++b) std::memset(t.scratch.met + b * kMetStride, 0, kMaskBytes);
+    constexpr size_t stride = BoxPlanes::kMost;
+    const auto count = static_cast<size_t>(boxes);
+    for (size_t b = 0; b < count; ++b) std::memset(t.scratch.met + b * kMetStride, 0, kMaskBytes);
     uint32_t any = 0;
     for (size_t r = 0; r < active.count; ++r) {
         const VF local = kMoves ? hn::Set(d, active.local[r]) : hn::Zero(d);
         uint32_t met = 0;
-        for (size_t b = 0; b < stride; b += kLanes) {
+        for (size_t b = 0; b < count; b += kLanes) {
             VF near = hn::Set(d, -HUGE_VALF), far = hn::Set(d, active.limit[r]);
             for (size_t k = 0; k < 3; ++k) {
                 const float* low = planes + k * stride + b;
                 const float* high = low + 3 * stride;
-                VF from = hn::LoadU(d, low), to = hn::LoadU(d, high);
+                VF from = hn::Load(d, low), to = hn::Load(d, high);
                 if constexpr (kMoves) {
-                    from = hn::MulAdd(local, hn::LoadU(d, low + 6 * stride), from);
-                    to = hn::MulAdd(local, hn::LoadU(d, high + 6 * stride), to);
+                    from = hn::MulAdd(local, hn::Load(d, low + 6 * stride), from);
+                    to = hn::MulAdd(local, hn::Load(d, high + 6 * stride), to);
                 }
                 const VF inverse = hn::Set(d, active.inverse[k][r]);
                 const VF offset = kLens ? hn::Set(d, active.offset[k][r]) : hn::Zero(d);
@@ -154,7 +156,7 @@ uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
                 const VF leave = kLens ? hn::MulSub(to, inverse, offset) : hn::Mul(to, inverse);
                 near = hn::Max(near, hn::Min(enter, leave)), far = hn::Min(far, hn::Max(enter, leave));
             }
-            met |= mask_bits(hn::And(hn::Le(near, far), hn::FirstN(d, stride - b))) << b;
+            met |= mask_bits(hn::And(hn::Le(near, far), hn::FirstN(d, count - b))) << b;
         }
         any |= met;
         for (; met != 0; met &= met - 1)
@@ -264,7 +266,8 @@ template <bool kMoves, bool kLens>
 void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segment, float depth) {
     const ActiveRays& active = t.scratch.active;
     if (active.count == 0) return;
-    const float* planes = t.tree.box_planes(grid, segment);
+    decode_boxes<kMoves>(t.tree, grid, segment, t.scratch.boxes);
+    const float* planes = t.scratch.boxes.planes();
     const int boxes = grid.box_count(), blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
     t.stats.nodes_visited += active.count * static_cast<size_t>(boxes);
     uint32_t some = active.count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)

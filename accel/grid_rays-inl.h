@@ -63,9 +63,12 @@ HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) 
 
 /// They are needed once all packets of the bundle have been looked at.
 template <bool kMoves>
-HWY_INLINE void prefetch_boxes(const float* planes, int boxes) {
-    const auto floats = static_cast<size_t>(boxes) * (kMoves ? 12 : 6);
-    for (size_t i = 0; i < floats; i += 16) __builtin_prefetch(planes + i);
+HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int segment) {
+    constexpr size_t kLine = 64;
+    const size_t bytes = grid.code_words() * 4 * (kMoves ? 2 : 1);
+    const uint8_t* codes = t.tree.box_codes(grid, segment);
+    for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(codes + i);
+    __builtin_prefetch(codes + bytes - 1);
 }
 
 template <bool kMoves, bool kLens>
@@ -87,8 +90,7 @@ void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& b
     if (t.rays.nodes) count_packet(t.rays.nodes, i, 1);
     met = hn::And(met, in_aligned_box<kMoves, kLens>(bounds.box, {ox, oy, ux, uy, local}, limit));
     if (hn::AllFalse(d, met)) return;
-    if (t.scratch.active.count == 0)
-        prefetch_boxes<kMoves>(t.tree.box_planes(grid, segment), grid.box_count());
+    if (t.scratch.active.count == 0) prefetch_boxes<kMoves>(t, grid, segment);
     VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
     for (int k = 0; k < 3; ++k) {
         const float* axis = grid.axis[k];

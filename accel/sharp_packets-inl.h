@@ -13,6 +13,7 @@
 
 #include <bit>
 
+#include "accel/box_codes-inl.h"
 #include "accel/bundle_state-inl.h"
 #include "accel/ray_intervals-inl.h"
 
@@ -47,8 +48,8 @@ HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const float* planes, const P
         const VF grow = hn::Set(d, reach * (std::abs(axis[0]) * dx + std::abs(axis[1]) * dy));
         const float along = axis[0] * ux + axis[1] * uy + axis[2];
         const VF inverse = hn::Set(d, 1.0f / (std::abs(along) < kLeastDirection ? kLeastDirection : along));
-        const VF a = hn::Mul(hn::Sub(hn::LoadU(d, planes + k * boxes), grow), inverse);
-        const VF b = hn::Mul(hn::Add(hn::LoadU(d, planes + (3 + k) * boxes), grow), inverse);
+        const VF a = hn::Mul(hn::Sub(hn::Load(d, planes + k * BoxPlanes::kMost), grow), inverse);
+        const VF b = hn::Mul(hn::Add(hn::Load(d, planes + (3 + k) * BoxPlanes::kMost), grow), inverse);
         near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
     }
     return static_cast<uint32_t>(hn::And(hn::Le(near, far), hn::FirstN(d, boxes)).raw);
@@ -145,15 +146,14 @@ inline bool test_packet(BundleState& t, const Block& block, size_t packet, const
     return nearer;
 }
 
-/// Whether the packet's farthest depth may have become nearer.
+/// Whether the packet's farthest depth may have become nearer; the grid's boxes are decoded.
 inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, const MovingBox& box,
                          size_t packet) {
     const auto& row = t.scratch.intervals.row;
     const PacketSlopes slopes{row[RayIntervals::kDxMin][packet], row[RayIntervals::kDxMax][packet],
                               row[RayIntervals::kDyMin][packet], row[RayIntervals::kDyMax][packet]};
-    uint32_t boxes =
-        boxes_met(grid, t.tree.box_planes(grid, 0), slopes, std::max(box.low[2], t.nearest_depth),
-                  box.high[2], t.scratch.farthest[packet]);
+    uint32_t boxes = boxes_met(grid, t.scratch.boxes.planes(), slopes, std::max(box.low[2], t.nearest_depth),
+                               box.high[2], t.scratch.farthest[packet]);
     const auto rays = std::min(kLanes, t.rays.count - packet * kLanes);
     t.stats.nodes_visited += rays;
     if (t.rays.nodes) count_packet(t.rays.nodes, packet * kLanes, 1);
@@ -177,13 +177,14 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
     const MovingBox& box = t.tree.grid_box(candidate.grid);
     VF low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
-    bool nearer = false;
+    bool nearer = false, decoded = false;
     t.for_packets(candidate.groups, [&](size_t p) HWY_ATTR {
         const auto q = IntervalLanes::of<false, false>(
             [&](int row) HWY_ATTR { return hn::Load(d, t.scratch.intervals.row[row] + p); });
         const MF looks = hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]);
         uint32_t met = mask_bits(hn::And(
             looks, meets<false>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
+        if (met != 0 && !decoded) decode_boxes<false>(t.tree, grid, 0, t.scratch.boxes), decoded = true;
         for (; met != 0; met &= met - 1)
             nearer |=
                 visit_packet(t, candidate.grid, grid, box, p + static_cast<size_t>(std::countr_zero(met)));

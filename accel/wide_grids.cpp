@@ -170,37 +170,33 @@ void join_blocks(const WideGrid& record, BlockBoxes& boxes) {
         }
 }
 
-/// Boxes in every segment, grown; in the layout of WideGrid::box_stride().
-void write_boxes(const WideGrid& record, const BlockBoxes* keys, float grow, float* out) {
-    const int boxes = record.box_count();
-    const int segments = record.moves() ? record.key_count - 1 : 1;
-    for (int s = 0; s < segments; ++s, out += record.box_stride())
-        for (int k = 0; k < 3; ++k)
-            for (int b = 0; b < boxes; ++b) {
-                out[k * boxes + b] = keys[s].low[k][b] - grow;
-                out[(3 + k) * boxes + b] = keys[s].high[k][b] + grow;
-                if (!record.moves()) continue;
-                out[(6 + k) * boxes + b] = keys[s + 1].low[k][b] - keys[s].low[k][b];
-                out[(9 + k) * boxes + b] = keys[s + 1].high[k][b] - keys[s].high[k][b];
-            }
-}
-
-/// The whole grid in a segment, grown; components from `first` on of its keys' boxes.
-MovingBox segment_box(const KeyBox6& from, const KeyBox6& to, int first, float grow) {
-    MovingBox box;
+/// Boxes at a key, grown, in the layout of WideGrid::code_words().
+void write_key(const WideGrid& record, const FrameBounds& whole, const BlockBoxes& boxes, float grow,
+               uint8_t* out) {
+    const int count = record.box_count();
     for (int k = 0; k < 3; ++k) {
-        box.low[k] = from.low[first + k] - grow, box.low_delta[k] = to.low[first + k] - from.low[first + k];
-        box.high[k] = from.high[first + k] + grow,
-        box.high_delta[k] = to.high[first + k] - from.high[first + k];
+        const CodeScale scale(whole.low[k], whole.high[k]);
+        const float per_step = 1 / scale.step;
+        for (int b = 0; b < count; ++b) {
+            out[k * count + b] = code_below(scale, per_step, boxes.low[k][b] - grow);
+            out[(3 + k) * count + b] = code_above(scale, per_step, boxes.high[k][b] + grow);
+        }
     }
-    return box;
 }
 
-void write_segment_bounds(const WideGrid& record, const KeyBox6* wholes, float grow, float* out) {
-    for (int s = 0; s + 1 < record.key_count; ++s, out += record.box_stride()) {
-        const SegmentBounds bounds{segment_box(wholes[s], wholes[s + 1], 0, grow),
-                                   segment_box(wholes[s], wholes[s + 1], 3, grow)};
-        std::memcpy(out + record.box_count() * 12, &bounds, sizeof(bounds));
+/// All keys' boxes and, where there are segments, bounds; `grow` as all bounds, `whole_grow` for what holds
+/// the planes of codes.
+void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes* keys, float grow,
+                float whole_grow, uint32_t* out) {
+    for (int key = 0; key < record.key_count; ++key, out += record.code_words()) {
+        KeyBounds bounds;
+        for (int k = 0; k < 6; ++k)
+            bounds.low[k] = wholes[key].low[k] - whole_grow,
+            bounds.high[k] = wholes[key].high[k] + whole_grow;
+        write_key(record, record.has_segments() ? framed_at(bounds) : framed_at(record, key), keys[key], grow,
+                  reinterpret_cast<uint8_t*>(out));
+        if (record.has_segments())
+            std::memcpy(out + record.code_words() - sizeof(bounds) / 4, &bounds, sizeof(bounds));
     }
 }
 
@@ -220,7 +216,7 @@ void bound_extents(const WideGrid& record, const BlockBoxes* keys, float extent[
 
 }  // namespace
 
-void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* box_planes,
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint32_t* codes,
                 GridExtent& extent) {
     Frame frame = frame_of_grid(grid);
     for (int k = 0; k < 3; ++k)
@@ -246,6 +242,7 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, flo
             largest = std::max({largest, std::abs(wholes[key].low[k]), std::abs(wholes[key].high[k])});
     extent.absolute_max = largest <= kBoundableCoordinate ? largest : HUGE_VALF;
     const float grow = scale * largest + base;
+    const float code_grow = grow + kCodeRounding * largest, whole_grow = code_grow + kCodeRounding * largest;
     for (int k = 0; k < 3; ++k) {
         float low[2], high[2];
         line_around(wholes, grid.key_count, true, k, low);
@@ -256,8 +253,8 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, flo
         }
         line_around(wholes, grid.key_count, true, 3 + k, low);
         line_around(wholes, grid.key_count, false, 3 + k, high);
-        record.framed.low[k] = low[0] - grow, record.framed.low_delta[k] = low[1] - low[0];
-        record.framed.high[k] = high[0] + grow, record.framed.high_delta[k] = high[1] - high[0];
+        record.framed.low[k] = low[0] - whole_grow, record.framed.low_delta[k] = low[1] - low[0];
+        record.framed.high[k] = high[0] + whole_grow, record.framed.high_delta[k] = high[1] - high[0];
     }
     float extents[3];
     bound_extents(record, blocks.data(), extents);
@@ -265,8 +262,7 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, flo
     record.extent = std::max({extents[0], extents[1], extents[2]}) + grow;
     if (record.blocks_per_box() > 1)
         for (BlockBoxes& boxes : blocks) join_blocks(record, boxes);
-    write_boxes(record, blocks.data(), grow, box_planes);
-    if (record.has_segments()) write_segment_bounds(record, wholes, grow, box_planes);
+    write_keys(record, wholes, blocks.data(), code_grow, whole_grow, codes);
 }
 
 }  // namespace trapeze

@@ -16,10 +16,10 @@ struct GridExtent {
     float absolute_max;
 };
 
-/// Fills in a grid's record (all but first_box, which is set) and its boxes. `scale` and `base`: bounds
-/// grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an absolute_max of
-/// infinity, and boxes that mean nothing.
-void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, float* box_planes,
+/// Fills in a grid's record (all but first_code, which is set) and its boxes' codes. `scale` and `base`:
+/// bounds grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an absolute_max
+/// of infinity, and boxes that mean nothing.
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint32_t* codes,
                 GridExtent& extent);
 
 }  // namespace trapeze

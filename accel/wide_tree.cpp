@@ -53,7 +53,7 @@ WideTree::WideTree(const Grids& grids, const RayReach& reach)
     if (!bounded.empty()) write_nodes(build_wide_top(extents, bounded));
     for (const uint32_t grid : bounded) stats_.tree_leaves += wide_grids_[grid].block_count();
     stats_.tree_nodes = nodes_.size() + bounded.size();
-    stats_.tree_bytes = sizeof(*this) + wide_grids_.bytes() + boxes_.bytes() + box_planes_.bytes() +
+    stats_.tree_bytes = sizeof(*this) + wide_grids_.bytes() + boxes_.bytes() + codes_.bytes() +
                         nodes_.bytes() + node_motions_.bytes();
 }
 
@@ -61,24 +61,57 @@ void WideTree::bound_grids(std::vector<GridExtent>& extents) {
     const size_t count = grids_.grids.size();
     wide_grids_.allocate(count);
     boxes_.allocate(count);
-    size_t floats = 0;
+    size_t words = 0;
     for (size_t i = 0; i < count; ++i) {
         const Grid& grid = grids_.grids[i];
         WideGrid& record = wide_grids_[i];
         record.nu = grid.shape.nu, record.nv = grid.shape.nv, record.key_count = grid.key_count;
-        record.first_box = static_cast<uint32_t>(floats);
-        floats += static_cast<size_t>(record.box_stride()) * segment_count(grid.key_count);
+        record.first_code = static_cast<uint32_t>(words);
+        words += record.code_words() * record.key_count;
     }
-    box_planes_.allocate(floats);
+    codes_.allocate(words);
     constexpr size_t kGrain = 32;
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kGrain), [&](const auto& range) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
             WideGrid& record = wide_grids_[i];
             bound_grid(grids_.grids[i], rounding_scale_, rounding_base_, record,
-                       box_planes_.data() + record.first_box, extents[i]);
+                       codes_.data() + record.first_code, extents[i]);
             boxes_[i] = moving(extents[i].box);
         }
     });
+}
+
+KeyBounds WideTree::key_bounds(const WideGrid& grid, int key) const {
+    KeyBounds bounds;
+    const uint32_t* next = codes_.data() + grid.first_code + static_cast<size_t>(key + 1) * grid.code_words();
+    std::memcpy(&bounds, next - sizeof(bounds) / 4, sizeof(bounds));
+    return bounds;
+}
+
+void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const {
+    const int count = grid.box_count();
+    for (int end = 0; end < (grid.moves() ? 2 : 1); ++end) {
+        const uint8_t* codes = box_codes(grid, segment + end);
+        const FrameBounds whole = frame_bounds(grid, segment + end);
+        for (int k = 0; k < 6; ++k) {
+            const CodeScale scale(whole.low[k % 3], whole.high[k % 3]);
+            for (int b = 0; b < count; ++b) {
+                const float plane = scale.plane(codes[k * count + b]);
+                boxes.row[6 * end + k][b] = end == 0 ? plane : plane - boxes.row[k][b];
+            }
+        }
+    }
+}
+
+SegmentBounds WideTree::segment_bounds(const WideGrid& grid, int segment) const {
+    const KeyBounds from = key_bounds(grid, segment), to = key_bounds(grid, segment + 1);
+    SegmentBounds bounds;
+    for (int k = 0; k < 6; ++k) {
+        MovingBox& box = k < 3 ? bounds.box : bounds.framed;
+        box.low[k % 3] = from.low[k], box.low_delta[k % 3] = to.low[k] - from.low[k];
+        box.high[k % 3] = from.high[k], box.high_delta[k % 3] = to.high[k] - from.high[k];
+    }
+    return bounds;
 }
 
 void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
@@ -188,8 +221,9 @@ class SingleRay {
     void visit_grid(uint32_t index) {
         const WideGrid& record = tree_.grid(index);
         const MotionSegment segment = segment_at(ray_.axis.time, record.key_count);
-        const float* planes = tree_.box_planes(record, segment.index);
-        const size_t boxes = record.box_count();
+        BoxPlanes boxes;
+        tree_.decode(record, segment.index, boxes);
+        constexpr size_t kStride = BoxPlanes::kMost;
         float origin[3], inverse[3];
         for (int k = 0; k < 3; ++k) {
             const float* a = record.axis[k];
@@ -197,12 +231,12 @@ class SingleRay {
             inverse[k] =
                 inverse_of(a[0] * ray_.direction.x + a[1] * ray_.direction.y + a[2] * ray_.direction.z);
         }
-        for (size_t box = 0; box < boxes; ++box) {
-            const float* at = planes + box;
+        for (size_t box = 0; box < static_cast<size_t>(record.box_count()); ++box) {
+            const float* at = boxes.planes() + box;
             float depth;
-            if (!slab_depths(at, at + 3 * boxes, record.moves() ? at + 6 * boxes : nullptr,
-                             record.moves() ? at + 9 * boxes : nullptr, boxes, segment.local, origin, inverse,
-                             pad_)
+            if (!slab_depths(at, at + 3 * kStride, record.moves() ? at + 6 * kStride : nullptr,
+                             record.moves() ? at + 9 * kStride : nullptr, kStride, segment.local, origin,
+                             inverse, pad_)
                      .meets(ray_, slack_, depth))
                 continue;
             const int first = static_cast<int>(box) * record.blocks_per_box();

@@ -2,7 +2,8 @@
 ///
 ///   top level     16-wide nodes of axis-aligned hyper-trapezoids, whose leaves are grids;
 ///   in a grid     one implicit level: blocks of 4 x 4 micropolygons, the tiles in which vertices are stored,
-///                 each with an oriented hyper-trapezoid in the grid's own frame [Hou10 sec. 3.2 and 3.3].
+///                 each with an oriented hyper-trapezoid in the grid's own frame [Hou10 sec. 3.2 and 3.3],
+///                 kept in a byte a plane.
 ///
 /// Nothing is stored for micropolygons. Boxes are linear in time: above grids over the whole shutter (a
 /// conservative line where there are several motion segments), inside grids over each segment.
@@ -18,6 +19,7 @@
 #include <memory>
 #include <vector>
 
+#include "accel/box_codes.h"
 #include "core/grid.h"
 #include "core/ray_query.h"
 #include "core/stats.h"
@@ -78,6 +80,11 @@ struct SegmentBounds {
     MovingBox box, framed;  ///< in camera space, and in the grid's frame
 };
 
+/// A whole grid at one key, in its frame: what the codes of its boxes divide.
+struct FrameBounds {
+    float low[3], high[3];
+};
+
 /// A grid as traversal reads it.
 struct WideGrid {
     const float* planes;  ///< Grid::positions
@@ -85,7 +92,7 @@ struct WideGrid {
     MovingBox framed;     ///< the whole grid there, over the whole shutter
     float slack;          ///< of depth: extent of the largest micropolygon along camera z
     float extent;         ///< the same along any axis
-    uint32_t first_box;   ///< its boxes begin at box_planes[first_box]
+    uint32_t first_code;  ///< its boxes' codes begin at this word
     uint16_t plane_size;
     uint8_t nu, nv;
     uint8_t tiles_u;
@@ -102,15 +109,30 @@ struct WideGrid {
     int box_count() const { return (block_count() + blocks_per_box() - 1) / blocks_per_box(); }
     /// Whether it moves in several segments: then each has bounds of its own.
     bool has_segments() const { return key_count > 2; }
-    /// Floats of a segment: planes low x, y, z, high x, y, z of all its boxes; then, when the grid moves, how
-    /// far they go; then its SegmentBounds, where it has any.
-    int box_stride() const {
-        return box_count() * (moves() ? 12 : 6) + (has_segments() ? kSegmentBoundFloats : 0);
+    /// Words of four bytes that a key takes: the codes of low x, y, z, high x, y, z of all boxes; then, where
+    /// the grid has segments, its KeyBounds.
+    size_t code_words() const {
+        const auto bytes = static_cast<size_t>(box_count()) * 6;
+        return (bytes + 3) / 4 + (has_segments() ? sizeof(KeyBounds) / 4 : 0);
     }
 
     static constexpr int kRibbonBlocksPerBox = 4;
-    static constexpr int kSegmentBoundFloats = sizeof(SegmentBounds) / sizeof(float);
 };
+/// A grid at one of its keys, in its frame.
+inline FrameBounds framed_at(const WideGrid& grid, int key) {
+    FrameBounds at;
+    for (int k = 0; k < 3; ++k) {
+        at.low[k] = key == 0 ? grid.framed.low[k] : grid.framed.low[k] + grid.framed.low_delta[k];
+        at.high[k] = key == 0 ? grid.framed.high[k] : grid.framed.high[k] + grid.framed.high_delta[k];
+    }
+    return at;
+}
+inline FrameBounds framed_at(const KeyBounds& bounds) {
+    FrameBounds at;
+    for (int k = 0; k < 3; ++k) at.low[k] = bounds.low[3 + k], at.high[k] = bounds.high[3 + k];
+    return at;
+}
+
 static_assert(sizeof(WideGrid) <= 112, "hair has one for every 16 micropolygons");
 
 struct GridExtent;
@@ -143,20 +165,25 @@ class WideTree final : public RayQuery {
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
     const MovingBox& grid_box(uint32_t index) const { return boxes_[index]; }
-    const float* box_planes(const WideGrid& grid, int segment) const {
-        return box_planes_.data() + grid.first_box + static_cast<size_t>(segment) * grid.box_stride();
+    /// Rows of codes of its boxes at a key; whole vectors can be read.
+    const uint8_t* box_codes(const WideGrid& grid, int key) const {
+        return reinterpret_cast<const uint8_t*>(codes_.data() + grid.first_code +
+                                                static_cast<size_t>(key) * grid.code_words());
     }
+    FrameBounds frame_bounds(const WideGrid& grid, int key) const {
+        return grid.has_segments() ? framed_at(key_bounds(grid, key)) : framed_at(grid, key);
+    }
+    /// The boxes of a grid in a segment, which tracing decodes in vectors; at its start alone where it is
+    /// still.
+    void decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const;
     /// Of a grid that has_segments().
-    SegmentBounds segment_bounds(const WideGrid& grid, int segment) const {
-        SegmentBounds bounds;
-        std::memcpy(&bounds, box_planes(grid, segment) + grid.box_count() * 12, sizeof(bounds));
-        return bounds;
-    }
+    SegmentBounds segment_bounds(const WideGrid& grid, int segment) const;
     /// Grids too far out for bounds: every ray must look at them.
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
 
   private:
     void bound_grids(std::vector<GridExtent>& extents);
+    KeyBounds key_bounds(const WideGrid& grid, int key) const;
     void write_nodes(const std::vector<WideChildren>& wide);
 
     const Grids& grids_;
@@ -165,8 +192,8 @@ class WideTree final : public RayQuery {
     bool moves_ = false;
     float max_slack_ = 0, max_extent_ = 0, absolute_max_ = 0;
     AlignedArray<WideGrid> wide_grids_;
-    AlignedArray<MovingBox> boxes_;   ///< camera space, axis-aligned
-    AlignedArray<float> box_planes_;  ///< in grids
+    AlignedArray<MovingBox> boxes_;  ///< camera space, axis-aligned
+    AlignedArray<uint32_t> codes_;   ///< of boxes in grids
     AlignedArray<WideNode> nodes_;
     AlignedArray<WideNodeMotion> node_motions_;
     std::vector<uint32_t> unbounded_;

@@ -1,0 +1,49 @@
+/// How a WideTree keeps the boxes of a grid's blocks: at each key of the grid's motion, in the grid's frame,
+/// a byte for each plane of each box, in steps of 1 / 255 of the whole grid's box there.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace trapeze {
+
+/// The boxes of a grid in one segment of its motion: plane k of box b is at row[k][b] + t * row[6 + k][b],
+/// where k is low x, y, z, high x, y, z in the grid's frame, and t the time in the segment.
+struct BoxPlanes {
+    static constexpr size_t kMost = 16;  ///< boxes
+    alignas(64) float row[12][kMost];
+
+    const float* planes() const { return row[0]; }  ///< one after another, kMost apart
+};
+
+/// A grid's box at a key: the ends along x, y, z of camera space, then along the axes of the grid's frame.
+struct KeyBounds {
+    float low[6], high[6];
+};
+
+/// From codes to planes along an axis.
+struct CodeScale {
+    float low, step;
+
+    CodeScale(float from, float to) : low(from), step((to - from) * (1.0f / 255)) {}
+    float plane(int code) const { return low + step * static_cast<float>(code); }
+};
+
+/// Of the largest coordinate, what may come between two ways to compute CodeScale::plane(), fused and not:
+/// two roundings of 2^-24, of numbers up to 3.5 and 1.8 times as large (a grid's box in its frame).
+inline constexpr float kCodeRounding = 0x1p-21f;
+
+/// Codes of the last plane not above `at`, and of the first not below, which the scale has.
+inline uint8_t code_below(const CodeScale& scale, float per_step, float at) {
+    const float steps = (at - scale.low) * per_step;
+    const int code = steps > 0 ? static_cast<int>(std::min(steps, 255.0f)) : 0;
+    return static_cast<uint8_t>(std::max(code - (scale.plane(code) > at), 0));
+}
+inline uint8_t code_above(const CodeScale& scale, float per_step, float at) {
+    const float steps = (at - scale.low) * per_step;
+    const int code = steps > 0 ? static_cast<int>(std::min(steps, 255.0f)) : 0;
+    return static_cast<uint8_t>(std::min(code + (scale.plane(code) < at), 255));
+}
+
+}  // namespace trapeze

@@ -1,0 +1,52 @@
+#include "accel/box_codes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace trapeze {
+namespace {
+
+/// Ends and places within them, of every magnitude, near 0 and far from it.
+TEST(BoxCodes, PlanesLieOutsideOfWhatTheyBoundByLessThanAStep) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 200000; ++i) {
+        const float middle = std::ldexp(unit(random) - 0.5f, static_cast<int>(random() % 40) - 20);
+        const float extent = std::ldexp(unit(random) + 0.01f, static_cast<int>(random() % 40) - 20);
+        const float low = middle - extent, high = middle + extent;
+        if (high - low < 0x1p-14f * std::abs(middle)) continue;  // floats there are as coarse as steps
+        const CodeScale scale(low, high);
+        const float rounding = kCodeRounding * std::max(std::abs(low), std::abs(high));
+        const float at = low + rounding + unit(random) * (high - low - 2 * rounding),
+                    per_step = 1 / scale.step;
+        const float below = scale.plane(code_below(scale, per_step, at)),
+                    above = scale.plane(code_above(scale, per_step, at));
+        ASSERT_LE(below, at) << low << " " << high;
+        ASSERT_GE(above, at) << low << " " << high;
+        ASSERT_LE(at - below, scale.step * 1.01f + rounding) << low << " " << high;
+        ASSERT_LE(above - at, scale.step * 1.01f + rounding) << low << " " << high;
+    }
+}
+
+TEST(BoxCodes, EndsAreTheFirstAndTheLast) {
+    const CodeScale scale(-3, 5);
+    EXPECT_EQ(code_below(scale, 1 / scale.step, -3), 0);
+    EXPECT_EQ(code_above(scale, 1 / scale.step, -3), 0);
+    EXPECT_EQ(code_above(scale, 1 / scale.step, 4.99f), 255);
+    EXPECT_EQ(code_below(scale, 1 / scale.step, 4.99f), 254);
+}
+
+TEST(BoxCodes, WhatIsNoNumberHasACode) {
+    for (const float wrong : {NAN, HUGE_VALF, -HUGE_VALF}) {
+        const CodeScale scale(0, wrong);
+        for (const float at : {0.0f, 1.0f, wrong}) {
+            EXPECT_LE(code_below(scale, 1 / scale.step, at), 255);
+            EXPECT_LE(code_above(scale, 1 / scale.step, at), 255);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace trapeze
