@@ -15,6 +15,8 @@ constexpr size_t kRaytrace = 0, kInterval = 1, kUvt2 = 2, kUvt4 = 3;
 
 /// How far from 1 the exponent of something linear may measure.
 constexpr double kLinear = .15;
+/// And what is logarithmic against the logarithm: some of a ray's cost is constant, and caches are outgrown.
+constexpr double kLogarithmic = 1.25;
 
 std::string times(double ratio) {
     return number_text(ratio) + "x";
@@ -125,6 +127,31 @@ StudyCheck check_of_coarser_shading(const std::string& scene, const std::vector<
     check.held = coarser[kInterval] / reference[kInterval] < traced &&
                  coarser[kUvt2] / reference[kUvt2] < traced && coarser[kUvt4] / reference[kUvt4] < traced;
     return check;
+}
+
+std::vector<StudyCheck> checks_of_growth(const GrowthSeries& bundles, const GrowthSeries& alone) {
+    const auto grown = [](const std::vector<double>& y) { return y.back() / y.front(); };
+    const auto& count = alone.micropolygons;
+    const double logarithm = std::log(count.back()) / std::log(count.front());
+    StudyCheck single{
+        "the cost of a ray by itself grows like the logarithm of micropolygons", "like the logarithm",
+        fmt::format(
+            "micropolygons times {}, their logarithm times {:.2f}: time times {:.2f}, nodes times {:.2f}",
+            number_text(grown(count)), logarithm, grown(alone.nanoseconds), grown(alone.nodes))};
+    single.held =
+        grown(alone.nanoseconds) < kLogarithmic * logarithm && grown(alone.nodes) < kLogarithmic * logarithm;
+    StudyCheck shared{"bundles' cost a ray grows slower than the fourth root of micropolygons", "-",
+                      fmt::format("time ~ micropolygons^{:.2f}, nodes ~ ^{:.2f}",
+                                  growth_exponent(1, 1, grown(count), grown(bundles.nanoseconds)),
+                                  growth_exponent(1, 1, grown(count), grown(bundles.nodes)))};
+    shared.held = growth_exponent(1, 1, grown(count), grown(bundles.nanoseconds)) < .25;
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < count.size(); ++i)
+        least = std::min(least, alone.nanoseconds[i] / bundles.nanoseconds[i]);
+    StudyCheck ahead{"bundles stay ahead of rays by themselves at every number of micropolygons", "-",
+                     "at least " + times(least) + " as fast"};
+    ahead.held = least > 1;
+    return {single, shared, ahead};
 }
 
 StudyCheck check_of_order(const std::string& scene, const std::vector<double>& here,

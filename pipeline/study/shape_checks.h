@@ -38,4 +38,13 @@ StudyCheck check_of_coarser_shading(const std::string& scene, const std::vector<
 StudyCheck check_of_order(const std::string& scene, const std::vector<double>& here,
                           const std::vector<double>& paper);
 
+/// What a ray costs in scenes of ever more micropolygons.
+struct GrowthSeries {
+    std::string name;
+    std::vector<double> micropolygons, nanoseconds, nodes;  ///< the latter two a ray
+};
+
+/// Of rays in bundles and of rays each by itself, in the same scenes.
+std::vector<StudyCheck> checks_of_growth(const GrowthSeries& bundles, const GrowthSeries& alone);
+
 }  // namespace trapeze

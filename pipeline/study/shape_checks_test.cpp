@@ -46,6 +46,18 @@ TEST(ShapeChecks, CoarserShadingAndOrder) {
     EXPECT_FALSE(check_of_order("", helps_rasterizers, reference).held);
 }
 
+TEST(ShapeChecks, GrowthLikeTheLogarithm) {
+    const std::vector<double> counts = {1e5, 1e6, 1e7};
+    const GrowthSeries logarithmic{"", counts, {500, 600, 700}, {20, 24, 28}},
+        flat{"", counts, {9, 9, 9}, {3, 3, 3}}, root{"", counts, {500, 1000, 2000}, {20, 24, 28}};
+    for (const StudyCheck& check : checks_of_growth(flat, logarithmic))
+        EXPECT_TRUE(check.held) << check.claim;
+    for (const StudyCheck& check : checks_of_growth(root, {"", counts, {400, 800, 1600}, {20, 24, 28}}))
+        EXPECT_FALSE(check.held) << check.claim;
+    EXPECT_FALSE(
+        checks_of_growth(flat, {"", counts, {500, 600, 700}, {20, 40, 80}}).front().held);  // by nodes
+}
+
 TEST(ShapeChecks, WhatIsIllegibleIsNotCompared) {
     RateSeries car{"Car", {1, 16, 64, 529}, {}};
     for (const auto& row : paper::kTable5[3]) car.seconds.emplace_back(row, row + 4);
