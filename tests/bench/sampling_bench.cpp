@@ -1,8 +1,8 @@
 /// Visibility methods on synthetic scenes, in turns in one run: build, trace, counts and memory, and the
-/// ratio of medians to the first method.
+/// ratio of medians to the first method. With several numbers of threads each method takes a turn with each.
 ///
-///   sampling_bench [--methods "raytrace embree ..."] [--scenes "0 3 5"] [--rounds N] [--threads N] [--areas
-///   N] [--simd best|avx512|avx2|sse4]
+///   sampling_bench [--methods "raytrace embree ..."] [--scenes "0 3 5"] [--rounds N] [--threads "1 2"]
+///   [--areas N] [--simd best|avx512|avx2|sse4]
 ///
 /// Every Nth area of 64x64 pixels is sampled (N grows with the samples), and times are scaled to the whole
 /// picture. Each method has its natural pattern and size of tile; samples are made before the clock runs.
@@ -11,6 +11,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -59,7 +61,8 @@ double median(std::vector<double> values) {
 struct Arguments {
     std::vector<std::string> methods{"raytrace"};
     std::vector<size_t> scenes;
-    int rounds = 5, threads = 2, areas = 0;
+    std::vector<int> threads{2};
+    int rounds = 5, areas = 0;
 };
 
 std::vector<std::string> words(const char* text) {
@@ -77,6 +80,7 @@ struct Thread {
 
 struct Competitor {
     std::string name;
+    int thread_count;
     Sampler sampler;
     std::unique_ptr<SamplePattern> pattern;
     std::vector<SampleTile> tiles;
@@ -97,8 +101,8 @@ void make_tiles(const SamplingScene& scene, const std::vector<PixelRect>& areas,
                                      c.tiles.emplace_back());
 }
 
-/// One turn of a method: prepare, resolve all tiles.
-void take_turn(const SamplingScene& scene, Competitor& c) {
+/// One turn of a method: prepare, resolve all tiles. With the threads of the calling arena.
+void take_turn_here(const SamplingScene& scene, Competitor& c) {
     const double begin = now();
     const auto visibility = c.sampler.prepare(scene.frame.context, scene.maker.grids(), *c.pattern);
     const double built = now();
@@ -117,6 +121,10 @@ void take_turn(const SamplingScene& scene, Competitor& c) {
     c.stats = {};
     for (const Thread& thread : threads) c.stats += thread.stats;
     c.hits = hits;
+}
+
+void take_turn(const SamplingScene& scene, Competitor& c) {
+    tbb::task_arena(c.thread_count).execute([&] { take_turn_here(scene, c); });
 }
 
 void run_scene(const SamplingSceneOptions& options, const Arguments& arguments) {
@@ -139,7 +147,18 @@ void run_scene(const SamplingSceneOptions& options, const Arguments& arguments) 
     std::vector<Competitor> competitors;
     for (const std::string& name : arguments.methods)
         if (const auto sampler = choose_sampler(name, "", &error))
-            competitors.push_back({name, *sampler, {}, {}, {}, {}, {}, {}, 0});
+            for (const int threads : arguments.threads)
+                competitors.push_back(
+                    {arguments.threads.size() == 1 ? name : name + ", threads: " + std::to_string(threads),
+                     threads,
+                     *sampler,
+                     {},
+                     {},
+                     {},
+                     {},
+                     {},
+                     {},
+                     0});
         else
             std::printf("%s\n", error.c_str());
     for (Competitor& c : competitors) make_tiles(scene, areas, c);
@@ -178,7 +197,7 @@ bool read_arguments(const std::vector<std::string>& given, Arguments& arguments)
             std::fputs(
                 "usage: sampling_bench [--methods \"raytrace embree ...\"] [--scenes \"0 3 5\"] [--rounds "
                 "N]\n"
-                "                      [--threads N] [--areas N] [--simd best|avx512|avx2|sse4]\n",
+                "                      [--threads \"1 2\"] [--areas N] [--simd best|avx512|avx2|sse4]\n",
                 stderr);
             return false;
         }
@@ -193,7 +212,12 @@ bool read_arguments(const std::vector<std::string>& given, Arguments& arguments)
             for (const std::string& word : words(value.c_str()))
                 arguments.scenes.push_back(std::strtoul(word.c_str(), nullptr, 10));
         if (key == "--rounds") arguments.rounds = std::atoi(value.c_str());
-        if (key == "--threads") arguments.threads = std::max(1, std::atoi(value.c_str()));
+        if (key == "--threads") {
+            arguments.threads.clear();
+            for (const std::string& word : words(value.c_str()))
+                arguments.threads.push_back(std::max(1, std::atoi(word.c_str())));
+            if (arguments.threads.empty()) arguments.threads.push_back(1);
+        }
         if (key == "--areas") arguments.areas = std::atoi(value.c_str());
     }
     return true;
@@ -206,10 +230,11 @@ int main(int argc, char** argv) {
     using namespace trapeze;
     Arguments arguments;
     if (!read_arguments({argv + 1, argv + argc}, arguments)) return 2;
+    const int most = *std::max_element(arguments.threads.begin(), arguments.threads.end());
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<size_t>(arguments.threads));
-    tbb::task_arena arena(arguments.threads);
-    std::printf("%d threads, %s\n", arguments.threads, std::string(simd_target_name()).c_str());
+                                      static_cast<size_t>(most));
+    tbb::task_arena arena(most);
+    std::printf("%d threads, %s\n", most, std::string(simd_target_name()).c_str());
     arena.execute([&] {
         for (size_t i = 0; i < std::size(kScenes); ++i)
             if (arguments.scenes.empty() || std::count(arguments.scenes.begin(), arguments.scenes.end(), i))
