@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "accel/bundle.h"
 #include "sample/hit_lists.h"
@@ -51,13 +52,14 @@ class WideRayTraced final : public Visibility {
             first = std::min(first, all.size());
             return all.subspan(first, std::min(RayBundle::kRays, all.size() - first));
         };
+        size_t misses = 0;
         for (size_t first = 0; first < all.size(); first += RayBundle::kRays) {
             scratch.bundle->coming_rays = samples.rays.data();
             scratch.bundle->coming = bundle_at(first + RayBundle::kRays);
-            resolve_bundle(samples, bundle_at(first), nearest, scratch, stats);
+            misses += resolve_bundle(samples, bundle_at(first), nearest, scratch, stats);
         }
         if (all_opaque_)
-            close_gaps(samples.size(), hits);
+            close_gaps(misses, hits);
         else
             join_layers(hits, scratch);
     }
@@ -65,8 +67,9 @@ class WideRayTraced final : public Visibility {
     BuildStats build_stats() const override { return tree_.stats(); }
 
   private:
-    void resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order, std::vector<Hit>& nearest,
-                        SampleScratch& scratch, SampleStats& stats) const {
+    /// How many of the rays hit nothing opaque.
+    size_t resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order,
+                          std::vector<Hit>& nearest, SampleScratch& scratch, SampleStats& stats) const {
         RayBundle& rays = *scratch.bundle;
         // Rays start in one point only where they all pass a pinhole.
         const bool origins = lens_ || !camera_.perspective;
@@ -74,14 +77,18 @@ class WideRayTraced final : public Visibility {
         count_costs_from(rays, scratch);
         trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, camera_.focal_distance, rays,
                      *scratch.bundle_scratch, stats);
-        for (size_t i = 0; i < order.size(); ++i)
-            nearest[order[i]] = {rays.depth[i],
-                                 rays.id[i] == RayBundle::kNone ? MicropolygonId::kNone : rays.id[i]};
+        size_t misses = 0;
+        for (size_t i = 0; i < order.size(); ++i) {
+            const bool missed = rays.id[i] == RayBundle::kNone;
+            nearest[order[i]] = {rays.depth[i], missed ? MicropolygonId::kNone : rays.id[i]};
+            misses += missed;
+        }
         for (const RayBundle::Layer& layer : rays.layers) {
             scratch.hits.push_back({layer.depth, layer.id});
             scratch.hit_sample.push_back(order[layer.ray]);
         }
         add_costs(rays, order, scratch);
+        return misses;
     }
 
     static void count_costs_from(RayBundle& rays, SampleScratch& scratch) {
@@ -100,8 +107,13 @@ class WideRayTraced final : public Visibility {
     }
 
     /// From a hit for every sample, some of them none, to a list.
-    static void close_gaps(size_t sample_count, HitBuffer& hits) {
+    static void close_gaps(size_t misses, HitBuffer& hits) {
+        const size_t sample_count = hits.hits.size();
         hits.first.resize(sample_count + 1);
+        if (misses == 0) {
+            std::iota(hits.first.begin(), hits.first.end(), 0u);
+            return;
+        }
         uint32_t next = 0;
         for (size_t s = 0; s < sample_count; ++s) {
             hits.first[s] = next;
