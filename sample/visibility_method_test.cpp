@@ -48,6 +48,38 @@ TEST_P(EveryMethod, SeesNothingInAnEmptyScene) {
     EXPECT_TRUE(resolve(TestFrame(16, 16, 2, false, false), Grids{}).hits.empty());
 }
 
+/// What the wide tree visits of a wall of small grids that parallel rays see at some depth.
+size_t nodes_of_parallel_rays(float z) {
+    constexpr int kSide = 16;
+    GridMaker maker;
+    for (int n = 0; n < kSide * kSide; ++n)
+        maker.add(4, 4, 1, [=](int i, int j, float) {
+            return V3f((static_cast<float>(n % kSide * 4 + i) / (kSide * 2) - 1),
+                       (static_cast<float>(n / kSide * 4 + j) / (kSide * 2) - 1), z);
+        });
+    TestFrame frame(64, 64, 4, false, false);
+    frame.options.projection = "orthographic";
+    frame.update();
+    std::string error;
+    const auto sampler = choose_sampler("raytrace", "", &error);
+    const auto pattern = sampler->make_pattern(frame.context);
+    const auto visibility = sampler->prepare(frame.context, maker.grids(), *pattern);
+    SampleTile samples;
+    pattern->make_tile({16, 16, 32, 32}, samples);
+    HitBuffer hits;
+    SampleScratch scratch;
+    SampleStats stats;
+    visibility->resolve(samples, hits, scratch, stats);
+    EXPECT_EQ(stats.predicate_hits, samples.size());
+    return stats.nodes_visited;
+}
+
+TEST(WideRaytrace, ParallelRaysStayAsCloseHoweverFarTheyGo) {
+    const size_t near = nodes_of_parallel_rays(2);
+    EXPECT_GT(near, 0u);
+    EXPECT_LE(nodes_of_parallel_rays(50), near + near / 10);
+}
+
 TEST_P(EveryMethod, SeesTheNearestWallEverywhere) {
     GridMaker maker;
     add_wall(maker, 7);

@@ -75,7 +75,9 @@ class WideRayTraced final : public Visibility {
         const bool origins = lens_ || !camera_.perspective;
         fill_bundle(samples.rays, order, origins, motion_, rays);
         count_costs_from(rays, scratch);
-        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, camera_.focal_distance, rays,
+        // Parallel rays meet nowhere: their intervals are as wide everywhere.
+        const float meet_at = lens_ ? camera_.focal_distance : HUGE_VALF;
+        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, meet_at, rays,
                      *scratch.bundle_scratch, stats);
         size_t misses = 0;
         for (size_t i = 0; i < order.size(); ++i) {
