@@ -10,9 +10,11 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "tessellate/dice.h"
+#include "tessellate/shared_grids.h"
 
 namespace trapeze {
 namespace {
@@ -20,6 +22,8 @@ namespace {
 constexpr int kFacesPerTask = 64, kEdgesPerTask = 512;
 /// Primitives that are split before their bytes are counted.
 constexpr size_t kPrimitivesAtOnce = 1024;
+/// That grids of instances in object space may take.
+constexpr size_t kSharedGridBytes = size_t{256} << 20;
 /// Shading rates below this (in pixels' area) are taken as this: a bound on absurd input.
 constexpr float kLeastShadingRate = 1e-4f;
 /// Farther from the eye, the rounding of positions is larger than what a camera can tell apart: no piece can
@@ -138,6 +142,7 @@ struct Tessellation::Impl {
     explicit Impl(const Camera& camera) : metric(camera) {}
 
     const ScreenMetric metric;
+    SharedGridBudget shared_grids;  ///< outlives the surfaces
     std::vector<TessellatedPrimitive> primitives;
 };
 
@@ -150,7 +155,7 @@ namespace {
 
 /// One surface for each slot that the cache hands out, made in parallel.
 void make_surfaces(const RenderContext& context, const FindDepthHeight& depth_heights,
-                   std::vector<TessellatedPrimitive>& primitives) {
+                   SharedGridBudget& shared_grids, std::vector<TessellatedPrimitive>& primitives) {
     SurfaceCache cache;
     std::vector<std::shared_ptr<const Surface>*> slots(primitives.size());
     std::vector<size_t> makers;
@@ -163,6 +168,16 @@ void make_surfaces(const RenderContext& context, const FindDepthHeight& depth_he
         *slots[makers[m]] = make_surface(context.scene->primitives[makers[m]], *context.diagnostics,
                                          {&context.camera, depth_heights ? &depth_heights : nullptr});
     });
+    // What is there twice shares its grids; at most once wrapped.
+    std::set<const Surface*> seen, shared;
+    for (size_t i = 0; i < primitives.size(); ++i) {
+        std::shared_ptr<const Surface>& surface = *slots[i];
+        if (!surface || shared.contains(surface.get())) continue;
+        if (seen.insert(surface.get()).second) continue;
+        if (!pays_to_share(context.scene->primitives[i].shape().topology)) continue;
+        surface = share_grids(surface, shared_grids);
+        shared.insert(surface.get());
+    }
     for (size_t i = 0; i < primitives.size(); ++i) primitives[i].surface = *slots[i];
 }
 
@@ -268,7 +283,8 @@ Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& 
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
     primitives.resize(scene.primitives.size());
-    make_surfaces(context, depth_heights, primitives);
+    impl_->shared_grids.bytes_left = std::min(kSharedGridBytes, most_bytes / 8);
+    make_surfaces(context, depth_heights, impl_->shared_grids, primitives);
     tessellate_all(context, impl_->metric, most_bytes, primitives);
 
     size_t count = 0;

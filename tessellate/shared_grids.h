@@ -1,0 +1,27 @@
+/// Instances share what they dice alike: the grids in object space. The same shape elsewhere under the camera
+/// that is diced at the same rates there (at much the same distance, or everywhere with an orthographic
+/// camera) has the same points, and takes them from its neighbour; what the camera changes, and shading, is
+/// each instance's own.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "tessellate/surface.h"
+
+namespace trapeze {
+
+/// The memory, in bytes, that several surfaces' shared grids may take together; when it is full, no more are
+/// kept, and nothing else changes.
+struct SharedGridBudget {
+    std::atomic<size_t> bytes_left{0};
+};
+
+/// The surface, remembering what it evaluates. May be used by many threads at once; the budget outlives it.
+/// Results are the surface's own, bit for bit.
+std::unique_ptr<Surface> share_grids(std::shared_ptr<const Surface> surface, SharedGridBudget& budget);
+
+/// Whether the shape's points take so long to find that it pays.
+bool pays_to_share(const Topology& topology);
+
+}  // namespace trapeze
