@@ -1,5 +1,6 @@
 // The built-in functions that gather light (RISpec 3.2, section 15.6), and those that would ask for rays.
-#include <fmt/format.h>
+#include <cctype>
+#include <string>
 
 #include "shade/vm/context_ops.h"
 #include "shade/vm/light_kernels.h"
@@ -63,8 +64,9 @@ void highlights(Run& run, const Step& step, std::span<const Operand> operands) {
 
 /// Rays that nothing answers yet: black, no distance, nothing in the way.
 void no_ray(Run& run, const Step& step, std::span<const Operand> operands) {
-    run.warn(step, fmt::format("{}() sees nothing yet: its rays miss everything", rsl::op_name(step.op)),
-             fmt::format("rsl-no-rays {}", rsl::op_name(step.op)));
+    std::string function(rsl::op_name(step.op));  // as in RSL but for capitals
+    for (char& c : function) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    run.warn(step, function + "() sees nothing yet: its rays miss everything", "rsl-no-rays " + function);
     const bool open = step.op == Op::Transmission || step.op == Op::Visibility;
     const int width = operands[0].stride ? 3 : 1;
     const float miss = step.op == Op::Trace && width == 1 ? 1e30f : open ? 1.0f : 0.0f;
