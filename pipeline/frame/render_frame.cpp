@@ -20,6 +20,9 @@
 namespace trapeze {
 namespace {
 
+/// The part of a region's progress that is dicing and shading.
+constexpr double kMakingGrids = 0.2;
+
 void check_memory(const RenderContext& context, const Region& region, size_t used, size_t budget) {
     if (used <= budget) return;
     const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
@@ -36,6 +39,37 @@ void run_imager(const Imager& imager, Image& image) {
     tbb::parallel_for(window.y0, window.y1, [&](int y) {
         imager.run(window.x0, y, window.width(), image.rgba.data() + 4 * image.index(window.x0, y));
     });
+}
+
+/// What a frame's regions share.
+struct FrameParts {
+    const RenderContext& context;
+    const Sampler& sampler;
+    const SamplePattern& pattern;
+    size_t memory_budget;  ///< bytes, of a region's grids and tree
+    FrameStats& stats;
+    Progress& progress;
+};
+
+/// Builds what the method needs of a region's grids, and adds what their samples see to the film. Of the
+/// frame's progress these are the steps from `begin` to `end`.
+void sample_region(const FrameParts& frame, const Region& region, const Grids& grids, double begin,
+                   double end, Film& film) {
+    Stopwatch watch;
+    const std::unique_ptr<Visibility> visibility = frame.sampler.prepare(frame.context, grids, frame.pattern);
+    const BuildStats build = visibility->build_stats();
+    FrameStats& stats = frame.stats;
+    stats.seconds.build += watch.lap();
+    stats.build += build;
+    const size_t bytes = grids.bytes() + build.tree_bytes;
+    stats.grid_bytes = std::max<uint64_t>(stats.grid_bytes, grids.bytes());
+    stats.tree_bytes = std::max<uint64_t>(stats.tree_bytes, build.tree_bytes);
+    stats.peak_region_bytes = std::max<uint64_t>(stats.peak_region_bytes, bytes);
+    check_memory(frame.context, region, bytes, frame.memory_budget);
+
+    frame.progress.begin_part(begin, end, tiles_of(region.pixels, visibility->tile_side()).size());
+    resolve_tiles(frame.context, region.pixels, grids, *visibility, frame.pattern, film, stats,
+                  [&frame] { frame.progress.step(); });
 }
 
 }  // namespace
@@ -85,6 +119,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     const std::vector<Region> regions = split_into_regions(
         sampled_pixels(context.camera, context.scene->options), tessellation.subpatches(),
         {budget, settings.regions_at_least, aov_layout(context.scene->options).channel_count});
+    const FrameParts parts{context, *sampler, *pattern, budget, stats, progress};
     std::optional<Film> film;
     const FrameStats before = stats;
     // Again from the start, when a shader is found to be endless: its limits are others then.
@@ -95,7 +130,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
         const Region& region = regions[r];
         const double begin = static_cast<double>(r) / regions.size(),
                      end = static_cast<double>(r + 1) / regions.size();
-        progress.begin_part(begin, begin + 0.2 * (end - begin), region.subpatches.size());
+        progress.begin_part(begin, begin + kMakingGrids * (end - begin), region.subpatches.size());
         const Grids grids = make_grids(context, region, tessellation, shading, stats, progress);
         if (shading.found_endless_loops()) {
             begin_film();
@@ -103,22 +138,8 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
             continue;
         }
 
-        watch.lap();
         if (context.is_cancelled()) break;
-        const std::unique_ptr<Visibility> visibility = sampler->prepare(context, grids, *pattern);
-        const BuildStats build = visibility->build_stats();
-        stats.seconds.build += watch.lap();
-        stats.build += build;
-        stats.grid_bytes = std::max<uint64_t>(stats.grid_bytes, grids.bytes());
-        stats.tree_bytes = std::max<uint64_t>(stats.tree_bytes, build.tree_bytes);
-        stats.peak_region_bytes =
-            std::max<uint64_t>(stats.peak_region_bytes, grids.bytes() + build.tree_bytes);
-        check_memory(context, region, grids.bytes() + build.tree_bytes, budget);
-
-        progress.begin_part(begin + 0.2 * (end - begin), end,
-                            tiles_of(region.pixels, visibility->tile_side()).size());
-        resolve_tiles(context, region.pixels, grids, *visibility, *pattern, *film, stats,
-                      [&progress] { progress.step(); });
+        sample_region(parts, region, grids, begin + kMakingGrids * (end - begin), end, *film);
         ++r;
     }
     if (context.is_cancelled()) return {};
