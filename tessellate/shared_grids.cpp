@@ -16,7 +16,9 @@ struct KnownPoints {
     std::vector<V3f> P, dPdu, dPdv;  ///< derivatives may be empty: not wanted
 
     size_t bytes() const {
-        return sizeof(*this) + uv.size() * sizeof(V2f) + (P.size() + dPdu.size() + dPdv.size()) * sizeof(V3f);
+        constexpr size_t kOfTheTable = 128;  // and of allocations, about
+        return kOfTheTable + sizeof(*this) + uv.size() * sizeof(V2f) +
+               (P.size() + dPdu.size() + dPdv.size()) * sizeof(V3f);
     }
     bool are(int other_face, std::span<const V2f> other_uv, int other_key, bool derivatives) const {
         return face == other_face && shape_key == other_key && derivatives == !dPdu.empty() &&
@@ -66,8 +68,7 @@ class SharedGrids final : public Surface {
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override {
         const bool derivatives = !dPdu.empty();
-        // Single points, of borders and measures, would fill the memory.
-        if (uv.size() < kFewestPoints || derivatives != !dPdv.empty()) {
+        if (uv.empty() || derivatives != !dPdv.empty()) {
             surface_->evaluate(face, uv, shape_key, scratch, P, dPdu, dPdv);
             return;
         }
@@ -93,7 +94,7 @@ class SharedGrids final : public Surface {
     }
 
   private:
-    static constexpr size_t kFewestPoints = 4, kShelves = 64;
+    static constexpr size_t kShelves = 64;
 
     struct Shelf {
         std::mutex mutex;

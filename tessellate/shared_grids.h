@@ -1,7 +1,7 @@
-/// Instances share what they dice alike: the grids in object space. The same shape elsewhere under the camera
-/// that is diced at the same rates there (at much the same distance, or everywhere with an orthographic
-/// camera) has the same points, and takes them from its neighbour; what the camera changes, and shading, is
-/// each instance's own.
+/// Instances share what they dice alike: grids in object space, and the points that measure edges. The same
+/// shape elsewhere under the camera that is diced at the same rates there (at much the same distance, or
+/// everywhere with an orthographic camera) has the same points, and takes them from its neighbour; what the
+/// camera changes, and shading, is each instance's own.
 #pragma once
 
 #include <atomic>
