@@ -120,6 +120,13 @@ std::array<Coordinate, 3> triple_values(Run& run, const Step& step, std::span<co
     return values;
 }
 
+/// Of a picture that cannot be read. White leaves a surface its own colour, and a light its own; what is
+/// displaced by a picture stays where it is, and no name is no picture.
+float stand_in(const vm::Frame& frame, const Step& step) {
+    return frame.text_input(step, 0).empty() || frame.program().kind == rsl::ShaderKind::Displacement ? 0.0f
+                                                                                                      : 1.0f;
+}
+
 }  // namespace
 
 void MapService::look_up(Run& run, const Step& step, std::span<const Operand> operands) {
@@ -143,8 +150,10 @@ void MapService::texture(Run& run, const Step& step, std::span<const Operand> op
     const auto [s, t] = map_place(run, operands, step.outputs + 2u, step.immediate >= 8);
     const Textures::Picture* picture = textures_.find(run.frame().text_input(step, 0), step.at);
     const std::vector<Plane> out = outputs_of(run, operands[0]);
-    textures_.texture(picture, {s.middle, t.middle, s.along_u, t.along_u, s.along_v, t.along_v},
-                      options_of(run, step, operands), lanes_of(run), out);
+    MapOptions options = options_of(run, step, operands);
+    options.without = stand_in(run.frame(), step);
+    textures_.texture(picture, {s.middle, t.middle, s.along_u, t.along_u, s.along_v, t.along_v}, options,
+                      lanes_of(run), out);
 }
 
 /// What to add to a normal N: with heights F over s and t, the surface P + F N / |N| has the normal

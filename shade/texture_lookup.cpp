@@ -24,10 +24,10 @@ OIIO::TextureOpt lookup_options(const Textures::Picture& picture, const MapOptio
 }
 
 /// In wanted lanes.
-void clear(const Lanes& lanes, std::span<const Plane> out) {
+void set_all(const Lanes& lanes, std::span<const Plane> out, float value) {
     for (const Plane& plane : out) {
         for (size_t i = 0; i < lanes.count; ++i)
-            if (map_lanes::is_on(lanes, i)) plane[i] = 0;
+            if (map_lanes::is_on(lanes, i)) plane[i] = value;
         map_lanes::pad(lanes, plane);
     }
 }
@@ -37,7 +37,7 @@ void clear(const Lanes& lanes, std::span<const Plane> out) {
 template <class LookUp>
 void Textures::Impl::each_lane(const Picture* picture, const MapOptions& options, const Lanes& lanes,
                                std::span<const Plane> out, LookUp&& look_up) {
-    if (!picture) return clear(lanes, out);
+    if (!picture) return set_all(lanes, out, options.without);
     const int channels = static_cast<int>(std::min<size_t>(out.size(), 3));
     const ThreadState thread(*this);
     OIIO::TextureOpt made = lookup_options(*picture, options);

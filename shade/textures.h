@@ -35,6 +35,7 @@ struct MapOptions {
     float sblur = 0, tblur = 0;    ///< added to the filtered region, as a part of the picture
     float swidth = 1, twidth = 1;  ///< what the region is multiplied by
     float fill = 0;                ///< of channels that the file does not have
+    float without = 0;             ///< what texture() gives where there is no picture
     bool lerp = true;              ///< between two resolutions of the picture
     Filter filter = Filter::Smooth;
     int first_channel = 0;
@@ -92,7 +93,8 @@ class Textures {
     struct Lookup {
         ConstPlane s, t, dsdu, dtdu, dsdv, dtdv;
     };
-    /// `out` are 1 or 3 planes; as three, pictures of one channel are grey. A null picture gives 0.
+    /// `out` are 1 or 3 planes; as three, pictures of one channel are grey. A null picture
+    /// gives options.without.
     void texture(const Picture* picture, const Lookup& at, const MapOptions& options, Lanes lanes,
                  std::span<const Plane> out) const;
 
