@@ -48,6 +48,17 @@ class Given {
         return found->floats[0];
     }
 
+    /// The depth map of its shadows; empty if there is none, or if the renderer was to make them.
+    std::string shadow_map() const {
+        for (const std::string_view name :
+             {"shadowname", "shadname", "shadowmap", "shadowmapname", "shadowfile"})
+            for (const Parameter& parameter : instance_.parameters.values)
+                if (plain(parameter.name) == name && parameter.strings.size() == 1 &&
+                    parameter.strings[0] != "raytrace" && parameter.strings[0] != "autoshadow")
+                    return parameter.strings[0];
+        return {};
+    }
+
   private:
     const ShaderInstance& instance_;
 };
@@ -58,7 +69,7 @@ Kind kind_of(std::string_view name, const Given& given) {
     if (has_any(name, {"ambient", "environment", "envlight", "occl", "indirect", "dome", "sky", "image"}))
         return Kind::Ambient;
     if (has_any(name, {"distant", "direction", "infinite", "parallel", "sun", "solar"})) return Kind::Distant;
-    if (has_any(name, {"spot", "cone", "projector", "slide"}) || given.number({"coneangle"}))
+    if (has_any(name, {"spot", "cone", "projector", "slide"}) || given.number({"coneangle", "hotspot"}))
         return Kind::Spot;
     if (has_any(name, {"point", "omni", "area", "bulb"})) return Kind::Point;
     return given.find({"from"}, 3) && given.find({"to"}, 3) ? Kind::Distant : Kind::Point;
@@ -77,6 +88,10 @@ class Maker {
     }
     void set(const char* name, ValueType type, std::vector<float> values) {
         made_.parameters.set({name, {StorageClass::Uniform, type, 1}, std::move(values), {}});
+    }
+    void set_shadow_map(const std::string& file) {
+        if (!file.empty())
+            made_.parameters.set({"shadowname", {StorageClass::Uniform, ValueType::String, 1}, {}, {file}});
     }
     ShaderInstance made() && { return std::move(made_); }
 
@@ -102,15 +117,18 @@ float half_cone(float angle) {
 ShaderInstance stand_in_light(const ShaderInstance& missing) {
     const Given given(missing);
     const Kind kind = kind_of(plain(missing.name), given);
+    const std::string shadow_map = given.shadow_map();
     const char* const name = kind == Kind::Ambient   ? "ambientlight"
-                             : kind == Kind::Distant ? "distantlight"
-                                                     : "standinlight";
+                             : kind != Kind::Distant ? "standinlight"
+                             : shadow_map.empty()    ? "distantlight"
+                                                     : "shadowdistant";
     Maker maker(missing, name);
     maker.take("intensity", {"intensity", "lightintensity", "energy"}, ValueType::Float);
     maker.take("lightcolor", {"lightcolor", "lightcolour", "color", "colour", "cl"}, ValueType::Color);
     if (kind == Kind::Ambient) return std::move(maker).made();
     maker.take("from", {"from"}, ValueType::Point);
     maker.take("to", {"to"}, ValueType::Point);
+    maker.set_shadow_map(shadow_map);
     if (kind == Kind::Distant) return std::move(maker).made();
     maker.set("falloff", ValueType::Float, {falloff(plain(missing.name), given)});
     if (kind == Kind::Point) return std::move(maker).made();
@@ -119,6 +137,13 @@ ShaderInstance stand_in_light(const ShaderInstance& missing) {
         maker.set("coneangle", ValueType::Float, {half_cone(*angle)});
         maker.set("conedeltaangle", ValueType::Float,
                   {half_cone(given.number({"conedeltaangle"}).value_or(*angle / 8))});
+    }
+    // Of 3D Studio Max: whole cones in degrees.
+    const auto inner = given.number({"hotspot"}), outer = given.number({"falloff"});
+    if (inner && outer && *outer > 4) {
+        constexpr float kHalfDegree = std::numbers::pi_v<float> / 360;
+        maker.set("coneangle", ValueType::Float, {*outer * kHalfDegree});
+        maker.set("conedeltaangle", ValueType::Float, {std::max(*outer - *inner, 0.0f) * kHalfDegree});
     }
     maker.take("beamdistribution", {"beamdistribution"}, ValueType::Float);
     return std::move(maker).made();

@@ -34,12 +34,36 @@ TEST(StandInLight, SoDoTheParameters) {
     EXPECT_NEAR(number_of(stand_in_light(shader("key", {number("coneangle", 0.5f)})), "coneangle"), 0.5f, 0);
 }
 
+TEST(StandInLight, HotspotAndFalloffAreWholeConesInDegrees) {
+    const ShaderInstance light =
+        stand_in_light(shader("lamp", {number("hotspot", 36), number("falloff", 60)}));
+    EXPECT_EQ(number_of(light, "spot"), 1);
+    EXPECT_NEAR(number_of(light, "coneangle"), 0.523599f, 1e-5f);       // 30 degrees
+    EXPECT_NEAR(number_of(light, "conedeltaangle"), 0.209440f, 1e-5f);  // 12 degrees
+    EXPECT_EQ(number_of(light, "falloff"), 0);
+}
+
 TEST(StandInLight, ExportersHaveNamesOfTheirOwnForPowerAndColour) {
     const ShaderInstance light =
         stand_in_light(shader("lamp", {number("Energy", 3), color("cl", {1, 0.5f, 0})}));
     EXPECT_EQ(number_of(light, "intensity"), 3);
     ASSERT_TRUE(light.parameters.find("lightcolor"));
     EXPECT_EQ(light.parameters.find("lightcolor")->floats, (std::vector<float>{1, 0.5f, 0}));
+}
+
+TEST(StandInLight, ShadowMapsAreTakenOver) {
+    const auto map_of = [](const ShaderInstance& light) {
+        const Parameter* map = light.parameters.find("shadowname");
+        return map ? map->strings.at(0) : "none";
+    };
+    EXPECT_EQ(map_of(stand_in_light(shader("liquidspot", {text("shadowname", "a.shd")}))), "a.shd");
+    EXPECT_EQ(map_of(stand_in_light(shader("MOSAIClight", {text("__shadowname", "a.shd")}))), "a.shd");
+    const ShaderInstance far = stand_in_light(
+        shader("key", {point("from", V3f(1, 2, 3)), point("to", V3f(0)), text("shadname", "a.shd")}));
+    EXPECT_EQ(far.name, "shadowdistant");
+    EXPECT_EQ(map_of(far), "a.shd");
+    EXPECT_EQ(map_of(stand_in_light(shader("spot", {text("shadowname", "raytrace")}))), "none");
+    EXPECT_EQ(map_of(stand_in_light(shader("spot", {text("shadowname", "")}))), "none");
 }
 
 TEST(StandInLight, LargeIntensitiesFadeWithTheDistanceUnlessToldOtherwise) {
