@@ -130,4 +130,12 @@ void OutputFile::remove_partials() {
     partials().paths.clear();
 }
 
+void make_folder_of(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path().lexically_normal();
+    const bool is_drive = path.size() > 1 && path[1] == ':';
+    if (folder.empty() || folder.is_absolute() || is_drive || *folder.begin() == "..") return;
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+}
+
 }  // namespace trapeze

@@ -42,4 +42,8 @@ class OutputFile {
     std::string error_;
 };
 
+/// Scenes name folders that were made by hand where they come from: those below the working folder are made.
+/// Others, which could be anywhere, are not. What is wrong is said when the file is written.
+void make_folder_of(const std::string& path);
+
 }  // namespace trapeze

@@ -2,28 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "composite/image_output.h"
 #include "composite/open_exr_output.h"
 #include "composite/output_file.h"
 
 namespace trapeze {
-namespace {
-
-namespace fs = std::filesystem;
-
-/// Scenes name folders that were made by hand where they come from: those below the working folder are made.
-/// Others, which could be anywhere, are not.
-void make_folder_of(const std::string& path) {
-    const fs::path folder = fs::path(path).parent_path().lexically_normal();
-    const bool is_drive = path.size() > 1 && path[1] == ':';
-    if (folder.empty() || folder.is_absolute() || is_drive || *folder.begin() == "..") return;
-    std::error_code failed;  // what is wrong is said when the file is written
-    fs::create_directories(folder, failed);
-}
-
-}  // namespace
 
 bool write_displays(const Image& image, const RenderContext& context, const OutputInfo& info,
                     std::vector<std::string>* written) {

@@ -39,6 +39,21 @@ Polygon "P" [-3 -3 10  3 -3 10  3 3 10  -3 3 10]
 Polygon "P" [-1 0 6  0 0 6  0 1 6  -1 1 6]
 )";
 
+TEST(Passes, MakeTheFoldersOfTheirMaps) {
+    WorkFolder folder;
+    folder.write("a.rib", std::string(kCamera) + R"(
+Display "./cache/light.z" "zfile" "z"
+WorldBegin
+)" + kWallAndSquare + R"(
+WorldEnd
+MakeShadow "./cache/light.z" "./maps/light.shd"
+MakeShadow "missing.z" "./none/light.shd"
+)");
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "maps/light.shd")) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
 /// Light along (1/2, 0, 1): the square's shadow lies two units to the right of it.
 class ShadowPasses : public ::testing::TestWithParam<std::string> {};
 

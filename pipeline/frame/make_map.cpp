@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "composite/output_file.h"
 #include "shade/make_maps.h"
 
 namespace trapeze {
@@ -46,6 +47,8 @@ std::string made(const MapRequest& request, const std::vector<std::string>& pict
 void make_map(const MapRequest& request, Diagnostics& diagnostics) {
     std::vector<std::string> pictures;
     for (const std::string& name : request.pictures) pictures.push_back(found_picture(name, request.folders));
+    std::error_code ignored;
+    if (fs::is_regular_file(pictures[0], ignored)) make_folder_of(request.map);
     const std::string problem = made(request, pictures);
     if (problem.empty()) return;
     diagnostics.error(request.location, fmt::format("cannot make \"{}\" from \"{}\": {}", request.map,
