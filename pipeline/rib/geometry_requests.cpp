@@ -1,6 +1,7 @@
 /// RISpec 5.6: Geometry, shapes that the renderer knows by name.
 #include "pipeline/rib/primitive_variables.h"
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/ris_lights.h"
 #include "pipeline/rib/teapot.h"
 
 namespace trapeze::rib {
@@ -68,7 +69,8 @@ void geometry(Reader& r, ArgumentCursor& c) {
     if (name == "sphere") return sphere(r, given);
     if (name == "cube") return cube(r, given);
     if (name == "rectlight") return rectangle(r, given);
-    if (name == "envsphere" || name == "distantlight") return;  // lights that are too far away to be seen
+    if (name == "envsphere") return r.place_far_emitter(FarShape::Dome);
+    if (name == "distantlight") return r.place_far_emitter(FarShape::Direction);
     r.warn_once("no geometry " + in_quotes(name) + "; known are teapot, sphere, cube and rectlight",
                 "geometry-" + name);
 }

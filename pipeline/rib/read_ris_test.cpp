@@ -127,6 +127,30 @@ TEST(ReadRis, DomesAreAmbientAndShineFromAboveAndTheEye) {
     EXPECT_EQ(numbers(lights[1]->shader, "to"), (std::vector<float>{0, 0, -1}));
 }
 
+TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
+    const Outcome dome = read_world(
+        "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"float exposure\" [1]\n"
+        "Scale 2 2 2 Geometry \"envsphere\" AttributeEnd\n"
+        "Bxdf \"PxrDiffuse\" \"b\"\n" +
+        kBall);
+    const auto& lights = dome.attributes().lights;
+    ASSERT_EQ(lights.size(), 3u);
+    EXPECT_EQ(lights[0]->shader.name, "ambientlight");
+    EXPECT_EQ(numbers(lights[0]->shader, "lightcolor"), (std::vector<float>{0.6f, 0.6f, 0.6f}));
+    EXPECT_EQ(lights[1]->shader.name, "distantlight");
+
+    const Outcome sun = read_world(
+        "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"color lightColor\" [1 .5 0]\n"
+        "Geometry \"distantlight\" AttributeEnd\n"
+        "Bxdf \"PxrDiffuse\" \"b\"\n" +
+        kBall);
+    ASSERT_EQ(sun.attributes().lights.size(), 1u);
+    const ShaderInstance& light = sun.attributes().lights[0]->shader;
+    EXPECT_EQ(light.name, "distantlight");
+    EXPECT_EQ(numbers(light, "lightcolor"), (std::vector<float>{1, 0.5f, 0}));
+    EXPECT_EQ(numbers(light, "to"), (std::vector<float>{0, 0, 1}));
+}
+
 /// The light of older versions, and its geometry: a square at (3, 2, 0) in the plane y = 2.
 TEST(ReadRis, AreaLightsShineFromTheirGeometry) {
     const Outcome r = read_world(

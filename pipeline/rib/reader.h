@@ -20,6 +20,7 @@ namespace trapeze::rib {
 enum class Undeclared { LeaveOut, Guess, ShaderKnows };
 
 struct Request;
+enum class FarShape;
 
 class Reader {
   public:
@@ -84,6 +85,8 @@ class Reader {
     void add_light(std::shared_ptr<const LightInstance> light);
     /// One that shines on all of the world, or on where its object is placed (RIS).
     void add_world_light(std::shared_ptr<const LightInstance> light);
+    /// Geometry too far away to be seen, for the light that waits for its shape, if one does.
+    void place_far_emitter(FarShape shape);
     std::shared_ptr<const LightInstance> light(const std::string& handle) const;
     /// The name of a shader, placed in the current space; its other arguments are still to come.
     ShaderInstance shader(ArgumentCursor& cursor, const char* kind);

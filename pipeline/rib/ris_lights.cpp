@@ -44,6 +44,15 @@ std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderIn
     return light;
 }
 
+std::vector<std::shared_ptr<LightInstance>> dome(const std::string& handle, const ShaderInstance& from,
+                                                 const V3f& radiance) {
+    ShaderInstance eye = from;
+    eye.camera_from_shader = M44f();
+    return {make(handle, from, "ambientlight", radiance * kDomeAmbient),
+            distant(handle, from, radiance * kDomeAbove, V3f(0, 0, -1)),  // domes have their zenith at +z
+            distant(handle, eye, radiance * kDomeEye, V3f(0, 0, 1))};
+}
+
 std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderInstance& from,
                                         const RisParameters& p, const char* shape) {
     auto light = make(handle, from, "rislight", power(p));
@@ -134,6 +143,18 @@ void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& came
     set_number(light.shader, "twosided", 1);
 }
 
+std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& light, FarShape shape,
+                                                       const M44f& camera_from_shape) {
+    ShaderInstance from = light.shader;
+    from.camera_from_shader = camera_from_shape;
+    const Parameter* color = from.parameters.find("lightcolor");
+    const V3f radiance = color && color->floats.size() == 3
+                             ? V3f(color->floats[0], color->floats[1], color->floats[2])
+                             : V3f(1, 1, 1);
+    if (shape == FarShape::Dome) return dome(light.handle, from, radiance);
+    return {distant(light.handle, from, radiance, V3f(0, 0, 1))};
+}
+
 V3f middle_of(const Shape& shape) {
     const Box box = box_of(shape);
     return (box.low + box.high) * 0.5f;
@@ -145,12 +166,8 @@ std::vector<std::shared_ptr<const LightInstance>> ris_lights(const std::string& 
     const std::string_view name = shader.name;
     if (contains(name, "Distant")) return {distant(handle, shader, power(p), V3f(0, 0, 1))};
     if (contains(name, "Dome") || contains(name, "Env")) {
-        ShaderInstance eye = shader;
-        eye.camera_from_shader = M44f();
-        return {
-            make(handle, shader, "ambientlight", power(p) * kDomeAmbient),
-            distant(handle, shader, power(p) * kDomeAbove, V3f(0, 0, -1)),  // domes have their zenith at +z
-            distant(handle, eye, power(p) * kDomeEye, V3f(0, 0, 1))};
+        const auto lights = dome(handle, shader, power(p));
+        return {lights.begin(), lights.end()};
     }
     const char* const shape = contains(name, "Rect") || contains(name, "Portal") ? "rect"
                               : contains(name, "Disk")                           ? "disk"

@@ -36,6 +36,12 @@ std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const Shade
 /// Of a mesh light: the shape, in the space that camera_from_shape is from.
 void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape);
 
+/// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. The first is
+/// to take the place of `light`.
+enum class FarShape { Dome, Direction };
+std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& light, FarShape shape,
+                                                       const M44f& camera_from_shape);
+
 /// Of the box about the shape, in its space.
 V3f middle_of(const Shape& shape);
 

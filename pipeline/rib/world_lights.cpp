@@ -58,6 +58,14 @@ void Reader::place_emitter(const Shape& shape) {
             with_origin(shader.camera_from_shader, middle_of(shape), camera_from_current());
 }
 
+void Reader::place_far_emitter(FarShape shape) {
+    Emitter* const emitter = state_.attributes->emitter.get();
+    if (!emitter || !emitter->is_of_ris || std::exchange(emitter->is_placed, true)) return;
+    const auto lights = far_lights(*emitter->light, shape, camera_from_current());
+    *emitter->light = *lights.front();
+    for (size_t i = 1; i < lights.size(); ++i) add_world_light(lights[i]);
+}
+
 /// Area lights whose block ended, and that no Illuminate ever named, would shine on themselves alone: they
 /// are of files for renderers in which what shines is seen by all.
 void Reader::add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights) {
