@@ -54,6 +54,20 @@ MakeShadow "missing.z" "./none/light.shd"
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST(Passes, AnEmptyWorldWithoutADisplayIsNoPicture) {
+    WorkFolder folder;
+    folder.write("a.rib", "WorldBegin WorldEnd\n" + std::string(kCamera) + R"(
+Display "seen.exr" "openexr" "rgba"
+WorldBegin
+)" + kWallAndSquare + R"(
+WorldEnd
+)");
+    const Outcome outcome = run_program(folder, "render a.rib -o out.exr");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.2.exr"));
+    EXPECT_EQ(Picture(folder / "out.exr").at(1.5f, 1.5f, 3), 1) << "the wall covers all";
+}
+
 /// Light along (1/2, 0, 1): the square's shadow lies two units to the right of it.
 class ShadowPasses : public ::testing::TestWithParam<std::string> {};
 

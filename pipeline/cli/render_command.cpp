@@ -124,6 +124,8 @@ void RenderJob::render_world(Scene&& scene) {
     Stopwatch watch;
     const double read_seconds = total_.elapsed() - render_seconds_;
     ++worlds_;
+    // Nothing, to be shown nowhere: the next picture takes its place.
+    const bool is_nothing = scene.primitives.empty() && scene.options.displays.empty();
     if (!is_shadow_pass(scene.options)) {
         ++pictures_;
         override_options(scene.options);
@@ -156,6 +158,7 @@ void RenderJob::render_world(Scene&& scene) {
         last_read_seconds_ = read_seconds;
         frames_.push_back(stats);
     }
+    if (is_nothing) --pictures_;
     render_seconds_ += watch.lap();
 }
 
