@@ -188,12 +188,18 @@ class Evaluator {
         if (value.is_undefined()) undefined.push_back(asked);
         return value;
     }
+    /// A backslash before the quote makes it a part of the string.
     ConditionValue quoted(char quote) {
-        const size_t end = text_.find(quote, next_ + 1);
-        if (end == std::string_view::npos) throw Problem{"the string at " + place() + " is never closed"};
-        ConditionValue value{{}, std::string(text_.substr(next_ + 1, end - next_ - 1))};
-        next_ = end + 1;
-        return value;
+        ConditionValue value{{}, std::string()};
+        for (size_t at = next_ + 1; at < text_.size(); ++at) {
+            if (text_[at] == quote) {
+                next_ = at + 1;
+                return value;
+            }
+            if (text_[at] == '\\' && at + 1 < text_.size() && text_[at + 1] == quote) ++at;
+            *value.text += text_[at];
+        }
+        throw Problem{"the string at " + place() + " is never closed"};
     }
     ConditionValue literal() {
         double value = 0;

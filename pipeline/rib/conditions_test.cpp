@@ -39,6 +39,8 @@ TEST(Conditions, TextsCompare) {
     EXPECT_TRUE(holds("${Option:user:mode} == \"bake\""));
     EXPECT_TRUE(holds("$user:pass == beauty"));
     EXPECT_TRUE(holds("'a' < 'b'"));
+    EXPECT_TRUE(holds(R"('it\'s' == "it's")"));
+    EXPECT_TRUE(holds(R"('c:\maps' < 'd')"));
 }
 
 TEST(Conditions, NumbersCompareAndAreReckonedWith) {
