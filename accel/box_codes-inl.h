@@ -33,7 +33,7 @@ HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int seg
     const auto boxes = static_cast<size_t>(grid.box_count());
     for (int end = 0; end < (kMoves ? 2 : 1); ++end) {
         const uint8_t* codes = tree.box_codes(grid, segment + end);
-        const FrameBounds whole = tree.frame_bounds(grid, segment + end);
+        const KeyBounds whole = tree.frame_bounds(grid, segment + end);
         float* rows = out.row[6 * end];
         for (size_t k = 0; k < 3; ++k) {
             const CodeScale scale(whole.low[k], whole.high[k]);

@@ -17,9 +17,9 @@ struct BoxPlanes {
     const float* planes() const { return row[0]; }  ///< one after another, kMost apart
 };
 
-/// A grid's box at a key: the ends along x, y, z of camera space, then along the axes of the grid's frame.
+/// A grid's box at a key.
 struct KeyBounds {
-    float low[6], high[6];
+    float low[3], high[3];
 };
 
 /// From codes to planes along an axis.

@@ -40,8 +40,9 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace bundle_detail;
 
-/// Grids are fetched so many before their turn.
-constexpr size_t kPrefetchAhead = 4;
+/// Grids are fetched so many before their turn, and their bounds, which the record tells where to find, so
+/// many.
+constexpr size_t kPrefetchAhead = 8, kPrefetchBoundsAhead = 4;
 /// And with each so many rays of the next bundle.
 constexpr size_t kRaysWithGrid = 128;
 
@@ -71,8 +72,7 @@ class BundleTrace {
         for (size_t i = 0; i < candidates.size(); ++i) {
             const Candidate candidate = candidate_of(candidates[i]);
             if (candidate.depth > t_.farthest_depth) continue;
-            if (i + kPrefetchAhead < candidates.size())
-                prefetch(candidate_of(candidates[i + kPrefetchAhead]).grid);
+            prefetch_grids(i);
             prefetch_coming();
             visit_grid(candidate);
         }
@@ -81,13 +81,16 @@ class BundleTrace {
     }
 
   private:
-    void prefetch(uint32_t grid) const {
-        const char* record = reinterpret_cast<const char*>(&t_.tree.grid(grid));
-        __builtin_prefetch(record);
-        __builtin_prefetch(record + 64);
-        const char* box = reinterpret_cast<const char*>(&t_.tree.grid_box(grid));
-        __builtin_prefetch(box);
-        __builtin_prefetch(box + sizeof(MovingBox) - 1);
+    /// For candidates that come after one.
+    void prefetch_grids(size_t candidate) const {
+        const auto& all = t_.scratch.candidates;
+        if (candidate + kPrefetchAhead < all.size())
+            __builtin_prefetch(&t_.tree.grid(candidate_of(all[candidate + kPrefetchAhead]).grid));
+        if (candidate + kPrefetchBoundsAhead < all.size()) {
+            const WideGrid& grid = t_.tree.grid(candidate_of(all[candidate + kPrefetchBoundsAhead]).grid);
+            __builtin_prefetch(t_.tree.key_words(grid, 0));
+            if (grid.moves()) __builtin_prefetch(t_.tree.key_words(grid, 1));
+        }
     }
 
     /// Rays lie in memory pixel by pixel, and a bundle takes some of each: without this, their way from the
@@ -155,25 +158,20 @@ class BundleTrace {
             return;
         }
         if (!grid.moves()) {
-            visit_segment<false>(candidate, grid, 0, {t_.tree.grid_box(candidate.grid), grid.framed});
+            visit_segment<false>(candidate, grid, 0);
             return;
         }
         if constexpr (kMotion) {
-            if (!grid.has_segments()) {
-                visit_segment<true>(candidate, grid, 0, {t_.tree.grid_box(candidate.grid), grid.framed});
-                return;
-            }
             const int first = segment_at(t_.first_time, grid.key_count).index;
             const int last = segment_at(t_.last_time, grid.key_count).index;
             for (int segment = first; segment <= last; ++segment)
-                visit_segment<true>(candidate, grid, segment, t_.tree.segment_bounds(grid, segment));
+                visit_segment<true>(candidate, grid, segment);
         }
     }
 
     template <bool kMoves>
-    void visit_segment(const Candidate& candidate, const WideGrid& grid, int segment,
-                       const SegmentBounds& bounds) {
-        collect_active<kMoves, kLens>(t_, bounds, grid, segment, candidate);
+    void visit_segment(const Candidate& candidate, const WideGrid& grid, int segment) {
+        collect_active<kMoves, kLens>(t_, t_.tree.segment_bounds(grid, segment), grid, segment, candidate);
         test_active<kMoves, kLens>(t_, candidate.grid, grid, segment, candidate.depth);
         if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion, kLens>(t_);
     }

@@ -272,7 +272,7 @@ void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segme
     t.stats.nodes_visited += active.count * static_cast<size_t>(boxes);
     uint32_t some = active.count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)
                                                : meet_boxes<kMoves, kLens>(t, planes, boxes);
-    const float rounding = t.tree.rounding(absolute_max(t.tree.grid_box(index)));
+    const float rounding = t.tree.rounding(absolute_max(t.tree.grid_box(grid)));
     const size_t bytes = (active.count + kLanes - 1) / kLanes * kMaskBytes;
     bool tested = false;
     for (; some != 0; some &= some - 1) {

@@ -65,10 +65,10 @@ HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) 
 template <bool kMoves>
 HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int segment) {
     constexpr size_t kLine = 64;
-    const size_t bytes = grid.code_words() * 4 * (kMoves ? 2 : 1);
-    const uint8_t* codes = t.tree.box_codes(grid, segment);
-    for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(codes + i);
-    __builtin_prefetch(codes + bytes - 1);
+    const size_t bytes = grid.key_words() * 4 * (kMoves ? 2 : 1);
+    const char* words = reinterpret_cast<const char*>(t.tree.key_words(grid, segment));
+    for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(words + i);
+    __builtin_prefetch(words + bytes - 1);
 }
 
 template <bool kMoves, bool kLens>

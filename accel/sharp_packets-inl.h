@@ -174,7 +174,7 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
 /// Packets whose intervals meet the grid's axis-aligned box, one by one as they lie.
 inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGrid& grid) {
     const F32 d;
-    const MovingBox& box = t.tree.grid_box(candidate.grid);
+    const MovingBox box = t.tree.grid_box(grid);
     VF low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
     bool nearer = false, decoded = false;

@@ -170,9 +170,9 @@ void join_blocks(const WideGrid& record, BlockBoxes& boxes) {
         }
 }
 
-/// Boxes at a key, grown, in the layout of WideGrid::code_words().
-void write_key(const WideGrid& record, const FrameBounds& whole, const BlockBoxes& boxes, float grow,
-               uint8_t* out) {
+/// Codes of the boxes at a key, grown.
+void write_codes(const WideGrid& record, const KeyBounds& whole, const BlockBoxes& boxes, float grow,
+                 uint8_t* out) {
     const int count = record.box_count();
     for (int k = 0; k < 3; ++k) {
         const CodeScale scale(whole.low[k], whole.high[k]);
@@ -184,19 +184,22 @@ void write_key(const WideGrid& record, const FrameBounds& whole, const BlockBoxe
     }
 }
 
-/// All keys' boxes and, where there are segments, bounds; `grow` as all bounds, `whole_grow` for what holds
-/// the planes of codes.
+/// What a grid has at its keys, as WideGrid::key_words() tells; `grow` as all bounds, `whole_grow` for what
+/// holds the planes of codes.
 void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes* keys, float grow,
                 float whole_grow, uint32_t* out) {
-    for (int key = 0; key < record.key_count; ++key, out += record.code_words()) {
-        KeyBounds bounds;
-        for (int k = 0; k < 6; ++k)
-            bounds.low[k] = wholes[key].low[k] - whole_grow,
-            bounds.high[k] = wholes[key].high[k] + whole_grow;
-        write_key(record, record.has_segments() ? framed_at(bounds) : framed_at(record, key), keys[key], grow,
-                  reinterpret_cast<uint8_t*>(out));
-        if (record.has_segments())
-            std::memcpy(out + record.code_words() - sizeof(bounds) / 4, &bounds, sizeof(bounds));
+    for (int key = 0; key < record.key_count; ++key, out += record.key_words()) {
+        const auto bounds_from = [&](int first) {
+            KeyBounds bounds;
+            for (int k = 0; k < 3; ++k)
+                bounds.low[k] = wholes[key].low[first + k] - whole_grow,
+                bounds.high[k] = wholes[key].high[first + k] + whole_grow;
+            return bounds;
+        };
+        const KeyBounds framed = bounds_from(3), aligned = bounds_from(0);
+        std::memcpy(out, &framed, sizeof(framed));
+        if (record.has_segments()) std::memcpy(out + sizeof(framed) / 4, &aligned, sizeof(aligned));
+        write_codes(record, framed, keys[key], grow, reinterpret_cast<uint8_t*>(out + record.bounds_words()));
     }
 }
 
@@ -216,7 +219,7 @@ void bound_extents(const WideGrid& record, const BlockBoxes* keys, float extent[
 
 }  // namespace
 
-void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint32_t* codes,
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint32_t* keys,
                 GridExtent& extent) {
     Frame frame = frame_of_grid(grid);
     for (int k = 0; k < 3; ++k)
@@ -248,21 +251,17 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uin
         line_around(wholes, grid.key_count, true, k, low);
         line_around(wholes, grid.key_count, false, k, high);
         for (int end = 0; end < 2; ++end) {
-            extent.box.low[end][k] = low[end] - grow;
-            extent.box.high[end][k] = high[end] + grow;
+            extent.box.at[end].low[k] = low[end] - grow;
+            extent.box.at[end].high[k] = high[end] + grow;
         }
-        line_around(wholes, grid.key_count, true, 3 + k, low);
-        line_around(wholes, grid.key_count, false, 3 + k, high);
-        record.framed.low[k] = low[0] - whole_grow, record.framed.low_delta[k] = low[1] - low[0];
-        record.framed.high[k] = high[0] + whole_grow, record.framed.high_delta[k] = high[1] - high[0];
     }
     float extents[3];
     bound_extents(record, blocks.data(), extents);
     record.slack = extents[2] + grow;
-    record.extent = std::max({extents[0], extents[1], extents[2]}) + grow;
+    extent.largest_micropolygon = std::max({extents[0], extents[1], extents[2]}) + grow;
     if (record.blocks_per_box() > 1)
         for (BlockBoxes& boxes : blocks) join_blocks(record, boxes);
-    write_keys(record, wholes, blocks.data(), code_grow, whole_grow, codes);
+    write_keys(record, wholes, blocks.data(), code_grow, whole_grow, keys);
 }
 
 }  // namespace trapeze

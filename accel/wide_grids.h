@@ -7,19 +7,20 @@ namespace trapeze {
 
 /// A box at both ends of the shutter, linear between.
 struct EndBoxes {
-    float low[2][3], high[2][3];
+    KeyBounds at[2];
 };
 
 /// What the pass finds of a grid besides WideGrid and its block boxes.
 struct GridExtent {
     EndBoxes box;  ///< camera space, grown for rounding; linear in time around all keys
     float absolute_max;
+    float largest_micropolygon;  ///< the extent of the largest along any axis
 };
 
-/// Fills in a grid's record (all but first_code, which is set) and its boxes' codes. `scale` and `base`:
+/// Fills in a grid's record (all but first_word, which is set, and leaf) and what it has at its keys. `scale` and `base`:
 /// bounds grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an absolute_max
 /// of infinity, and boxes that mean nothing.
-void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint32_t* codes,
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint32_t* keys,
                 GridExtent& extent);
 
 }  // namespace trapeze

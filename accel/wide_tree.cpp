@@ -19,15 +19,6 @@ namespace {
 /// Where no ray comes: the boxes of children that are not there.
 constexpr float kNowhere = 1e30f;
 
-MovingBox moving(const EndBoxes& ends) {
-    MovingBox box;
-    for (int k = 0; k < 3; ++k) {
-        box.low[k] = ends.low[0][k], box.low_delta[k] = ends.low[1][k] - ends.low[0][k];
-        box.high[k] = ends.high[0][k], box.high_delta[k] = ends.high[1][k] - ends.high[0][k];
-    }
-    return box;
-}
-
 }  // namespace
 
 WideTree::WideTree(const Grids& grids, const RayReach& reach)
@@ -48,51 +39,42 @@ WideTree::WideTree(const Grids& grids, const RayReach& reach)
         bounded.push_back(i);
         absolute_max_ = std::max(absolute_max_, extents[i].absolute_max);
         max_slack_ = std::max(max_slack_, wide_grids_[i].slack);
-        max_extent_ = std::max(max_extent_, wide_grids_[i].extent);
+        max_extent_ = std::max(max_extent_, extents[i].largest_micropolygon);
     }
     if (!bounded.empty()) write_nodes(build_wide_top(extents, bounded));
     for (const uint32_t grid : bounded) stats_.tree_leaves += wide_grids_[grid].block_count();
     stats_.tree_nodes = nodes_.size() + bounded.size();
-    stats_.tree_bytes = sizeof(*this) + wide_grids_.bytes() + boxes_.bytes() + codes_.bytes() +
-                        nodes_.bytes() + node_motions_.bytes();
+    stats_.tree_bytes =
+        sizeof(*this) + wide_grids_.bytes() + keys_.bytes() + nodes_.bytes() + node_motions_.bytes();
 }
 
 void WideTree::bound_grids(std::vector<GridExtent>& extents) {
     const size_t count = grids_.grids.size();
     wide_grids_.allocate(count);
-    boxes_.allocate(count);
     size_t words = 0;
     for (size_t i = 0; i < count; ++i) {
         const Grid& grid = grids_.grids[i];
         WideGrid& record = wide_grids_[i];
         record.nu = grid.shape.nu, record.nv = grid.shape.nv, record.key_count = grid.key_count;
-        record.first_code = static_cast<uint32_t>(words);
-        words += record.code_words() * record.key_count;
+        record.first_word = static_cast<uint32_t>(words);
+        words += record.key_words() * record.key_count;
     }
-    codes_.allocate(words);
+    keys_.allocate(words);
     constexpr size_t kGrain = 32;
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kGrain), [&](const auto& range) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
             WideGrid& record = wide_grids_[i];
             bound_grid(grids_.grids[i], rounding_scale_, rounding_base_, record,
-                       codes_.data() + record.first_code, extents[i]);
-            boxes_[i] = moving(extents[i].box);
+                       keys_.data() + record.first_word, extents[i]);
         }
     });
-}
-
-KeyBounds WideTree::key_bounds(const WideGrid& grid, int key) const {
-    KeyBounds bounds;
-    const uint32_t* next = codes_.data() + grid.first_code + static_cast<size_t>(key + 1) * grid.code_words();
-    std::memcpy(&bounds, next - sizeof(bounds) / 4, sizeof(bounds));
-    return bounds;
 }
 
 void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const {
     const int count = grid.box_count();
     for (int end = 0; end < (grid.moves() ? 2 : 1); ++end) {
         const uint8_t* codes = box_codes(grid, segment + end);
-        const FrameBounds whole = frame_bounds(grid, segment + end);
+        const KeyBounds whole = frame_bounds(grid, segment + end);
         for (int k = 0; k < 6; ++k) {
             const CodeScale scale(whole.low[k % 3], whole.high[k % 3]);
             for (int b = 0; b < count; ++b) {
@@ -104,14 +86,23 @@ void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const
 }
 
 SegmentBounds WideTree::segment_bounds(const WideGrid& grid, int segment) const {
-    const KeyBounds from = key_bounds(grid, segment), to = key_bounds(grid, segment + 1);
-    SegmentBounds bounds;
-    for (int k = 0; k < 6; ++k) {
-        MovingBox& box = k < 3 ? bounds.box : bounds.framed;
-        box.low[k % 3] = from.low[k], box.low_delta[k % 3] = to.low[k] - from.low[k];
-        box.high[k % 3] = from.high[k], box.high_delta[k % 3] = to.high[k] - from.high[k];
+    const uint32_t* from = key_words(grid, segment);
+    const uint32_t* to = grid.moves() ? from + grid.key_words() : from;
+    constexpr size_t kNext = sizeof(KeyBounds) / 4;
+    return {grid.has_segments() ? between(bounds_at(from + kNext), bounds_at(to + kNext)) : grid_box(grid),
+            between(bounds_at(from), bounds_at(to))};
+}
+
+MovingBox WideTree::grid_box(const WideGrid& grid) const {
+    const size_t node = grid.leaf / WideNode::kChildren, child = grid.leaf % WideNode::kChildren;
+    MovingBox box{};
+    for (int k = 0; k < 3; ++k) {
+        box.low[k] = nodes_[node].low[k][child], box.high[k] = nodes_[node].high[k][child];
+        if (!moves_) continue;
+        box.low_delta[k] = node_motions_[node].low[k][child];
+        box.high_delta[k] = node_motions_[node].high[k][child];
     }
-    return bounds;
+    return box;
 }
 
 void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
@@ -122,7 +113,11 @@ void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
         for (int i = 0; i < WideNode::kChildren; ++i) {
             const bool used = i < wide[n].count;
             node.child[i] = used ? wide[n].child[i].link : kNoLink;
-            const MovingBox box = used ? moving(wide[n].child[i].box) : MovingBox{};
+            if (used && (node.child[i] & kGridLink) != 0)
+                wide_grids_[node.child[i] & ~kGridLink].leaf =
+                    static_cast<uint32_t>(n * WideNode::kChildren) + static_cast<uint32_t>(i);
+            const MovingBox box =
+                used ? between(wide[n].child[i].box.at[0], wide[n].child[i].box.at[1]) : MovingBox{};
             for (int k = 0; k < 3; ++k) {
                 node.low[k][i] = used ? box.low[k] : kNowhere;
                 node.high[k][i] = used ? box.high[k] : -kNowhere;

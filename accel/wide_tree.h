@@ -80,19 +80,13 @@ struct SegmentBounds {
     MovingBox box, framed;  ///< in camera space, and in the grid's frame
 };
 
-/// A whole grid at one key, in its frame: what the codes of its boxes divide.
-struct FrameBounds {
-    float low[3], high[3];
-};
-
 /// A grid as traversal reads it.
 struct WideGrid {
     const float* planes;  ///< Grid::positions
     float axis[3][3];     ///< the grid's frame
-    MovingBox framed;     ///< the whole grid there, over the whole shutter
     float slack;          ///< of depth: extent of the largest micropolygon along camera z
-    float extent;         ///< the same along any axis
-    uint32_t first_code;  ///< its boxes' codes begin at this word
+    uint32_t first_word;  ///< of its keys: bounds and codes
+    uint32_t leaf;        ///< where the top level has its box: node * WideNode::kChildren + child
     uint16_t plane_size;
     uint8_t nu, nv;
     uint8_t tiles_u;
@@ -109,31 +103,24 @@ struct WideGrid {
     int box_count() const { return (block_count() + blocks_per_box() - 1) / blocks_per_box(); }
     /// Whether it moves in several segments: then each has bounds of its own.
     bool has_segments() const { return key_count > 2; }
-    /// Words of four bytes that a key takes: the codes of low x, y, z, high x, y, z of all boxes; then, where
-    /// the grid has segments, its KeyBounds.
-    size_t code_words() const {
-        const auto bytes = static_cast<size_t>(box_count()) * 6;
-        return (bytes + 3) / 4 + (has_segments() ? sizeof(KeyBounds) / 4 : 0);
-    }
+    /// Words of four bytes that a key takes: the grid's bounds in its frame, which the codes divide; where
+    /// it has segments, those in camera space; then the codes of low x, y, z, high x, y, z of all boxes.
+    size_t bounds_words() const { return (has_segments() ? 2 : 1) * sizeof(KeyBounds) / 4; }
+    size_t key_words() const { return bounds_words() + (static_cast<size_t>(box_count()) * 6 + 3) / 4; }
 
     static constexpr int kRibbonBlocksPerBox = 4;
 };
-/// A grid at one of its keys, in its frame.
-inline FrameBounds framed_at(const WideGrid& grid, int key) {
-    FrameBounds at;
-    for (int k = 0; k < 3; ++k) {
-        at.low[k] = key == 0 ? grid.framed.low[k] : grid.framed.low[k] + grid.framed.low_delta[k];
-        at.high[k] = key == 0 ? grid.framed.high[k] : grid.framed.high[k] + grid.framed.high_delta[k];
-    }
-    return at;
-}
-inline FrameBounds framed_at(const KeyBounds& bounds) {
-    FrameBounds at;
-    for (int k = 0; k < 3; ++k) at.low[k] = bounds.low[3 + k], at.high[k] = bounds.high[3 + k];
-    return at;
-}
 
-static_assert(sizeof(WideGrid) <= 112, "hair has one for every 16 micropolygons");
+static_assert(sizeof(WideGrid) == 64, "one for every 16 micropolygons of hair, and one line of cache");
+
+inline MovingBox between(const KeyBounds& from, const KeyBounds& to) {
+    MovingBox box;
+    for (int k = 0; k < 3; ++k) {
+        box.low[k] = from.low[k], box.low_delta[k] = to.low[k] - from.low[k];
+        box.high[k] = from.high[k], box.high_delta[k] = to.high[k] - from.high[k];
+    }
+    return box;
+}
 
 struct GridExtent;
 struct WideChildren;
@@ -164,26 +151,31 @@ class WideTree final : public RayQuery {
     const WideNodeMotion* node_motions() const { return node_motions_.data(); }
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
-    const MovingBox& grid_box(uint32_t index) const { return boxes_[index]; }
+    /// What a grid has at a key, as WideGrid::key_words() tells.
+    const uint32_t* key_words(const WideGrid& grid, int key) const {
+        return keys_.data() + grid.first_word + static_cast<size_t>(key) * grid.key_words();
+    }
     /// Rows of codes of its boxes at a key; whole vectors can be read.
     const uint8_t* box_codes(const WideGrid& grid, int key) const {
-        return reinterpret_cast<const uint8_t*>(codes_.data() + grid.first_code +
-                                                static_cast<size_t>(key) * grid.code_words());
+        return reinterpret_cast<const uint8_t*>(key_words(grid, key) + grid.bounds_words());
     }
-    FrameBounds frame_bounds(const WideGrid& grid, int key) const {
-        return grid.has_segments() ? framed_at(key_bounds(grid, key)) : framed_at(grid, key);
-    }
+    KeyBounds frame_bounds(const WideGrid& grid, int key) const { return bounds_at(key_words(grid, key)); }
     /// The boxes of a grid in a segment, which tracing decodes in vectors; at its start alone where it is
     /// still.
     void decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const;
-    /// Of a grid that has_segments().
+    /// A grid's box in camera space over the whole shutter; not of unbounded ones.
+    MovingBox grid_box(const WideGrid& grid) const;
     SegmentBounds segment_bounds(const WideGrid& grid, int segment) const;
     /// Grids too far out for bounds: every ray must look at them.
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
 
   private:
+    static KeyBounds bounds_at(const uint32_t* words) {
+        KeyBounds bounds;
+        std::memcpy(&bounds, words, sizeof(bounds));
+        return bounds;
+    }
     void bound_grids(std::vector<GridExtent>& extents);
-    KeyBounds key_bounds(const WideGrid& grid, int key) const;
     void write_nodes(const std::vector<WideChildren>& wide);
 
     const Grids& grids_;
@@ -192,8 +184,7 @@ class WideTree final : public RayQuery {
     bool moves_ = false;
     float max_slack_ = 0, max_extent_ = 0, absolute_max_ = 0;
     AlignedArray<WideGrid> wide_grids_;
-    AlignedArray<MovingBox> boxes_;  ///< camera space, axis-aligned
-    AlignedArray<uint32_t> codes_;   ///< of boxes in grids
+    AlignedArray<uint32_t> keys_;  ///< WideGrid::key_words() of all keys of all grids
     AlignedArray<WideNode> nodes_;
     AlignedArray<WideNodeMotion> node_motions_;
     std::vector<uint32_t> unbounded_;

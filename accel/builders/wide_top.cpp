@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace trapeze {
 namespace {
@@ -47,8 +48,8 @@ EndBoxes both(const EndBoxes& a, const EndBoxes& b) {
     EndBoxes out;
     for (int end = 0; end < 2; ++end)
         for (int k = 0; k < 3; ++k) {
-            out.low[end][k] = std::min(a.low[end][k], b.low[end][k]);
-            out.high[end][k] = std::max(a.high[end][k], b.high[end][k]);
+            out.at[end].low[k] = std::min(a.at[end].low[k], b.at[end].low[k]);
+            out.at[end].high[k] = std::max(a.at[end].high[k], b.at[end].high[k]);
         }
     return out;
 }
@@ -78,8 +79,8 @@ class Builder {
             const EndBoxes& e = extents[grid].box;
             Item item{{}, grid};
             for (int k = 0; k < 3; ++k) {
-                item.box.low[k] = 0.5f * (e.low[0][k] + e.low[1][k]);
-                item.box.high[k] = 0.5f * (e.high[0][k] + e.high[1][k]);
+                item.box.low[k] = 0.5f * (e.at[0].low[k] + e.at[1].low[k]);
+                item.box.high[k] = 0.5f * (e.at[0].high[k] + e.at[1].high[k]);
             }
             items_.push_back(item);
         }
@@ -121,10 +122,30 @@ class Builder {
     /// Moves the lower part to the front and tells its size, which is neither 0 nor all.
     static size_t part_in_two(std::span<Item> part, int depth) {
         const Split split = depth < kSahDepthLimit ? best_split(part) : Split{};
-        if (split.cost == kInfinite) return part.size() / 2;
+        if (split.cost == kInfinite) return filling(part.size(), part.size() / 2);
         const auto middle = std::partition(
             part.begin(), part.end(), [&](const Item& item) { return split.binning.of(item) < split.bin; });
-        return static_cast<size_t>(middle - part.begin());
+        const auto filled = part.begin() + static_cast<std::ptrdiff_t>(filling(
+                                               part.size(), static_cast<size_t>(middle - part.begin())));
+        const auto before = [axis = split.binning.axis](const Item& a, const Item& b) {
+            return std::pair(a.place(axis), a.grid) < std::pair(b.place(axis), b.grid);
+        };
+        if (filled < middle) std::nth_element(part.begin(), filled, middle, before);
+        if (filled > middle) std::nth_element(middle, filled, part.end(), before);
+        return static_cast<size_t>(filled - part.begin());
+    }
+
+    /// The place nearest to a split of `size` grids that leaves one side with full nodes alone: the nodes
+    /// above small grids take as much memory as the grids.
+    static size_t filling(size_t size, size_t middle) {
+        constexpr size_t kFull = WideNode::kChildren;
+        if (size <= kFull) return middle;
+        const auto nearest = [=](size_t side) {
+            return std::clamp((side + kFull / 2) / kFull * kFull, kFull, (size - 1) / kFull * kFull);
+        };
+        const auto away = [middle](size_t at) { return at > middle ? at - middle : middle - at; };
+        const size_t low = nearest(middle), high = size - nearest(size - middle);
+        return away(low) <= away(high) ? low : high;
     }
 
     static Split best_split(std::span<const Item> part) {
