@@ -31,9 +31,10 @@ template <bool kMoves>
 HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int segment, BoxPlanes& out) {
     const hn::CappedTag<float, BoxPlanes::kMost> d;
     const auto boxes = static_cast<size_t>(grid.box_count());
+    const GridKeys keys(grid, tree.keys_of(grid));
     for (int end = 0; end < (kMoves ? 2 : 1); ++end) {
-        const uint8_t* codes = tree.box_codes(grid, segment + end);
-        const KeyBounds whole = tree.frame_bounds(grid, segment + end);
+        const uint8_t* codes = keys.box_codes(segment + end);
+        const KeyBounds whole = keys.framed(segment + end);
         float* rows = out.row[6 * end];
         for (size_t k = 0; k < 3; ++k) {
             const CodeScale scale(whole.low[k], whole.high[k]);

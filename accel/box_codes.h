@@ -1,5 +1,6 @@
 /// How a WideTree keeps the boxes of a grid's blocks: at each key of the grid's motion, in the grid's frame,
-/// a byte for each plane of each box, in steps of 1 / 255 of the whole grid's box there.
+/// a byte for each plane of each box, in steps of 1 / 255 of the whole grid's box there; and that box itself
+/// in steps of 1 / 255 of the grid's box over all keys.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +25,9 @@ struct KeyBounds {
 
 /// From codes to planes along an axis.
 struct CodeScale {
-    float low, step;
+    float low = 0, step = 0;
 
+    CodeScale() = default;
     CodeScale(float from, float to) : low(from), step((to - from) * (1.0f / 255)) {}
     float plane(int code) const { return low + step * static_cast<float>(code); }
 };
@@ -45,5 +47,30 @@ inline uint8_t code_above(const CodeScale& scale, float per_step, float at) {
     const int code = steps > 0 ? static_cast<int>(std::min(steps, 255.0f)) : 0;
     return static_cast<uint8_t>(std::min(code + (scale.plane(code) < at), 255));
 }
+
+/// A grid's box over all keys, and the codes of its box at a key: low x, y, z, high x, y, z.
+class KeyBoundsScale {
+  public:
+    explicit KeyBoundsScale(const KeyBounds& whole) {
+        for (int k = 0; k < 3; ++k) axis_[k] = CodeScale(whole.low[k], whole.high[k]);
+    }
+    KeyBounds bounds(const uint8_t* codes) const {
+        KeyBounds at;
+        for (int k = 0; k < 3; ++k)
+            at.low[k] = axis_[k].plane(codes[k]), at.high[k] = axis_[k].plane(codes[3 + k]);
+        return at;
+    }
+    /// Of bounds within the whole by kCodeRounding.
+    void write(const KeyBounds& bounds, uint8_t* codes) const {
+        for (int k = 0; k < 3; ++k) {
+            const float per_step = 1 / axis_[k].step;
+            codes[k] = code_below(axis_[k], per_step, bounds.low[k]);
+            codes[3 + k] = code_above(axis_[k], per_step, bounds.high[k]);
+        }
+    }
+
+  private:
+    CodeScale axis_[3];
+};
 
 }  // namespace trapeze

@@ -38,6 +38,31 @@ TEST(BoxCodes, EndsAreTheFirstAndTheLast) {
     EXPECT_EQ(code_below(scale, 1 / scale.step, 4.99f), 254);
 }
 
+TEST(BoxCodes, BoundsAtAKeyHoldWhatTheyAreOf) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const KeyBounds all{{-3, 0, 100}, {5, 0.25f, 107}};
+    const KeyBoundsScale scale(all);
+    for (int i = 0; i < 10000; ++i) {
+        KeyBounds at;
+        for (int k = 0; k < 3; ++k) {
+            const float size = all.high[k] - all.low[k], rounding = kCodeRounding * 107;
+            at.low[k] = all.low[k] + rounding + unit(random) * (size - 2 * rounding);
+            at.high[k] = at.low[k] + unit(random) * (all.high[k] - rounding - at.low[k]);
+        }
+        uint8_t codes[6];
+        scale.write(at, codes);
+        const KeyBounds decoded = scale.bounds(codes);
+        for (int k = 0; k < 3; ++k) {
+            const float step = (all.high[k] - all.low[k]) / 255 * 1.01f;
+            ASSERT_LE(decoded.low[k], at.low[k]);
+            ASSERT_GE(decoded.high[k], at.high[k]);
+            ASSERT_LE(at.low[k] - decoded.low[k], step);
+            ASSERT_LE(decoded.high[k] - at.high[k], step);
+        }
+    }
+}
+
 TEST(BoxCodes, WhatIsNoNumberHasACode) {
     for (const float wrong : {NAN, HUGE_VALF, -HUGE_VALF}) {
         const CodeScale scale(0, wrong);

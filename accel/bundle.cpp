@@ -81,15 +81,20 @@ class BundleTrace {
     }
 
   private:
+    /// The first and the last byte: what is within two lines.
+    static void prefetch(const void* at, size_t bytes) {
+        __builtin_prefetch(at);
+        __builtin_prefetch(static_cast<const char*>(at) + bytes - 1);
+    }
+
     /// For candidates that come after one.
     void prefetch_grids(size_t candidate) const {
         const auto& all = t_.scratch.candidates;
         if (candidate + kPrefetchAhead < all.size())
-            __builtin_prefetch(&t_.tree.grid(candidate_of(all[candidate + kPrefetchAhead]).grid));
+            prefetch(&t_.tree.grid(candidate_of(all[candidate + kPrefetchAhead]).grid), sizeof(WideGrid));
         if (candidate + kPrefetchBoundsAhead < all.size()) {
             const WideGrid& grid = t_.tree.grid(candidate_of(all[candidate + kPrefetchBoundsAhead]).grid);
-            __builtin_prefetch(t_.tree.key_words(grid, 0));
-            if (grid.moves()) __builtin_prefetch(t_.tree.key_words(grid, 1));
+            prefetch(t_.tree.keys_of(grid), grid.header_bytes());
         }
     }
 
@@ -171,8 +176,9 @@ class BundleTrace {
 
     template <bool kMoves>
     void visit_segment(const Candidate& candidate, const WideGrid& grid, int segment) {
-        collect_active<kMoves, kLens>(t_, t_.tree.segment_bounds(grid, segment), grid, segment, candidate);
-        test_active<kMoves, kLens>(t_, candidate.grid, grid, segment, candidate.depth);
+        const SegmentBounds bounds = t_.tree.segment_bounds(grid, segment);
+        collect_active<kMoves, kLens>(t_, bounds, grid, segment, candidate);
+        test_active<kMoves, kLens>(t_, candidate, bounds.box, grid, segment);
         if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion, kLens>(t_);
     }
 

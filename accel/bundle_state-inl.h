@@ -110,10 +110,11 @@ struct Block {
 };
 
 inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
-    const int tiles_u = grid.tiles_u, tiles_v = (grid.nv + 4) / 4;
+    const int tiles_u = grid.tiles_u(), tiles_v = grid.tiles_v();
+    const size_t plane_size = grid.plane_size();
     Block block;
-    block.view.plane = grid.plane_size;
-    block.view.tile = grid.planes + static_cast<size_t>(segment) * 6 * grid.plane_size +
+    block.view.plane = plane_size;
+    block.view.tile = grid.planes + static_cast<size_t>(segment) * 6 * plane_size +
                       static_cast<size_t>(v * tiles_u + u) * 16;
     block.view.right = u + 1 < tiles_u ? 16 : 3;
     block.view.down = v + 1 < tiles_v ? tiles_u * 16 : 12;

@@ -57,10 +57,19 @@ struct ChildLanes {
             low[k] = hn::Load(d, at.low[k] + first), high[k] = hn::Load(d, at.high[k] + first);
             if constexpr (kMotion) {
                 const WideNodeMotion& motion = tree.node_motions()[node];
-                low_delta[k] = hn::Load(d, motion.low[k] + first);
-                high_delta[k] = hn::Load(d, motion.high[k] + first);
+                low_delta[k] = floats(motion.low[k] + first);
+                high_delta[k] = floats(motion.high[k] + first);
             }
         }
+    }
+
+  private:
+    /// From bfloat16.
+    static HWY_INLINE VF floats(const uint16_t* at) {
+        const F32 d;
+        const hn::Rebind<uint16_t, F32> d16;
+        const hn::Rebind<uint32_t, F32> d32;
+        return hn::BitCast(d, hn::ShiftLeft<16>(hn::PromoteTo(d32, hn::Load(d16, at))));
     }
 };
 

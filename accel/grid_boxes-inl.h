@@ -261,9 +261,11 @@ void test_waiting(BundleState& t) {
     if (nearer != 0) t.refresh_farthest();
 }
 
-/// The boxes of a grid that active rays meet, none before a depth, and the blocks in them.
+/// The boxes of a grid that active rays meet, none before the candidate's depth, and the blocks in them.
 template <bool kMoves, bool kLens>
-void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segment, float depth) {
+void test_active(BundleState& t, const Candidate& candidate, const MovingBox& whole, const WideGrid& grid,
+                 int segment) {
+    const uint32_t index = candidate.grid;
     const ActiveRays& active = t.scratch.active;
     if (active.count == 0) return;
     decode_boxes<kMoves>(t.tree, grid, segment, t.scratch.boxes);
@@ -272,7 +274,7 @@ void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segme
     t.stats.nodes_visited += active.count * static_cast<size_t>(boxes);
     uint32_t some = active.count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)
                                                : meet_boxes<kMoves, kLens>(t, planes, boxes);
-    const float rounding = t.tree.rounding(absolute_max(t.tree.grid_box(grid)));
+    const float rounding = t.tree.rounding(absolute_max(whole));
     const size_t bytes = (active.count + kLanes - 1) / kLanes * kMaskBytes;
     bool tested = false;
     for (; some != 0; some &= some - 1) {
@@ -284,8 +286,8 @@ void test_active(BundleState& t, uint32_t index, const WideGrid& grid, int segme
             const Block block = block_of(grid, segment, u, v, index);
             if (candidates < kFewInBlock) {
                 let_wait<kMoves>(t,
-                                 {0, index, 0, depth, static_cast<uint16_t>(segment), static_cast<uint8_t>(u),
-                                  static_cast<uint8_t>(v)},
+                                 {0, index, 0, candidate.depth, static_cast<uint16_t>(segment),
+                                  static_cast<uint8_t>(u), static_cast<uint8_t>(v)},
                                  block, met);
                 continue;
             }

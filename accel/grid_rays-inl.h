@@ -65,10 +65,10 @@ HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) 
 template <bool kMoves>
 HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int segment) {
     constexpr size_t kLine = 64;
-    const size_t bytes = grid.key_words() * 4 * (kMoves ? 2 : 1);
-    const char* words = reinterpret_cast<const char*>(t.tree.key_words(grid, segment));
-    for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(words + i);
-    __builtin_prefetch(words + bytes - 1);
+    const size_t bytes = grid.key_bytes() * (kMoves ? 2 : 1);
+    const uint8_t* keys = GridKeys(grid, t.tree.keys_of(grid)).of_key(segment);
+    for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(keys + i);
+    __builtin_prefetch(keys + bytes - 1);
 }
 
 template <bool kMoves, bool kLens>
@@ -93,7 +93,7 @@ void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& b
     if (t.scratch.active.count == 0) prefetch_boxes<kMoves>(t, grid, segment);
     VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
     for (int k = 0; k < 3; ++k) {
-        const float* axis = grid.axis[k];
+        const float* axis = bounds.axes.axis[k];
         const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]);
         inverse[k] = reciprocal(hn::MulAdd(x, ux, hn::MulAdd(y, uy, hn::Set(d, axis[2]))));
         offset[k] = kLens ? hn::Mul(hn::MulAdd(x, ox, hn::Mul(y, oy)), inverse[k]) : hn::Zero(d);

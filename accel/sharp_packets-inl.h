@@ -33,8 +33,8 @@ struct PacketSlopes {
 
 /// The boxes of a grid (at most 16, one a lane) that some ray of a packet may meet: the middle ray against
 /// boxes grown by how far others are from it anywhere in the grid's range of depths.
-HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const float* planes, const PacketSlopes& slopes,
-                              float z_low, float z_high, float farthest) {
+HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const FrameAxes& axes, const float* planes,
+                              const PacketSlopes& slopes, float z_low, float z_high, float farthest) {
     const F32 d;
     const float reach = std::max(std::abs(z_low), std::abs(z_high));
     const float ux = 0.5f * (slopes.ux_low + slopes.ux_high), uy = 0.5f * (slopes.uy_low + slopes.uy_high);
@@ -44,7 +44,7 @@ HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const float* planes, const P
     const auto boxes = static_cast<size_t>(grid.box_count());
     VF near = hn::Set(d, z_low), far = hn::Set(d, std::min(z_high, farthest + grid.slack));
     for (size_t k = 0; k < 3; ++k) {
-        const float* axis = grid.axis[k];
+        const float* axis = axes.axis[k];
         const VF grow = hn::Set(d, reach * (std::abs(axis[0]) * dx + std::abs(axis[1]) * dy));
         const float along = axis[0] * ux + axis[1] * uy + axis[2];
         const VF inverse = hn::Set(d, 1.0f / (std::abs(along) < kLeastDirection ? kLeastDirection : along));
@@ -147,13 +147,14 @@ inline bool test_packet(BundleState& t, const Block& block, size_t packet, const
 }
 
 /// Whether the packet's farthest depth may have become nearer; the grid's boxes are decoded.
-inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, const MovingBox& box,
-                         size_t packet) {
+inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, const FrameAxes& axes,
+                         const MovingBox& box, size_t packet) {
     const auto& row = t.scratch.intervals.row;
     const PacketSlopes slopes{row[RayIntervals::kDxMin][packet], row[RayIntervals::kDxMax][packet],
                               row[RayIntervals::kDyMin][packet], row[RayIntervals::kDyMax][packet]};
-    uint32_t boxes = boxes_met(grid, t.scratch.boxes.planes(), slopes, std::max(box.low[2], t.nearest_depth),
-                               box.high[2], t.scratch.farthest[packet]);
+    uint32_t boxes =
+        boxes_met(grid, axes, t.scratch.boxes.planes(), slopes, std::max(box.low[2], t.nearest_depth),
+                  box.high[2], t.scratch.farthest[packet]);
     const auto rays = std::min(kLanes, t.rays.count - packet * kLanes);
     t.stats.nodes_visited += rays;
     if (t.rays.nodes) count_packet(t.rays.nodes, packet * kLanes, 1);
@@ -175,6 +176,7 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
 inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGrid& grid) {
     const F32 d;
     const MovingBox box = t.tree.grid_box(grid);
+    const FrameAxes axes = grid.axes.unpacked();
     VF low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
     bool nearer = false, decoded = false;
@@ -186,8 +188,8 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
             looks, meets<false>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
         if (met != 0 && !decoded) decode_boxes<false>(t.tree, grid, 0, t.scratch.boxes), decoded = true;
         for (; met != 0; met &= met - 1)
-            nearer |=
-                visit_packet(t, candidate.grid, grid, box, p + static_cast<size_t>(std::countr_zero(met)));
+            nearer |= visit_packet(t, candidate.grid, grid, axes, box,
+                                   p + static_cast<size_t>(std::countr_zero(met)));
     });
     if (nearer) t.refresh_farthest();
 }

@@ -145,6 +145,17 @@ Frame frame_of_grid(const Grid& grid) {
     return frame_of(V3d(along_u) / (rows * shape.nu), V3d(along_v) / (columns * shape.nv));
 }
 
+PackedAxes packed(Frame frame) {
+    for (int k = 0; k < 3; ++k)
+        if (!std::isfinite(frame.axis[k].x + frame.axis[k].y + frame.axis[k].z)) frame = {};
+    PackedAxes axes;
+    for (int k = 0; k < 3; ++k)
+        for (int c = 0; c < 3; ++c)
+            axes.code[k][c] = static_cast<int16_t>(
+                std::lround(std::clamp(frame.axis[k][c], -1.0f, 1.0f) * PackedAxes::kOne));
+    return axes;
+}
+
 /// The least line through the shutter above (sign 1) or below (sign -1) the values at all keys.
 void line_around(const KeyBox6* wholes, int key_count, bool low, int k, float ends[2]) {
     const auto at = [&](int key) { return low ? wholes[key].low[k] : wholes[key].high[k]; };
@@ -184,60 +195,68 @@ void write_codes(const WideGrid& record, const KeyBounds& whole, const BlockBoxe
     }
 }
 
-/// What a grid has at its keys, as WideGrid::key_words() tells; `grow` as all bounds, `whole_grow` for what
-/// holds the planes of codes.
-void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes* keys, float grow,
-                float whole_grow, uint32_t* out) {
-    for (int key = 0; key < record.key_count; ++key, out += record.key_words()) {
-        const auto bounds_from = [&](int first) {
-            KeyBounds bounds;
-            for (int k = 0; k < 3; ++k)
-                bounds.low[k] = wholes[key].low[first + k] - whole_grow,
-                bounds.high[k] = wholes[key].high[first + k] + whole_grow;
-            return bounds;
-        };
-        const KeyBounds framed = bounds_from(3), aligned = bounds_from(0);
-        std::memcpy(out, &framed, sizeof(framed));
-        if (record.has_segments()) std::memcpy(out + sizeof(framed) / 4, &aligned, sizeof(aligned));
-        write_codes(record, framed, keys[key], grow, reinterpret_cast<uint8_t*>(out + record.bounds_words()));
+/// Of all keys, grown; from coordinate `first` on.
+KeyBounds bounds_of_all(const KeyBox6* wholes, int key_count, int first, float grow) {
+    KeyBounds all;
+    for (int k = 0; k < 3; ++k) {
+        float low = wholes[0].low[first + k], high = wholes[0].high[first + k];
+        for (int key = 1; key < key_count; ++key)
+            low = std::min(low, wholes[key].low[first + k]),
+            high = std::max(high, wholes[key].high[first + k]);
+        all.low[k] = low - grow, all.high[k] = high + grow;
+    }
+    return all;
+}
+
+/// What a grid has at its keys, as WideGrid tells. `grow` as all bounds; what codes are between grows by
+/// `more` than what they are of.
+void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes* boxes, float grow,
+                float more, uint8_t* out) {
+    const int keys = record.key_count;
+    const float whole_grow = grow + more, all_grow = record.moves() ? whole_grow + more : whole_grow;
+    const KeyBounds framed = bounds_of_all(wholes, keys, 3, all_grow),
+                    aligned = bounds_of_all(wholes, keys, 0, all_grow);
+    std::memcpy(out, &framed, sizeof(framed));
+    if (record.has_segments()) std::memcpy(out + sizeof(framed), &aligned, sizeof(aligned));
+    uint8_t* at = out + record.header_bytes();
+    for (int key = 0; key < keys; ++key, at += record.key_bytes()) {
+        if (record.moves()) KeyBoundsScale(framed).write(bounds_of_all(wholes + key, 1, 3, whole_grow), at);
+        if (record.has_segments())
+            KeyBoundsScale(aligned).write(bounds_of_all(wholes + key, 1, 0, whole_grow), at + 6);
+        write_codes(record, GridKeys(record, out).framed(key), boxes[key], grow, at + record.bounds_bytes());
     }
 }
 
 /// An upper bound of the extent of any micropolygon along each axis of space: of the block that holds it.
-void bound_extents(const WideGrid& record, const BlockBoxes* keys, float extent[3]) {
+void bound_extents(const WideGrid& record, const FrameAxes& axes, const BlockBoxes* keys, float extent[3]) {
     for (int c = 0; c < 3; ++c) extent[c] = 0;
     for (int key = 0; key < record.key_count; ++key)
         for (int b = 0; b < record.block_count(); ++b) {
             float size[3];
             for (int k = 0; k < 3; ++k) size[k] = keys[key].high[k][b] - keys[key].low[k][b];
             for (int c = 0; c < 3; ++c)
-                extent[c] = std::max(extent[c], std::abs(record.axis[0][c]) * size[0] +
-                                                    std::abs(record.axis[1][c]) * size[1] +
-                                                    std::abs(record.axis[2][c]) * size[2]);
+                extent[c] = std::max(extent[c], (std::abs(axes.axis[0][c]) + FrameAxes::kLoss) * size[0] +
+                                                    (std::abs(axes.axis[1][c]) + FrameAxes::kLoss) * size[1] +
+                                                    (std::abs(axes.axis[2][c]) + FrameAxes::kLoss) * size[2]);
         }
 }
 
 }  // namespace
 
-void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint32_t* keys,
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint8_t* keys,
                 GridExtent& extent) {
-    Frame frame = frame_of_grid(grid);
-    for (int k = 0; k < 3; ++k)
-        if (!std::isfinite(frame.axis[k].x + frame.axis[k].y + frame.axis[k].z)) frame = {};
-    for (int k = 0; k < 3; ++k)
-        for (int c = 0; c < 3; ++c) record.axis[k][c] = frame.axis[k][c];
+    record.axes = packed(frame_of_grid(grid));
+    const FrameAxes axes = record.axes.unpacked();
     record.planes = grid.positions;
-    record.plane_size = static_cast<uint16_t>(grid.shape.plane_size());
     record.nu = grid.shape.nu, record.nv = grid.shape.nv;
-    record.tiles_u = static_cast<uint8_t>(grid.shape.tiles_u());
     record.key_count = grid.key_count;
-    record.facing = static_cast<uint8_t>(grid.facing);
+    record.facing = static_cast<uint8_t>(grid.facing) & 15;
     record.opaque = grid.opaque;
 
     KeyBox6 wholes[kMaxKeyCount];
     static thread_local std::vector<BlockBoxes> blocks;
     blocks.resize(grid.key_count);
-    HWY_DYNAMIC_DISPATCH(bound_keys)(grid, record.axis, wholes, blocks.data());
+    HWY_DYNAMIC_DISPATCH(bound_keys)(grid, axes.axis, wholes, blocks.data());
 
     float largest = 0;
     for (int key = 0; key < grid.key_count; ++key)
@@ -245,7 +264,7 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uin
             largest = std::max({largest, std::abs(wholes[key].low[k]), std::abs(wholes[key].high[k])});
     extent.absolute_max = largest <= kBoundableCoordinate ? largest : HUGE_VALF;
     const float grow = scale * largest + base;
-    const float code_grow = grow + kCodeRounding * largest, whole_grow = code_grow + kCodeRounding * largest;
+    const float code_rounding = kCodeRounding * largest;
     for (int k = 0; k < 3; ++k) {
         float low[2], high[2];
         line_around(wholes, grid.key_count, true, k, low);
@@ -256,12 +275,12 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uin
         }
     }
     float extents[3];
-    bound_extents(record, blocks.data(), extents);
+    bound_extents(record, axes, blocks.data(), extents);
     record.slack = extents[2] + grow;
     extent.largest_micropolygon = std::max({extents[0], extents[1], extents[2]}) + grow;
     if (record.blocks_per_box() > 1)
         for (BlockBoxes& boxes : blocks) join_blocks(record, boxes);
-    write_keys(record, wholes, blocks.data(), code_grow, whole_grow, keys);
+    write_keys(record, wholes, blocks.data(), grow + code_rounding, code_rounding, keys);
 }
 
 }  // namespace trapeze

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "accel/bfloat16.h"
 #include "accel/builders/wide_top.h"
 #include "accel/grid_block.h"
 #include "accel/hit_policies.h"
@@ -51,30 +52,31 @@ WideTree::WideTree(const Grids& grids, const RayReach& reach)
 void WideTree::bound_grids(std::vector<GridExtent>& extents) {
     const size_t count = grids_.grids.size();
     wide_grids_.allocate(count);
-    size_t words = 0;
+    size_t pairs = 0;
     for (size_t i = 0; i < count; ++i) {
         const Grid& grid = grids_.grids[i];
         WideGrid& record = wide_grids_[i];
         record.nu = grid.shape.nu, record.nv = grid.shape.nv, record.key_count = grid.key_count;
-        record.first_word = static_cast<uint32_t>(words);
-        words += record.key_words() * record.key_count;
+        record.first_pair = static_cast<uint32_t>(pairs);
+        pairs += record.keys_bytes() / 2;
     }
-    keys_.allocate(words);
+    keys_.allocate(2 * pairs);
     constexpr size_t kGrain = 32;
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, kGrain), [&](const auto& range) {
         for (size_t i = range.begin(); i != range.end(); ++i) {
             WideGrid& record = wide_grids_[i];
             bound_grid(grids_.grids[i], rounding_scale_, rounding_base_, record,
-                       keys_.data() + record.first_word, extents[i]);
+                       keys_.data() + 2 * size_t{record.first_pair}, extents[i]);
         }
     });
 }
 
 void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const {
     const int count = grid.box_count();
+    const GridKeys keys(grid, keys_of(grid));
     for (int end = 0; end < (grid.moves() ? 2 : 1); ++end) {
-        const uint8_t* codes = box_codes(grid, segment + end);
-        const KeyBounds whole = frame_bounds(grid, segment + end);
+        const uint8_t* codes = keys.box_codes(segment + end);
+        const KeyBounds whole = keys.framed(segment + end);
         for (int k = 0; k < 6; ++k) {
             const CodeScale scale(whole.low[k % 3], whole.high[k % 3]);
             for (int b = 0; b < count; ++b) {
@@ -86,11 +88,10 @@ void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const
 }
 
 SegmentBounds WideTree::segment_bounds(const WideGrid& grid, int segment) const {
-    const uint32_t* from = key_words(grid, segment);
-    const uint32_t* to = grid.moves() ? from + grid.key_words() : from;
-    constexpr size_t kNext = sizeof(KeyBounds) / 4;
-    return {grid.has_segments() ? between(bounds_at(from + kNext), bounds_at(to + kNext)) : grid_box(grid),
-            between(bounds_at(from), bounds_at(to))};
+    const GridKeys keys(grid, keys_of(grid));
+    const int next = segment + (grid.moves() ? 1 : 0);
+    return {grid.has_segments() ? between(keys.aligned(segment), keys.aligned(next)) : grid_box(grid),
+            between(keys.framed(segment), keys.framed(next)), grid.axes.unpacked()};
 }
 
 MovingBox WideTree::grid_box(const WideGrid& grid) const {
@@ -99,8 +100,8 @@ MovingBox WideTree::grid_box(const WideGrid& grid) const {
     for (int k = 0; k < 3; ++k) {
         box.low[k] = nodes_[node].low[k][child], box.high[k] = nodes_[node].high[k][child];
         if (!moves_) continue;
-        box.low_delta[k] = node_motions_[node].low[k][child];
-        box.high_delta[k] = node_motions_[node].high[k][child];
+        box.low_delta[k] = from_bfloat16(node_motions_[node].low[k][child]);
+        box.high_delta[k] = from_bfloat16(node_motions_[node].high[k][child]);
     }
     return box;
 }
@@ -122,8 +123,8 @@ void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
                 node.low[k][i] = used ? box.low[k] : kNowhere;
                 node.high[k][i] = used ? box.high[k] : -kNowhere;
                 if (!moves_) continue;
-                node_motions_[n].low[k][i] = box.low_delta[k];
-                node_motions_[n].high[k][i] = box.high_delta[k];
+                node_motions_[n].low[k][i] = bfloat16_below(box.low_delta[k]);
+                node_motions_[n].high[k][i] = bfloat16_above(box.high_delta[k]);
             }
         }
     });
@@ -165,6 +166,19 @@ void test_micropolygons(const Grid& grid, uint32_t index, const GridBlock& block
         }
 }
 
+/// What a node of a moving scene has besides, in floats.
+struct NodeDeltas {
+    float low[3][WideNode::kChildren], high[3][WideNode::kChildren];
+
+    NodeDeltas(const WideTree& tree, uint32_t node) {
+        if (!tree.moves()) return;
+        const WideNodeMotion& motion = tree.node_motions()[node];
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < WideNode::kChildren; ++i)
+                low[k][i] = from_bfloat16(motion.low[k][i]), high[k][i] = from_bfloat16(motion.high[k][i]);
+    }
+};
+
 /// One ray through the tree, nearest children first.
 template <class Policy>
 class SingleRay {
@@ -190,13 +204,13 @@ class SingleRay {
 
     void visit(uint32_t index) {
         const WideNode& node = tree_.nodes()[index];
-        const WideNodeMotion* motion = tree_.moves() ? tree_.node_motions() + index : nullptr;
+        const NodeDeltas motion(tree_, index);
         std::array<Child, WideNode::kChildren> met;
         int count = 0;
         for (int i = 0; i < WideNode::kChildren && node.child[i] != kNoLink; ++i) {
             float depth;
-            if (slab_depths(&node.low[0][i], &node.high[0][i], motion ? &motion->low[0][i] : nullptr,
-                            motion ? &motion->high[0][i] : nullptr, WideNode::kChildren, ray_.axis.time,
+            if (slab_depths(&node.low[0][i], &node.high[0][i], tree_.moves() ? &motion.low[0][i] : nullptr,
+                            tree_.moves() ? &motion.high[0][i] : nullptr, WideNode::kChildren, ray_.axis.time,
                             origin_, inverse_, pad_)
                     .meets(ray_, slack_, depth))
                 met[count++] = {depth, node.child[i]};
@@ -218,10 +232,11 @@ class SingleRay {
         const MotionSegment segment = segment_at(ray_.axis.time, record.key_count);
         BoxPlanes boxes;
         tree_.decode(record, segment.index, boxes);
+        const FrameAxes axes = record.axes.unpacked();
         constexpr size_t kStride = BoxPlanes::kMost;
         float origin[3], inverse[3];
         for (int k = 0; k < 3; ++k) {
-            const float* a = record.axis[k];
+            const float* a = axes.axis[k];
             origin[k] = a[0] * ray_.origin.x + a[1] * ray_.origin.y + a[2] * ray_.origin.z;
             inverse[k] =
                 inverse_of(a[0] * ray_.direction.x + a[1] * ray_.direction.y + a[2] * ray_.direction.z);

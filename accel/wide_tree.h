@@ -5,6 +5,8 @@
 ///                 each with an oriented hyper-trapezoid in the grid's own frame [Hou10 sec. 3.2 and 3.3],
 ///                 kept in a byte a plane.
 ///
+/// How a grid is kept is in accel/wide_grid.h.
+///
 /// Nothing is stored for micropolygons. Boxes are linear in time: above grids over the whole shutter (a
 /// conservative line where there are several motion segments), inside grids over each segment.
 ///
@@ -14,12 +16,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include "accel/box_codes.h"
+#include "accel/wide_grid.h"
 #include "core/grid.h"
 #include "core/ray_query.h"
 #include "core/stats.h"
@@ -55,11 +56,6 @@ class AlignedArray {
     size_t count_ = 0;
 };
 
-/// A box that moves linearly: at time t its planes are at low + t * low_delta and high + t * high_delta.
-struct MovingBox {
-    float low[3], high[3], low_delta[3], high_delta[3];
-};
-
 /// Child links of nodes: a grid, a node, or none.
 inline constexpr uint32_t kGridLink = uint32_t{1} << 31;
 inline constexpr uint32_t kNoLink = ~uint32_t{0};
@@ -69,58 +65,10 @@ struct alignas(64) WideNode {
     float low[3][kChildren], high[3][kChildren];  ///< at time 0; inverted where there is no child
     uint32_t child[kChildren];
 };
-/// What nodes of moving scenes have besides.
+/// What nodes of moving scenes have besides: how far planes move, rounded outward (accel/bfloat16.h).
 struct alignas(64) WideNodeMotion {
-    float low[3][WideNode::kChildren], high[3][WideNode::kChildren];
+    uint16_t low[3][WideNode::kChildren], high[3][WideNode::kChildren];
 };
-
-/// A whole grid in one segment of its motion; times are local to it. What turns fast, as wheels do, is nearly
-/// everywhere during the shutter, and somewhere in each segment.
-struct SegmentBounds {
-    MovingBox box, framed;  ///< in camera space, and in the grid's frame
-};
-
-/// A grid as traversal reads it.
-struct WideGrid {
-    const float* planes;  ///< Grid::positions
-    float axis[3][3];     ///< the grid's frame
-    float slack;          ///< of depth: extent of the largest micropolygon along camera z
-    uint32_t first_word;  ///< of its keys: bounds and codes
-    uint32_t leaf;        ///< where the top level has its box: node * WideNode::kChildren + child
-    uint16_t plane_size;
-    uint8_t nu, nv;
-    uint8_t tiles_u;
-    uint8_t key_count;
-    uint8_t facing;
-    uint8_t opaque;
-
-    bool moves() const { return key_count > 1; }
-    int blocks_u() const { return (nu + 3) / 4; }
-    int blocks_v() const { return (nv + 3) / 4; }
-    int block_count() const { return blocks_u() * blocks_v(); }
-    /// A ribbon's blocks, four micropolygons each, share boxes: memory counts there.
-    int blocks_per_box() const { return nu == 1 || nv == 1 ? kRibbonBlocksPerBox : 1; }
-    int box_count() const { return (block_count() + blocks_per_box() - 1) / blocks_per_box(); }
-    /// Whether it moves in several segments: then each has bounds of its own.
-    bool has_segments() const { return key_count > 2; }
-    /// Words of four bytes that a key takes: the grid's bounds in its frame, which the codes divide; where
-    /// it has segments, those in camera space; then the codes of low x, y, z, high x, y, z of all boxes.
-    size_t bounds_words() const { return (has_segments() ? 2 : 1) * sizeof(KeyBounds) / 4; }
-    size_t key_words() const { return bounds_words() + (static_cast<size_t>(box_count()) * 6 + 3) / 4; }
-
-    static constexpr int kRibbonBlocksPerBox = 4;
-};
-
-static_assert(sizeof(WideGrid) == 64, "one for every 16 micropolygons of hair, and one line of cache");
-
-inline MovingBox between(const KeyBounds& from, const KeyBounds& to) {
-    MovingBox box;
-    for (int k = 0; k < 3; ++k) {
-        box.low[k] = from.low[k], box.low_delta[k] = to.low[k] - from.low[k];
-        box.high[k] = from.high[k], box.high_delta[k] = to.high[k] - from.high[k];
-    }
-    return box;
-}
 
 struct GridExtent;
 struct WideChildren;
@@ -151,15 +99,8 @@ class WideTree final : public RayQuery {
     const WideNodeMotion* node_motions() const { return node_motions_.data(); }
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
-    /// What a grid has at a key, as WideGrid::key_words() tells.
-    const uint32_t* key_words(const WideGrid& grid, int key) const {
-        return keys_.data() + grid.first_word + static_cast<size_t>(key) * grid.key_words();
-    }
-    /// Rows of codes of its boxes at a key; whole vectors can be read.
-    const uint8_t* box_codes(const WideGrid& grid, int key) const {
-        return reinterpret_cast<const uint8_t*>(key_words(grid, key) + grid.bounds_words());
-    }
-    KeyBounds frame_bounds(const WideGrid& grid, int key) const { return bounds_at(key_words(grid, key)); }
+    /// What it has at its keys, as WideGrid tells.
+    const uint8_t* keys_of(const WideGrid& grid) const { return keys_.data() + 2 * size_t{grid.first_pair}; }
     /// The boxes of a grid in a segment, which tracing decodes in vectors; at its start alone where it is
     /// still.
     void decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const;
@@ -170,11 +111,6 @@ class WideTree final : public RayQuery {
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
 
   private:
-    static KeyBounds bounds_at(const uint32_t* words) {
-        KeyBounds bounds;
-        std::memcpy(&bounds, words, sizeof(bounds));
-        return bounds;
-    }
     void bound_grids(std::vector<GridExtent>& extents);
     void write_nodes(const std::vector<WideChildren>& wide);
 
@@ -184,7 +120,7 @@ class WideTree final : public RayQuery {
     bool moves_ = false;
     float max_slack_ = 0, max_extent_ = 0, absolute_max_ = 0;
     AlignedArray<WideGrid> wide_grids_;
-    AlignedArray<uint32_t> keys_;  ///< WideGrid::key_words() of all keys of all grids
+    AlignedArray<uint8_t> keys_;  ///< WideGrid::keys_bytes() of all grids
     AlignedArray<WideNode> nodes_;
     AlignedArray<WideNodeMotion> node_motions_;
     std::vector<uint32_t> unbounded_;

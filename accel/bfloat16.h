@@ -1,0 +1,23 @@
+/// Floats in two bytes: the upper half of a float's bits.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace trapeze {
+
+inline float from_bfloat16(uint16_t bits) {
+    return std::bit_cast<float>(uint32_t{bits} << 16);
+}
+
+/// The least that is not below a finite value, and the greatest that is not above it.
+inline uint16_t bfloat16_above(float value) {
+    const auto bits = std::bit_cast<uint32_t>(value);
+    return static_cast<uint16_t>((std::signbit(value) ? bits : bits + 0xffff) >> 16);
+}
+inline uint16_t bfloat16_below(float value) {
+    return static_cast<uint16_t>(bfloat16_above(-value) ^ 0x8000);
+}
+
+}  // namespace trapeze
