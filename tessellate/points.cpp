@@ -1,6 +1,7 @@
 /// Points (RISpec 5.5): disks parallel to the picture, of a diameter in object space; a face each. Where a
 /// disk is about as small as a micropolygon it is a square of the same area, and few-sided disks are as large
-/// as the circles they stand for.
+/// as the circles they stand for. The "type" that RenderMans added makes them spheres to shading, or pictures
+/// (rectangles) that face the camera.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -44,19 +45,39 @@ float polygon_factor(int corners) {
     return std::sqrt(turn / std::sin(turn));
 }
 
+/// A float for each point or one for all.
+class PointFloats {
+  public:
+    PointFloats() = default;
+    PointFloats(const Parameter* parameter, float otherwise) : otherwise_(otherwise) {
+        if (!parameter) return;
+        values_ = parameter->floats.data();
+        one_ = parameter->declaration.storage == StorageClass::Constant ||
+               parameter->declaration.storage == StorageClass::Uniform;
+    }
+    float operator[](int point) const { return values_ ? values_[one_ ? 0 : point] : otherwise_; }
+
+  private:
+    const float* values_ = nullptr;
+    bool one_ = false;
+    float otherwise_ = 0;
+};
+
 /// Values that each point has at one shape key.
 struct PointValues {
     const float* P = nullptr;
-    const float* width = nullptr;  ///< null: 1
-    bool one_width = false;        ///< for all points
+    PointFloats width;
+    PointFloats angle, aspect;  ///< of pictures: degrees, counterclockwise; width / height
 
     V3f place(int point) const { return {P[3 * point], P[3 * point + 1], P[3 * point + 2]}; }
-    float diameter(int point) const { return width ? width[one_width ? 0 : point] : 1.0f; }
 };
+
+enum class PointType { Disk, Sphere, Picture };
 
 class PointsSurface : public Surface {
   public:
-    PointsSurface(const Primitive& primitive, const Camera* camera, std::vector<PointValues> keys);
+    PointsSurface(const Primitive& primitive, const Camera* camera, PointType type,
+                  std::vector<PointValues> keys);
 
     int face_count() const override { return static_cast<int>(factors_.size()); }
     uint32_t edge_count() const override { return 4 * static_cast<uint32_t>(factors_.size()); }
@@ -83,20 +104,25 @@ class PointsSurface : public Surface {
 
     struct Disk {
         V3f centre{0, 0, 0};
-        float radius = 0;  ///< to the corners of what is drawn; of a square, to its sides
-        bool square = false;
+        V3f x{0, 0, 0}, y{0, 0, 0};  ///< to the corners of what is drawn; of a rectangle, to its sides
+        bool rectangle = false;
+
+        V2f at(V2f uv) const { return rectangle ? uv * 2.0f - V2f(1, 1) : disk_point(uv).at; }
     };
     Disk disk(int point, int key) const;
+    void set_sphere_normals(const Disk& disk, std::span<const V2f> uv, ShadingGrid& grid) const;
     float factor(int point, const Camera* camera) const;
 
     const Primitive& primitive_;
+    PointType type_;
     const std::vector<PointValues> keys_;  ///< by shape key
     std::vector<CameraFacing> facing_;     ///< by motion key
     std::vector<float> factors_;           ///< drawn radius / radius; 0: a square
 };
 
-PointsSurface::PointsSurface(const Primitive& primitive, const Camera* camera, std::vector<PointValues> keys)
-    : primitive_(primitive), keys_(std::move(keys)) {
+PointsSurface::PointsSurface(const Primitive& primitive, const Camera* camera, PointType type,
+                             std::vector<PointValues> keys)
+    : primitive_(primitive), type_(type), keys_(std::move(keys)) {
     for (const M44f& m : matrices_at_keys(primitive, primitive.key_count())) facing_.emplace_back(m, camera);
     factors_.resize(std::get<Points>(primitive.shape().topology).count);
     for (size_t i = 0; i < factors_.size(); ++i) factors_[i] = factor(static_cast<int>(i), camera);
@@ -104,11 +130,11 @@ PointsSurface::PointsSurface(const Primitive& primitive, const Camera* camera, s
 
 /// From the size on the screen at the first key, in micropolygons.
 float PointsSurface::factor(int point, const Camera* camera) const {
-    if (!camera) return 1;
+    if (!camera || type_ == PointType::Picture) return 1;
     const float z = transform_point(facing_[0].camera_from_object(), keys_[0].place(point)).z;
     if (camera->perspective && !(z > 0)) return 1;
     const V2f scale = camera->pixels_per_length(z);
-    const float pixels = keys_[0].diameter(point) * facing_[0].scale() * std::max(scale.x, scale.y);
+    const float pixels = keys_[0].width[point] * facing_[0].scale() * std::max(scale.x, scale.y);
     const float size = std::abs(pixels) / std::sqrt(std::max(primitive_.attributes->shading_rate, 1e-4f));
     if (size * kSquare <= 1) return 0;
     // A side of the disk is diced by the length of four chords; its number of segments and the area must fit.
@@ -143,7 +169,7 @@ bool PointsSurface::is_hole(int face) const {
     for (size_t key = 0; key < facing_.size(); ++key) {
         const Disk d = disk(face, static_cast<int>(key));
         const V3f at = transform_point(facing_[key].camera_from_object(), d.centre);
-        if (at.z > kRounding * (at.length() + std::abs(d.radius) * facing_[key].scale())) return false;
+        if (at.z > kRounding * (at.length() + (d.x + d.y).length() * facing_[key].scale())) return false;
     }
     return true;
 }
@@ -152,27 +178,37 @@ PointsSurface::Disk PointsSurface::disk(int point, int key) const {
     const ShapeMix mix = shape_mix(primitive_, key, primitive_.key_count());
     Disk disk;
     disk.centre = keys_[mix.first].place(point);
-    float diameter = keys_[mix.first].diameter(point);
+    float diameter = keys_[mix.first].width[point];
     if (mix.to_next != 0) {
         const PointValues& next = keys_[mix.first + 1];
         disk.centre += (next.place(point) - disk.centre) * mix.to_next;
-        diameter += (next.diameter(point) - diameter) * mix.to_next;
+        diameter += (next.width[point] - diameter) * mix.to_next;
     }
-    disk.square = factors_[point] == 0;
-    disk.radius = diameter / 2 * (disk.square ? kSquare : factors_[point]);
+    const V3f u = facing_[key].u_axis() * (diameter / 2), v = facing_[key].v_axis() * (diameter / 2);
+    if (type_ == PointType::Picture) {
+        const float angle = keys_[mix.first].angle[point] * kPi / 180,
+                    aspect = keys_[mix.first].aspect[point];
+        // v runs down, as a texture's t does.
+        disk.x = u * std::cos(angle) - v * std::sin(angle);
+        disk.y = (v * std::cos(angle) + u * std::sin(angle)) * (aspect > 0 ? 1 / aspect : 0.0f);
+        disk.rectangle = true;
+        return disk;
+    }
+    disk.rectangle = factors_[point] == 0;
+    const float factor = disk.rectangle ? kSquare : factors_[point];
+    disk.x = u * factor, disk.y = v * factor;
     return disk;
 }
 
 void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch*, std::span<V3f> P,
                              std::span<V3f> dPdu, std::span<V3f> dPdv) const {
     const Disk d = disk(face, key);
-    const V3f x = facing_[key].u_axis() * d.radius, y = facing_[key].v_axis() * d.radius;
     for (size_t i = 0; i < uv.size(); ++i) {
-        DiskPoint p{uv[i] * 2.0f - V2f(1, 1), {2, 0}, {0, 2}};
-        if (!d.square) p = disk_point(uv[i]);
-        P[i] = d.centre + x * p.at.x + y * p.at.y;
-        if (!dPdu.empty()) dPdu[i] = x * p.by_u.x + y * p.by_u.y;
-        if (!dPdv.empty()) dPdv[i] = x * p.by_v.x + y * p.by_v.y;
+        DiskPoint p{d.at(uv[i]), {2, 0}, {0, 2}};
+        if (!d.rectangle) p = disk_point(uv[i]);
+        P[i] = d.centre + d.x * p.at.x + d.y * p.at.y;
+        if (!dPdu.empty()) dPdu[i] = d.x * p.by_u.x + d.y * p.by_u.y;
+        if (!dPdv.empty()) dPdv[i] = d.x * p.by_v.x + d.y * p.by_v.y;
     }
 }
 
@@ -194,30 +230,59 @@ bool PointsSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfac
                                        ShadingGrid& grid) const {
     for (size_t i = 0; i < uv.size(); ++i) grid.u[i] = uv[i].x, grid.v[i] = uv[i].y;
     set_texture_coordinates(*primitive_.attributes, grid);
-    return set_variables(primitive_.shape().variables, ValuesOfPoint(face), grid);
+    if (set_variables(primitive_.shape().variables, ValuesOfPoint(face), grid)) return true;
+    if (type_ != PointType::Sphere) return false;
+    set_sphere_normals(disk(face, 0), uv, grid);
+    return true;
+}
+
+/// As the half of a sphere that faces the camera has them.
+void PointsSurface::set_sphere_normals(const Disk& disk, std::span<const V2f> uv, ShadingGrid& grid) const {
+    const V3f x = facing_[0].u_axis().normalized(), y = facing_[0].v_axis().normalized(), z = x.cross(y);
+    for (size_t i = 0; i < uv.size(); ++i) {
+        const V2f at = disk.at(uv[i]);
+        const V3f N = x * at.x + y * at.y + z * std::sqrt(std::max(1 - at.dot(at), 0.0f));
+        grid.N.set(i, N);
+    }
 }
 
 Box3f PointsSurface::bound(int face, V2f, V2f, int key) const {
     const Disk d = disk(face, key);
-    const V3f x = facing_[key].u_axis(), y = facing_[key].v_axis();
     V3f half;
-    for (int k = 0; k < 3; ++k) half[k] = std::abs(d.radius) * (std::abs(x[k]) + std::abs(y[k]));
+    for (int k = 0; k < 3; ++k) half[k] = std::abs(d.x[k]) + std::abs(d.y[k]);
     return {d.centre - half, d.centre + half};
+}
+
+/// The names of PRMan's and of other renderers'.
+PointType type_of_points(const Primitive& primitive, Diagnostics& diagnostics) {
+    const Parameter* type = primitive.shape().variables.find("type");
+    if (!type || type->strings.empty()) return PointType::Disk;
+    const std::string& name = type->strings[0];
+    if (name == "patch" || name == "sprite") return PointType::Picture;
+    if (name == "blobby" || name == "sphere") return PointType::Sphere;
+    if (name != "particle" && name != "disk" && name != "point")
+        diagnostics.warning(primitive.location,
+                            "Points: type \"" + name +
+                                "\" is not known; disks (known: particle, disk, blobby, sphere, patch)",
+                            "points-type");
+    return PointType::Disk;
 }
 
 }  // namespace
 
-std::unique_ptr<Surface> make_points_surface(const Primitive& primitive, const Camera* camera, Diagnostics&) {
+std::unique_ptr<Surface> make_points_surface(const Primitive& primitive, const Camera* camera,
+                                             Diagnostics& diagnostics) {
     std::vector<PointValues> keys;
     for (const auto& shape : primitive.shape_keys) {
         const ParameterList& list = shape->variables;
         const Parameter* width = list.find("width");
         if (!width) width = list.find("constantwidth");
-        const bool one = width && (width->declaration.storage == StorageClass::Constant ||
-                                   width->declaration.storage == StorageClass::Uniform);
-        keys.push_back({list.find("P")->floats.data(), width ? width->floats.data() : nullptr, one});
+        keys.push_back({list.find("P")->floats.data(), PointFloats(width, 1),
+                        PointFloats(list.find("patchangle"), 0),
+                        PointFloats(list.find("patchaspectratio"), 1)});
     }
-    return std::make_unique<PointsSurface>(primitive, camera, std::move(keys));
+    return std::make_unique<PointsSurface>(primitive, camera, type_of_points(primitive, diagnostics),
+                                           std::move(keys));
 }
 
 }  // namespace trapeze

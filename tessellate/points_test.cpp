@@ -154,5 +154,71 @@ TEST(Points, MoveWithTheirWidths) {
     }
 }
 
+Parameter text(const std::string& name, const std::string& value) {
+    Parameter parameter;
+    parameter.name = name, parameter.declaration = {StorageClass::Uniform, ValueType::String, 1};
+    parameter.strings = {value};
+    return parameter;
+}
+
+TEST(Points, PicturesAreRectanglesTurnedByTheirAngle) {
+    const Primitive primitive = primitive_of(
+        {places({0, 0, 0, 3, 0, 0}), parameter("width", StorageClass::Varying, ValueType::Float, {2, 1}),
+         parameter("patchangle", StorageClass::Varying, ValueType::Float, {0, 90}),
+         parameter("patchaspectratio", StorageClass::Constant, ValueType::Float, {4}), text("type", "patch")},
+        {test::translation(0, 0, 9)});
+    Diagnostics diagnostics;
+    const auto surface = make_surface(primitive, diagnostics);
+    const V2f corners[4] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    const V3f upright[4] = {{-1, 0.25f, 0}, {1, 0.25f, 0}, {-1, -0.25f, 0}, {1, -0.25f, 0}};
+    const V3f turned[4] = {{2.875f, -0.5f, 0}, {2.875f, 0.5f, 0}, {3.125f, -0.5f, 0}, {3.125f, 0.5f, 0}};
+    for (int face = 0; face < 2; ++face) {
+        V3f P[4];
+        surface->evaluate(face, corners, 0, nullptr, P, {}, {});
+        const Box3f box = surface->bound(face, {0, 0}, {1, 1}, 0);
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_LT((P[i] - (face == 0 ? upright : turned)[i]).length(), 1e-5f) << face << " " << i;
+            for (int k = 0; k < 3; ++k) {
+                EXPECT_LE(box.min[k], P[i][k] + 1e-5f);
+                EXPECT_GE(box.max[k], P[i][k] - 1e-5f);
+            }
+        }
+    }
+}
+
+TEST(Points, SpheresHaveASpheresNormals) {
+    for (const char* type : {"particle", "blobby"}) {
+        const Primitive primitive =
+            primitive_of({places({0, 0, 0}), text("type", type)}, {test::translation(0, 0, 5)});
+        Diagnostics diagnostics;
+        const auto surface = make_surface(primitive, diagnostics);
+        std::vector<V2f> uv;
+        for (const float u : {0.0f, 0.3f, 0.5f, 1.0f})
+            for (const float v : {0.0f, 0.5f, 0.8f, 1.0f}) uv.emplace_back(u, v);
+        ShadingGrid grid;
+        grid.u.resize(uv.size()), grid.v.resize(uv.size()), grid.s.resize(uv.size()),
+            grid.t.resize(uv.size());
+        grid.N.resize(uv.size());
+        const bool sphere = std::string(type) == "blobby";
+        ASSERT_EQ(surface->evaluate_variables(0, uv, nullptr, grid), sphere);
+        if (!sphere) continue;
+        std::vector<V3f> P(uv.size());
+        surface->evaluate(0, uv, 0, nullptr, P, {}, {});
+        for (size_t i = 0; i < uv.size(); ++i) {
+            const V3f at = P[i] / 0.5f;  // its width is 1
+            EXPECT_NEAR(grid.N.at(i).x, at.x, 1e-5f);
+            EXPECT_NEAR(grid.N.at(i).y, at.y, 1e-5f);
+            EXPECT_NEAR(grid.N.at(i).z, -std::sqrt(std::max(1 - at.dot(at), 0.0f)), 1e-3f);
+        }
+    }
+}
+
+TEST(Points, AnUnknownTypeIsSaidAndDrawnAsDisks) {
+    const Primitive primitive = primitive_of({places({0, 0, 0}), text("type", "hexagon")}, {M44f()});
+    Diagnostics diagnostics;
+    EXPECT_NE(make_surface(primitive, diagnostics), nullptr);
+    EXPECT_EQ(diagnostics.count(Severity::Warning), 1u);
+}
+
 }  // namespace
 }  // namespace trapeze

@@ -101,6 +101,8 @@ const Predeclared kPredeclared[] = {
     {"st", {StorageClass::Varying, ValueType::Float, 2}},
     {"width", {StorageClass::Varying, ValueType::Float, 1}},
     {"constantwidth", {StorageClass::Constant, ValueType::Float, 1}},
+    {"patchangle", {StorageClass::Varying, ValueType::Float, 1}},
+    {"patchaspectratio", {StorageClass::Varying, ValueType::Float, 1}},
 };
 
 const char* const kFloats[] = {"Ka",
@@ -127,10 +129,11 @@ const char* const kFloats[] = {"Ka",
 const char* const kColors[] = {"specularcolor", "lightcolor", "background", "opacity",
                                "bgcolor",       "fogcolor",   "color"};
 const char* const kPoints[] = {"from", "to"};
-const char* const kStrings[] = {
-    "texturename", "shadowname",       "mapname",     "name",           "archive",      "shader",
-    "texture",     "procedural",       "display",     "resource",       "depthfilter",  "filename",
-    "xmlfilename", "coordinatesystem", "compression", "displaymapname", "__instanceid", "__category"};
+const char* const kStrings[] = {"type",           "texturename",  "shadowname",       "mapname",
+                                "name",           "archive",      "shader",           "texture",
+                                "procedural",     "display",      "resource",         "depthfilter",
+                                "filename",       "xmlfilename",  "coordinatesystem", "compression",
+                                "displaymapname", "__instanceid", "__category"};
 
 }  // namespace
 
