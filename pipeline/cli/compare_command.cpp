@@ -16,6 +16,7 @@
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/write_pictures.h"
 #include "pipeline/frame/version.h"
+#include "pipeline/rib/programs.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
@@ -34,7 +35,10 @@ class CompareJob {
           options_(arguments.compare),
           terminal_(terminal),
           diagnostics_(diagnostics),
-          interrupt_(remove_partial_outputs) {}
+          interrupt_([] {
+              remove_partial_outputs();
+              rib::end_all_programs();
+          }) {}
 
     int run();
 

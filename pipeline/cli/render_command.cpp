@@ -15,6 +15,7 @@
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/write_frame.h"
+#include "pipeline/rib/programs.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
@@ -46,10 +47,10 @@ bool is_shadow_pass(const Options& options) {
 class RenderJob {
   public:
     RenderJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
-        : arguments_(arguments),
-          terminal_(terminal),
-          diagnostics_(diagnostics),
-          interrupt_(remove_partial_outputs) {}
+        : arguments_(arguments), terminal_(terminal), diagnostics_(diagnostics), interrupt_([] {
+              remove_partial_outputs();
+              rib::end_all_programs();
+          }) {}
 
     int run();
 

@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -21,6 +23,14 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostPrograms = 64;
 constexpr std::chrono::milliseconds kTimeToEnd{500};  ///< after its input is closed
+
+/// Of this process, the process groups of programs that run; 0: a free place. A forced end finds them here.
+std::array<std::atomic<pid_t>, 4 * kMostPrograms> g_groups;
+
+void note_group(pid_t from, pid_t to) {
+    for (std::atomic<pid_t>& group : g_groups)
+        if (pid_t expected = from; group.compare_exchange_strong(expected, to)) return;
+}
 
 class Descriptor {
   public:
@@ -94,7 +104,10 @@ std::string Programs::Program::start(Command words, const std::vector<std::strin
     const int error = posix_spawnp(&pid_, path.c_str(), &actions, &attributes, arguments.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
-    if (error == 0) return {};
+    if (error == 0) {
+        note_group(0, pid_);
+        return {};
+    }
     pid_ = -1;
     return std::strerror(error);
 }
@@ -110,6 +123,7 @@ void Programs::Program::stop(std::chrono::milliseconds time) {
         if (!ended) usleep(2000);
     }
     kill(-pid_, SIGKILL);
+    note_group(pid_, 0);
     if (!ended) waitpid(pid_, nullptr, 0);
     pid_ = -1;
 }
@@ -134,6 +148,11 @@ ProgramAnswer Programs::ask(const Command& command, const std::string& request,
     ProgramAnswer answer = programs_[command]->ask(request, time_limit, most_bytes);
     if (!answer.problem.empty()) programs_[command] = nullptr;
     return answer;
+}
+
+void end_all_programs() {
+    for (const std::atomic<pid_t>& group : g_groups)
+        if (const pid_t leader = group; leader > 0) kill(-leader, SIGKILL);
 }
 
 }  // namespace trapeze::rib

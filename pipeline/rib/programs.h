@@ -33,4 +33,7 @@ class Programs {
     std::map<Command, std::unique_ptr<Program>> programs_;  ///< null: has failed
 };
 
+/// Ends all programs of the process at once, for its own forced end; from any thread.
+void end_all_programs();
+
 }  // namespace trapeze::rib
