@@ -350,6 +350,17 @@ TEST(CommandLine, InterruptionLeavesNothingHalfWritten) {
     }
 }
 
+TEST(CommandLine, MemoryBoundsWhatEveryCommandReads) {
+    WorkFolder folder;
+    folder.write("a.rib", std::string(3 << 20, ' ') + kSphere);
+    for (const char* command : {"check", "info", "cat", "render -d null"}) {
+        EXPECT_EQ(run_program(folder, std::string(command) + " a.rib").exit_code, 0) << command;
+        const Outcome bounded = run_program(folder, std::string(command) + " --memory 1M a.rib");
+        EXPECT_NE(bounded.exit_code, 0) << command;
+        EXPECT_NE(bounded.err.find("limit of 1 MiB"), std::string::npos) << command << ": " << bounded.err;
+    }
+}
+
 /// A program that sleeps through the end of its input writes its number before.
 TEST(CommandLine, InterruptionEndsTheProgramsOfScenes) {
     WorkFolder folder;

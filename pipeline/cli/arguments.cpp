@@ -109,6 +109,11 @@ void add_simd_option(CLI::App& app, Arguments& a) {
         ->capture_default_str();
 }
 
+void add_memory_option(CLI::App& app, Arguments& a, const std::string& what_for) {
+    add_parsed(app, "--memory", a.memory_bytes, parse_size, what_for + " (default: 3/4 of the machine's)",
+               "SIZE like 4G");
+}
+
 /// How the machine is used, and what is said meanwhile.
 void add_work_options(CLI::App& app, Arguments& a) {
     add_simd_option(app, a);
@@ -118,8 +123,7 @@ void add_work_options(CLI::App& app, Arguments& a) {
     app.add_option("--progress", a.progress, "how to show progress")
         ->check(CLI::IsMember({"auto", "bar", "lines", "json", "prman", "none"}))
         ->capture_default_str();
-    add_parsed(app, "--memory", a.memory_bytes, parse_size,
-               "for grids and tree, and as much for a file and its scene (default: 3/4 of the machine's)", "SIZE like 4G");
+    add_memory_option(app, a, "for grids and tree, and as much for a file and its scene");
     app.add_flag("-q,--quiet", a.quiet, "only errors");
 }
 
@@ -330,7 +334,9 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     CLI::App* shader = app.add_subcommand("shader", "checks a shader's source, and says what it takes");
     CLI::App* compliance =
         app.add_subcommand("compliance", "writes what of the RenderMan Interface is supported, as Markdown");
-    compliance->add_option("--scenes", arguments.scenes_folder, "where tiny and gallery lie, whose RIB files show requests")
+    compliance
+        ->add_option("--scenes", arguments.scenes_folder,
+                     "where tiny and gallery lie, whose RIB files show requests")
         ->capture_default_str()
         ->type_name("DIR");
     for (CLI::App* command : {render, check, info, cat, compare}) {
@@ -346,6 +352,8 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     shader->footer(kExitCodeHelp);
     scene->footer(kExitCodeHelp);
     study->footer(kExitCodeHelp);
+    for (CLI::App* command : {check, info, cat})
+        add_memory_option(*command, arguments, "for a file and for its scene, each");
     check->add_flag("--strict", arguments.strict,
                     "warnings, and what has no effect, count as errors for the exit code");
 

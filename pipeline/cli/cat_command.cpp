@@ -8,6 +8,7 @@
 #include "composite/output_file.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/read_settings.h"
 #include "pipeline/rib/cat_rib.h"
 
 namespace trapeze {
@@ -49,6 +50,7 @@ int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& dia
     options.encoding = cat.binary ? rib::RibEncoding::Binary : rib::RibEncoding::Ascii;
     options.gzip = cat.gzip || arguments.output.ends_with(".gz");
     options.keep_archives = cat.keep_archives;
+    options.max_source_bytes = read_options(arguments).max_source_bytes;
     const ReadSummary summary = rib::cat_rib(arguments.inputs, options, diagnostics,
                                              [&](std::string_view bytes) { output.write(bytes); });
     if (!output.close()) return cannot_write();

@@ -31,6 +31,7 @@ ReadSummary cat_rib(std::span<const std::string> files, const CatOptions& cat, D
 
     ReadOptions options;
     options.keep_geometry = false;
+    options.max_source_bytes = cat.max_source_bytes;
     options.on_request = [&](const RequestText& request) {
         const bool reads = reads_archive(request);
         if (!reads || cat.keep_archives) writer.write(request);

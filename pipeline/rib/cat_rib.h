@@ -11,6 +11,7 @@ struct CatOptions {
     RibEncoding encoding = RibEncoding::Ascii;
     bool gzip = false;
     bool keep_archives = false;  ///< ReadArchive stays as it is
+    size_t max_source_bytes = ReadOptions{}.max_source_bytes;
 };
 
 /// `write` takes the bytes as they come. Programs of procedurals are not run: their requests are written.
