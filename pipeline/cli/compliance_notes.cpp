@@ -22,7 +22,7 @@ constexpr RequestNote kRequests[] = {
     {"HierarchicalSubdivisionMesh",
      "as SubdivisionMesh; edits of finer levels, which OpenSubdiv has not, are left out with one warning"},
     {"Hider",
-     "hidden; others are warned about and hidden is used; jitter, depthfilter; minsamples and maxsamples "
+     "hidden; others are warned about and hidden is used; jitter, depthfilter, samplemotion; minsamples and maxsamples "
      "(as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
     {"Imager", "over the finished picture, after filtering"},
     {"Integrator", "read; RIS shaders are not run"},

@@ -28,6 +28,7 @@ constexpr UsualValue kUsual[] = {
     {"statistics", "endofframe", ValueType::Integer},
     {"hidden", "jitter", ValueType::Integer},
     {"hidden", "depthfilter", ValueType::String},
+    {"hidden", "samplemotion", ValueType::Integer},
     {"identifier", "shadinggroup", ValueType::String},
     {"trimcurve", "sense", ValueType::String},
     {"light", "shadows", ValueType::String},

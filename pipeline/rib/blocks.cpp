@@ -111,6 +111,9 @@ void Reader::begin_world() {
     if (in_world_) throw RequestError{"a world is open already", {}};
     begin_block(Block::World);
     open_scope();
+    // Without it, as for shadow maps, all is seen as the shutter opens.
+    if (scope_.options.hider_parameters.float_or("samplemotion", 1) == 0)
+        scope_.options.shutter_close = scope_.options.shutter_open;
     camera_ = state_.transform;
     in_world_ = true;
     world_depth_ = open_files_.size();

@@ -41,7 +41,7 @@ constexpr SettledSetting kSettledAttributes[] = {
     {"stitch", "traceenable", "grids join without cracks in any case"},
 };
 
-constexpr std::string_view kHider[] = {"depthfilter", "jitter", "maxsamples", "minsamples"};
+constexpr std::string_view kHider[] = {"depthfilter", "jitter", "maxsamples", "minsamples", "samplemotion"};
 
 constexpr std::string_view kDisplay[] = {"quantize",     "dither",         "type",
                                          "exrpixeltype", "exrcompression", "compression"};

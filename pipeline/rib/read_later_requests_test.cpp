@@ -225,6 +225,19 @@ TEST(Ris, HidersSayHowManySamplesWherePixelSamplesDoesNot) {
     }
 }
 
+TEST(Settings, SamplemotionStopsTheShutterOfItsWorldsAlone) {
+    const std::string moving = "WorldBegin MotionBegin [0 1] Translate 0 0 5 Translate 1 0 5 MotionEnd " +
+                               std::string(kSphere) + " WorldEnd ";
+    const Outcome outcome =
+        read_text("Shutter 0 1 FrameBegin 1 Hider \"hidden\" \"samplemotion\" [0] " + moving +
+                  "FrameEnd FrameBegin 2 Hider \"hidden\" \"samplemotion\" [1] " + moving + "FrameEnd");
+    ASSERT_EQ(outcome.worlds.size(), 2u);
+    EXPECT_EQ(outcome.worlds[0].primitives[0].key_count(), 1);
+    EXPECT_EQ(outcome.worlds[1].primitives[0].key_count(), 2);
+    EXPECT_EQ(outcome.worlds[1].options.shutter_close, 1);
+    EXPECT_THAT(outcome.summary.without_effect, IsEmpty());
+}
+
 TEST(Settings, ThatAskForWhatIsSoInAnyCaseAreNotCalledIgnored) {
     const Outcome outcome = read_world(
         "Attribute \"dice\" \"hair\" [1] Attribute \"cull\" \"backfacing\" [0] \"hidden\" [0] "
