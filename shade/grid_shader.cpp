@@ -90,8 +90,12 @@ void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& 
             return loader.load(out, &ShadingGrid::Cs);
         case Predefined::Os:
             return loader.load(out, &ShadingGrid::Os);
-        case Predefined::Ci:
-            return loader.load(out, shaded ? &ShadingGrid::Ci : &ShadingGrid::Cs);
+        case Predefined::Ci: {
+            // Black where nothing has shaded yet: what a shader leaves alone, or adds to, shows nothing of its own.
+            if (shaded) return loader.load(out, &ShadingGrid::Ci);
+            const float black[3] = {};
+            return frame.set_uniform(value.id, black);
+        }
         case Predefined::Oi:
             return loader.load(out, shaded ? &ShadingGrid::Oi : &ShadingGrid::Os);
         case Predefined::u:

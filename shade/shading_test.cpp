@@ -62,6 +62,26 @@ TEST(Shading, ShadersOfOtherMachinesAreFoundByTheirNames) {
     EXPECT_TRUE(scene.reported.empty());
 }
 
+/// As RenderMan's renderers have it: a shader that sets only Oi to 0 in places shows nothing there.
+TEST(Shading, ColoursStartBlackAndOpacitiesAsThePrimitives) {
+    TestScene scene;
+    const ShaderFolder folder;
+    folder.write("glow", "surface glow() { if (s > 0.5) Ci = Cs; else Oi = 0; }");
+    folder.write("sum", "surface sum() { float i; for (i = 0; i < 3; i += 1) Ci += Cs; }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.surface("glow");
+    const ShadingGrid glow = scene.shaded();
+    for (size_t i = 0; i < glow.vertex_count(); ++i) {
+        const bool lit = glow.s[i] > 0.5f;
+        EXPECT_EQ(glow.Ci.at(i), lit ? glow.Cs.at(i) : V3f(0)) << i;
+        EXPECT_EQ(glow.Oi.at(i), lit ? glow.Os.at(i) : V3f(0)) << i;
+    }
+    scene.surface("sum");
+    const ShadingGrid sum = scene.shaded();
+    expect_near(sum.Ci.at(0), sum.Cs.at(0) * 3.0f, 1e-6f);
+    EXPECT_EQ(sum.Oi.at(0), sum.Os.at(0));
+}
+
 TEST(Shading, EachPrimitiveHasItsOwnShaders) {
     TestScene scene;
     scene.surface("constant");

@@ -40,12 +40,16 @@ TEST(StartValues, AreNeededOfWhatIsSetInPart) {
     expect_needed("if (s > 0.5) return; Ci = Cs;", true);
 }
 
-/// Lanes that do not set Ci keep what the grid has.
+/// Lanes that do not set Oi keep what the grid has; those that do not set Ci stay black.
 TEST(StartValues, LanesThatDoNotRunKeepThem) {
-    ShaderRun run("surface test(output varying float r = 0;) { if (s > 0.5) Ci = 7; r = comp(Ci, 0); }");
+    ShaderRun run(
+        "surface test(output varying float r = 0; output varying float b = 0;) {"
+        "  if (s > 0.5) { Oi = 7; Ci = 7; } r = comp(Oi, 0); b = comp(Ci, 0); }");
     run.run();
-    for (size_t i = 0; i < run.vertices(); ++i)
-        EXPECT_EQ(run.at("r", i), run.grid().s[i] > 0.5f ? 7 : run.grid().Cs.c[0][i]) << i;
+    for (size_t i = 0; i < run.vertices(); ++i) {
+        EXPECT_EQ(run.at("r", i), run.grid().s[i] > 0.5f ? 7 : run.grid().Os.c[0][i]) << i;
+        EXPECT_EQ(run.at("b", i), run.grid().s[i] > 0.5f ? 7 : 0) << i;
+    }
 }
 
 TEST(StartValues, KnowEveryNameOfTheTables) {
