@@ -46,6 +46,41 @@ std::string read_all(std::FILE* file, size_t max_bytes, std::string* problem) {
     return bytes;
 }
 
+void append_utf8(std::string& bytes, uint32_t code) {
+    if (code < 0x80) {
+        bytes += static_cast<char>(code);
+        return;
+    }
+    const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    bytes += static_cast<char>((0xff00 >> (more + 1) & 0xff) | code >> 6 * more);
+    for (int i = more - 1; i >= 0; --i) bytes += static_cast<char>(0x80 | (code >> 6 * i & 0x3f));
+}
+
+/// What editors and shells of Windows write; an odd byte at the end is left out.
+bool is_utf16(const std::string& text) {
+    return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
+std::string utf8_of_utf16(const std::string& text) {
+    const bool is_big = text.starts_with("\xfe\xff");
+    const auto unit_at = [&](size_t i) -> uint32_t {
+        const auto first = static_cast<unsigned char>(text[i]);
+        const auto second = static_cast<unsigned char>(text[i + 1]);
+        return is_big ? first << 8 | second : second << 8 | first;
+    };
+    std::string bytes;
+    bytes.reserve(text.size() / 2);
+    for (size_t i = 2; i + 1 < text.size(); i += 2) {
+        uint32_t code = unit_at(i);
+        if (code >> 10 == 0x36 && i + 3 < text.size() && unit_at(i + 2) >> 10 == 0x37) {
+            code = 0x10000 + ((code & 0x3ff) << 10) + (unit_at(i + 2) & 0x3ff);
+            i += 2;
+        }
+        append_utf8(bytes, code);
+    }
+    return bytes;
+}
+
 }  // namespace
 
 std::string inflated(const std::string& packed, Packing packing, size_t max_bytes, std::string* problem) {
@@ -108,6 +143,7 @@ std::optional<SourceText> read_source(const std::string& path, size_t max_bytes,
     }
     const bool gzip = source.text.size() >= 2 && source.text[0] == '\x1f' && source.text[1] == '\x8b';
     if (gzip) source.text = inflated(source.text, Packing::Gzip, max_bytes, &source.problem);
+    if (is_utf16(source.text)) source.text = utf8_of_utf16(source.text);
     return source;
 }
 

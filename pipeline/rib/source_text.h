@@ -1,4 +1,4 @@
-/// The bytes of a RIB stream: a file or standard input, gzip undone.
+/// The bytes of a RIB stream: a file or standard input, gzip and UTF-16 undone.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ enum class Packing { Gzip, Deflate };
 /// Undoes gzip (several members too) or deflate, up to max_bytes. *problem stays empty when all is well.
 std::string inflated(const std::string& packed, Packing packing, size_t max_bytes, std::string* problem);
 
-/// Reads "-" as standard input, "job.zip!member" as that member of an archive. Gzip is known by its first two
-/// bytes. Never holds more than max_bytes.
+/// Reads "-" as standard input, "job.zip!member" as that member of an archive. Gzip and UTF-16 are
+/// known by the first two bytes. Never takes more than max_bytes.
 std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error);
 
 }  // namespace trapeze::rib
