@@ -90,7 +90,8 @@ bool find_request_name(Scanner& scanner, Diagnostics& diagnostics) {
         if (token.kind == TokenKind::Word) return true;
         if (reported) continue;
         reported = true;
-        diagnostics.error(token.at, "a request is expected here; skipped to the next one");
+        diagnostics.error(token.at, "a request is expected here; skipped to the next one",
+                          "request-expected");
     }
 }
 
@@ -155,7 +156,7 @@ bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, 
             case TokenKind::Bad:
                 // What stands on a line of its own is none of the request's.
                 if (token.text == kStrayCharacters && token.at.line > last_line(request)) {
-                    diagnostics.error(token.at, std::string(token.text) + "; skipped");
+                    diagnostics.error(token.at, std::string(token.text) + "; skipped", "stray-characters");
                     scanner.skip();
                     return true;
                 }

@@ -47,15 +47,15 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
         if (!declared && undeclared != Undeclared::LeaveOut && token.find(' ') == std::string::npos) {
             declared = {token, guessed(numbers.size(), value.strings.size())};
             if (undeclared == Undeclared::ShaderKnows)
-                diagnostics_.warning(name_at,
-                                     request_name_ + ": " + in_quotes(token) +
-                                         " is not declared; it is what the shader says it is",
-                                     "undeclared-" + token);
+                report(Severity::Warning, name_at,
+                       request_name_ + ": " + in_quotes(token) +
+                           " is not declared; it is what the shader says it is",
+                       "undeclared-" + token);
         }
         if (!declared) {
-            diagnostics_.error(name_at,
-                               request_name_ + ": " + in_quotes(token) + " is not declared; left out",
-                               "undeclared-" + token);
+            report(Severity::Error, name_at,
+                   request_name_ + ": " + in_quotes(token) + " is not declared; left out",
+                   "undeclared-" + token);
             continue;
         }
         const auto& [name, declaration] = *declared;

@@ -6,6 +6,7 @@
 namespace trapeze::rib::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -183,6 +184,27 @@ TEST(ReadText, ArraysEndBeforeTheNextRequest) {
     EXPECT_EQ(r.count(), 2u);
 }
 
+TEST(ReadText, Utf16WithAByteOrderMarkIsRead) {
+    // As editors and shells of Windows write; "\u00fc" and a pair of surrogates stand in a name.
+    const std::u16string text =
+        u"\ufeffWorldBegin\r\nAttribute \"identifier\" \"string name\" "
+        u"\"\u00fc\u4e16\U0001F600\"\r\nSphere 1 -1 1 360\r\nWorldEnd\r\n";
+    for (const bool big : {false, true}) {
+        std::string bytes;
+        for (const char16_t unit : text)
+            for (const int shift : {big ? 8 : 0, big ? 0 : 8})
+                bytes += static_cast<char>(unit >> shift & 255);
+        const Folder folder;
+        const Outcome r = read_files(folder, {folder.write("a.rib", bytes)});
+        EXPECT_THAT(r.messages, IsEmpty()) << big;
+        ASSERT_EQ(r.count(), 1u) << big;
+        EXPECT_EQ(r.attributes().name, "\xc3\xbc\xe4\xb8\x96\xf0\x9f\x98\x80") << big;
+
+        bytes.pop_back();  // cut in the middle of a character
+        EXPECT_EQ(read_files(folder, {folder.write("a.rib", bytes)}).count(), 1u) << big;
+    }
+}
+
 TEST(ReadText, UnknownRequestsAreSkippedWithAnIdeaOfWhatWasMeant) {
     const Outcome r = read_world("Spere 1 -1 1 360 " + kSphere + "sphere 1 Xyzzy [1 2] \"a\" " + kSphere);
     EXPECT_THAT(
@@ -192,6 +214,27 @@ TEST(ReadText, UnknownRequestsAreSkippedWithAnIdeaOfWhatWasMeant) {
             HasSubstr("sphere: no such request (did you mean Sphere?)"),
             HasSubstr("Xyzzy: no such request; skipped")));
     EXPECT_EQ(r.count(), 2u);
+}
+
+TEST(ReadText, WhatIsNoRibAtAllIsNoFloodOfMessages) {
+    std::string prose, undeclared;
+    const auto letters = [](int n) {
+        return std::string{char('a' + n / 676), char('a' + n / 26 % 26), char('a' + n % 26)};
+    };
+    for (int i = 0; i < 3000; ++i) {
+        prose += letters(i) + "x [1 2] ~~\n";
+        undeclared +=
+            "Attribute \"" + letters(i) + "\" \"x\" [1] " + "Sphere 1 -1 1 360 \"" + letters(i) + "\" [1]\n";
+    }
+    const Outcome words = read_world(prose + kSphere);
+    EXPECT_LT(words.messages.size(), 30u);
+    EXPECT_THAT(words.messages, Contains(HasSubstr("further unknown names are only counted")));
+    EXPECT_EQ(words.count(), 1u);
+
+    const Outcome names = read_world(undeclared + kSphere);
+    EXPECT_LT(names.messages.size(), 250u);
+    EXPECT_THAT(names.messages, Contains(HasSubstr("further messages of other kinds are only counted")));
+    EXPECT_EQ(names.count(), 3001u);
 }
 
 TEST(ReadText, UnsupportedRequestsWarnOncePerKind) {

@@ -28,6 +28,10 @@ bool has_no_points(const RequestText& text) {
     return false;
 }
 
+// What is no RIB at all has a mistake of its own in each word.
+constexpr size_t kMostKinds = 200;
+constexpr size_t kMostUnknownRequests = 20;
+
 /// A message without its numbers: files that are wrong in one place are wrong alike in many.
 std::string kind_of(Severity severity, const std::string& text) {
     std::string kind = severity == Severity::Error ? "error-" : "warning-";
@@ -48,13 +52,34 @@ Reader::Reader(const ReadOptions& options, Diagnostics& diagnostics,
 }
 
 void Reader::error(SourceLocation at, const std::string& text) {
-    const Severity severity = on_error_ == OnError::Ignore ? Severity::Warning : Severity::Error;
     const std::string whole = request_name_ + ": " + text;
-    diagnostics_.report(severity, at.line ? at : at_, whole, kind_of(severity, whole));
+    report(severity_of_errors(), at.line ? at : at_, whole, kind_of(severity_of_errors(), whole));
 }
 
 void Reader::warn_once(const std::string& text, const std::string& kind) {
-    diagnostics_.warning(at_, request_name_ + ": " + text, kind);
+    report(Severity::Warning, at_, request_name_ + ": " + text, kind);
+}
+
+void Reader::report(Severity severity, SourceLocation at, const std::string& text, const std::string& kind) {
+    if (kinds_.size() < kMostKinds) kinds_.insert(kind);
+    if (kinds_.contains(kind))
+        diagnostics_.report(severity, at, text, kind);
+    else
+        diagnostics_.report(severity, at, text + " (further messages of other kinds are only counted)",
+                            severity == Severity::Error ? "error-further-kinds" : "warning-further-kinds");
+}
+
+void Reader::report_unknown(const std::string& request) {
+    if (unknown_requests_.size() < kMostUnknownRequests) unknown_requests_.insert(request);
+    if (!unknown_requests_.contains(request)) {
+        report(severity_of_errors(), at_,
+               request_name_ + ": no such request; further unknown names are only counted",
+               "error-further-unknown-requests");
+        return;
+    }
+    const std::string like = suggestion_for(request);
+    error("no such request" + (like.empty() ? "" : " (did you mean " + like + "?)") +
+          "; skipped to the next one");
 }
 
 AttributeState& Reader::change_attributes() {
@@ -116,9 +141,7 @@ void Reader::execute(RequestText& text) {
     const Request* const request = find_request(text.name);
     request_name_ = request ? text.name : clipped(text.name);
     if (!request) {
-        const std::string like = suggestion_for(text.name);
-        error("no such request" + (like.empty() ? "" : " (did you mean " + like + "?)") +
-              "; skipped to the next one");
+        report_unknown(text.name);
         return;
     }
     ++summary_.requests[text.name];

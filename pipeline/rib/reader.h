@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "pipeline/rib/arguments.h"
 #include "pipeline/rib/conditions.h"
@@ -214,6 +215,11 @@ class Reader {
     void read_in_block(Read&& read);
     const MovingTransform* named_space(const std::string& name) const;
     bool is_stopped();
+    Severity severity_of_errors() const {
+        return on_error_ == OnError::Ignore ? Severity::Warning : Severity::Error;
+    }
+    void report(Severity severity, SourceLocation at, const std::string& text, const std::string& kind);
+    void report_unknown(const std::string& request);
     float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
 
     const ReadOptions& read_options_;
@@ -224,6 +230,7 @@ class Reader {
 
     SourceLocation at_;  ///< of the request being executed
     std::string request_name_;
+    std::set<std::string> kinds_, unknown_requests_;  ///< of messages and of names that were shown
     Scope scope_;
     GraphicsState state_;
     std::vector<OpenBlock> blocks_;
