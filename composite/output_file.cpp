@@ -9,6 +9,8 @@
 #include <mutex>
 #include <set>
 
+#include "core/foreign_paths.h"
+
 namespace trapeze {
 namespace {
 
@@ -30,6 +32,10 @@ Partials& partials() {
 constexpr size_t kNameBytes = 200;  ///< of the target's name kept in the temporary one: names end at 255
 
 constexpr int kMaxLinks = 40;  ///< as Linux has it
+
+bool names_drive(const std::string& path) {
+    return path.size() > 1 && path[1] == ':';
+}
 
 }  // namespace
 
@@ -132,10 +138,20 @@ void OutputFile::remove_partials() {
 
 void make_folder_of(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path().lexically_normal();
-    const bool is_drive = path.size() > 1 && path[1] == ':';
-    if (folder.empty() || folder.is_absolute() || is_drive || *folder.begin() == "..") return;
+    if (folder.empty() || folder.is_absolute() || names_drive(path) || *folder.begin() == "..") return;
     std::error_code failed;
     fs::create_directories(folder, failed);
+}
+
+std::string place_to_write(const std::string& path) {
+    make_folder_of(path);
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code failed;
+    if (names_drive(path) ? fs::exists(folder, failed) && !folder.empty()
+                          : folder.empty() || fs::exists(folder, failed))
+        return path;
+    const std::vector<std::string> names = other_names(path);
+    return names.empty() ? path : names.back();
 }
 
 }  // namespace trapeze

@@ -46,4 +46,8 @@ class OutputFile {
 /// Others, which could be anywhere, are not. What is wrong is said when the file is written.
 void make_folder_of(const std::string& path);
 
+/// Where a file that a scene names is written: there, after make_folder_of(). A folder that is not here was
+/// another machine's: what belongs there goes into the working folder, where other_names() finds it.
+std::string place_to_write(const std::string& path);
+
 }  // namespace trapeze

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "composite/image_output.h"
 #include "composite/open_exr_output.h"
 #include "composite/output_file.h"
@@ -13,15 +15,24 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
     Diagnostics& diagnostics = *context.diagnostics;
     const AovLayout layout = aov_layout(context.scene->options);
     bool good = true;
+    std::set<std::string> places;
     for (const Display& display : context.scene->options.displays) {
         if (context.is_cancelled()) return false;
-        const auto plan = plan_display(display, context.scene->options, layout, diagnostics);
+        auto plan = plan_display(display, context.scene->options, layout, diagnostics);
         if (!plan) continue;
         std::string error;
         if (image.window.empty()) {
             error = "the crop window holds no pixels";
         } else {
-            make_folder_of(plan->path);
+            std::string place = place_to_write(plan->path);
+            if (place != plan->path && !places.contains(place)) {
+                diagnostics.warning(
+                    display.location,
+                    fmt::format("there is no folder for \"{}\"; it is written as \"{}\"", plan->path, place),
+                    "no-folder");
+                plan->path = std::move(place);
+            }
+            places.insert(plan->path);
             OutputFile file(plan->path);
             const PictureToWrite picture{image, context, *plan, info};
             error = plan->format == FileFormat::OpenExr ? write_open_exr(picture, file)

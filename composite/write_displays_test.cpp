@@ -316,34 +316,43 @@ TEST(WriteDisplays, AFailureIsOneErrorAndTheOthersAreWritten) {
     Diagnostics diagnostics([&](const Diagnostic& diagnostic) { shown.push_back(to_string(diagnostic)); });
     scene.context.diagnostics = &diagnostics;
     const SourceLocation place{diagnostics.add_source("s.rib"), 7, 3};
-    scene.scene.options.displays = {{folder.file("none/a.exr"), "file", "rgba", {}, place},
-                                    {folder.file("none/a.png"), "file", "rgba", {}, place},
+    std::filesystem::create_directories(folder.file("a.exr"));
+    std::filesystem::create_directories(folder.file("a.png"));
+    scene.scene.options.displays = {{folder.file("a.exr"), "file", "rgba", {}, place},
+                                    {folder.file("a.png"), "file", "rgba", {}, place},
                                     {folder.file("b.exr"), "null", "rgba", {}, place},
                                     {folder.file("c.exr"), "file", "rgba", {}, place}};
     const Written result = write(numbered_image(scene), scene);
     EXPECT_FALSE(result.good);
     EXPECT_EQ(result.paths, std::vector<std::string>{folder.file("c.exr")});
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"c.exr"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "a.png", "c.exr"}));
     ASSERT_EQ(shown.size(), 2u);
-    EXPECT_EQ(shown[0], "s.rib:7:3: error: cannot write \"" + folder.file("none/a.exr") +
-                            "\": there is no folder \"" + folder.file("none") + "\"");
+    EXPECT_EQ(shown[0], "s.rib:7:3: error: cannot write \"" + folder.file("a.exr") + "\": it is a folder");
 }
 
-TEST(WriteDisplays, FoldersBelowTheWorkingFolderAreMade) {
+TEST(WriteDisplays, FoldersBelowTheWorkingFolderAreMadeAndOthersLeftOut) {
     const TemporaryFolder folder;
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(folder.path());
     RasterScene scene(40, 30, 1);
-    for (const char* name : {"./renders/1/a.exr", "../trapeze-none/a.exr", "C:/none/a.exr"})
+    for (const char* name : {"./renders/1/a.exr", "../trapeze-none/b.exr", "C:/none/c.exr", "C:\\d.exr",
+                             "//server/none/e.exr", "/trapeze-none/e.exr"})
         scene.scene.options.displays.push_back({name, "file", "rgba", {}, {}});
-    Diagnostics diagnostics([](const Diagnostic&) {});
+    std::vector<std::string> shown;
+    Diagnostics diagnostics([&](const Diagnostic& diagnostic) { shown.push_back(to_string(diagnostic)); });
     scene.context.diagnostics = &diagnostics;
     const Written result = write(numbered_image(scene), scene);
     std::filesystem::current_path(before);
-    EXPECT_FALSE(result.good);
-    EXPECT_EQ(result.paths, std::vector<std::string>{"./renders/1/a.exr"});
+    EXPECT_EQ(result.paths,
+              (std::vector<std::string>{"./renders/1/a.exr", "b.exr", "c.exr", "d.exr", "e.exr"}));
     EXPECT_TRUE(std::filesystem::exists(folder.file("renders/1/a.exr")));
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"renders"});
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"b.exr", "c.exr", "d.exr", "e.exr", "renders"}));
+    ASSERT_EQ(shown.size(), 2u);
+    EXPECT_EQ(shown[0],
+              "warning: there is no folder for \"../trapeze-none/b.exr\"; it is written as \"b.exr\"");
+    // The name is taken by another picture of this frame.
+    EXPECT_FALSE(result.good);
+    EXPECT_EQ(shown[1], "error: cannot write \"/trapeze-none/e.exr\": there is no folder \"/trapeze-none\"");
 }
 
 TEST(WriteDisplays, AFullDiskLeavesNothing) {

@@ -54,6 +54,34 @@ MakeShadow "missing.z" "./none/light.shd"
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST(Passes, OfAnotherMachineFindTheirMapsInTheWorkingFolder) {
+    WorkFolder folder;
+    folder.write("a.rib", std::string(kCamera) + R"(
+FrameBegin 1
+Display "/trapeze-none/maps/light.z" "zfile" "z"
+WorldBegin
+)" + kWallAndSquare + R"(
+WorldEnd
+MakeShadow "/trapeze-none/maps/light.z" "/trapeze-none/maps/light.shd"
+FrameEnd
+FrameBegin 2
+Display "/trapeze-none/seen.exr" "openexr" "rgba"
+WorldBegin
+Surface "trapeze_map"
+)" + kWallAndSquare + R"(
+WorldEnd
+FrameEnd
+)");
+    folder.write("trapeze_map.sl",
+                 "surface trapeze_map() { Ci = 1 - shadow(\"/trapeze-none/maps/light.shd\", "
+                 "P + vector(0, 0, -.1)); }");
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "light.shd")) << outcome.err;
+    const Picture picture(folder / "seen.exr");
+    EXPECT_EQ(picture.at(-.5f, .5f, 0), 1);
+}
+
 TEST(Passes, AnEmptyWorldWithoutADisplayIsNoPicture) {
     WorkFolder folder;
     folder.write("a.rib", "WorldBegin WorldEnd\n" + std::string(kCamera) + R"(

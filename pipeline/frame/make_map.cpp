@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "composite/output_file.h"
+#include "core/foreign_paths.h"
 #include "shade/make_maps.h"
 
 namespace trapeze {
@@ -14,30 +15,35 @@ namespace fs = std::filesystem;
 
 std::string found_picture(const std::string& name, const std::vector<std::string>& folders) {
     std::error_code ignored;
-    if (fs::path(name).is_absolute() || fs::is_regular_file(name, ignored)) return name;
-    for (const std::string& folder : folders) {
-        const fs::path path = fs::path(folder) / name;
-        if (fs::is_regular_file(path, ignored)) return path.string();
+    std::vector<std::string> names = other_names(name);
+    names.insert(names.begin(), name);
+    for (const std::string& candidate : names) {
+        if (fs::is_regular_file(candidate, ignored)) return candidate;
+        for (const std::string& folder : folders) {
+            const fs::path path = fs::path(folder) / candidate;
+            if (fs::is_regular_file(path, ignored)) return path.string();
+        }
     }
     return name;
 }
 
 /// Empty, or what went wrong.
-std::string made(const MapRequest& request, const std::vector<std::string>& pictures) {
+std::string made(const MapRequest& request, const std::string& map,
+                 const std::vector<std::string>& pictures) {
     const MapMaking making{request.swrap, request.twrap, request.filter};
     switch (request.kind) {
         case MapRequest::Kind::Texture:
-            return make_texture_map(pictures[0], request.map, making);
+            return make_texture_map(pictures[0], map, making);
         case MapRequest::Kind::Bump:
-            return make_bump_map(pictures[0], request.map, making);
+            return make_bump_map(pictures[0], map, making);
         case MapRequest::Kind::LatLongEnvironment:
-            return make_lat_long_environment(pictures[0], request.map, making);
+            return make_lat_long_environment(pictures[0], map, making);
         case MapRequest::Kind::CubeFaceEnvironment:
             return make_cube_face_environment(
-                {pictures[0], pictures[1], pictures[2], pictures[3], pictures[4], pictures[5]}, request.map,
+                {pictures[0], pictures[1], pictures[2], pictures[3], pictures[4], pictures[5]}, map,
                 request.fov, making);
         case MapRequest::Kind::Shadow:
-            return make_shadow_map(pictures[0], request.map);
+            return make_shadow_map(pictures[0], map);
     }
     return {};
 }
@@ -48,8 +54,14 @@ void make_map(const MapRequest& request, Diagnostics& diagnostics) {
     std::vector<std::string> pictures;
     for (const std::string& name : request.pictures) pictures.push_back(found_picture(name, request.folders));
     std::error_code ignored;
-    if (fs::is_regular_file(pictures[0], ignored)) make_folder_of(request.map);
-    const std::string problem = made(request, pictures);
+    const std::string map =
+        fs::is_regular_file(pictures[0], ignored) ? place_to_write(request.map) : request.map;
+    const std::string problem = made(request, map, pictures);
+    if (problem.empty() && map != request.map)
+        diagnostics.warning(
+            request.location,
+            fmt::format("there is no folder for \"{}\"; it is made as \"{}\"", request.map, map),
+            "no-folder");
     if (problem.empty()) return;
     diagnostics.error(request.location, fmt::format("cannot make \"{}\" from \"{}\": {}", request.map,
                                                     request.pictures[0], problem));
