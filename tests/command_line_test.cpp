@@ -87,6 +87,23 @@ TEST(CommandLine, ChecksShaders) {
     EXPECT_EQ(run_program(folder, "shader").exit_code, 2);
 }
 
+TEST(CommandLine, TexturesThatPathTracersMissAreErrors) {
+    WorkFolder folder;
+    folder.write("a.rib", R"(Format 32 32 1
+Translate 0 0 3
+WorldBegin
+Pattern "PxrTexture" "map" "string filename" ["none.tex"]
+Bxdf "PxrDisney" "skin" "reference color baseColor" ["map:resultRGB"]
+Sphere 1 -1 1 360
+WorldEnd
+)");
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("error: texture \"none.tex\": is not found"), std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.exr"));
+}
+
 /// A depth pass and a picture that the last frame looks up.
 constexpr const char* kPasses = R"(Format 32 32 1
 PixelSamples 1 1

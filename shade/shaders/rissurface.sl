@@ -14,9 +14,8 @@ surface rissurface(
 
     if (texturename != "") {
         textureinfo(texturename, "exists", isthere);
-        if (isthere == 1)
-            base *= color texture(texturename, s * scales, 1 - t * scalet);
-        else
+        base *= color texture(texturename, s * scales, 1 - t * scalet);
+        if (isthere == 0)
             base *= 0.5;
     }
     illuminance(P)
