@@ -54,14 +54,14 @@ TEST(CommandLine, RendersASceneAndWritesItsDisplay) {
 TEST(CommandLine, ChecksShaders) {
     WorkFolder folder;
     folder.write("half.h", "#define HALF .5\n");
-    fs::create_directory(folder / "more");
-    std::ofstream(folder / "more/twice.h") << "float twice(float x) { return x * 2; }\n";
+    fs::create_directories(folder / "more/yet");
+    std::ofstream(folder / "more/yet/twice.h") << "float twice(float x) { return x * 2; }\n";
     folder.write("a.sl",
                  "#include \"half.h\"\n#include <twice.h>\n"
                  "surface a(float Ka = HALF; output varying color tint = color (1, AMOUNT, 0);\n"
                  "          string maps[2] = {\"x\", \"\"}; point from = point \"shader\" (0, 0, 1)) { Ci = "
                  "twice(Ka); }\n");
-    const Outcome right = run_program(folder, "shader a.sl -I more -D AMOUNT=2 --params");
+    const Outcome right = run_program(folder, "shader a.sl -I more/yet -D AMOUNT=2 --params");
     EXPECT_EQ(right.exit_code, 0) << right.err;
     EXPECT_EQ(right.out,
               "surface a\n"
@@ -72,7 +72,7 @@ TEST(CommandLine, ChecksShaders) {
     EXPECT_NE(right.err.find("0 errors, 0 warnings"), std::string::npos) << right.err;
 
     // twice() has been written out, and Ci is a colour.
-    const Outcome code = run_program(folder, "shader a.sl -I more -D AMOUNT=2 --ir");
+    const Outcome code = run_program(folder, "shader a.sl -I more/yet -D AMOUNT=2 --ir");
     EXPECT_NE(code.out.find("uniform float Ka = Move 0.5"), std::string::npos) << code.out;
     EXPECT_NE(code.out.find("= Multiply Ka, 2"), std::string::npos) << code.out;
     EXPECT_NE(code.out.find("varying color Ci = Move"), std::string::npos) << code.out;
@@ -85,6 +85,25 @@ TEST(CommandLine, ChecksShaders) {
         << wrong.err;
     EXPECT_EQ(run_program(folder, "shader b.sl").exit_code, 3);
     EXPECT_EQ(run_program(folder, "shader").exit_code, 2);
+}
+
+TEST(CommandLine, HeadersAreFoundInFoldersBeside) {
+    WorkFolder folder;
+    for (const char* name : {"kinds", "kinds/own", "arman", "empty"})
+        std::filesystem::create_directory(folder / name);
+    folder.write("arman/lights.h", "float lights() { return 1; }");
+    folder.write("kinds/own/sums.h", "float sum() { return lights() + 1; }");
+    folder.write("kinds/a.sl",
+                 "#include \"lights.h\"\n#include \"up/sums.h\"\nsurface a() { Ci = sum(); }\n");
+    const Outcome found = run_program(folder, "shader kinds/a.sl");
+    EXPECT_EQ(found.exit_code, 0) << found.err;
+    EXPECT_NE(
+        found.err.find("kinds/a.sl:1:2: warning: file \"lights.h\" is in none of the folders to search; "
+                       "\"kinds/../arman/lights.h\" is read"),
+        std::string::npos)
+        << found.err;
+    std::filesystem::remove(folder / "arman/lights.h");
+    EXPECT_EQ(run_program(folder, "shader kinds/a.sl").exit_code, 1);
 }
 
 TEST(CommandLine, TexturesThatPathTracersMissAreErrors) {

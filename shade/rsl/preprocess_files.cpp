@@ -1,5 +1,6 @@
 #include "shade/rsl/preprocess_files.h"
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 
@@ -9,6 +10,7 @@ namespace trapeze::rsl {
 namespace {
 
 constexpr size_t kMostRenumberings = 100000;
+constexpr size_t kMostFoldersBeside = 1000;
 
 std::string shown(std::string_view text) {
     return "\"" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...\"" : "\"");
@@ -271,28 +273,39 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
         stopped_ = includes_ > kMostIncludes;
         return;
     }
-    for (const std::string& path : places_of(name, quoted)) {
-        if (once_.contains(path)) return;
-        std::optional<std::string> text =
-            options_.read_file ? options_.read_file(path) : read_file_from_disk(path, kMostBytes);
-        if (!text) continue;
-        bytes_ += text->size();
-        if (bytes_ > kMostBytes) {
-            messages_.error(at.at, "the included files are too large together");
-            stopped_ = true;
-            return;
-        }
-        enter(path, path, std::move(*text), at.at);
-        return;
-    }
+    for (const std::string& path : places_of(name, quoted))
+        if (is_included(path, at)) return;
     const std::string bare = std::filesystem::path(name).filename().string();
     if (options_.carried_file)
         if (const std::string_view text = options_.carried_file(bare); !text.empty()) {
             enter(bare, bare, std::string(text), at.at);
             return;
         }
+    for (const std::string& path : places_beside(bare)) {
+        if (!is_included(path, at)) continue;
+        if (!stopped_)
+            messages_.warning(at.at, "file " + shown(name) + " is in none of the folders to search; " +
+                                         shown(path) + " is read");
+        return;
+    }
     messages_.error(at.at, "file " + shown(name) + " is not found" +
                                (options_.include_folders.empty() ? "" : " in any of the folders to search"));
+}
+
+/// Reads a file in the place of its #include; false if it is not there.
+bool FileReader::is_included(const std::string& path, const Token& at) {
+    if (once_.contains(path)) return true;
+    std::optional<std::string> text =
+        options_.read_file ? options_.read_file(path) : read_file_from_disk(path, kMostBytes);
+    if (!text) return false;
+    bytes_ += text->size();
+    if (bytes_ > kMostBytes) {
+        messages_.error(at.at, "the included files are too large together");
+        stopped_ = true;
+    } else {
+        enter(path, path, std::move(*text), at.at);
+    }
+    return true;
 }
 
 /// Where a file that is included may be, in the order to look. Collections of shaders keep their headers
@@ -310,6 +323,25 @@ std::vector<std::string> FileReader::places_of(const std::string& name, bool quo
     for (const char* above : {"", "..", "../.."})
         for (const char* headers : {"", "include", "headers"})
             if (*above || *headers) places.push_back((folder / above / headers / name).string());
+    return places;
+}
+
+/// In other folders of the collection: those in the file's own and those beside it, by name.
+std::vector<std::string> FileReader::places_beside(const std::string& name) const {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(files_.back().path).parent_path();
+    std::vector<std::string> places;
+    for (const char* above : {".", ".."}) {
+        std::vector<std::string> found;
+        std::error_code failed;
+        for (fs::directory_iterator entry(folder / above, failed), end;
+             !failed && entry != end && found.size() < kMostFoldersBeside; entry.increment(failed)) {
+            std::error_code unknown;
+            if (entry->is_directory(unknown)) found.push_back((entry->path() / name).string());
+        }
+        std::sort(found.begin(), found.end());
+        places.insert(places.end(), found.begin(), found.end());
+    }
     return places;
 }
 

@@ -55,7 +55,9 @@ class FileReader {
     bool read_parameters(const Line& line, size_t& i, Macro& macro);
     void undefine(const Token& at, const Line& line);
     void include(const Token& at, const Line& line);
+    bool is_included(const std::string& path, const Token& at);
     std::vector<std::string> places_of(const std::string& name, bool quoted) const;
+    std::vector<std::string> places_beside(const std::string& name) const;
     void line(const Token& at, const Line& line);
     void say(const Token& at, const Line& line, bool error);
 
