@@ -63,12 +63,13 @@ void Reader::record_archive(RequestText& request, Scanner& scanner, std::string_
 /// leading folders, and then from the folders above.
 std::optional<std::string> Reader::find_archive(const std::string& name) {
     if (const auto found = find_archive_named(name)) return found;
+    const auto instead = [&](const std::string& found) {
+        warn_once(in_quotes(name) + " is not found; " + in_quotes(found) + " is read",
+                  "archive-elsewhere " + name);
+        return found;
+    };
     for (const std::string& other : other_names(name))
-        if (const auto found = find_archive_named(other)) {
-            warn_once(in_quotes(name) + " is not found; " + in_quotes(*found) + " is read",
-                      "archive-elsewhere " + name);
-            return found;
-        }
+        if (const auto found = find_archive_named(other)) return instead(*found);
     // Exporters name files from their project's folder, and write those that name them below it.
     std::vector<std::string> names = other_names(name);
     names.insert(names.begin(), name);
@@ -77,14 +78,15 @@ std::optional<std::string> Reader::find_archive(const std::string& name) {
         above /= "..";
         for (const std::string& other : names) {
             const std::string candidate = (above / other).string();
-            if (fs::path(other).is_absolute() || other.find('/') == std::string::npos ||
-                !is_readable(candidate))
-                continue;
-            warn_once(in_quotes(name) + " is not found; " + in_quotes(candidate) + " is read",
-                      "archive-elsewhere " + name);
-            return candidate;
+            if (fs::path(other).is_relative() && other.find('/') != std::string::npos &&
+                is_readable(candidate))
+                return instead(candidate);
         }
     }
+    for (const std::string& folder : usual_folders("archive", current_folder()))
+        for (const std::string& other : names)
+            if (const std::string candidate = (fs::path(folder) / other).string(); is_readable(candidate))
+                return instead(candidate);
     return {};
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "pipeline/rib/reader.h"
+#include "pipeline/rib/search_path.h"
 
 namespace trapeze::rib {
 namespace {
@@ -132,6 +133,8 @@ std::vector<std::string> Reader::folders(const std::string& category) const {
     all.insert(all.end(), {folder, ""});
     // Projects keep their scenes in a folder of their own, and name files from the one above.
     all.insert(all.end(), {folder + "/..", folder + "/../.."});
+    const std::vector<std::string> usual = usual_folders(category, folder);
+    all.insert(all.end(), usual.begin(), usual.end());
     return all;
 }
 

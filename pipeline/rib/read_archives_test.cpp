@@ -10,6 +10,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 std::string zipped(const std::string& text) {
@@ -89,6 +90,24 @@ TEST(ReadArchives, FilesBelowAProjectNameOthersFromItsFolder) {
         r.messages,
         ElementsAre(HasSubstr("\"rib/job/ball.rib\" is not found; \""), HasSubstr("ball.rib\" is read"),
                     HasSubstr("error: ReadArchive: \"ball.rib\" is not found; nothing read")));
+}
+
+TEST(ReadArchives, ProjectsHaveFoldersForEachKindOfFile) {
+    const Folder folder;
+    folder.write("film/archives/ball.rib", kSphere);
+    folder.write("film/scenes/rib/ball2.rib", kSphere);
+    folder.write("film/shaders/glow.sl", "");
+    folder.write("film/textures/sky.tx", "");
+    const Outcome r = read_files(
+        folder, {folder.write("film/scenes/a.rib",
+                              "WorldBegin ReadArchive \"ball.rib\" ReadArchive \"ball2.rib\" WorldEnd")});
+    EXPECT_EQ(r.count(), 2u);
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("warning: ReadArchive: \"ball.rib\" is not found; \""),
+                                        HasSubstr("film/scenes/rib/ball2.rib\" is read")));
+    auto paths = r.scene().options.search_paths;
+    EXPECT_THAT(paths["shader"], Contains(HasSubstr("film/scenes/../shaders")));
+    EXPECT_THAT(paths["shader"], Not(Contains(HasSubstr("textures"))));
+    EXPECT_THAT(paths["texture"], Contains(HasSubstr("film/scenes/../textures")));
 }
 
 TEST(ReadArchives, ArchivesAreReadWithoutAWorld) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "core/foreign_paths.h"
 
@@ -89,6 +90,22 @@ std::vector<std::string> expand_search_path(const std::string& path, const std::
         if (const std::string found = folder_elsewhere(folder, folder_of_file); !found.empty())
             folders.push_back(found);
     }
+    return folders;
+}
+
+std::vector<std::string> usual_folders(const std::string& category, const std::string& folder_of_file) {
+    static const std::map<std::string, std::vector<const char*>> kNames = {
+        {"archive", {"archives", "archive", "ribs", "rib"}},
+        {"shader", {"shaders", "shader", "sl"}},
+        {"texture", {"textures", "texture", "tex", "maps"}},
+    };
+    std::vector<std::string> folders;
+    const auto names = kNames.find(category);
+    if (names == kNames.end()) return folders;
+    const std::string folder = folder_of_file.empty() ? "." : folder_of_file;
+    for (const std::string& parent : {folder, folder + "/.."})
+        for (const char* name : names->second)
+            if (is_folder(parent + "/" + name)) folders.push_back(parent + "/" + name);
     return folders;
 }
 

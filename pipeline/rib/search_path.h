@@ -17,4 +17,8 @@ inline constexpr int kMostFoldersAbove = 4;
 std::vector<std::string> expand_search_path(const std::string& path, const std::vector<std::string>& previous,
                                             const std::string& folder_of_file);
 
+/// The folders for files of a kind ("archive", "shader", "texture") that projects of the world have below a
+/// scene's folder, or beside it; those that there are.
+std::vector<std::string> usual_folders(const std::string& category, const std::string& folder_of_file);
+
 }  // namespace trapeze::rib
