@@ -26,15 +26,17 @@ HWY_INLINE void decode_row(const uint8_t* codes, const CodeScale& scale, size_t 
     }
 }
 
-/// The boxes of a grid in a segment of its motion, at its start alone unless kMoves.
+/// The boxes of a grid in a segment of its motion, of which the frame has been read; at its start alone
+/// unless kMoves.
 template <bool kMoves>
-HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int segment, BoxPlanes& out) {
+HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int segment,
+                             const SegmentFrame& frame, BoxPlanes& out) {
     const hn::CappedTag<float, BoxPlanes::kMost> d;
     const auto boxes = static_cast<size_t>(grid.box_count());
     const GridKeys keys(grid, tree.keys_of(grid));
     for (int end = 0; end < (kMoves ? 2 : 1); ++end) {
         const uint8_t* codes = keys.box_codes(segment + end);
-        const KeyBounds whole = keys.framed(segment + end);
+        const KeyBounds& whole = frame.at[end];
         float* rows = out.row[6 * end];
         for (size_t k = 0; k < 3; ++k) {
             const CodeScale scale(whole.low[k], whole.high[k]);

@@ -176,9 +176,9 @@ class BundleTrace {
 
     template <bool kMoves>
     void visit_segment(const Candidate& candidate, const WideGrid& grid, int segment) {
-        const SegmentBounds bounds = t_.tree.segment_bounds(grid, segment);
-        collect_active<kMoves, kLens>(t_, bounds, grid, segment, candidate);
-        test_active<kMoves, kLens>(t_, candidate, bounds.box, grid, segment);
+        const MovingBox box = t_.tree.segment_box(grid, segment);
+        collect_active<kMoves, kLens>(t_, box, grid, segment, candidate);
+        test_active<kMoves, kLens>(t_, candidate, box, grid, segment);
         if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion, kLens>(t_);
     }
 

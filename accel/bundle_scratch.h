@@ -78,7 +78,9 @@ struct BundleScratch {
     };
     std::vector<Link> stack;
     std::vector<uint32_t> touched;  ///< packets that have active rays
-    BoxPlanes boxes;                ///< of the grid
+    bool has_frame = false;         ///< of the grid that is visited, in its segment:
+    SegmentFrame frame;             ///< read when the first packet comes near
+    BoxPlanes boxes;
     ActiveRays active;
     static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst
     alignas(64) uint8_t met[16 * kMetStride + 64];  ///< per box, a bit for each active ray that meets it

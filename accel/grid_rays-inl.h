@@ -72,10 +72,9 @@ HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int s
 }
 
 template <bool kMoves, bool kLens>
-void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& bounds, size_t packet,
-                    int segment, float depth) {
+void collect_packet(BundleState& t, const WideGrid& grid, const MovingBox& box, size_t packet, int segment,
+                    float depth) {
     const F32 d;
-    const MovingBox& framed = bounds.framed;
     const size_t i = packet * kLanes;
     const VF ox = kLens ? hn::Load(d, t.rays.ox + i) : hn::Zero(d),
              oy = kLens ? hn::Load(d, t.rays.oy + i) : hn::Zero(d);
@@ -88,12 +87,18 @@ void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& b
     const VF limit = hn::Add(hn::Load(d, t.rays.depth + i), hn::Set(d, grid.slack));
     t.stats.nodes_visited += kLanes;
     if (t.rays.nodes) count_packet(t.rays.nodes, i, 1);
-    met = hn::And(met, in_aligned_box<kMoves, kLens>(bounds.box, {ox, oy, ux, uy, local}, limit));
+    met = hn::And(met, in_aligned_box<kMoves, kLens>(box, {ox, oy, ux, uy, local}, limit));
     if (hn::AllFalse(d, met)) return;
-    if (t.scratch.active.count == 0) prefetch_boxes<kMoves>(t, grid, segment);
+    const SegmentFrame& frame = t.scratch.frame;
+    const MovingBox& framed = frame.box;
+    if (!t.scratch.has_frame) {
+        t.tree.read_frame(grid, segment, t.scratch.frame);
+        t.scratch.has_frame = true;
+        prefetch_boxes<kMoves>(t, grid, segment);
+    }
     VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
     for (int k = 0; k < 3; ++k) {
-        const float* axis = bounds.axes.axis[k];
+        const float* axis = frame.axes.axis[k];
         const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]);
         inverse[k] = reciprocal(hn::MulAdd(x, ux, hn::MulAdd(y, uy, hn::Set(d, axis[2]))));
         offset[k] = kLens ? hn::Mul(hn::MulAdd(x, ox, hn::Mul(y, oy)), inverse[k]) : hn::Zero(d);
@@ -128,11 +133,11 @@ void collect_packet(BundleState& t, const WideGrid& grid, const SegmentBounds& b
 /// Packets whose intervals meet the grid's axis-aligned box, then those of their rays that meet its
 /// oriented one (and, of a moving grid, look in the segment).
 template <bool kMoves, bool kLens>
-void collect_active(BundleState& t, const SegmentBounds& bounds, const WideGrid& grid, int segment,
+void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, int segment,
                     const Candidate& candidate) {
     const F32 d;
-    const MovingBox& box = bounds.box;
     t.scratch.active.count = 0;
+    t.scratch.has_frame = false;
     t.scratch.touched.clear();
     t.for_packets(candidate.groups, [&](size_t p) HWY_ATTR {
         auto q = IntervalLanes::of<kMoves, kLens>(
@@ -153,7 +158,7 @@ void collect_active(BundleState& t, const SegmentBounds& bounds, const WideGrid&
         uint32_t met = mask_bits(hn::And(
             looks, meets<kLens>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
         for (; met != 0; met &= met - 1)
-            collect_packet<kMoves, kLens>(t, grid, bounds, p + static_cast<size_t>(std::countr_zero(met)),
+            collect_packet<kMoves, kLens>(t, grid, box, p + static_cast<size_t>(std::countr_zero(met)),
                                           segment, candidate.depth);
     });
 }

@@ -176,7 +176,7 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
 inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGrid& grid) {
     const F32 d;
     const MovingBox box = t.tree.grid_box(grid);
-    const FrameAxes axes = grid.axes.unpacked();
+    SegmentFrame& frame = t.scratch.frame;
     VF low[3], high[3];
     for (int k = 0; k < 3; ++k) low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
     bool nearer = false, decoded = false;
@@ -186,9 +186,13 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
         const MF looks = hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]);
         uint32_t met = mask_bits(hn::And(
             looks, meets<false>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
-        if (met != 0 && !decoded) decode_boxes<false>(t.tree, grid, 0, t.scratch.boxes), decoded = true;
+        if (met != 0 && !decoded) {
+            t.tree.read_frame(grid, 0, frame);
+            decode_boxes<false>(t.tree, grid, 0, frame, t.scratch.boxes);
+            decoded = true;
+        }
         for (; met != 0; met &= met - 1)
-            nearer |= visit_packet(t, candidate.grid, grid, axes, box,
+            nearer |= visit_packet(t, candidate.grid, grid, frame.axes, box,
                                    p + static_cast<size_t>(std::countr_zero(met)));
     });
     if (nearer) t.refresh_farthest();

@@ -114,10 +114,11 @@ class GridKeys {
     const uint8_t* bytes_;
 };
 
-/// A whole grid in one segment of its motion; times are local to it.
-struct SegmentBounds {
-    MovingBox box, framed;  ///< in camera space, and in the grid's frame
+/// A whole grid in its frame in one segment of its motion; times are local to it.
+struct SegmentFrame {
     FrameAxes axes;
+    KeyBounds at[2];  ///< the segment's begin and its end
+    MovingBox box;    ///< between them
 };
 
 }  // namespace trapeze

@@ -87,25 +87,6 @@ void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const
     }
 }
 
-SegmentBounds WideTree::segment_bounds(const WideGrid& grid, int segment) const {
-    const GridKeys keys(grid, keys_of(grid));
-    const int next = segment + (grid.moves() ? 1 : 0);
-    return {grid.has_segments() ? between(keys.aligned(segment), keys.aligned(next)) : grid_box(grid),
-            between(keys.framed(segment), keys.framed(next)), grid.axes.unpacked()};
-}
-
-MovingBox WideTree::grid_box(const WideGrid& grid) const {
-    const size_t node = grid.leaf / WideNode::kChildren, child = grid.leaf % WideNode::kChildren;
-    MovingBox box{};
-    for (int k = 0; k < 3; ++k) {
-        box.low[k] = nodes_[node].low[k][child], box.high[k] = nodes_[node].high[k][child];
-        if (!moves_) continue;
-        box.low_delta[k] = from_bfloat16(node_motions_[node].low[k][child]);
-        box.high_delta[k] = from_bfloat16(node_motions_[node].high[k][child]);
-    }
-    return box;
-}
-
 void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
     nodes_.allocate(wide.size());
     if (moves_) node_motions_.allocate(wide.size());

@@ -20,6 +20,7 @@
 #include <memory>
 #include <vector>
 
+#include "accel/bfloat16.h"
 #include "accel/wide_grid.h"
 #include "core/grid.h"
 #include "core/ray_query.h"
@@ -105,8 +106,30 @@ class WideTree final : public RayQuery {
     /// still.
     void decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const;
     /// A grid's box in camera space over the whole shutter; not of unbounded ones.
-    MovingBox grid_box(const WideGrid& grid) const;
-    SegmentBounds segment_bounds(const WideGrid& grid, int segment) const;
+    MovingBox grid_box(const WideGrid& grid) const {
+        const size_t node = grid.leaf / WideNode::kChildren, child = grid.leaf % WideNode::kChildren;
+        MovingBox box{};
+        for (int k = 0; k < 3; ++k) {
+            box.low[k] = nodes_[node].low[k][child], box.high[k] = nodes_[node].high[k][child];
+            if (!moves_) continue;
+            box.low_delta[k] = from_bfloat16(node_motions_[node].low[k][child]);
+            box.high_delta[k] = from_bfloat16(node_motions_[node].high[k][child]);
+        }
+        return box;
+    }
+    /// The same in a segment.
+    MovingBox segment_box(const WideGrid& grid, int segment) const {
+        if (!grid.has_segments()) return grid_box(grid);
+        const GridKeys keys(grid, keys_of(grid));
+        return between(keys.aligned(segment), keys.aligned(segment + 1));
+    }
+    void read_frame(const WideGrid& grid, int segment, SegmentFrame& frame) const {
+        const GridKeys keys(grid, keys_of(grid));
+        frame.axes = grid.axes.unpacked();
+        frame.at[0] = keys.framed(segment);
+        frame.at[1] = grid.moves() ? keys.framed(segment + 1) : frame.at[0];
+        frame.box = between(frame.at[0], frame.at[1]);
+    }
     /// Grids too far out for bounds: every ray must look at them.
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
 
