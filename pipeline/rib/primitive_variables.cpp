@@ -6,7 +6,7 @@ namespace trapeze::rib {
 namespace {
 
 struct StandardVariable {
-    const char* name;
+    std::string_view name;
     ValueType type;
     int array_length = 1;
     bool is_points = false;
@@ -37,6 +37,7 @@ void check_types(Reader& reader, ParameterList& list) {
                 return true;
             }
             p.declaration = own;
+            return false;
         }
         return false;
     });
