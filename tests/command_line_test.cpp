@@ -403,20 +403,22 @@ TEST(CommandLine, InterruptionEndsTheProgramsOfScenes) {
     folder.write("hang.sh", "read request; echo $$ >pid; exec sleep 60");
     folder.write("a.rib",
                  "WorldBegin Procedural \"RunProgram\" [\"sh hang.sh\" \"\"] [-1 1 -1 1 -1 1] WorldEnd");
-    const std::string command = "cd '" + folder.path().string() +
-                                "' && timeout --preserve-status -s TERM 1 '" TRAPEZE_PROGRAM
-                                "' render --allow-programs a.rib >.stdout 2>.stderr";
-    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 143);
-    const std::string pid = text_of(folder / "pid");
-    ASSERT_FALSE(pid.empty());
-    // Whoever inherits it may take a moment to notice its end.
-    bool runs = true;
-    for (int i = 0; i < 200 && runs; ++i) {
-        const std::string state = text_of("/proc/" + pid.substr(0, pid.find('\n')) + "/stat");
-        runs = !state.empty() && state.find(") Z ") == std::string::npos;
-        if (runs) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (const char* name : {"render", "check"}) {
+        const std::string command = "cd '" + folder.path().string() +
+                                    "' && timeout --preserve-status -s TERM 1 '" TRAPEZE_PROGRAM "' " + name +
+                                    " --allow-programs a.rib >.stdout 2>.stderr";
+        EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 143);
+        const std::string pid = text_of(folder / "pid");
+        ASSERT_FALSE(pid.empty());
+        // Whoever inherits it may take a moment to notice its end.
+        bool runs = true;
+        for (int i = 0; i < 200 && runs; ++i) {
+            const std::string state = text_of("/proc/" + pid.substr(0, pid.find('\n')) + "/stat");
+            runs = !state.empty() && state.find(") Z ") == std::string::npos;
+            if (runs) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        EXPECT_FALSE(runs) << name;
     }
-    EXPECT_FALSE(runs);
 }
 
 TEST(CommandLine, AnOutputThatCannotBeWrittenLeavesTheOldOneAlone) {

@@ -4,6 +4,7 @@
 
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/read_settings.h"
 #include "pipeline/rib/read_rib.h"
 
@@ -34,6 +35,7 @@ bool inputs_exist(const Arguments& arguments, Diagnostics& diagnostics) {
 }
 
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    const Interrupt interrupt;
     if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
     ReadOptions options = read_options(arguments);
     options.keep_geometry = false;

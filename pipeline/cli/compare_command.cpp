@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "composite/write_displays.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
@@ -16,7 +15,6 @@
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/write_pictures.h"
 #include "pipeline/frame/version.h"
-#include "pipeline/rib/programs.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
@@ -34,11 +32,7 @@ class CompareJob {
         : arguments_(arguments),
           options_(arguments.compare),
           terminal_(terminal),
-          diagnostics_(diagnostics),
-          interrupt_([] {
-              remove_partial_outputs();
-              rib::end_all_programs();
-          }) {}
+          diagnostics_(diagnostics) {}
 
     int run();
 

@@ -2,6 +2,7 @@
 
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/read_settings.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/rib/read_rib.h"
@@ -34,6 +35,7 @@ void print_counts(const char* title, const std::map<std::string, uint64_t>& coun
 }  // namespace
 
 int info_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostics) {
+    const Interrupt interrupt;
     if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
     ReadOptions options = read_options(arguments);
     options.keep_geometry = false;

@@ -5,6 +5,9 @@
 #include <chrono>
 #include <csignal>
 
+#include "composite/write_displays.h"
+#include "pipeline/rib/programs.h"
+
 namespace trapeze {
 namespace {
 
@@ -20,7 +23,7 @@ constexpr auto kPatience = std::chrono::milliseconds(700);
 
 }  // namespace
 
-Interrupt::Interrupt(std::function<void()> clean_up) : clean_up_(std::move(clean_up)) {
+Interrupt::Interrupt() {
     g_signal = 0;
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
@@ -45,7 +48,8 @@ void Interrupt::watch() {
     const auto asked = std::chrono::steady_clock::now();
     while (!done_ && std::chrono::steady_clock::now() - asked < kPatience) std::this_thread::sleep_for(kPoll);
     if (done_) return;
-    clean_up_();
+    remove_partial_outputs();
+    rib::end_all_programs();
     _exit(exit_code());
 }
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "composite/display_plan.h"
-#include "composite/write_displays.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
@@ -15,7 +14,6 @@
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/write_frame.h"
-#include "pipeline/rib/programs.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
@@ -47,10 +45,7 @@ bool is_shadow_pass(const Options& options) {
 class RenderJob {
   public:
     RenderJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
-        : arguments_(arguments), terminal_(terminal), diagnostics_(diagnostics), interrupt_([] {
-              remove_partial_outputs();
-              rib::end_all_programs();
-          }) {}
+        : arguments_(arguments), terminal_(terminal), diagnostics_(diagnostics) {}
 
     int run();
 

@@ -34,7 +34,7 @@ std::optional<StudyResult> run(const Arguments& arguments, const Interrupt& inte
 int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     const StudyArguments& study = arguments.study;
     if (!can_write({study.report, study.json}, diagnostics)) return kExitNoOutput;
-    const Interrupt interrupt(remove_partial_outputs);
+    const Interrupt interrupt;
     auto result = run(arguments, interrupt, terminal, diagnostics);
     if (interrupt.requested()) return interrupt.exit_code();
     if (!result) return diagnostics.kinds().contains(kTooLittleMemory) ? kExitNoMemory : kExitInternal;

@@ -18,7 +18,7 @@ enum class Packing { Gzip, Deflate };
 std::string inflated(const std::string& packed, Packing packing, size_t max_bytes, std::string* problem);
 
 /// Reads "-" as standard input, "job.zip!member" as that member of an archive. Gzip and UTF-16 are
-/// known by the first two bytes. Never takes more than max_bytes.
+/// known by the first two bytes. Never takes more than max_bytes, which UTF-8 may be half as much again of.
 std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error);
 
 }  // namespace trapeze::rib
