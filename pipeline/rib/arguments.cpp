@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kLargestExactFloatInteger = 1 << 24;
 constexpr size_t kMostArguments = 100000;  ///< of one request; arrays count once
+constexpr size_t kMostSpareStrings = 16;
 constexpr size_t kLongestShown = 100;
 constexpr const char* kNotFinite = "a value is not a finite number";
 
@@ -17,10 +18,16 @@ void note_problem(RequestText& request, SourceLocation at, std::string text) {
     request.problem_at = at;
 }
 
-void append_number(Argument& array, double value) {
-    if (std::abs(value) > kLargestExactFloatInteger && value == std::trunc(value)) [[unlikely]]
-        array.large_integers.push_back({array.floats.size(), value});
-    array.floats.push_back(static_cast<float>(value));
+void append_numbers(Argument& array, std::span<const double> values) {
+    float floats[Scanner::kNumbersAtOnce];
+    for (size_t i = 0; i < values.size(); ++i) {
+        const double value = values[i];
+        if (std::abs(value) > kLargestExactFloatInteger && value == std::trunc(value)) [[unlikely]]
+            array.large_integers.push_back({array.floats.size() + i, value});
+        floats[i] = static_cast<float>(value);
+    }
+    // A short array takes just what it needs.
+    array.floats.insert(array.floats.end(), floats, floats + values.size());
 }
 
 constexpr size_t kMostStringBytes = size_t{1} << 26;  ///< of an array of strings, which codes can make short
@@ -42,7 +49,7 @@ void read_array(Scanner& scanner, Argument& array, RequestText& request, IsReque
         switch (token.kind) {
             case TokenKind::Number:
                 if (const SourceLocation bad =
-                        scanner.scan_numbers([&](double v) { append_number(array, v); });
+                        scanner.scan_numbers([&](auto values) { append_numbers(array, values); });
                     bad.line > 0)
                     note_problem(request, bad, kNotFinite);
                 continue;  // the scanner stands at what ended the numbers
@@ -118,9 +125,18 @@ std::vector<float> Argument::take_numbers() {
     return std::move(floats);
 }
 
+void RequestText::clear() {
+    problem.clear();
+    for (Argument& argument : arguments)
+        if (argument.strings.capacity() == 1 && spare_strings.size() < kMostSpareStrings) {
+            argument.strings.clear();
+            spare_strings.push_back(std::move(argument.strings));
+        }
+    arguments.clear();
+}
+
 bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, Diagnostics& diagnostics) {
-    request.arguments.clear();
-    request.problem.clear();
+    request.clear();
     if (!find_request_name(scanner, diagnostics)) return false;
     request.name = scanner.peek().text;
     request.at = scanner.peek().at;
@@ -147,6 +163,10 @@ bool read_request(Scanner& scanner, RequestText& request, IsRequest is_request, 
             case TokenKind::String: {
                 Argument& argument = request.arguments.emplace_back();
                 argument.kind = Argument::Kind::String, argument.at = token.at;
+                if (!request.spare_strings.empty()) {
+                    argument.strings = std::move(request.spare_strings.back());
+                    request.spare_strings.pop_back();
+                }
                 argument.strings.push_back(token.string);
                 break;
             }

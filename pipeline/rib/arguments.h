@@ -37,6 +37,10 @@ struct RequestText {
     std::vector<Argument> arguments;
     std::string problem;  ///< what is wrong with the arguments as text; empty when nothing
     SourceLocation problem_at;
+    /// Memory of names that earlier requests had, for the next ones.
+    std::vector<std::vector<std::string>> spare_strings;
+
+    void clear();
 };
 
 /// Words that begin a request. Any other word within brackets is an error there, and not the next request.

@@ -1,11 +1,11 @@
 /// Types of parameters: RISpec's own, those that Declare adds, and inline ones ("uniform color foo").
 #pragma once
 
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "core/parameters.h"
 
@@ -39,7 +39,7 @@ class Declarations {
     bool is_predeclared(const std::string& token) const { return predeclared_.contains(token); }
 
   private:
-    std::map<std::string, Declaration, std::less<>> known_;
+    std::unordered_map<std::string, Declaration> known_;
     std::set<std::string> predeclared_;
 };
 

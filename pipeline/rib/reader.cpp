@@ -20,9 +20,9 @@ bool has_no_points(const RequestText& text) {
     for (size_t i = 0; i + 1 < text.arguments.size(); ++i) {
         const Argument& name = text.arguments[i];
         const Argument& value = text.arguments[i + 1];
-        if (name.kind == Argument::Kind::String &&
-            (name.strings[0] == "P" || name.strings[0].ends_with(" P")) &&
-            value.kind == Argument::Kind::Array && value.strings.empty() && value.floats.empty())
+        if (value.kind == Argument::Kind::Array && value.strings.empty() && value.floats.empty() &&
+            name.kind == Argument::Kind::String &&
+            (name.strings[0] == "P" || name.strings[0].ends_with(" P")))
             return true;
     }
     return false;
@@ -125,7 +125,7 @@ void Reader::read_text(std::string_view text, SourceLocation first, EncodedNames
     first_conditional_ = conditionals_.size();
     while (!is_stopped() && read_request(scanner, request, is_request, diagnostics_)) {
         if (is_skipping() && !is_conditional(request.name)) continue;
-        if (request.name == "ArchiveBegin")
+        if (request.name == std::string_view("ArchiveBegin"))
             record_archive(request, scanner, text);
         else
             execute(request);
@@ -138,13 +138,18 @@ void Reader::read_text(std::string_view text, SourceLocation first, EncodedNames
 
 void Reader::execute(RequestText& text) {
     at_ = text.at;
-    const Request* const request = find_request(text.name);
-    request_name_ = request ? text.name : clipped(text.name);
+    if (text.name != last_request_.name || !last_request_.request) {
+        last_request_ = {text.name, find_request(text.name), nullptr};
+        if (last_request_.request) last_request_.count = &summary_.requests[text.name];
+    }
+    const Request* const request = last_request_.request;
     if (!request) {
+        request_name_ = clipped(text.name);
         report_unknown(text.name);
         return;
     }
-    ++summary_.requests[text.name];
+    request_name_ = text.name;
+    ++*last_request_.count;
     if (!request->handler && text.problem.empty()) hands_on(text);
     if (!request->handler) {
         ++summary_.unsupported[text.name];

@@ -204,9 +204,8 @@ class Reader {
     /// Adds to what the world's primitives take; false, and an error, when that is too much.
     bool has_room(uint64_t bytes);
     bool keeps_geometry() const { return read_options_.keep_geometry && frame_wanted_; }
-    void emit(const std::string& request, const std::vector<ShapePointer>& keys,
-              const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
-              SourceLocation at, int solid);
+    void emit(const std::string& request, std::vector<ShapePointer> keys, const MovingTransform& transform,
+              const std::shared_ptr<const AttributeState>& attributes, SourceLocation at, int solid);
     std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
                                                           const std::vector<M44f>& camera_from_object);
     float raster_area(const std::vector<float>& bound) const;
@@ -230,6 +229,12 @@ class Reader {
 
     SourceLocation at_;  ///< of the request being executed
     std::string request_name_;
+    /// The last name looked up: requests mostly come in rows. `count` is in the summary.
+    struct {
+        std::string name;
+        const Request* request = nullptr;
+        uint64_t* count = nullptr;
+    } last_request_;
     std::set<std::string> kinds_, unknown_requests_;  ///< of messages and of names that were shown
     Scope scope_;
     GraphicsState state_;

@@ -32,6 +32,12 @@ bool is_finite(const M44f& m) {
     return std::all_of(&m[0][0], &m[0][0] + 16, [](float v) { return std::isfinite(v); });
 }
 
+std::vector<ShapePointer> only(ShapePointer shape) {
+    std::vector<ShapePointer> keys;
+    keys.push_back(std::move(shape));
+    return keys;
+}
+
 /// The variable Os, where there is one, outdoes the attribute.
 std::vector<ShapePointer> with_opacity_scaled(const std::vector<ShapePointer>& keys, float weight) {
     if (!keys.front()->variables.find("Os")) return keys;
@@ -96,16 +102,18 @@ bool Reader::has_room(uint64_t bytes) {
     return false;
 }
 
-void Reader::emit(const std::string& request, const std::vector<ShapePointer>& shape_keys,
+void Reader::emit(const std::string& request, std::vector<ShapePointer> shape_keys,
                   const MovingTransform& transform, const std::shared_ptr<const AttributeState>& state,
                   SourceLocation at, int solid) {
     const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
     Primitive primitive;
     primitive.location = at;
     primitive.solid = solid;
-    primitive.shape_keys = shape_keys;
-    const int keys =
-        close > open ? keys_for_paths(transform, open, close, shape_keys, make_camera(scope_.options)) : 1;
+    primitive.shape_keys = std::move(shape_keys);
+    const int keys = close > open ? keys_for_paths(transform, open, close, primitive.shape_keys,
+                                                   make_camera(scope_.options))
+                                  : 1;
+    primitive.camera_from_object.reserve(static_cast<size_t>(keys));
     for (int k = 0; k < keys; ++k)
         primitive.camera_from_object.push_back(M44f(transform.at(key_time(open, close, k, keys))));
     const auto& spaces = primitive.camera_from_object;
@@ -116,12 +124,13 @@ void Reader::emit(const std::string& request, const std::vector<ShapePointer>& s
         return;
     }
     ++summary_.primitives[request];
-    summary_.points += point_count(*shape_keys.front());
+    summary_.points += point_count(primitive.shape());
     if (primitive.key_count() > 1) ++summary_.moving_primitives;
     const float weight = state->detail.weight();
     if (!keeps_geometry() || weight <= 0) return;
-    if (weight < 1) primitive.shape_keys = with_opacity_scaled(shape_keys, weight);
-    const bool more_shapes = primitive.shape_keys.front() != shape_keys.front();
+    const ShapePointer first_shape = primitive.shape_keys.front();
+    if (weight < 1) primitive.shape_keys = with_opacity_scaled(primitive.shape_keys, weight);
+    const bool more_shapes = primitive.shape_keys.front() != first_shape;
     const std::shared_ptr<const Attributes> last = resolved_.attributes;
     primitive.attributes = resolved_attributes(state, spaces);
     uint64_t bytes = bytes_of(primitive);
@@ -182,7 +191,7 @@ void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
                                        0,
                                        solid_of_surface(object_->solids)});
     else
-        emit(request, {std::move(shared)}, state_.transform, state_.attributes, at_,
+        emit(request, only(std::move(shared)), state_.transform, state_.attributes, at_,
              solid_of_surface(solids_));
 }
 

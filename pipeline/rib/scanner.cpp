@@ -1,6 +1,7 @@
 #include "pipeline/rib/scanner.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
@@ -26,8 +27,14 @@ bool is_separator(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\f' || c == '\v';
 }
 
+constexpr auto kEndsNumber = [] {
+    std::array<bool, 256> ends{};
+    for (const char c : std::string_view(" \t,;\f\v\n\r][#\"")) ends[static_cast<unsigned char>(c)] = true;
+    return ends;
+}();
+
 bool ends_number(char c) {
-    return is_separator(c) || c == '\n' || c == '\r' || c == ']' || c == '[' || c == '#' || c == '"';
+    return kEndsNumber[static_cast<unsigned char>(c)];
 }
 
 /// Whether rounding to float what was rounded to double already may differ from rounding once: the double
@@ -91,6 +98,31 @@ const char* read_number(const char* p, const char* end, double* value) {
     return p;
 }
 
+/// The same without an exponent, in a text that goes on beyond the number; null where read_number() must
+/// decide.
+const char* read_plain_number(const char* p, double* value) {
+    const bool negative = *p == '-';
+    p += negative;
+    const char* const first = p;
+    uint64_t mantissa = 0;
+    for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<uint64_t>(*p - '0');
+    std::ptrdiff_t digits = p - first, decimals = 0;
+    if (*p == '.') {
+        const char* const point = p++;
+        for (; is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<uint64_t>(*p - '0');
+        decimals = p - point - 1;
+        digits += decimals;
+    }
+    if (digits == 0 || digits > 15 || !ends_number(*p)) return nullptr;
+    double v = static_cast<double>(mantissa);
+    if (decimals > 0) {
+        v /= kPowersOfTen[decimals];
+        if (is_half_way(v)) return nullptr;
+    }
+    *value = negative ? -v : v;
+    return p;
+}
+
 bool is_non_finite_word(std::string_view word) {
     if ((word[0] | 0x20) != 'n' && (word[0] | 0x20) != 'i') return false;
     std::string lower;
@@ -105,11 +137,13 @@ Scanner::Scanner(std::string_view text, SourceLocation first, EncodedNames names
       next_(text.data()),
       end_(text.data() + text.size()),
       line_start_(text.data()),
+      last_stop_(text.data() + text.size()),
       source_(first.source),
       line_(first.line),
       first_column_(first.column),
       names_(std::move(names)) {
     if (text.starts_with("\xEF\xBB\xBF")) next_ += 3;  // UTF-8's byte order mark
+    while (last_stop_ > begin_ && (last_stop_ == end_ || !ends_number(*last_stop_))) --last_stop_;
 }
 
 void Scanner::skip_space() {
@@ -133,19 +167,33 @@ void Scanner::skip_space() {
     }
 }
 
-bool Scanner::fast_number(double* value) {
-    const char* p = next_;
-    while (p < end_ && (*p == ' ' || *p == '\t')) ++p;
-    if (p < end_ && *p == '\n') {
-        next_ = p + 1;
-        new_line();
-        p = next_;
-        while (p < end_ && (*p == ' ' || *p == '\t')) ++p;
+/// The end of the number at p, or null.
+const char* Scanner::number_at(const char* p, double* value) const {
+    const char* const stop = p < last_stop_ ? read_plain_number(p, value) : nullptr;
+    return stop ? stop : read_number(p, end_, value);
+}
+
+/// How many finite numbers came one after another, at most as many as there is room for. Wherever it ends,
+/// the general scanner goes on.
+size_t Scanner::fast_numbers(std::span<double> numbers) {
+    const auto skip_blanks = [this](const char* p) {
+        while (p < last_stop_ && (*p == ' ' || *p == '\t')) ++p;
+        return p;
+    };
+    size_t count = 0;
+    for (; count < numbers.size(); ++count) {
+        const char* p = skip_blanks(next_);
+        if (p < last_stop_ && *p == '\n') {
+            next_ = p + 1;
+            new_line();
+            p = skip_blanks(next_);
+        }
+        if (p >= last_stop_) break;
+        const char* const stop = number_at(p, &numbers[count]);
+        if (!stop || stop >= end_ || !ends_number(*stop) || !std::isfinite(numbers[count])) break;
+        next_ = stop;
     }
-    p = read_number(p, end_, value);
-    if (!p || p >= end_ || !ends_number(*p) || !std::isfinite(*value)) return false;
-    next_ = p;
-    return true;
+    return count;
 }
 
 void Scanner::scan() {
@@ -189,8 +237,7 @@ void Scanner::scan() {
 }
 
 bool Scanner::scan_number() {
-    const char* const stop = read_number(next_, end_, &token_.number);
-    if (stop) {
+    if (const char* const stop = number_at(next_, &token_.number)) {
         token_.kind = TokenKind::Number;
         next_ = stop;
         return true;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,8 @@ struct Token {
 
 class Scanner {
   public:
+    static constexpr size_t kNumbersAtOnce = 64;
+
     /// `first` is the place of the text's first character; `names` are those that an outer text has defined.
     Scanner(std::string_view text, SourceLocation first, EncodedNames names = {});
 
@@ -38,18 +41,23 @@ class Scanner {
         peek();
         has_token_ = false;
     }
-    /// Adds numbers up to the closing bracket or whatever else comes; the fast path of large arrays.
-    /// The place of the first one that is not finite; line 0 when there is none.
+    /// Hands on numbers up to the closing bracket or whatever else comes, in spans of up to kNumbersAtOnce;
+    /// the fast path of arrays. The place of the first one that is not finite; line 0 when there is none.
     template <class Append>
     SourceLocation scan_numbers(Append&& append) {
         SourceLocation bad;
+        double numbers[kNumbersAtOnce];
         while (peek().kind == TokenKind::Number) {
-            append(token_.number);
+            numbers[0] = token_.number;
             if (!std::isfinite(token_.number) && bad.line == 0) bad = token_.at;
             has_token_ = false;
             // Numbers follow each other mostly: try to stay out of the general scanner.
-            double value = 0;
-            while (fast_number(&value)) append(value);
+            size_t count = 1 + fast_numbers({numbers + 1, kNumbersAtOnce - 1});
+            append(std::span<const double>(numbers, count));
+            while (count == kNumbersAtOnce) {
+                count = fast_numbers(numbers);
+                append(std::span<const double>(numbers, count));
+            }
         }
         return bad;
     }
@@ -71,7 +79,8 @@ class Scanner {
     bool scan_number();
     void scan_string();
     bool scan_single_quoted();
-    bool fast_number(double* value);
+    const char* number_at(const char* p, double* value) const;
+    size_t fast_numbers(std::span<double> numbers);
     bool scan_encoded();
     bool scan_definition(const EncodedValue& value, std::string_view bytes);
     bool be_bad(const char* what, const char* stop);
@@ -84,6 +93,7 @@ class Scanner {
     const char* next_;
     const char* end_;
     const char* line_start_;
+    const char* last_stop_;  ///< the last character that no number goes beyond, or the beginning
     const char* token_begin_ = nullptr;
     uint32_t source_, line_;
     uint32_t first_column_;  ///< of the text's first line, which may begin within a line of the file

@@ -28,6 +28,10 @@ double number(std::string_view text) {
     return token.number;
 }
 
+auto append_to(std::vector<double>& list) {
+    return [&list](std::span<const double> values) { list.insert(list.end(), values.begin(), values.end()); };
+}
+
 TEST(Scanner, NumbersInEveryForm) {
     EXPECT_EQ(number(".9"), 0.9);
     EXPECT_EQ(number("1e-3"), 1e-3);
@@ -68,27 +72,48 @@ TEST(Scanner, FloatsAreRoundedAsTheLibraryRoundsThem) {
         double value = f;
         if (i % 5 == 0) value = (value + static_cast<double>(std::nextafter(f, 1e38f))) / 2;
         std::snprintf(text, sizeof text, formats[i % 8], value);
-        double scanned = 0;
-        Scanner scanner(text, {1, 1, 1});
-        scanner.scan_numbers([&](double v) { scanned = v; });
-        const float expected = std::strtof(text, nullptr), got = static_cast<float>(scanned);
-        ASSERT_EQ(std::bit_cast<uint32_t>(got), std::bit_cast<uint32_t>(expected)) << text;
+        const float expected = std::strtof(text, nullptr);
+        // At the end of a text, before more of it, and after another number.
+        for (const std::string& around :
+             {std::string(text), std::string(text) + "]", "1\n" + std::string(text) + " "}) {
+            double scanned = 0;
+            Scanner scanner(around, {1, 1, 1});
+            scanner.scan_numbers([&](std::span<const double> values) { scanned = values.back(); });
+            const auto got = static_cast<float>(scanned);
+            ASSERT_EQ(std::bit_cast<uint32_t>(got), std::bit_cast<uint32_t>(expected)) << around;
+        }
     }
 }
 
 TEST(Scanner, NumbersFollowEachOtherInArrays) {
     Scanner scanner("1 2\n 3,4\t-5 # six\n6 7]8", {1, 1, 1});
     std::vector<double> values;
-    EXPECT_EQ(scanner.scan_numbers([&](double v) { values.push_back(v); }).line, 0u);
+    EXPECT_EQ(scanner.scan_numbers(append_to(values)).line, 0u);
     EXPECT_EQ(values, (std::vector<double>{1, 2, 3, 4, -5, 6, 7}));
     EXPECT_EQ(scanner.peek().kind, TokenKind::Close);
     EXPECT_EQ(scanner.peek().at.line, 3u);
     EXPECT_EQ(scanner.peek().at.column, 4u);
 }
 
+TEST(Scanner, ArraysOfAnyLengthAreWhole) {
+    std::string text;
+    std::vector<double> written;
+    for (int i = 0; i < 200; ++i) {
+        for (const char* end : {"", " ", "]", "\nSphere", "\xCB"}) {
+            std::vector<double> values;
+            const std::string whole = text + end;
+            Scanner scanner(whole, {1, 1, 1});
+            EXPECT_EQ(scanner.scan_numbers(append_to(values)).line, 0u);
+            ASSERT_EQ(values, written) << end;
+        }
+        text += (i > 0 ? " " : "") + std::to_string(i * 0.5);
+        written.push_back(i * 0.5);
+    }
+}
+
 TEST(Scanner, TheFirstNumberThatIsNotFiniteHasItsPlace) {
     Scanner scanner("1 2\n 3 nan 4 inf", {1, 1, 1});
-    const SourceLocation bad = scanner.scan_numbers([](double) {});
+    const SourceLocation bad = scanner.scan_numbers([](std::span<const double>) {});
     EXPECT_EQ(bad.line, 2u);
     EXPECT_EQ(bad.column, 4u);
 }
