@@ -37,7 +37,7 @@ HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int seg
     for (int end = 0; end < (kMoves ? 2 : 1); ++end) {
         const uint8_t* codes = keys.box_codes(segment + end);
         const KeyBounds& whole = frame.at[end];
-        float* rows = out.row[6 * end];
+        float* rows = out.row(6 * static_cast<size_t>(end));
         for (size_t k = 0; k < 3; ++k) {
             const CodeScale scale(whole.low[k], whole.high[k]);
             decode_row(codes + k * boxes, scale, boxes, rows + k * BoxPlanes::kMost);
@@ -46,7 +46,7 @@ HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int seg
     }
     if constexpr (kMoves)
         for (size_t i = 0; i < 6 * BoxPlanes::kMost; i += hn::Lanes(d))
-            hn::Store(hn::Sub(hn::Load(d, out.row[6] + i), hn::Load(d, out.row[0] + i)), d, out.row[6] + i);
+            hn::Store(hn::Sub(hn::Load(d, out.row(6) + i), hn::Load(d, out.row(0) + i)), d, out.row(6) + i);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,13 +9,14 @@
 
 namespace trapeze {
 
-/// The boxes of a grid in one segment of its motion: plane k of box b is at row[k][b] + t * row[6 + k][b],
+/// The boxes of a grid in one segment of its motion: plane k of box b is at row(k)[b] + t * row(6 + k)[b],
 /// where k is low x, y, z, high x, y, z in the grid's frame, and t the time in the segment.
 struct BoxPlanes {
     static constexpr size_t kMost = 16;  ///< boxes
-    alignas(64) float row[12][kMost];
+    alignas(64) float values[12 * kMost];
 
-    const float* planes() const { return row[0]; }  ///< one after another, kMost apart
+    float* row(size_t k) { return values + k * kMost; }
+    const float* row(size_t k) const { return values + k * kMost; }
 };
 
 /// A grid's box at a key.

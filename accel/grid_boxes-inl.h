@@ -269,7 +269,7 @@ void test_active(BundleState& t, const Candidate& candidate, const MovingBox& wh
     const ActiveRays& active = t.scratch.active;
     if (active.count == 0) return;
     decode_boxes<kMoves>(t.tree, grid, segment, t.scratch.frame, t.scratch.boxes);
-    const float* planes = t.scratch.boxes.planes();
+    const float* planes = t.scratch.boxes.values;
     const int boxes = grid.box_count(), blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
     t.stats.nodes_visited += active.count * static_cast<size_t>(boxes);
     uint32_t some = active.count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)

@@ -153,7 +153,7 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
     const PacketSlopes slopes{row[RayIntervals::kDxMin][packet], row[RayIntervals::kDxMax][packet],
                               row[RayIntervals::kDyMin][packet], row[RayIntervals::kDyMax][packet]};
     uint32_t boxes =
-        boxes_met(grid, axes, t.scratch.boxes.planes(), slopes, std::max(box.low[2], t.nearest_depth),
+        boxes_met(grid, axes, t.scratch.boxes.values, slopes, std::max(box.low[2], t.nearest_depth),
                   box.high[2], t.scratch.farthest[packet]);
     const auto rays = std::min(kLanes, t.rays.count - packet * kLanes);
     t.stats.nodes_visited += rays;

@@ -79,9 +79,11 @@ void WideTree::decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const
         const KeyBounds whole = keys.framed(segment + end);
         for (int k = 0; k < 6; ++k) {
             const CodeScale scale(whole.low[k % 3], whole.high[k % 3]);
+            const float* first = boxes.row(static_cast<size_t>(k));
+            float* row = boxes.row(static_cast<size_t>(6 * end + k));
             for (int b = 0; b < count; ++b) {
                 const float plane = scale.plane(codes[k * count + b]);
-                boxes.row[6 * end + k][b] = end == 0 ? plane : plane - boxes.row[k][b];
+                row[b] = end == 0 ? plane : plane - first[b];
             }
         }
     }
@@ -223,7 +225,7 @@ class SingleRay {
                 inverse_of(a[0] * ray_.direction.x + a[1] * ray_.direction.y + a[2] * ray_.direction.z);
         }
         for (size_t box = 0; box < static_cast<size_t>(record.box_count()); ++box) {
-            const float* at = boxes.planes() + box;
+            const float* at = boxes.values + box;
             float depth;
             if (!slab_depths(at, at + 3 * kStride, record.moves() ? at + 6 * kStride : nullptr,
                              record.moves() ? at + 9 * kStride : nullptr, kStride, segment.local, origin,

@@ -108,10 +108,11 @@ TEST(WideTree, BoxesHoldTheirVerticesAtAnyTime) {
                         ASSERT_LE(p[k], whole.high[k] + time * whole.high_delta[k]);
                         const float* axis = axes.axis[k];
                         const float at = axis[0] * p.x + axis[1] * p.y + axis[2] * p.z;
-                        const float low_delta = keys > 1 ? boxes.row[6 + k][box] : 0.0f;
-                        const float high_delta = keys > 1 ? boxes.row[9 + k][box] : 0.0f;
-                        ASSERT_GE(at, boxes.row[k][box] + segment.local * low_delta);
-                        ASSERT_LE(at, boxes.row[3 + k][box] + segment.local * high_delta);
+                        const float low_delta = keys > 1 ? boxes.row(6 + static_cast<size_t>(k))[box] : 0.0f;
+                        const float high_delta = keys > 1 ? boxes.row(9 + static_cast<size_t>(k))[box] : 0.0f;
+                        ASSERT_GE(at, boxes.row(static_cast<size_t>(k))[box] + segment.local * low_delta);
+                        ASSERT_LE(at,
+                                  boxes.row(3 + static_cast<size_t>(k))[box] + segment.local * high_delta);
                     }
                 }
         }
