@@ -125,6 +125,8 @@ const char* const kFloats[] = {"Ka",
                                "gamma",
                                "jitter",
                                "endofframe",
+                               "enable gaussian",
+                               "enable lerp",
                                "veining"};
 const char* const kColors[] = {"specularcolor", "lightcolor", "background", "opacity",
                                "bgcolor",       "fogcolor",   "color"};

@@ -51,6 +51,11 @@ TEST(Declarations, InlineOnesCarryTheName) {
     EXPECT_FALSE(declarations.resolve(""));
 }
 
+TEST(Declarations, PredeclaredNamesMayHaveSpaces) {
+    EXPECT_EQ(Declarations().resolve("enable lerp")->first, "enable lerp");
+    EXPECT_EQ(Declarations().resolve("enable gaussian")->second.type, ValueType::Float);
+}
+
 TEST(Declarations, DeclareReplaces) {
     Declarations declarations;
     declarations.declare("tint", *parse_declaration("varying color"));
