@@ -168,6 +168,11 @@ constexpr Builtin kBuiltins[] = {
     {"transform", 'p', "ssp", Op::TransformPointNamed},
     {"transform", 'p', "smp", Op::TransformPointNamed},
     {"transform", 'p', "mp", Op::TransformPoint},
+    // As BMRT and the books call it.
+    {"ptransform", 'p', "sp", Op::TransformPointNamed},
+    {"ptransform", 'p', "ssp", Op::TransformPointNamed},
+    {"ptransform", 'p', "smp", Op::TransformPointNamed},
+    {"ptransform", 'p', "mp", Op::TransformPoint},
     {"vtransform", 'v', "sv", Op::TransformVectorNamed},
     {"vtransform", 'v', "ssv", Op::TransformVectorNamed},
     {"vtransform", 'v', "smv", Op::TransformVectorNamed},
