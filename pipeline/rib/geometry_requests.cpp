@@ -28,9 +28,9 @@ void teapot(Reader& r, const ParameterList& given) {
     }
 }
 
-void sphere(Reader& r, const ParameterList& given) {
+void sphere(Reader& r, const ParameterList& given, float radius) {
     Quadric q;
-    q.values = {1, -1, 1, 360};
+    q.values = {radius, -radius, radius, 360};
     q.value_count = 4;
     add(r, "Sphere", q, checked_variables(r, given, q));
 }
@@ -66,13 +66,18 @@ void geometry(Reader& r, ArgumentCursor& c) {
     const std::string name = c.string("the name");
     const ParameterList given = read_variables(r, c, PointForm::None);
     if (name == "teapot") return teapot(r, given);
-    if (name == "sphere") return sphere(r, given);
+    if (name == "sphere") return sphere(r, given, 1);
     if (name == "cube") return cube(r, given);
     if (name == "rectlight") return rectangle(r, given);
+    if (name == "spherelight") {
+        const Parameter* radius = given.find("radius");
+        return sphere(r, given, radius && radius->floats.size() == 1 ? radius->floats[0] : 0.5f);
+    }
     if (name == "envsphere") return r.place_far_emitter(FarShape::Dome);
     if (name == "distantlight") return r.place_far_emitter(FarShape::Direction);
-    r.warn_once("no geometry " + in_quotes(name) + "; known are teapot, sphere, cube and rectlight",
-                "geometry-" + name);
+    r.warn_once(
+        "no geometry " + in_quotes(name) + "; known are teapot, sphere, cube, rectlight and spherelight",
+        "geometry-" + name);
 }
 
 constexpr RequestRow kRows[] = {

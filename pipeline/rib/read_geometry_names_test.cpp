@@ -22,6 +22,15 @@ TEST(ReadGeometryNames, ThreeAreKnown) {
     }
 }
 
+TEST(ReadGeometryNames, SphereLightsHaveTheirRadius) {
+    const Outcome r =
+        read_world("Geometry \"spherelight\" \"constant float radius\" [3] Geometry \"spherelight\"");
+    EXPECT_THAT(r.messages, IsEmpty());
+    ASSERT_EQ(r.count(), 2u);
+    EXPECT_EQ(std::get<Quadric>(r.primitive(0).shape().topology).values[2], 3);
+    EXPECT_EQ(std::get<Quadric>(r.primitive(1).shape().topology).values[2], 0.5f);
+}
+
 TEST(ReadGeometryNames, OthersAreSaidOnceAndLeftOut) {
     const Outcome r = read_world("Geometry \"dragon\"\nGeometry \"dragon\"\nSphere 1 -1 1 360");
     ASSERT_EQ(r.messages.size(), 1u);
