@@ -115,6 +115,22 @@ TEST(ReadRis, ALightOfAnObjectShinesWhereItIsPlaced) {
     EXPECT_EQ(r.attributes().lights[0]->shader.camera_from_shader.translation(), V3f(7, 1, 0));
 }
 
+/// Intensity is the radiance of a disk: half a right angle to each side of the direction has sin^2 = 1/2.
+TEST(ReadRis, DistantLightsAreDisksInTheSky) {
+    const auto brightness = [](const std::string& parameters) {
+        const Outcome r = read_world("Light \"PxrDistantLight\" \"sun\" " + parameters +
+                                     " Bxdf \"PxrDiffuse\" \"b\"\n" + kBall);
+        EXPECT_EQ(r.attributes().lights.size(), 1u);
+        return numbers(r.attributes().lights[0]->shader, "lightcolor")[0];
+    };
+    EXPECT_NEAR(brightness(""), 1.07f, 0.01f);
+    EXPECT_NEAR(brightness("\"float exposure\" [1]"), 2.14f, 0.02f);
+    EXPECT_NEAR(brightness("\"float intensity\" [3] \"float angleExtent\" [90]"), 1.5f, 1e-5f);
+    EXPECT_NEAR(brightness("\"float angleExtent\" [90] \"int areaNormalize\" [1]"), 1.07f, 0.01f);
+    EXPECT_EQ(brightness("\"float angleExtent\" [0]"), 0);
+    EXPECT_EQ(brightness("\"float intensity\" [2]"), 2);
+}
+
 TEST(ReadRis, DomesAreAmbientAndShineFromAboveAndTheEye) {
     const Outcome r = read_world(
         "Light \"PxrDomeLight\" \"d\" \"float intensity\" [2]\n"

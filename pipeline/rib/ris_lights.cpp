@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace trapeze::rib {
 namespace {
@@ -15,9 +16,9 @@ bool contains(std::string_view text, std::string_view part) {
 }
 
 /// Its radiance.
-V3f power(const RisParameters& p) {
-    const float scale =
-        p.number_or("intensity", 1) * std::exp2(std::clamp(p.number_or("exposure", 0), -64.0f, 64.0f));
+V3f power(const RisParameters& p, float default_intensity = 1) {
+    const float scale = p.number_or("intensity", default_intensity) *
+                        std::exp2(std::clamp(p.number_or("exposure", 0), -64.0f, 64.0f));
     V3f color(1, 1, 1);
     for (const char* name : {"lightColor", "envTint", "skyTint", "lightcolor"})
         if (const auto given = p.color(name)) color = *given;
@@ -42,6 +43,22 @@ std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderIn
     set_triple(light->shader, "from", ValueType::Point, V3f(0, 0, 0));
     set_triple(light->shader, "to", ValueType::Point, direction);
     return light;
+}
+
+/// A distant light is a disk in the sky as wide as the sun unless told, and its intensity is the radiance of
+/// the disk. What shines along one line instead is as bright as a face turned to the disk: radiance times
+/// sin^2 of half the angle. That of normalized ones does not change with the angle (taken as: is the sun's).
+V3f power_of_disk(const RisParameters& p) {
+    constexpr float kSunAngle = 0.53f, kSunIntensity = 50000,
+                    kHalfInRadians = std::numbers::pi_v<float> / 360;
+    // Ten over so small a disk are not seen at all: they are from those who took it for the brightness.
+    constexpr float kBrightness = 10;
+    const V3f radiance = power(p, kSunIntensity);
+    const float given = p.number_or("angleExtent", -1);
+    if (given < 0 && std::max({radiance.x, radiance.y, radiance.z}) <= kBrightness) return radiance;
+    const bool is_suns = given < 0 || p.number_or("areaNormalize", 0) != 0;
+    const float sine = std::sin((is_suns ? kSunAngle : std::min(given, 180.0f)) * kHalfInRadians);
+    return radiance * (sine * sine);
 }
 
 std::vector<std::shared_ptr<LightInstance>> dome(const std::string& handle, const ShaderInstance& from,
@@ -164,7 +181,7 @@ std::vector<std::shared_ptr<const LightInstance>> ris_lights(const std::string& 
                                                              const ShaderInstance& shader,
                                                              const RisParameters& p) {
     const std::string_view name = shader.name;
-    if (contains(name, "Distant")) return {distant(handle, shader, power(p), V3f(0, 0, 1))};
+    if (contains(name, "Distant")) return {distant(handle, shader, power_of_disk(p), V3f(0, 0, 1))};
     if (contains(name, "Dome") || contains(name, "Env")) {
         const auto lights = dome(handle, shader, power(p));
         return {lights.begin(), lights.end()};
