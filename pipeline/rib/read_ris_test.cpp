@@ -164,7 +164,7 @@ TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
     const ShaderInstance& light = sun.attributes().lights[0]->shader;
     EXPECT_EQ(light.name, "distantlight");
     EXPECT_EQ(numbers(light, "lightcolor"), (std::vector<float>{1, 0.5f, 0}));
-    EXPECT_EQ(numbers(light, "to"), (std::vector<float>{0, 0, 1}));
+    EXPECT_EQ(numbers(light, "to"), (std::vector<float>{0, 0, -1}));
 }
 
 /// The light of older versions, and its geometry: a square at (3, 2, 0) in the plane y = 2.

@@ -169,7 +169,9 @@ std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& ligh
                              ? V3f(color->floats[0], color->floats[1], color->floats[2])
                              : V3f(1, 1, 1);
     if (shape == FarShape::Dome) return dome(light.handle, from, radiance);
-    return {distant(light.handle, from, radiance, V3f(0, 0, 1))};
+    // Exporters for Maya and Blender, whose suns shine along -z, write their matrices as they are. Not so
+    // those of the later PxrDistantLight: it shines along +z.
+    return {distant(light.handle, from, radiance, V3f(0, 0, -1))};
 }
 
 V3f middle_of(const Shape& shape) {
