@@ -62,6 +62,11 @@ void rectangle(Reader& r, const ParameterList& given) {
     add(r, "Patch", mesh, std::move(list));
 }
 
+float number_of(const ParameterList& given, const char* name, float otherwise) {
+    const Parameter* p = given.find(name);
+    return p && p->floats.size() == 1 ? p->floats[0] : otherwise;
+}
+
 void geometry(Reader& r, ArgumentCursor& c) {
     const std::string name = c.string("the name");
     const ParameterList given = read_variables(r, c, PointForm::None);
@@ -69,12 +74,10 @@ void geometry(Reader& r, ArgumentCursor& c) {
     if (name == "sphere") return sphere(r, given, 1);
     if (name == "cube") return cube(r, given);
     if (name == "rectlight") return rectangle(r, given);
-    if (name == "spherelight") {
-        const Parameter* radius = given.find("radius");
-        return sphere(r, given, radius && radius->floats.size() == 1 ? radius->floats[0] : 0.5f);
-    }
+    if (name == "spherelight") return sphere(r, given, number_of(given, "radius", 0.5f));
     if (name == "envsphere") return r.place_far_emitter(FarShape::Dome);
-    if (name == "distantlight") return r.place_far_emitter(FarShape::Direction);
+    if (name == "distantlight")
+        return r.place_far_emitter(FarShape::Direction, number_of(given, "anglesubtended", 0));
     r.warn_once(
         "no geometry " + in_quotes(name) + "; known are teapot, sphere, cube, rectlight and spherelight",
         "geometry-" + name);

@@ -165,6 +165,13 @@ TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
     EXPECT_EQ(light.name, "distantlight");
     EXPECT_EQ(numbers(light, "lightcolor"), (std::vector<float>{1, 0.5f, 0}));
     EXPECT_EQ(numbers(light, "to"), (std::vector<float>{0, 0, -1}));
+
+    const Outcome disk = read_world(
+        "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"float intensity\" [20]\n"
+        "Geometry \"distantlight\" \"constant float anglesubtended\" [90] AttributeEnd\n"
+        "Bxdf \"PxrDiffuse\" \"b\"\n" +
+        kBall);
+    EXPECT_NEAR(numbers(disk.attributes().lights[0]->shader, "lightcolor")[0], 10, 1e-5f);
 }
 
 /// The light of older versions, and its geometry: a square at (3, 2, 0) in the plane y = 2.

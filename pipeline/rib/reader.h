@@ -87,7 +87,7 @@ class Reader {
     /// One that shines on all of the world, or on where its object is placed (RIS).
     void add_world_light(std::shared_ptr<const LightInstance> light);
     /// Geometry too far away to be seen, for the light that waits for its shape, if one does.
-    void place_far_emitter(FarShape shape);
+    void place_far_emitter(FarShape shape, float angle = 0);
     std::shared_ptr<const LightInstance> light(const std::string& handle) const;
     /// The name of a shader, placed in the current space; its other arguments are still to come.
     ShaderInstance shader(ArgumentCursor& cursor, const char* kind);

@@ -45,20 +45,28 @@ std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderIn
     return light;
 }
 
-/// A distant light is a disk in the sky as wide as the sun unless told, and its intensity is the radiance of
-/// the disk. What shines along one line instead is as bright as a face turned to the disk: radiance times
-/// sin^2 of half the angle. That of normalized ones does not change with the angle (taken as: is the sun's).
+/// What a disk in the sky lights: a face turned to it is as bright as the disk times sin^2 of half the angle
+/// that it takes.
+float share_of_disk(float angle) {
+    const float sine = std::sin(std::clamp(angle, 0.0f, 180.0f) * (std::numbers::pi_v<float> / 360));
+    return sine * sine;
+}
+
+/// Ten over a disk as small as the sun are not seen at all: they are from those who took it for the
+/// brightness of what is lit.
+bool is_brightness(const V3f& radiance) {
+    return std::max({radiance.x, radiance.y, radiance.z}) <= 10;
+}
+
+/// A distant light is a disk as wide as the sun unless told, and its intensity is the radiance of the disk.
+/// That of normalized ones does not change with the angle (taken as: is the sun's).
 V3f power_of_disk(const RisParameters& p) {
-    constexpr float kSunAngle = 0.53f, kSunIntensity = 50000,
-                    kHalfInRadians = std::numbers::pi_v<float> / 360;
-    // Ten over so small a disk are not seen at all: they are from those who took it for the brightness.
-    constexpr float kBrightness = 10;
+    constexpr float kSunAngle = 0.53f, kSunIntensity = 50000;
     const V3f radiance = power(p, kSunIntensity);
     const float given = p.number_or("angleExtent", -1);
-    if (given < 0 && std::max({radiance.x, radiance.y, radiance.z}) <= kBrightness) return radiance;
+    if (given < 0 && is_brightness(radiance)) return radiance;
     const bool is_suns = given < 0 || p.number_or("areaNormalize", 0) != 0;
-    const float sine = std::sin((is_suns ? kSunAngle : std::min(given, 180.0f)) * kHalfInRadians);
-    return radiance * (sine * sine);
+    return radiance * share_of_disk(is_suns ? kSunAngle : given);
 }
 
 std::vector<std::shared_ptr<LightInstance>> dome(const std::string& handle, const ShaderInstance& from,
@@ -161,7 +169,7 @@ void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& came
 }
 
 std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& light, FarShape shape,
-                                                       const M44f& camera_from_shape) {
+                                                       const M44f& camera_from_shape, float angle) {
     ShaderInstance from = light.shader;
     from.camera_from_shader = camera_from_shape;
     const Parameter* color = from.parameters.find("lightcolor");
@@ -171,7 +179,8 @@ std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& ligh
     if (shape == FarShape::Dome) return dome(light.handle, from, radiance);
     // Exporters for Maya and Blender, whose suns shine along -z, write their matrices as they are. Not so
     // those of the later PxrDistantLight: it shines along +z.
-    return {distant(light.handle, from, radiance, V3f(0, 0, -1))};
+    const float share = angle > 0 && !is_brightness(radiance) ? share_of_disk(angle) : 1;
+    return {distant(light.handle, from, radiance * share, V3f(0, 0, -1))};
 }
 
 V3f middle_of(const Shape& shape) {

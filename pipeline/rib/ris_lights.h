@@ -37,10 +37,11 @@ std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const Shade
 void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape);
 
 /// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. The first is
-/// to take the place of `light`.
+/// to take the place of `light`. Angle: that which the distant one takes in the sky, in degrees; 0 if
+/// unknown.
 enum class FarShape { Dome, Direction };
 std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& light, FarShape shape,
-                                                       const M44f& camera_from_shape);
+                                                       const M44f& camera_from_shape, float angle);
 
 /// Of the box about the shape, in its space.
 V3f middle_of(const Shape& shape);

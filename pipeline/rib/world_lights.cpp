@@ -58,10 +58,10 @@ void Reader::place_emitter(const Shape& shape) {
             with_origin(shader.camera_from_shader, middle_of(shape), camera_from_current());
 }
 
-void Reader::place_far_emitter(FarShape shape) {
+void Reader::place_far_emitter(FarShape shape, float angle) {
     Emitter* const emitter = state_.attributes->emitter.get();
     if (!emitter || !emitter->is_of_ris || std::exchange(emitter->is_placed, true)) return;
-    const auto lights = far_lights(*emitter->light, shape, camera_from_current());
+    const auto lights = far_lights(*emitter->light, shape, camera_from_current(), angle);
     *emitter->light = *lights.front();
     for (size_t i = 1; i < lights.size(); ++i) add_world_light(lights[i]);
 }
