@@ -42,15 +42,22 @@ class Loader {
              [](const ShadingGrid& grid, int k) -> const std::vector<float>& { return grid.P.front().c[k]; });
     }
 
-    /// The step of u or v from a vertex to the next.
+    /// The step of u or v from a vertex to the next, along the middle of the grid: vertices of its borders
+    /// may be moved along them to where a neighbour has its own.
     void load_steps(const Operand& out, std::vector<float> ShadingGrid::*plane, bool along_u) const {
         size_t at = 0;
         for (const ShadingGrid* grid : grids_) {
             const std::vector<float>& values = grid->*plane;
             const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
-            const size_t next = along_u ? 1 : static_cast<size_t>(grid->shape.vertices_u());
+            const GridShape& shape = grid->shape;
+            const int steps = along_u ? shape.nu : shape.nv;
+            const auto begin = static_cast<size_t>(along_u ? shape.row_index(0, shape.nv / 2)
+                                                           : shape.row_index(shape.nu / 2, 0));
+            const auto end = static_cast<size_t>(along_u ? shape.row_index(shape.nu, shape.nv / 2)
+                                                         : shape.row_index(shape.nu / 2, shape.nv));
             for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
-                const float step = first + next < values.size() ? values[first + next] - values[first] : 1.0f;
+                const float way = values[first + end] - values[first + begin];
+                const float step = steps > 0 ? way / static_cast<float>(steps) : 1.0f;
                 std::fill_n(out.data + at, in_piece, step);
                 at += in_piece;
             }
@@ -91,7 +98,8 @@ void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& 
         case Predefined::Os:
             return loader.load(out, &ShadingGrid::Os);
         case Predefined::Ci: {
-            // Black where nothing has shaded yet: what a shader leaves alone, or adds to, shows nothing of its own.
+            // Black where nothing has shaded yet: what a shader leaves alone, or adds to, shows nothing of
+            // its own.
             if (shaded) return loader.load(out, &ShadingGrid::Ci);
             const float black[3] = {};
             return frame.set_uniform(value.id, black);

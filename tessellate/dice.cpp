@@ -27,8 +27,8 @@ class Dicer {
         prepare_grid();
         find_border();
         place_vertices();
-        if (attributes_.displacement)
-            snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), scratch_.uv);
+        snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(),
+                               attributes_.displacement != nullptr, scratch_.uv);
         evaluate();
         set_border_positions();
         set_normals();

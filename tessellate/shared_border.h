@@ -18,10 +18,12 @@ struct BorderVertex {
 };
 
 /// Moves the face's own parameters of border vertices to where their shared points are on this face, so that
-/// variables that both faces have alike agree.
+/// variables agree with positions, and between faces that have them alike. Grid corners may take the same
+/// point, where a piece of a face is smaller than a micropolygon: then another piece reaches beyond itself,
+/// which its parameters cannot, and unless `corners` those of corners stay, to cover the face.
 void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
                             std::span<const BorderSide, 4> sides, std::span<const BorderPoint> points,
-                            std::span<const BorderVertex> border, std::span<V2f> uv);
+                            std::span<const BorderVertex> border, bool corners, std::span<V2f> uv);
 
 /// Sets grid.border and grid.shared_vertices, for all of the grid's border vertices.
 void make_shared_border(const DiceContext& context, std::span<const BorderPoint> points,

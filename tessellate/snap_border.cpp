@@ -17,7 +17,12 @@ bool is_point(const Edges& edges, const BorderSide& side) {
 
 void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
                             std::span<const BorderSide, 4> sides, std::span<const BorderPoint> points,
-                            std::span<const BorderVertex> border, std::span<V2f> uv) {
+                            std::span<const BorderVertex> border, bool corners, std::span<V2f> uv) {
+    const auto is_own_corner = [&](int vertex) {
+        const GridShape& shape = subpatch.shape;
+        return vertex == 0 || vertex == shape.nu || vertex == shape.row_index(0, shape.nv) ||
+               vertex == shape.row_index(shape.nu, shape.nv);
+    };
     std::array<bool, 4> pole;
     for (int s = 0; s < 4; ++s) pole[s] = is_point(edges, sides[s]);
     int first_of_side = 0, side = -1;
@@ -34,7 +39,8 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
         uv[at.vertex][axis] = std::clamp(own, 0.0f, 1.0f);
     }
     for (const BorderVertex& at : border)
-        if (at.corner >= 0 && !pole[at.side]) uv[at.vertex] = uv[at.corner];
+        if (at.corner >= 0 && !pole[at.side] && (corners || !is_own_corner(at.vertex)))
+            uv[at.vertex] = uv[at.corner];
     // The same bits as the shared point, where that is on this very side.
     for (const BorderVertex& at : border) {
         const BorderPoint& point = points[at.point];

@@ -76,8 +76,8 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
 /// Predefined variables that a function reads without being given them.
 void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
     if (op == Op::FaceForward && inputs.size() == 2) inputs.push_back(global("Ng", Base::Normal));
-    if (op == Op::Du) inputs.push_back(global("u", Base::Float));
-    if (op == Op::Dv) inputs.push_back(global("v", Base::Float));
+    if (op == Op::Du || op == Op::Dv)
+        for (const char* parameter : {"u", "v"}) inputs.push_back(global(parameter, Base::Float));
     if (op < Op::Ambient || op > Op::Phong) return;
     inputs.insert(inputs.begin(), global("P", Base::Point));
     global("N", Base::Normal);  // lights may ask for it

@@ -104,8 +104,8 @@ enum class Op : uint8_t {
     Spline,         ///< [basis (string),] value, knots or one array
 
     // Over neighbours.
-    Du,     ///< x, u
-    Dv,     ///< x, v
+    Du,     ///< x, u, v
+    Dv,     ///< x, u, v
     Deriv,  ///< num, den
     Area,
     CalculateNormal,

@@ -27,8 +27,10 @@ bool is_flat(Run& run, const Step& step, std::span<const Operand> operands) {
 void differences(Run& run, const Step& step, std::span<const Operand> operands) {
     if (is_flat(run, step, operands)) return;
     const int width = width_of_output(run, step);
-    const auto difference = step.op == Op::Du ? derivative_u : step.op == Op::Dv ? derivative_v : derivative;
-    difference(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[0]);
+    if (step.op == Op::Deriv)
+        return derivative(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[0]);
+    const auto differentiate = step.op == Op::Du ? derivative_u : derivative_v;
+    differentiate(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[3], operands[0]);
 }
 
 void area(Run& run, const Step& step, std::span<const Operand> operands) {

@@ -93,26 +93,88 @@ HWY_INLINE void divide_rows(const Row& a, const Row& b, int count, float* HWY_RE
     }
 }
 
-HWY_INLINE void differentiate(GridSpans spans, size_t lanes, int width, Axis axis, const Operand& value,
-                              const Operand& parameter, const Operand& out) {
-    for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
-        Row num, den;
-        row.difference(axis, parameter, 0, den);
-        for (int k = 0; k < width; ++k) {
-            row.difference(axis, value, k, num);
-            divide_rows(num, den, row.count(), row.of(out, k));
+/// A row's derivatives along one parameter, and where they were not found: of two vertices in one place no
+/// difference says anything.
+struct Derivatives {
+    Row3 value;
+    bool found[kMaxRow];
+    bool all_found;
+};
+
+/// Where borders are snapped to their neighbours' rates, a step along one axis changes both parameters: then
+/// the derivatives x_u, x_v solve step_i = x_u du_i + x_v dv_i for the steps along both axes. `p` is the
+/// parameter looked for, `q` the other one, `along` the axis that p follows.
+HWY_INLINE void row_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
+                                const Operand& p, const Operand& q, Derivatives& out) {
+    constexpr float kLeast = 1e-3f;  // of a determinant, to its terms
+    const Axis across = along == Axis::U ? Axis::V : Axis::U;
+    Row dp, dq, dp_across, dq_across, step, step_across;
+    row.difference(along, p, 0, dp);
+    row.difference(along, q, 0, dq);
+    row.difference(across, p, 0, dp_across);
+    row.difference(across, q, 0, dq_across);
+    bool straight[kMaxRow];
+    int missing = 0;
+    Row determinant;
+    for (int i = 0; i < row.count(); ++i) {
+        const float a = dp.lanes[i] * dq_across.lanes[i], b = dp_across.lanes[i] * dq.lanes[i];
+        straight[i] = dq.lanes[i] == 0 && dp.lanes[i] != 0;
+        out.found[i] = straight[i] || std::fabs(a - b) > kLeast * (std::fabs(a) + std::fabs(b));
+        determinant.lanes[i] = straight[i] ? dp.lanes[i] : out.found[i] ? a - b : 1;
+        missing += !out.found[i];
+    }
+    out.all_found = missing == 0;
+    for (int k = 0; k < width; ++k) {
+        row.difference(along, value, k, step);
+        row.difference(across, value, k, step_across);
+        for (int i = 0; i < row.count(); ++i) {
+            const float solved = step.lanes[i] * dq_across.lanes[i] - step_across.lanes[i] * dq.lanes[i];
+            const float top = straight[i] ? step.lanes[i] : solved;
+            out.value.component[k].lanes[i] = out.found[i] ? top / determinant.lanes[i] : 0;
         }
+    }
+}
+
+/// The vertex of a row or column next to one at its end, or one that is inside itself.
+int inside_of(int i, int last) {
+    if (i > 0 && i < last) return i;
+    return i == 0 ? std::min(1, last) : last - 1;
+}
+
+/// What is missing at the borders of a grid is as it is inside.
+void take_from_inside(const Derivatives& inside, const RowOf& row, int width, Derivatives& here) {
+    const int last = row.count() - 1;
+    for (int i = 0; i <= last; ++i) {
+        if (here.found[i]) continue;
+        const int from = inside_of(i, last);
+        for (int k = 0; k < width; ++k)
+            here.value.component[k].lanes[i] = inside.value.component[k].lanes[from];
+    }
+}
+
+HWY_INLINE void differentiate(GridSpans spans, size_t lanes, int width, Axis along, const Operand& value,
+                              const Operand& p, const Operand& q, const Operand& out) {
+    for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
+        Derivatives here, inside;
+        row_derivatives(row, width, along, value, p, q, here);
+        if (!here.all_found) {
+            row_derivatives({row.span, inside_of(row.j, row.span.shape.vertices_v() - 1)}, width, along,
+                            value, p, q, inside);
+            take_from_inside(inside, row, width, here);
+        }
+        for (int k = 0; k < width; ++k)
+            std::copy_n(here.value.component[k].lanes, row.count(), row.of(out, k));
     });
 }
 
 void along_u(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
-             const Operand& out) {
-    differentiate(spans, lanes, width, Axis::U, value, u, out);
+             const Operand& v, const Operand& out) {
+    differentiate(spans, lanes, width, Axis::U, value, u, v, out);
 }
 
-void along_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& v,
-             const Operand& out) {
-    differentiate(spans, lanes, width, Axis::V, value, v, out);
+void along_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
+             const Operand& v, const Operand& out) {
+    differentiate(spans, lanes, width, Axis::V, value, v, u, out);
 }
 
 void along_both(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
@@ -271,12 +333,12 @@ HWY_EXPORT(step_around);
 HWY_EXPORT(step_between);
 
 void derivative_u(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
-                  const Operand& out) {
-    HWY_DYNAMIC_DISPATCH(along_u)(spans, lanes, width, value, u, out);
+                  const Operand& v, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(along_u)(spans, lanes, width, value, u, v, out);
 }
-void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& v,
-                  const Operand& out) {
-    HWY_DYNAMIC_DISPATCH(along_v)(spans, lanes, width, value, v, out);
+void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
+                  const Operand& v, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(along_v)(spans, lanes, width, value, u, v, out);
 }
 void derivative(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
                 const Operand& out) {

@@ -17,11 +17,13 @@ namespace trapeze::vm {
 
 using GridSpans = std::span<const GridSpan>;
 
-/// Du and Dv: each component's difference along u over the parameter's (u), or along v (v).
+/// Du and Dv: each component's derivative by u or by v: the one that explains its differences along both
+/// axes, for at borders that are snapped to a neighbour's rate both parameters change along each. Where
+/// vertices share a place there, that of the vertex inside.
 void derivative_u(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
-                  const Operand& out);
-void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& v,
-                  const Operand& out);
+                  const Operand& v, const Operand& out);
+void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
+                  const Operand& v, const Operand& out);
 
 /// Deriv(num, den) = Du(num) / Du(den) + Dv(num) / Dv(den).
 void derivative(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,

@@ -71,8 +71,10 @@ TEST(Neighbours, DerivativesAreDifferencesOverTheParameters) {
         Register du(width, false, batch.lanes), dv(width, false, batch.lanes),
             both(width, false, batch.lanes);
         for_each_target([&] {
-            derivative_u(batch.spans, batch.lanes, width, value.operand(), u.operand(), du.operand());
-            derivative_v(batch.spans, batch.lanes, width, value.operand(), v.operand(), dv.operand());
+            derivative_u(batch.spans, batch.lanes, width, value.operand(), u.operand(), v.operand(),
+                         du.operand());
+            derivative_v(batch.spans, batch.lanes, width, value.operand(), u.operand(), v.operand(),
+                         dv.operand());
             derivative(batch.spans, batch.lanes, width, value.operand(), u.operand(), both.operand());
             batch.for_vertices([&](const GridSpan& span, int i, int j, size_t lane) {
                 for (int k = 0; k < width; ++k) {
@@ -92,6 +94,28 @@ TEST(Neighbours, DerivativesAreDifferencesOverTheParameters) {
     }
 }
 
+/// A border row whose vertices lie at every third one's place, and a border column at every second one's: all
+/// derivatives of a linear value are as they are elsewhere.
+TEST(Neighbours, DerivativesAtSnappedBordersAreThoseOfTheSurface) {
+    const Batch batch;
+    Register u(1, false, batch.lanes), v(1, false, batch.lanes), value(1, false, batch.lanes),
+        du(1, false, batch.lanes), dv(1, false, batch.lanes);
+    batch.for_vertices([&](const GridSpan& span, int i, int j, size_t lane) {
+        if (j == 0 && span.shape.nu > 3) i -= i % 3;
+        if (i == 0 && span.shape.nv > 2) j -= j % 2;
+        const float x = static_cast<float>(i) / span.shape.nu, y = static_cast<float>(j) / span.shape.nv;
+        u.set(lane, 0, x), v.set(lane, 0, y), value.set(lane, 0, 5 * x - 3 * y);
+    });
+    for_each_target([&] {
+        derivative_u(batch.spans, batch.lanes, 1, value.operand(), u.operand(), v.operand(), du.operand());
+        derivative_v(batch.spans, batch.lanes, 1, value.operand(), u.operand(), v.operand(), dv.operand());
+        batch.for_vertices([&](const GridSpan& span, int i, int j, size_t lane) {
+            EXPECT_NEAR(du.at(lane, 0), 5, 1e-3) << i << ' ' << j << " of " << int(span.shape.nu);
+            EXPECT_NEAR(dv.at(lane, 0), -3, 1e-3) << i << ' ' << j << " of " << int(span.shape.nv);
+        });
+    });
+}
+
 TEST(Neighbours, DerivativesAddBothDirections) {
     const Batch batch;
     Register num = batch.make(1, [](float x, float y, int) { return 6 * x + 4 * y; });
@@ -105,9 +129,9 @@ TEST(Neighbours, UniformValuesDoNotChange) {
     Register value(3, true, kLanes), u = batch.make(1, [](float x, float, int) { return x; });
     Register still = batch.make(1, [](float, float, int) { return 2.0f; }), out(3, false, batch.lanes);
     value.fill([] { return 5.0f; });
-    derivative_u(batch.spans, batch.lanes, 3, value.operand(), u.operand(), out.operand());
+    derivative_u(batch.spans, batch.lanes, 3, value.operand(), u.operand(), still.operand(), out.operand());
     for (float x : out.planes()) EXPECT_EQ(x, 0);
-    derivative_u(batch.spans, batch.lanes, 1, u.operand(), still.operand(), out.operand());
+    derivative_u(batch.spans, batch.lanes, 1, u.operand(), still.operand(), still.operand(), out.operand());
     for (size_t i = 0; i < batch.lanes; ++i) EXPECT_EQ(out.at(i, 0), 0) << "over a difference of 0";
 }
 
@@ -208,9 +232,10 @@ TEST(Neighbours, GiveTheSameBitsOnAllTargets) {
     Numbers numbers;
     Register P = batch.make(3, [&](float, float, int) { return numbers.moderate(); });
     Register u = batch.make(1, [&](float, float, int) { return numbers.moderate(); });
+    Register v = batch.make(1, [&](float, float, int) { return numbers.moderate(); });
     const auto run = [&] {
         std::vector<Register> out(5, Register(3, false, batch.lanes));
-        derivative_u(batch.spans, batch.lanes, 3, P.operand(), u.operand(), out[0].operand());
+        derivative_u(batch.spans, batch.lanes, 3, P.operand(), u.operand(), v.operand(), out[0].operand());
         derivative(batch.spans, batch.lanes, 3, P.operand(), u.operand(), out[1].operand());
         areas(batch.spans, batch.lanes, P.operand(), out[2].operand());
         calculate_normals(batch.spans, batch.lanes, P.operand(), out[3].operand());

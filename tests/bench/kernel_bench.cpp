@@ -125,10 +125,10 @@ void normals(benchmark::State& state) {
     measure(state, [&] { calculate_normals({&span, 1}, kLanesOfGrid, p.operands[1], p.operands[0]); });
 }
 void derivatives_u(benchmark::State& state) {
-    const Planes p({3, 3, 1}, 0, 1);
+    const Planes p({3, 3, 1, 1}, 0, 1);
     const GridSpan span{0, {16, 16}, false};
     const auto& o = p.operands;
-    measure(state, [&] { derivative_u({&span, 1}, kLanesOfGrid, 3, o[1], o[2], o[0]); });
+    measure(state, [&] { derivative_u({&span, 1}, kLanesOfGrid, 3, o[1], o[2], o[3], o[0]); });
 }
 
 BENCHMARK(rgb_to_hsv);

@@ -77,7 +77,7 @@ void expect_ribbon(const Line& line, const Ribbon& ribbon, const Placement& plac
                                          : "";
     const std::string text = basis + line.text() + ribbon.variables;
     SCOPED_TRACE(text + " (" + placement.name + ")");
-    const DicedRib diced(placement.text() + "Displacement \"none\" " + text);
+    const DicedRib diced(placement.text() + text);
     EXPECT_THAT(diced.read.messages, ::testing::IsEmpty());
     ASSERT_GT(diced.vertex_count(), 0u);
     EXPECT_NEAR(diced.parameter_area(), 1, 1e-5);

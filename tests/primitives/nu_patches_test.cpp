@@ -125,7 +125,7 @@ TEST(NuPatchForms, RationalCircles) {
         "NuPatch 9 3 [0 0 0 1 1 2 2 3 3 4 4 4] 0 4 2 2 [0 0 1 1] 0 1 \"Pw\" [" + Pw + "]";
     for (const Placement& placement : placements()) {
         SCOPED_TRACE(placement.name);
-        const DicedRib diced(placement.text() + "Displacement \"none\" " + text);
+        const DicedRib diced(placement.text() + text);
         const M44d to_object = placement.camera_from_object.inverse();
         double off = 0;
         for (const DicedGrid& grid : diced.grids)
