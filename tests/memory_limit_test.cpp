@@ -54,13 +54,18 @@ double least_mebibytes() {
     return measured(folder, "render a.rib -t 2 --memory 64M").mebibytes;
 }
 
+#if defined(__has_feature)
+#define TRAPEZE_HAS_FEATURE(name) __has_feature(name)
+#else
+#define TRAPEZE_HAS_FEATURE(name) 0
+#endif
 constexpr bool kSanitized =
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || TRAPEZE_HAS_FEATURE(address_sanitizer)
     true;
 #else
     false;
 #endif
-constexpr double kMostSeconds = 120;  ///< on a slow and busy machine
+constexpr double kMostSeconds = kSanitized ? 1200 : 120;  ///< on a slow and busy machine
 
 /// `times` the limit of 64 MiB may be taken.
 void expect_bounded(const Measured& run, double times) {
