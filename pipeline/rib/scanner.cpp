@@ -23,13 +23,14 @@ bool is_high(char c) {
     return static_cast<unsigned char>(c) >= 0x80;
 }
 /// Commas and semicolons are C's, and stand in some files written by hand.
-bool is_separator(char c) {
+constexpr bool is_separator(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\f' || c == '\v';
 }
 
 constexpr auto kEndsNumber = [] {
     std::array<bool, 256> ends{};
-    for (const char c : std::string_view(" \t,;\f\v\n\r][#\"")) ends[static_cast<unsigned char>(c)] = true;
+    for (size_t c = 0; c < ends.size(); ++c) ends[c] = is_separator(static_cast<char>(c));
+    for (const char c : std::string_view("\n\r][#\"")) ends[static_cast<unsigned char>(c)] = true;
     return ends;
 }();
 
