@@ -47,6 +47,12 @@ struct WaitingRay {
     uint8_t u, v;  ///< the block
 };
 
+/// Packets that may meet a grid, and which of their lanes do.
+struct MetPackets {
+    uint32_t packet[RayIntervals::kRoom + 16],
+        lanes[RayIntervals::kRoom + 16];  ///< whole vectors are written
+};
+
 /// A grid that some groups of packets may meet, no nearer than a depth.
 struct Candidate {
     float depth;
@@ -77,9 +83,10 @@ struct BundleScratch {
         uint32_t node, groups;  ///< a bit a group
     };
     std::vector<Link> stack;
-    std::vector<uint32_t> touched;  ///< packets that have active rays
-    bool has_frame = false;         ///< of the grid that is visited, in its segment:
-    SegmentFrame frame;             ///< read when the first packet comes near
+    uint32_t touched[RayIntervals::kRoom];  ///< packets that have active rays
+    size_t touched_count = 0;
+    MetPackets met_packets;  ///< of the grid that is visited
+    SegmentFrame frame;      ///< of it, in its segment, once a packet has come near
     BoxPlanes boxes;
     ActiveRays active;
     static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst

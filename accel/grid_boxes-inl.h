@@ -297,7 +297,7 @@ void test_active(BundleState& t, const Candidate& candidate, const MovingBox& wh
         }
     }
     if (!grid.opaque || !tested) return;
-    for (const uint32_t packet : t.scratch.touched) t.refresh_packet(packet);
+    for (size_t i = 0; i < t.scratch.touched_count; ++i) t.refresh_packet(t.scratch.touched[i]);
     t.refresh_farthest();
 }
 

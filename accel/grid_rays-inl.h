@@ -71,63 +71,89 @@ HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int s
     __builtin_prefetch(keys + bytes - 1);
 }
 
+/// The rays of a packet, and whether they look in a segment, at times local to it.
 template <bool kMoves, bool kLens>
-void collect_packet(BundleState& t, const WideGrid& grid, const MovingBox& box, size_t packet, int segment,
-                    float depth) {
+HWY_INLINE MF rays_in_segment(const BundleState& t, const WideGrid& grid, int segment, size_t packet,
+                              RayLanes& r) {
     const F32 d;
     const size_t i = packet * kLanes;
-    const VF ox = kLens ? hn::Load(d, t.rays.ox + i) : hn::Zero(d),
-             oy = kLens ? hn::Load(d, t.rays.oy + i) : hn::Zero(d);
-    const VF ux = hn::Load(d, t.rays.ux + i), uy = hn::Load(d, t.rays.uy + i);
-    VF local = kMoves ? hn::Load(d, t.rays.time + i) : hn::Zero(d);
-    MF met = hn::FirstN(d, kLanes);
+    r.ox = kLens ? hn::Load(d, t.rays.ox + i) : hn::Zero(d);
+    r.oy = kLens ? hn::Load(d, t.rays.oy + i) : hn::Zero(d);
+    r.ux = hn::Load(d, t.rays.ux + i), r.uy = hn::Load(d, t.rays.uy + i);
+    r.local = kMoves ? hn::Load(d, t.rays.time + i) : hn::Zero(d);
     if constexpr (kMoves) {
-        if (grid.has_segments()) met = in_segment(local, grid.key_count, segment, local);
+        if (grid.has_segments()) return in_segment(r.local, grid.key_count, segment, r.local);
     }
-    const VF limit = hn::Add(hn::Load(d, t.rays.depth + i), hn::Set(d, grid.slack));
-    t.stats.nodes_visited += kLanes;
-    if (t.rays.nodes) count_packet(t.rays.nodes, i, 1);
-    met = hn::And(met, in_aligned_box<kMoves, kLens>(box, {ox, oy, ux, uy, local}, limit));
-    if (hn::AllFalse(d, met)) return;
+    return hn::FirstN(d, kLanes);
+}
+
+/// How far the rays of a packet look, with what depths may differ by.
+HWY_INLINE VF limit_of(const BundleState& t, const WideGrid& grid, size_t packet) {
+    const F32 d;
+    return hn::Add(hn::Load(d, t.rays.depth + packet * kLanes), hn::Set(d, grid.slack));
+}
+
+/// Of `count` packets keeps those with rays that meet the grid's axis-aligned box; how many. Without a
+/// branch: about every second packet has none, which cannot be predicted.
+template <bool kMoves, bool kLens>
+HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const MovingBox& box, int segment,
+                               size_t count) {
+    MetPackets& met = t.scratch.met_packets;
+    size_t kept = 0;
+    for (size_t n = 0; n < count; ++n) {
+        const uint32_t packet = met.packet[n];
+        RayLanes r;
+        const MF looks = rays_in_segment<kMoves, kLens>(t, grid, segment, packet, r);
+        const VF limit = limit_of(t, grid, packet);
+        met.lanes[kept] = mask_bits(hn::And(looks, in_aligned_box<kMoves, kLens>(box, r, limit)));
+        met.packet[kept] = packet;
+        kept += met.lanes[kept] != 0;
+    }
+    return kept;
+}
+
+/// Lists those rays of a packet that meet the grid's oriented box, of those that meet the other.
+template <bool kMoves, bool kLens>
+HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t packet, uint32_t lanes,
+                               int segment, float depth) {
+    const F32 d;
+    RayLanes r;
+    rays_in_segment<kMoves, kLens>(t, grid, segment, packet, r);
+    const VF limit = limit_of(t, grid, packet);
     const SegmentFrame& frame = t.scratch.frame;
     const MovingBox& framed = frame.box;
-    if (!t.scratch.has_frame) {
-        t.tree.read_frame(grid, segment, t.scratch.frame);
-        t.scratch.has_frame = true;
-        prefetch_boxes<kMoves>(t, grid, segment);
-    }
     VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
     for (int k = 0; k < 3; ++k) {
         const float* axis = frame.axes.axis[k];
         const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]);
-        inverse[k] = reciprocal(hn::MulAdd(x, ux, hn::MulAdd(y, uy, hn::Set(d, axis[2]))));
-        offset[k] = kLens ? hn::Mul(hn::MulAdd(x, ox, hn::Mul(y, oy)), inverse[k]) : hn::Zero(d);
+        inverse[k] = reciprocal(hn::MulAdd(x, r.ux, hn::MulAdd(y, r.uy, hn::Set(d, axis[2]))));
+        offset[k] = kLens ? hn::Mul(hn::MulAdd(x, r.ox, hn::Mul(y, r.oy)), inverse[k]) : hn::Zero(d);
         VF low = hn::Set(d, framed.low[k]), high = hn::Set(d, framed.high[k]);
         if constexpr (kMoves) {
-            low = hn::MulAdd(local, hn::Set(d, framed.low_delta[k]), low);
-            high = hn::MulAdd(local, hn::Set(d, framed.high_delta[k]), high);
+            low = hn::MulAdd(r.local, hn::Set(d, framed.low_delta[k]), low);
+            high = hn::MulAdd(r.local, hn::Set(d, framed.high_delta[k]), high);
         }
         const VF a = hn::MulSub(low, inverse[k], offset[k]), b = hn::MulSub(high, inverse[k], offset[k]);
         near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
     }
-    met = hn::And(met, hn::Le(near, far));
+    const MF met = hn::And(mask_of(lanes), hn::Le(near, far));
     const size_t count = hn::CountTrue(d, met);
     if (count == 0) return;
     ActiveRays& to = t.scratch.active;
     const size_t at = to.count;
     const CompactLanes compact(met);
-    if constexpr (kLens) compact.store(ox, to.ox + at), compact.store(oy, to.oy + at);
-    compact.store(ux, to.ux + at), compact.store(uy, to.uy + at);
-    if constexpr (kMoves) compact.store(local, to.local + at);
+    if constexpr (kLens) compact.store(r.ox, to.ox + at), compact.store(r.oy, to.oy + at);
+    compact.store(r.ux, to.ux + at), compact.store(r.uy, to.uy + at);
+    if constexpr (kMoves) compact.store(r.local, to.local + at);
     for (int k = 0; k < 3; ++k) {
         compact.store(inverse[k], to.inverse[k] + at);
         if constexpr (kLens) compact.store(offset[k], to.offset[k] + at);
     }
     compact.store(limit, to.limit + at);
     const hn::RebindToUnsigned<F32> du;
-    compact.store(lane_numbers(du, static_cast<uint32_t>(i)), to.ray + at);
+    compact.store(lane_numbers(du, static_cast<uint32_t>(packet * kLanes)), to.ray + at);
     to.count += count;
-    t.scratch.touched.push_back(static_cast<uint32_t>(packet));
+    t.scratch.touched[t.scratch.touched_count++] = packet;
 }
 
 /// Packets whose intervals meet the grid's axis-aligned box, then those of their rays that meet its
@@ -136,9 +162,11 @@ template <bool kMoves, bool kLens>
 void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, int segment,
                     const Candidate& candidate) {
     const F32 d;
+    const hn::RebindToUnsigned<F32> du;
     t.scratch.active.count = 0;
-    t.scratch.has_frame = false;
-    t.scratch.touched.clear();
+    t.scratch.touched_count = 0;
+    MetPackets& packets = t.scratch.met_packets;
+    size_t count = 0;
     t.for_packets(candidate.groups, [&](size_t p) HWY_ATTR {
         auto q = IntervalLanes::of<kMoves, kLens>(
             [&](int row) HWY_ATTR { return hn::Load(d, t.scratch.intervals.row[row] + p); });
@@ -155,12 +183,20 @@ void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, 
             }
         }
         looks = hn::And(looks, hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]));
-        uint32_t met = mask_bits(hn::And(
-            looks, meets<kLens>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal))));
-        for (; met != 0; met &= met - 1)
-            collect_packet<kMoves, kLens>(t, grid, box, p + static_cast<size_t>(std::countr_zero(met)),
-                                          segment, candidate.depth);
+        const MF met = hn::And(
+            looks, meets<kLens>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal)));
+        CompactLanes(met).store(lane_numbers(du, static_cast<uint32_t>(p)), packets.packet + count);
+        count += hn::CountTrue(d, met);
     });
+    t.stats.nodes_visited += count * kLanes;
+    if (t.rays.nodes)
+        for (size_t n = 0; n < count; ++n) count_packet(t.rays.nodes, packets.packet[n] * kLanes, 1);
+    count = keep_aligned<kMoves, kLens>(t, grid, box, segment, count);
+    if (count == 0) return;
+    t.tree.read_frame(grid, segment, t.scratch.frame);
+    prefetch_boxes<kMoves>(t, grid, segment);
+    for (size_t n = 0; n < count; ++n)
+        collect_packet<kMoves, kLens>(t, grid, packets.packet[n], packets.lanes[n], segment, candidate.depth);
 }
 
 }  // namespace HWY_NAMESPACE
