@@ -23,6 +23,7 @@ std::optional<StudyResult> run(const Arguments& arguments, const Interrupt& inte
     settings.cancelled = &interrupt.requested();
     settings.on_stage = [&](const std::string& what) { terminal.begin_progress(what); };
     settings.on_progress = [&](double part) { terminal.progress(part); };
+    settings.on_figure = [&](const std::string& line) { terminal.say(line); };
     std::optional<StudyResult> result;
     on_threads(arguments.threads, [&] { result = run_study(arguments.study.name, settings, diagnostics); });
     terminal.end_progress();

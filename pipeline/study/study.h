@@ -19,6 +19,8 @@ struct StudySettings {
     const std::atomic<bool>* cancelled = nullptr;
     std::function<void(const std::string& what)> on_stage = {};
     std::function<void(double)> on_progress = {};  ///< of the stage
+    /// What a method took on a scene, as soon as it is known: a study at full size may take hours.
+    std::function<void(const std::string& line)> on_figure = {};
 };
 
 /// The names that run_study() knows, with what each shows.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "pipeline/compare/blur.h"
+#include "pipeline/compare/comparison.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sampler_list.h"
+#include "pipeline/compare/value_text.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
@@ -18,6 +20,15 @@ std::string scene_command_line(const StudyScene& scene) {
     if (p.shading_rate != 1) text += fmt::format(" --shading-factor {:.4g}", p.shading_rate);
     return text;
 }
+
+namespace {
+
+std::string figure_line(const StudyScene& scene, const MethodResult& result) {
+    return fmt::format("{}, {} {}: build {}, trace {}", scene.label, rate_text(result.rate), result.method,
+                       seconds_text(result.build_median()), seconds_text(result.resolve_median()));
+}
+
+}  // namespace
 
 StudyBench::StudyBench(const StudySettings& settings, Diagnostics& diagnostics, StudyResult& result)
     : settings_(settings), diagnostics_(diagnostics), result_(result) {}
@@ -79,6 +90,7 @@ std::vector<MethodResult> StudyBench::measure(const SharedFrame& frame, const St
     auto results = trapeze::measure(frame, *samplers, rates, settings);
     if (results.empty()) throw StudyStopped();
     for (const MethodResult& result : results) {
+        if (settings_.on_figure) settings_.on_figure(figure_line(scene, result));
         nlohmann::ordered_json figure = to_json(result);
         figure["scene"] = scene_command_line(scene);
         figure["stands_for"] = scene.label;

@@ -26,6 +26,8 @@ StudyScene tiny() {
 TEST(StudyBench, MeasuresAMadeSceneAndKeepsTheFigures) {
     Bench b;
     b.settings.rounds = 2;
+    std::vector<std::string> lines;
+    b.settings.on_figure = [&](const std::string& line) { lines.push_back(line); };
     StudyBench bench(b.settings, b.diagnostics, b.result);
     const SharedFrame frame = bench.frame(tiny());
     EXPECT_EQ(b.messages, "");
@@ -37,6 +39,8 @@ TEST(StudyBench, MeasuresAMadeSceneAndKeepsTheFigures) {
     EXPECT_EQ(results[3].build_seconds.size(), 2u);
     ASSERT_EQ(b.result.figures.size(), 4u);
     EXPECT_EQ(b.result.figures[2]["scene"], "trapeze scene hair -r 64x36 --scale 0.05");
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_TRUE(lines[3].starts_with("Furball, 2x2 interval: build ")) << lines[3];
 }
 
 TEST(StudyBench, StopsWhenCancelledOrOutOfMemory) {
