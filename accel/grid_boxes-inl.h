@@ -98,10 +98,9 @@ inline size_t count_bits(const uint8_t* row, size_t bytes) {
     return count;
 }
 
-/// Which active rays meet which boxes: a bit for each ray in a row for each box. A bit for each box that any
-/// ray meets.
+/// Vectors of rays against one box after another.
 template <bool kMoves, bool kLens>
-uint32_t meet_boxes(BundleState& t, const float* planes, int boxes) {
+uint32_t meet_boxes_in_turn(BundleState& t, const float* planes, int boxes) {
     const F32 d;
     ActiveRays& active = t.scratch.active;
     pad_active<kMoves, kLens>(active);
@@ -164,6 +163,28 @@ uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
                 static_cast<uint8_t>(1u << r);
     }
     return any;
+}
+
+/// Which active rays meet which boxes: a bit for each ray in a row for each box. A bit for each box that any
+/// ray meets.
+template <bool kMoves, bool kLens>
+uint32_t meet_boxes(BundleState& t, const WideGrid& grid, int segment, int boxes) {
+    decode_boxes<kMoves>(t.tree, grid, segment, t.scratch.frame, t.scratch.boxes);
+    const float* planes = t.scratch.boxes.values;
+    const size_t count = t.scratch.active.count;
+    t.stats.nodes_visited += count * static_cast<size_t>(boxes);
+    return count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)
+                               : meet_boxes_in_turn<kMoves, kLens>(t, planes, boxes);
+}
+
+/// The same where the only box is the grid's own, which active rays are known to meet.
+inline uint32_t meet_only_box(BundleState& t) {
+    constexpr uint8_t kAll = (1u << kLanesOfByte) - 1;
+    const size_t count = t.scratch.active.count, whole = count / kLanesOfByte;
+    std::memset(t.scratch.met, kAll, whole);
+    std::memset(t.scratch.met + whole, 0, kMaskBytes + 1);
+    t.scratch.met[whole] = static_cast<uint8_t>((1u << count % kLanesOfByte) - 1);
+    return 1;
 }
 
 /// Of `candidates` active rays, whose bits are set in the row of a block's box, lists those that do not pass
@@ -268,12 +289,8 @@ void test_active(BundleState& t, const Candidate& candidate, const MovingBox& wh
     const uint32_t index = candidate.grid;
     const ActiveRays& active = t.scratch.active;
     if (active.count == 0) return;
-    decode_boxes<kMoves>(t.tree, grid, segment, t.scratch.frame, t.scratch.boxes);
-    const float* planes = t.scratch.boxes.values;
     const int boxes = grid.box_count(), blocks_u = grid.blocks_u(), per_box = grid.blocks_per_box();
-    t.stats.nodes_visited += active.count * static_cast<size_t>(boxes);
-    uint32_t some = active.count <= kFewInGrid ? meet_boxes_each<kMoves, kLens>(t, planes, boxes)
-                                               : meet_boxes<kMoves, kLens>(t, planes, boxes);
+    uint32_t some = boxes == 1 ? meet_only_box(t) : meet_boxes<kMoves, kLens>(t, grid, segment, boxes);
     const float rounding = t.tree.rounding(absolute_max(whole));
     const size_t bytes = (active.count + kLanes - 1) / kLanes * kMaskBytes;
     bool tested = false;

@@ -10,6 +10,7 @@
 
 #include <bit>
 
+#include "accel/box_codes-inl.h"
 #include "accel/bundle_state-inl.h"
 #include "accel/compact_lanes-inl.h"
 #include "accel/ray_intervals-inl.h"
@@ -193,7 +194,10 @@ void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, 
         for (size_t n = 0; n < count; ++n) count_packet(t.rays.nodes, packets.packet[n] * kLanes, 1);
     count = keep_aligned<kMoves, kLens>(t, grid, box, segment, count);
     if (count == 0) return;
-    t.tree.read_frame(grid, segment, t.scratch.frame);
+    if constexpr (kMoves)
+        read_moving_frame(t.tree, grid, segment, t.scratch.frame);
+    else
+        t.tree.read_frame(grid, segment, t.scratch.frame);
     prefetch_boxes<kMoves>(t, grid, segment);
     for (size_t n = 0; n < count; ++n)
         collect_packet<kMoves, kLens>(t, grid, packets.packet[n], packets.lanes[n], segment, candidate.depth);

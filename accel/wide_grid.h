@@ -117,8 +117,9 @@ class GridKeys {
 /// A whole grid in its frame in one segment of its motion; times are local to it.
 struct SegmentFrame {
     FrameAxes axes;
-    KeyBounds at[2];  ///< the segment's begin and its end
-    MovingBox box;    ///< between them
+    KeyBounds at[2];   ///< the segment's begin and its end
+    MovingBox box;     ///< between them
+    float beyond = 0;  ///< vectors of four are stored
 };
 
 }  // namespace trapeze
