@@ -9,6 +9,7 @@
 
 #include "accel/wide_tree.h"
 #include "core/test_grids.h"
+#include "core/test_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/box_codes_simd_test.cpp"
@@ -127,16 +128,7 @@ TEST(BoxCodesSimd, FramesAndBoxesEqualTheScalarFormOnEveryTarget) {
         add_moving(maker, 200, keys);
         const WideTree tree(maker.grids(), {});
         ASSERT_TRUE(tree.unbounded_grids().empty());
-        int tried = 0;
-        for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1, ++tried) {
-            SCOPED_TRACE(hwy::TargetName(targets & -targets));
-            hwy::SetSupportedTargetsForTest(targets & -targets);
-            hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-            compare(tree, maker.grids().grids.size());
-            hwy::SetSupportedTargetsForTest(0);
-        }
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        EXPECT_GT(tried, 0);
+        for_each_target([&] { compare(tree, maker.grids().grids.size()); });
     }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/hit_micropolygon.h"
+#include "core/test_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/hit_micropolygon_simd_test.cpp"
@@ -142,17 +143,7 @@ void compare(bool extreme) {
 }
 
 TEST(HitMicropolygonSimd, EqualsTheScalarFormOnEveryTarget) {
-    int tried = 0;
-    for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1, ++tried) {
-        SCOPED_TRACE(hwy::TargetName(targets & -targets));
-        hwy::SetSupportedTargetsForTest(targets & -targets);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        compare(false);
-        compare(true);
-        hwy::SetSupportedTargetsForTest(0);
-    }
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    EXPECT_GT(tried, 0);
+    for_each_target([] { compare(false), compare(true); });
 }
 
 }  // namespace

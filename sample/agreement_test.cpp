@@ -1,7 +1,6 @@
 /// Every method finds what testing everything finds, bit for bit: on every scene, for any number of threads,
 /// on every instruction set of the machine.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -10,6 +9,7 @@
 
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
+#include "core/test_targets.h"
 #include "sample/interval_pattern.h"
 #include "sample/stratified_pattern.h"
 #include "sample/test_frame.h"
@@ -363,23 +363,16 @@ TEST_P(Agreement, OfAllInstructionSets) {
     const auto traced = resolve(scene(), "raytrace:tree=paper");
     const auto interval_truth = resolve(scene(), "bruteforce", "interval");
     const auto interleaved_truth = resolve(scene(), "bruteforce", "interleaved");
-    int tried = 0;
-    for (int64_t targets = hwy::SupportedTargets(); targets != 0; targets &= targets - 1) {
-        hwy::SetSupportedTargetsForTest(targets & -targets);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        EXPECT_TRUE(resolve(scene(), "bruteforce") == traced) << simd_target_name();
-        EXPECT_TRUE(resolve(scene(), "raytrace") == traced) << simd_target_name();
+    for_each_target([&] {
+        EXPECT_TRUE(resolve(scene(), "bruteforce") == traced);
+        EXPECT_TRUE(resolve(scene(), "raytrace") == traced);
         for (const char* method : {"interval", "interval:cull=on"})
-            EXPECT_TRUE(resolve(scene(), method) == interval_truth) << method << simd_target_name();
+            EXPECT_TRUE(resolve(scene(), method) == interval_truth) << method;
         for (const char* method : {"interleaveuvt", "interleaveuvt:cull=on"})
-            EXPECT_TRUE(resolve(scene(), method) == interleaved_truth) << method << simd_target_name();
-        EXPECT_TRUE(resolve(scene(), "interval:pairing=shuffled") == traced) << simd_target_name();
-        EXPECT_TRUE(resolve(scene(), "dualspace") == traced) << simd_target_name();
-        ++tried;
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    EXPECT_GT(tried, 0);
+            EXPECT_TRUE(resolve(scene(), method) == interleaved_truth) << method;
+        EXPECT_TRUE(resolve(scene(), "interval:pairing=shuffled") == traced);
+        EXPECT_TRUE(resolve(scene(), "dualspace") == traced);
+    });
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::Range(size_t{0}, scenes().size()),

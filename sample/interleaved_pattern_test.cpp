@@ -10,6 +10,8 @@
 namespace trapeze {
 namespace {
 
+using testing::frame_of_samples;
+using testing::square_from_disk;
 using testing::TestFrame;
 
 struct Rate {
@@ -18,30 +20,10 @@ struct Rate {
 constexpr Rate kRates[] = {{1, 1, 1}, {1, 1, 2}, {1, 1, 4}, {2, 2, 2}, {3, 3, 1},  {4, 4, 2},
                            {8, 8, 2}, {8, 8, 4}, {4, 2, 2}, {1, 5, 4}, {13, 13, 4}};
 
-TestFrame frame_of_samples(int nx, int ny, bool motion = true, bool defocus = true) {
-    TestFrame frame(64, 64, 1, motion, defocus);
-    frame.context.samples_x = nx, frame.context.samples_y = ny;
-    return frame;
-}
-
 SampleTile tile_of(const InterleavedPattern& pattern, const PixelRect& pixels) {
     SampleTile tile;
     pattern.make_tile(pixels, tile);
     return tile;
-}
-
-/// Back from the disk to the square [Shirley97].
-V2f square_from_disk(float u, float v) {
-    const double r = std::hypot(u, v), quarter = M_PI / 4;
-    double a, b;
-    if (std::abs(u) > std::abs(v)) {
-        a = u > 0 ? r : -r;
-        b = a * std::atan(v / u) / quarter;
-    } else {
-        b = v > 0 ? r : -r;
-        a = b == 0 ? 0 : b * std::atan(u / v) / quarter;
-    }
-    return {static_cast<float>((a + 1) / 2), static_cast<float>((b + 1) / 2)};
 }
 
 /// Which of nx * ny regions of the unit square.
@@ -138,69 +120,6 @@ TEST(InterleavedPattern, AssignmentsDifferFromTileToTile) {
             for (size_t i = 0; i < 16; ++i) ++seen[i * 16 + groups[i]];
         }
     for (const int n : seen) EXPECT_NEAR(n, 256, 80);  // five standard deviations
-}
-
-TEST(InterleavedPattern, StaysInThePixelTheDiskAndTheShutter) {
-    TestFrame frame = frame_of_samples(8, 8);
-    frame.options.width = 20000, frame.update();
-    const InterleavedPattern pattern(frame.context, 4);
-    for (const PixelRect& pixels : {PixelRect{-15, -16, 0, 3}, PixelRect{16384, 4097, 16400, 4112}}) {
-        const SampleTile tile = tile_of(pattern, pixels);
-        for (size_t i = 0; i < tile.size(); ++i) {
-            const int pixel = static_cast<int>(i) / tile.samples_per_pixel;
-            ASSERT_EQ(std::floor(tile.x[i]), static_cast<float>(pixels.x0 + pixel % pixels.width()));
-            ASSERT_EQ(std::floor(tile.y[i]), static_cast<float>(pixels.y0 + pixel / pixels.width()));
-            ASSERT_LE(std::hypot(tile.lens_u[i], tile.lens_v[i]), 1.00001f);
-            ASSERT_GE(tile.time[i], 0);
-            ASSERT_LT(tile.time[i], 1);
-        }
-    }
-}
-
-TEST(InterleavedPattern, APixelsSamplesDoNotDependOnTheTile) {
-    const InterleavedPattern pattern(frame_of_samples(3, 3).context, 4);
-    const SampleTile large = tile_of(pattern, {-4, -4, 12, 12}), small = tile_of(pattern, {5, -1, 7, 3});
-    for (int py = -1; py < 3; ++py)
-        for (int px = 5; px < 7; ++px)
-            for (size_t i = 0; i < 9; ++i) {
-                const size_t a = large.first_of_pixel(px, py) + i, b = small.first_of_pixel(px, py) + i;
-                ASSERT_EQ(large.x[a], small.x[b]);
-                ASSERT_EQ(large.lens_u[a], small.lens_u[b]);
-                ASSERT_EQ(large.time[a], small.time[b]);
-                ASSERT_EQ(large.rays[a].ux, small.rays[b].ux);
-            }
-}
-
-TEST(InterleavedPattern, RaysAreTheCameras) {
-    const TestFrame frame = frame_of_samples(2, 2);
-    const SampleTile tile = tile_of(InterleavedPattern(frame.context, 2), {3, 3, 6, 6});
-    for (size_t i = 0; i < tile.size(); ++i) {
-        const AxisRay ray =
-            frame.context.camera.ray(tile.x[i], tile.y[i], tile.lens_u[i], tile.lens_v[i], tile.time[i]);
-        ASSERT_EQ(tile.rays[i].ox, ray.ox);
-        ASSERT_EQ(tile.rays[i].uy, ray.uy);
-        ASSERT_EQ(tile.rays[i].time, tile.time[i]);
-    }
-}
-
-TEST(InterleavedPattern, WithoutMotionOrLensTheseAreZero) {
-    const SampleTile tile =
-        tile_of(InterleavedPattern(frame_of_samples(4, 4, false, false).context, 2), {0, 0, 8, 8});
-    for (size_t i = 0; i < tile.size(); ++i) {
-        ASSERT_EQ(tile.time[i], 0);
-        ASSERT_EQ(tile.lens_u[i], 0);
-        ASSERT_EQ(tile.lens_v[i], 0);
-    }
-}
-
-TEST(InterleavedPattern, SeedsGiveOtherSamples) {
-    TestFrame frame = frame_of_samples(4, 4);
-    const SampleTile first = tile_of(InterleavedPattern(frame.context, 2), {0, 0, 4, 4});
-    frame.context.seed = 8;
-    const SampleTile second = tile_of(InterleavedPattern(frame.context, 2), {0, 0, 4, 4});
-    size_t equal = 0;
-    for (size_t i = 0; i < first.size(); ++i) equal += first.lens_u[i] == second.lens_u[i];
-    EXPECT_LT(equal, first.size() / 20);
 }
 
 TEST(InterleavedPattern, IsChosenByNameWithItsSide) {

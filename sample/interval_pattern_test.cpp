@@ -11,15 +11,10 @@
 namespace trapeze {
 namespace {
 
+using testing::frame_of_samples;
 using testing::TestFrame;
 
 constexpr std::pair<int, int> kRates[] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {8, 8}, {4, 2}, {1, 5}, {13, 13}};
-
-TestFrame frame_of_samples(int nx, int ny, bool motion = true, bool defocus = true) {
-    TestFrame frame(64, 64, 1, motion, defocus);
-    frame.context.samples_x = nx, frame.context.samples_y = ny;
-    return frame;
-}
 
 template <class Pattern = IntervalPattern>
 SampleTile tile_of(const TestFrame& frame, const PixelRect& pixels) {
@@ -136,69 +131,10 @@ TEST(IntervalPattern, SubpixelPlacesDifferFromPixelToPixel) {
     for (const int n : of_first) EXPECT_NEAR(n, 256, 80);  // five standard deviations
 }
 
-TEST(IntervalPattern, StaysInThePixelTheDiskAndTheShutter) {
-    TestFrame frame = frame_of_samples(8, 8);
-    frame.options.width = 20000, frame.update();
-    for (const PixelRect& pixels : {PixelRect{-16, -16, 0, 0}, PixelRect{16384, 4096, 16400, 4112}}) {
-        const SampleTile tile = tile_of(frame, pixels);
-        for (size_t i = 0; i < tile.size(); ++i) {
-            const int pixel = static_cast<int>(i) / tile.samples_per_pixel;
-            ASSERT_EQ(std::floor(tile.x[i]), static_cast<float>(pixels.x0 + pixel % pixels.width()));
-            ASSERT_EQ(std::floor(tile.y[i]), static_cast<float>(pixels.y0 + pixel / pixels.width()));
-            ASSERT_LE(std::hypot(tile.lens_u[i], tile.lens_v[i]), 1.00001f);
-            ASSERT_GE(tile.time[i], 0);
-            ASSERT_LT(tile.time[i], 1);
-        }
-    }
-}
-
-TEST(IntervalPattern, APixelsSamplesDoNotDependOnTheTile) {
-    const TestFrame frame = frame_of_samples(3, 3);
-    const SampleTile large = tile_of(frame, {-4, -4, 12, 12}), small = tile_of(frame, {5, -1, 7, 3});
-    for (int py = -1; py < 3; ++py)
-        for (int px = 5; px < 7; ++px)
-            for (size_t i = 0; i < 9; ++i) {
-                const size_t a = large.first_of_pixel(px, py) + i, b = small.first_of_pixel(px, py) + i;
-                ASSERT_EQ(large.x[a], small.x[b]);
-                ASSERT_EQ(large.lens_u[a], small.lens_u[b]);
-                ASSERT_EQ(large.time[a], small.time[b]);
-                ASSERT_EQ(large.rays[a].ux, small.rays[b].ux);
-            }
-}
-
-TEST(IntervalPattern, RaysAreTheCameras) {
-    const TestFrame frame = frame_of_samples(2, 2);
-    const SampleTile tile = tile_of(frame, {3, 3, 5, 5});
-    for (size_t i = 0; i < tile.size(); ++i) {
-        const AxisRay ray =
-            frame.context.camera.ray(tile.x[i], tile.y[i], tile.lens_u[i], tile.lens_v[i], tile.time[i]);
-        ASSERT_EQ(tile.rays[i].ox, ray.ox);
-        ASSERT_EQ(tile.rays[i].uy, ray.uy);
-        ASSERT_EQ(tile.rays[i].time, tile.time[i]);
-    }
-}
-
-TEST(IntervalPattern, WithoutMotionOrLensTheseAreZero) {
-    const TestFrame frame = frame_of_samples(4, 4, false, false);
-    const IntervalPattern pattern(frame.context);
-    const SampleTile tile = tile_of(frame, {0, 0, 8, 8});
-    for (size_t i = 0; i < tile.size(); ++i) {
-        ASSERT_EQ(tile.time[i], 0);
-        ASSERT_EQ(tile.lens_u[i], 0);
-        ASSERT_EQ(tile.lens_v[i], 0);
-    }
+TEST(IntervalPattern, WithoutMotionOrLensBoundsAreZero) {
+    const IntervalPattern pattern(frame_of_samples(4, 4, false, false).context);
     EXPECT_EQ(pattern.time_bounds(7), TimeSpan{});
     EXPECT_EQ(pattern.lens_bounds(7), LensBox{});
-}
-
-TEST(IntervalPattern, SeedsGiveOtherSamples) {
-    TestFrame frame = frame_of_samples(4, 4);
-    const SampleTile first = tile_of(frame, {0, 0, 4, 4});
-    frame.context.seed = 8;
-    const SampleTile second = tile_of(frame, {0, 0, 4, 4});
-    size_t equal = 0;
-    for (size_t i = 0; i < first.size(); ++i) equal += first.x[i] == second.x[i];
-    EXPECT_LT(equal, first.size() / 20);
 }
 
 }  // namespace

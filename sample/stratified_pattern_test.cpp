@@ -17,31 +17,14 @@
 namespace trapeze {
 namespace {
 
+using testing::frame_of_samples;
+using testing::square_from_disk;
 using testing::TestFrame;
-
-TestFrame frame_of_samples(int nx, int ny, bool motion = true, bool defocus = true) {
-    TestFrame frame(64, 64, 1, motion, defocus);
-    frame.context.samples_x = nx, frame.context.samples_y = ny;
-    return frame;
-}
 
 SampleTile tile_of(const TestFrame& frame, const PixelRect& pixels) {
     SampleTile tile;
     StratifiedPattern(frame.context).make_tile(pixels, tile);
     return tile;
-}
-
-/// Back from the disk to the square [0, 1)^2 [Shirley97].
-V2f square_from_disk(float x, float y) {
-    const float r = std::hypot(x, y);
-    if (r == 0) return {0.5f, 0.5f};
-    const float quarter = static_cast<float>(M_PI) / 4;
-    if (std::abs(x) >= std::abs(y)) {
-        const float a = std::copysign(r, x);
-        return {(a + 1) / 2, (r * std::atan2(y, std::abs(x)) / quarter + 1) / 2};
-    }
-    const float b = std::copysign(r, y);
-    return {(r * std::atan2(x, std::abs(y)) / quarter + 1) / 2, (b + 1) / 2};
 }
 
 TEST(MagicSquare, HasEqualSumsAndEveryNumberOnce) {
@@ -89,50 +72,6 @@ TEST(StratifiedPattern, TakesOneSampleFromEachRegionOfEachDomain) {
                 ASSERT_GE(lenses.size() + 1, static_cast<size_t>(count));
                 ASSERT_EQ(times.size(), static_cast<size_t>(count));
             }
-    }
-}
-
-TEST(StratifiedPattern, StaysInThePixelTheDiskAndTheShutter) {
-    TestFrame frame = frame_of_samples(8, 8);
-    frame.options.width = 20000, frame.update();
-    for (const PixelRect& pixels : {PixelRect{-16, -16, 0, 0}, PixelRect{16384, 4096, 16400, 4112}}) {
-        const SampleTile tile = tile_of(frame, pixels);
-        for (size_t i = 0; i < tile.size(); ++i) {
-            const int pixel = static_cast<int>(i) / tile.samples_per_pixel;
-            ASSERT_EQ(std::floor(tile.x[i]), static_cast<float>(pixels.x0 + pixel % pixels.width()));
-            ASSERT_EQ(std::floor(tile.y[i]), static_cast<float>(pixels.y0 + pixel / pixels.width()));
-            ASSERT_LE(std::hypot(tile.lens_u[i], tile.lens_v[i]), 1.00001f);
-            ASSERT_GE(tile.time[i], 0);
-            ASSERT_LT(tile.time[i], 1);
-        }
-    }
-}
-
-TEST(StratifiedPattern, APixelsSamplesDoNotDependOnTheTile) {
-    const TestFrame frame = frame_of_samples(3, 3);
-    const SampleTile large = tile_of(frame, {-4, -4, 12, 12}), small = tile_of(frame, {5, -1, 7, 3});
-    for (int py = -1; py < 3; ++py)
-        for (int px = 5; px < 7; ++px)
-            for (size_t i = 0; i < 9; ++i) {
-                const size_t a = large.first_of_pixel(px, py) + i, b = small.first_of_pixel(px, py) + i;
-                ASSERT_EQ(large.x[a], small.x[b]);
-                ASSERT_EQ(large.y[a], small.y[b]);
-                ASSERT_EQ(large.lens_u[a], small.lens_u[b]);
-                ASSERT_EQ(large.lens_v[a], small.lens_v[b]);
-                ASSERT_EQ(large.time[a], small.time[b]);
-                ASSERT_EQ(large.rays[a].ux, small.rays[b].ux);
-            }
-}
-
-TEST(StratifiedPattern, RaysAreTheCameras) {
-    const TestFrame frame = frame_of_samples(2, 2);
-    const SampleTile tile = tile_of(frame, {3, 3, 5, 5});
-    for (size_t i = 0; i < tile.size(); ++i) {
-        const AxisRay ray =
-            frame.context.camera.ray(tile.x[i], tile.y[i], tile.lens_u[i], tile.lens_v[i], tile.time[i]);
-        ASSERT_EQ(tile.rays[i].ox, ray.ox);
-        ASSERT_EQ(tile.rays[i].uy, ray.uy);
-        ASSERT_EQ(tile.rays[i].time, tile.time[i]);
     }
 }
 
@@ -227,16 +166,6 @@ TEST(Strata, TheLastPlaceOfAPixelIsJustBeforeTheNext) {
     }
 }
 
-TEST(StratifiedPattern, WithoutMotionOrLensTheseAreZero) {
-    const TestFrame frame = frame_of_samples(4, 4, false, false);
-    const SampleTile tile = tile_of(frame, {0, 0, 8, 8});
-    for (size_t i = 0; i < tile.size(); ++i) {
-        ASSERT_EQ(tile.time[i], 0);
-        ASSERT_EQ(tile.lens_u[i], 0);
-        ASSERT_EQ(tile.lens_v[i], 0);
-    }
-}
-
 TEST(StratifiedPattern, WithoutJitterSamplesLieInTheMiddlesOfTheirRegions) {
     TestFrame frame = frame_of_samples(4, 2);
     Scene scene;
@@ -249,16 +178,6 @@ TEST(StratifiedPattern, WithoutJitterSamplesLieInTheMiddlesOfTheirRegions) {
                         3 + static_cast<float>(i / 8) + 0.125f + 0.25f * static_cast<float>(i % 4));
         EXPECT_FLOAT_EQ(tile.y[i], 5.25f + 0.5f * static_cast<float>(i / 4 % 2));
     }
-}
-
-TEST(StratifiedPattern, SeedsGiveOtherSamples) {
-    TestFrame frame = frame_of_samples(4, 4);
-    const SampleTile first = tile_of(frame, {0, 0, 4, 4});
-    frame.context.seed = 8;
-    const SampleTile second = tile_of(frame, {0, 0, 4, 4});
-    size_t equal = 0;
-    for (size_t i = 0; i < first.size(); ++i) equal += first.x[i] == second.x[i];
-    EXPECT_LT(equal, first.size() / 20);
 }
 
 /// Over many pixels each lens region meets each time region alike.

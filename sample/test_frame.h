@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/render_context.h"
@@ -30,6 +31,25 @@ struct TestFrame {
     /// After a change of the options.
     void update() { context.camera = make_camera(options); }
 };
+
+/// 64x64 pixels.
+inline TestFrame frame_of_samples(int nx, int ny, bool motion = true, bool defocus = true) {
+    TestFrame frame(64, 64, 1, motion, defocus);
+    frame.context.samples_x = nx, frame.context.samples_y = ny;
+    return frame;
+}
+
+/// Back from the disk to the square [0, 1)^2 [Shirley97].
+inline V2f square_from_disk(float u, float v) {
+    const double r = std::hypot(u, v), quarter = M_PI / 4;
+    if (r == 0) return {0.5f, 0.5f};
+    const bool sideways = std::abs(u) >= std::abs(v);
+    const double major = std::copysign(r, sideways ? u : v),
+                 minor =
+                     (sideways ? r * std::atan2(v, std::abs(u)) : r * std::atan2(u, std::abs(v))) / quarter;
+    const auto to_unit = [](double x) { return static_cast<float>((x + 1) / 2); };
+    return sideways ? V2f(to_unit(major), to_unit(minor)) : V2f(to_unit(minor), to_unit(major));
+}
 
 inline std::vector<PixelRect> tiles_of(const PixelRect& all) {
     std::vector<PixelRect> tiles;

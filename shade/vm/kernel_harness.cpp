@@ -1,6 +1,5 @@
 #include "shade/vm/kernel_harness.h"
 
-#include <hwy/highway.h>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -69,21 +68,6 @@ float Numbers::moderate() {
     if (below(8) == 0) return 0;
     const float magnitude = std::exp2(between(-20, 20));
     return below(2) ? magnitude : -magnitude;
-}
-
-void for_each_target(const std::function<void()>& body) {
-    int targets = 0;
-    const int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
-    for (int64_t left = supported; left != 0; left &= left - 1, ++targets) {
-        const int64_t target = left & -left;
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        body();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    EXPECT_GT(targets, 0);
 }
 
 testing::AssertionResult same_float(float a, float b) {

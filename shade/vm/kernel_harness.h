@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/test_targets.h"
 #include "shade/vm/kernel.h"
 
 namespace trapeze::vm {
@@ -55,9 +56,6 @@ class Numbers {
   private:
     std::mt19937 random_{11};
 };
-
-/// Runs the body once for each instruction set of this machine that the kernels were compiled for.
-void for_each_target(const std::function<void()>& body);
 
 /// Equal bits, or both NaN.
 testing::AssertionResult same_float(float a, float b);
