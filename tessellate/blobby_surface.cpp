@@ -9,7 +9,7 @@
 #include "tessellate/blobby_mesh.h"
 #include "tessellate/camera_facing.h"
 #include "tessellate/placed_surface.h"
-#include "tessellate/surface.h"
+#include "tessellate/topology_surface.h"
 
 namespace trapeze {
 namespace {
@@ -21,20 +21,15 @@ constexpr float kCellsWithoutCamera = 64;
 /// What is nearer to the eye than this part of the Blobby's diagonal is made as if it were that far away.
 constexpr float kNearest = 0.01f;
 
-class BlobbySurface : public Surface {
+class BlobbySurface : public TopologySurface<BlobbySurface> {
   public:
     BlobbySurface(Primitive mesh, Diagnostics& diagnostics)
         : mesh_(std::move(mesh)), polygons_(make_bilinear_surface(mesh_, diagnostics)) {}
 
     bool is_valid() const { return polygons_ != nullptr; }
 
-    int face_count() const override { return polygons_->face_count(); }
-    uint32_t edge_count() const override { return polygons_->edge_count(); }
-    uint32_t vertex_count() const override { return polygons_->vertex_count(); }
+    const Surface& topology() const { return *polygons_; }
     bool is_hole(int face) const override { return polygons_->is_hole(face); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return polygons_->sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return polygons_->edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return polygons_->vertex(vertex); }
     std::unique_ptr<SurfaceScratch> make_scratch() const override { return polygons_->make_scratch(); }
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override {

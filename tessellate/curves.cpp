@@ -7,6 +7,7 @@
 #include "tessellate/curve_values.h"
 #include "tessellate/placed_surface.h"
 #include "tessellate/surface_variables.h"
+#include "tessellate/topology_surface.h"
 
 namespace trapeze {
 namespace {
@@ -30,16 +31,11 @@ V3f unit_or_zero(const V3f& v) {
     return length > 0 ? v / length : V3f(0, 0, 0);
 }
 
-class CurvesSurface : public Surface {
+class CurvesSurface : public TopologySurface<CurvesSurface> {
   public:
     CurvesSurface(const Primitive& primitive, const Camera* camera, std::vector<RibbonVariables> keys);
 
-    int face_count() const override { return topology_.face_count(); }
-    uint32_t edge_count() const override { return topology_.edge_count(); }
-    uint32_t vertex_count() const override { return topology_.vertex_count(); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return topology_.sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return topology_.edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return topology_.vertex(vertex); }
+    const CurveTopology& topology() const { return topology_; }
     V2f faces_per_unit(int face) const override {
         const CurveTopology::Strip strip = topology_.strip(face);
         return {1, static_cast<float>(strip.all) / static_cast<float>(strip.count)};

@@ -4,8 +4,8 @@
 
 #include "tessellate/face_grid.h"
 #include "tessellate/knot_spans.h"
-#include "tessellate/surface.h"
 #include "tessellate/surface_variables.h"
+#include "tessellate/topology_surface.h"
 #include "tessellate/trimmed_patch.h"
 
 namespace trapeze {
@@ -35,16 +35,11 @@ struct Sum {
     V3d xyz() const { return {c[0], c[1], c[2]}; }
 };
 
-class NuPatchSurface : public Surface {
+class NuPatchSurface : public TopologySurface<NuPatchSurface> {
   public:
     NuPatchSurface(const Primitive& primitive, std::vector<ControlPoints> points);
 
-    int face_count() const override { return faces_.face_count(); }
-    uint32_t edge_count() const override { return faces_.edge_count(); }
-    uint32_t vertex_count() const override { return faces_.vertex_count(); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return faces_.sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return faces_.edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return faces_.vertex(vertex); }
+    const FaceGrid& topology() const { return faces_; }
     V2f faces_per_unit(int face) const override {
         return {static_cast<float>(1 / u_.length(faces_.column_of(face))),
                 static_cast<float>(1 / v_.length(faces_.row_of(face)))};

@@ -4,8 +4,8 @@
 
 #include "tessellate/bezier.h"
 #include "tessellate/face_grid.h"
-#include "tessellate/surface.h"
 #include "tessellate/surface_variables.h"
+#include "tessellate/topology_surface.h"
 
 namespace trapeze {
 namespace {
@@ -16,16 +16,11 @@ struct ControlPoints {
     bool rational = false;
 };
 
-class PatchSurface : public Surface {
+class PatchSurface : public TopologySurface<PatchSurface> {
   public:
     PatchSurface(const Primitive& primitive, std::vector<ControlPoints> points);
 
-    int face_count() const override { return faces_.face_count(); }
-    uint32_t edge_count() const override { return faces_.edge_count(); }
-    uint32_t vertex_count() const override { return faces_.vertex_count(); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return faces_.sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return faces_.edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return faces_.vertex(vertex); }
+    const FaceGrid& topology() const { return faces_; }
     V2f faces_per_unit(int) const override {
         return {static_cast<float>(faces_.columns), static_cast<float>(faces_.rows)};
     }
@@ -39,7 +34,6 @@ class PatchSurface : public Surface {
     /// One to four floats of each control point, starting at values, `stride` floats apart.
     BezierPatch net(int face, const float* values, int count, size_t stride) const;
     const PatchMesh& mesh() const { return mesh_; }
-    const FaceGrid& faces() const { return faces_; }
 
   private:
     BezierPatch positions(int face, int shape_key) const;
@@ -173,8 +167,8 @@ class PatchValues : public VariableSource {
     size_t corner_index(StorageClass storage, int corner) const {
         if (storage != StorageClass::Varying) return static_cast<size_t>(face_) * 4 + corner;
         const PatchMesh& mesh = surface_.mesh();
-        const int i = (surface_.faces().column_of(face_) + (corner & 1)) % mesh.varying_u();
-        const int j = (surface_.faces().row_of(face_) + (corner >> 1)) % mesh.varying_v();
+        const int i = (surface_.topology().column_of(face_) + (corner & 1)) % mesh.varying_u();
+        const int j = (surface_.topology().row_of(face_) + (corner >> 1)) % mesh.varying_v();
         return static_cast<size_t>(j) * mesh.varying_u() + i;
     }
 

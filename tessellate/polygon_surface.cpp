@@ -5,8 +5,8 @@
 #include "tessellate/face_evaluation.h"
 #include "tessellate/mesh_topology.h"
 #include "tessellate/polygon_faces.h"
-#include "tessellate/surface.h"
 #include "tessellate/surface_variables.h"
+#include "tessellate/topology_surface.h"
 
 namespace trapeze {
 namespace {
@@ -16,7 +16,7 @@ bool has_normals(const ParameterList& variables) {
     return N && N->declaration.floats_per_item() == 3 && !N->is_string();
 }
 
-class PolygonSurface : public Surface {
+class PolygonSurface : public TopologySurface<PolygonSurface> {
   public:
     PolygonSurface(const Primitive& primitive, PolygonFaces faces)
         : primitive_(primitive),
@@ -30,12 +30,7 @@ class PolygonSurface : public Surface {
         has_texture_coordinates_ = variables.find("s") || variables.find("t") || variables.find("st");
     }
 
-    int face_count() const override { return topology_.face_count(); }
-    uint32_t edge_count() const override { return topology_.edge_count(); }
-    uint32_t vertex_count() const override { return topology_.vertex_count(); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return topology_.sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return topology_.edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return topology_.vertex(vertex); }
+    const MeshTopology& topology() const { return topology_; }
     bool is_faceted() const override { return is_faceted_; }
 
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,

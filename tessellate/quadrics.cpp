@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "tessellate/face_grid.h"
-#include "tessellate/surface.h"
 #include "tessellate/surface_variables.h"
+#include "tessellate/topology_surface.h"
 
 namespace trapeze {
 namespace {
@@ -162,16 +162,11 @@ ProfileRange Profile::over(Range v) const {
     return {Range::of(lo.x, hi.x), Range::of(lo.y, hi.y), Range::of(lo.z, hi.z)};
 }
 
-class QuadricSurface : public Surface {
+class QuadricSurface : public TopologySurface<QuadricSurface> {
   public:
     explicit QuadricSurface(const Primitive& primitive);
 
-    int face_count() const override { return faces_.face_count(); }
-    uint32_t edge_count() const override { return faces_.edge_count(); }
-    uint32_t vertex_count() const override { return faces_.vertex_count(); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return faces_.sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return faces_.edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return faces_.vertex(vertex); }
+    const FaceGrid& topology() const { return faces_; }
     V2f faces_per_unit(int) const override {
         return {static_cast<float>(faces_.columns), static_cast<float>(faces_.rows)};
     }

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "tessellate/topology_surface.h"
+
 namespace trapeze {
 namespace {
 
@@ -41,18 +43,13 @@ size_t hash_of(int face, std::span<const V2f> uv, int shape_key, bool derivative
     return hash;
 }
 
-class SharedGrids final : public Surface {
+class SharedGrids final : public TopologySurface<SharedGrids> {
   public:
     SharedGrids(std::shared_ptr<const Surface> surface, SharedGridBudget& budget)
         : surface_(std::move(surface)), budget_(budget) {}
 
-    int face_count() const override { return surface_->face_count(); }
-    uint32_t edge_count() const override { return surface_->edge_count(); }
-    uint32_t vertex_count() const override { return surface_->vertex_count(); }
+    const Surface& topology() const { return *surface_; }
     bool is_hole(int face) const override { return surface_->is_hole(face); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return surface_->sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return surface_->edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return surface_->vertex(vertex); }
     std::unique_ptr<SurfaceScratch> make_scratch() const override { return surface_->make_scratch(); }
     bool has_motion_keys() const override { return surface_->has_motion_keys(); }
     bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,

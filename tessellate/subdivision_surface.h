@@ -12,6 +12,7 @@
 #include "tessellate/mesh_topology.h"
 #include "tessellate/subdivision_patch.h"
 #include "tessellate/subdivision_refiner.h"
+#include "tessellate/topology_surface.h"
 
 namespace trapeze {
 
@@ -44,21 +45,15 @@ struct SubdivisionScratch : SurfaceScratch {
     std::array<Face, kFaces> faces;  ///< at mesh_face % kFaces
 };
 
-class SubdivisionSurface : public Surface {
+class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
   public:
     SubdivisionSurface(const Primitive& primitive,
                        std::unique_ptr<const OpenSubdiv::Far::TopologyRefiner> refiner,
                        std::vector<FaceVaryingChannel> channels);
 
-    int face_count() const override { return topology_->face_count(); }
-    uint32_t edge_count() const override { return topology_->edge_count(); }
-    uint32_t vertex_count() const override { return topology_->vertex_count(); }
     bool is_hole(int face) const override {
         return kinds_[topology_->piece(face).mesh_face] == FaceKind::Hole;
     }
-    std::array<SurfaceSide, 4> sides(int face) const override { return topology_->sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return topology_->edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return topology_->vertex(vertex); }
     std::unique_ptr<SurfaceScratch> make_scratch() const override;
     void evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override;
@@ -66,8 +61,8 @@ class SubdivisionSurface : public Surface {
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int shape_key) const override;
 
-    /// The parts that variables are evaluated with.
     const MeshTopology& topology() const { return *topology_; }
+    /// What variables are evaluated with besides.
     const std::vector<FaceVaryingChannel>& channels() const { return channels_; }
     SubdivisionScratch::Face& cached_face(SubdivisionScratch& scratch, int mesh_face) const;
     const LimitPatch& cached_channel(SubdivisionScratch::Face& cached, int channel) const;

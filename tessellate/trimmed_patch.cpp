@@ -6,6 +6,7 @@
 #include "tessellate/face_evaluation.h"
 #include "tessellate/knot_spans.h"
 #include "tessellate/mesh_topology.h"
+#include "tessellate/topology_surface.h"
 #include "tessellate/trim_cells.h"
 
 namespace trapeze {
@@ -22,7 +23,7 @@ struct CellPlane {
     int face_of(TrimmedCells::Cell cell) const { return cell.j / per_row * columns + cell.i / per_column; }
 };
 
-class TrimmedPatch : public Surface {
+class TrimmedPatch : public TopologySurface<TrimmedPatch> {
   public:
     TrimmedPatch(std::unique_ptr<Surface> whole, TrimmedCells cells, const CellPlane& plane)
         : whole_(std::move(whole)),
@@ -31,12 +32,7 @@ class TrimmedPatch : public Surface {
           topology_(cells_.vertices_per_face, cells_.vertices, static_cast<int>(cells_.points.size()), 4,
                     {}) {}
 
-    int face_count() const override { return topology_.face_count(); }
-    uint32_t edge_count() const override { return topology_.edge_count(); }
-    uint32_t vertex_count() const override { return topology_.vertex_count(); }
-    std::array<SurfaceSide, 4> sides(int face) const override { return topology_.sides(face); }
-    EdgeLine edge(uint32_t edge) const override { return topology_.edge(edge); }
-    SurfacePoint vertex(uint32_t vertex) const override { return topology_.vertex(vertex); }
+    const MeshTopology& topology() const { return topology_; }
     std::unique_ptr<SurfaceScratch> make_scratch() const override { return whole_->make_scratch(); }
     V2f faces_per_unit(int face) const override {
         return whole_->faces_per_unit(plane_.face_of(cell(topology_.piece(face))));
