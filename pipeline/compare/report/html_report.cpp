@@ -47,8 +47,8 @@ std::string title(const Comparison& c) {
 
 std::string times(const Comparison& c) {
     std::string out =
-        "<section id=\"times\">\n<h2>Sampling time</h2>\n<p>Building what a method needs (the darker part) "
-        "and "
+        "<section id=\"times\">\n<h2>Sampling time</h2>\n<p>Building what a method needs (a bar's first "
+        "part) and "
         "finding what every sample sees, on the same shaded grids. Making samples and filtering pixels are "
         "not "
         "in it.</p>\n<p class=\"legend\"><span class=\"tracer\"></span>ray tracers<span "
