@@ -197,23 +197,33 @@ std::string error_sentence(const Comparison& c) {
                        (*most)->result.method, number_text((*most)->rmse), (*most)->result.pattern);
 }
 
-/// The winners by rate, neighbours of one winner together.
+/// The fastest method, or the baseline where its time cannot be told apart from that.
+const MethodResult* choice_at(const Comparison& c, SampleRate rate) {
+    const MethodResult* fastest = standing_at(c, rate).fastest;
+    for (const ComparedMethod* m : c.at(rate))
+        if (fastest && m->result.method == c.baseline && kind_of(m->result) != MethodKind::BruteForce &&
+            !opponent_of(c, m->result) && equal_times(*fastest, m->result))
+            return &m->result;
+    return fastest;
+}
+
+/// The choices by rate, neighbours of one choice together.
 std::string conclusion(const Comparison& c) {
     std::vector<SampleRate> rates = c.rates;
     std::stable_sort(rates.begin(), rates.end(),
                      [](const SampleRate& a, const SampleRate& b) { return a.per_pixel() < b.per_pixel(); });
-    std::vector<std::pair<std::string, SampleRate>> winners;  // and the first rate at which they win
+    std::vector<std::pair<std::string, SampleRate>> choices;  // and the first rate at which they are made
     for (const SampleRate& rate : rates) {
-        const Standing s = standing_at(c, rate);
-        if (s.fastest && (winners.empty() || winners.back().first != s.fastest->method))
-            winners.emplace_back(s.fastest->method, rate);
+        const MethodResult* choice = choice_at(c, rate);
+        if (choice && (choices.empty() || choices.back().first != choice->method))
+            choices.emplace_back(choice->method, rate);
     }
-    if (winners.empty()) return "Nothing was compared that one would render with.";
-    std::string text = "For this scene take " + winners.front().first;
-    if (winners.size() == 1) return text + (rates.size() == 1 ? "." : " at every sample rate.");
-    text += " at " + rate_text(winners.front().second);
-    for (size_t i = 1; i < winners.size(); ++i)
-        text += fmt::format(", {} from {} on", winners[i].first, rate_text(winners[i].second));
+    if (choices.empty()) return "Nothing was compared that one would render with.";
+    std::string text = "For this scene take " + choices.front().first;
+    if (choices.size() == 1) return text + (rates.size() == 1 ? "." : " at every sample rate.");
+    text += " at " + rate_text(choices.front().second);
+    for (size_t i = 1; i < choices.size(); ++i)
+        text += fmt::format(", {} from {} on", choices[i].first, rate_text(choices[i].second));
     return text + ".";
 }
 

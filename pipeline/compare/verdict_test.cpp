@@ -87,6 +87,16 @@ TEST(Verdict, TimesWithinTheirSpreadAreNotToldApart) {
     EXPECT_THAT(joined(c), HasSubstr("cannot be told apart"));
 }
 
+TEST(Verdict, WhereTimesAreEqualTheBaselineIsTaken) {
+    auto c = comparison_of({method("raytrace", kOne, 0, 1.02, 3000), method("interval", kOne, 0, 1, 9000),
+                            method("raytrace", kMany, 0, 1, 3000), method("interval", kMany, 0, 2, 9000)});
+    EXPECT_THAT(joined(c), HasSubstr("For this scene take interval at 1x1, raytrace from 8x8 on."));
+    c.baseline = "raytrace";
+    EXPECT_THAT(joined(c), HasSubstr("For this scene take raytrace at every sample rate."));
+    c.baseline = "interval";
+    EXPECT_THAT(joined(c), HasSubstr("For this scene take interval at 1x1, raytrace from 8x8 on."));
+}
+
 TEST(Verdict, BruteForceTakesNoPart) {
     const auto c =
         comparison_of({method("raytrace", kMany, 0, 1, 3000), method("bruteforce", kMany, 0, 0.1, 9000)});
