@@ -114,12 +114,11 @@ struct Attributes {
     struct Dice {
         bool binary = false;          ///< rates are powers of two
         bool raster_oriented = true;  ///< rates by the size on the screen, not by the size alone
-        bool hair = false;            ///< curves are one micropolygon wide
         float min_length = 0;         ///< of a curve's micropolygons, pixels
+        bool operator==(const Dice&) const = default;
     } dice;
     /// GeometricApproximation: blur by motion or defocus coarsens dicing by this much; 0: never.
     float motion_factor = 0, focus_factor = 0;
-    bool cull_backfacing = true;                ///< kept: Attribute "cull" "backfacing", applies to Sides 1
     std::map<std::string, ParameterList> user;  ///< every Attribute, by category
 };
 

@@ -124,7 +124,6 @@ bool is_on(const std::string& text) {
 void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
     if (name == "binary") dice.binary = value != 0;
     if (name == "rasterorient") dice.raster_oriented = value != 0;
-    if (name == "hair") dice.hair = value != 0;
     if (name == "minlength") dice.min_length = std::max(value, 0.0f);
 }
 
@@ -161,7 +160,6 @@ void attribute(Reader& r, ArgumentCursor& c) {
         if (category == "render" && value.name == "visibility" && !value.floats.empty())
             state.attributes.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
         if (category == "dice") set_dice(state.attributes.dice, value.name, number);
-        if (category == "cull" && value.name == "backfacing") state.attributes.cull_backfacing = number != 0;
     }
 }
 

@@ -19,11 +19,6 @@ bool same(const ParameterList& a, const ParameterList& b) {
     return true;
 }
 
-bool same(const Attributes::Dice& a, const Attributes::Dice& b) {
-    return a.binary == b.binary && a.raster_oriented == b.raster_oriented && a.hair == b.hair &&
-           a.min_length == b.min_length;
-}
-
 using ShaderPointer = std::shared_ptr<const ShaderInstance>;
 
 /// A shader of the definition, with its layers, where an instance stands.
@@ -48,7 +43,7 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
     };
     take(&Attributes::color, &Attributes::opacity, &Attributes::texture_coordinates,
          &Attributes::shading_rate, &Attributes::smooth_shading, &Attributes::matte, &Attributes::sides,
-         &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera, &Attributes::cull_backfacing,
+         &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera, &Attributes::dice,
          &Attributes::motion_factor, &Attributes::focus_factor);
     const auto take_shader = [&](auto... members) {
         const auto placed = [&](const std::shared_ptr<const ShaderInstance>& shader) {
@@ -63,7 +58,6 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
         if (const auto before = old.user.find(category);
             before == old.user.end() || !same(before->second, values))
             for (const Parameter& value : values.values) result->attributes.user[category].set(value);
-    if (!same(now.dice, old.dice)) result->attributes.dice = now.dice;
     if (at_primitive.displacement_bound != at_begin.displacement_bound)
         result->displacement_bound = at_primitive.displacement_bound;
     if (at_primitive.orientation != at_begin.orientation) result->orientation = at_primitive.orientation;

@@ -108,7 +108,6 @@ TEST(ReadApproximation, FactorsAndDiceBecomeAttributes) {
     EXPECT_EQ(a.focus_factor, 2);
     EXPECT_TRUE(a.dice.binary);
     EXPECT_FALSE(a.dice.raster_oriented);
-    EXPECT_TRUE(a.dice.hair);
     EXPECT_EQ(a.dice.min_length, 3);
 }
 
