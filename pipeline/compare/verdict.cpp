@@ -77,6 +77,10 @@ std::string disagreement_sentences(const Comparison& c) {
     return text;
 }
 
+bool takes_part(const Comparison& c, const MethodResult& r) {
+    return kind_of(r) != MethodKind::BruteForce && !opponent_of(c, r);
+}
+
 /// The contest at one sample rate; null where a kind is not there.
 struct Standing {
     const MethodResult* fastest = nullptr;
@@ -91,7 +95,7 @@ Standing standing_at(const Comparison& c, SampleRate rate) {
     };
     for (const ComparedMethod* m : c.at(rate)) {
         const MethodResult& r = m->result;
-        if (kind_of(r) == MethodKind::BruteForce || opponent_of(c, r)) continue;
+        if (!takes_part(c, r)) continue;
         take(s.fastest, r);
         take(kind_of(r) == MethodKind::RayTracer ? s.tracer : s.rasterizer, r);
     }
@@ -201,8 +205,7 @@ std::string error_sentence(const Comparison& c) {
 const MethodResult* choice_at(const Comparison& c, SampleRate rate) {
     const MethodResult* fastest = standing_at(c, rate).fastest;
     for (const ComparedMethod* m : c.at(rate))
-        if (fastest && m->result.method == c.baseline && kind_of(m->result) != MethodKind::BruteForce &&
-            !opponent_of(c, m->result) && equal_times(*fastest, m->result))
+        if (m->result.method == c.baseline && takes_part(c, m->result) && equal_times(*fastest, m->result))
             return &m->result;
     return fastest;
 }
