@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "pipeline/cli/compliance_notes.h"
 #include "pipeline/rib/arguments.h"
@@ -88,6 +89,13 @@ std::string joined(const std::vector<std::string>& names) {
     return text + ".\n";
 }
 
+std::string headers() {
+    std::string text = "| Header | Has | Lacks |\n|---|---|---|\n";
+    for (const HeaderNote& note : header_notes())
+        text += fmt::format("| {} | {} | {} |\n", note.name, note.has, note.lacks);
+    return text;
+}
+
 std::string functions() {
     std::map<std::string, int> overloads;
     for (const rsl::Builtin& builtin : rsl::builtins()) ++overloads[std::string(builtin.name)];
@@ -95,6 +103,19 @@ std::string functions() {
     for (const auto& [name, count] : overloads)
         text += fmt::format("| {} | {} | {} |\n", name, count, note_of(function_notes(), name));
     return text;
+}
+
+/// Headers without a note, and names that are said to be in a header and are not.
+void add_wrong_header_notes(std::vector<std::string>& wrong) {
+    for (const std::string_view name : standard_header_names())
+        if (std::ranges::none_of(header_notes(), [&](const HeaderNote& note) { return note.name == name; }))
+            wrong.emplace_back(name);
+    for (const HeaderNote& note : header_notes()) {
+        const std::string_view text = standard_header(note.name);
+        std::istringstream names(note.has);
+        for (std::string name; std::getline(names >> std::ws, name, ',');)
+            if (text.find(name) == std::string_view::npos) wrong.push_back(std::string(note.name) + ": " + name);
+    }
 }
 
 }  // namespace
@@ -137,6 +158,10 @@ std::string compliance_page(const std::vector<std::string>& paths) {
     const auto names = standard_shader_names();
     text += "\n## Standard shaders\n\n" + joined({names.begin(), names.end()});
     text +=
+        "\n## Headers for shaders\n\nFiles that shaders include by custom, written anew from what is published of "
+        "their functions; a file of the same name beside a scene or on the shaders' search path comes first.\n\n";
+    text += headers();
+    text +=
         "\n## Built-in functions of the shading language\n\nAll statements are supported; the rays of gather "
         "hit "
         "nothing, with one warning.\n\n" +
@@ -152,6 +177,7 @@ std::vector<std::string> notes_without_request() {
         if (rsl::builtins_named(note.request).empty()) wrong.emplace_back(note.request);
     for (const char* request : rispec_requests())
         if (!rib::find_request(request)) wrong.emplace_back(request);
+    add_wrong_header_notes(wrong);
     return wrong;
 }
 

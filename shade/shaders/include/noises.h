@@ -16,6 +16,10 @@
 #define filteredsnoise(p, width) (snoise(p) * noisefade(width))
 #define filteredvsnoise(p, width) (vsnoise(p) * noisefade(width))
 
+/* The same in four dimensions: a point and a time. */
+#define snoisept(p, t) (2 * (float noise(p, t)) - 1)
+#define filteredsnoiset(p, width, t) (snoisept(p, t) * noisefade(width))
+
 #define VLNoise(p, scale) (snoise(vsnoise(p) * scale + p))
 #define filteredVLNoise(p, width, scale) (filteredsnoise(filteredvsnoise(p, width) * scale + p, width))
 
