@@ -24,7 +24,7 @@ struct Reference {
     }
     double diffuse() const { return lamp * std::max(0.0, N.dot(L)); }
     double specular(double roughness) const {
-        return lamp * std::pow(std::max(0.0, N.dot((L + V).normalized())), 1 / roughness);
+        return lamp * std::pow(std::max(0.0, N.dot((L + V).normalized())), 8 / roughness);
     }
 };
 

@@ -174,9 +174,13 @@ constexpr const char* kRispec[] = {"version",
                                    "ReadArchive"};
 
 constexpr RequestNote kFunctions[] = {
-    {"trace", "black, with one warning"},   {"transmission", "1 everywhere, with one warning"},
-    {"occlusion", "0, with one warning"},   {"incident", "0: rays are not traced"},
+    {"trace", "black, with one warning"},
+    {"transmission", "1 everywhere, with one warning"},
+    {"occlusion", "0, with one warning"},
+    {"incident", "0: rays are not traced"},
     {"opposite", "0: rays are not traced"},
+    {"specular", "the exponent of N.H is 8 / roughness, where RISpec writes 1 / roughness"},
+    {"specularbrdf", "the exponent of N.H is 8 / roughness, where RISpec writes 1 / roughness"},
 };
 
 }  // namespace

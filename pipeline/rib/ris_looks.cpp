@@ -222,8 +222,8 @@ RisLook look_of_bxdf(const std::string& shader, const RisParameters& parameters,
         if (shader == "PxrVolume") look.opacity = 0.2f;
     }
     look.opacity *= std::clamp(parameters.number_or("presence", 1), 0.0f, 1.0f);
-    // RSL's exponent is 1 / roughness; the width of these lobes goes with the square of theirs.
-    look.roughness = std::clamp(look.roughness * look.roughness / 2, 0.002f, 1.0f);
+    // RSL's exponent is 8 / roughness; the width of these lobes goes with the square of theirs.
+    look.roughness = std::clamp(4 * look.roughness * look.roughness, 0.016f, 8.0f);
     return look;
 }
 

@@ -67,7 +67,7 @@ PAINTED = (
 )
 
 
-def painted(color, ks=0.25, rough=0.15):
+def painted(color, ks=0.25, rough=1.2):
     return rgb("Color", color) + "\n" + PAINTED.format(ks=ks, rough=rough)
 
 
@@ -82,7 +82,7 @@ SPOTS = [
         -1.44,
         2.55,
         -152,
-        plain("plastic", (0.80, 0.16, 0.09), '"Kd" [.9] "Ks" [.6] "roughness" [.08]'),
+        plain("plastic", (0.80, 0.16, 0.09), '"Kd" [.9] "Ks" [.6] "roughness" [.64]'),
         shading_rate=16,
     ),
     Spot(
@@ -90,7 +90,7 @@ SPOTS = [
         1.10,
         2.35,
         62,
-        plain("metal", (0.95, 0.62, 0.22), '"Ka" [1.2] "Ks" [1.6] "roughness" [.22]'),
+        plain("metal", (0.95, 0.62, 0.22), '"Ka" [1.2] "Ks" [1.6] "roughness" [1.76]'),
         scale=0.52,
         shading_rate=16,
     ),
@@ -101,7 +101,7 @@ SPOTS = [
         -0.35,
         17.5,
         20,
-        plain("plastic", (0.10, 0.30, 0.62), '"Kd" [.9] "Ks" [.7]'),
+        plain("plastic", (0.10, 0.30, 0.62), '"Kd" [.9] "Ks" [.7] "roughness" [.8]'),
         shading_rate=4,
     ),
     Spot("Behind: cream.", 5.0, 20.5, -30, painted((0.95, 0.85, 0.60)), shading_rate=4),
@@ -110,7 +110,7 @@ SPOTS = [
         2.4,
         24.0,
         75,
-        plain("metal", (0.90, 0.42, 0.25), '"Ka" [1.2] "Ks" [1.5] "roughness" [.2]'),
+        plain("metal", (0.90, 0.42, 0.25), '"Ka" [1.2] "Ks" [1.5] "roughness" [1.6]'),
         shading_rate=4,
     ),
     Spot("Far behind: lilac.", -7.5, 25.0, -110, painted((0.70, 0.58, 0.92)), shading_rate=4),
@@ -141,11 +141,11 @@ class Ball:
 
 
 BALLS = [
-    Ball(-0.40, 5.15, 0.20, plain("plastic", (0.02, 0.35, 0.36), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
-    Ball(-0.03, 4.80, 0.11, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
-    Ball(-1.12, 6.0, 0.22, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8] "roughness" [.06]')),
-    Ball(-3.0, 10.5, 0.38, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8]')),
-    Ball(-0.14, 9.6, 0.30, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8]')),
+    Ball(-0.40, 5.15, 0.20, plain("plastic", (0.02, 0.35, 0.36), '"Kd" [.85] "Ks" [.8] "roughness" [.48]')),
+    Ball(-0.03, 4.80, 0.11, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8] "roughness" [.48]')),
+    Ball(-1.12, 6.0, 0.22, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8] "roughness" [.48]')),
+    Ball(-3.0, 10.5, 0.38, plain("plastic", (0.85, 0.50, 0.06), '"Kd" [.85] "Ks" [.8] "roughness" [.8]')),
+    Ball(-0.14, 9.6, 0.30, plain("plastic", (0.78, 0.13, 0.10), '"Kd" [.85] "Ks" [.8] "roughness" [.8]')),
 ]
 
 
@@ -290,7 +290,7 @@ def tiles():
     return f"""
 # Tiles: one PointsPolygons, a uniform colour for each.
 AttributeBegin
-Surface "plastic" "Kd" [1] "Ks" [.12] "roughness" [.25]
+Surface "plastic" "Kd" [1] "Ks" [.12] "roughness" [2]
 ShadingRate 16
 PointsPolygons [{vec([4] * (nx * nz))}]
  [{vec(corners)}]

@@ -235,31 +235,31 @@ def props():
           (0.50, 0.44, 0.36),
           'Displacement "fractal" "float amplitude" [.34] "float frequency" [1.9] "float octaves" [7]\n' + bound(0.5))
     thing(-1.55, PLINTH, 2.9, 35,
-          'Surface "paintedplastic" "texturename" ["studio_glaze.tex"] "Kd" [.8] "Ks" [.45] "roughness" [.06]', lathe(VASE))
+          'Surface "paintedplastic" "texturename" ["studio_glaze.tex"] "Kd" [.8] "Ks" [.45] "roughness" [.48]', lathe(VASE))
     thing(1.35, PLINTH, 2.9, 60, 'Surface "marble" "float txtscale" [.85] "float veinfreq" [.9]', lathe(PAWN))
     thing(4.3, PLINTH + 0.72, 2.9, 25, 'Surface "granite" "float txtscale" [.9]', "Scale .85 .72 .85\n" + block(2.4))
     thing(-3.0, 0.62, -1.0, -32, solid('Surface "wood" "float ringscale" [7]', (0.35, -0.3, 0)), "Scale .7 .62 .7\n" + block(2.6))
-    thing(-0.3, 0.72, -0.7, 15, 'Surface "metal" "Ka" [.6] "Ks" [1.1] "roughness" [.16]', ball(0.8), (0.80, 0.36, 0.20),
+    thing(-0.3, 0.72, -0.7, 15, 'Surface "metal" "Ka" [.6] "Ks" [1.1] "roughness" [1.28]', ball(0.8), (0.80, 0.36, 0.20),
           'Displacement "dented" "float amplitude" [.16] "float frequency" [1.5] "float octaves" [4]\n' + bound(0.5))
-    thing(3.5, 0.40, -2.5, 0, 'Surface "plastic" "Kd" [.75] "Ks" [.5] "roughness" [.08]',
+    thing(3.5, 0.40, -2.5, 0, 'Surface "plastic" "Kd" [.75] "Ks" [.5] "roughness" [.64]',
           'TextureCoordinates 0 0 7 0 0 4 7 4\nRotate -90 1 0 0\nTorus .60 .29 0 360 360', (0.85, 0.20, 0.03),
           'Displacement "bumpy" "float Km" [.075] "texturename" ["studio_relief.tex"]\n' + bound(0.1))
-    thing(-1.35, 0.44, -3.3, 0, 'Surface "plastic" "Kd" [.7] "Ks" [.6] "roughness" [.07]', ball(0.42), (0.02, 0.24, 0.20),
+    thing(-1.35, 0.44, -3.3, 0, 'Surface "plastic" "Kd" [.7] "Ks" [.6] "roughness" [.56]', ball(0.42), (0.02, 0.24, 0.20),
           'Displacement "sinewaves" "float amplitude" [.02] "float frequency" [5]\n' + bound(0.1))
     for x, z, radius, color in [(0.85, -3.5, 0.2, (0.72, 0.50, 0.05)), (-2.6, -3.6, 0.16, (0.50, 0.03, 0.05)),
                                 (1.35, -3.9, 0.11, (0.05, 0.14, 0.45))]:
-        thing(x, radius, z, 0, 'Surface "plastic" "roughness" [.05]', ball(radius), color)
+        thing(x, radius, z, 0, 'Surface "plastic" "roughness" [.4]', ball(radius), color)
 
 
 def mirrors():
     """What reflects the environment map, and so is not in it."""
-    glass = ('Surface "glass" "texturename" ["studio.env"] "float eta" [1.5] "Ka" [0] "Ks" [.8] "roughness" [.02] '
+    glass = ('Surface "glass" "texturename" ["studio.env"] "float eta" [1.5] "Ka" [0] "Ks" [.8] "roughness" [.16] '
              '"color transmitcolor" [.86 .95 .92]')
     thing(-3.0, 1.82, -1.0, 0, glass, ball(0.58))
-    thing(2.05, 0.8, -0.6, 0, 'Surface "mirror" "texturename" ["studio.env"] "Ks" [.5] "roughness" [.02]', ball(0.8),
+    thing(2.05, 0.8, -0.6, 0, 'Surface "mirror" "texturename" ["studio.env"] "Ks" [.5] "roughness" [.16]', ball(0.8),
           (0.88, 0.89, 0.92))
     thing(4.3, PLINTH + 1.44, 2.9, 0,
-          'Surface "shinymetal" "texturename" ["studio.env"] "Ka" [.3] "Ks" [.7] "Kr" [1] "roughness" [.06]', lathe(GOBLET),
+          'Surface "shinymetal" "texturename" ["studio.env"] "Ka" [.3] "Ks" [.7] "Kr" [1] "roughness" [.48]', lathe(GOBLET),
           (1.0, 0.66, 0.24))
 
 

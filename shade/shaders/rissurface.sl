@@ -3,7 +3,7 @@
    part, bounce, of all the light that comes by. */
 surface rissurface(
     color specularcolor = 0, emission = 0;
-    float roughness = 0.1, opacity = 1, bounce = 0.15;
+    float roughness = 0.8, opacity = 1, bounce = 0.15;
     string texturename = "";
     float scales = 1, scalet = 1;)
 {

@@ -150,10 +150,10 @@ std::vector<BuiltinCase> asking_cases() {
         {"r = K(ambient()) + X;", TRAPEZE_GIVES(0.1 + 2 + 30 + x), 1e-5},
         {"r = K(diffuse(normal (0, 0, -X)));", TRAPEZE_GIVES(x * 421), 1e-3},
         {"r = comp(specular(normal (0, 0, -1), " + V + ", 0.25), 1) + X;",
-         TRAPEZE_GIVES(2 * std::pow(std::cos(std::atan(1.0) / 2), 4) + x), 1e-5},
+         TRAPEZE_GIVES(2 * std::pow(std::cos(std::atan(1.0) / 2), 32) + x), 1e-5},
         {"r = comp(phong(normal (0, 0, -1), " + V + ", 4), 1) + X;", TRAPEZE_GIVES(2 * 0.25 + x), 1e-5},
         {"r = comp(specularbrdf(vector (0, 0, -1), normal (0, 0, -1), " + V + ", 0.25), 1) + X;",
-         TRAPEZE_GIVES(std::pow(std::cos(std::atan(1.0) / 2), 4) + x), 1e-5},
+         TRAPEZE_GIVES(std::pow(std::cos(std::atan(1.0) / 2), 32) + x), 1e-5},
         // Rays miss everything.
         {"color c = trace(P, vector (X, 0, 1)); r = K(c) + X;", TRAPEZE_GIVES(x)},
         {"float d = trace(P, vector (X, 0, 1)); r = d > 1e29 ? X : -1;", TRAPEZE_GIVES(x)},

@@ -35,11 +35,14 @@ void sum_diffuse(size_t lanes, const Operand& N, const Operand& L, const Operand
     }
 }
 
+/// Of roughness 1. RISpec 3.2 writes 1 / roughness; what roughnesses were chosen with had 8 / roughness.
+constexpr float kSpecularExponent = 8;
+
 /// pow() is the quick one, in floats: a highlight's exponent needs no more.
 HWY_INLINE V specular_lobe(const V3& N, const V3& view, const V3& L, V roughness) {
     const V3 h = add(view, L);
     const V cosine = at_most(positive(hn::Mul(dot(N, h), inverse_length(h))), set(1));
-    const V lobe = pow(cosine, hn::Div(set(1), at_least(roughness, set(kMinRoughness))));
+    const V lobe = pow(cosine, hn::Div(set(kSpecularExponent), at_least(roughness, set(kMinRoughness))));
     return hn::IfThenElseZero(hn::Gt(dot(N, L), hn::Zero(D())), lobe);
 }
 

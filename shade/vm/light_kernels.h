@@ -16,7 +16,7 @@ void add_light(size_t lanes, const Operand& Cl, float share, const Operand& out)
 void add_diffuse(size_t lanes, const Operand& N, const Operand& L, const Operand& Cl, float share,
                  const Operand& out);
 
-/// out += Cl * max(0, N.H)^(1 / roughness) where N.L > 0, with H = normalize(L + V), N and V of unit length:
+/// out += Cl * max(0, N.H)^(8 / roughness) where N.L > 0, with H = normalize(L + V), N and V of unit length:
 /// specular(). Roughness is at least 1e-5.
 void add_specular(size_t lanes, const Operand& N, const Operand& V, const Operand& roughness,
                   const Operand& L, const Operand& Cl, float share, const Operand& out);

@@ -72,7 +72,7 @@ TEST_P(LightKernels, AddUp) {
 
 double specular(const V3d& N, const V3d& V, const V3d& L, double roughness) {
     if (N.dot(L) <= 0) return 0;
-    return std::pow(std::max(0.0, N.dot((V + L).normalized())), 1 / roughness);
+    return std::pow(std::max(0.0, N.dot((V + L).normalized())), 8 / roughness);
 }
 
 TEST_P(LightKernels, AddHighlights) {

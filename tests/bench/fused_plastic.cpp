@@ -29,7 +29,7 @@ void shade(size_t lanes, const Operand& P, const Operand& N, const Operand& Cs, 
         const V3 half = add(view, L);
         const V cosine = at_most(positive(hn::Mul(dot(Nf, half), inverse_length(half))), set(1));
         const V facing = dot(Nf, L);
-        const V lobe = hn::IfThenElseZero(hn::Gt(facing, hn::Zero(D())), pow(cosine, set(1 / kRoughness)));
+        const V lobe = hn::IfThenElseZero(hn::Gt(facing, hn::Zero(D())), pow(cosine, set(8 / kRoughness)));
         for (int k = 0; k < 3; ++k) {
             const V lit = hn::Add(hn::Mul(color.get(i, k), hn::Mul(positive(facing), set(kKd))),
                                   hn::Mul(lobe, set(kKs)));

@@ -77,9 +77,9 @@ void write_wheels(RibWriter& rib, const Car& car, const SceneParameters& p) {
             // Driving on, the wheel's top goes towards the nose.
             write_moving(rib, "Rotate", {17, 1, 0, 0}, {car.driven / kWheelRadius * 180 / kPi, 0, 0, 0}, p);
             rib.request("Rotate", side * 90, 0, 1, 0);
-            set_plastic(rib, {{.012, .012, .014}, .8, .06, .1});
+            set_plastic(rib, {{.012, .012, .014}, .8, .06, .8});
             instance(rib, kTyre);
-            set_plastic(rib, {{.52, .53, .57}, .6, .5, .05});
+            set_plastic(rib, {{.52, .53, .57}, .6, .5, .4});
             instance(rib, kRim);
             rib.request("Color", Numbers{.16, .15, .15});
             instance(rib, kBrake);
@@ -96,7 +96,7 @@ void write_underside(RibWriter& rib) {
             mesh.add_box({std::min(side * .62, side * .70), .3, axle - .4},
                          {std::max(side * .62, side * .70), .72, axle + .4}, V3d(.004));
     mesh.write(rib);
-    set_plastic(rib, {{.02, .02, .022}, .8, .15, .02});
+    set_plastic(rib, {{.02, .02, .022}, .8, .15, .16});
 }
 
 /// What the lamps above leave dark: a sheet just above the road, of its colour at the edge.
@@ -133,7 +133,7 @@ void write_lamps(RibWriter& rib, const Car& car) {
 
 /// In front: bars of the grille and a number plate.
 void write_front(RibWriter& rib) {
-    set_plastic(rib, {{.45, .46, .50}, .6, .8, .03});
+    set_plastic(rib, {{.45, .46, .50}, .6, .8, .24});
     for (const double y : {.575, .615, .655})
         write_ellipsoid(rib, {0, y, 2.195 + .5 * (.655 - y)}, {.44, .009, .055});
     rib.request("Surface", "matte");
@@ -181,10 +181,10 @@ void write_car(RibWriter& rib, const Car& car, const Plastic& road, const SceneP
     rib.request("Rotate", car.heading, 0, 1, 0);
     set_plastic(rib, road);
     write_shadow(rib, road.color);
-    set_plastic(rib, {car.paint, .7, 1.1, .018});
+    set_plastic(rib, {car.paint, .7, 1.1, .144});
     instance(rib, kPaint);
     write_mirrors_and_handles(rib);
-    set_plastic(rib, {{.010, .013, .02}, .8, .9, .012});
+    set_plastic(rib, {{.010, .013, .02}, .8, .9, .096});
     instance(rib, kGlass);
     write_underside(rib);
     instance(rib, kTrim);

@@ -9,7 +9,7 @@ namespace trapeze::scenes {
 inline constexpr double kLaneMark = 1.75, kRoadEdge = -1.95, kBarrier = 5.9, kFarWall = 15.2;
 
 /// Asphalt, a little wet.
-inline const Plastic kRoad = {{.052, .053, .057}, .9, .45, .02};
+inline const Plastic kRoad = {{.052, .053, .057}, .9, .45, .16};
 
 /// What streams past, all of it at rest in the space that is current.
 void write_street(RibWriter& rib);

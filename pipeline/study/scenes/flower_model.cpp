@@ -157,7 +157,7 @@ void write_ball(RibWriter& rib, const V3d& place, const V3d& radii) {
 /// One unit long along x, on the plane of x and z.
 void write_ladybug(RibWriter& rib) {
     const V3d radii(.5, .38, .42);
-    rib.request("Surface", "plastic", "Kd", Numbers{.9}, "Ks", Numbers{.7}, "roughness", Numbers{.06});
+    rib.request("Surface", "plastic", "Kd", Numbers{.9}, "Ks", Numbers{.7}, "roughness", Numbers{.48});
     rib.request("Color", Numbers{.80, .03, .01});
     write_ball(rib, {0, .1, 0}, radii);
     rib.request("Color", Numbers{.012, .012, .015});

@@ -59,7 +59,7 @@ void write_world(RibWriter& rib, const SceneParameters& p) {
         rib.request("Color", Numbers{.16, .1, .06});
         rib.request("Sphere", .98, -.98, .98, 360);
     }
-    rib.request("Surface", "plastic", "Kd", Numbers{.8}, "Ks", Numbers{.25}, "roughness", Numbers{.15});
+    rib.request("Surface", "plastic", "Kd", Numbers{.8}, "Ks", Numbers{.25}, "roughness", Numbers{1.2});
     rib.request("Basis", "bezier", 3, "bezier", 3);
     const int hairs = std::max(1, static_cast<int>(std::lround(kHairs * p.scale)));
     for (int first = 0; first < hairs; first += kHairsOfRequest)

@@ -137,7 +137,7 @@ void write_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("LightSource", "distantlight", 3, "intensity", Numbers{.28}, "lightcolor",
                 Numbers{.55, .72, 1}, "from", Numbers{1, .5, -.6}, "to", Numbers{0, 0, 0});
     write_room(rib);
-    rib.request("Surface", "plastic", "Kd", Numbers{.85}, "Ks", Numbers{.22}, "roughness", Numbers{.18});
+    rib.request("Surface", "plastic", "Kd", Numbers{.85}, "Ks", Numbers{.22}, "roughness", Numbers{1.44});
     write_tufts(rib, p.scale);
     const auto tufts = tufts_of_balls(p.scale);
     for (uint32_t b = 0; b < kBalls.size(); ++b) write_ball(rib, b, tufts[b], p);

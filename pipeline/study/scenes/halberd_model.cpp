@@ -233,18 +233,18 @@ Cage tassel() {
 }  // namespace
 
 void write_halberd(RibWriter& rib) {
-    polish(rib, .8, .25, .12, {1, .9, .8});
+    polish(rib, .8, .25, .96, {1, .9, .8});
     shaft().write(rib);
-    polish(rib, .8, .3, .25, {1, .85, .7});
+    polish(rib, .8, .3, 2, {1, .85, .7});
     wrap().write(rib);
-    polish(rib, .75, .25, .2, {1, .5, .5});
+    polish(rib, .75, .25, 1.6, {1, .5, .5});
     tassel().write(rib);
-    polish(rib, .55, 1.1, .09, {1, .82, .45});
+    polish(rib, .55, 1.1, .72, {1, .82, .45});
     brasses().write(rib);
-    polish(rib, .6, .6, .07, {1, 1, 1});
+    polish(rib, .6, .6, .56, {1, 1, 1});
     for (const Cage& part : {socket(), langets()}) part.write(rib);
     // Wide planes, that a stronger highlight would cover.
-    polish(rib, .9, .16, .04, {1, 1, 1});
+    polish(rib, .9, .16, .32, {1, 1, 1});
     for (const Cage& part : {axe(), beak(), spear()}) part.write(rib);
 }
 
