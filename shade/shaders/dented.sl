@@ -10,7 +10,7 @@ displacement dented(float amplitude = 0.1, frequency = 1, octaves = 3;)
     float depth = 0;
 
     for (octave = 0; octave < count; octave += 1) {
-        depth += weight * abs(2 * noise(Q) - 1);
+        depth += weight * abs(3 * noise(Q) - 1.5);
         Q *= 2;
         weight /= 2;
     }

@@ -12,7 +12,7 @@ displacement fractal(
     float height = 0, signal, rough = 1;
 
     for (octave = 0; octave < count; octave += 1) {
-        signal = offset - abs(2 * noise(Q) - 1);
+        signal = offset - abs(3 * noise(Q) - 1.5);
         signal *= signal * rough;
         height += weight * signal;
         total += weight;

@@ -13,12 +13,12 @@ surface granite(
     color Ct;
 
     for (octave = 0; octave < 5; octave += 1) {
-        sum += weight * abs(0.5 - noise(4 * Q * freq));
+        sum += weight * abs(0.75 - 1.5 * noise(4 * Q * freq));
         freq *= 2.1;
         weight *= 0.55;
     }
-    bright = smoothstep(0.45, 0.6, noise(Q * 3 + vector (7.3, 1.1, 4.2)) + 0.25 * (sum - 0.3));
-    dark = smoothstep(0.58, 0.66, noise(Q * 5) + 0.2 * (sum - 0.3));
+    bright = smoothstep(0.467, 0.567, noise(Q * 3 + vector (7.3, 1.1, 4.2)) + 0.167 * (sum - 0.3));
+    dark = smoothstep(0.553, 0.607, noise(Q * 5) + 0.133 * (sum - 0.3));
     Ct = mix(feldspar, quartz, bright) * (0.7 + 0.8 * sum);
     Ct = Cs * mix(Ct, mica, dark);
     Oi = Os;

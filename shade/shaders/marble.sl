@@ -18,7 +18,7 @@ surface marble(
     /* Octaves finer than the shading rate would only alias. */
     for (octave = 0; octave < 6; octave += 1) {
         float kept = 1 - smoothstep(0.25, 0.75, pixel * freq);
-        amount += kept * abs(2 * noise(Q * freq) - 1) / freq;
+        amount += kept * abs(3 * noise(Q * freq) - 1.5) / freq;
         freq *= 2;
     }
     vein = 0.5 + 0.5 * sin(2 * PI * veinfreq * (xcomp(Q) + 0.4 * ycomp(Q)) + PI * turbulence * amount);

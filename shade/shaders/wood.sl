@@ -1,6 +1,6 @@
 /* Solid wood: a trunk along the z axis of shader space, ringscale rings to the unit, with grain along it. */
 surface wood(
-    float ringscale = 10, grainscale = 60, txtscale = 1, wobble = 0.25;
+    float ringscale = 10, grainscale = 60, txtscale = 1, wobble = 0.38;
     color lightwood = color (0.55, 0.29, 0.11), darkwood = color (0.22, 0.085, 0.025);
     float Ka = 0.2, Kd = 0.7, Ks = 0.25, roughness = 0.12;
     color specularcolor = 1;)
@@ -25,7 +25,7 @@ surface wood(
 
     /* Pores: noise drawn out along the trunk. */
     grain = noise(point (xcomp(Q) * grainscale, ycomp(Q) * grainscale, zcomp(Q) * grainscale * 0.06));
-    amount = amount * 0.8 + 0.25 * smoothstep(0.55, 0.8, grain);
+    amount = amount * 0.8 + 0.25 * smoothstep(0.533, 0.7, grain);
 
     Ct = Cs * mix(lightwood, darkwood, clamp(amount, 0, 1));
     Oi = Os;

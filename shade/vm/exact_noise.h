@@ -44,7 +44,7 @@ inline std::vector<double> gradient(uint32_t h, size_t dimensions) {
 
 /// As a sum over the corners of the cell, in doubles.
 inline double exact_noise(const std::vector<double>& x, const std::vector<double>& period, int component) {
-    constexpr double kScales[] = {0.125, 0.3308, 0.491, 0.4172};
+    constexpr double kScales[] = {0.0703, 0.1762, 0.3259, 0.3006};
     const size_t n = x.size();
     double sum = 0;
     for (unsigned corner = 0; corner < 1u << n; ++corner) {
@@ -64,7 +64,7 @@ inline double exact_noise(const std::vector<double>& x, const std::vector<double
         for (size_t k = 0; k < n; ++k) product += g[k] * offset[k];
         sum += weight * product;
     }
-    return std::clamp(0.5 + kScales[n - 1] * sum, 0.0, 1.0);
+    return 0.5 + kScales[n - 1] * sum;
 }
 
 }  // namespace trapeze::vm::test
