@@ -82,7 +82,7 @@ TEST_F(MakeMapsTest, LatLongMapsHaveZUp) {
     // Red above, green below; blue where x is negative.
     const std::string picture =
         write("sky.exr", ImageSpec(64, 32, 3, TypeDesc::FLOAT), [](int x, int y, int c) {
-            if (c == 2) return x < 16 || x >= 48 ? 1.0f : 0.0f;
+            if (c == 2) return x >= 16 && x < 48 ? 1.0f : 0.0f;
             return (y < 16) == (c == 0) ? 1.0f : 0.0f;
         });
     ASSERT_EQ(make_lat_long_environment(picture, path("sky.env"), {}), "");

@@ -102,15 +102,15 @@ struct Receiver {
 };
 
 Receiver make_receiver(const Textures::DepthMap& map, const MapSpace& space, const MapPoint& at,
-                       const std::array<V3f, 2>& neighbours, const MapOptions& options) {
+                       const std::array<V3f, 2>& neighbours, const MapOptions& options, size_t lane) {
     Receiver r;
     r.at = at, r.perspective = map.perspective;
     r.least = at.depth * (1 - kPlaneReach), r.most = at.depth * (1 + kPlaneReach);
     const MapPoint u = space(neighbours[0]), v = space(neighbours[1]);
     if (u.seen && v.seen) {
         const float ux = u.x - at.x, uy = u.y - at.y, vx = v.x - at.x, vy = v.y - at.y;
-        r.half_x = 0.5f * (std::fabs(ux) + std::fabs(vx)) * std::max(options.swidth, 0.0f);
-        r.half_y = 0.5f * (std::fabs(uy) + std::fabs(vy)) * std::max(options.twidth, 0.0f);
+        r.half_x = 0.5f * (std::fabs(ux) + std::fabs(vx)) * std::max(options.swidth.at(lane), 0.0f);
+        r.half_y = 0.5f * (std::fabs(uy) + std::fabs(vy)) * std::max(options.twidth.at(lane), 0.0f);
         const float area = ux * vy - uy * vx;
         const float du = u.linear - at.linear, dv = v.linear - at.linear;
         const float slope_x = (du * vy - dv * uy) / area, slope_y = (dv * ux - du * vx) / area;
@@ -119,8 +119,8 @@ Receiver make_receiver(const Textures::DepthMap& map, const MapSpace& space, con
     const auto region = [](float half, float blur, float size) {
         return std::clamp(half + 0.5f * std::max(blur, 0.0f) * size, 0.5f, size);
     };
-    r.half_x = region(r.half_x, options.sblur, map.full_width);
-    r.half_y = region(r.half_y, options.tblur, map.full_height);
+    r.half_x = region(r.half_x, options.sblur.at(lane), map.full_width);
+    r.half_y = region(r.half_y, options.tblur.at(lane), map.full_height);
     return r;
 }
 
@@ -197,9 +197,6 @@ void Textures::shadow(const DepthMap* map, const ShadowLookup& at, const M44f& c
         const Impl::ThreadState thread(*impl_);
         DepthReader depths(*impl_->cache, thread.of_cache(), *map);
         const MapSpace space(*map, camera_from_world);
-        const float asked = options.bias >= 0 ? options.bias : impl_->shadow_bias;
-        const float most = static_cast<float>(kMostShadowSamples);
-        const int samples = options.samples >= 1 ? static_cast<int>(std::min(options.samples, most)) : 1;
         for (size_t i = 0; i < lanes.count; ++i) {
             if (!map_lanes::is_on(lanes, i)) continue;
             out[i] = 0;
@@ -207,9 +204,12 @@ void Textures::shadow(const DepthMap* map, const ShadowLookup& at, const M44f& c
             const MapPoint here = space(P);
             if (!here.seen) continue;
             const Receiver receiver =
-                make_receiver(*map, space, here, {P + value(at.dPdu, i), P + value(at.dPdv, i)}, options);
+                make_receiver(*map, space, here, {P + value(at.dPdu, i), P + value(at.dPdv, i)}, options, i);
             if (!may_reach(*map, receiver)) continue;
+            const float own = options.bias.at(i), asked = own >= 0 ? own : impl_->shadow_bias;
             const float bias = asked >= 0 ? asked : kDefaultBias * here.depth;
+            const auto samples = static_cast<int>(
+                std::clamp(options.samples.at(i), 1.0f, static_cast<float>(kMostShadowSamples)));
             out[i] = hidden_part(depths, receiver, bias, samples, seed_of(P));
         }
         if (depths.failed()) impl_->report_read_error(map->name, map->location, impl_->cache->geterror());

@@ -8,19 +8,55 @@ namespace {
 
 using map_lanes::value;
 
-constexpr int kMostChannels = 1 << 10;
+/// What OpenImageIO is given is within these, so that its whole numbers and squares hold it.
+constexpr float kMostRegion = 1 << 10;  ///< pictures that a lookup is filtered over
+constexpr float kFarthest = 1 << 10;    ///< pictures from the first one
+
+OIIO::TextureOpt::Wrap wrap_of(MapOptions::Wrap asked, OIIO::TextureOpt::Wrap of_picture) {
+    switch (asked) {
+        case MapOptions::Wrap::Black:
+            return OIIO::TextureOpt::WrapBlack;
+        case MapOptions::Wrap::Periodic:
+            return OIIO::TextureOpt::WrapPeriodic;
+        case MapOptions::Wrap::Clamp:
+            return OIIO::TextureOpt::WrapClamp;
+        case MapOptions::Wrap::Mirror:
+            return OIIO::TextureOpt::WrapMirror;
+        case MapOptions::Wrap::OfPicture:
+            break;
+    }
+    return of_picture;
+}
 
 OIIO::TextureOpt lookup_options(const Textures::Picture& picture, const MapOptions& options) {
     OIIO::TextureOpt made;
-    made.swrap = picture.swrap, made.twrap = picture.twrap;
-    made.firstchannel = std::clamp(options.first_channel, 0, kMostChannels);
-    made.sblur = std::max(options.sblur, 0.0f), made.tblur = std::max(options.tblur, 0.0f);
-    made.swidth = std::max(options.swidth, 0.0f), made.twidth = std::max(options.twidth, 0.0f);
-    made.fill = options.fill;
+    made.swrap = wrap_of(options.swrap, picture.swrap), made.twrap = wrap_of(options.twrap, picture.twrap);
     if (!options.lerp) made.mipmode = OIIO::TextureOpt::MipModeOneLevel;
     if (options.filter == MapOptions::Filter::Bilinear) made.interpmode = OIIO::TextureOpt::InterpBilinear;
     if (options.filter == MapOptions::Filter::Nearest) made.interpmode = OIIO::TextureOpt::InterpClosest;
     return made;
+}
+
+/// Channels of `wanted` that a picture of so many has.
+int present_channels(int channels, float first, int wanted) {
+    if (!(first < static_cast<float>(channels))) return 0;
+    return std::min(channels - static_cast<int>(std::max(first, 0.0f)), wanted);
+}
+
+/// The same place of what repeats outside the picture, near it; very far away all else is as far as that.
+float coordinate(float at, OIIO::TextureOpt::Wrap wrap) {
+    if (std::fabs(at) <= kFarthest) return at;
+    if (wrap == OIIO::TextureOpt::WrapPeriodic) return at - std::floor(at);
+    if (wrap == OIIO::TextureOpt::WrapMirror) return at - 2 * std::floor(at / 2);
+    return std::clamp(at, -kFarthest, kFarthest);
+}
+
+float within(float change, float most) {
+    return std::clamp(change, -most, most);
+}
+
+V3f within(const V3f& change, float most) {
+    return {within(change.x, most), within(change.y, most), within(change.z, most)};
 }
 
 /// In wanted lanes.
@@ -38,28 +74,46 @@ template <class LookUp>
 void Textures::Impl::each_lane(const Picture* picture, const MapOptions& options, const Lanes& lanes,
                                std::span<const Plane> out, LookUp&& look_up) {
     if (!picture) return set_all(lanes, out, options.without);
-    const int channels = static_cast<int>(std::min<size_t>(out.size(), 3));
+    const int wanted = static_cast<int>(std::min<size_t>(out.size(), 3));
     const ThreadState thread(*this);
-    OIIO::TextureOpt made = lookup_options(*picture, options);
+    const OIIO::TextureOpt for_all = lookup_options(*picture, options);
+    OIIO::TextureOpt made = for_all;
     for (size_t i = 0; i < lanes.count; ++i) {
         if (!map_lanes::is_on(lanes, i)) continue;
+        const float first = options.first_channel.at(i), fill = options.fill.at(i);
+        const int present = present_channels(picture->channels, first, wanted);
         float color[3] = {0, 0, 0};
-        const bool good = look_up(made, thread.get(), i, channels, color);
-        if (!good) report_read_error(picture->name, picture->location, system->geterror());
-        for (int k = 0; k < channels; ++k) out[k][i] = good ? color[k] : 0;
+        std::fill(color + present, color + 3, fill);
+        if (present) {
+            made.swrap = for_all.swrap, made.twrap = for_all.twrap;  // which OpenImageIO changes
+            made.firstchannel = static_cast<int>(std::max(first, 0.0f));
+            made.sblur = std::clamp(options.sblur.at(i), 0.0f, kMostRegion);
+            made.tblur = std::clamp(options.tblur.at(i), 0.0f, kMostRegion);
+            if (!look_up(made, thread.get(), i, present, color)) {
+                report_read_error(picture->name, picture->location, system->geterror());
+                std::fill(color, color + present, 0.0f);
+            }
+        }
+        for (int k = 0; k < wanted; ++k) out[k][i] = color[k];
     }
     for (const Plane& plane : out) map_lanes::pad(lanes, plane);
 }
 
 void Textures::texture(const Picture* picture, const Lookup& at, const MapOptions& options, Lanes lanes,
                        std::span<const Plane> out) const {
-    impl_->each_lane(picture, options, lanes, out,
-                     [&](OIIO::TextureOpt& made, OIIO::TextureSystem::Perthread* thread, size_t i,
-                         int channels, float* color) {
-                         return impl_->system->texture(picture->handle, thread, made, value(at.s, i),
-                                                       value(at.t, i), value(at.dsdu, i), value(at.dtdu, i),
-                                                       value(at.dsdv, i), value(at.dtdv, i), channels, color);
-                     });
+    impl_->each_lane(
+        picture, options, lanes, out,
+        [&](OIIO::TextureOpt& made, OIIO::TextureSystem::Perthread* thread, size_t i, int channels,
+            float* color) {
+            const float swidth = std::max(options.swidth.at(i), 0.0f);
+            const float twidth = std::max(options.twidth.at(i), 0.0f);
+            const auto s_change = [&](ConstPlane d) { return within(value(d, i) * swidth, kMostRegion); };
+            const auto t_change = [&](ConstPlane d) { return within(value(d, i) * twidth, kMostRegion); };
+            return impl_->system->texture(
+                picture->handle, thread, made, coordinate(value(at.s, i), made.swrap),
+                coordinate(value(at.t, i), made.twrap), s_change(at.dsdu), t_change(at.dtdu),
+                s_change(at.dsdv), t_change(at.dtdv), channels, color);
+        });
 }
 
 void Textures::environment(const Picture* picture, const EnvironmentLookup& at, const MapOptions& options,
@@ -67,12 +121,18 @@ void Textures::environment(const Picture* picture, const EnvironmentLookup& at, 
     impl_->each_lane(picture, options, lanes, out,
                      [&](OIIO::TextureOpt& made, OIIO::TextureSystem::Perthread* thread, size_t i,
                          int channels, float* color) {
-                         const V3f R = value(at.R, i);
+                         V3f R = value(at.R, i), dRdu = value(at.dRdu, i), dRdv = value(at.dRdv, i);
                          const float length = R.length();
                          if (!(length > 0)) return true;
-                         return impl_->system->environment(picture->handle, thread, made, R / length,
-                                                           value(at.dRdu, i) / length,
-                                                           value(at.dRdv, i) / length, channels, color);
+                         R /= length;
+                         made.swidth = std::clamp(options.swidth.at(i), 0.0f, kMostRegion);
+                         made.twidth = std::clamp(options.twidth.at(i), 0.0f, kMostRegion);
+                         dRdu = within(dRdu / length, kMostRegion), dRdv = within(dRdv / length, kMostRegion);
+                         // OpenImageIO has longitude 0 in the middle.
+                         if (!picture->y_up)
+                             for (V3f* d : {&R, &dRdu, &dRdv}) d->x = -d->x, d->y = -d->y;
+                         return impl_->system->environment(picture->handle, thread, made, R, dRdu, dRdv,
+                                                           channels, color);
                      });
 }
 

@@ -31,13 +31,18 @@ class TextureLookupTest : public MapFilesTest {
     Textures::Lookup square(float s, float t, float width) {
         return {plane({s}), plane({t}), plane({width}), {}, {}, plane({width})};
     }
+    static ImageSpec periodic(int side, int channels) {
+        ImageSpec spec(side, side, channels, TypeDesc::FLOAT);
+        spec.attribute("wrapmodes", "periodic,periodic");
+        return spec;
+    }
     /// 64 x 64 texels of 0 and 1.
     std::string checker() {
-        return write("checker.exr", ImageSpec(64, 64, 1, TypeDesc::FLOAT),
+        return write("checker.exr", periodic(64, 1),
                      [](int x, int y, int) { return static_cast<float>((x + y) % 2); });
     }
     std::string three_channels() {
-        return write("three.exr", ImageSpec(16, 16, 3, TypeDesc::FLOAT),
+        return write("three.exr", periodic(16, 3),
                      [](int, int, int c) { return 0.25f * static_cast<float>(c + 1); });
     }
 
@@ -103,10 +108,45 @@ TEST_F(TextureLookupTest, ChannelsStartAtTheFirstAndMissingOnesAreFilled) {
     EXPECT_EQ(look(file, 0.5f, 0.5f, 0, options), 0.125f);
 }
 
-TEST_F(TextureLookupTest, OneChannelIsGrey) {
+TEST_F(TextureLookupTest, FewerChannelsThanAColourHasAreFilled) {
+    MapOptions filled;
+    filled.fill = 0.125f;
+    for (const int channels : {1, 2}) {
+        const std::string file = write("few" + std::to_string(channels) + ".exr", periodic(8, channels),
+                                       [](int, int, int c) { return 0.5f + 0.25f * static_cast<float>(c); });
+        const float second = channels == 2 ? 0.75f : 0;
+        EXPECT_EQ(color(file, 0.5f, 0.5f), V3f(0.5f, second, 0));
+        EXPECT_EQ(color(file, 0.5f, 0.5f, 0.3f, filled), V3f(0.5f, channels == 2 ? 0.75f : 0.125f, 0.125f));
+    }
+}
+
+TEST_F(TextureLookupTest, OutsidePicturesIsWhatIsAskedForThenWhatTheyRecordThenBlack) {
+    const auto halves = [](int x, int, int) { return x < 8 ? 0.25f : 1.0f; };
+    ImageSpec recorded(16, 16, 1, TypeDesc::FLOAT);
+    const std::string plain = write("plain.exr", recorded, halves);
+    recorded.attribute("wrapmodes", "periodic,clamp");
+    const std::string marked = write("marked.exr", recorded, halves);
+    EXPECT_EQ(look(plain, 1.25f, 0.5f), 0);
+    EXPECT_EQ(look(plain, 0.25f, -0.5f), 0);
+    EXPECT_NEAR(look(plain, 0.25f, 0.5f), 0.25f, 1e-4f);
+    EXPECT_NEAR(look(marked, 1.25f, 7.5f), 0.25f, 1e-4f);
+    MapOptions asked;
+    asked.swrap = map_wrap("clamp"), asked.twrap = map_wrap("mirror");
+    EXPECT_NEAR(look(plain, 1.25f, -0.5f, 0, asked), 1, 1e-4f);
+    EXPECT_NEAR(look(marked, 1.25f, 0.5f, 0, asked), 1, 1e-4f);
+    asked.swrap = map_wrap("black");
+    EXPECT_EQ(look(marked, 1.25f, 0.5f, 0, asked), 0);
+    asked.swrap = map_wrap("mirror");
+    EXPECT_NEAR(look(plain, 1.25f, 0.5f, 0, asked), 1, 1e-4f);
+    EXPECT_EQ(map_wrap("round"), MapOptions::Wrap::OfPicture);
+}
+
+TEST_F(TextureLookupTest, FarAwayPicturesStillRepeat) {
     const std::string file =
-        write("grey.exr", ImageSpec(8, 8, 1, TypeDesc::FLOAT), [](int, int, int) { return 0.5f; });
-    EXPECT_EQ(color(file, 0.5f, 0.5f), V3f(0.5f));
+        write("far.exr", periodic(16, 1), [](int x, int, int) { return x < 8 ? 0.25f : 1.0f; });
+    for (const float s : {4096.25f, -4096.75f, 65536.25f, 1048576.25f})
+        EXPECT_NEAR(look(file, s, 0.5f), 0.25f, 1e-4f);
+    EXPECT_TRUE(std::isfinite(look(file, 3e38f, -3e38f)));
 }
 
 TEST_F(TextureLookupTest, LanesThatAreOffKeepTheirValue) {
@@ -193,14 +233,14 @@ class EnvironmentTest : public TextureLookupTest {
         color[axis] = 1;
         return d[axis] > 0 ? color : V3f(1) - color;
     }
-    /// By the mapping of textures.h.
-    std::string axes(int width) {
-        return write("axes.tif", ImageSpec(width, width / 2, 3, TypeDesc::FLOAT), [&](int x, int y, int c) {
-            const float longitude =
-                ((static_cast<float>(x) + 0.5f) / static_cast<float>(width) - 0.5f) * 6.2831853f;
-            const float polar = (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2) * 3.1415927f;
-            return axis_color({std::sin(polar) * std::cos(longitude), std::sin(polar) * std::sin(longitude),
-                               std::cos(polar)})[c];
+    /// By RISpec's mapping.
+    std::string axes(int width, const std::string& name = "axes.tif") {
+        return write(name, ImageSpec(width, width / 2, 3, TypeDesc::FLOAT), [&](int x, int y, int c) {
+            const float longitude = (static_cast<float>(x) + 0.5f) / static_cast<float>(width) * 6.2831853f;
+            const float latitude =
+                (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2)) * 3.1415927f;
+            return axis_color({std::cos(latitude) * std::cos(longitude),
+                               std::cos(latitude) * std::sin(longitude), std::sin(latitude)})[c];
         });
     }
     V3f seen(const std::string& file, const V3f& R, float width = 0, MapOptions options = {}) {
@@ -212,18 +252,46 @@ class EnvironmentTest : public TextureLookupTest {
     }
 };
 
-TEST_F(EnvironmentTest, ZIsUpAndXIsInTheMiddle) {
-    const std::string file = axes(128);
-    for (const V3f& d :
-         {V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1), V3f(1, 0.3f, -0.4f), V3f(-0.2f, 0.3f, 0.7f)})
-        for (const float side : {1.0f, -1.0f}) {
-            const V3f expected = axis_color(d * side);
-            for (const float length : {1.0f, 20.0f}) {
-                const V3f found = seen(file, d * (side * length));
-                for (int k = 0; k < 3; ++k)
-                    EXPECT_NEAR(found[k], expected[k], 0.02f) << d << side << " " << k;
+TEST_F(EnvironmentTest, ZIsUpAndXIsAtTheEdges) {
+    for (const std::string& file : {axes(128), axes(128, "axes.exr")})
+        for (const V3f& d :
+             {V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1), V3f(1, 0.3f, -0.4f), V3f(-0.2f, 0.3f, 0.7f)})
+            for (const float side : {1.0f, -1.0f}) {
+                const V3f expected = axis_color(d * side);
+                for (const float length : {1.0f, 20.0f}) {
+                    const V3f found = seen(file, d * (side * length));
+                    for (int k = 0; k < 3; ++k)
+                        EXPECT_NEAR(found[k], expected[k], 0.02f) << d << side << " " << k;
+                }
             }
-        }
+}
+
+/// The quarters of the picture, by their longitudes: red, green, blue, white.
+TEST_F(EnvironmentTest, LongitudeRunsFromTheLeftEdge) {
+    const std::string file =
+        write("quarters.tif", ImageSpec(128, 64, 3, TypeDesc::FLOAT),
+              [](int x, int, int c) { return x / 32 == c || x / 32 == 3 ? 1.0f : 0.0f; });
+    const V3f colors[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+    for (int quarter = 0; quarter < 4; ++quarter)
+        for (const float turn : {0.2f, 0.5f, 0.8f})
+            for (const float up : {-1.5f, 0.0f, 0.7f}) {
+                const float longitude = (static_cast<float>(quarter) + turn) * 1.5707963f;
+                const V3f found = seen(file, V3f(std::cos(longitude), std::sin(longitude), up));
+                for (int k = 0; k < 3; ++k)
+                    EXPECT_NEAR(found[k], colors[quarter][k], 0.02f) << quarter << " " << turn << " " << up;
+            }
+}
+
+TEST_F(EnvironmentTest, MapsThatOpenExrMarksHaveItsUp) {
+    ImageSpec spec(128, 64, 3, TypeDesc::FLOAT);
+    spec.attribute("textureformat", "LatLong Environment");
+    spec.attribute("oiio:updirection", "y");
+    // OpenEXR: +z in the middle, +x a quarter to the left.
+    const std::string file = write("marked.exr", spec, [](int x, int, int c) {
+        return c == 0 && x >= 60 && x < 68 ? 1.0f : c == 1 && x >= 28 && x < 36 ? 1.0f : 0.0f;
+    });
+    EXPECT_NEAR(seen(file, V3f(0, 0, 1)).x, 1, 0.02f);
+    EXPECT_NEAR(seen(file, V3f(1, 0, 0)).y, 1, 0.02f);
 }
 
 TEST_F(EnvironmentTest, BlurBlends) {

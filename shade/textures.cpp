@@ -39,6 +39,14 @@ MapOptions::Filter map_filter(std::string_view name) {
     return MapOptions::Filter::Smooth;
 }
 
+MapOptions::Wrap map_wrap(std::string_view name) {
+    if (name == "black") return MapOptions::Wrap::Black;
+    if (name == "periodic") return MapOptions::Wrap::Periodic;
+    if (name == "clamp") return MapOptions::Wrap::Clamp;
+    if (name == "mirror") return MapOptions::Wrap::Mirror;
+    return MapOptions::Wrap::OfPicture;
+}
+
 void quad_sides(ConstPlane corner_00, ConstPlane corner_10, ConstPlane corner_01, ConstPlane corner_11,
                 const QuadSides& sides) {
     for (size_t i = 0; i < sides.middle.size(); ++i) {
@@ -93,7 +101,6 @@ void Textures::Impl::start() {
     cache->attribute("autotile", 64);
     cache->attribute("automip", 1);
     system.reset(OIIO::TextureSystem::create(false, cache.get()));
-    system->attribute("gray_to_rgb", 1);
     system->attribute("latlong_up", "z");
 }
 
@@ -126,12 +133,23 @@ std::string Textures::Impl::open(Picture& picture) {
         if (reason.empty()) reason = cache->geterror();
         return reason.empty() ? "cannot be read" : reason;
     }
-    const char* modes = nullptr;
-    if (!system->get_texture_info(picture.handle, thread.get(), 0, OIIO::ustring("wrapmodes"),
-                                  OIIO::TypeDesc::STRING, &modes)) {
-        system->geterror();
-        picture.swrap = picture.twrap = OIIO::TextureOpt::WrapPeriodic;
+    OIIO::ImageSpec spec;
+    if (!cache->get_imagespec(picture.image, thread.of_cache(), spec)) return cache->geterror();
+    return describe(picture, spec);
+}
+
+/// Takes what lookups need to know. Returns what they cannot work with.
+std::string Textures::Impl::describe(Picture& picture, const OIIO::ImageSpec& spec) {
+    if (spec.nchannels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
+        return "is no picture of rows and columns";
+    picture.channels = spec.nchannels;
+    picture.wrap_modes = spec.get_string_attribute("wrapmodes");
+    if (!picture.wrap_modes.empty()) {
+        OIIO::TextureOpt::parse_wrapmodes(picture.wrap_modes.c_str(), picture.swrap, picture.twrap);
+        for (OIIO::TextureOpt::Wrap* wrap : {&picture.swrap, &picture.twrap})
+            if (*wrap == OIIO::TextureOpt::WrapDefault) *wrap = OIIO::TextureOpt::WrapBlack;
     }
+    picture.y_up = spec.get_string_attribute("oiio:updirection") == "y";
     return {};
 }
 
@@ -200,6 +218,7 @@ std::optional<Textures::Info> Textures::info(std::string_view name) {
     info.type = format.find("Environment") != std::string::npos ? "environment"
                 : format == "Shadow"                            ? "shadow"
                                                                 : "texture";
+    info.wrap_modes = known.map->wrap_modes;
     if (const auto matrices = map_matrices(spec)) {
         info.viewing_matrix = matrices->camera_from_world;
         info.projection_matrix = matrices->screen_from_world;

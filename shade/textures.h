@@ -3,16 +3,18 @@
 ///
 /// s runs across the picture and t down it, from its top row at 0. Pictures of 8-bit numbers are taken to
 /// linear light as they are read, by the sRGB curve and before any filtering, unless their metadata says that
-/// they are linear already; other formats are taken as they are. Outside 0..1 a picture repeats, unless its
-/// own metadata says otherwise.
+/// they are linear already; other formats are taken as they are. Outside 0..1 a picture is as its own
+/// metadata says, which MakeTexture writes (RISpec 3.2, section 7.1); without, it is black.
 ///
-/// Environment maps are pictures of all directions by longitude and latitude; z is up, as RISpec's z is in
-/// RenderMan's maps: t = acos(z) / pi, s = 1/2 + atan2(y, x) / 2 pi, so that +z is the top row and +x the
-/// middle of the picture. (A map in OpenEXR has y up, as that format's specification says.)
+/// Environment maps are pictures of all directions by longitude and latitude, as RISpec has them (section
+/// 7.2): a direction is (cos(lon) cos(lat), sin(lon) cos(lat), sin(lat)); longitude runs from 0 at the left
+/// edge to 360 degrees at the right, latitude from 90 degrees at the top to -90. (A map in OpenEXR that is
+/// marked as one has y up and +z in the middle, as that format's specification says.)
 ///
 /// Shadow maps are pictures of camera-space depth with the metadata worldtocamera and worldtoscreen.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,27 +29,47 @@
 
 namespace trapeze {
 
+/// A number that may differ from lane to lane. What is not finite counts as zero.
+class LaneNumber {
+  public:
+    LaneNumber(float value = 0) : value_(value) {}
+    explicit LaneNumber(ConstPlane plane) : plane_(plane) {}
+
+    float at(size_t lane) const {
+        const float value = plane_.empty() ? value_ : plane_[lane];
+        return std::isfinite(value) ? value : 0;
+    }
+
+  private:
+    float value_ = 0;
+    ConstPlane plane_;
+};
+
 /// How a lookup is filtered: RISpec 3.2's optional arguments of texture(), environment() and shadow()
 /// (section 15.7).
 struct MapOptions {
     enum class Filter : uint8_t { Smooth, Bilinear, Nearest };
+    enum class Wrap : uint8_t { OfPicture, Black, Periodic, Clamp, Mirror };
 
-    float sblur = 0, tblur = 0;    ///< added to the filtered region, as a part of the picture
-    float swidth = 1, twidth = 1;  ///< what the region is multiplied by
-    float fill = 0;                ///< of channels that the file does not have
-    float without = 0;             ///< what texture() gives where there is no picture
-    bool lerp = true;              ///< between two resolutions of the picture
+    LaneNumber sblur, tblur;            ///< added to the filtered region, as a part of the picture
+    LaneNumber swidth = 1, twidth = 1;  ///< what the region is multiplied by
+    LaneNumber fill;                    ///< of channels that the file does not have
+    float without = 0;                  ///< what texture() gives where there is no picture
+    Wrap swrap = Wrap::OfPicture, twrap = Wrap::OfPicture;
+    bool lerp = true;  ///< between two resolutions of the picture
     Filter filter = Filter::Smooth;
-    int first_channel = 0;
+    LaneNumber first_channel;
 
-    float samples = 16;  ///< of a shadow; whole numbers from 1 to kMostShadowSamples
-    float bias = -1;     ///< of a shadow, in its camera's depth; below zero: as the render's options say
+    LaneNumber samples = 16;  ///< of a shadow; whole numbers from 1 to kMostShadowSamples
+    LaneNumber bias = -1;     ///< of a shadow, in its camera's depth; below zero: as the render's options say
 };
 inline constexpr int kMostShadowSamples = 4096;
 
 /// RISpec's filter names: "box" and "triangle" are bilinear, "nearest" and "closest" take a texel, all others
 /// are smooth.
 MapOptions::Filter map_filter(std::string_view name);
+/// MakeTexture's names of wrap modes; that of the picture for all others.
+MapOptions::Wrap map_wrap(std::string_view name);
 
 /// Lanes of planes that a lookup is for.
 struct Lanes {
@@ -79,6 +101,7 @@ class Textures {
     struct Info {
         int width = 0, height = 0, channels = 0;
         std::string type;                       ///< "texture", "environment" or "shadow"
+        std::string wrap_modes;                 ///< "periodic,clamp" as the file records it, or empty
         std::optional<M44f> viewing_matrix;     ///< camera_from_world of the map (row vectors)
         std::optional<M44f> projection_matrix;  ///< screen_from_world, -1..1 across the picture and up it
     };
@@ -93,8 +116,8 @@ class Textures {
     struct Lookup {
         ConstPlane s, t, dsdu, dtdu, dsdv, dtdv;
     };
-    /// `out` are 1 or 3 planes; as three, pictures of one channel are grey. A null picture
-    /// gives options.without.
+    /// `out` are 1 or 3 planes: the picture's channels from the first that is asked for, options.fill those
+    /// that it does not have. A null picture gives options.without.
     void texture(const Picture* picture, const Lookup& at, const MapOptions& options, Lanes lanes,
                  std::span<const Plane> out) const;
 

@@ -19,7 +19,10 @@ class Textures::Picture {
   public:
     OIIO::TextureSystem::TextureHandle* handle = nullptr;
     OIIO::ImageCache::ImageHandle* image = nullptr;  ///< the same, for the cache
-    OIIO::TextureOpt::Wrap swrap = OIIO::TextureOpt::WrapDefault, twrap = OIIO::TextureOpt::WrapDefault;
+    OIIO::TextureOpt::Wrap swrap = OIIO::TextureOpt::WrapBlack, twrap = OIIO::TextureOpt::WrapBlack;
+    std::string wrap_modes;  ///< as the file records them, or empty
+    int channels = 0;
+    bool y_up = false;  ///< an environment as OpenEXR has it
     std::string name;
     SourceLocation location;
 };
@@ -72,6 +75,7 @@ struct Textures::Impl {
     void start();
     Entry<Picture>& entry(std::string_view name, SourceLocation location);
     std::string open(Picture& picture);
+    static std::string describe(Picture& picture, const OIIO::ImageSpec& spec);
     std::string add_file(OIIO::ustring path);
     std::string open(DepthMap& map);
     template <class Map>

@@ -95,13 +95,13 @@ TEST_F(TexturesTest, FloatsAreTakenAsTheyAre) {
     expect_near(look(textures, picture, 0.25f, 0.75f), V3f(0, 0, 1), 1e-3f);
 }
 
-TEST_F(TexturesTest, OutsidePicturesRepeatUnlessTheySayOtherwise) {
+TEST_F(TexturesTest, OutsidePicturesIsBlackUnlessTheySayOtherwise) {
     Textures textures(options_, &diagnostics_);
     const Textures::Picture* plain = textures.find(write("plain.exr", 16, OIIO::TypeDesc::HALF), {});
-    const Textures::Picture* black =
-        textures.find(write("black.exr", 16, OIIO::TypeDesc::HALF, "black,black"), {});
-    expect_near(look(textures, plain, 1.25f, -0.75f), V3f(1, 0, 0), 1e-3f);
-    expect_near(look(textures, black, 1.25f, 0.25f), V3f(0), 1e-3f);
+    const Textures::Picture* periodic =
+        textures.find(write("periodic.exr", 16, OIIO::TypeDesc::HALF, "periodic,periodic"), {});
+    expect_near(look(textures, periodic, 1.25f, -0.75f), V3f(1, 0, 0), 1e-3f);
+    expect_near(look(textures, plain, 1.25f, 0.25f), V3f(0), 1e-3f);
     EXPECT_TRUE(reported_.empty());
 }
 
@@ -157,10 +157,26 @@ TEST_F(TexturesTest, PaintedPlasticIsPainted) {
     EXPECT_TRUE(scene.reported.empty());
 }
 
+TEST_F(TexturesTest, RisSurfacesRepeatPicturesAndHaveGreyOfOneChannel) {
+    const std::string path = (folder_ / "grey.exr").string();
+    const OIIO::ImageSpec spec(4, 4, 1, OIIO::TypeDesc::FLOAT);
+    const std::vector<float> pixels(16, 0.5f);
+    const auto out = OIIO::ImageOutput::create(path);
+    ASSERT_TRUE(out && out->open(path, spec) && out->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) &&
+                out->close());
+    TestScene scene;
+    scene.light("ambientlight");
+    scene.surface("rissurface", {text("texturename", path), number("scales", 5)});
+    const ShadingGrid grid = scene.shaded(scene.grid(8, 8));
+    for (size_t i = 0; i < grid.vertex_count(); ++i)
+        expect_near(grid.Ci.at(i), grid.Cs.at(i) * grid.Os.at(i) * 0.5f, 1e-3f);
+}
+
 TEST_F(TexturesTest, FilterWidthsComeFromTheGrid) {
     TestScene scene;
     scene.light("ambientlight");
-    scene.surface("paintedplastic", {text("texturename", write("quarters.png", 32))});
+    const std::string picture = write("quarters.png", 32, OIIO::TypeDesc::UINT8, "periodic,periodic");
+    scene.surface("paintedplastic", {text("texturename", picture)});
     ShadingGrid grid = scene.grid(1, 1);
     const V3f average = V3f((1 + kGrey) / 4);
     const V3f base = grid.Cs.at(0) * grid.Os.at(0);

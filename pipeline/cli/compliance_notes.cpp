@@ -22,7 +22,8 @@ constexpr RequestNote kRequests[] = {
     {"HierarchicalSubdivisionMesh",
      "as SubdivisionMesh; edits of finer levels, which OpenSubdiv has not, are left out with one warning"},
     {"Hider",
-     "hidden; others are warned about and hidden is used; jitter, depthfilter, samplemotion; minsamples and maxsamples "
+     "hidden; others are warned about and hidden is used; jitter, depthfilter, samplemotion; minsamples and "
+     "maxsamples "
      "(as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
     {"Imager", "over the finished picture, after filtering"},
     {"Integrator", "read; RIS shaders are not run"},
@@ -72,7 +73,10 @@ constexpr Capability kCapabilities[] = {
     {"Global Illumination", "not supported", "occlusion() and indirectdiffuse() are 0, with one warning."},
     {"Area Lights", "not supported",
      "AreaLightSource shines from the middle of its first shape, with a warning."},
-    {"Texture, Environment and Shadow Mapping", "supported", "The Make requests and what OpenImageIO reads."},
+    {"Texture, Environment and Shadow Mapping", "supported",
+     "The Make requests and what OpenImageIO reads. Files that do not record wrap modes are black outside; "
+     "longitude 0 (+x) of environments is at the left edge, z is up; channels that a file lacks are "
+     "\"fill\"."},
 };
 
 constexpr const char* kRispec[] = {"version",

@@ -10,11 +10,19 @@ surface rissurface(
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
     color base = Cs, passing = 0;
-    float isthere = 0;
+    float isthere = 0, channels = 3;
+    string wrap = "periodic";
 
     if (texturename != "") {
         textureinfo(texturename, "exists", isthere);
-        base *= color texture(texturename, s * scales, 1 - t * scalet);
+        textureinfo(texturename, "channels", channels);
+        /* Pictures that do not say what is outside of them repeat; those of one channel are grey. */
+        if (textureinfo(texturename, "wrapmodes", wrap) == 1)
+            wrap = "default";
+        if (channels < 3)
+            base *= float texture(texturename, s * scales, 1 - t * scalet, "wrap", wrap);
+        else
+            base *= color texture(texturename, s * scales, 1 - t * scalet, "wrap", wrap);
         if (isthere == 0)
             base *= 0.5;
     }
