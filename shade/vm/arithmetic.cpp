@@ -67,8 +67,9 @@ HWY_INLINE V most(V a, V b) {
 HWY_INLINE V step_at(V edge, V x) {
     return hn::IfThenZeroElse(hn::Lt(x, edge), set(1));
 }
+/// The lower bound is looked at first, where bounds are the wrong way round (RISpec 3.2, section 15.1).
 HWY_INLINE V clamp(V x, V low, V high) {
-    return at_most(at_least(x, low), high);
+    return hn::IfThenElse(hn::Ge(x, low), at_most(x, high), low);
 }
 HWY_INLINE V mix(V a, V b, V t) {
     return hn::Add(hn::Mul(a, hn::Sub(set(1), t)), hn::Mul(b, t));

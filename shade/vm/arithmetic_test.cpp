@@ -62,8 +62,8 @@ TEST(Arithmetic, OfTwoNumbers) {
 
 TEST(Arithmetic, OfThreeNumbers) {
     check_components(Op::Clamp, 3, [](const Floats& x) {
-        const float low = x[0] > x[1] ? x[0] : x[1];
-        return low < x[2] ? low : x[2];
+        if (!(x[0] >= x[1])) return x[1];
+        return x[0] < x[2] ? x[0] : x[2];
     });
     check_components(Op::Mix, 3, [](const Floats& x) { return x[0] * (1 - x[2]) + x[1] * x[2]; });
     check_components(Op::SmoothStep, 3, [](const Floats& x) {
