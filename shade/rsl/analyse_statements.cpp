@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "shade/rsl/analyser.h"
 #include "shade/rsl/front_end.h"
+#include "shade/rsl/globals.h"
 #include "shade/rsl/parser.h"
 
 namespace trapeze::rsl {
@@ -14,10 +17,42 @@ void Analyser::value(ExpressionPtr& e, Base wanted) {
     height_ = 0;
 }
 
+/// A statement within another one. What one without braces declares is known behind it, as other compilers
+/// have it, unless the name already means something there.
 void Analyser::scoped(StatementPtr& s) {
-    scopes_.emplace_back();
+    if (s->kind == Statement::Kind::Declare) declare_again(s);
+    const bool declares =
+        s->kind == Statement::Kind::Declare && std::ranges::none_of(s->variables, [&](const auto& v) {
+            return v->external || find_variable(v->name) || find_global(shader_->kind, v->name);
+        });
+    if (declares)
+        for (const auto& variable : s->variables) variable->outlives = true;
+    const bool own_scope =
+        s->kind == Statement::Kind::Block || (s->kind == Statement::Kind::Declare && !declares);
+    if (own_scope) scopes_.emplace_back();
     statement(s);
-    scopes_.pop_back();
+    if (own_scope) scopes_.pop_back();
+}
+
+/// The other branch's declaration of a variable that lives on becomes an assignment to it.
+void Analyser::declare_again(StatementPtr& s) {
+    if (s->variables.size() != 1 || !s->variables.front()->initial) return;
+    Variable& again = *s->variables.front();
+    const Variable* known = find_variable(again.name);
+    if (!known || !known->outlives || known->type != again.type || again.type.is_array()) return;
+    auto place = std::make_unique<Expression>();
+    place->kind = Expression::Kind::Variable;
+    place->text = again.name;
+    place->at = again.at;
+    auto assignment = std::make_unique<Expression>();
+    assignment->kind = Expression::Kind::Assignment;
+    assignment->at = again.at;
+    assignment->height = static_cast<uint16_t>(again.initial->height + 1);
+    assignment->children.push_back(std::move(place));
+    assignment->children.push_back(std::move(again.initial));
+    s->kind = Statement::Kind::Evaluate;
+    s->variables.clear();
+    s->expressions.push_back(std::move(assignment));
 }
 
 void Analyser::statement(StatementPtr& s) {
@@ -68,9 +103,9 @@ void Analyser::statement(StatementPtr& s) {
 }
 
 void Analyser::block(Statement& s) {
-    scopes_.emplace_back();
+    if (!s.open) scopes_.emplace_back();
     for (StatementPtr& child : s.children) statement(child);
-    scopes_.pop_back();
+    if (!s.open) scopes_.pop_back();
 }
 
 void Analyser::declaration(Statement& s) {

@@ -68,6 +68,7 @@ class Analyser {
     void scoped(StatementPtr& s);
     void block(Statement& s);
     void declaration(Statement& s);
+    void declare_again(StatementPtr& s);
     void light_loop(Statement& s);
     void ignore_options(Statement& s, const std::string& word);
     void gather(Statement& s);
@@ -114,7 +115,7 @@ class Analyser {
     int cost_of(const Signature& signature, const Expression& call) const;
     int cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const;
     bool lacks_knots(const Expression& call);
-    void explain(const std::vector<Signature>& all, const Expression& call);
+    void explain(std::vector<Signature> all, const Expression& call);
     void unknown_function(const Expression& call);
     void enter_function(Expression& call, const Function& original);
     void use_globals(const Expression& call);

@@ -99,6 +99,22 @@ TEST(Analysis, TheResultWantedChoosesTheOverload) {
     EXPECT_EQ(tree("a = spline(\"linear\", a, arr);"), "(= a spline:f(\"linear\" a arr))");
 }
 
+TEST(Analysis, PowersOfTriplesAreALastResort) {
+    EXPECT_EQ(tree("c = pow(Cs, a);"), "(= c pow:c(Cs a))");
+    EXPECT_EQ(tree("c = a * pow(Cs, Os);"), "(= c (*c a pow:c(Cs Os)))");
+    EXPECT_EQ(tree("c = pow(noise(P), 2);"), "(= c {c pow:f(noise:f(P) 2)})");
+    EXPECT_EQ(tree("c = Cs * pow(noise(P), 2);"), "(= c (*c Cs pow:f(noise:f(P) 2)))");
+}
+
+TEST(Analysis, ColoursAndVectorsAreAssignedToEachOtherWithAWarning) {
+    EXPECT_EQ(in_surface("color c = N; Ci = c;"),
+              "warning 1:77: a normal becomes a color here: its three numbers are taken as they are\n");
+    EXPECT_EQ(in_surface("vector v; v = 2 * Cs; Ci = xcomp(v);"),
+              "warning 1:83: a color becomes a vector here: its three numbers are taken as they are\n");
+    EXPECT_EQ(in_surface("Ci = Cs + N;"), "error 1:75: \"+\" does not go with a color and a normal\n");
+    EXPECT_EQ(in_surface("Ci += N;"), "error 1:70: a normal cannot be combined by \"+=\" with a color\n");
+}
+
 TEST(Analysis, TriplesAreWhatIsWanted) {
     EXPECT_EQ(tree("c = (1, 0, a);"), "(= c c(1 0 a))");
     EXPECT_EQ(tree("p = (1, 0, a);"), "(= p p(1 0 a))");
@@ -209,7 +225,8 @@ TEST(Analysis, GlobalsAreMadeWhenNamed) {
     const GlobalVariable* e = find_global(ShaderKind::Surface, "E");
     ASSERT_TRUE(e);
     EXPECT_EQ(e->storage, Storage::Uniform);
-    EXPECT_FALSE(find_global(ShaderKind::Surface, "Ps"));
+    EXPECT_TRUE(find_global(ShaderKind::Surface, "Ps"));
+    EXPECT_FALSE(find_global(ShaderKind::Displacement, "Ps"));
     EXPECT_TRUE(find_global(ShaderKind::Imager, "alpha"));
 }
 

@@ -53,6 +53,9 @@ struct Variable {
     bool output = false;  ///< a shader's output parameter, or a function's
     /// Names a variable of outside (`extern`). The analysis takes such declarations out of the tree.
     bool external = false;
+    /// Declared in a statement without braces (`if (a) float x = 1;`): it lives on behind that, where it was
+    /// 0 before.
+    bool outlives = false;
     bool copied = false;  ///< a predefined variable that is only read, yet assigned to: the shader has a copy
     ExpressionPtr initial;  ///< default or initial value; may be null. An array's is a List.
     SourceLocation at;
@@ -120,6 +123,7 @@ struct Statement {
     };
     Kind kind = Kind::Empty;
     int levels = 1;
+    bool open = false;  ///< of a Block: no braces, and no scope, of its own
     std::vector<ExpressionPtr> expressions;
     std::vector<StatementPtr> children;
     std::vector<std::unique_ptr<Variable>> variables;

@@ -20,6 +20,7 @@ struct Builtin {
     char result;
     std::string_view parameters;
     Op op;
+    bool last_resort = false;  ///< beyond the specification: taken only where no other overload fits
 };
 
 std::span<const Builtin> builtins();

@@ -79,7 +79,7 @@ int Analyser::cost_of_argument(const Signature::Parameter& parameter, const Expr
 /// Of all its arguments; kNever when the call does not fit.
 int Analyser::cost_of(const Signature& signature, const Expression& call) const {
     if (!count_fits(signature, call.children.size())) return Choices::kNever;
-    int cost = 0;
+    int cost = signature.builtin && signature.builtin->last_resort ? kLastResort : 0;
     for (size_t i = 0; i < call.children.size(); ++i) {
         const Expression& argument = *call.children[i];
         int one = 0;
@@ -134,8 +134,9 @@ bool Analyser::lacks_knots(const Expression& call) {
     return true;
 }
 
-/// Says what is wrong with the one function that a call can mean, or lists all.
-void Analyser::explain(const std::vector<Signature>& all, const Expression& call) {
+/// Says what is wrong with the one function that a call can mean, or lists all of the specification.
+void Analyser::explain(std::vector<Signature> all, const Expression& call) {
+    std::erase_if(all, [](const Signature& s) { return s.builtin && s.builtin->last_resort; });
     if (all.back().builtin && all.back().builtin->op == Op::Spline && lacks_knots(call)) return;
     const auto fits = [&](const Signature& s) { return count_fits(s, call.children.size()); };
     const auto fitting = std::count_if(all.begin(), all.end(), fits);

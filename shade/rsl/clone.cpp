@@ -37,6 +37,7 @@ StatementPtr clone(const Statement& s) {
     auto copy = std::make_unique<Statement>();
     copy->kind = s.kind;
     copy->levels = s.levels;
+    copy->open = s.open;
     copy->defines = s.defines;
     copy->at = s.at;
     for (const ExpressionPtr& e : s.expressions) copy->expressions.push_back(clone(e));

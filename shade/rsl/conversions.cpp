@@ -144,6 +144,14 @@ std::optional<Base> Choices::best_for(Base to) const {
     return best;
 }
 
+std::optional<Base> Choices::foreign_triple_for(Base to) const {
+    if (unknown_ || !is_triple(to) || cost_to(to) < kNever) return {};
+    std::optional<Base> best;
+    for (const Base base : kAllBases)
+        if (is_triple(base) && cost(base) < (best ? cost(*best) : kNever)) best = base;
+    return best;
+}
+
 std::string Choices::text() const {
     int least = kNever;
     for (const Base base : kAllBases) least = std::min(least, cost(base));

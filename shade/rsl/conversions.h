@@ -46,6 +46,9 @@ class Choices {
     int cost_to(Base to) const;
     /// The choice that gets there cheapest; if `to` is Void, the cheapest of all. Nothing when there is none.
     std::optional<Base> best_for(Base to) const;
+    /// Where cost_to() is kNever: the triple of another family whose components may serve, a colour for a
+    /// point or a vector for a colour. Nothing when there is none.
+    std::optional<Base> foreign_triple_for(Base to) const;
     /// "point or vector".
     std::string text() const;
 
@@ -53,6 +56,9 @@ class Choices {
     std::array<int, 9> costs_;
     bool unknown_ = false;
 };
+
+/// More than any conversion: what only overloads that are a last resort cost.
+inline constexpr int kLastResort = 16;
 
 /// How bad it is to convert without being told to; nothing: not allowed. 0: nothing to do.
 std::optional<int> conversion_cost(Base from, Base to);

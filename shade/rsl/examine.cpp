@@ -308,7 +308,9 @@ Choices Analyser::examine_assignment(Expression& e) {
             if (const auto planned = plan(e.op, base, from))
                 if (planned->left == base && conversion_cost(planned->result, base))
                     cost = std::min(cost, given.cost(from) + planned->cost);
-    if (cost < Choices::kNever) return Choices(base);
+    // A colour that is assigned to a vector, or the reverse, is warned of in settle().
+    const bool as_it_is = e.op == Operator::None && given.foreign_triple_for(base);
+    if (cost < Choices::kNever || as_it_is) return Choices(base);
     error(e.at, "a " + given.text() + " cannot be " +
                     (e.op == Operator::None ? "assigned to"
                                             : "combined by \"" + std::string(text_of(e.op)) + "=\" with") +

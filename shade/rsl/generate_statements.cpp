@@ -66,7 +66,10 @@ void Generator::statement(const Statement& s) {
     if (s.at.line) at_ = s.at;
     switch (s.kind) {
         case Statement::Kind::Block:
-            for (const StatementPtr& child : s.children) statement(*child);
+            for (const StatementPtr& child : s.children) {
+                if (!s.open) declare_outliving(*child);
+                statement(*child);
+            }
             break;
         case Statement::Kind::Declare:
             declare(s);
@@ -107,13 +110,24 @@ void Generator::statement(const Statement& s) {
 /// another left behind; the optimiser drops the zero where it is overwritten.
 void Generator::declare(const Statement& s) {
     for (const auto& variable : s.variables) {
-        locals_.erase(variable.get());
+        if (!variable->outlives) locals_.erase(variable.get());
         const RegisterId id = register_of(*variable);
         if (!variable->initial)
             clear(id);
         else
             initialise(id, *variable->initial);
     }
+}
+
+/// Variables of a block that statements without braces declare somewhere within this one of its statements.
+void Generator::declare_outliving(const Statement& s) {
+    for (const auto& variable : s.variables) {
+        if (!variable->outlives) continue;
+        locals_.erase(variable.get());
+        clear(register_of(*variable));
+    }
+    if (s.kind == Statement::Kind::Block && !s.open) return;
+    for (const StatementPtr& child : s.children) declare_outliving(*child);
 }
 
 void Generator::clear(RegisterId id) {

@@ -78,6 +78,7 @@ class Generator {
     // Statements.
     void statement(const Statement& s);
     void declare(const Statement& s);
+    void declare_outliving(const Statement& s);
     void clear(RegisterId id);
     void initialise(RegisterId id, const Expression& initial);
     void if_statement(const Statement& s);

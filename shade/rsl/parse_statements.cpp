@@ -60,6 +60,7 @@ StatementPtr Parser::evaluation() {
     StatementPtr statement, several;
     do {
         if (statement && !several) several = make(Statement::Kind::Block, first);
+        if (several) several->open = true;
         if (statement) several->children.push_back(std::move(statement));
         statement = make(Statement::Kind::Evaluate, now());
         statement->expressions.push_back(expression());
@@ -149,6 +150,7 @@ StatementPtr Parser::for_statement() {
         loop->expressions.push_back(at(";") ? nullptr : expression());
         while (accept(",")) {
             if (!around) around = make(Statement::Kind::Block, tokens_[next_ - 1]);
+            around->open = true;
             StatementPtr before = make(Statement::Kind::Evaluate, now());
             before->expressions.push_back(std::move(loop->expressions[0]));
             around->children.push_back(std::move(before));

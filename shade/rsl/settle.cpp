@@ -14,7 +14,11 @@ void Analyser::settle(ExpressionPtr& e, Base wanted) {
         if (wanted != Base::Void) error(e->at, "this is an array; one of its elements is wanted here");
         return;
     }
-    const auto base = choices.best_for(wanted);
+    auto base = choices.best_for(wanted);
+    if (!base && (base = choices.foreign_triple_for(wanted)))
+        messages_.warning(e->at, "a " + std::string(name_of(*base)) + " becomes a " +
+                                     std::string(name_of(wanted)) +
+                                     " here: its three numbers are taken as they are");
     if (!base) {
         const bool nothing = choices.has(Base::Void);
         error(e->at, nothing ? "this has no value, a " + std::string(name_of(wanted)) + " is wanted"

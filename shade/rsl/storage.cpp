@@ -148,8 +148,9 @@ class Inference {
     }
 
     void declare(Variable& variable, int apart) {
-        depth_[&variable] = apart;
+        depth_[&variable] = variable.outlives ? 0 : apart;
         if (!variable.initial) return;
+        if (variable.outlives && apart > 0) make_varying(variable, variable.at, false);
         expression(*variable.initial, apart);
         if (varying(*variable.initial)) make_varying(variable, variable.at, true);
         if (all_varying_) make_varying(variable, variable.at, false);

@@ -38,6 +38,8 @@ std::vector<BuiltinCase> number_cases() {
         {"r = max(X, Y) + 10 * max(X, Y, 0.4, 0.6);",
          TRAPEZE_GIVES(std::max(x, y) + 10 * std::max({x, y, 0.4, 0.6}))},
         {"r = clamp(X * 3, 0.5, Y + 1);", TRAPEZE_GIVES(std::clamp(x * 3, 0.5, y + 1))},
+        {"r = clamp(X * 3, 1.5, 1);", TRAPEZE_GIVES(x * 3 < 1.5 ? 1.5 : 1)},
+        {"r = K(pow(color (X, Y, 0.5), color (2, 1, 3)));", TRAPEZE_GIVES(x * x + 10 * y + 12.5), 1e-5},
         {"r = mix(2, X, Y);", TRAPEZE_GIVES(2 + (x - 2) * y)},
         {"r = step(0.5, X) + 2 * step(X, Y + 0.1);",
          TRAPEZE_GIVES((x < 0.5 ? 0 : 1) + 2 * (y + 0.1 < x ? 0 : 1))},
@@ -64,8 +66,11 @@ std::vector<BuiltinCase> number_cases() {
         cases.push_back({of("max(" + a + ", " + b + ", " + b + ")"),
                          by_component([](double p, double q) { return std::max(p, q); }), 1e-5});
         cases.push_back({of("clamp(" + a + ", " + type + " 0.1, " + b + ")"),
-                         by_component([](double p, double q) { return std::min(std::max(p, 0.1), q); }),
+                         by_component([](double p, double q) { return p < 0.1 ? 0.1 : std::min(p, q); }),
                          1e-5});
+        if (type != "normal")
+            cases.push_back(
+                {of("pow(" + a + ", 3)"), TRAPEZE_GIVES(x * x * x + 10 * y * y * y + 100 * 0.125), 1e-5});
         cases.push_back({of("mix(" + a + ", " + b + ", 0.25)"),
                          by_component([](double p, double q) { return p + (q - p) * 0.25; }), 1e-5});
         if (type != "normal")

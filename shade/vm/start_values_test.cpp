@@ -55,12 +55,13 @@ TEST(StartValues, LanesThatDoNotRunKeepThem) {
 TEST(StartValues, KnowEveryNameOfTheTables) {
     const ShaderRun run(
         "surface test(output varying float r = 0;) {"
-        "  r = comp(Ci, 0) + comp(Oi, 0) + comp(Cs, 0) + comp(Os, 0) + xcomp(P) + xcomp(N) + xcomp(Ng);"
+        "  r = comp(Ci, 0) + comp(Oi, 0) + comp(Cs, 0) + comp(Os, 0) + xcomp(P) + xcomp(Ps) + xcomp(N) + "
+        "xcomp(Ng);"
         "  r += xcomp(dPdu) + xcomp(dPdv) + xcomp(I) + u + v + s + t + du + dv + time + dtime + ncomps; }");
     EXPECT_TRUE(run.messages().empty()) << run.messages();
     size_t known = 0;
     for (const StartValue& value : start_values(run.program())) known += value.variable != Predefined::Other;
-    EXPECT_EQ(known, 19u);
+    EXPECT_EQ(known, 20u);
 }
 
 }  // namespace

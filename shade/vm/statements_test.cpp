@@ -23,6 +23,24 @@ TEST(Statements, VariablesInsideBranchesAreTheirOwn) {
         [](float s, float t) { return (s > 0.5f ? 10 + t : 0) + 1; }, 1e-6f);
 }
 
+TEST(Statements, VariablesOfStatementsWithoutBracesLiveOn) {
+    expect_values("if (s > 0.5) float y = 1 + t; r = y;",
+                  [](float s, float t) { return s > 0.5f ? 1 + t : 0; });
+    expect_values("if (s > 0.5) float y = 1; else float y = 2; y += t; r = y;",
+                  [](float s, float t) { return (s > 0.5f ? 1 : 2) + t; });
+    expect_values("float i, j; for (i = 0, j = 2; i < 3; i += 1) float y = i + j; r = y;",
+                  [](float, float) { return 4; });
+    // Each turn of a loop around begins with 0.
+    expect_values("float i; for (i = 0; i < 3; i += 1) { if (i < 2) if (s > 0.5) float y = i + 1; r += y; }",
+                  [](float s, float) { return s > 0.5f ? 3 : 0; });
+    expect_values(
+        "r = f(s) + f(t);", [](float s, float t) { return (s > 0.5f ? s : 0) + (t > 0.5f ? t : 0); }, 0,
+        "float f(float x) { if (x > 0.5) float y = x; return y; }");
+    // A name that means something there already is another variable.
+    expect_values("float y = 3; if (s > 0.5) float y = 1; r = y;", [](float, float) { return 3; });
+    expect_values("if (s > 0.5) float t = 7; r = t;", [](float, float t) { return t; });
+}
+
 TEST(Statements, LoopsCountByLane) {
     expect_values("float i; for (i = 0; i < 10; i += 1) r += i;", [](float, float) { return 45; });
     expect_values("float i; for (i = 0; i < 10 * s; i += 1) r += 1;", [](float s, float) {
