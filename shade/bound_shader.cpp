@@ -85,6 +85,12 @@ BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const
             }
             continue;
         }
+        if (executable_->has_run_default(i)) {
+            run_defaults_.push_back(i);
+            value.floats.assign(elements * width, 0.0f);
+            value.texts.resize(width ? 0 : elements);
+            continue;
+        }
         machine.run_initial(frame, i, context);
         for (size_t e = 0; e < elements; ++e) {
             if (!width) value.texts.push_back(frame.text(parameter.id, e));
@@ -179,6 +185,16 @@ void BoundShader::set_parameters(vm::Frame& frame, std::span<const ShadingGrid* 
             }
             std::fill(to + at, to + plane, at ? to[at - 1] : 0.0f);
         }
+    }
+}
+
+void BoundShader::set_run_defaults(vm::Machine& machine, vm::Frame& frame, const vm::Context& context,
+                                   std::span<const ShadingGrid* const> grids) const {
+    for (const size_t i : run_defaults_) {
+        const rsl::ProgramParameter& parameter = program().parameters[i];
+        // Grids that share a run all have the variable, or none has.
+        if (grids.empty() || !suitable_variable(*grids.front(), parameter.name, parameter.type))
+            machine.run_initial(frame, i, context);
     }
 }
 

@@ -25,6 +25,11 @@ class BoundShader {
     /// type replaces it (RISpec 3.2, section 5).
     void set_parameters(vm::Frame& frame, std::span<const ShadingGrid* const> grids) const;
 
+    /// Computes the defaults that follow from the point (Executable::has_run_default) of parameters that
+    /// nothing else gives, once the frame has its parameters and predefined variables.
+    void set_run_defaults(vm::Machine& machine, vm::Frame& frame, const vm::Context& context,
+                          std::span<const ShadingGrid* const> grids) const;
+
     const std::shared_ptr<const vm::Executable>& executable() const { return executable_; }
     const rsl::Program& program() const { return executable_->program(); }
     const ShaderInstance& instance() const { return instance_; }
@@ -39,7 +44,8 @@ class BoundShader {
 
     std::shared_ptr<const vm::Executable> executable_;
     const ShaderInstance& instance_;
-    std::vector<Value> values_;  ///< of program().parameters
+    std::vector<Value> values_;         ///< of program().parameters
+    std::vector<size_t> run_defaults_;  ///< parameters that wait for the run: their values are 0
 };
 
 /// The values of a primitive variable that suit a shader's type; null when there are none.

@@ -98,7 +98,6 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     // Lights that ask for the surface's variables may see them before the surface sets them.
     const bool all = std::ranges::any_of(material_.lights, &Lamp::asks_surface);
     set_variables(frame, grids, context_, shaded, all);
-    shader.connect(layer, frames);
     messages_.running = bound.program().name;
     // Lights may ask the surface that asks them.
     if (bound.program().kind == rsl::ShaderKind::Surface) messages_.surface = &frame;
@@ -113,6 +112,8 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
     scratch_.lights.start(scratch_.machine, material_.lights, surroundings, points.lanes,
                           variable_planes(frame, "N"));
+    bound.set_run_defaults(scratch_.machine, frame, surroundings, grids);
+    shader.connect(layer, frames);
     scratch_.machine.run(frame, surroundings);
     return frame;
 }

@@ -150,6 +150,7 @@ void Imager::run(int x0, int y, int count, float* rgba) const {
         surroundings.diagnostics = impl_->context.diagnostics;
         surroundings.near_clip = impl_->context.camera.near_clip;
         surroundings.far_clip = impl_->context.camera.far_clip;
+        shader.set_run_defaults(machine, frame, surroundings, {});
         machine.run(frame, surroundings);
         const vm::Operand *color = variable(frame, "Ci"), *alpha = variable(frame, "alpha");
         for (size_t i = 0; i < pixels; ++i) {

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/scene.h"
+#include "shade/rsl/globals.h"
+#include "shade/vm/run_defaults.h"
 
 namespace trapeze {
 namespace {
@@ -28,40 +31,41 @@ bool same_kind(const rsl::Type& a, const rsl::Type& b) {
     return width > 0 && width == rsl::width_of(b.base) && a.length == b.length;
 }
 
-/// What is wrong with a connection, or nothing and the connection.
-std::string resolve(const LayerConnection& wanted, const Layers& layers, LayeredShader::Connection& out) {
+/// A parameter's or predefined variable's register; null when the program names no such variable.
+const rsl::RegisterId* find_variable(const rsl::Program& program, const std::string& name) {
+    const rsl::ProgramParameter* parameter = find_parameter(program, name);
+    return parameter ? &parameter->id : program.find_global(name);
+}
+
+/// What is wrong with a connection; else nothing, and the connection, unless it goes to a predefined variable
+/// that the shader does not look at.
+std::string resolve(const LayerConnection& wanted, const Layers& layers,
+                    std::optional<LayeredShader::Connection>& resolved) {
+    LayeredShader::Connection out;
     out.from = find_layer(layers, wanted.from_layer), out.to = find_layer(layers, wanted.to_layer);
     if (out.from == layers.size()) return fmt::format("there is no layer \"{}\"", wanted.from_layer);
     if (out.to == layers.size()) return fmt::format("there is no layer \"{}\"", wanted.to_layer);
     if (out.from >= out.to)
         return fmt::format("layer \"{}\" does not run before \"{}\"", wanted.from_layer, wanted.to_layer);
     const rsl::Program &from = layers[out.from]->program(), &to = layers[out.to]->program();
-    const rsl::ProgramParameter* target = find_parameter(to, wanted.to_variable);
-    if (!target) return fmt::format("shader \"{}\" has no parameter \"{}\"", to.name, wanted.to_variable);
-    if (const rsl::ProgramParameter* parameter = find_parameter(from, wanted.from_variable))
-        out.source = parameter->id;
-    else if (const rsl::RegisterId* global = from.find_global(wanted.from_variable))
-        out.source = *global;
-    else
-        return fmt::format("shader \"{}\" has no variable \"{}\"", from.name, wanted.from_variable);
-    out.target = target->id;
-    if (!same_kind(from.reg(out.source).type, target->type))
+    const rsl::RegisterId *source = find_variable(from, wanted.from_variable),
+                          *target = find_variable(to, wanted.to_variable);
+    if (!target && rsl::find_global(to.kind, wanted.to_variable)) return {};
+    if (!target) return fmt::format("shader \"{}\" has no variable \"{}\"", to.name, wanted.to_variable);
+    if (!source) return fmt::format("shader \"{}\" has no variable \"{}\"", from.name, wanted.from_variable);
+    out.source = *source, out.target = *target;
+    if (!same_kind(from.reg(out.source).type, to.reg(out.target).type))
         return fmt::format("\"{}\" and \"{}\" are of different types", wanted.from_variable,
                            wanted.to_variable);
+    resolved = out;
     return {};
 }
 
 bool asks_object_space(const rsl::Program& program) {
-    return std::ranges::any_of(program.code, [&](const rsl::Instruction& instruction) {
-        if (instruction.op != rsl::Op::SpaceMatrix) return false;
-        for (size_t i = 0; i < instruction.input_count(); ++i) {
-            const rsl::Register& name = program.reg(instruction.input(i));
-            // A name that is computed, or a parameter, may be any.
-            if (name.kind != rsl::Register::Kind::Constant || name.texts.empty() || name.texts[0] == "object")
-                return true;
-        }
-        return false;
-    });
+    return vm::may_ask_object_space(program, program.code) ||
+           std::ranges::any_of(program.parameters, [&](const rsl::ProgramParameter& parameter) {
+               return vm::may_ask_object_space(program, parameter.initial);
+           });
 }
 
 }  // namespace
@@ -102,11 +106,10 @@ LayeredShader make_layered(const ShaderInstance& instance, Layers layers, Diagno
     LayeredShader made;
     made.layers = std::move(layers);
     for (const LayerConnection& wanted : instance.connections) {
-        LayeredShader::Connection connection;
+        std::optional<LayeredShader::Connection> connection;
         const std::string wrong = resolve(wanted, made.layers, connection);
-        if (wrong.empty())
-            made.connections.push_back(connection);
-        else if (diagnostics)
+        if (connection) made.connections.push_back(*connection);
+        if (!wrong.empty() && diagnostics)
             diagnostics->warning(instance.location, "ConnectShaderLayers: " + wrong,
                                  "connect-layers " + wrong);
     }

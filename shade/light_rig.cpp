@@ -116,6 +116,7 @@ void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     context.spaces = lamp.spaces.get();
     context.light_output = &output;
     context.lights = nullptr;
+    lamp.shader->set_run_defaults(*machine_, frame, context, {});
     machine_->run(frame, context);
 
     Arriving& arriving = slot.arriving;

@@ -7,6 +7,7 @@
 #include "shade/rsl/blocks.h"
 #include "shade/rsl/op_traits.h"
 #include "shade/vm/plane_slots.h"
+#include "shade/vm/run_defaults.h"
 
 namespace trapeze::vm {
 namespace {
@@ -75,6 +76,7 @@ Executable::Executable(rsl::Program source, const LoopLimits& limits)
     for (const rsl::ProgramParameter& parameter : program_.parameters)
         initials_.push_back(make_steps(parameter.initial));
     code_ = make_steps(program_.code);
+    run_defaults_ = vm::has_run_default(program_);
     start_values_ = vm::start_values(program_);
     const rsl::RegisterId* P = program_.find_global("P");
     for (const rsl::Instruction& instruction : program_.code)

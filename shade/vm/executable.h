@@ -64,6 +64,9 @@ class Executable {
     /// Texts at the start of a run: those of constants, others empty.
     const std::vector<std::string>& texts() const { return texts_; }
 
+    /// The default of program().parameters[i] is to be computed in each run, by initial(i).
+    bool has_run_default(size_t i) const { return run_defaults_[i]; }
+
     /// Of program().globals.
     const std::vector<StartValue>& start_values() const { return start_values_; }
 
@@ -97,6 +100,7 @@ class Executable {
     std::vector<rsl::RegisterId> operands_;
     std::vector<Place> places_;
     std::vector<std::string> texts_;
+    std::vector<bool> run_defaults_;
     std::vector<StartValue> start_values_;
     uint32_t uniform_planes_ = 0, varying_planes_ = 0, constant_planes_ = 0;
     std::unique_ptr<float, Free> constants_;

@@ -50,6 +50,7 @@ class ShaderRun {
         context.points = &points_;
         context.spaces = &spaces;
         context.diagnostics = &scene_.diagnostics;
+        bound.set_run_defaults(machine_, *frame_, context, grids);
         machine_.run(*frame_, context);
     }
 

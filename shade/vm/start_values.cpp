@@ -25,11 +25,23 @@ Predefined predefined(std::string_view name) {
     return row != std::end(kNames) ? row->second : Predefined::Other;
 }
 
+bool reads(const rsl::Instruction& instruction, rsl::RegisterId id) {
+    const auto inputs = instruction.operands.begin() + instruction.outputs;
+    return std::find(inputs, instruction.operands.end(), id) != instruction.operands.end();
+}
+
+/// Parameters' defaults are computed before the program's code.
+bool defaults_read(const rsl::Program& program, rsl::RegisterId id) {
+    return std::ranges::any_of(program.parameters, [&](const rsl::ProgramParameter& parameter) {
+        return std::ranges::any_of(parameter.initial, [&](const auto& i) { return reads(i, id); });
+    });
+}
+
 /// Whether what comes first of the two is a look, or a write that may leave lanes as they are.
 bool is_needed(const rsl::Code& code, rsl::RegisterId id) {
     for (const rsl::Instruction& instruction : code) {
         const auto inputs = instruction.operands.begin() + instruction.outputs;
-        if (std::find(inputs, instruction.operands.end(), id) != instruction.operands.end()) return true;
+        if (reads(instruction, id)) return true;
         // Lanes that have left run nothing of what follows.
         if (instruction.op == Op::Leave) return true;
         if (std::find(instruction.operands.begin(), inputs, id) == inputs) continue;
@@ -44,7 +56,8 @@ bool is_needed(const rsl::Code& code, rsl::RegisterId id) {
 std::vector<StartValue> start_values(const rsl::Program& program) {
     std::vector<StartValue> values;
     for (const rsl::RegisterId id : program.globals)
-        values.push_back({id, predefined(program.reg(id).name), is_needed(program.code, id)});
+        values.push_back({id, predefined(program.reg(id).name),
+                          is_needed(program.code, id) || defaults_read(program, id)});
     return values;
 }
 

@@ -1,0 +1,52 @@
+#include "shade/vm/run_defaults.h"
+
+#include <algorithm>
+
+#include "shade/rsl/op.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+using rsl::Register;
+
+/// Its result follows from the point, or from maps, lights and other shaders.
+bool asks_surroundings(Op op) {
+    return op == Op::Random || (op >= Op::Du && op <= Op::Depth) ||
+           (op >= Op::Texture && op <= Op::ShaderName);
+}
+
+}  // namespace
+
+std::vector<bool> has_run_default(const rsl::Program& program) {
+    std::vector<bool> found;
+    std::vector<bool> known_late(program.registers.size(), false);
+    for (const rsl::ProgramParameter& parameter : program.parameters) {
+        bool late = may_ask_object_space(program, parameter.initial);
+        for (const rsl::Instruction& instruction : parameter.initial) {
+            late = late || asks_surroundings(instruction.op);
+            for (size_t k = 0; k < instruction.input_count() && !late; ++k) {
+                const rsl::RegisterId id = instruction.input(k);
+                late = known_late[id] || program.reg(id).kind == Register::Kind::Global;
+            }
+        }
+        known_late[parameter.id] = late;
+        found.push_back(late);
+    }
+    return found;
+}
+
+bool may_ask_object_space(const rsl::Program& program, const rsl::Code& code) {
+    return std::ranges::any_of(code, [&](const rsl::Instruction& instruction) {
+        if (instruction.op != Op::SpaceMatrix) return false;
+        for (size_t i = 0; i < instruction.input_count(); ++i) {
+            const Register& name = program.reg(instruction.input(i));
+            // A name that is computed, or a parameter, may be any.
+            if (name.kind != Register::Kind::Constant || name.texts.empty() || name.texts[0] == "object")
+                return true;
+        }
+        return false;
+    });
+}
+
+}  // namespace trapeze::vm
