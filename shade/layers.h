@@ -9,7 +9,8 @@
 namespace trapeze {
 
 struct LayeredShader {
-    /// A parameter of layer `to` takes what layer `from`, which runs before it, has in one of its own.
+    /// A parameter or predefined variable of layer `to` takes what layer `from`, which runs before it, has in
+    /// one of its own.
     struct Connection {
         size_t from = 0, to = 0;
         rsl::RegisterId source = 0, target = 0;
@@ -23,7 +24,7 @@ struct LayeredShader {
     /// Whether a layer may ask for the space named "object".
     bool asks_object_space() const;
 
-    /// Copies what earlier layers have into the parameters of layer `to`. frames[i] is layer i's, all of as
+    /// Copies what earlier layers have into the variables of layer `to`. frames[i] is layer i's, all of as
     /// many lanes.
     void connect(size_t to, std::span<vm::Frame* const> frames) const;
 };

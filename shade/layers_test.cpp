@@ -68,12 +68,30 @@ TEST(Layers, ConnectionsThatCannotBeAreReportedAndLeftOut) {
     const ShadingGrid grid = scene.test.shaded();
     ASSERT_EQ(scene.test.reported.size(), 6u);
     const char* expected[] = {
-        "no layer \"x\"",          "no layer \"y\"",           "\"b\" does not run before",
-        "no variable \"nothing\"", "no parameter \"nothing\"", "different types"};
+        "no layer \"x\"",          "no layer \"y\"",          "\"b\" does not run before",
+        "no variable \"nothing\"", "no variable \"nothing\"", "different types"};
     for (size_t i = 0; i < 6; ++i)
         EXPECT_NE(scene.test.reported[i].text.find(expected[i]), std::string::npos)
             << scene.test.reported[i].text;
     expect_near(grid.Ci.at(0), V3f(21.5f, 21, 26), 0);
+}
+
+TEST(Layers, PredefinedVariablesOfLaterLayersTakeOutputs) {
+    LayeredScene scene;
+    scene.folder.write("show",
+                       "surface show(output varying color seen = 0;) {"
+                       "  Ci = Cs * comp(Os, 0) + color(0, xcomp(N), 0); Oi = Os; }");
+    scene.last->name = "show";
+    // What the shader does not look at may be connected, too.
+    scene.last->connections = {
+        {"a", "tint", "b", "Cs"}, {"a", "tint", "b", "Os"}, {"a", "tint", "b", "N"}, {"a", "mask", "b", "u"}};
+    const ShadingGrid grid = scene.test.shaded();
+    EXPECT_TRUE(scene.test.reported.empty()) << scene.test.reported[0].text;
+    for (size_t i = 0; i < grid.vertex_count(); ++i) {
+        const V3f tint(grid.s[i], grid.t[i], 0.25f);
+        expect_near(grid.Ci.at(i), tint * tint.x + V3f(0, tint.x, 0), 1e-6f);
+        expect_near(grid.Oi.at(i), tint, 0);
+    }
 }
 
 TEST(Layers, AMissingLayerIsReportedAndLeftOut) {
