@@ -114,6 +114,15 @@ void Imager::Impl::load_pixels(vm::Frame& frame, int x0, int y, size_t pixels, c
          [&](size_t i) { return static_cast<float>(x0) + static_cast<float>(i) + 0.5f; });
     load(variable(frame, "P"), 1, pixels, lanes, [&](size_t) { return static_cast<float>(y) + 0.5f; });
     load(variable(frame, "P"), 2, pixels, lanes, [](size_t) { return 0.0f; });
+    for (const char* name : {"s", "u"})
+        load(variable(frame, name), 0, pixels, lanes, [&](size_t i) {
+            return (static_cast<float>(x0) + static_cast<float>(i) + 0.5f) /
+                   static_cast<float>(context.camera.width);
+        });
+    for (const char* name : {"t", "v"})
+        load(variable(frame, name), 0, pixels, lanes, [&](size_t) {
+            return (static_cast<float>(y) + 0.5f) / static_cast<float>(context.camera.height);
+        });
     for (int c = 0; c < 3; ++c) {
         load(variable(frame, "Ci"), c, pixels, lanes,
              [&](size_t i) { return rgba[4 * i + static_cast<size_t>(c)]; });

@@ -20,7 +20,8 @@ class Imager {
     /// Runs it over one row of pixels in place: `count` of them, red green blue alpha each, from pixel
     /// (x0, y) on. Thread-safe; what becomes of a pixel depends on the pixel alone.
     ///
-    /// The shader sees (table 12.5) P, the raster position of the pixel's centre, z 0; Ci; alpha; Oi, which
+    /// The shader sees (table 12.5) P, the raster position of the pixel's centre, z 0; s and u, t and v, the
+    /// same from 0 to 1 over the whole picture, whatever is cropped; Ci; alpha; Oi, which
     /// is alpha in all channels as no more is kept; ncomps, time and dtime. Afterwards Ci and alpha count.
     /// Values that are not finite become 0.
     void run(int x0, int y, int count, float* rgba) const;

@@ -80,6 +80,18 @@ TEST(Imager, SeesItsPixelsPlacesAndTime) {
     EXPECT_TRUE(std::equal(alone.begin(), alone.end(), row.begin() + 4));
 }
 
+TEST(Imager, TextureCoordinatesRunOverTheWholePicture) {
+    TestScene scene;
+    const ShaderFolder folder;
+    folder.write("show", "imager show() { Ci = color(s, t, u - v); alpha = u; }");
+    scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.context.camera.width = 8, scene.context.camera.height = 4;
+    scene.context.camera.crop = {4, 2, 8, 4};
+    set_imager(scene, "show");
+    EXPECT_EQ(imaged(scene, Pixels(8), 4, 3),
+              (Pixels{0.5625f, 0.875f, -0.3125f, 0.5625f, 0.6875f, 0.875f, -0.1875f, 0.6875f}));
+}
+
 TEST(Imager, WhatIsNotFiniteBecomesZero) {
     TestScene scene;
     const ShaderFolder folder;

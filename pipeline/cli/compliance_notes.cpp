@@ -25,7 +25,7 @@ constexpr RequestNote kRequests[] = {
      "hidden; others are warned about and hidden is used; jitter, depthfilter, samplemotion; minsamples and "
      "maxsamples "
      "(as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
-    {"Imager", "over the finished picture, after filtering"},
+    {"Imager", "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture"},
     {"Integrator", "read; RIS shaders are not run"},
     {"Interior", "kept; nothing runs it until rays are traced"},
     {"Light", "RIS shaders are not run: rislight, distantlight and ambientlight, without shadows"},
@@ -62,7 +62,8 @@ constexpr Capability kCapabilities[] = {
     {"Displacements", "supported",
      "P is moved and normals are found again; closed surfaces stay closed. Attribute \"displacementbound\" "
      "is "
-     "needed, and a shader that goes beyond it is reported with the bound that it needs."},
+     "needed, and a shader that goes beyond it is reported with the bound that it needs. With a bound, "
+     "surface shaders that set P displace, too."},
     {"Deformations", "not supported", "Deformation shaders are not run."},
     {"Spectral Colors", "supported with limits", "ColorSamples converts to three samples when RIB is read."},
     {"Programmable Shading", "supported",
