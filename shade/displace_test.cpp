@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "shade/shader_folder_harness.h"
 #include "shade/test_scene.h"
 
 namespace trapeze {
@@ -151,6 +152,48 @@ TEST(Displacement, NullAndZeroNormalsMoveNothing) {
     ShadingGrid flat = scene.grid();
     flat.N.fill(flat.vertex_count(), V3f(0));
     EXPECT_EQ(scene.shaded(flat).P[0].c, before.P[0].c);
+}
+
+/// A scene whose surface shader lifts P.
+struct MovingSurface : TestScene {
+    ShaderFolder folder;
+
+    MovingSurface() {
+        folder.write("lift",
+                     "surface lift() { point before = P; P += 0.5 * s * normalize(N);"
+                     "  Ci = color(P - before); Oi = 1; }");
+        scene.options.search_paths["shader"] = {folder.path()};
+        surface("lift");
+    }
+};
+
+TEST(Displacement, BySurfaceShadersWithinTheBound) {
+    MovingSurface scene;
+    scene.attributes->displacement_bound = 0.5f;
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    EXPECT_TRUE(scene.reported.empty()) << scene.reported.front().text;
+    for (size_t i = 0; i < before.vertex_count(); ++i) {
+        expect_near(moved(after, before, i), V3f(0, 0, -0.5f * before.s[i]), 1e-6f);
+        expect_near(after.Ci.at(i), V3f(0, 0, -0.5f * before.s[i]), 1e-6f);
+    }
+    EXPECT_TRUE(after.displaced);
+    EXPECT_TRUE(Shading(scene.context).displacing_surfaces()(0));
+
+    scene.attributes->displacement_bound = 0.25f;
+    scene.shaded(before);
+    ASSERT_EQ(scene.reported.size(), 1u);
+    EXPECT_NE(scene.reported[0].text.find("Surface \"lift\" moves the surface beyond"), std::string::npos)
+        << scene.reported[0].text;
+}
+
+TEST(Displacement, SurfaceShadersWithoutABoundAreWarnedOf) {
+    MovingSurface scene;
+    const ShadingGrid before = scene.grid(), after = scene.shaded(before);
+    EXPECT_EQ(after.P[0].c, before.P[0].c);
+    EXPECT_NEAR(after.Ci.at(3).z, -0.5f * before.s[3], 1e-6f);
+    ASSERT_EQ(scene.reported.size(), 1u);
+    EXPECT_NE(scene.reported[0].text.find("Surface \"lift\" sets P"), std::string::npos);
+    EXPECT_FALSE(Shading(scene.context).displacing_surfaces()(0));
 }
 
 TEST(Displacement, ToNowhereStays) {

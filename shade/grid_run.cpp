@@ -1,10 +1,10 @@
 #include "shade/grid_run.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "shade/grid_shader.h"
 #include "shade/take_aovs.h"
-#include "shade/weld.h"
 
 namespace trapeze {
 namespace {
@@ -47,6 +47,12 @@ void for_each_run(std::vector<ShadingGrid*> grids, const LayeredShader& shader, 
     }
 }
 
+std::vector<BorderWeld> welds_of(std::span<ShadingGrid* const> grids) {
+    std::vector<BorderWeld> welds;
+    for (const ShadingGrid* grid : grids) welds.emplace_back(*grid);
+    return welds;
+}
+
 std::vector<const ShadingGrid*> to_read(std::span<ShadingGrid* const> grids) {
     return {grids.begin(), grids.end()};
 }
@@ -74,16 +80,17 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
 }
 
 void GridRun::run(const AovLayout& aovs) {
-    if (material_.displacement) displace();
+    Frames displaced;
+    if (material_.displacement) displaced = displace();
     // What the first layer does not name stays as the primitive has it; the rest is taken from the frame.
     const rsl::Program& first = material_.surface->layers.front()->program();
     for (ShadingGrid* grid : grids_) {
         if (!first.find_global("Ci")) grid->Ci = grid->Cs;
         if (!first.find_global("Oi")) grid->Oi = grid->Os;
     }
-    color(*material_.surface, false, messages_.surface);
+    const Frames surface = color(*material_.surface, false, messages_.surface);
     if (material_.atmosphere) color(*material_.atmosphere, true, messages_.atmosphere);
-    if (!aovs.empty()) take_aovs(aovs, *messages_.surface, grids_);
+    if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
 }
 
 vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
@@ -119,18 +126,20 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
 }
 
 /// All layers over the pieces of the grids' borders: what those who share a border point take of it.
-void GridRun::displace_borders(const LayeredShader& shader) {
+void GridRun::move_borders(const LayeredShader& shader) {
     std::vector<ShadingGrid*> borders;
     for (ShadingGrid* grid : grids_)
         for (ShadingGrid& pieces : grid->border) borders.push_back(&pieces);
+    // Of another run, with other lanes.
+    const vm::Frame* const of_grids = std::exchange(messages_.displacement, nullptr);
     for_each_run(std::move(borders), shader, [&](std::span<ShadingGrid* const> run) {
         const std::vector<const ShadingGrid*> read = to_read(run);
         const vm::Points points = points_of(read, true);
         Frames frames;
-        messages_.displacement = nullptr;  // of another run, with other lanes
+        messages_.displacement = nullptr;
         for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
             const vm::Frame& frame = run_layer(shader, layer, read, points, false, frames);
-            messages_.displacement = &frame;
+            if (&shader == material_.displacement) messages_.displacement = &frame;
             size_t first = 0;
             for (ShadingGrid* pieces : run) {
                 displace_grid(displaced_by(frame, first, pieces->vertex_count()), *pieces, scratch_.pool);
@@ -138,35 +147,47 @@ void GridRun::displace_borders(const LayeredShader& shader) {
             }
         }
     });
+    messages_.displacement = of_grids;
 }
 
-void GridRun::displace() {
+/// By what a shader that has run on them made of P and N.
+void GridRun::move_grids(const vm::Frame& frame) {
+    size_t first = 0;
+    for (ShadingGrid* grid : grids_) {
+        raise(material_.displacement_reach,
+              displace_grid(displaced_by(frame, first, grid->vertex_count()), *grid, scratch_.pool));
+        first += grid->vertex_count();
+    }
+}
+
+GridRun::Frames GridRun::displace() {
     const LayeredShader& shader = *material_.displacement;
-    std::vector<BorderWeld> welds;
-    for (const ShadingGrid* grid : grids_) welds.emplace_back(*grid);
-    displace_borders(shader);
-    messages_.displacement = nullptr;
+    const std::vector<BorderWeld> welds = welds_of(grids_);
+    move_borders(shader);
     Frames frames;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
         const vm::Frame& frame = run_layer(shader, layer, read_, points_, false, frames);
         messages_.displacement = &frame;
-        size_t first = 0;
-        for (ShadingGrid* grid : grids_) {
-            raise(material_.displacement_reach,
-                  displace_grid(displaced_by(frame, first, grid->vertex_count()), *grid, scratch_.pool));
-            first += grid->vertex_count();
-        }
+        move_grids(frame);
     }
     for (size_t g = 0; g < grids_.size(); ++g) welds[g].close(*grids_[g]);
+    return frames;
 }
 
-void GridRun::color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced) {
+/// A surface shader that moves P displaces the surface behind it, as a displacement shader does.
+GridRun::Frames GridRun::color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced) {
+    const bool moves = &shader == material_.surface && material_.surface_moves;
+    const std::vector<BorderWeld> welds = moves ? welds_of(grids_) : std::vector<BorderWeld>();
+    if (moves) move_borders(shader);
     Frames frames;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
         vm::Frame& frame = run_layer(shader, layer, read_, points_, shaded || layer > 0, frames);
         announced = &frame;
         take_colors(frame, grids_);
+        if (moves && writes_variable(frame.program(), "P")) move_grids(frame);
     }
+    for (size_t g = 0; g < welds.size(); ++g) welds[g].close(*grids_[g]);
+    return frames;
 }
 
 }  // namespace trapeze

@@ -9,6 +9,7 @@
 #include "shade/grid_messages.h"
 #include "shade/map_service.h"
 #include "shade/material.h"
+#include "shade/weld.h"
 
 namespace trapeze {
 
@@ -38,9 +39,11 @@ class GridRun {
     /// Shades points, which are those of `grids`; returns the layer's frame.
     vm::Frame& run_layer(const LayeredShader& shader, size_t layer, std::span<const ShadingGrid* const> grids,
                          const vm::Points& points, bool shaded, Frames& frames);
-    void displace();
-    void displace_borders(const LayeredShader& shader);
-    void color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced);
+    // These return the layers' frames.
+    Frames displace();
+    Frames color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced);
+    void move_borders(const LayeredShader& shader);
+    void move_grids(const vm::Frame& frame);
 
     const RenderContext& context_;
     const Material& material_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "shade/grid_shader.h"
 #include "shade/stand_in_light.h"
 
 namespace trapeze {
@@ -54,6 +55,7 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
         material.atmosphere = layered(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
         if (!material.atmosphere) warn_missing("Atmosphere", *attributes.atmosphere, "there is none");
     }
+    material.surface_moves = may_move(*material.surface, attributes);
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
         material.asks_object_space |= shader && shader->asks_object_space();
     for (const auto& instance : attributes.lights)
@@ -94,6 +96,21 @@ const LayeredShader* Materials::surface(const ShaderInstance* instance, const Na
     if (const LayeredShader* found = layered(*instance, rsl::ShaderKind::Surface, varying)) return found;
     warn_missing("Surface", *instance, "defaultsurface is used");
     return layered(default_instance_, rsl::ShaderKind::Surface, varying);
+}
+
+/// A surface shader that sets P: without a bound it has P for itself, which many use as just another point.
+bool Materials::may_move(const LayeredShader& surface, const Attributes& attributes) {
+    const bool moves = std::ranges::any_of(
+        surface.layers, [](const BoundShader* layer) { return writes_variable(layer->program(), "P"); });
+    if (!moves || attributes.displacement_bound > 0) return moves;
+    const ShaderInstance& shader = surface.last().instance();
+    if (diagnostics_)
+        diagnostics_->warning(shader.location,
+                              fmt::format("Surface \"{}\" sets P: the surface is not displaced, since there "
+                                          "is no Attribute \"displacementbound\"",
+                                          shader.name),
+                              "surface-moves " + shader.name);
+    return false;
 }
 
 const Lamp* Materials::lamp(const LightInstance& instance) {

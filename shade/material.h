@@ -26,8 +26,11 @@ struct Material {
     const LayeredShader* atmosphere = nullptr;    ///< may be null
     /// A shader asks for object space, and so grids of different primitives cannot share a run.
     bool asks_object_space = false;
+    /// The surface shader sets P, and the displacement bound allows it: the surface is displaced by it, too.
+    bool surface_moves = false;
     std::vector<const Lamp*> lights;
-    /// The farthest that the displacement shader has moved a vertex, in camera space.
+    /// The farthest that the displacement shader, or such a surface shader, has moved a vertex, in camera
+    /// space.
     mutable std::atomic<float> displacement_reach{0};
 };
 
@@ -48,6 +51,7 @@ class Materials {
     const BoundShader* bound(const ShaderInstance& instance, rsl::ShaderKind kind, Names varying,
                              std::span<const std::string> connected);
     const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
+    bool may_move(const LayeredShader& surface, const Attributes& attributes);
     const Lamp* lamp(const LightInstance& instance);
     void warn_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
 

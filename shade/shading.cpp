@@ -82,6 +82,10 @@ FindDepthHeight Shading::depth_heights() const {
     };
 }
 
+std::function<bool(uint32_t)> Shading::displacing_surfaces() const {
+    return [impl = impl_.get()](uint32_t primitive) { return impl->materials.of(primitive).surface_moves; };
+}
+
 void Shading::report_displacement_bounds() const {
     Diagnostics* diagnostics = impl_->context.diagnostics;
     if (!diagnostics) return;
@@ -96,12 +100,14 @@ void Shading::report_displacement_bounds() const {
         if (sphere > 0 && bound > 0)
             needed = fmt::format("\"sphere\" {:.4g} is needed where {:.4g} is given", sphere * reach / bound,
                                  sphere);
-        const ShaderInstance& shader = *material.attributes->displacement;
+        const bool by_surface = !material.displacement;
+        const ShaderInstance& shader =
+            (by_surface ? material.surface : material.displacement)->last().instance();
         diagnostics->warning(
             shader.location,
-            fmt::format("Displacement \"{}\" moves the surface beyond Attribute \"displacementbound\", and "
+            fmt::format("{} \"{}\" moves the surface beyond Attribute \"displacementbound\", and "
                         "parts may be missing: {}",
-                        shader.name, needed));
+                        by_surface ? "Surface" : "Displacement", shader.name, needed));
     }
 }
 

@@ -1,6 +1,7 @@
 /// The room's door: runs a scene's shaders over diced grids.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -49,6 +50,10 @@ class Shading {
 
     /// Of the scene's depth maps, as shadow() finds them; valid as long as this.
     FindDepthHeight depth_heights() const;
+
+    /// Which primitives of the scene, by their indices, their surface shaders displace; valid as long as
+    /// this.
+    std::function<bool(uint32_t)> displacing_surfaces() const;
 
     /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond
     /// the displacement bound, with the bound that was needed.

@@ -51,14 +51,45 @@ bool is_result(const Aov& aov) {
     return aov.name == "Ci" || aov.name == "Oi";
 }
 
+bool fits(const rsl::Type& type, const Aov& aov) {
+    return !type.is_array() && rsl::width_of(type.base) == aov.channels;
+}
+
+/// The register of an output parameter; null when the program has none of as many numbers.
+const rsl::RegisterId* output_of(const rsl::Program& program, const Aov& aov) {
+    for (const rsl::ProgramParameter& parameter : program.parameters)
+        if (parameter.output && parameter.name == aov.name && fits(parameter.type, aov)) return &parameter.id;
+    return nullptr;
+}
+
 /// The register of a variable that the program has; null when it has none of as many numbers.
 const rsl::RegisterId* register_of(const rsl::Program& program, const Aov& aov) {
     const rsl::RegisterId* id = program.find_global(aov.name);
     for (const rsl::ProgramParameter& parameter : program.parameters)
         if (parameter.name == aov.name) id = &parameter.id;
-    if (!id) return nullptr;
-    const rsl::Type type = program.reg(*id).type;
-    return !type.is_array() && rsl::width_of(type.base) == aov.channels ? id : nullptr;
+    return id && fits(program.reg(*id).type, aov) ? id : nullptr;
+}
+
+using Frames = std::span<vm::Frame* const>;
+
+/// Where shaders hold a variable; null when they have none.
+const vm::Operand* operand_of(const Aov& aov, Frames surface, Frames displacement) {
+    if (is_result(aov)) return nullptr;
+    for (const Frames layers : {surface, displacement})
+        for (size_t i = layers.size(); i-- > 0;)
+            if (const rsl::RegisterId* id = output_of(layers[i]->program(), aov))
+                return &layers[i]->operand(*id);
+    const rsl::RegisterId* id = register_of(surface.back()->program(), aov);
+    return id ? &surface.back()->operand(*id) : nullptr;
+}
+
+bool provides(const Material& material, const Aov& aov) {
+    for (const LayeredShader* shader : {material.surface, material.displacement})
+        if (shader && std::ranges::any_of(shader->layers, [&](const BoundShader* layer) {
+                return output_of(layer->program(), aov) != nullptr;
+            }))
+            return true;
+    return register_of(material.surface->last().program(), aov) != nullptr;
 }
 
 /// One channel of one grid, whose lanes begin at `first`.
@@ -88,11 +119,11 @@ SourceLocation asked_at(const Options& options, const Aov& aov) {
 
 }  // namespace
 
-void take_aovs(const AovLayout& layout, const vm::Frame& surface, std::span<ShadingGrid* const> grids) {
+void take_aovs(const AovLayout& layout, Frames surface, Frames displacement,
+               std::span<ShadingGrid* const> grids) {
     for (ShadingGrid* grid : grids) grid->aovs.resize(static_cast<size_t>(layout.channel_count));
     for (const Aov& aov : layout.aovs) {
-        const rsl::RegisterId* id = is_result(aov) ? nullptr : register_of(surface.program(), aov);
-        const vm::Operand* from = id ? &surface.operand(*id) : nullptr;
+        const vm::Operand* from = operand_of(aov, surface, displacement);
         size_t first = 0;
         for (ShadingGrid* grid : grids) {
             for (int channel = 0; channel < aov.channels; ++channel)
@@ -106,16 +137,15 @@ void report_missing_aovs(const AovLayout& layout, const Materials& materials, co
                          Diagnostics& diagnostics) {
     for (const Aov& aov : layout.aovs) {
         const bool found =
-            grids_have(aov) ||
-            std::any_of(materials.all().begin(), materials.all().end(), [&](const Material& material) {
-                return register_of(material.surface->last().program(), aov) != nullptr;
-            });
+            grids_have(aov) || std::any_of(materials.all().begin(), materials.all().end(),
+                                           [&](const Material& material) { return provides(material, aov); });
         if (!found)
             diagnostics.warning(
                 asked_at(options, aov),
-                fmt::format("Display: no surface shader of the scene has a variable \"{}\" of {}; "
-                            "it is 0 everywhere",
-                            aov.name, aov.channels == 1 ? "one number" : "three numbers"),
+                fmt::format(
+                    "Display: no surface or displacement shader of the scene has a variable \"{}\" of {}; "
+                    "it is 0 everywhere",
+                    aov.name, aov.channels == 1 ? "one number" : "three numbers"),
                 "display-variable " + aov.name);
     }
 }

@@ -51,6 +51,34 @@ TEST(TakeAovs, ParametersAndWhatGridsHave) {
     }
 }
 
+TEST(TakeAovs, OutputsOfDisplacementsAndOfEarlierLayers) {
+    AovScene scene(
+        "surface test(float k = 3; output varying float both = 1;) { both = s; Ci = Cs; Oi = 1; }");
+    scene.folder.write("bump",
+                       "displacement bump(float own = 5; output varying float height = 0, both = 7;"
+                       "                  output varying color k = 0;) { height = t; k = color(s, t, 1); }");
+    scene.folder.write("first", "surface first(output varying float early = 0;) { early = s + t; }");
+    scene.displacement("bump");
+    const auto first = std::make_shared<ShaderInstance>(shader("first"));
+    const auto last = std::make_shared<ShaderInstance>(*scene.attributes->surface);
+    first->layer = "a", last->layer = "b";
+    last->earlier_layers = {first};
+    scene.attributes->surface = last;
+    scene.wants("height", ValueType::Float).wants("both", ValueType::Float).wants("early", ValueType::Float);
+    scene.wants("k", ValueType::Color).wants("own", ValueType::Float);
+    const ShadingGrid grid = scene.shaded();
+    ASSERT_EQ(scene.reported.size(), 1u);  // "own" is no output
+    EXPECT_NE(scene.reported[0].text.find("\"own\""), std::string::npos) << scene.reported[0].text;
+    for (size_t i = 0; i < grid.vertex_count(); ++i) {
+        EXPECT_EQ(grid.aovs[0][i], grid.t[i]);
+        EXPECT_EQ(grid.aovs[1][i], grid.s[i]);  // the surface's comes first
+        EXPECT_EQ(grid.aovs[2][i], grid.s[i] + grid.t[i]);
+        EXPECT_EQ(grid.aovs[3][i], grid.s[i]);
+        EXPECT_EQ(grid.aovs[4][i], grid.t[i]);
+        EXPECT_EQ(grid.aovs[6][i], 0);
+    }
+}
+
 TEST(TakeAovs, WhatIsMissingIsZeroAndWarnedOfOnce) {
     AovScene scene("surface test(output varying float foo = 7;) { Ci = 1; Oi = 1; }");
     scene.wants("foo", ValueType::Color).wants("bar", ValueType::Float).wants("bar", ValueType::Float);

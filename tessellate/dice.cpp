@@ -27,13 +27,13 @@ class Dicer {
         prepare_grid();
         find_border();
         place_vertices();
-        snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(),
-                               attributes_.displacement != nullptr, scratch_.uv);
+        snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), context_.displaced,
+                               scratch_.uv);
         evaluate();
         set_border_positions();
         set_normals();
         set_variables();
-        if (attributes_.displacement) make_shared_border(context_, points(), border(), grid_, scratch_);
+        if (context_.displaced) make_shared_border(context_, points(), border(), grid_, scratch_);
     }
 
   private:
@@ -44,7 +44,7 @@ class Dicer {
         grid_.reverse_orientation = attributes_.reverse_orientation;
         grid_.displaced = false;
         grid_.shared_vertices.clear();
-        if (!attributes_.displacement) grid_.border.clear();
+        if (!context_.displaced) grid_.border.clear();
         const size_t keys = surface_.key_count();
         std::vector<Triples>& spare = scratch_.spare_keys;
         for (; grid_.P.size() > keys; grid_.P.pop_back()) spare.push_back(std::move(grid_.P.back()));

@@ -13,6 +13,7 @@ struct DiceContext {
     const VertexTable* vertices = nullptr;
     const ScreenMetric* metric = nullptr;
     float pixels_per_segment = 1;  ///< the wished length of a micropolygon's side
+    bool displaced = false;        ///< grids are to have borders by which they stay together
 };
 
 struct DiceScratch::State {

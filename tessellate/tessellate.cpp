@@ -39,13 +39,12 @@ struct TessellatedPrimitive {
     Splits splits;
     size_t first_subpatch = 0;
     float pixels_per_segment = 1;
+    bool displaced = false;
 
     DiceContext dice_context(const ScreenMetric& metric) const {
-        return {placed.get(),
-                {surface.get(), &surface_edges, &splits.made_lines, &splits.made},
-                &vertices,
-                &metric,
-                pixels_per_segment};
+        return {placed.get(),       {surface.get(), &surface_edges, &splits.made_lines, &splits.made},
+                &vertices,          &metric,
+                pixels_per_segment, displaced};
     }
     size_t bytes() const { return vertices.bytes() + surface_edges.bytes() + splits.bytes(); }
     void leave_out() {
@@ -278,11 +277,14 @@ void tessellate_all(const RenderContext& context, const ScreenMetric& metric, si
 }  // namespace
 
 Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights,
-                           size_t most_bytes)
+                           size_t most_bytes, const IsDisplaced& is_displaced)
     : impl_(std::make_unique<Impl>(context.camera)) {
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
     primitives.resize(scene.primitives.size());
+    for (size_t i = 0; i < primitives.size(); ++i)
+        primitives[i].displaced = scene.primitives[i].attributes->displacement != nullptr ||
+                                  (is_displaced && is_displaced(static_cast<uint32_t>(i)));
     impl_->shared_grids.bytes_left = std::min(kSharedGridBytes, most_bytes / 8);
     make_surfaces(context, depth_heights, impl_->shared_grids, primitives);
     tessellate_all(context, impl_->metric, most_bytes, primitives);

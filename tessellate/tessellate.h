@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -38,11 +39,15 @@ class DiceScratch {
 
 class Tessellation {
   public:
+    /// Whether a primitive of the scene, by its index, is displaced though it has no displacement shader.
+    using IsDisplaced = std::function<bool(uint32_t)>;
+
     /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads. Without
     /// depth maps the surfaces that would look into some go without. What `most_bytes` do not hold is left
     /// out, from the first primitive on with which it is too much, and that is an error.
     explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {},
-                          size_t most_bytes = std::numeric_limits<size_t>::max());
+                          size_t most_bytes = std::numeric_limits<size_t>::max(),
+                          const IsDisplaced& is_displaced = {});
     ~Tessellation();
 
     /// In the order that defines Grid::ordinal.

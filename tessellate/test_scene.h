@@ -59,6 +59,8 @@ struct TestScene {
                    const M44f& camera_from_object = translation(0, 0, 5)) {
         return add(std::vector{std::move(shape)}, std::vector{camera_from_object});
     }
+    Tessellation::IsDisplaced is_displaced;
+
     /// Nothing is culled: displacement could bring it into view.
     TestScene& keep_all() {
         attributes->displacement_bound = 1e4f;
@@ -84,7 +86,7 @@ struct DicedScene {
 
     explicit DicedScene(TestScene& test, const Displace& displace = {}) {
         const RenderContext context = test.context();
-        const Tessellation tessellation(context);
+        const Tessellation tessellation(context, {}, std::numeric_limits<size_t>::max(), test.is_displaced);
         stats = tessellation.stats();
         DiceScratch scratch;
         ShadingGrid grid;

@@ -102,6 +102,22 @@ TEST(DisplacedWatertight, MeshWithSeamsAndUniformVariables) {
     }
 }
 
+/// A surface shader that moves P, behind a displacement shader that does.
+TEST(DisplacedWatertight, SurfacesThatMove) {
+    DisplacedScene test("displacement bumps() { P += normalize(N) * 0.04 * sin(30 * xcomp(P)); }");
+    test.folder.write("swell",
+                      "surface swell() { P += normalize(N) * 0.08 * sin(5 * s + u) * cos(9 * t);"
+                      "  N = calculatenormal(P); Ci = Cs; Oi = Os; }");
+    const auto surface = std::make_shared<ShaderInstance>();
+    surface->name = "swell";
+    test.scene.attributes->surface = surface;
+    test.scene.add(sphere(), kNear);
+    test.expect_closed(V3f(0.3f, 0.2f, 1.2f), 0.7f);
+    test.scene.attributes->displacement.reset();
+    test.scene.is_displaced = [](uint32_t) { return true; };
+    test.expect_closed(V3f(0.3f, 0.2f, 1.2f), 0.7f);
+}
+
 TEST(DisplacedWatertight, LayersOfDisplacement) {
     DisplacedScene test("displacement bumps() { P += normalize(N) * 0.04 * sin(30 * xcomp(P)); }");
     test.folder.write("swell", "displacement swell() { P += normalize(N) * 0.05 * noise(9 * s, 5 * t); }");

@@ -2,6 +2,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <limits>
+
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/frame/stopwatch.h"
 #include "sample/visibility_method.h"
@@ -43,7 +45,8 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     Stopwatch watch;
     Shading shading(frame.context);
     watch.lap();
-    const Tessellation tessellation(frame.context, shading.depth_heights());
+    const Tessellation tessellation(frame.context, shading.depth_heights(),
+                                    std::numeric_limits<size_t>::max(), shading.displacing_surfaces());
     frame.stats.tessellate = tessellation.stats();
     frame.stats.tessellate.grids = frame.stats.tessellate.micropolygons = 0;  // counted as they are made
     frame.stats.seconds.tessellate = watch.lap();

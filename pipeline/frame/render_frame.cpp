@@ -109,7 +109,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     Shading shading(context);
     watch.lap();
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
-    const Tessellation tessellation(context, shading.depth_heights(), budget);
+    const Tessellation tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
     stats.tessellate = tessellation.stats();
     stats.tessellate.grids = stats.tessellate.micropolygons = 0;  // counted as they are made
     stats.seconds.tessellate = watch.lap();
