@@ -16,6 +16,7 @@ V3f result_of(const std::string& headers, const std::string& statements, const s
     folder.write("tried", headers + "\nsurface tried(" + parameters + ") { float a = 0, b = 0, c = 0;\n" +
                               statements + "\nCi = color(a, b, c); Oi = 1; }\n");
     scene.scene.options.search_paths["shader"] = {folder.path()};
+    scene.attributes->displacement_bound = 1;  // for those that set P
     scene.surface("tried");
     scene.light("distantlight", {number("intensity", 1), point("from", V3f(0, 0, 0)), point("to", V3f(0, 0, 1))});
     const ShadingGrid grid = scene.shaded();
