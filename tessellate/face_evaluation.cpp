@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tessellate/between.h"
+
 namespace trapeze {
 namespace {
 
@@ -135,6 +137,14 @@ void evaluate_linear_piece(const FacePiece& piece, const float* values, int size
     }
     piece_corners(piece, values, size, corners);
     evaluate_bilinear(corners, size, uv, value, du, dv);
+}
+
+void values_on_piece(const FacePiece& piece, const float* corners, std::span<const V2f> uv,
+                     std::span<float> values) {
+    float c[4];  // going round
+    piece_corners(piece, corners, 1, c);
+    for (size_t i = 0; i < uv.size(); ++i)
+        values[i] = between_corners(c[0], c[1], c[3], c[2], uv[i].x, uv[i].y);
 }
 
 void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,

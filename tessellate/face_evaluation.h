@@ -38,6 +38,10 @@ void evaluate_bilinear(const float* corners, int size, std::span<const V2f> uv, 
 void evaluate_linear_piece(const FacePiece& piece, const float* values, int size, std::span<const V2f> uv,
                            ValueSink value, ValueSink du, ValueSink dv);
 
+/// A variable on a piece of a mesh face, of one value for each of the face's corners.
+void values_on_piece(const FacePiece& piece, const float* corners, std::span<const V2f> uv,
+                     std::span<float> values);
+
 /// A uniform bicubic B-spline patch with control points j * 4 + i, of `size` floats each.
 void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                       ValueSink dv);

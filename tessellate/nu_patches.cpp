@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tessellate/between.h"
 #include "tessellate/face_grid.h"
 #include "tessellate/knot_spans.h"
 #include "tessellate/surface_variables.h"
@@ -232,7 +233,7 @@ class NuPatchValues : public VariableSource {
         for (size_t i = 0; i < values.size(); ++i) {
             const float u = s_.u_.share_of_segment(column_, uv_[i].x);
             const float v = s_.v_.share_of_segment(row_, uv_[i].y);
-            values[i] = (1 - v) * ((1 - u) * c[0] + u * c[1]) + v * ((1 - u) * c[2] + u * c[3]);
+            values[i] = between_corners(c[0], c[1], c[2], c[3], u, v);
         }
     }
     size_t uniform_index(const Parameter& parameter) const override {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tessellate/between.h"
 #include "tessellate/bezier.h"
 #include "tessellate/face_grid.h"
 #include "tessellate/surface_variables.h"
@@ -153,10 +154,8 @@ class PatchValues : public VariableSource {
         float c[4];
         for (int corner = 0; corner < 4; ++corner)
             c[corner] = first[corner_index(parameter.declaration.storage, corner) * stride];
-        for (size_t i = 0; i < values.size(); ++i) {
-            const float u = uv_[i].x, v = uv_[i].y;
-            values[i] = (1 - v) * ((1 - u) * c[0] + u * c[1]) + v * ((1 - u) * c[2] + u * c[3]);
-        }
+        for (size_t i = 0; i < values.size(); ++i)
+            values[i] = between_corners(c[0], c[1], c[2], c[3], uv_[i].x, uv_[i].y);
     }
     size_t uniform_index(const Parameter& parameter) const override {
         return parameter.declaration.storage == StorageClass::Constant ? 0 : face_;

@@ -85,7 +85,7 @@ class PolygonSurface::Values : public VariableSource {
         float corners[4] = {};
         for (int i = 0; i < piece_.size; ++i)
             corners[i] = parameter.floats[item(parameter, i) * stride + component];
-        evaluate_linear_piece(piece_, corners, 1, uv_, {values.data(), 1, 0}, {}, {});
+        values_on_piece(piece_, corners, uv_, values);
     }
 
     /// Variables without values in between (strings) are those of a face's first corner.
@@ -123,8 +123,8 @@ bool PolygonSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfa
         const std::array<float, 12> positions = corner_positions(piece, 0);
         float x[4], y[4];
         for (int i = 0; i < 4; ++i) x[i] = positions[3 * i], y[i] = positions[3 * i + 1];
-        evaluate_linear_piece(piece, x, 1, uv, {grid.s.data(), 1, 0}, {}, {});
-        evaluate_linear_piece(piece, y, 1, uv, {grid.t.data(), 1, 0}, {}, {});
+        values_on_piece(piece, x, uv, grid.s);
+        values_on_piece(piece, y, uv, grid.t);
     }
     return set_variables(primitive_.shape().variables, Values(*this, face, uv), grid);
 }

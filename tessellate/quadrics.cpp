@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tessellate/between.h"
 #include "tessellate/face_grid.h"
 #include "tessellate/surface_variables.h"
 #include "tessellate/topology_surface.h"
@@ -192,10 +193,8 @@ class CornerValues : public VariableSource {
         const size_t stride = parameter.declaration.floats_per_item();
         const float* const c = parameter.floats.data() + component;
         const float c00 = c[0], c10 = c[stride], c01 = c[2 * stride], c11 = c[3 * stride];
-        for (size_t i = 0; i < values.size(); ++i) {
-            const float u = grid_.u[i], v = grid_.v[i];
-            values[i] = (1 - v) * ((1 - u) * c00 + u * c10) + v * ((1 - u) * c01 + u * c11);
-        }
+        for (size_t i = 0; i < values.size(); ++i)
+            values[i] = between_corners(c00, c10, c01, c11, grid_.u[i], grid_.v[i]);
     }
     size_t uniform_index(const Parameter&) const override { return 0; }
 

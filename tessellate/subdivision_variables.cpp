@@ -100,7 +100,7 @@ void SubdivisionValues::linear(const Parameter& parameter, int component, std::s
                                 : static_cast<size_t>(vertices[i]);
         points_[i] = parameter.floats[item * stride + component];
     }
-    evaluate_linear_piece(piece_, points_.data(), 1, uv_, {values.data(), 1, 0}, {}, {});
+    values_on_piece(piece_, points_.data(), uv_, values);
 }
 
 void SubdivisionValues::component(const Parameter& parameter, int component, std::span<float> values) const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tessellate/between.h"
+
 namespace trapeze {
 namespace {
 
@@ -85,8 +87,8 @@ void set_texture_coordinates(const Attributes& attributes, ShadingGrid& grid) {
     const std::array<float, 8>& c = attributes.texture_coordinates;
     for (size_t i = 0; i < grid.u.size(); ++i) {
         const float u = grid.u[i], v = grid.v[i];
-        grid.s[i] = (1 - v) * ((1 - u) * c[0] + u * c[2]) + v * ((1 - u) * c[4] + u * c[6]);
-        grid.t[i] = (1 - v) * ((1 - u) * c[1] + u * c[3]) + v * ((1 - u) * c[5] + u * c[7]);
+        grid.s[i] = between_corners(c[0], c[2], c[4], c[6], u, v);
+        grid.t[i] = between_corners(c[1], c[3], c[5], c[7], u, v);
     }
 }
 

@@ -76,7 +76,7 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
 /// Predefined variables that a function reads without being given them.
 void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
     if (op == Op::FaceForward && inputs.size() == 2) inputs.push_back(global("Ng", Base::Normal));
-    if (op == Op::Du || op == Op::Dv)
+    if (op == Op::Du || op == Op::Dv || op == Op::Deriv)
         for (const char* parameter : {"u", "v"}) inputs.push_back(global(parameter, Base::Float));
     if (op < Op::Ambient || op > Op::Phong) return;
     inputs.insert(inputs.begin(), global("P", Base::Point));

@@ -106,7 +106,7 @@ enum class Op : uint8_t {
     // Over neighbours.
     Du,     ///< x, u, v
     Dv,     ///< x, u, v
-    Deriv,  ///< num, den
+    Deriv,  ///< num, den, u, v
     Area,
     CalculateNormal,
     FilterStep,  ///< edge, x [, x2] [, name, value, ...]

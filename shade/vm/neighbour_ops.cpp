@@ -28,7 +28,8 @@ void differences(Run& run, const Step& step, std::span<const Operand> operands) 
     if (is_flat(run, step, operands)) return;
     const int width = width_of_output(run, step);
     if (step.op == Op::Deriv)
-        return derivative(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[0]);
+        return derivative(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[3],
+                          operands[4], operands[0]);
     const auto differentiate = step.op == Op::Du ? derivative_u : derivative_v;
     differentiate(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[3], operands[0]);
 }

@@ -101,16 +101,34 @@ struct Derivatives {
     bool all_found;
 };
 
+/// Of most rows, along which no parameter but one changes; false for others.
+HWY_INLINE bool straight_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
+                                     const Row& dp, const Row& dq, float rounding, Derivatives& out) {
+    int others = 0;
+    for (int i = 0; i < row.count(); ++i) others += dq.lanes[i] != 0 || !(dp.lanes[i] != 0);
+    if (others > 0) return false;
+    Row step;
+    for (int k = 0; k < width; ++k) {
+        row.difference(along, value, k, step);
+        float* HWY_RESTRICT result = out.value.component[k].lanes;
+        for (int i = 0; i < row.count(); ++i)
+            result[i] = std::fabs(step.lanes[i]) <= rounding ? 0 : step.lanes[i] / dp.lanes[i];
+    }
+    return out.all_found = true;
+}
+
 /// Where borders are snapped to their neighbours' rates, a step along one axis changes both parameters: then
 /// the derivatives x_u, x_v solve step_i = x_u du_i + x_v dv_i for the steps along both axes. `p` is the
-/// parameter looked for, `q` the other one, `along` the axis that p follows.
+/// parameter looked for, `q` the other one, `along` the axis that p follows. Steps no greater than `rounding`
+/// are none.
 HWY_INLINE void row_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
-                                const Operand& p, const Operand& q, Derivatives& out) {
+                                const Operand& p, const Operand& q, float rounding, Derivatives& out) {
     constexpr float kLeast = 1e-3f;  // of a determinant, to its terms
     const Axis across = along == Axis::U ? Axis::V : Axis::U;
     Row dp, dq, dp_across, dq_across, step, step_across;
     row.difference(along, p, 0, dp);
     row.difference(along, q, 0, dq);
+    if (straight_derivatives(row, width, along, value, dp, dq, rounding, out)) return;
     row.difference(across, p, 0, dp_across);
     row.difference(across, q, 0, dq_across);
     bool straight[kMaxRow];
@@ -130,7 +148,9 @@ HWY_INLINE void row_derivatives(const RowOf& row, int width, Axis along, const O
         for (int i = 0; i < row.count(); ++i) {
             const float solved = step.lanes[i] * dq_across.lanes[i] - step_across.lanes[i] * dq.lanes[i];
             const float top = straight[i] ? step.lanes[i] : solved;
-            out.value.component[k].lanes[i] = out.found[i] ? top / determinant.lanes[i] : 0;
+            const float share = straight[i] ? 1 : std::fabs(dq_across.lanes[i]) + std::fabs(dq.lanes[i]);
+            const bool counts = out.found[i] && !(std::fabs(top) <= rounding * share);
+            out.value.component[k].lanes[i] = counts ? top / determinant.lanes[i] : 0;
         }
     }
 }
@@ -152,16 +172,21 @@ void take_from_inside(const Derivatives& inside, const RowOf& row, int width, De
     }
 }
 
+HWY_INLINE void all_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
+                                const Operand& p, const Operand& q, float rounding, Derivatives& here) {
+    row_derivatives(row, width, along, value, p, q, rounding, here);
+    if (here.all_found) return;
+    Derivatives inside;
+    row_derivatives({row.span, inside_of(row.j, row.span.shape.vertices_v() - 1)}, width, along, value, p, q,
+                    rounding, inside);
+    take_from_inside(inside, row, width, here);
+}
+
 HWY_INLINE void differentiate(GridSpans spans, size_t lanes, int width, Axis along, const Operand& value,
                               const Operand& p, const Operand& q, const Operand& out) {
     for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
-        Derivatives here, inside;
-        row_derivatives(row, width, along, value, p, q, here);
-        if (!here.all_found) {
-            row_derivatives({row.span, inside_of(row.j, row.span.shape.vertices_v() - 1)}, width, along,
-                            value, p, q, inside);
-            take_from_inside(inside, row, width, here);
-        }
+        Derivatives here;
+        all_derivatives(row, width, along, value, p, q, 0, here);
         for (int k = 0; k < width; ++k)
             std::copy_n(here.value.component[k].lanes, row.count(), row.of(out, k));
     });
@@ -177,19 +202,33 @@ void along_v(GridSpans spans, size_t lanes, int width, const Operand& value, con
     differentiate(spans, lanes, width, Axis::V, value, v, u, out);
 }
 
+/// What the rounding of a span's values makes of steps between them.
+float rounding_of(const GridSpan& span, const Operand& value) {
+    constexpr float kShare = 1.0f / (1 << 20);  // some units of the last place
+    if (value.lane_mask == 0) return 0;
+    float largest = 0;
+    const float* first = value.data + span.first;
+    for (int i = 0; i < span.shape.vertex_count(); ++i) largest = std::max(largest, std::fabs(first[i]));
+    return kShare * largest;
+}
+
 void along_both(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
-                const Operand& out) {
+                const Operand& u, const Operand& v, const Operand& out) {
+    const GridSpan* measured = nullptr;
+    float rounding = 0;
     for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
-        Row of_num, den_u, den_v, first, second;
-        row.difference(Axis::U, den, 0, den_u);
-        row.difference(Axis::V, den, 0, den_v);
+        if (measured != &row.span) measured = &row.span, rounding = rounding_of(row.span, den);
+        Derivatives num_u, num_v, den_u, den_v;
+        all_derivatives(row, 1, Axis::U, den, u, v, rounding, den_u);
+        all_derivatives(row, 1, Axis::V, den, v, u, rounding, den_v);
+        all_derivatives(row, width, Axis::U, num, u, v, 0, num_u);
+        all_derivatives(row, width, Axis::V, num, v, u, 0, num_v);
+        Row first;
         for (int k = 0; k < width; ++k) {
-            row.difference(Axis::U, num, k, of_num);
-            divide_rows(of_num, den_u, row.count(), first.lanes);
-            row.difference(Axis::V, num, k, of_num);
-            divide_rows(of_num, den_v, row.count(), second.lanes);
+            divide_rows(num_u.value.component[k], den_u.value.component[0], row.count(), first.lanes);
             float* HWY_RESTRICT sum = row.of(out, k);
-            for (int i = 0; i < row.count(); ++i) sum[i] = first.lanes[i] + second.lanes[i];
+            divide_rows(num_v.value.component[k], den_v.value.component[0], row.count(), sum);
+            for (int i = 0; i < row.count(); ++i) sum[i] += first.lanes[i];
         }
     });
 }
@@ -289,33 +328,6 @@ void find_filter_widths(GridSpans spans, size_t lanes, const Operand& x, const O
     });
 }
 
-/// The share above an edge of what lies from x to x + width.
-HWY_INLINE V share_above(V edge, V x, V width) {
-    const V share = hn::Div(hn::Sub(hn::Add(x, width), edge), width);
-    const V step_there = hn::IfThenZeroElse(hn::Lt(x, edge), set(1));
-    return hn::IfThenElse(hn::Gt(width, hn::Zero(D())), at_most(positive(share), set(1)), step_there);
-}
-
-void step_around(size_t lanes, const Operand& edges, const Operand& xs, const Operand& widths, float scale_by,
-                 const Operand& result) {
-    const Input edge(edges), x(xs), width(widths);
-    const Output out(result);
-    for (size_t i = 0; i < lanes; i += lane_count()) {
-        const V w = hn::Mul(width.get(i), set(scale_by));
-        out.put(share_above(edge.get(i), hn::Sub(x.get(i), hn::Mul(w, set(0.5f))), w), i);
-    }
-}
-
-void step_between(size_t lanes, const Operand& edges, const Operand& xs, const Operand& x2s,
-                  const Operand& result) {
-    const Input edge(edges), first(xs), second(x2s);
-    const Output out(result);
-    for (size_t i = 0; i < lanes; i += lane_count()) {
-        const V a = first.get(i), b = second.get(i), least = at_most(a, b);
-        out.put(share_above(edge.get(i), least, hn::Sub(at_least(a, b), least)), i);
-    }
-}
-
 }  // namespace
 }  // namespace trapeze::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -329,8 +341,6 @@ HWY_EXPORT(along_both);
 HWY_EXPORT(measure_areas);
 HWY_EXPORT(find_normals);
 HWY_EXPORT(find_filter_widths);
-HWY_EXPORT(step_around);
-HWY_EXPORT(step_between);
 
 void derivative_u(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
                   const Operand& v, const Operand& out) {
@@ -341,8 +351,8 @@ void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value
     HWY_DYNAMIC_DISPATCH(along_v)(spans, lanes, width, value, u, v, out);
 }
 void derivative(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
-                const Operand& out) {
-    HWY_DYNAMIC_DISPATCH(along_both)(spans, lanes, width, num, den, out);
+                const Operand& u, const Operand& v, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(along_both)(spans, lanes, width, num, den, u, v, out);
 }
 void areas(GridSpans spans, size_t lanes, const Operand& P, const Operand& out) {
     HWY_DYNAMIC_DISPATCH(measure_areas)(spans, lanes, P, out);
@@ -352,14 +362,6 @@ void calculate_normals(GridSpans spans, size_t lanes, const Operand& P, const Op
 }
 void filter_widths(GridSpans spans, size_t lanes, const Operand& x, const Operand& out) {
     HWY_DYNAMIC_DISPATCH(find_filter_widths)(spans, lanes, x, out);
-}
-void filter_step(size_t lanes, const Operand& edge, const Operand& x, const Operand& width, float scale,
-                 const Operand& out) {
-    HWY_DYNAMIC_DISPATCH(step_around)(lanes, edge, x, width, scale, out);
-}
-void filter_step_between(size_t lanes, const Operand& edge, const Operand& x, const Operand& x2,
-                         const Operand& out) {
-    HWY_DYNAMIC_DISPATCH(step_between)(lanes, edge, x, x2, out);
 }
 
 }  // namespace trapeze::vm

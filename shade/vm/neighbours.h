@@ -25,9 +25,10 @@ void derivative_u(GridSpans spans, size_t lanes, int width, const Operand& value
 void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
                   const Operand& v, const Operand& out);
 
-/// Deriv(num, den) = Du(num) / Du(den) + Dv(num) / Dv(den).
+/// Deriv(num, den) = Du(num) / Du(den) + Dv(num) / Dv(den), without the term whose denominator is 0 but for
+/// the rounding of den.
 void derivative(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
-                const Operand& out);
+                const Operand& u, const Operand& v, const Operand& out);
 
 /// area(P): of the parallelogram of P's differences, as large as the micropolygons around.
 void areas(GridSpans spans, size_t lanes, const Operand& P, const Operand& out);

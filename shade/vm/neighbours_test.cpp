@@ -75,7 +75,8 @@ TEST(Neighbours, DerivativesAreDifferencesOverTheParameters) {
                          du.operand());
             derivative_v(batch.spans, batch.lanes, width, value.operand(), u.operand(), v.operand(),
                          dv.operand());
-            derivative(batch.spans, batch.lanes, width, value.operand(), u.operand(), both.operand());
+            derivative(batch.spans, batch.lanes, width, value.operand(), u.operand(), u.operand(),
+                       v.operand(), both.operand());
             batch.for_vertices([&](const GridSpan& span, int i, int j, size_t lane) {
                 for (int k = 0; k < width; ++k) {
                     const auto at = [&](int a, int b) {
@@ -120,8 +121,36 @@ TEST(Neighbours, DerivativesAddBothDirections) {
     const Batch batch;
     Register num = batch.make(1, [](float x, float y, int) { return 6 * x + 4 * y; });
     Register den = batch.make(1, [](float x, float y, int) { return 2 * x - y; }), out(1, false, batch.lanes);
-    derivative(batch.spans, batch.lanes, 1, num.operand(), den.operand(), out.operand());
+    Register u = batch.make(1, [](float x, float, int) { return x; });
+    Register v = batch.make(1, [](float, float y, int) { return y; });
+    derivative(batch.spans, batch.lanes, 1, num.operand(), den.operand(), u.operand(), v.operand(),
+               out.operand());
     for (size_t i = 0; i < batch.lanes; ++i) EXPECT_NEAR(out.at(i, 0), 3 - 4, 1e-4);
+}
+
+/// A denominator that goes along one parameter alone but for its last places, on grids with snapped borders.
+TEST(Neighbours, DerivativesDoNotDivideByRounding) {
+    const Batch batch;
+    for (const bool along_u : {true, false}) {
+        Register u(1, false, batch.lanes), v(1, false, batch.lanes), num(1, false, batch.lanes),
+            den(1, false, batch.lanes), out(1, false, batch.lanes);
+        batch.for_vertices([&](const GridSpan& span, int i, int j, size_t lane) {
+            if (j == 0 && span.shape.nu > 3) i -= i % 3;
+            if (i == 0 && span.shape.nv > 2) j -= j % 2;
+            const float x = static_cast<float>(i) / span.shape.nu, y = static_cast<float>(j) / span.shape.nv;
+            const float last_places = 1 + static_cast<float>((i * 5 + j * 3) % 4) * 0x1p-23f;
+            u.set(lane, 0, x), v.set(lane, 0, y), num.set(lane, 0, 8 * x - 6 * y);
+            den.set(lane, 0, (3 + (along_u ? x : y)) * last_places);
+        });
+        for_each_target([&] {
+            derivative(batch.spans, batch.lanes, 1, num.operand(), den.operand(), u.operand(), v.operand(),
+                       out.operand());
+            batch.for_vertices([&](const GridSpan& span, int i, int j, size_t lane) {
+                EXPECT_NEAR(out.at(lane, 0), along_u ? 8 : -6, 1e-3)
+                    << i << ' ' << j << " of " << int(span.shape.nu);
+            });
+        });
+    }
 }
 
 TEST(Neighbours, UniformValuesDoNotChange) {
@@ -236,7 +265,8 @@ TEST(Neighbours, GiveTheSameBitsOnAllTargets) {
     const auto run = [&] {
         std::vector<Register> out(5, Register(3, false, batch.lanes));
         derivative_u(batch.spans, batch.lanes, 3, P.operand(), u.operand(), v.operand(), out[0].operand());
-        derivative(batch.spans, batch.lanes, 3, P.operand(), u.operand(), out[1].operand());
+        derivative(batch.spans, batch.lanes, 3, P.operand(), u.operand(), u.operand(), v.operand(),
+                   out[1].operand());
         areas(batch.spans, batch.lanes, P.operand(), out[2].operand());
         calculate_normals(batch.spans, batch.lanes, P.operand(), out[3].operand());
         filter_widths(batch.spans, batch.lanes, u.operand(), out[4].operand());

@@ -6,21 +6,24 @@
 namespace trapeze::test {
 namespace {
 
-/// What a shader finds of Du(P) against dPdu, and Dv(P) against dPdv, as shares of them.
-struct Found {
-    double worst = 0, mean = 0;
-};
+/// Vertices whose differences go to both sides alone: those on borders may have gone to their edges', whose
+/// parameters are others.
+bool is_inside(const GridShape& shape, size_t vertex) {
+    const int column = static_cast<int>(vertex) % shape.vertices_u(),
+              row = static_cast<int>(vertex) / shape.vertices_u();
+    return column >= 2 && row >= 2 && column <= shape.nu - 2 && row <= shape.nv - 2;
+}
 
-Found derivative_errors(const std::string& text) {
+/// Visits the vertices of a scene's shaded grids; Ci is what the shader found.
+void shade_primitives(const std::string& text, const std::string& found,
+                      const std::function<void(const ShadingGrid&, size_t)>& visit) {
     rib::test::Outcome read = rib::test::read_text(
         "Format 100 100 1 ScreenWindow -3 3 -3 3 Projection \"orthographic\" Clipping 0.01 1000\nWorldBegin "
         "Translate 0 0 10 ShadingRate 0.25 Surface \"errors\" " +
         text + " WorldEnd");
     EXPECT_THAT(read.messages, ::testing::IsEmpty());
     ShaderFolder folder;
-    folder.write("errors",
-                 "surface errors() { Ci = color(length(Du(P) - dPdu) / length(dPdu), "
-                 "length(Dv(P) - dPdv) / length(dPdv), 0); }");
+    folder.write("errors", "surface errors() { Ci = " + found + "; }");
     TestScene scene;
     scene.scene = std::move(read.worlds.at(0));
     scene.scene.options.search_paths["shader"] = {folder.path()};
@@ -31,50 +34,120 @@ Found derivative_errors(const std::string& text) {
     ShadeScratch shade_scratch;
     ShadeStats stats;
     ShadingGrid grid;
-    Found found;
-    double sum = 0, count = 0;
     for (size_t i = 0; i < tessellation.subpatches().size(); ++i) {
         tessellation.dice(i, grid, dice_scratch);
         shading.shade(grid, shade_scratch, stats);
-        for (size_t n = 0; n < grid.vertex_count(); ++n)
-            for (int k = 0; k < 2; ++k) {
-                const int column = static_cast<int>(n) % grid.shape.vertices_u(),
-                          row = static_cast<int>(n) / grid.shape.vertices_u();
-                // Border vertices may have gone to their edges', whose parameters are others.
-                if (column < 2 || row < 2 || column > grid.shape.nu - 2 || row > grid.shape.nv - 2) continue;
-                const double error = grid.Ci.c[k][n];
-                found.worst = std::max(found.worst, error);
-                sum += error, count += 1;
-            }
+        for (size_t n = 0; n < grid.vertex_count(); ++n) visit(grid, n);
     }
+}
+
+/// What a shader finds of Du(P) against dPdu, and Dv(P) against dPdv, as shares of them.
+struct Found {
+    double worst = 0, mean = 0;
+};
+
+Found derivative_errors(const std::string& text) {
+    Found found;
+    double sum = 0, count = 0;
+    shade_primitives(text,
+                     "color(length(Du(P) - dPdu) / length(dPdu), length(Dv(P) - dPdv) / length(dPdv), 0)",
+                     [&](const ShadingGrid& grid, size_t n) {
+                         if (!is_inside(grid.shape, n)) return;
+                         for (int k = 0; k < 2; ++k) {
+                             const double error = grid.Ci.c[k][n];
+                             found.worst = std::max(found.worst, error);
+                             sum += error, count += 1;
+                         }
+                     });
     EXPECT_GT(count, 100);
     found.mean = sum / count;
     return found;
 }
 
+/// Heights over a square of 4 by 4 points.
+const std::string kSheet =
+    "\"P\" [-2 -2 0 -0.5 -2 1 0.5 -2 0 2 -2 1 -2 -0.5 0 -0.5 -0.5 0 0.5 -0.5 1 2 -0.5 0 "
+    "-2 0.5 1 -0.5 0.5 0 0.5 0.5 0 2 0.5 1 -2 2 0 -0.5 2 1 0.5 2 1 2 2 0] ";
+const std::string kFacesOfSheet =
+    "[0 1 5 4 1 2 6 5 2 3 7 6 4 5 9 8 5 6 10 9 6 7 11 10 8 9 13 12 9 10 14 13 10 11 15 14] ";
+
+std::string subdivision_mesh(const std::string& variables) {
+    return "SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4 4 4 4] " + kFacesOfSheet +
+           "[\"interpolateboundary\"] [1 0] [1] [] " + kSheet + variables;
+}
+std::string polygons(const std::string& variables) {
+    return "PointsPolygons [4 4 4 4 4 4 4 4 4] " + kFacesOfSheet + kSheet + variables;
+}
+/// Flat, and so whole faces.
+std::string square(const std::string& variables) {
+    return "PointsPolygons [4] [0 1 3 2] \"P\" [-2 -2 0 2 -2 1 -2 2 0 2 2 1] " + variables;
+}
+
+/// Surfaces whose s and t are those of TextureCoordinates.
+std::vector<std::string> parametric_surfaces() {
+    return {"Sphere 2 -1.5 1.5 -200",
+            "Cone 2 2 360",
+            "Cylinder 2 -1 1 100",
+            "Hyperboloid 2 0 -1 0.5 2 2 720",
+            "Paraboloid 2 0.5 2 360",
+            "Disk 0 2 270",
+            "Torus 1.5 0.5 30 300 -360",
+            "Patch \"bicubic\" " + kSheet,
+            "PatchMesh \"bilinear\" 4 \"nonperiodic\" 4 \"nonperiodic\" " + kSheet,
+            "NuPatch 4 4 [0 0 0 0 2 2 2 2] 0.5 2 4 3 [0 0 0 1 3 3 3] 0 3 " + kSheet};
+}
+
 TEST(Derivatives, DifferencesAlongTheGridAreThoseOfTheSurface) {
-    const std::string sheet =
-        "\"P\" [-2 -2 0 -0.5 -2 1 0.5 -2 0 2 -2 1 -2 -0.5 0 -0.5 -0.5 0 0.5 -0.5 1 2 -0.5 0 "
-        "-2 0.5 1 -0.5 0.5 0 0.5 0.5 0 2 0.5 1 -2 2 0 -0.5 2 1 0.5 2 1 2 2 0] ";
-    for (const std::string& text :
-         {std::string("Sphere 2 -1.5 1.5 -200"), std::string("Cone 2 2 360"),
-          std::string("Cylinder 2 -1 1 100"), std::string("Hyperboloid 2 0 -1 0.5 2 2 720"),
-          std::string("Paraboloid 2 0.5 2 360"), std::string("Disk 0 2 270"),
-          std::string("Torus 1.5 0.5 30 300 -360"), "Patch \"bicubic\" " + sheet,
-          "PatchMesh \"bilinear\" 4 \"nonperiodic\" 4 \"nonperiodic\" " + sheet,
-          "NuPatch 4 4 [0 0 0 0 2 2 2 2] 0.5 2 4 3 [0 0 0 1 3 3 3] 0 3 " + sheet,
-          "SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4 4 4 4] [0 1 5 4 1 2 6 5 2 3 7 6 4 5 9 8 5 6 10 9 6 "
-          "7 "
-          "11 10 8 9 13 12 9 10 14 13 10 11 15 14] [\"interpolateboundary\"] [1 0] [1] [] " +
-              sheet,
-          "PointsPolygons [4 4 4 4 4 4 4 4 4] [0 1 5 4 1 2 6 5 2 3 7 6 4 5 9 8 5 6 10 9 6 7 "
-          "11 10 8 9 13 12 9 10 14 13 10 11 15 14] " +
-              sheet}) {
+    std::vector<std::string> all = parametric_surfaces();
+    all.insert(all.end(), {subdivision_mesh(""), polygons("")});
+    for (const std::string& text : all) {
         SCOPED_TRACE(text);
         const Found found = derivative_errors(text);
         // Differences over two micropolygons of half a pixel, on curves of radius 8 and more.
         EXPECT_LE(found.mean, 0.004);
         EXPECT_LE(found.worst, 0.05);
+    }
+}
+
+TEST(Derivatives, ByTextureCoordinatesOfAFlatPatchAreTheSameEverywhere) {
+    for (const char* const coordinates : {"0 0 1 0 0 1 1 1", "0.1 0.3 1.1 0.3 0.1 1.3 1.1 1.3",
+                                          "0 0 0 1 1 0 1 1", "7.7 1.3 7.7 0.3 6.7 1.3 6.7 0.3"})
+        shade_primitives(std::string("TextureCoordinates ") + coordinates +
+                             " Patch \"bilinear\" \"P\" [-2 -2 0 2 -2 0 -2 2 0 2 2 0]",
+                         "color(length(Deriv(P, s)), length(Deriv(P, t)), 0)",
+                         [&](const ShadingGrid& grid, size_t n) {
+                             for (int k = 0; k < 2; ++k)
+                                 ASSERT_NEAR(grid.Ci.c[k][n], 4, 0.01) << coordinates << ' ' << n;
+                         });
+}
+
+/// Where s goes along u alone and t along v alone, or the other way round, each has one term, everywhere.
+TEST(Derivatives, ByWhatGoesAlongOneParameterHaveOneTerm) {
+    const std::string s = "[.1 .5 .7 1.3 .1 .5 .7 1.3 .1 .5 .7 1.3 .1 .5 .7 1.3]",
+                      t = "[.3 .3 .3 .3 .6 .6 .6 .6 1.1 1.1 1.1 1.1 1.7 1.7 1.7 1.7]", four = "[.1 .7 .1 .7]",
+                      across = "[.3 .3 1.1 1.1]";
+    const auto both = [](const std::string& storage, const std::string& along_u, const std::string& along_v) {
+        return "\"" + storage + " float s\" " + along_u + " \"" + storage + " float t\" " + along_v;
+    };
+    std::vector<std::string> all = {"Sphere 2 -1.5 1.5 -200 " + both("varying", four, across),
+                                    "Patch \"bicubic\" " + kSheet + both("varying", four, across),
+                                    "Patch \"bicubic\" " + kSheet + both("vertex", s, t),
+                                    square(both("varying", four, across)),
+                                    subdivision_mesh(both("varying", s, t)),
+                                    subdivision_mesh(both("vertex", s, t))};
+    for (const std::string& text : parametric_surfaces())
+        all.push_back("TextureCoordinates 0.1 0.3 0.7 0.3 0.1 1.1 0.7 1.1 " + text);
+    for (const std::string& text : all) {
+        SCOPED_TRACE(text);
+        double worst = 0;
+        shade_primitives(text,
+                         "color(length(Deriv(P, s) * Du(s) - Du(P)) / length(dPdu), "
+                         "length(Deriv(P, t) * Dv(t) - Dv(P)) / length(dPdv), 0)",
+                         [&](const ShadingGrid& grid, size_t n) {
+                             for (int k = 0; k < 2; ++k)
+                                 worst = std::max(worst, static_cast<double>(grid.Ci.c[k][n]));
+                         });
+        EXPECT_LE(worst, 1e-3);
     }
 }
 
