@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "composite/output_file.h"
 #include "composite/picture_to_write.h"
+#include "core/output_file.h"
 
 namespace trapeze {
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "composite/raster_harness.h"
-#include "composite/temporary_folder_harness.h"
 #include "composite/write_displays.h"
+#include "core/temporary_folder_harness.h"
 
 namespace trapeze {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "composite/image_output.h"
 #include "composite/open_exr_output.h"
-#include "composite/output_file.h"
+#include "core/output_file.h"
 
 namespace trapeze {
 

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "composite/raster_harness.h"
-#include "composite/temporary_folder_harness.h"
+#include "core/temporary_folder_harness.h"
 
 namespace trapeze {
 namespace {

@@ -12,8 +12,10 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/output_file.h"
 #include "shade/cube_faces.h"
 #include "shade/linear_image_input.h"
+#include "shade/map_bytes.h"
 #include "shade/map_matrices.h"
 
 namespace trapeze {
@@ -28,11 +30,15 @@ constexpr int kTile = 64;
 constexpr float kNothing = 1e30f;  ///< what is as deep
 
 struct MakingError {
-    std::string text;
+    MapProblem problem;
 };
 
 void check(bool good, const std::string& text) {
-    if (!good) throw MakingError{text.empty() ? "cannot be read or written" : text};
+    if (!good) throw MakingError{{text.empty() ? "cannot be read" : text}};
+}
+
+void check_output(bool good, const std::string& text) {
+    if (!good) throw MakingError{{text.empty() ? "cannot be written" : text, true}};
 }
 
 struct Picture {
@@ -45,6 +51,7 @@ Picture read_picture(OIIO::ImageInput& file, const std::string& name) {
     check(file.open(name, picture.spec), file.geterror());
     const ImageSpec& spec = picture.spec;
     const uint64_t floats = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
+    check(spec.nchannels > 0 && spec.depth <= 1 && !spec.deep, "is no picture of rows and columns");
     check(spec.width > 0 && spec.height > 0 && floats <= kMostFloats,
           fmt::format("\"{}\" is too large: {} x {} pixels", name, spec.width, spec.height));
     picture.raster = {spec.width, spec.height, spec.nchannels, std::vector<float>(floats)};
@@ -81,7 +88,7 @@ class Unfinished {
     void finish() {
         std::error_code problem;
         fs::rename(path_, target_, problem);
-        check(!problem, problem.message());
+        check_output(!problem, problem.message());
     }
 
   private:
@@ -91,7 +98,7 @@ class Unfinished {
 std::string wrap_mode(const std::string& name) {
     for (const char* known : {"periodic", "clamp", "black", "mirror"})
         if (name == known) return name;
-    throw MakingError{fmt::format("\"{}\" is no wrap mode", name)};
+    throw MakingError{{fmt::format("\"{}\" is no wrap mode", name)}};
 }
 
 /// OpenImageIO's name of a filter; "box" for one that it does not have.
@@ -103,35 +110,38 @@ std::string filter_name(const std::string& name) {
     return "box";
 }
 
-ImageSpec texture_config(const MapMaking& making, TypeDesc format, const char* file_format) {
+ImageSpec texture_config(const MapMaking& making, TypeDesc format) {
     ImageSpec config;
     config.format = format;
     config.tile_width = config.tile_height = kTile;
     config.attribute("wrapmodes", wrap_mode(making.swrap) + "," + wrap_mode(making.twrap));
     config.attribute("maketx:filtername", filter_name(making.filter));
-    config.attribute("maketx:fileformatname", file_format);
     return config;
 }
 
-void write_texture(OIIO::ImageBufAlgo::MakeTextureMode mode, Raster& raster, const ImageSpec& config,
-                   const std::string& texture) {
-    const OIIO::ImageBuf buffer(ImageSpec(raster.width, raster.height, raster.channels, TypeDesc::FLOAT),
-                                raster.pixels.data());
-    Unfinished file(texture);
-    check(OIIO::ImageBufAlgo::make_texture(mode, buffer, file.path(), config), OIIO::geterror());
-    file.finish();
+/// Whole, or not at all.
+void write_map(const MapBytes& map, const std::string& name) {
+    check(map.problem.empty(), map.problem);
+    OutputFile file(name);
+    check_output(file.open() && file.write(map.bytes.data(), map.bytes.size()) && file.commit(),
+                 file.error());
+}
+
+OIIO::ImageBuf buffer_of(Raster& raster) {
+    return OIIO::ImageBuf(ImageSpec(raster.width, raster.height, raster.channels, TypeDesc::FLOAT),
+                          raster.pixels.data());
 }
 
 /// Runs what may throw, and says what went wrong.
 template <class Make>
-std::string made(Make&& make) {
+MapProblem made(Make&& make) {
     try {
         make();
         return {};
-    } catch (const MakingError& problem) {
-        return problem.text;
-    } catch (const std::exception& problem) {
-        return problem.what();
+    } catch (const MakingError& error) {
+        return error.problem;
+    } catch (const std::exception& error) {
+        return {error.what()};
     }
 }
 
@@ -142,14 +152,19 @@ TypeDesc texture_format(const ImageSpec& spec) {
 }
 
 void make_flat(Picture picture, const std::string& texture, const MapMaking& making) {
-    write_texture(OIIO::ImageBufAlgo::MakeTxTexture, picture.raster,
-                  texture_config(making, texture_format(picture.spec), "openexr"), texture);
+    const ImageSpec config = texture_config(making, texture_format(picture.spec));
+    write_map(open_exr_texture(buffer_of(picture.raster), config), texture);
 }
 
-/// TIFF: OpenEXR's maps have another up.
+/// TIFF: OpenEXR's maps have another up. OpenImageIO makes a TIFF of several pictures on the disk only.
 void make_environment(Raster& raster, const std::string& texture, const MapMaking& making) {
-    write_texture(OIIO::ImageBufAlgo::MakeTxEnvLatl, raster, texture_config(making, TypeDesc::FLOAT, "tiff"),
-                  texture);
+    ImageSpec config = texture_config(making, TypeDesc::FLOAT);
+    config.attribute("maketx:fileformatname", "tiff");
+    Unfinished file(texture);
+    check_output(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxEnvLatl, buffer_of(raster),
+                                                  file.path(), config),
+                 OIIO::geterror());
+    file.finish();
 }
 
 std::vector<float> depths_of(const Picture& picture) {
@@ -176,35 +191,29 @@ void write_depths(const ImageSpec& from, const MapMatrices& matrices, const std:
     spec.attribute("textureformat", "Shadow");
     spec.attribute("worldtocamera", OIIO::TypeMatrix, &matrices.camera_from_world);
     spec.attribute("worldtoscreen", OIIO::TypeMatrix, &matrices.screen_from_world);
-    Unfinished file(shadow);
-    const auto out = OIIO::ImageOutput::create("tiff");
-    check(out != nullptr, OIIO::geterror());
-    check(out->open(file.path(), spec) && out->write_image(TypeDesc::FLOAT, depths.data()) && out->close(),
-          out->geterror());
-    file.finish();
+    write_map(tiff_bytes(spec, depths), shadow);
 }
 
 }  // namespace
 
-std::string make_texture_map(const std::string& picture, const std::string& texture,
-                             const MapMaking& making) {
+MapProblem make_texture_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
     return made([&] { make_flat(read_linear(picture), texture, making); });
 }
 
-std::string make_bump_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
+MapProblem make_bump_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
     return made([&] { make_flat(read_numbers(picture), texture, making); });
 }
 
-std::string make_lat_long_environment(const std::string& picture, const std::string& texture,
-                                      const MapMaking& making) {
+MapProblem make_lat_long_environment(const std::string& picture, const std::string& texture,
+                                     const MapMaking& making) {
     return made([&] {
         Picture read = read_linear(picture);
         make_environment(read.raster, texture, making);
     });
 }
 
-std::string make_cube_face_environment(const std::array<std::string, 6>& pictures, const std::string& texture,
-                                       float fov, const MapMaking& making) {
+MapProblem make_cube_face_environment(const std::array<std::string, 6>& pictures, const std::string& texture,
+                                      float fov, const MapMaking& making) {
     return made([&] {
         std::array<Raster, 6> faces;
         for (size_t i = 0; i < faces.size(); ++i) {
@@ -217,7 +226,7 @@ std::string make_cube_face_environment(const std::array<std::string, 6>& picture
     });
 }
 
-std::string make_shadow_map(const std::string& picture, const std::string& shadow) {
+MapProblem make_shadow_map(const std::string& picture, const std::string& shadow) {
     return made([&] {
         const Picture read = read_numbers(picture);
         const auto matrices = map_matrices(read.spec);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/random.h"
+#include "core/temporary_folder_harness.h"
 #include "shade/map_files_harness.h"
 
 namespace trapeze {
@@ -180,17 +182,49 @@ TEST_F(MakeShadowTest, MayReplaceItsPicture) {
 }
 
 TEST_F(MakeShadowTest, NeedsMatrices) {
-    EXPECT_THAT(make_shadow_map(grey("grey.tif", 0.5f), path("no.shd")), testing::HasSubstr("worldtocamera"));
+    EXPECT_THAT(make_shadow_map(grey("grey.tif", 0.5f), path("no.shd")).text,
+                ::testing::HasSubstr("worldtocamera"));
     EXPECT_FALSE(std::filesystem::exists(path("no.shd")));
+}
+
+TEST_F(MakeMapsTest, AFullDiskIsNoticedAndLeavesNothing) {
+    // Noise, which does not compress.
+    ImageSpec spec(64, 32, 3, TypeDesc::FLOAT);
+    const M44f m;
+    for (const char* name : {"worldtocamera", "worldtoscreen"}) spec.attribute(name, OIIO::TypeMatrix, &m);
+    uint32_t seed = 0;
+    const auto noise = [&](int, int, int) { return unit_float(hash(seed++)) + 0.5f; };
+    const std::string picture = write("noise.tif", spec, noise);
+    spec.nchannels = 1;
+    const std::string depths = write("depths.tif", spec, noise), map = path("map");
+    MapProblem problems[5];
+    for (const rlim_t bytes : {0, 5000}) {
+        {
+            const testing::FileSizeLimit full(bytes);
+            problems[0] = make_texture_map(picture, map, {});
+            problems[1] = make_bump_map(picture, map, {});
+            problems[2] = make_lat_long_environment(picture, map, {});
+            problems[3] = make_cube_face_environment({picture, picture, picture, picture, picture, picture},
+                                                     map, 90, {});
+            problems[4] = make_shadow_map(depths, map);
+        }
+        for (const MapProblem& problem : problems) {
+            EXPECT_NE(problem, "") << bytes;
+            EXPECT_TRUE(problem.is_of_output) << problem.text;
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(map));
+    EXPECT_TRUE(is_alone("map"));
 }
 
 TEST_F(MakeMapsTest, FailuresSayWhyAndLeaveWhatWasThere) {
     std::ofstream(path("old.tex")) << "old";
     EXPECT_NE(make_texture_map(path("nowhere.png"), path("old.tex"), {}), "");
     const std::string picture = grey("grey.png", 0.5f);
-    EXPECT_THAT(make_texture_map(picture, path("old.tex"), {"round", "periodic", "box"}),
-                testing::HasSubstr("\"round\""));
-    EXPECT_NE(make_texture_map(picture, path("no/such/folder.tex"), {}), "");
+    EXPECT_THAT(make_texture_map(picture, path("old.tex"), {"round", "periodic", "box"}).text,
+                ::testing::HasSubstr("\"round\""));
+    EXPECT_TRUE(make_texture_map(picture, path("no/such/folder.tex"), {}).is_of_output);
+    EXPECT_FALSE(make_texture_map(path("broken.png"), path("old.tex"), {}).is_of_output);
     std::ofstream(path("broken.png")) << "no picture";
     EXPECT_NE(make_texture_map(path("broken.png"), path("old.tex"), {}), "");
     EXPECT_NE(make_bump_map(path("broken.png"), path("old.tex"), {}), "");

@@ -15,13 +15,13 @@
 
 namespace trapeze {
 
-class MapFilesTest : public testing::Test {
+class MapFilesTest : public ::testing::Test {
   protected:
     MapFilesTest() {
         OIIO::attribute("threads", 1);  // its own threads are not known to sanitizers
         folder_ = std::filesystem::temp_directory_path() /
                   ("trapeze_maps_" + std::to_string(::getpid()) + "_" +
-                   testing::UnitTest::GetInstance()->current_test_info()->name());
+                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder_);
     }
     ~MapFilesTest() override { std::filesystem::remove_all(folder_); }

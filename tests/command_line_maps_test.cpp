@@ -1,5 +1,7 @@
 /// The program from outside: passes, maps made of them, variables of shaders.
 
+#include "core/random.h"
+#include "core/temporary_folder_harness.h"
 #include "tests/command_line.h"
 
 namespace trapeze::testing {
@@ -93,6 +95,26 @@ TEST(CommandLine, AMapThatCannotBeMadeIsAnError) {
               std::string::npos)
         << outcome.err;
     EXPECT_TRUE(fs::exists(folder / "sphere.exr"));
+}
+
+TEST(CommandLine, MapsThatADiskDoesNotHoldEndWithSix) {
+    WorkFolder folder;
+    std::string noise = "P3 64 64 255";
+    for (uint32_t i = 0; i < 3 * 64 * 64; ++i) noise += " " + std::to_string(hash(i) % 256);
+    folder.write("noise.ppm", noise);
+    folder.write("a.rib", "MakeTexture \"noise.ppm\" \"noise.tex\" \"periodic\" \"periodic\" \"box\" 1 1\n" +
+                              std::string(kSphere));
+    const std::string before = files_in(folder);
+    Outcome outcome;
+    {
+        const FileSizeLimit full(8000);
+        outcome = run_program(folder, "render -d null a.rib");
+    }
+    EXPECT_EQ(outcome.exit_code, 6) << outcome.err;
+    EXPECT_NE(outcome.err.find("a.rib:1:1: error: cannot make \"noise.tex\" from \"noise.ppm\""),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(files_in(folder), before);
 }
 
 /// A sphere by a shader of its own, whose variables are shown, too.

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <optional>
 
-#include "composite/output_file.h"
+#include "core/output_file.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/read_settings.h"

@@ -112,7 +112,7 @@ void RenderJob::make_map_of_pictures(MapRequest request) {
         picture = found->second.file;
         if (!std::exchange(found->second.is_pass, true)) --pictures_;
     }
-    make_map(request, diagnostics_);
+    if (!make_map(request, diagnostics_)) output_failed_ = true;
 }
 
 void RenderJob::render_world(Scene&& scene) {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "composite/output_file.h"
+#include "core/output_file.h"
 
 namespace trapeze {
 namespace {

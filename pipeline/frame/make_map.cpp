@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "composite/output_file.h"
 #include "core/foreign_paths.h"
+#include "core/output_file.h"
 #include "shade/make_maps.h"
 
 namespace trapeze {
@@ -27,9 +27,7 @@ std::string found_picture(const std::string& name, const std::vector<std::string
     return name;
 }
 
-/// Empty, or what went wrong.
-std::string made(const MapRequest& request, const std::string& map,
-                 const std::vector<std::string>& pictures) {
+MapProblem made(const MapRequest& request, const std::string& map, const std::vector<std::string>& pictures) {
     const MapMaking making{request.swrap, request.twrap, request.filter};
     switch (request.kind) {
         case MapRequest::Kind::Texture:
@@ -50,21 +48,22 @@ std::string made(const MapRequest& request, const std::string& map,
 
 }  // namespace
 
-void make_map(const MapRequest& request, Diagnostics& diagnostics) {
+bool make_map(const MapRequest& request, Diagnostics& diagnostics) {
     std::vector<std::string> pictures;
     for (const std::string& name : request.pictures) pictures.push_back(found_picture(name, request.folders));
     std::error_code ignored;
     const std::string map =
         fs::is_regular_file(pictures[0], ignored) ? place_to_write(request.map) : request.map;
-    const std::string problem = made(request, map, pictures);
-    if (problem.empty() && map != request.map)
+    const MapProblem problem = made(request, map, pictures);
+    if (problem.text.empty() && map != request.map)
         diagnostics.warning(
             request.location,
             fmt::format("there is no folder for \"{}\"; it is made as \"{}\"", request.map, map),
             "no-folder");
-    if (problem.empty()) return;
+    if (problem.text.empty()) return true;
     diagnostics.error(request.location, fmt::format("cannot make \"{}\" from \"{}\": {}", request.map,
-                                                    request.pictures[0], problem));
+                                                    request.pictures[0], problem.text));
+    return !problem.is_of_output;
 }
 
 }  // namespace trapeze

@@ -8,7 +8,7 @@ namespace trapeze {
 
 /// Pictures are looked for where their names say, which is where displays are written, then in the request's
 /// folders; the map is written where its name says. What goes wrong is reported as an error, and
-/// nothing is written.
-void make_map(const MapRequest& request, Diagnostics& diagnostics);
+/// nothing is written. False when it was the map's file that could not be written.
+bool make_map(const MapRequest& request, Diagnostics& diagnostics);
 
 }  // namespace trapeze

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "composite/temporary_folder_harness.h"
+#include "core/temporary_folder_harness.h"
 #include "pipeline/ri/ri.h"
 
 namespace trapeze::ri {

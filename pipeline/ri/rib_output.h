@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "composite/output_file.h"
+#include "core/output_file.h"
 #include "pipeline/rib/gzip_writer.h"
 #include "pipeline/rib/rib_writer.h"
 

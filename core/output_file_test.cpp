@@ -1,11 +1,11 @@
-#include "composite/output_file.h"
+#include "core/output_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "composite/temporary_folder_harness.h"
+#include "core/temporary_folder_harness.h"
 
 namespace trapeze {
 namespace {

@@ -1,6 +1,5 @@
-#include "composite/output_file.h"
+#include "core/output_file.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -71,7 +70,7 @@ bool OutputFile::find_place(std::string& folder, std::string& name) {
     folder = path.parent_path().string();
     if (name.empty()) return fail("it names no file");
     if (!folder.empty() && !fs::is_directory(folder, failed))
-        return fail(fmt::format("there is no folder \"{}\"", folder));
+        return fail("there is no folder \"" + folder + "\"");
     const fs::file_status status = fs::status(path, failed);
     if (!fs::exists(status)) return true;
     if (fs::is_directory(status)) return fail("it is a folder");
@@ -83,9 +82,9 @@ bool OutputFile::open() {
     std::string folder, name;
     if (!find_place(folder, name)) return false;
     const std::lock_guard lock(partials().mutex);
-    const std::string partial =
-        fmt::format("{}{}.{}.part-{}-{}", folder, folder.empty() || folder.back() == '/' ? "" : "/",
-                    name.substr(0, kNameBytes), ::getpid(), ++partials().count);
+    if (!folder.empty() && folder.back() != '/') folder += '/';
+    const std::string partial = folder + name.substr(0, kNameBytes) + "." + std::to_string(::getpid()) +
+                                ".part-" + std::to_string(++partials().count);
     file_ = std::fopen(partial.c_str(), "wbx");
     if (!file_ && errno == EEXIST) {
         // Of a process of the same number that was killed.
