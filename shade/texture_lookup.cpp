@@ -59,6 +59,28 @@ V3f within(const V3f& change, float most) {
     return {within(change.x, most), within(change.y, most), within(change.z, most)};
 }
 
+/// The sides of what a lookup is filtered over.
+struct Region {
+    float dsdu, dtdu, dsdv, dtdv;
+};
+
+/// OpenImageIO ends the program where a blurred region has next to no area in the file's pixels, as where t
+/// is a function of s. Such a one is given a width, which is less than that to which it widens them.
+/// `s_scale`, `t_scale`: the picture over what the file has of it.
+Region with_area(const Region& r, double s_scale, double t_scale) {
+    constexpr double kLeast = 1.0 / 64;
+    const double su = s_scale * r.dsdu, tu = t_scale * r.dtdu, sv = s_scale * r.dsdv, tv = t_scale * r.dtdv;
+    const double A = tu * tu + tv * tv, B = su * tu + sv * tv, C = su * su + sv * sv;
+    const double root = std::hypot(A - C, 2 * B), longest = (A + C + root) / 2, least = (A + C - root) / 2;
+    if (least > longest * kLeast * kLeast) return r;
+    const bool is_along_u = std::hypot(su, tu) >= std::hypot(sv, tv);
+    const double s = is_along_u ? su : sv, t = is_along_u ? tu : tv, length = std::hypot(s, t);
+    if (!(length > 0)) return r;
+    const double scale = std::sqrt(longest) / length, across = scale * kLeast;
+    return {static_cast<float>(s * scale / s_scale), static_cast<float>(t * scale / t_scale),
+            static_cast<float>(-t * across / s_scale), static_cast<float>(s * across / t_scale)};
+}
+
 /// In wanted lanes.
 void set_all(const Lanes& lanes, std::span<const Plane> out, float value) {
     for (const Plane& plane : out) {
@@ -109,10 +131,12 @@ void Textures::texture(const Picture* picture, const Lookup& at, const MapOption
             const float twidth = std::max(options.twidth.at(i), 0.0f);
             const auto s_change = [&](ConstPlane d) { return within(value(d, i) * swidth, kMostRegion); };
             const auto t_change = [&](ConstPlane d) { return within(value(d, i) * twidth, kMostRegion); };
-            return impl_->system->texture(
-                picture->handle, thread, made, coordinate(value(at.s, i), made.swrap),
-                coordinate(value(at.t, i), made.twrap), s_change(at.dsdu), t_change(at.dtdu),
-                s_change(at.dsdv), t_change(at.dtdv), channels, color);
+            Region region{s_change(at.dsdu), t_change(at.dtdu), s_change(at.dsdv), t_change(at.dtdv)};
+            if (made.sblur + made.tblur > 0) region = with_area(region, picture->s_scale, picture->t_scale);
+            return impl_->system->texture(picture->handle, thread, made,
+                                          coordinate(value(at.s, i), made.swrap),
+                                          coordinate(value(at.t, i), made.twrap), region.dsdu, region.dtdu,
+                                          region.dsdv, region.dtdv, channels, color);
         });
 }
 

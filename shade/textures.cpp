@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <thread>
 
 #include "shade/linear_image_input.h"
@@ -102,6 +103,8 @@ void Textures::Impl::start() {
     cache->attribute("automip", 1);
     system.reset(OIIO::TextureSystem::create(false, cache.get()));
     system->attribute("latlong_up", "z");
+    // All channels lie together in memory: it ends the program at an environment's poles where they do not.
+    system->attribute("max_tile_channels", std::numeric_limits<int>::max());
 }
 
 /// In a thread of its own, since add_file() asks get_perthread_info(). Returns what is wrong with the file.
@@ -143,6 +146,8 @@ std::string Textures::Impl::describe(Picture& picture, const OIIO::ImageSpec& sp
     if (spec.nchannels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
         return "is no picture of rows and columns";
     picture.channels = spec.nchannels;
+    picture.s_scale = static_cast<double>(std::max(spec.full_width, 1)) / spec.width;
+    picture.t_scale = static_cast<double>(std::max(spec.full_height, 1)) / spec.height;
     picture.wrap_modes = spec.get_string_attribute("wrapmodes");
     if (!picture.wrap_modes.empty()) {
         OIIO::TextureOpt::parse_wrapmodes(picture.wrap_modes.c_str(), picture.swrap, picture.twrap);

@@ -22,6 +22,7 @@ class Textures::Picture {
     OIIO::TextureOpt::Wrap swrap = OIIO::TextureOpt::WrapBlack, twrap = OIIO::TextureOpt::WrapBlack;
     std::string wrap_modes;  ///< as the file records them, or empty
     int channels = 0;
+    double s_scale = 1, t_scale = 1;  ///< the picture over what the file has of it
     bool y_up = false;  ///< an environment as OpenEXR has it
     std::string name;
     SourceLocation location;
