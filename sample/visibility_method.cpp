@@ -1,6 +1,7 @@
 #include "sample/visibility_method.h"
 
 #include "sample/cut_hits.h"
+#include "sample/level_of_detail.h"
 
 namespace trapeze {
 
@@ -18,7 +19,8 @@ const std::vector<VisibilityMethod>& visibility_methods() {
 std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const Grids& grids,
                                              const SamplePattern& made_pattern) const {
     const VisibilityMethod& row = *find_named(visibility_methods(), method.name);
-    return with_cuts(row.prepare({context, grids, made_pattern, method}), context, grids);
+    auto visibility = row.prepare({context, grids, made_pattern, method});
+    return with_cuts(with_levels_of_detail(std::move(visibility), context, grids), context, grids);
 }
 
 std::string Sampler::name() const {

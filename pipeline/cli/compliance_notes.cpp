@@ -10,7 +10,7 @@ constexpr RequestNote kRequests[] = {
     {"Bxdf", "RIS shaders are not run: rissurface, in the Bxdf's colour or texture"},
     {"ColorSamples", "colours are turned into RGB where they are read"},
     {"Deformation", "no such shaders"},
-    {"Detail", "cross-faded by opacity"},
+    {"Detail", "not within object definitions"},
     {"Displace", "read; RIS shaders are not run"},
     {"DisplayFilter", "read; RIS shaders are not run"},
     {"EditAttributeBegin", "the block is skipped"},
@@ -52,7 +52,9 @@ constexpr Capability kCapabilities[] = {
      "each sample's ray: exact with motion blur and depth of field. A ray that starts inside a solid behind "
      "which an opaque surface stands is taken to start outside."},
     {"Trim Curves", "supported", "TrimCurve on NuPatch, with Attribute \"trimcurve\" \"sense\"."},
-    {"Level of Detail", "supported", "Detail, DetailRange and RelativeDetail; transitions fade by opacity."},
+    {"Level of Detail", "supported",
+     "Detail, DetailRange and RelativeDetail; levels in transition share "
+     "out each pixel's samples, which together cover what one level would."},
     {"Motion Blur", "supported",
      "Transforms and deforming geometry with any number of keys, also within instances. Shading is at "
      "shutter "

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "composite/film.h"
+#include "core/level_of_detail.h"
 #include "pipeline/frame/stopwatch.h"
 #include "sample/cut_hits.h"
 
@@ -35,7 +36,8 @@ bool faces_the_eye(const Shape& shape) {
 
 PackOptions packing(const Scene& scene, const Primitive& primitive) {
     const bool cut = may_be_cut(scene, primitive);
-    return {cut || depth_filter(scene.options) == DepthFilter::Midpoint,
+    return {cut || !seen_numbers(*primitive.attributes).are_all() ||
+                depth_filter(scene.options) == DepthFilter::Midpoint,
             cut || faces_the_eye(primitive.shape())};
 }
 

@@ -64,17 +64,11 @@ void sides(Reader& r, ArgumentCursor& c) {
 
 void orientation(Reader& r, ArgumentCursor& c) {
     const std::string name = c.string("the orientation");
-    AttributeState& state = r.change_attributes();
-    if (name == "outside")
-        state.orientation = Orientation::Outside;
-    else if (name == "inside")
-        state.orientation = Orientation::Inside;
-    else if (name == "lh")
-        state.orientation = Orientation::LeftHanded;
-    else if (name == "rh")
-        state.orientation = Orientation::RightHanded;
-    else
+    if (name != "outside" && name != "inside" && name != "lh" && name != "rh")
         throw RequestError{in_quotes(name) + " is none of outside, inside, lh, rh", {}};
+    const bool mismatches = name == (r.is_right_handed() ? "lh" : "rh");
+    AttributeState& state = r.change_attributes();
+    state.orientation = name == "inside" || mismatches ? Orientation::Inside : Orientation::Outside;
     state.orientation_reversed = false;
 }
 

@@ -5,6 +5,7 @@
 #include "pipeline/rib/kept_values.h"
 #include "pipeline/rib/primitive_variables.h"
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/wrap_mode.h"
 
 namespace trapeze::rib {
 namespace {
@@ -62,10 +63,7 @@ void curves(Reader& r, ArgumentCursor& c) {
     curves.cubic = type == "cubic";
     curves.basis = r.attributes().v_basis, curves.step = r.attributes().v_step;
     curves.vertices_per_curve = c.int_array("the numbers of points");
-    const std::string wrap = c.string("the wrap mode");
-    if (wrap != "periodic" && wrap != "nonperiodic")
-        throw RequestError{in_quotes(wrap) + " is neither periodic nor nonperiodic", {}};
-    curves.periodic = wrap == "periodic";
+    curves.periodic = takes_periodic(r, c);
     if (curves.vertices_per_curve.empty()) throw RequestError{"has no curves", {}};
     int64_t sum = 0;
     for (size_t i = 0; i < curves.vertices_per_curve.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include "pipeline/rib/primitive_variables.h"
 #include "pipeline/rib/request_table.h"
+#include "pipeline/rib/wrap_mode.h"
 
 namespace trapeze::rib {
 namespace {
@@ -40,10 +41,7 @@ void patch_mesh(Reader& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
         n = c.integer((std::string("the number of points along ") + axis).c_str(), 2, kLargestMesh);
-        const std::string wrap = c.string("the wrap mode");
-        if (wrap != "periodic" && wrap != "nonperiodic")
-            throw RequestError{in_quotes(wrap) + " is neither periodic nor nonperiodic", {}};
-        wraps = wrap == "periodic";
+        wraps = takes_periodic(r, c);
         if (!mesh.bicubic) return;
         if (wraps ? (n % step != 0 || n < 3) : (n < 4 || (n - 4) % step != 0))
             throw RequestError{std::to_string(n) + " points along " + axis +

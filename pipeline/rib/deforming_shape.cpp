@@ -7,11 +7,15 @@
 namespace trapeze::rib {
 namespace {
 
+bool same_form(const Parameter& a, const Parameter& b) {
+    return a.declaration == b.declaration && a.floats.size() == b.floats.size();
+}
+
 bool same_variables(const Shape& a, const Shape& b) {
     if (a.variables.values.size() != b.variables.values.size()) return false;
     return std::all_of(a.variables.values.begin(), a.variables.values.end(), [&](const Parameter& x) {
         const Parameter* y = b.variables.find(x.name);  // they may stand in another order
-        return y && x.declaration == y->declaration && x.floats.size() == y->floats.size();
+        return y && same_form(x, *y);
     });
 }
 
@@ -92,6 +96,26 @@ bool can_deform(const std::vector<ShapePointer>& shapes) {
     return std::all_of(shapes.begin(), shapes.end(), [&](const ShapePointer& shape) {
         return std::visit(SameTopology{}, first.topology, shape->topology) && same_variables(first, *shape);
     });
+}
+
+bool settle_colors(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open) {
+    const size_t after = std::upper_bound(times.begin(), times.end(), open) - times.begin();
+    const ShapePointer at_open = shapes[after > 0 ? after - 1 : 0];
+    bool moves = false;
+    for (const char* name : {"Cs", "Os"}) {
+        const Parameter* const own = at_open->variables.find(name);
+        for (ShapePointer& shape : shapes) {
+            const Parameter* const other = shape->variables.find(name);
+            if (!own && !other) continue;
+            moves = moves || !own || !other || own->floats != other->floats;
+            if (own && other && same_form(*own, *other)) continue;
+            auto settled = std::make_shared<Shape>(*shape);
+            std::erase_if(settled->variables.values, [&](const Parameter& p) { return p.name == name; });
+            if (own) settled->variables.set(*own);
+            shape = std::move(settled);
+        }
+    }
+    return moves;
 }
 
 std::vector<ShapePointer> shapes_at_keys(const std::vector<ShapePointer>& shapes,

@@ -8,12 +8,13 @@
 namespace trapeze::rib {
 
 /// RISpec shows a primitive wholly within the inner range and mixes neighbouring levels across transitions:
-/// here both are there at once, with opacities that add up to 1.
-float Detail::weight() const {
-    if (size < least || size > most) return 0;
-    if (size < full_from) return (size - least) / (full_from - least);
-    if (size > full_to) return std::isinf(most) ? 1 : (most - size) / (most - full_to);
-    return 1;
+/// what grows has the samples from 0 on, what fades those up to 1, divided at the same number to the bit.
+SeenNumbers Detail::seen() const {
+    const auto passed = [this](float begin, float end) { return (size - begin) / (end - begin); };
+    if (size < least || size > most) return {0, 0};
+    if (size < full_from) return {0, passed(least, full_from)};
+    if (size > full_to && !std::isinf(most)) return {passed(full_to, most), 1};
+    return {0, 1};
 }
 
 /// Pixels of the smallest upright rectangle round a box, times RelativeDetail.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/level_of_detail.h"
 #include "core/scene.h"
 #include "pipeline/rib/arguments.h"
 #include "pipeline/rib/moving_transform.h"
@@ -23,8 +24,10 @@ struct DisplacementBound {
     bool operator==(const DisplacementBound&) const = default;
 };
 
-/// Orientation as it was asked for; what it means for normals depends on the space of each primitive.
-enum class Orientation { Outside, Inside, LeftHanded, RightHanded };
+/// Whether the current orientation matches that of the current coordinate system (outside): it goes on
+/// matching, or not matching, whatever transformations reflect, for both flip together (RISpec 4.2). In an
+/// object's definition that has not said it is what the instance has.
+enum class Orientation { OfInstance, Outside, Inside };
 
 /// Detail and DetailRange (RISpec 4.2.7). Sizes are areas of the picture in pixels, RelativeDetail included.
 struct Detail {
@@ -32,8 +35,8 @@ struct Detail {
     float least = 0, full_from = 0;                       ///< grows in between
     float full_to = std::numeric_limits<float>::infinity(), most = full_to;  ///< fades in between
 
-    /// How much of a primitive is there, 0 to 1.
-    float weight() const;
+    /// Of the samples that see the primitive.
+    SeenNumbers seen() const;
 };
 
 /// A light that shines from the first shape after it.
@@ -141,12 +144,14 @@ struct OpenBlock {
 struct MotionBlock {
     SourceLocation at;
     std::vector<float> times;
-    std::string request;  ///< what the block holds
+    std::string request;  ///< what of transforms or geometry the block holds
     TransformKind transform_kind = TransformKind::Matrix;
     bool absolute = false;  ///< Transform
     std::vector<TransformArguments> transforms;
     std::vector<std::shared_ptr<const Shape>> shapes;
-    std::vector<RequestText> others;  ///< requests of other kinds (colours, shaders), which do not move
+    /// Requests of other kinds (colours, shaders), which do not move: by name, in the order of the first
+    /// ones.
+    std::vector<std::vector<RequestText>> others;
 };
 
 }  // namespace trapeze::rib

@@ -58,20 +58,21 @@ void Reader::begin_motion(std::vector<float> times) {
 }
 
 void Reader::hold_in_motion(RequestText text) {
-    if (motion_->request.empty()) motion_->request = text.name;
-    if (motion_->request != text.name)
-        throw RequestError{"this is a motion block of " + motion_->request, {}};
-    motion_->others.push_back(std::move(text));
+    std::vector<std::vector<RequestText>>& held = motion_->others;
+    const auto same = std::find_if(held.begin(), held.end(), [&](const std::vector<RequestText>& keys) {
+        return keys.front().name == text.name;
+    });
+    (same == held.end() ? held.emplace_back() : *same).push_back(std::move(text));
 }
 
-void Reader::carry_out_held(MotionBlock block) {
-    const std::vector<float>& times = block.times;
-    std::vector<RequestText>& keys = block.others;
-    at_ = keys[0].at, request_name_ = block.request;
+void Reader::carry_out_held(std::vector<RequestText> keys, const std::vector<float>& times) {
+    const std::string name = keys[0].name, outer_name = request_name_;
+    const SourceLocation outer = at_;
+    at_ = keys[0].at, request_name_ = name;
     RequestText text = keys[0];
     if (keys.size() != times.size()) {
-        error(block.request + " occurs " + std::to_string(keys.size()) + " times for " +
-              std::to_string(times.size()) + " times of the motion; the first is used");
+        error(name + " occurs " + std::to_string(keys.size()) + " times for " + std::to_string(times.size()) +
+              " times of the motion; the first is used");
     } else {
         const float open = scope_.options.shutter_open;
         const size_t next = std::upper_bound(times.begin(), times.end(), open) - times.begin();
@@ -84,19 +85,19 @@ void Reader::carry_out_held(MotionBlock block) {
             return !has_same_arguments(key, keys[0]);
         });
         if (moves)
-            diagnostics_.note(at_,
-                              block.request + ": does not move; its values as the shutter opens are used",
-                              "motion-of-" + block.request);
+            diagnostics_.note(at_, name + ": does not move; its values as the shutter opens are used",
+                              "motion-of-" + name);
     }
     try {
-        carry_out(*find_request(block.request), text);
+        carry_out(*find_request(name), text);
     } catch (const RequestError& problem) {
         error(problem.at, problem.text + "; request skipped");
     }
+    at_ = outer, request_name_ = outer_name;
 }
 
 void Reader::finish_motion(MotionBlock block) {
-    if (!block.others.empty()) return carry_out_held(std::move(block));
+    for (std::vector<RequestText>& keys : block.others) carry_out_held(std::move(keys), block.times);
     const size_t given = std::max(block.transforms.size(), block.shapes.size());
     if (given == 0) return;
     const bool complete = given == block.times.size();
@@ -115,13 +116,17 @@ void Reader::finish_motion(MotionBlock block) {
                 MovingFactor{block.transform_kind, std::move(block.times), std::move(block.transforms)});
         return;
     }
+    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    if (complete && settle_colors(block.shapes, block.times, open))
+        diagnostics_.note(block.at,
+                          block.request + ": its colours do not move; those as the shutter opens are used",
+                          "motion-of-colours");
     if (complete && !can_deform(block.shapes)) {
         error("the shapes of the motion differ in topology or variables; the first is used");
         block.shapes.resize(1);
     }
     if (!complete) block.shapes.resize(1);
     block.times.resize(block.shapes.size());
-    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
     if (object_)
         object_->primitives.push_back({block.request,
                                        std::move(block.shapes),
@@ -197,6 +202,15 @@ void Reader::use_coordinate_system(const std::string& name) {
 
 M44f Reader::camera_from_current() const {
     return M44f(state_.transform.at(scope_.options.shutter_open));
+}
+
+bool Reader::is_right_handed() const {
+    const float open = scope_.options.shutter_open;
+    bool right = state_.transform.at(open).determinant() < 0;
+    // An object's own space stands in that in which its definition began.
+    for (const OpenBlock& block : blocks_)
+        if (block.kind == Block::Object && block.saved.transform.at(open).determinant() < 0) right = !right;
+    return right;
 }
 
 }  // namespace trapeze::rib

@@ -60,9 +60,12 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
             for (const Parameter& value : values.values) result->attributes.user[category].set(value);
     if (at_primitive.displacement_bound != at_begin.displacement_bound)
         result->displacement_bound = at_primitive.displacement_bound;
-    if (at_primitive.orientation != at_begin.orientation) result->orientation = at_primitive.orientation;
-    if (at_primitive.orientation_reversed != at_begin.orientation_reversed)
+    if (at_primitive.orientation != Orientation::OfInstance) {
+        result->orientation = at_primitive.orientation;
         result->orientation_reversed = at_primitive.orientation_reversed;
+    } else if (at_primitive.orientation_reversed) {
+        result->orientation_reversed = !instance.orientation_reversed;
+    }
     return result;
 }
 
@@ -71,6 +74,8 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
 void Reader::begin_object(const std::string& handle) {
     if (object_) throw RequestError{"object definitions do not nest", {}};
     begin_block(Block::Object);
+    AttributeState& state = change_attributes();
+    state.orientation = Orientation::OfInstance, state.orientation_reversed = false;
     object_ = std::make_shared<RetainedObject>();
     object_->attributes = state_.attributes;
     scope_.objects[handle] = object_;

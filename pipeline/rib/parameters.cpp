@@ -81,8 +81,14 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
                                  "surplus-numbers");
             (is_string ? value.strings.resize(got - got % item) : numbers.resize(got - got % item));
         }
+        if (list.find(name)) {
+            report(Severity::Warning, name_at,
+                   request_name_ + ": " + in_quotes(name) + " is given twice; the first counts",
+                   "repeated-parameter");
+            continue;
+        }
         if (is_color) numbers = rgb(std::move(numbers));
-        list.set({name, declaration, std::move(numbers), std::move(value.strings)});
+        list.values.push_back({name, declaration, std::move(numbers), std::move(value.strings)});
     }
     return list;
 }

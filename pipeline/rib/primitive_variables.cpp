@@ -43,7 +43,7 @@ void check_types(Reader& reader, ParameterList& list) {
     });
 }
 
-void split_st(ParameterList& list) {
+void split_st(Reader& reader, ParameterList& list) {
     const Parameter* st = list.find("st");
     if (!st) return;
     Declaration declaration = st->declaration;
@@ -52,9 +52,16 @@ void split_st(ParameterList& list) {
     s.floats.reserve(st->floats.size() / 2), t.floats.reserve(st->floats.size() / 2);
     for (size_t i = 0; i + 1 < st->floats.size(); i += 2)
         s.floats.push_back(st->floats[i]), t.floats.push_back(st->floats[i + 1]);
+    const auto place = st - list.values.data();
+    for (Parameter* const half : {&s, &t}) {
+        const Parameter* const given = list.find(half->name);
+        const bool comes_first = given && given - list.values.data() < place;
+        if (given)
+            reader.warn_once(in_quotes(half->name) + " is given twice, once in \"st\"; the first counts",
+                             "repeated-parameter");
+        if (!comes_first) list.set(std::move(*half));
+    }
     remove(list, "st");
-    list.set(std::move(s));
-    list.set(std::move(t));
 }
 
 void check_weights(const Parameter& pw) {
@@ -163,7 +170,7 @@ ParameterList checked_variables(Reader& reader, ParameterList list, const Topolo
     expand_pz(list, topology);
     const VariableCounts counts = variable_counts(topology);
     std::erase_if(list.values, [&](Parameter& p) { return !fit_to_shape(reader, p, counts); });
-    split_st(list);
+    split_st(reader, list);
     return list;
 }
 

@@ -54,7 +54,6 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
         {"\"linear\" [2] \"nonperiodic\" \"constantwidth\" 1", "\"P\" is missing"},
         {"\"linear\" [] \"nonperiodic\" " + points(2), "has no curves"},
         {"\"quadratic\" [2] \"nonperiodic\" " + points(2), "neither linear nor cubic"},
-        {"\"linear\" [2] \"closed\" " + points(2), "neither periodic nor nonperiodic"},
         {"\"linear\" [2000000000 2000000000] \"nonperiodic\" " + points(2), "more than 268435456 points"},
     };
     for (const auto& [text, message] : wrong) {
@@ -64,6 +63,14 @@ TEST(ReadCurves, WhatIsWrongIsSaidWithItsPlace) {
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:1: error: Curves")) << text;
         EXPECT_EQ(r.count(), 1u) << text;  // the sphere
     }
+}
+
+TEST(ReadCurves, UnknownWrapsLeaveThemOpen) {
+    const Outcome r = read_world("Curves \"linear\" [2] \"closed\" " + points(2));
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: Curves: \"closed\" is neither "
+                                                  "periodic nor nonperiodic; taken as nonperiodic")));
+    ASSERT_EQ(r.count(), 1u);
+    EXPECT_FALSE(std::get<Curves>(r.primitive().shape().topology).periodic);
 }
 
 TEST(ReadCurves, PointsBeyondTheLastSegmentAreLeftOver) {

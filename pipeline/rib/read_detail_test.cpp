@@ -1,12 +1,15 @@
 /// Levels of detail, and how geometry may be approximated.
+#include <array>
 #include <cmath>
 
+#include "core/level_of_detail.h"
 #include "pipeline/rib/test_reading.h"
 
 namespace trapeze::rib::test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::FloatNear;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -16,25 +19,36 @@ const std::string kView = "Format 100 100 1 Projection \"orthographic\" ";
 /// 40 x 20 pixels.
 const std::string kBound = "Detail [-0.4 0.4 -0.2 0.2 0 3] ";
 
-float opacity(const std::string& range, const std::string& options = "") {
+/// Of the samples' numbers, those that see the primitive: none is {0, 0}.
+std::array<float, 2> seen(const std::string& range, const std::string& options = "") {
     const Outcome outcome = read_text(kView + options + "WorldBegin Opacity 0.5 0.5 1 " + kBound +
                                       "DetailRange " + range + " " + kSphere + "WorldEnd");
     EXPECT_THAT(outcome.messages, IsEmpty());
-    return outcome.count() == 0 ? 0 : outcome.attributes().opacity.z;
+    if (outcome.count() == 0) return {0, 0};
+    EXPECT_EQ(outcome.attributes().opacity, V3f(0.5f, 0.5f, 1));
+    const SeenNumbers numbers = seen_numbers(outcome.attributes());
+    return {numbers.from, numbers.to};
 }
 
 TEST(ReadDetail, TheAreaOnThePictureCounts) {
-    EXPECT_EQ(opacity("[0 0 1e38 1e38]"), 1);
-    EXPECT_EQ(opacity("[799 799 801 801]"), 1);
-    EXPECT_EQ(opacity("[0 0 799 799]"), 0);
-    EXPECT_EQ(opacity("[801 801 1e38 1e38]"), 0);
+    EXPECT_THAT(seen("[0 0 1e38 1e38]"), ElementsAre(0, 1));
+    EXPECT_THAT(seen("[799 799 801 801]"), ElementsAre(0, 1));
+    EXPECT_THAT(seen("[0 0 799 799]"), ElementsAre(0, 0));
+    EXPECT_THAT(seen("[801 801 1e38 1e38]"), ElementsAre(0, 0));
 }
 
-TEST(ReadDetail, TransitionsScaleTheOpacity) {
-    EXPECT_NEAR(opacity("[700 1100 1e38 1e38]"), 0.25f, 1e-4f);
-    EXPECT_NEAR(opacity("[0 0 700 1100]"), 0.75f, 1e-4f);
-    EXPECT_NEAR(opacity("[0 100 600 1000]", "RelativeDetail 1.125 "), 0.25f, 1e-4f);
-    EXPECT_EQ(opacity("[0 0 10 20]", "RelativeDetail 0 "), 1);
+TEST(ReadDetail, TransitionsShareOutTheSamples) {
+    EXPECT_THAT(seen("[700 1100 1e38 1e38]"), ElementsAre(0, FloatNear(0.25f, 1e-4f)));
+    EXPECT_THAT(seen("[0 0 700 1100]"), ElementsAre(FloatNear(0.25f, 1e-4f), 1));
+    EXPECT_THAT(seen("[0 100 600 1000]", "RelativeDetail 1.125 "), ElementsAre(FloatNear(0.75f, 1e-4f), 1));
+    EXPECT_THAT(seen("[0 0 10 20]", "RelativeDetail 0 "), ElementsAre(0, 1));
+}
+
+TEST(ReadDetail, LevelsThatPassIntoEachOtherAddUpToTheBit) {
+    for (const char* range : {"700 1100", "1 801", "799.9 800.3", "3.7 1e6"}) {
+        const std::string transition(range);
+        EXPECT_EQ(seen("[" + transition + " 1e38 1e38]")[1], seen("[0 0 " + transition + "]")[0]) << range;
+    }
 }
 
 TEST(ReadDetail, PerspectiveMakesFarThingsSmall) {
@@ -68,18 +82,8 @@ TEST(ReadDetail, BlocksRestoreItAndInstancesTakeIt) {
                   "DetailRange [0 0 10 10] ObjectInstance 1 DetailRange [0 0 700 1100] "
                   "ObjectInstance 1 AttributeEnd ObjectInstance 1 WorldEnd");
     ASSERT_EQ(outcome.count(), 2u);
-    EXPECT_NEAR(outcome.attributes(0).opacity.x, 0.75f, 1e-4f);
-    EXPECT_EQ(outcome.attributes(1).opacity.x, 1);
-}
-
-TEST(ReadDetail, OpacitiesOfThePrimitiveAreScaledToo) {
-    const Outcome outcome = read_text(kView + "WorldBegin " + kBound +
-                                      "DetailRange [0 0 700 1100] Polygon \"P\" [0 0 1 1 0 1 0 1 1] "
-                                      "\"Os\" [1 1 1 0.5 0.5 0.5 0 0 0] WorldEnd");
-    const std::vector<float>& os = outcome.primitive().shape().variables.find("Os")->floats;
-    EXPECT_NEAR(os[0], 0.75f, 1e-4f);
-    EXPECT_NEAR(os[3], 0.375f, 1e-4f);
-    EXPECT_EQ(os[6], 0);
+    EXPECT_NEAR(seen_numbers(outcome.attributes(0)).from, 0.25f, 1e-4f);
+    EXPECT_EQ(seen_numbers(outcome.attributes(1)).from, 0);
 }
 
 TEST(ReadDetail, WrongOnesAreSaid) {

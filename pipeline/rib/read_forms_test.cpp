@@ -96,6 +96,21 @@ TEST(ReadForms, ShaderParametersHaveOneValue) {
     EXPECT_THAT(list.find("x")->floats, ElementsAre(1, 2));
 }
 
+TEST(ReadForms, OfParametersGivenTwiceTheFirstCounts) {
+    const Outcome outcome = read_world(
+        "Surface \"plastic\" \"Kd\" 0.5 \"uniform float Kd\" 0.25\nAttribute \"user\" \"float a\" 1 "
+        "\"float a\" 2 Surface \"plastic\" \"float[2] z\" [3] \"float[2] z\" [4 5]\n" +
+        kSphere);
+    ASSERT_EQ(outcome.messages.size(), 2u) << "one of the kind, and a wrong value";
+    EXPECT_THAT(outcome.messages[0],
+                HasSubstr("a.rib:2:28: warning: Surface: \"Kd\" is given twice; the first counts"));
+    EXPECT_THAT(outcome.messages[1], HasSubstr("\"z\" has 1 values, needs a multiple of 2; left out"));
+    EXPECT_EQ(outcome.attributes().user.at("user").float_or("a", 0), 1);
+    EXPECT_EQ(outcome.attributes().surface->parameters.float_or("z", 0), 4) << "of those that are right";
+    const Outcome plastic = read_world("Surface \"plastic\" \"Kd\" 0.5 \"Kd\" 0.25\n" + kSphere);
+    EXPECT_EQ(plastic.attributes().surface->parameters.float_or("Kd", 0), 0.5f);
+}
+
 TEST(ReadForms, TagsMayBeEmptyOrOneWithoutBrackets) {
     const std::string mesh = "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] ";
     const Outcome outcome =

@@ -116,6 +116,27 @@ TEST(ReadGeometry, BilinearMeshesAndBasesOfOnesOwn) {
     EXPECT_EQ(patch.patches_u(), 1);
 }
 
+TEST(ReadGeometry, MeshesOfUnknownWrapsAreOpen) {
+    const Outcome r = read_world("PatchMesh \"bilinear\" 3 \"nowrap\" 2 \"periodic\" " + points(6));
+    EXPECT_THAT(r.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: PatchMesh: \"nowrap\" is neither "
+                                                  "periodic nor nonperiodic; taken as nonperiodic")));
+    ASSERT_EQ(r.count(), 1u);
+    EXPECT_FALSE(std::get<PatchMesh>(r.primitive().shape().topology).u_wraps);
+    EXPECT_TRUE(std::get<PatchMesh>(r.primitive().shape().topology).v_wraps);
+}
+
+TEST(ReadGeometry, OfVariablesGivenTwiceTheFirstCounts) {
+    const auto s_of = [](const std::string& variables) {
+        const Outcome r = read_world("Polygon " + kQuad + variables);
+        EXPECT_THAT(r.messages, ElementsAre(HasSubstr("warning: Polygon: \"s\" is given twice")))
+            << variables;
+        return r.primitive().shape().variables.find("s")->floats.at(0);
+    };
+    EXPECT_EQ(s_of("\"s\" [1 1 1 1] \"varying float s\" [2 2 2 2]"), 1);
+    EXPECT_EQ(s_of("\"s\" [1 1 1 1] \"st\" [2 2 2 2 2 2 2 2]"), 1);
+    EXPECT_EQ(s_of("\"st\" [2 2 2 2 2 2 2 2] \"s\" [1 1 1 1]"), 2);
+}
+
 TEST(ReadGeometry, TextureCoordinatesComeApart) {
     const Outcome r = read_world("Polygon " + kQuad + "\"st\" [0 1 2 3 4 5 6 7]");
     const ParameterList& variables = r.primitive().shape().variables;
@@ -183,7 +204,6 @@ TEST(ReadGeometry, InvalidPrimitivesAreSkipped) {
         "Patch \"quadratic\" " + kQuad,
         "Patch \"bilinear\"",
         "Patch \"bilinear\" \"Pw\" [0 0 0 1 2 0 0 0 0 1 0 1 1 1 0 1]",
-        "PatchMesh \"bilinear\" 2 \"open\" 2 \"nonperiodic\" " + kQuad,
         "PatchMesh \"bilinear\" 1 \"nonperiodic\" 4 \"nonperiodic\" " + kQuad,
         "PatchMesh \"bilinear\" -2 \"nonperiodic\" -2 \"nonperiodic\" " + kQuad,
         "PatchMesh \"bilinear\" 1000000 \"nonperiodic\" 1000000 \"nonperiodic\" " + kQuad,

@@ -129,6 +129,56 @@ TEST(ReadMotion, ColoursAndShadersAreThoseAsTheShutterOpens) {
     }
 }
 
+TEST(ReadMotion, AttributesMayStandBetweenEachOtherAndGeometry) {
+    const Outcome r = read_shutter("0.25 1",
+                                   "MotionBegin [0 1] Color 1 0 0 Opacity 0 0 0 Sphere 1 -1 1 360 "
+                                   "Color 0 1 0 Opacity 1 1 1 Sphere 5 -1 1 360 MotionEnd");
+    EXPECT_THAT(r.messages,
+                ElementsAre(HasSubstr("a.rib:3:19: note: Color: does not move; its values as the shutter"),
+                            HasSubstr("note: Opacity: does not move")));
+    EXPECT_EQ(r.attributes().color, V3f(0.75f, 0.25f, 0));
+    EXPECT_EQ(r.attributes().opacity, V3f(0.25f));
+    EXPECT_THAT(radii_of(r.primitive()), ElementsAre(2, 5));
+    const Outcome moved = read_shutter("0 1",
+                                       "MotionBegin [0 1] Color 1 0 0 Translate 0 0 0 Color 0 0 1 "
+                                       "Translate 1 0 0 MotionEnd " +
+                                           kSphere);
+    EXPECT_EQ(moved.attributes().color, V3f(1, 0, 0));
+    EXPECT_EQ(moved.primitive().camera_from_object.size(), 2u);
+}
+
+/// Red and blue points, or none, in a triangle that moves by 4.
+Outcome read_colored_poses(const std::string& shutter, const std::string& first, const std::string& second) {
+    return read_shutter(shutter, "MotionBegin [0 1] Polygon \"P\" [0 0 0 1 0 0 0 1 0] " + first +
+                                     " Polygon \"P\" [0 0 4 1 0 4 0 1 4] " + second + " MotionEnd");
+}
+
+TEST(ReadMotion, ColoursOfPosesAreThoseAsTheShutterOpens) {
+    const std::string red = "\"Cs\" [1 0 0 1 0 0 1 0 0] ", blue = "\"Cs\" [0 0 1 0 0 1 0 0 1] ",
+                      one = "\"constant color Cs\" [0 0 1] ";
+    const auto color = [](const Outcome& r) {
+        const Parameter* const cs = r.primitive().shape().variables.find("Cs");
+        return cs ? V3f(cs->floats[0], cs->floats[1], cs->floats[2]) : V3f(-1);
+    };
+    const struct {
+        std::string shutter, first, second;
+        V3f color;
+    } rows[] = {{"0 1", red, blue, {1, 0, 0}},
+                {"0.25 1", red, blue, {0.75f, 0, 0.25f}},
+                {"0 1", red, "", {1, 0, 0}},
+                {"0 1", "", blue, V3f(-1)},
+                {"0 1", red, one, {1, 0, 0}}};
+    for (const auto& row : rows) {
+        const Outcome r = read_colored_poses(row.shutter, row.first, row.second);
+        EXPECT_THAT(r.messages, ElementsAre(HasSubstr("note: Polygon: its colours do not move; those as the "
+                                                      "shutter opens are used")));
+        EXPECT_EQ(color(r), row.color) << row.shutter;
+        EXPECT_EQ(r.primitive().shape_keys.size(), 2u) << "it deforms all the same";
+        EXPECT_EQ(r.primitive().shape_keys.at(1)->variables.find("P")->floats[2], 4);
+    }
+    EXPECT_THAT(read_colored_poses("0 1", red, red).messages, IsEmpty());
+}
+
 TEST(ReadMotion, WhatStaysTheSameIsNotNoted) {
     const Outcome r = read_shutter("0 1",
                                    "MotionBegin [0 1] Color 1 0 0 Color 1 0 0 MotionEnd MotionBegin [0 1] "

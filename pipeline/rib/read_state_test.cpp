@@ -193,16 +193,6 @@ TEST(ReadState, TransformAndIdentityAreRelativeToTheWorld) {
     EXPECT_EQ(r.scene().camera_from_named.at("world").translation(), V3f(0, 0, 9));
 }
 
-TEST(ReadState, OrientationAndMirroring) {
-    const std::string text = kSphere + "ReverseOrientation " + kSphere + "Orientation \"inside\" " + kSphere +
-                             "Orientation \"outside\" Scale -1 1 1 " + kSphere + "Orientation \"lh\" " +
-                             kSphere + "Orientation \"rh\" " + kSphere + "Orientation \"up\"";
-    const Outcome r = read_world(text);
-    const bool reversed[] = {false, true, true, true, false, true};
-    for (size_t i = 0; i < 6; ++i) EXPECT_EQ(r.attributes(i).reverse_orientation, reversed[i]) << i;
-    EXPECT_EQ(r.messages.size(), 1u);
-}
-
 TEST(ReadState, LightsAreSwitchedWithinBlocks) {
     const Outcome r = read_world(
         "LightSource \"pointlight\" 1 \"intensity\" [2] AttributeBegin LightSource \"ambientlight\" "

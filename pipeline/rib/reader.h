@@ -81,6 +81,8 @@ class Reader {
     void name_scoped_coordinate_system(const std::string& name);
     void use_coordinate_system(const std::string& name);
     M44f camera_from_current() const;
+    /// The current coordinate system, as the shutter opens. Camera space is left-handed.
+    bool is_right_handed() const;
 
     void add_shape(std::string request, Shape shape, uint64_t faces);
     void add_light(std::shared_ptr<const LightInstance> light);
@@ -182,7 +184,7 @@ class Reader {
 
     /// Attributes and options in a motion block: carried out at its end, once, as the shutter opens.
     void hold_in_motion(RequestText text);
-    void carry_out_held(MotionBlock block);
+    void carry_out_held(std::vector<RequestText> keys, const std::vector<float>& times);
     void carry_out(const Request& request, RequestText& text);
     void finish_motion(MotionBlock block);
     MovingTransform root_transform() const;

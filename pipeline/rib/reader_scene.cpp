@@ -38,18 +38,6 @@ std::vector<ShapePointer> only(ShapePointer shape) {
     return keys;
 }
 
-/// The variable Os, where there is one, outdoes the attribute.
-std::vector<ShapePointer> with_opacity_scaled(const std::vector<ShapePointer>& keys, float weight) {
-    if (!keys.front()->variables.find("Os")) return keys;
-    std::vector<ShapePointer> scaled;
-    for (const ShapePointer& key : keys) {
-        auto shape = std::make_shared<Shape>(*key);
-        for (float& v : shape->variables.find("Os")->floats) v *= weight;
-        scaled.push_back(std::move(shape));
-    }
-    return scaled;
-}
-
 }  // namespace
 
 float Reader::displacement_length(const AttributeState& state, const std::vector<M44f>& camera_from_object) {
@@ -74,9 +62,7 @@ std::shared_ptr<const Attributes> Reader::resolved_attributes(
     const std::shared_ptr<const AttributeState>& state, const std::vector<M44f>& camera_from_object) {
     // dPdu x dPdv in camera space is the transformed outward normal times the sign of the determinant.
     const bool mirrored = M44d(camera_from_object.front()).determinant() < 0;
-    const bool inside = state->orientation == Orientation::Inside ||
-                        (state->orientation == Orientation::LeftHanded && mirrored) ||
-                        (state->orientation == Orientation::RightHanded && !mirrored);
+    const bool inside = state->orientation == Orientation::Inside;
     const bool reverse = (mirrored != inside) != state->orientation_reversed;
     const float bound = displacement_length(*state, camera_from_object);
     if (resolved_.state == state && resolved_.attributes->reverse_orientation == reverse &&
@@ -85,7 +71,7 @@ std::shared_ptr<const Attributes> Reader::resolved_attributes(
     auto attributes = std::make_shared<Attributes>(state->attributes);
     attributes->reverse_orientation = reverse;
     attributes->displacement_bound = bound;
-    attributes->opacity *= state->detail.weight();
+    set_seen_numbers(*attributes, state->detail.seen());
     if (read_options_.shading_rate) attributes->shading_rate = *read_options_.shading_rate;
     resolved_ = {state, attributes};
     return attributes;
@@ -126,16 +112,11 @@ void Reader::emit(const std::string& request, std::vector<ShapePointer> shape_ke
     ++summary_.primitives[request];
     summary_.points += point_count(primitive.shape());
     if (primitive.key_count() > 1) ++summary_.moving_primitives;
-    const float weight = state->detail.weight();
-    if (!keeps_geometry() || weight <= 0) return;
-    const ShapePointer first_shape = primitive.shape_keys.front();
-    if (weight < 1) primitive.shape_keys = with_opacity_scaled(primitive.shape_keys, weight);
-    const bool more_shapes = primitive.shape_keys.front() != first_shape;
+    if (!keeps_geometry() || state->detail.seen().are_none()) return;
     const std::shared_ptr<const Attributes> last = resolved_.attributes;
     primitive.attributes = resolved_attributes(state, spaces);
     uint64_t bytes = bytes_of(primitive);
     if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
-    if (more_shapes) bytes += primitive.shape_keys.size() * bytes_of(primitive.shape());
     if (!has_room(bytes)) return;
     scene_.primitives.push_back(std::move(primitive));
 }
