@@ -55,7 +55,9 @@ void Reader::record_archive(RequestText& request, Scanner& scanner, std::string_
     }
     if (handle)
         inline_archives_[*handle] = {std::make_shared<const std::string>(text.substr(begin, end - begin)),
-                                     first, std::move(names)};
+                                     first,
+                                     std::move(names),
+                                     {}};
 }
 
 /// Beside the file that names it, along the search path, from the working folder. A file that is not found
@@ -134,11 +136,18 @@ void Reader::read_archive(const std::string& name) {
     if (const auto archive = inline_archives_.find(name); archive != inline_archives_.end()) {
         const std::string key = "<archive " + name + ">";
         if (!may_read_archive(name, key)) return;
-        const auto text = archive->second.text;  // stays while it is read, whatever is defined meanwhile
-        SourceLocation first = archive->second.first;
+        InlineArchive& known = archive->second;
+        if (!known.ready) known.ready = std::make_shared<ReadyArchive>(&ready_bytes_left_);
+        // They stay while they are read, whatever is defined meanwhile.
+        const std::shared_ptr<const std::string> text = known.text;
+        const std::shared_ptr<ReadyArchive> ready = known.ready;
+        SourceLocation first = known.first;
         first.source = diagnostics_.add_source(diagnostics_.source_name(first.source), at_);
         open_files_.push_back(key);
-        read_text(*text, first, archive->second.names);
+        if (ready->is_complete())
+            read_again(*ready, first.source);
+        else
+            read_text(*text, first, known.names, ready.get());
         open_files_.pop_back();
         return;
     }

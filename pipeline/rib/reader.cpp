@@ -1,6 +1,8 @@
 #include "pipeline/rib/reader.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "pipeline/rib/effects.h"
 #include "pipeline/rib/search_path.h"
@@ -28,6 +30,9 @@ bool has_no_points(const RequestText& text) {
     return false;
 }
 
+/// Of requests that are kept for archives that are read again.
+constexpr uint64_t kMostReadyBytes = uint64_t{256} << 20;
+
 // What is no RIB at all has a mistake of its own in each word.
 constexpr size_t kMostKinds = 200;
 constexpr size_t kMostUnknownRequests = 20;
@@ -47,7 +52,10 @@ std::string kind_of(Severity severity, const std::string& text) {
 
 Reader::Reader(const ReadOptions& options, Diagnostics& diagnostics,
                const std::function<void(Scene&&)>& on_world)
-    : read_options_(options), diagnostics_(diagnostics), on_world_(on_world) {
+    : read_options_(options),
+      diagnostics_(diagnostics),
+      on_world_(on_world),
+      ready_bytes_left_(std::min(kMostReadyBytes, options.most_scene_bytes / 8)) {
     state_.attributes = default_attributes();
 }
 
@@ -88,7 +96,28 @@ AttributeState& Reader::change_attributes() {
     return const_cast<AttributeState&>(*state_.attributes);
 }
 
+/// What is known of an archive that is a file as it was, or is to be known from now on; null for a scene's
+/// own files, which are read once.
+std::shared_ptr<ReadyArchive> Reader::ready_archive(const std::string& path) {
+    if (open_files_.empty()) return nullptr;
+    const std::optional<FileStamp> stamp = stamp_of(path);
+    if (!stamp) return nullptr;
+    KnownFile& file = known_files_[path];
+    if (!file.ready || file.stamp != *stamp)
+        file = {*stamp, std::make_shared<ReadyArchive>(&ready_bytes_left_)};
+    return file.ready;
+}
+
 void Reader::read_file(const std::string& path) {
+    const std::shared_ptr<ReadyArchive> ready = ready_archive(path);
+    if (ready && ready->is_complete()) {
+        const uint32_t id = diagnostics_.add_source(path, at_);
+        ++summary_.files;
+        open_files_.push_back(path);
+        read_again(*ready, id);
+        open_files_.pop_back();
+        return;
+    }
     std::string problem;
     auto source = read_source(path, read_options_.max_source_bytes, &problem);
     if (!source) {
@@ -101,10 +130,13 @@ void Reader::read_file(const std::string& path) {
     }
     const uint32_t id =
         diagnostics_.add_source(path == "-" ? "<stdin>" : path, open_files_.empty() ? SourceLocation{} : at_);
-    if (!source->problem.empty()) diagnostics_.error({id, 0, 0}, source->problem);
+    if (!source->problem.empty()) {
+        diagnostics_.error({id, 0, 0}, source->problem);
+        if (ready) ready->give_up();
+    }
     ++summary_.files;
     open_files_.push_back(path);
-    read_text(source->text, {id, 1, 1});
+    read_text(source->text, {id, 1, 1}, {}, ready.get());
     open_files_.pop_back();
 }
 
@@ -115,25 +147,67 @@ void Reader::read_memory(std::string_view text, const std::string& name) {
     open_files_.pop_back();
 }
 
-void Reader::read_text(std::string_view text, SourceLocation first, EncodedNames names) {
-    summary_.bytes += text.size();
-    Scanner scanner(text, first, std::move(names));
-    RequestText request;
+/// Requests come from somewhere else for a while.
+template <class Read>
+void Reader::in_stream(ReadyArchive* ready, Read&& read) {
     const SourceLocation at = at_;
     const std::string name = request_name_;
     const size_t outer_conditionals = first_conditional_;
+    const auto outer_place = std::exchange(place_, {ready, 0, 0});
     first_conditional_ = conditionals_.size();
-    while (!is_stopped() && read_request(scanner, request, is_request, diagnostics_)) {
-        if (is_skipping() && !is_conditional(request.name)) continue;
-        if (request.name == std::string_view("ArchiveBegin"))
-            record_archive(request, scanner, text);
-        else
-            execute(request);
-    }
+    read();
     if (!stopped_) close_conditionals();
     conditionals_.resize(first_conditional_);
     first_conditional_ = outer_conditionals;
+    place_ = outer_place;
     at_ = at, request_name_ = name;
+}
+
+/// The next request, which the archive keeps. One of whose text something was said is read as text again, so
+/// that it is said again.
+bool Reader::reads_next(Scanner& scanner, RequestText& request, ReadyArchive* ready) {
+    if (!ready || ready->is_given_up()) return read_request(scanner, request, is_request, diagnostics_);
+    const auto said = [this] {
+        return diagnostics_.count(Severity::Error) + diagnostics_.count(Severity::Warning);
+    };
+    const uint64_t before = said();
+    const bool is_there = read_request(scanner, request, is_request, diagnostics_);
+    if (said() != before || (is_there && request.name == "ArchiveBegin"))
+        ready->give_up();
+    else if (is_there)
+        ready->add(request);
+    return is_there;
+}
+
+void Reader::read_text(std::string_view text, SourceLocation first, EncodedNames names, ReadyArchive* ready) {
+    summary_.bytes += text.size();
+    if (ready && ready->size() > 0) ready = nullptr;  // from when reading was broken off
+    Scanner scanner(text, first, std::move(names));
+    RequestText request;
+    in_stream(ready, [&] {
+        for (; !is_stopped() && reads_next(scanner, request, ready); ++place_.request) {
+            place_.shapes = 0;
+            if (is_skipping() && !is_conditional(request.name)) continue;
+            if (request.name == std::string_view("ArchiveBegin"))
+                record_archive(request, scanner, text);
+            else
+                execute(request);
+        }
+    });
+    if (ready && !stopped_) ready->complete(text.size());
+}
+
+void Reader::read_again(ReadyArchive& ready, uint32_t source) {
+    summary_.bytes += ready.text_bytes();
+    RequestText request;
+    in_stream(&ready, [&] {
+        for (; !is_stopped() && place_.request < ready.size(); ++place_.request) {
+            place_.shapes = 0;
+            if (is_skipping() && !is_conditional(ready.name(place_.request))) continue;
+            ready.copy(place_.request, source, request);
+            execute(request);
+        }
+    });
 }
 
 void Reader::execute(RequestText& text) {

@@ -13,6 +13,7 @@
 #include "pipeline/rib/graphics_state.h"
 #include "pipeline/rib/programs.h"
 #include "pipeline/rib/read_rib.h"
+#include "pipeline/rib/ready_archive.h"
 
 namespace trapeze::rib {
 
@@ -162,7 +163,16 @@ class Reader {
     void close_conditionals();
     void substitute(RequestText& request) const;
 
-    void read_text(std::string_view text, SourceLocation first, EncodedNames names = {});
+    /// `ready`: an archive, for the next time; null when it is no archive.
+    void read_text(std::string_view text, SourceLocation first, EncodedNames names = {},
+                   ReadyArchive* ready = nullptr);
+    /// The same of a text that was read before.
+    void read_again(ReadyArchive& ready, uint32_t source);
+    template <class Read>
+    void in_stream(ReadyArchive* ready, Read&& read);
+    bool reads_next(Scanner& scanner, RequestText& request, ReadyArchive* ready);
+    std::shared_ptr<ReadyArchive> ready_archive(const std::string& path);
+    std::shared_ptr<const Shape> shared_or_new(Shape shape);
     void execute(RequestText& request);
     bool hands_on(const RequestText& request);
     std::string current_file() const;  ///< the innermost that is a file on disk; may be empty
@@ -268,6 +278,7 @@ class Reader {
         std::shared_ptr<const std::string> text;
         SourceLocation first;  ///< the place of its first character
         EncodedNames names;    ///< what was defined before it
+        std::shared_ptr<ReadyArchive> ready;
     };
     std::map<std::string, InlineArchive> inline_archives_;
     using SavedStates = std::map<std::string, GraphicsState>;
@@ -282,10 +293,22 @@ class Reader {
     std::vector<std::string> open_files_;  ///< for recursion; the last is being read
     size_t world_depth_ = 0;               ///< of them, as the world was opened
     uint64_t archives_read_ = 0;
+
+    struct KnownFile {
+        FileStamp stamp;
+        std::shared_ptr<ReadyArchive> ready;
+    };
+    std::map<std::string, KnownFile> known_files_;  ///< archives, by path
+    uint64_t ready_bytes_left_;                     ///< of what archives that are read again may take
+    /// Where in archives the request stands that is carried out: of the stream being read.
+    struct {
+        ReadyArchive* archive = nullptr;
+        size_t request = 0, shapes = 0;
+    } place_;
 };
 
-/// Transforms and geometry have a motion of their own; of attributes and options the first in a motion block
-/// counts.
+/// Transforms and geometry have a motion of their own; attributes and options in a motion block have their
+/// values as the shutter opens.
 enum class RequestGroup { Structure, Option, Attribute, Transform, Geometry, Unsupported };
 
 using RequestHandler = void (*)(Reader& reader, ArgumentCursor& cursor);

@@ -146,6 +146,15 @@ void Reader::report_homeless() {
     homeless_.count = 0;
 }
 
+/// That which the archive being read has made before, where it is the same; null when there is no room for a
+/// new one. Poses of a motion are counted at its end, at the keys that the scene has.
+ShapePointer Reader::shared_or_new(Shape shape) {
+    auto shared = std::make_shared<const Shape>(std::move(shape));
+    if (place_.archive && place_.archive->share(place_.request, place_.shapes++, shared)) return shared;
+    if (keeps_geometry() && !motion_ && !has_room(bytes_of(*shared))) return nullptr;
+    return shared;
+}
+
 void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
     if (!takes_geometry()) return;
     if (motion_) {
@@ -155,14 +164,13 @@ void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
     }
     summary_.faces += faces;
     place_emitter(shape);
-    // Poses of a motion are counted at its end, at the keys that the scene has.
-    if (keeps_geometry() && !motion_ && !has_room(bytes_of(shape))) return;
-    auto shared = std::make_shared<const Shape>(std::move(shape));
+    const ShapePointer shared = shared_or_new(std::move(shape));
+    if (!shared) return;
     if (motion_)
-        motion_->shapes.push_back(std::move(shared));
+        motion_->shapes.push_back(shared);
     else if (object_)
         object_->primitives.push_back({std::move(request),
-                                       {std::move(shared)},
+                                       {shared},
                                        {0.0f},
                                        state_.transform,
                                        state_.attributes,
@@ -172,8 +180,7 @@ void Reader::add_shape(std::string request, Shape shape, uint64_t faces) {
                                        0,
                                        solid_of_surface(object_->solids)});
     else
-        emit(request, only(std::move(shared)), state_.transform, state_.attributes, at_,
-             solid_of_surface(solids_));
+        emit(request, only(shared), state_.transform, state_.attributes, at_, solid_of_surface(solids_));
 }
 
 ShaderInstance Reader::shader(ArgumentCursor& cursor, const char* kind) {
