@@ -6,6 +6,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "core/transfer.h"
+
 namespace trapeze {
 namespace {
 
@@ -161,6 +163,24 @@ const Parameter* floats_of(const ParameterList& list, std::string_view name, siz
     return parameter && parameter->floats.size() >= count ? parameter : nullptr;
 }
 
+/// What the format cannot hold becomes 8 bits. OpenEXR has no use for it.
+void fit_to_format(Quantization& quantization, FileFormat format) {
+    const bool takes_floats = format == FileFormat::Tiff || format == FileFormat::OpenExr;
+    const bool takes_16_bits = takes_floats || format == FileFormat::Png;
+    if (quantization.to_float() ? !takes_floats : quantization.has_16_bits() && !takes_16_bits)
+        quantization = Quantization{};
+}
+
+/// Whether colours are encoded by the sRGB curve. What a display itself says comes before the options.
+bool is_encoded(const Display& display, const Options& options, const DisplayPlan& plan) {
+    if (plan.format == FileFormat::OpenExr || plan.quantization.to_float()) return false;
+    if (!plan.rgb && !plan.aov_is_color) return false;
+    const Transfer transfer =
+        transfer_named(display.parameters.string_or("colorspace", "")).value_or(transfer_of(options));
+    return transfer == Transfer::Srgb || (transfer == Transfer::Auto && options.exposure_gamma == 1 &&
+                                          !plan.quantization.has_16_bits());
+}
+
 void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
     const Parameter* own = floats_of(display.parameters, "quantize", 4);
     const bool color = plan.rgb || plan.alpha || plan.aov_is_color;
@@ -182,6 +202,8 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
     if (type == "float") plan.float_pixels = true, plan.quantization.make_float();
     if (type == "half") plan.float_pixels = false;
     if (plan.aov && !plan.aov_is_color) plan.float_pixels = true;
+    fit_to_format(plan.quantization, plan.format);
+    plan.srgb = is_encoded(display, options, plan);
     plan.compression = lower(
         display.parameters.string_or("exrcompression", display.parameters.string_or("compression", "")));
 }
@@ -196,6 +218,16 @@ bool holds_depth(const std::string& file) {
 bool makes_depth_map(const Display& display) {
     const std::string driver = lower(display.type);
     return driver == "zfile" || driver == "shadow";
+}
+
+bool asks_for_whole_numbers(const Display& display, const Options& options) {
+    Diagnostics unheard;
+    DisplayPlan plan;
+    if (!choose_format(display, unheard, plan)) return false;
+    if (const Parameter* own = floats_of(display.parameters, "quantize", 4))
+        return own->floats[0] != own->floats[1];
+    if (const Parameter* given = floats_of(options.quantize, "rgba", 4)) return given->floats[0] != 0;
+    return plan.format != FileFormat::OpenExr;
 }
 
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {

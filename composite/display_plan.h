@@ -20,6 +20,7 @@ struct Quantization {
     float zero = 0;
 
     bool to_float() const { return one == zero; }
+    bool has_16_bits() const { return !to_float() && max > 255; }
     void make_float() { one = zero = 0; }
 };
 
@@ -35,7 +36,8 @@ struct DisplayPlan {
     bool aov_is_color = false;
     bool float_pixels = false;  ///< OpenEXR: colours in floats, not halves; other variables always are
     std::string compression;    ///< OpenEXR's name of it, in lower case; empty: the default
-    Quantization quantization;  ///< of the other formats
+    Quantization quantization;  ///< of the other formats, as they can hold it
+    bool srgb = false;          ///< colours of whole numbers are encoded by the sRGB curve
 };
 
 /// Whether its driver writes depths for shadow maps: "zfile" and "shadow".
@@ -46,6 +48,9 @@ bool holds_depth(const std::string& file);
 
 /// The names of the channels of its output variable.
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
+
+/// Whether it asks for a file of whole numbers, by its format or by Quantize.
+bool asks_for_whole_numbers(const Display& display, const Options& options);
 
 /// Nothing when there is nothing to write: driver "null", a window beside a file of the same name or picture,
 /// or a mode or driver that is not supported, of which it warns. `layout` is aov_layout(options).

@@ -49,14 +49,10 @@ Encoding encoding_of(const PictureToWrite& picture) {
     const DisplayPlan& plan = picture.plan;
     Encoding e;
     e.quantization = plan.quantization;
-    const bool takes_floats = plan.format == FileFormat::Tiff;
-    const bool takes_16_bits = takes_floats || plan.format == FileFormat::Png;
-    if (e.quantization.to_float() && !takes_floats) e.quantization = Quantization{};
-    if (e.quantization.max > 255 && !takes_16_bits) e.quantization = Quantization{};
-    e.type = e.quantization.to_float()  ? OIIO::TypeDesc::FLOAT
-             : e.quantization.max > 255 ? OIIO::TypeDesc::UINT16
-                                        : OIIO::TypeDesc::UINT8;
-    e.srgb = !e.to_float() && picture.context.scene->options.exposure_gamma == 1;
+    e.type = e.quantization.to_float()      ? OIIO::TypeDesc::FLOAT
+             : e.quantization.has_16_bits() ? OIIO::TypeDesc::UINT16
+                                            : OIIO::TypeDesc::UINT8;
+    e.srgb = plan.srgb;
     const bool takes_alpha = plan.format != FileFormat::Jpeg;
     e.channels = plan.rgb ? (plan.alpha && takes_alpha ? 4 : 3) : 1;
     e.first_channel = plan.rgb ? 0 : 3;
@@ -64,7 +60,6 @@ Encoding encoding_of(const PictureToWrite& picture) {
     e.depth = plan.depth;
     e.values = picture.image.rgba.data();
     if (!plan.aov) return e;
-    e.srgb = e.srgb && plan.aov_is_color;
     e.channels = plan.aov->channels;
     e.first_channel = 0;
     e.unassociated = false;
@@ -108,10 +103,22 @@ std::vector<Value> encode_pixels(const Image& image, const Encoding& e) {
     return out;
 }
 
+/// How numbers of colours stand for light; empty for others.
+std::string transfer_text(const PictureToWrite& picture, const Encoding& e) {
+    const bool is_aov = picture.plan.aov.has_value();
+    if (!(is_aov ? picture.plan.aov_is_color : picture.plan.rgb)) return {};
+    if (e.srgb) return "srgb";
+    const float gamma = picture.context.scene->options.exposure_gamma;
+    return gamma == 1 || is_aov ? "linear" : fmt::format("gamma {:g}", gamma);
+}
+
 /// "name: value; name: value"
-std::string description(const OutputInfo& info) {
+std::string description(const PictureToWrite& picture, const Encoding& e) {
+    auto metadata = picture.info.metadata;
+    if (std::string transfer = transfer_text(picture, e); !transfer.empty())
+        metadata.emplace_back("transfer", std::move(transfer));
     std::string text;
-    for (const auto& [name, value] : info.metadata)
+    for (const auto& [name, value] : metadata)
         text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name, value);
     return text;
 }
@@ -130,7 +137,7 @@ OIIO::ImageSpec make_spec(const PictureToWrite& picture, const Encoding& e) {
     }
     spec.attribute("PixelAspectRatio", picture.context.scene->options.pixel_aspect);
     spec.attribute("Software", picture.info.software);
-    spec.attribute("ImageDescription", description(picture.info));
+    spec.attribute("ImageDescription", description(picture, e));
     if (e.unassociated) spec.attribute("oiio:UnassociatedAlpha", 1);
     if (picture.plan.format == FileFormat::Tiff) {
         const M44f screen =

@@ -10,11 +10,10 @@ namespace trapeze {
 
 /// Opens, writes and commits `file`. Returns what went wrong, or nothing.
 ///
-/// RenderMan writes linear values where Exposure gives no gamma, which looks dark on every screen today. So
-/// whole numbers are encoded by the sRGB curve when Exposure's gamma is 1 (values are then linear) and left
-/// alone when it is not (then the user has encoded them). Floats stay as they are.
+/// Whole numbers are what RISpec says: Quantize's, of the values that Exposure leaves. Where the plan asks for
+/// the sRGB curve, colours are encoded by it first, alpha is not. Floats stay as they are.
 ///
-/// TIFF gets associated alpha, encoded as it is premultiplied: what is seen over black. PNG and the others
+/// TIFF gets associated alpha, and is encoded as it is premultiplied: what is seen over black. PNG and the others
 /// get unassociated alpha, as their formats say.
 std::string write_image(const PictureToWrite& picture, OutputFile& file);
 

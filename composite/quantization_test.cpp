@@ -23,7 +23,6 @@ struct Wished {
 std::map<int, double> levels_of(float grey, const Wished& wished) {
     const TemporaryFolder folder;
     RasterScene scene(64, 64, 1);
-    scene.scene.options.exposure_gamma = 2.2f;  // no curve between value and level
     Display display{folder.file("a.tif"), "tiff", "rgb", {}, {}};
     display.parameters.set({"quantize",
                             {StorageClass::Uniform, ValueType::Float, 4},

@@ -88,7 +88,6 @@ TEST(WriteVariables, OutputVariablesInTiffs) {
     bytes.parameters.set({"quantize", {StorageClass::Uniform, ValueType::Float, 4}, {0, 64, 0, 255}, {}});
     bytes.parameters.set({"dither", {StorageClass::Uniform, ValueType::Float, 1}, {0}, {}});
     scene.scene.options.displays = {foo, bytes};
-    scene.scene.options.exposure_gamma = 2;  // so that nothing is encoded
     scene.update();
     const Image image = image_with_variables(scene);
     ASSERT_TRUE(write(image, scene));

@@ -61,15 +61,18 @@ Picture read_picture(OIIO::ImageInput& file, const std::string& name) {
     return picture;
 }
 
-Picture read_linear(const std::string& name) {
-    LinearImageInput file;
-    return read_picture(file, name);
-}
-
 Picture read_numbers(const std::string& name) {
     const auto file = OIIO::ImageInput::create(name);
     check(file != nullptr, OIIO::geterror());
     return read_picture(*file, name);
+}
+
+Picture read_light(const std::string& name, Transfer transfer) {
+    const auto stored = OIIO::ImageInput::open(name);
+    check(stored != nullptr, OIIO::geterror());
+    if (!is_srgb_encoded(stored->spec(), transfer)) return read_numbers(name);
+    LinearImageInput file;
+    return read_picture(file, name);
 }
 
 /// Where a file is made that becomes `target` when all has gone well.
@@ -197,17 +200,20 @@ void write_depths(const ImageSpec& from, const MapMatrices& matrices, const std:
 }  // namespace
 
 MapProblem make_texture_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
-    return made([&] { make_flat(read_linear(picture), texture, making); });
+    return made([&] { make_flat(read_light(picture, making.transfer), texture, making); });
 }
 
 MapProblem make_bump_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
-    return made([&] { make_flat(read_numbers(picture), texture, making); });
+    return made([&] {
+        const bool is_encoded = making.transfer == Transfer::Srgb;
+        make_flat(read_light(picture, is_encoded ? Transfer::Srgb : Transfer::Linear), texture, making);
+    });
 }
 
 MapProblem make_lat_long_environment(const std::string& picture, const std::string& texture,
                                      const MapMaking& making) {
     return made([&] {
-        Picture read = read_linear(picture);
+        Picture read = read_light(picture, making.transfer);
         make_environment(read.raster, texture, making);
     });
 }
@@ -217,7 +223,7 @@ MapProblem make_cube_face_environment(const std::array<std::string, 6>& pictures
     return made([&] {
         std::array<Raster, 6> faces;
         for (size_t i = 0; i < faces.size(); ++i) {
-            faces[i] = std::move(read_linear(pictures[i]).raster);
+            faces[i] = std::move(read_light(pictures[i], making.transfer).raster);
             check(faces[i].channels == faces[0].channels, "the faces do not have the same channels");
             check(faces[i].pixels.size() * 8 <= kMostFloats, fmt::format("\"{}\" is too large", pictures[i]));
         }

@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/transfer.h"
+
 namespace trapeze {
 
 /// Why nothing was made; empty when it was.
@@ -26,12 +28,12 @@ struct MapMaking {
     /// RISpec's or OpenImageIO's name of what the smaller pictures are filtered with; each has its own width,
     /// for RISpec's widths there is no use.
     std::string filter = "box";
+    Transfer transfer = Transfer::Linear;  ///< of the pictures' numbers; maps are floats in linear light
 };
 
-/// Pictures of 8-bit numbers are taken to be sRGB, unless they say otherwise, and are made linear.
 MapProblem make_texture_map(const std::string& picture, const std::string& texture, const MapMaking& making);
 
-/// The same of heights: numbers are taken as they are.
+/// The same of heights, which are numbers for Transfer::Auto.
 MapProblem make_bump_map(const std::string& picture, const std::string& texture, const MapMaking& making);
 
 /// Of a picture by longitude and latitude, as textures.h has it.

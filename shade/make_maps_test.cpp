@@ -46,15 +46,40 @@ class MakeMapsTest : public MapFilesTest {
     }
 };
 
-TEST_F(MakeMapsTest, TexturesAreInLinearLightAndBumpsAreNumbers) {
-    const std::string picture = grey("grey.png", 188 / 255.0f);
-    ASSERT_EQ(make_texture_map(picture, path("grey.tex"), {}), "");
-    ASSERT_EQ(make_bump_map(picture, path("grey.bump"), {}), "");
-    for (const float width : {0.0f, 0.5f}) {
-        EXPECT_NEAR(look(path("grey.tex"), 0.3f, 0.6f, width), kLinear188, 1e-3f);
-        EXPECT_NEAR(look(path("grey.bump"), 0.3f, 0.6f, width), 188 / 255.0f, 1e-3f);
+/// What maps of a picture hold that is 188 of 255 everywhere.
+TEST_F(MakeMapsTest, NumbersAreKeptUnlessTheyAreSaidToBeEncoded) {
+    constexpr float kStored = 188 / 255.0f;
+    const struct {
+        Transfer transfer;
+        int channels;
+        float texture, bump;
+    } cases[] = {{Transfer::Linear, 3, kStored, kStored},
+                 {Transfer::Srgb, 3, kLinear188, kLinear188},
+                 {Transfer::Srgb, 1, kLinear188, kLinear188},
+                 {Transfer::Auto, 3, kLinear188, kStored},
+                 {Transfer::Auto, 1, kStored, kStored}};
+    for (const auto& c : cases) {
+        const std::string picture = write("grey.png", ImageSpec(16, 16, c.channels, TypeDesc::UINT8),
+                                          [&](int, int, int) { return kStored; });
+        MapMaking making;
+        making.transfer = c.transfer;
+        ASSERT_EQ(make_texture_map(picture, path("grey.tex"), making), "");
+        ASSERT_EQ(make_bump_map(picture, path("grey.bump"), making), "");
+        ASSERT_EQ(make_lat_long_environment(picture, path("grey.env"), making), "");
+        for (const float width : {0.0f, 0.5f}) {
+            EXPECT_NEAR(look(path("grey.tex"), 0.3f, 0.6f, width), c.texture, 1e-3f) << c.channels;
+            EXPECT_NEAR(look(path("grey.bump"), 0.3f, 0.6f, width), c.bump, 1e-3f) << c.channels;
+        }
+        EXPECT_NEAR(seen(path("grey.env"), V3f(1, 2, 3)).x, c.texture, 1e-3f) << c.channels;
     }
     EXPECT_TRUE(is_alone("grey.tex"));
+}
+
+TEST_F(MakeMapsTest, SixteenBitsKeepTheirNumbers) {
+    const std::string picture = write("height.tif", ImageSpec(16, 16, 1, TypeDesc::UINT16),
+                                      [](int, int, int) { return 12345 / 65535.0f; });
+    ASSERT_EQ(make_texture_map(picture, path("height.tex"), {}), "");
+    EXPECT_NEAR(look(path("height.tex"), 0.3f, 0.6f), 12345 / 65535.0f, 1e-6f);
 }
 
 TEST_F(MakeMapsTest, SmallerPicturesAverageLight) {

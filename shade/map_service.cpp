@@ -105,6 +105,16 @@ MapOptions options_of(Run& run, const Step& step, std::span<const Operand> opera
     return options;
 }
 
+/// The argument "colorspace"; empty where there is none.
+std::string_view colorspace_of(Run& run, const Step& step) {
+    const vm::Frame& frame = run.frame();
+    for (size_t i = first_named(step); i + 1 < step.count; i += 2)
+        if (frame.text(frame.register_of(step, i)) == "colorspace" &&
+            frame.reg(frame.register_of(step, i + 1)).type.base == rsl::Base::String)
+            return frame.text(frame.register_of(step, i + 1));
+    return {};
+}
+
 struct Coordinate {
     ConstPlane middle, along_u, along_v;
 };
@@ -171,10 +181,16 @@ void MapService::look_up(Run& run, const Step& step, std::span<const Operand> op
     }
 }
 
+/// The picture that a lookup names. One of floats reads numbers, unless it says that they are encoded.
+const Textures::Picture* MapService::picture_of(Run& run, const Step& step, bool of_color) {
+    return textures_.find(run.frame().text_input(step, 0), step.at,
+                          textures_.transfer_of_lookup(colorspace_of(run, step), of_color, step.at));
+}
+
 void MapService::texture(Run& run, const Step& step, std::span<const Operand> operands) {
     const CallLanes lanes(run, operands[0]);
     const auto [s, t] = map_place(lanes, operands, step.outputs + 2u, step.immediate >= 8);
-    const Textures::Picture* picture = textures_.find(run.frame().text_input(step, 0), step.at);
+    const Textures::Picture* picture = picture_of(run, step, operands[0].stride != 0);
     const std::vector<Plane> out = lanes.outputs(operands[0]);
     MapOptions options = options_of(run, step, operands);
     options.without = stand_in(run.frame(), step);
@@ -189,7 +205,7 @@ void MapService::bump(Run& run, const Step& step, std::span<const Operand> opera
     const CallLanes lanes(run, operands[0]);
     const MapPlace place = map_place(lanes, operands, step.outputs + 5u, step.immediate >= 11);
     const Coordinate &s = place.s, &t = place.t;
-    const Textures::Picture* picture = textures_.find(run.frame().text_input(step, 0), step.at);
+    const Textures::Picture* picture = picture_of(run, step, false);
     const MapOptions options = options_of(run, step, operands);
     const Plane s_step = lanes.scratch(), t_step = lanes.scratch();
     const Plane s_beside = lanes.scratch(), t_beside = lanes.scratch();
@@ -223,7 +239,7 @@ void MapService::bump(Run& run, const Step& step, std::span<const Operand> opera
 void MapService::environment(Run& run, const Step& step, std::span<const Operand> operands) {
     const CallLanes lanes(run, operands[0]);
     const std::array<Coordinate, 3> R = triple_values(lanes, step, operands);
-    const Textures::Picture* picture = textures_.find(run.frame().text_input(step, 0), step.at);
+    const Textures::Picture* picture = picture_of(run, step, operands[0].stride != 0);
     const std::vector<Plane> out = lanes.outputs(operands[0]);
     textures_.environment(picture,
                           {{R[0].middle, R[1].middle, R[2].middle},

@@ -16,6 +16,7 @@ class MapService : public vm::Maps {
     void look_up(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
 
   private:
+    const Textures::Picture* picture_of(vm::Run& run, const vm::Step& step, bool of_color);
     void texture(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
     void environment(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
     void shadow(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);

@@ -73,6 +73,7 @@ Textures::Textures(const Options& options, Diagnostics* diagnostics) : impl_(std
     impl_->shadow_bias = option(options, "shadow", "bias", option(options, "shadow", "bias0", -1));
     if (const auto paths = options.search_paths.find("texture"); paths != options.search_paths.end())
         impl_->folders = paths->second;
+    impl_->transfer = transfer_of(options);
     impl_->diagnostics = diagnostics;
 }
 
@@ -101,6 +102,7 @@ void Textures::Impl::start() {
     cache->attribute("max_memory_MB", memory_megabytes);
     cache->attribute("autotile", 64);
     cache->attribute("automip", 1);
+    cache->attribute("deduplicate", 0);  // a file decoded is not the same as it is
     system.reset(OIIO::TextureSystem::create(false, cache.get()));
     system->attribute("latlong_up", "z");
     // All channels lie together in memory: it ends the program at an environment's poles where they do not.
@@ -108,12 +110,27 @@ void Textures::Impl::start() {
 }
 
 /// In a thread of its own, since add_file() asks get_perthread_info(). Returns what is wrong with the file.
-std::string Textures::Impl::add_file(OIIO::ustring path) {
+std::string Textures::Impl::add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator) {
     std::string problem;
     std::thread([&] {
-        if (!cache->add_file(path, &LinearImageInput::create)) problem = cache->geterror();
+        if (!cache->add_file(path, creator)) problem = cache->geterror();
     }).join();
     return problem;
+}
+
+/// By the name that the cache has for it. Empty when it is open, else what is wrong.
+std::string Textures::Impl::open_file(Picture& picture, const std::string& name,
+                                      OIIO::ImageInput::Creator creator) {
+    const OIIO::ustring path(name);
+    const std::string problem = add_file(path, creator);
+    const ThreadState thread(*this);
+    picture.handle = system->get_texture_handle(path, thread.get());
+    picture.image = cache->get_image_handle(path, thread.of_cache());
+    if (picture.handle && picture.image && system->good(picture.handle)) return {};
+    std::string reason = problem;
+    if (reason.empty()) reason = system->geterror();
+    if (reason.empty()) reason = cache->geterror();
+    return reason.empty() ? "cannot be read" : reason;
 }
 
 /// Empty when it is open, else what is wrong.
@@ -125,19 +142,15 @@ std::string Textures::Impl::open(Picture& picture) {
                              fmt::format("texture \"{}\" is not found; \"{}\" is used", picture.name, *file));
     if (!file) return "is not found";
     start();
-    const OIIO::ustring path(*file);
-    const std::string problem = add_file(path);
+    picture.file = *file;
+    if (std::string problem = open_file(picture, *file, nullptr); !problem.empty()) return problem;
     const ThreadState thread(*this);
-    picture.handle = system->get_texture_handle(path, thread.get());
-    picture.image = cache->get_image_handle(path, thread.of_cache());
-    if (!picture.handle || !picture.image || !system->good(picture.handle)) {
-        std::string reason = problem;
-        if (reason.empty()) reason = system->geterror();
-        if (reason.empty()) reason = cache->geterror();
-        return reason.empty() ? "cannot be read" : reason;
-    }
-    OIIO::ImageSpec spec;
-    if (!cache->get_imagespec(picture.image, thread.of_cache(), spec)) return cache->geterror();
+    OIIO::ImageSpec in_file, spec;
+    if (!cache->get_imagespec(picture.image, thread.of_cache(), in_file, 0, 0, true) ||
+        !cache->get_imagespec(picture.image, thread.of_cache(), spec))
+        return cache->geterror();
+    picture.srgb_if_asked = is_srgb_encoded(in_file, Transfer::Srgb);
+    picture.srgb_by_itself = is_srgb_encoded(in_file, Transfer::Auto);
     return describe(picture, spec);
 }
 
@@ -170,6 +183,18 @@ Textures::Impl::Entry<Textures::Picture>& Textures::Impl::entry(std::string_view
     return made;
 }
 
+/// Of a picture that is open as it is: the same, decoded from sRGB.
+Textures::Impl::Entry<Textures::Picture>& Textures::Impl::decoded_entry(const Picture& picture) {
+    const auto known = decoded.find(picture.name);
+    if (known != decoded.end()) return known->second;
+    Entry<Picture>& made = decoded[picture.name];
+    made.map = std::make_unique<Picture>(picture);
+    made.problem =
+        open_file(*made.map, LinearImageInput::decoded_name(picture.file), &LinearImageInput::create);
+    if (!made.problem.empty()) made.map.reset();
+    return made;
+}
+
 template <class Map>
 const Map* Textures::Impl::report(Entry<Map>& made, std::string_view name, SourceLocation location) {
     if (!made.map && !made.reported && diagnostics) {
@@ -188,10 +213,29 @@ void Textures::Impl::report_read_error(const std::string& name, SourceLocation l
         diagnostics->error(location, fmt::format("texture \"{}\": {}", name, error), "texture read " + name);
 }
 
-const Textures::Picture* Textures::find(std::string_view name, SourceLocation location) {
+const Textures::Picture* Textures::find(std::string_view name, SourceLocation location, Transfer transfer) {
     if (name.empty()) return nullptr;
     const std::lock_guard lock(impl_->mutex);
-    return impl_->report(impl_->entry(name, location), name, location);
+    const Picture* picture = impl_->report(impl_->entry(name, location), name, location);
+    const bool is_encoded = picture && ((transfer == Transfer::Srgb && picture->srgb_if_asked) ||
+                                        (transfer == Transfer::Auto && picture->srgb_by_itself));
+    return is_encoded ? impl_->report(impl_->decoded_entry(*picture), name, location) : picture;
+}
+
+Transfer Textures::transfer_of_lookup(std::string_view colorspace, bool of_color,
+                                      SourceLocation location) const {
+    Transfer transfer = impl_->transfer;
+    if (const auto named = transfer_named(colorspace))
+        transfer = *named;
+    else if (!colorspace.empty() && impl_->diagnostics)
+        impl_->diagnostics->warning(
+            location,
+            fmt::format(
+                "\"colorspace\" \"{}\" is not known, there are {}; the texture is read as the scene's "
+                "Option \"color\" \"transfer\" says",
+                colorspace, kTransferNames),
+            fmt::format("colorspace {}", colorspace));
+    return transfer == Transfer::Auto && !of_color ? Transfer::Linear : transfer;
 }
 
 const Textures::DepthMap* Textures::find_shadow(std::string_view name, SourceLocation location) {

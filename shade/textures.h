@@ -1,10 +1,11 @@
 /// Texture, environment and shadow maps of one render, through a TextureSystem of its own with bounded
 /// memory. What includes textures_impl.h is all that knows OpenImageIO.
 ///
-/// s runs across the picture and t down it, from its top row at 0. Pictures of 8-bit numbers are taken to
-/// linear light as they are read, by the sRGB curve and before any filtering, unless their metadata says that
-/// they are linear already; other formats are taken as they are. Outside 0..1 a picture is as its own
-/// metadata says, which MakeTexture writes (RISpec 3.2, section 7.1); without, it is black.
+/// s runs across the picture and t down it, from its top row at 0. Numbers are taken as they are, unless
+/// Option "color" "transfer" or a lookup's own "colorspace" asks for pictures of 8 and 16 bits to be taken to
+/// linear light by the sRGB curve: that is done as they are read, before any filtering. Outside 0..1 a
+/// picture is as its own metadata says, which MakeTexture writes (RISpec 3.2, section 7.1); without, it is
+/// black.
 ///
 /// Environment maps are pictures of all directions by longitude and latitude, as RISpec has them (section
 /// 7.2): a direction is (cos(lon) cos(lat), sin(lon) cos(lat), sin(lat)); longitude runs from 0 at the left
@@ -25,6 +26,7 @@
 #include "core/diagnostics.h"
 #include "core/math.h"
 #include "core/scene.h"
+#include "core/transfer.h"
 #include "shade/planes.h"
 
 namespace trapeze {
@@ -87,10 +89,15 @@ class Textures {
     Textures(const Textures&) = delete;
     Textures& operator=(const Textures&) = delete;
 
-    /// An opened picture, of this object; null for an empty name or one that cannot be read, which is
-    /// reported once. Thread-safe.
+    /// An opened picture, of this object, whose numbers are taken as `transfer` says; null for an empty name
+    /// or one that cannot be read, which is reported once. Thread-safe.
     class Picture;
-    const Picture* find(std::string_view name, SourceLocation location);
+    const Picture* find(std::string_view name, SourceLocation location,
+                        Transfer transfer = Transfer::Linear);
+
+    /// How a lookup takes a picture's numbers: by its "colorspace", which may be empty, or as Option "color"
+    /// "transfer" says. An unknown name is reported once. What is "auto" are numbers for lookups of floats.
+    Transfer transfer_of_lookup(std::string_view colorspace, bool of_color, SourceLocation location) const;
 
     /// The same as a shadow map: null, and reported once, when it has no depths or no matrices.
     class DepthMap;

@@ -19,11 +19,13 @@ class Textures::Picture {
   public:
     OIIO::TextureSystem::TextureHandle* handle = nullptr;
     OIIO::ImageCache::ImageHandle* image = nullptr;  ///< the same, for the cache
+    std::string file;
+    bool srgb_if_asked = false, srgb_by_itself = false;  ///< is_srgb_encoded() for Srgb and Auto
     OIIO::TextureOpt::Wrap swrap = OIIO::TextureOpt::WrapBlack, twrap = OIIO::TextureOpt::WrapBlack;
     std::string wrap_modes;  ///< as the file records them, or empty
     int channels = 0;
     double s_scale = 1, t_scale = 1;  ///< the picture over what the file has of it
-    bool y_up = false;  ///< an environment as OpenEXR has it
+    bool y_up = false;                ///< an environment as OpenEXR has it
     std::string name;
     SourceLocation location;
 };
@@ -52,6 +54,7 @@ struct Textures::Impl {
     std::vector<std::string> folders;
     float memory_megabytes = 0;
     float shadow_bias = -1;  ///< below zero: none is set
+    Transfer transfer = Transfer::Linear;
     Diagnostics* diagnostics = nullptr;
 
     /// A picture or depth map, or why there is none.
@@ -62,7 +65,8 @@ struct Textures::Impl {
         bool reported = false;
     };
     std::mutex mutex;
-    std::map<std::string, Entry<Picture>, std::less<>> pictures;
+    std::map<std::string, Entry<Picture>, std::less<>> pictures;  ///< numbers as they are
+    std::map<std::string, Entry<Picture>, std::less<>> decoded;   ///< the same names, from sRGB
     std::map<std::string, Entry<DepthMap>, std::less<>> depth_maps;
 
     ~Impl();
@@ -75,9 +79,11 @@ struct Textures::Impl {
     /// Makes the cache, which a render without textures goes without. The mutex is held.
     void start();
     Entry<Picture>& entry(std::string_view name, SourceLocation location);
+    Entry<Picture>& decoded_entry(const Picture& picture);
     std::string open(Picture& picture);
     static std::string describe(Picture& picture, const OIIO::ImageSpec& spec);
-    std::string add_file(OIIO::ustring path);
+    std::string open_file(Picture& picture, const std::string& name, OIIO::ImageInput::Creator creator);
+    std::string add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator);
     std::string open(DepthMap& map);
     template <class Map>
     const Map* report(Entry<Map>& entry, std::string_view name, SourceLocation location);

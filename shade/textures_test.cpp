@@ -72,7 +72,7 @@ const float kGrey = std::pow((188 / 255.0f + 0.055f) / 1.055f, 2.4f);
 
 TEST_F(TexturesTest, TRunsDownFromTheTopRow) {
     Textures textures(options_, &diagnostics_);
-    const Textures::Picture* picture = textures.find(write("quarters.png", 16), {});
+    const Textures::Picture* picture = textures.find(write("quarters.png", 16), {}, Transfer::Auto);
     expect_near(look(textures, picture, 0.25f, 0.25f), V3f(1, 0, 0), 1e-4f, "top left");
     expect_near(look(textures, picture, 0.75f, 0.25f), V3f(0, 1, 0), 1e-4f, "top right");
     expect_near(look(textures, picture, 0.25f, 0.75f), V3f(0, 0, 1), 1e-4f, "bottom left");
@@ -83,7 +83,7 @@ TEST_F(TexturesTest, TRunsDownFromTheTopRow) {
 /// The average of a 2x2 picture, wrapped around, is the same for linear filters wherever it is centred.
 TEST_F(TexturesTest, FilteringIsInLinearLight) {
     Textures textures(options_, &diagnostics_);
-    const Textures::Picture* picture = textures.find(write("two.png", 1), {});
+    const Textures::Picture* picture = textures.find(write("two.png", 1), {}, Transfer::Auto);
     const float blue_red = (1 + kGrey) / 4;
     expect_near(look(textures, picture, 0.5f, 0.5f, 1), V3f(blue_red), 2e-3f);
 }
@@ -147,6 +147,7 @@ TEST_F(TexturesTest, PaintedPlasticIsPainted) {
     TestScene scene;
     scene.light("ambientlight");
     scene.surface("paintedplastic", {text("texturename", write("quarters.png", 32))});
+    set_transfer(scene.scene.options, "auto");
     const ShadingGrid before = scene.grid(16, 16), grid = scene.shaded(before);
     const auto seen = [&](int i, int j) { return grid.Ci.at(grid.shape.row_index(i, j)); };
     const V3f base = grid.Cs.at(0) * grid.Os.at(0);
@@ -177,6 +178,7 @@ TEST_F(TexturesTest, FilterWidthsComeFromTheGrid) {
     scene.light("ambientlight");
     const std::string picture = write("quarters.png", 32, OIIO::TypeDesc::UINT8, "periodic,periodic");
     scene.surface("paintedplastic", {text("texturename", picture)});
+    set_transfer(scene.scene.options, "srgb");
     ShadingGrid grid = scene.grid(1, 1);
     const V3f average = V3f((1 + kGrey) / 4);
     const V3f base = grid.Cs.at(0) * grid.Os.at(0);

@@ -149,6 +149,10 @@ void add_render_options(CLI::App& app, Arguments& a) {
     add_sampler_option(app, a);
     add_parsed(app, "--samples", a.samples, parse_samples, "samples per pixel", "N|NxM");
     add_frame_options(app, a);
+    app.add_option("--transfer", a.transfer,
+                   "how 8- and 16-bit files stand for light, written and read (default: linear, or the "
+                   "scene's Option \"color\" \"transfer\")")
+        ->check(CLI::IsMember({"linear", "srgb", "auto"}));
     add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20");
     app.add_option("--stats", a.stats_file, "writes statistics as JSON")->type_name("FILE.json");
     app.add_option("--regions", a.regions_at_least, "split the picture into at least so many regions")

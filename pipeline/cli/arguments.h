@@ -64,6 +64,7 @@ struct Arguments {
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
     std::string pattern;        ///< empty: the sampler's natural one
+    std::string transfer;       ///< as transfer_named() reads it; empty: as the scene says
     std::string simd = "best";  ///< as limit_simd() reads it
     int threads = 0;            ///< 0: all; negative: all but so many
     uint32_t seed = 0;

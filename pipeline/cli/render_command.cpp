@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "composite/display_plan.h"
+#include "core/transfer.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
@@ -53,6 +54,7 @@ class RenderJob {
     void render_world(Scene&& scene);
     void override_options(Options& options) const;
     void override_displays(Options& options);
+    bool encode_for_viewing(Display& display, const Options& options) const;
     void make_map_of_pictures(MapRequest request);
     bool has_folder_for_output() const;
     bool write_stats() const;
@@ -68,7 +70,8 @@ class RenderJob {
     int worlds_ = 0, pictures_ = 0, written_ = 0;
     struct Renamed {
         std::string file;
-        bool is_pass = false;  ///< a map was made of it
+        bool is_encoded = false;  ///< by the sRGB curve, for viewing
+        bool is_pass = false;     ///< a map was made of it
     };
     std::map<std::string, Renamed> renamed_;  ///< by `-o`: pictures by the names that displays give them
     bool output_failed_ = false;
@@ -81,6 +84,25 @@ void RenderJob::override_options(Options& options) const {
         options.samples_x = static_cast<float>(arguments_.samples->first);
         options.samples_y = static_cast<float>(arguments_.samples->second);
     }
+    if (!arguments_.transfer.empty()) set_transfer(options, arguments_.transfer);
+}
+
+/// What the scene would keep in floats, and the command line wants as a file of 8 bits, is to be looked at: by
+/// the curve of screens, where nobody says how. Whether it is.
+bool RenderJob::encode_for_viewing(Display& display, const Options& options) const {
+    const auto color = options.user.find("color");
+    const bool is_said = color != options.user.end() && color->second.find("transfer");
+    if (is_said || display.parameters.find("colorspace")) return false;
+    display.parameters.set({"colorspace", {StorageClass::Uniform, ValueType::String, 1}, {}, {"auto"}});
+    Diagnostics unheard;
+    const auto plan = plan_display(display, options, aov_layout(options), unheard);
+    if (!plan || !plan->srgb) return false;
+    diagnostics_.note({},
+                      "\"" + display.name +
+                          "\" is for viewing: its colours are encoded by the sRGB curve (--transfer linear "
+                          "writes the scene's numbers)",
+                      "encoded for viewing");
+    return true;
 }
 
 void RenderJob::override_displays(Options& options) {
@@ -93,11 +115,12 @@ void RenderJob::override_displays(Options& options) {
     if (!arguments_.output.empty()) {
         Display& first = options.displays.front();
         const std::string given = first.name;
+        const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, options);
         first.name = pictures_ == 1 ? arguments_.output : numbered(arguments_.output, pictures_);
         first.type = "file";
         if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
         std::erase_if(renamed_, [&](const auto& entry) { return entry.second.file == first.name; });
-        renamed_[given] = {first.name};
+        renamed_[given] = {first.name, for_viewing && encode_for_viewing(first, options)};
     }
     if (!arguments_.driver.empty())
         for (Display& display : options.displays) display.type = arguments_.driver;
@@ -111,7 +134,9 @@ void RenderJob::make_map_of_pictures(MapRequest request) {
         if (found == renamed_.end()) continue;
         picture = found->second.file;
         if (!std::exchange(found->second.is_pass, true)) --pictures_;
+        if (found->second.is_encoded) request.colorspace = Transfer::Srgb;
     }
+    if (const auto transfer = transfer_named(arguments_.transfer)) request.transfer = *transfer;
     if (!make_map(request, diagnostics_)) output_failed_ = true;
 }
 

@@ -28,7 +28,8 @@ std::string found_picture(const std::string& name, const std::vector<std::string
 }
 
 MapProblem made(const MapRequest& request, const std::string& map, const std::vector<std::string>& pictures) {
-    const MapMaking making{request.swrap, request.twrap, request.filter};
+    const MapMaking making{request.swrap, request.twrap, request.filter,
+                           request.colorspace.value_or(request.transfer)};
     switch (request.kind) {
         case MapRequest::Kind::Texture:
             return make_texture_map(pictures[0], map, making);

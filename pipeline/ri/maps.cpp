@@ -23,7 +23,7 @@ void write_map(const MapCall& map, const RiArguments& arguments) {
         context.expect_options();
         for (const RtToken word : map.words) required(word, "a name");
         const char* const filter = map.filter ? filter_name(map.filter->function) : nullptr;
-        const auto parameters = checked_parameters(context, arguments);
+        const auto parameters = checked_parameters(context, arguments, "map");
         context.writer().request(map.request);
         for (const RtToken word : map.words) context.writer().string(word);
         if (map.fov) context.writer().number(*map.fov);

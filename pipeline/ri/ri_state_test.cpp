@@ -86,6 +86,18 @@ const Example kOptions[] = {
          RiOption("limits", "bucketsize", sizes, RI_NULL);
      },
      "Option \"limits\" \"bucketsize\" [12 8]"},
+    {"Transfer",
+     [] {
+         RtString transfer = "srgb";
+         RiOption("color", "transfer", &transfer, RI_NULL);
+     },
+     "Option \"color\" \"transfer\" [\"srgb\"]"},
+    {"DisplayColorspace",
+     [] {
+         RtString linear = "linear";
+         RiDisplay("a", "b", "rgb", "colorspace", &linear, RI_NULL);
+     },
+     "Display \"a\" \"b\" \"rgb\" \"colorspace\" [\"linear\"]"},
     {"NoProjection", [] { RiProjection(RI_NULL, RI_NULL); }, "Projection \"null\""},
 };
 
@@ -188,6 +200,13 @@ const Example kStructure[] = {
     {"MakeTexture",
      [] { RiMakeTexture("globe.pic", "globe.tx", RI_PERIODIC, RI_CLAMP, RiBoxFilter, 2, 3, RI_NULL); },
      "MakeTexture \"globe.pic\" \"globe.tx\" \"periodic\" \"clamp\" \"box\" 2 3"},
+    {"MakeTextureColorspace",
+     [] {
+         RtString srgb = "srgb";
+         RiMakeTexture("globe.pic", "globe.tx", RI_CLAMP, RI_CLAMP, RiBoxFilter, 1, 1, "colorspace", &srgb,
+                       RI_NULL);
+     },
+     "MakeTexture \"globe.pic\" \"globe.tx\" \"clamp\" \"clamp\" \"box\" 1 1 \"colorspace\" [\"srgb\"]"},
     {"MakeBump", [] { RiMakeBump("a", "b", RI_BLACK, RI_BLACK, RiSincFilter, 2, 2, RI_NULL); },
      "MakeBump \"a\" \"b\" \"black\" \"black\" \"sinc\" 2 2"},
     {"MakeLatLongEnvironment", [] { RiMakeLatLongEnvironment("a", "b", RiTriangleFilter, 1, 1, RI_NULL); },

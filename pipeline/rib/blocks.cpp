@@ -143,6 +143,7 @@ void Reader::make_map(MapRequest request) {
     if (!frame_wanted_ || !read_options_.on_map) return;
     request.location = at_;
     request.folders = folders("texture");
+    request.transfer = transfer_of(scope_.options);
     read_options_.on_map(request);
 }
 

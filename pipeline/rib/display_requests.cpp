@@ -3,6 +3,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "pipeline/rib/colorspaces.h"
 #include "pipeline/rib/effects.h"
 #include "pipeline/rib/request_table.h"
 
@@ -85,6 +86,7 @@ void display(Reader& r, ArgumentCursor& c) {
     d.parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : d.parameters.values)
         if (!display_parameter_has_effect(value.name)) r.count_without_effect(' ' + in_quotes(value.name));
+    colorspace_of(r, d.parameters);
     d.variable = variable_named(r, d.mode);
     if (const auto channel = r.display_channels().find(d.mode); channel != r.display_channels().end())
         for (const Parameter& parameter : channel->second.parameters.values)

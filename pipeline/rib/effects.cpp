@@ -11,6 +11,7 @@ struct Value {
 };
 
 constexpr Value kOptions[] = {{"user", ""},
+                              {"color", "transfer"},
                               {"searchpath", "archive"},
                               {"searchpath", "procedural"},
                               {"searchpath", "shader"},
@@ -43,8 +44,8 @@ constexpr SettledSetting kSettledAttributes[] = {
 
 constexpr std::string_view kHider[] = {"depthfilter", "jitter", "maxsamples", "minsamples", "samplemotion"};
 
-constexpr std::string_view kDisplay[] = {"quantize",     "dither",         "type",
-                                         "exrpixeltype", "exrcompression", "compression"};
+constexpr std::string_view kDisplay[] = {"quantize",       "dither",      "type",      "exrpixeltype",
+                                         "exrcompression", "compression", "colorspace"};
 
 template <size_t kCount>
 bool has(const Value (&values)[kCount], std::string_view category, std::string_view name) {

@@ -1,10 +1,12 @@
 /// A file's request to make a texture, environment or shadow map (RISpec 3.2, section 7), as it is read.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/transfer.h"
 
 namespace trapeze {
 
@@ -16,8 +18,10 @@ struct MapRequest {
     std::string map;                    ///< what is to be made
     std::string swrap = "periodic", twrap = "periodic";
     std::string filter = "box";
-    float fov = 90;                    ///< degrees, of CubeFaceEnvironment
-    std::vector<std::string> folders;  ///< where pictures are looked for that are not where their name says
+    float fov = 90;                        ///< degrees, of CubeFaceEnvironment
+    Transfer transfer = Transfer::Linear;  ///< of the pictures' numbers, by Option "color" "transfer"
+    std::optional<Transfer> colorspace;    ///< the same, as the request itself says
+    std::vector<std::string> folders;      ///< where pictures are looked for that are not where their name says
     SourceLocation location;
 };
 

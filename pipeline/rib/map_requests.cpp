@@ -1,5 +1,6 @@
 /// MakeTexture, MakeBump, MakeLatLongEnvironment, MakeCubeFaceEnvironment, MakeShadow (RISpec 3.2, section
 /// 7).
+#include "pipeline/rib/colorspaces.h"
 #include "pipeline/rib/map_request.h"
 #include "pipeline/rib/request_table.h"
 
@@ -14,9 +15,10 @@ void take_filter(ArgumentCursor& c, MapRequest& request) {
     c.numbers(2, "the filter's widths");
 }
 
-/// Parameters are passed over.
+/// Of its parameters, the "colorspace" counts.
 void finish(Reader& r, ArgumentCursor& c, MapRequest request) {
-    r.parameters(c, Undeclared::Guess);
+    ParameterList parameters = r.parameters(c, Undeclared::Guess);
+    request.colorspace = colorspace_of(r, parameters);
     r.make_map(std::move(request));
 }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "pipeline/rib/colorspaces.h"
 #include "pipeline/rib/effects.h"
 #include "pipeline/rib/request_table.h"
 #include "pipeline/rib/ri_values.h"
@@ -204,6 +205,7 @@ void option(Reader& r, ArgumentCursor& c) {
     for (const Parameter& value : values.values) {
         if (category == "searchpath" && !value.strings.empty())
             r.set_search_path(value.name, value.strings[0]);
+        if (category == "color" && value.name == "transfer" && !names_transfer(r, value)) continue;
         const bool is_executed = category == "Ri" && execute_ri_value(r, value);
         if (!is_executed && !option_has_effect(category, value.name))
             r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));

@@ -1,4 +1,5 @@
 /// Displays and what they show, and the imager before them.
+#include "core/transfer.h"
 #include "pipeline/rib/test_reading.h"
 
 namespace trapeze::rib::test {
@@ -111,6 +112,24 @@ TEST(ReadDisplays, ImagersAreShadersWithParameters) {
     EXPECT_THAT(imager->parameters.find("bgcolor")->floats, ElementsAre(0.1f, 0.2f, 0.3f));
     EXPECT_EQ(imager->parameters.float_or("strange", 0), 7);
     EXPECT_FALSE(r.worlds[1].options.imager);
+}
+
+TEST(ReadDisplays, UnknownTransfersAreErrorsAndChangeNothing) {
+    const Outcome r = read_text(
+        "Option \"color\" \"string transfer\" [\"srgb\"]\nOption \"color\" \"transfer\" [\"rec709\"]\n"
+        "Option \"color\" \"transfer\" [2.2]\n"
+        "Display \"a.png\" \"png\" \"rgb\" \"colorspace\" \"linear\"\n"
+        "Display \"+b.png\" \"png\" \"rgb\" \"colorspace\" \"rec709\" WorldBegin WorldEnd");
+    EXPECT_THAT(
+        r.messages,
+        ElementsAre(HasSubstr("Option: \"transfer\" is \"linear\", \"srgb\" or \"auto\", not \"rec709\""),
+                    HasSubstr("a.rib:3:"), HasSubstr("Display: \"colorspace\" is")));
+    const Options& options = r.scene().options;
+    EXPECT_EQ(transfer_of(options), Transfer::Srgb);
+    ASSERT_EQ(options.displays.size(), 2u);
+    EXPECT_EQ(options.displays[0].parameters.string_or("colorspace", ""), "linear");
+    EXPECT_FALSE(options.displays[1].parameters.find("colorspace"));
+    EXPECT_TRUE(r.summary.without_effect.empty());
 }
 
 }  // namespace

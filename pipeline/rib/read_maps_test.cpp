@@ -102,5 +102,22 @@ TEST(ReadMaps, AreOnlyCheckedWhereNobodyMakesThem) {
     EXPECT_EQ(outcome.summary.requests.at("MakeShadow"), 2u);
 }
 
+TEST(ReadMaps, TakeNumbersAsTheOptionOrTheirOwnColorspaceSays) {
+    const Read read = read_maps(
+        "MakeTexture \"a.tif\" \"a.tex\" \"clamp\" \"black\" \"box\" 1 1\n"
+        "Option \"color\" \"transfer\" [\"auto\"]\n"
+        "MakeTexture \"b.tif\" \"b.tex\" \"clamp\" \"black\" \"box\" 1 1 \"colorspace\" \"srgb\"\n"
+        "MakeBump \"c.tif\" \"c.tex\" \"clamp\" \"black\" \"box\" 1 1 \"string colorspace\" [\"gamma\"]\n");
+    ASSERT_EQ(read.maps.size(), 3u);
+    EXPECT_EQ(read.maps[0].transfer, Transfer::Linear);
+    EXPECT_FALSE(read.maps[0].colorspace);
+    EXPECT_EQ(read.maps[1].transfer, Transfer::Auto);
+    EXPECT_EQ(read.maps[1].colorspace, Transfer::Srgb);
+    EXPECT_FALSE(read.maps[2].colorspace);
+    EXPECT_THAT(read.messages,
+                ElementsAre(HasSubstr("a.rib:4:1: error: MakeBump: \"colorspace\" is \"linear\", \"srgb\" "
+                                      "or \"auto\", not \"gamma\"")));
+}
+
 }  // namespace
 }  // namespace trapeze::rib

@@ -46,12 +46,13 @@ TEST(ReadRis, PatternsGiveTheMeanOfTheirColours) {
 TEST(ReadRis, TexturesAreThoseOfPatterns) {
     const Outcome r = read_world(
         "Pattern \"PxrManifold2D\" \"m\" \"float scaleS\" [4] \"float scaleT\" [2]\n"
-        "Pattern \"PxrTexture\" \"t\" \"string filename\" [\"wood.tex\"] "
+        "Pattern \"PxrTexture\" \"t\" \"string filename\" [\"wood.tex\"] \"int linearize\" [1] "
         "\"reference struct manifold\" [\"m:result\"]\n"
         "Pattern \"PxrColorCorrect\" \"c\" \"reference color inputRGB\" [\"t:resultRGB\"]\n"
         "Bxdf \"PxrSurface\" \"b\" \"reference color diffuseColor\" [\"c:resultRGB\"]\n" +
         kBall);
     EXPECT_EQ(text_of(*r.attributes().surface, "texturename"), "wood.tex");
+    EXPECT_EQ(text_of(*r.attributes().surface, "colorspace"), "srgb");
     EXPECT_EQ(numbers(*r.attributes().surface, "scales"), (std::vector<float>{4}));
     EXPECT_EQ(numbers(*r.attributes().surface, "scalet"), (std::vector<float>{2}));
     EXPECT_EQ(r.attributes().color, V3f(1, 1, 1));

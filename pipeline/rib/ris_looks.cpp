@@ -19,6 +19,7 @@ struct Tint {
     V3f color{1, 1, 1};
     std::string texture = {};
     float scale_s = 1, scale_t = 1;
+    std::string colorspace = {};  ///< of texture()
 };
 
 float brightness(const V3f& c) {
@@ -33,6 +34,7 @@ std::string handle_of(const std::string& reference) {
 /// Of a pattern that reads a file: where its manifold lays it.
 Tint texture_of(const std::string& file, const RisParameters& parameters, const RisNetwork& network) {
     Tint tint{V3f(1, 1, 1), file};
+    if (parameters.number_or("linearize", 0) != 0) tint.colorspace = "srgb";
     const RisParameter* manifold = parameters.find("manifold");
     if (!manifold || manifold->strings.empty()) return tint;
     const auto found = network.patterns.find(handle_of(manifold->strings[0]));
@@ -139,6 +141,7 @@ void take_texture(const Tint& tint, RisLook& look) {
     if (tint.texture.empty()) return;
     look.texture = tint.texture;
     look.scale_s = tint.scale_s, look.scale_t = tint.scale_t;
+    look.colorspace = tint.colorspace;
 }
 
 /// PxrSurface, and layers of it.

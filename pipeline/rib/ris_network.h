@@ -27,6 +27,7 @@ struct RisLook {
     float opacity = 1;
     float scale_s = 1, scale_t = 1;  ///< how often the texture repeats
     std::string texture;             ///< its colour is that of a file; empty: none
+    std::string colorspace = {};     ///< of that, as texture() takes it
     bool is_constant = false;        ///< light does not matter
 
     bool operator==(const RisLook&) const = default;

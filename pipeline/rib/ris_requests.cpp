@@ -31,6 +31,7 @@ void show(const RisLook& look, ShaderInstance& shader) {
     if (look.opacity < 1) set_number(shader, "opacity", look.opacity);
     if (look.texture.empty()) return;
     set_text(shader, "texturename", look.texture);
+    if (!look.colorspace.empty()) set_text(shader, "colorspace", look.colorspace);
     set_number(shader, "scales", look.scale_s);
     set_number(shader, "scalet", look.scale_t);
 }

@@ -162,6 +162,7 @@ def header():
 # blur; the leaping one is smeared along its arc; the tiles run under the camera without holes or cracks.
 # Spot is Keenan Crane's, in the public domain.
 
+Option "color" "transfer" ["srgb"]  # the numbers of Spot's texture, and of pictures in 8 bits
 Display "spot.exr" "openexr" "rgba"
 Format 1280 720 1
 PixelSamples 8 8

@@ -4,7 +4,7 @@
 surface rissurface(
     color specularcolor = 0, emission = 0;
     float roughness = 0.8, opacity = 1, bounce = 0.15;
-    string texturename = "";
+    string texturename = "", colorspace = "";
     float scales = 1, scalet = 1;)
 {
     normal Nf = faceforward(normalize(N), I);
@@ -20,9 +20,9 @@ surface rissurface(
         if (textureinfo(texturename, "wrapmodes", wrap) == 1)
             wrap = "default";
         if (channels < 3)
-            base *= float texture(texturename, s * scales, 1 - t * scalet, "wrap", wrap);
+            base *= float texture(texturename, s * scales, 1 - t * scalet, "wrap", wrap, "colorspace", colorspace);
         else
-            base *= color texture(texturename, s * scales, 1 - t * scalet, "wrap", wrap);
+            base *= color texture(texturename, s * scales, 1 - t * scalet, "wrap", wrap, "colorspace", colorspace);
         if (isthere == 0)
             base *= 0.5;
     }

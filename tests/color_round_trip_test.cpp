@@ -1,0 +1,137 @@
+/// Option "color" "transfer" from outside: a file that is written and read back gives the same light, in 8
+/// and 16 bits; and what `-o` makes of floats.
+#include <OpenImageIO/imagebuf.h>
+
+#include <cmath>
+
+#include "tests/command_line.h"
+
+namespace trapeze::testing {
+namespace {
+
+float red_of(const fs::path& path) {
+    OIIO::ImageBuf image(path.string());
+    EXPECT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << path << image.geterror();
+    return image.getchannel(image.spec().width / 2, image.spec().height / 2, 0, 0);
+}
+
+float encoded(float linear) {
+    return 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+/// An even surface of 1/4; where a picture is named, of what it shows.
+std::string frame(const std::string& display, const std::string& picture = {}) {
+    return "FrameBegin 1\n" + display +
+           "\nFormat 16 16 1\nPixelSamples 1 1\nPixelFilter \"box\" 1 1\nProjection \"orthographic\"\n"
+           "WorldBegin\nColor [.25 .25 .25]\nSurface \"" +
+           (picture.empty() ? "constant\"" : "look\" \"string picture\" [\"" + picture + "\"]") +
+           "\nPolygon \"P\" [-2 -2 1  2 -2 1  2 2 1  -2 2 1]\nWorldEnd\nFrameEnd\n";
+}
+
+constexpr const char* kSeen = "Display \"seen.exr\" \"openexr\" \"rgb\" \"string exrpixeltype\" [\"float\"]";
+constexpr const char* kLook =
+    "surface look(string picture = \"\";) { Ci = color texture(picture, 0.5, 0.5); Oi = 1; }";
+
+struct RoundTrip {
+    const char* transfer;
+    const char* extension;
+    int bits;
+    bool is_encoded;
+};
+
+class RoundTrips : public ::testing::TestWithParam<RoundTrip> {};
+
+TEST_P(RoundTrips, AQuarterIsAQuarter) {
+    const RoundTrip& p = GetParam();
+    const std::string file = std::string("kept.") + p.extension;
+    const int one = (1 << p.bits) - 1;
+    WorkFolder folder;
+    folder.write("look.sl", kLook);
+    folder.write("a.rib", std::string("Option \"color\" \"transfer\" [\"") + p.transfer + "\"]\n" +
+                              frame("Display \"" + file + "\" \"file\" \"rgb\" \"quantize\" [0 " +
+                                    std::to_string(one) + " 0 " + std::to_string(one) + "] \"dither\" [0]") +
+                              "MakeTexture \"" + file + "\" \"kept.tex\" \"clamp\" \"clamp\" \"box\" 1 1\n" +
+                              frame(kSeen, file) +
+                              frame("Display \"made.exr\" \"openexr\" \"rgb\"", "kept.tex"));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    const float step = 1.0f / static_cast<float>(one);
+    EXPECT_NEAR(red_of(folder / file), p.is_encoded ? encoded(0.25f) : 0.25f, step);
+    EXPECT_NEAR(red_of(folder / "seen.exr"), 0.25f, step);
+    EXPECT_NEAR(red_of(folder / "made.exr"), 0.25f, std::max(step, 1e-3f));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RoundTrips,
+    ::testing::Values(RoundTrip{"linear", "png", 8, false}, RoundTrip{"linear", "png", 16, false},
+                      RoundTrip{"linear", "tif", 8, false}, RoundTrip{"linear", "tif", 16, false},
+                      RoundTrip{"srgb", "png", 8, true}, RoundTrip{"srgb", "png", 16, true},
+                      RoundTrip{"srgb", "tif", 8, true}, RoundTrip{"srgb", "tif", 16, true},
+                      RoundTrip{"auto", "png", 8, true}, RoundTrip{"auto", "png", 16, false},
+                      RoundTrip{"auto", "tif", 8, true}, RoundTrip{"auto", "tif", 16, false}),
+    [](const auto& info) {
+        return std::string(info.param.transfer) + "_" + info.param.extension +
+               std::to_string(info.param.bits);
+    });
+
+TEST(Transfer, TheCommandLineComesBeforeTheScene) {
+    WorkFolder folder;
+    folder.write("a.rib", "Option \"color\" \"transfer\" [\"srgb\"]\n" +
+                              frame("Display \"a.png\" \"png\" \"rgb\" \"dither\" [0]"));
+    ASSERT_EQ(run_program(folder, "render a.rib").exit_code, 0);
+    EXPECT_NEAR(red_of(folder / "a.png"), encoded(0.25f), 0.003f);
+    ASSERT_EQ(run_program(folder, "render a.rib --transfer linear").exit_code, 0);
+    EXPECT_NEAR(red_of(folder / "a.png"), 0.25f, 0.003f);
+    const Outcome wrong = run_program(folder, "render a.rib --transfer rec709");
+    EXPECT_EQ(wrong.exit_code, 2) << wrong.err;
+}
+
+/// What a scene keeps in floats is encoded where the command line wants 8 bits of it, which is said; what it
+/// asks for in whole numbers is what it asks for.
+TEST(Transfer, FloatsBecomeEightBitsForViewing) {
+    WorkFolder folder;
+    const struct {
+        const char *display, *more;
+        bool is_encoded;
+    } cases[] = {{"Display \"a.exr\" \"openexr\" \"rgb\"", "", true},
+                 {"Display \"a.tif\" \"tiff\" \"rgb\"", "", false},
+                 {"Display \"a.exr\" \"file\" \"rgb\" \"quantize\" [0 255 0 255]", "", false},
+                 {"Display \"a.exr\" \"openexr\" \"rgb\"\nQuantize \"rgba\" 255 0 255 .5", "", false},
+                 {"Display \"a.exr\" \"openexr\" \"rgb\"\nExposure 1 2", "", false},
+                 {"Display \"a.exr\" \"openexr\" \"rgb\"", " --transfer linear", false}};
+    for (const auto& c : cases) {
+        folder.write("a.rib", frame(c.display));
+        for (const char* file : {"x.png", "x.tif"}) {
+            const Outcome outcome = run_program(folder, std::string("render a.rib -o ") + file + c.more);
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            const bool has_gamma = std::string(c.display).find("Exposure") != std::string::npos;
+            EXPECT_NEAR(red_of(folder / file),
+                        c.is_encoded ? encoded(0.25f)
+                        : has_gamma  ? 0.5f
+                                     : 0.25f,
+                        0.006f)
+                << c.display << c.more;
+            EXPECT_EQ(outcome.err.find("is for viewing") != std::string::npos, c.is_encoded) << outcome.err;
+        }
+    }
+    const Outcome plain = run_program(folder, "render a.rib -o x.exr");
+    EXPECT_EQ(plain.err, "");
+}
+
+/// A pass that `-o` makes a file of 8 bits of is still the light that it was.
+TEST(Transfer, MapsOfEncodedPassesAreDecoded) {
+    WorkFolder folder;
+    folder.write("look.sl", kLook);
+    for (const char* request : {"MakeTexture", "MakeBump"}) {
+        folder.write("a.rib", frame("Display \"pass.exr\" \"openexr\" \"rgb\"") + request +
+                                  " \"pass.exr\" \"pass.tex\" \"clamp\" \"clamp\" \"box\" 1 1\n" +
+                                  frame("Display \"seen.exr\" \"openexr\" \"rgb\"", "pass.tex"));
+        const Outcome outcome = run_program(folder, "render a.rib -o out.png");
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_NEAR(red_of(folder / "out.png"), encoded(0.25f), 0.006f) << request;
+    }
+}
+
+}  // namespace
+}  // namespace trapeze::testing
