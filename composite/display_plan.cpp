@@ -6,6 +6,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "composite/compressions.h"
+#include "composite/exr_attributes.h"
 #include "core/transfer.h"
 
 namespace trapeze {
@@ -58,14 +60,23 @@ bool show_the_same(const Display& a, const Display& b) {
     return without_alpha(a) == without_alpha(b);
 }
 
-/// A window beside a file of the same name or of the same picture, as many scenes have it: to be looked at,
-/// not to be kept.
-bool is_window_of_a_file(const Display& display, const Options& options) {
-    return opens_window(display) &&
-           std::any_of(options.displays.begin(), options.displays.end(), [&](const Display& other) {
-               return (other.name == display.name || show_the_same(other, display)) && !opens_window(other) &&
-                      lower(other.type) != "null";
-           });
+/// The file beside a window, of the same name or of the same picture, as many scenes have it: the window is
+/// to be looked at, not to be kept. Null: none.
+const Display* file_beside_window(const Display& display, const Options& options) {
+    if (!opens_window(display)) return nullptr;
+    const auto found =
+        std::find_if(options.displays.begin(), options.displays.end(), [&](const Display& other) {
+            return (other.name == display.name || show_the_same(other, display)) && !opens_window(other) &&
+                   lower(other.type) != "null";
+        });
+    return found == options.displays.end() ? nullptr : &*found;
+}
+
+/// Of a display that has none.
+std::string usual_path(const DisplayPlan& plan) {
+    const auto row = std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                                  [&](const Named& named) { return named.format == plan.format; });
+    return "untitled" + std::string(plan.depth_map ? ".z" : row->name);
 }
 
 /// Driver and extension to format and path. Nothing: driver "null".
@@ -73,33 +84,29 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
     const std::string driver = lower(display.type);
     if (driver == "null") return false;
     plan.path = display.name;
-    if (makes_depth_map(display)) {
-        plan.depth_map = true, plan.format = FileFormat::Tiff;
-        return true;
-    }
-    if (const auto format = look_up(kDrivers, driver)) {
-        plan.format = *format;
-        return true;
-    }
+    plan.depth_map = makes_depth_map(display);
+    const auto by_driver = plan.depth_map ? std::optional(FileFormat::Tiff) : look_up(kDrivers, driver);
     const auto by_extension = format_by_extension(display.name);
+    plan.format = by_driver.value_or(by_extension.value_or(FileFormat::OpenExr));
+    if (plan.path.empty()) plan.path = usual_path(plan);
+    if (by_driver) return true;
     if (opens_window(display)) {
-        if (!by_extension) plan.path += ".exr";
+        if (!by_extension && !display.name.empty()) plan.path += ".exr";
         diagnostics.warning(
             display.location,
             fmt::format("Display \"{}\": no window is opened; \"{}\" is written instead", driver, plan.path),
-            "display-window");
+            "display-window " + plan.path);
     } else if (driver != "file" && !driver.empty()) {
         diagnostics.warning(
             display.location,
             fmt::format("Display driver \"{}\" is not known; \"{}\" is written as {}", display.type,
                         plan.path, by_extension ? "its extension says" : "OpenEXR"),
-            "display-driver");
+            "display-driver " + plan.path);
     } else if (!by_extension) {
         diagnostics.note(display.location,
                          fmt::format("\"{}\" has no known extension; it is written as OpenEXR", plan.path),
-                         "display-extension");
+                         "display-extension " + plan.path);
     }
-    plan.format = by_extension.value_or(FileFormat::OpenExr);
     return true;
 }
 
@@ -116,7 +123,7 @@ bool choose_variable(const Display& display, const AovLayout& layout, Diagnostic
         display.location,
         fmt::format("displays ask for more than {} channels of variables; \"{}\" is not written",
                     kMostAovChannels, plan.path),
-        "display-variables");
+        "display-variables " + plan.path);
     return false;
 }
 
@@ -138,7 +145,7 @@ bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPl
         diagnostics.warning(display.location,
                             fmt::format("Display mode \"{}\" is not supported; \"{}\" is not written",
                                         display.mode, plan.path),
-                            "display-mode");
+                            "display-mode " + plan.path);
         return false;
     }
     if (plan.format == FileFormat::OpenExr) return true;
@@ -147,13 +154,13 @@ bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPl
         diagnostics.warning(
             display.location,
             fmt::format("mode \"{}\" needs OpenEXR; \"{}\" is not written", display.mode, plan.path),
-            "display-mode-format");
+            "display-mode-format " + plan.path);
         return false;
     }
     if (!depth_fits) {
         plan.depth = false;
         diagnostics.warning(display.location, fmt::format("\"{}\" cannot hold z; it is left out", plan.path),
-                            "display-z-format");
+                            "display-z-format " + plan.path);
     }
     return true;
 }
@@ -177,8 +184,8 @@ bool is_encoded(const Display& display, const Options& options, const DisplayPla
     if (!plan.rgb && !plan.aov_is_color) return false;
     const Transfer transfer =
         transfer_named(display.parameters.string_or("colorspace", "")).value_or(transfer_of(options));
-    return transfer == Transfer::Srgb || (transfer == Transfer::Auto && options.exposure_gamma == 1 &&
-                                          !plan.quantization.has_16_bits());
+    return transfer == Transfer::Srgb ||
+           (transfer == Transfer::Auto && options.exposure_gamma == 1 && !plan.quantization.has_16_bits());
 }
 
 void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
@@ -204,8 +211,39 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
     if (plan.aov && !plan.aov_is_color) plan.float_pixels = true;
     fit_to_format(plan.quantization, plan.format);
     plan.srgb = is_encoded(display, options, plan);
-    plan.compression = lower(
-        display.parameters.string_or("exrcompression", display.parameters.string_or("compression", "")));
+}
+
+void choose_compression(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    std::string name = display.parameters.string_or("compression", "");
+    if (plan.format == FileFormat::OpenExr) name = display.parameters.string_or("exrcompression", name);
+    if (name.empty()) return;
+    if (const auto compression = compression_named(plan.format, lower(name))) {
+        plan.compression = *compression;
+        return;
+    }
+    diagnostics.warning(
+        display.location,
+        fmt::format("\"{}\" is no compression of \"{}\", whose format has {}; the usual one is used", name,
+                    plan.path, compression_names(plan.format)),
+        "display-compression " + name + ' ' + plan.path);
+}
+
+void take_attributes(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    constexpr std::string_view kPrefix = "exrheader_";
+    for (const Parameter& parameter : display.parameters.values) {
+        if (!parameter.name.starts_with(kPrefix)) continue;
+        Parameter attribute = parameter;
+        attribute.name.erase(0, kPrefix.size());
+        const std::string problem = plan.format == FileFormat::OpenExr
+                                        ? problem_of_attribute(attribute)
+                                        : fmt::format("needs OpenEXR, which \"{}\" is not", plan.path);
+        if (problem.empty())
+            plan.attributes.push_back(std::move(attribute));
+        else
+            diagnostics.warning(display.location,
+                                fmt::format("\"{}\" {}; it is left out", parameter.name, problem),
+                                "display-attribute " + parameter.name + ' ' + plan.path);
+    }
 }
 
 }  // namespace
@@ -240,12 +278,21 @@ std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
                                         const AovLayout& layout, Diagnostics& diagnostics) {
     DisplayPlan plan;
-    if (is_window_of_a_file(display, options) || !choose_format(display, diagnostics, plan)) return {};
+    if (const Display* file = file_beside_window(display, options)) {
+        diagnostics.note(
+            display.location,
+            fmt::format("Display \"{}\": no window is opened; see \"{}\"", lower(display.type), file->name),
+            "display-window of " + file->name);
+        return {};
+    }
+    if (!choose_format(display, diagnostics, plan)) return {};
     const bool variable = display.variable && !is_depth(*display.variable) && !plan.depth_map;
     if (!(variable ? choose_variable(display, layout, diagnostics, plan)
                    : choose_channels(display, diagnostics, plan)))
         return {};
     choose_pixel_type(display, options, plan);
+    choose_compression(display, diagnostics, plan);
+    take_attributes(display, diagnostics, plan);
     return plan;
 }
 

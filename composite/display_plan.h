@@ -35,9 +35,10 @@ struct DisplayPlan {
     std::optional<Aov> aov;
     bool aov_is_color = false;
     bool float_pixels = false;  ///< OpenEXR: colours in floats, not halves; other variables always are
-    std::string compression;    ///< OpenEXR's name of it, in lower case; empty: the default
+    std::string compression;    ///< as the format's library calls it; empty: its default
     Quantization quantization;  ///< of the other formats, as they can hold it
-    bool srgb = false;          ///< colours of whole numbers are encoded by the sRGB curve
+    std::vector<Parameter> attributes;  ///< of an OpenEXR header: "exrheader_NAME" without the prefix
+    bool srgb = false;                  ///< colours of whole numbers are encoded by the sRGB curve
 };
 
 /// Whether its driver writes depths for shadow maps: "zfile" and "shadow".

@@ -115,6 +115,8 @@ std::string transfer_text(const PictureToWrite& picture, const Encoding& e) {
 /// "name: value; name: value"
 std::string description(const PictureToWrite& picture, const Encoding& e) {
     auto metadata = picture.info.metadata;
+    if (picture.info.frame) metadata.emplace_back("frame", std::to_string(*picture.info.frame));
+    if (!picture.info.scene.empty()) metadata.emplace_back("scene", picture.info.scene);
     if (std::string transfer = transfer_text(picture, e); !transfer.empty())
         metadata.emplace_back("transfer", std::move(transfer));
     std::string text;
@@ -138,7 +140,13 @@ OIIO::ImageSpec make_spec(const PictureToWrite& picture, const Encoding& e) {
     spec.attribute("PixelAspectRatio", picture.context.scene->options.pixel_aspect);
     spec.attribute("Software", picture.info.software);
     spec.attribute("ImageDescription", description(picture, e));
+    if (!picture.info.date.empty()) spec.attribute("DateTime", picture.info.date);
     if (e.unassociated) spec.attribute("oiio:UnassociatedAlpha", 1);
+    const std::string& compression = picture.plan.compression;
+    if (picture.plan.format == FileFormat::Png && compression == "none")
+        spec.attribute("png:compressionLevel", 0);
+    else if (!compression.empty())
+        spec.attribute("compression", compression);
     if (picture.plan.format == FileFormat::Tiff) {
         const M44f screen =
             picture.context.scene->camera_from_world * screen_from_camera(picture.context.camera);

@@ -10,11 +10,11 @@ namespace trapeze {
 
 /// Opens, writes and commits `file`. Returns what went wrong, or nothing.
 ///
-/// Whole numbers are what RISpec says: Quantize's, of the values that Exposure leaves. Where the plan asks for
-/// the sRGB curve, colours are encoded by it first, alpha is not. Floats stay as they are.
+/// Whole numbers are what RISpec says: Quantize's, of the values that Exposure leaves. Where the plan asks
+/// for the sRGB curve, colours are encoded by it first, alpha is not. Floats stay as they are.
 ///
-/// TIFF gets associated alpha, and is encoded as it is premultiplied: what is seen over black. PNG and the others
-/// get unassociated alpha, as their formats say.
+/// TIFF gets associated alpha, and is encoded as it is premultiplied: what is seen over black. PNG and the
+/// others get unassociated alpha, as their formats say.
 std::string write_image(const PictureToWrite& picture, OutputFile& file);
 
 }  // namespace trapeze

@@ -5,12 +5,15 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <stdexcept>
+
+#include "composite/exr_attributes.h"
 
 namespace trapeze {
 namespace {
@@ -38,11 +41,13 @@ class Stream : public Imf::OStream {
 };
 
 Imf::Compression compression_of(const std::string& name) {
-    if (name == "none") return Imf::NO_COMPRESSION;
-    if (name == "rle") return Imf::RLE_COMPRESSION;
-    if (name == "zips") return Imf::ZIPS_COMPRESSION;
-    if (name == "piz") return Imf::PIZ_COMPRESSION;
-    return Imf::ZIP_COMPRESSION;
+    constexpr std::pair<std::string_view, Imf::Compression> kNames[] = {
+        {"none", Imf::NO_COMPRESSION},   {"rle", Imf::RLE_COMPRESSION},     {"zips", Imf::ZIPS_COMPRESSION},
+        {"piz", Imf::PIZ_COMPRESSION},   {"pxr24", Imf::PXR24_COMPRESSION}, {"b44", Imf::B44_COMPRESSION},
+        {"b44a", Imf::B44A_COMPRESSION}, {"dwaa", Imf::DWAA_COMPRESSION},   {"dwab", Imf::DWAB_COMPRESSION}};
+    const auto found = std::find_if(std::begin(kNames), std::end(kNames),
+                                    [&](const auto& row) { return row.first == name; });
+    return found == std::end(kNames) ? Imf::ZIP_COMPRESSION : found->second;
 }
 
 /// Screen space has (0, 0) in the middle and y up; OpenEXR's NDC runs from (0, 0) at the upper left of the
@@ -79,6 +84,13 @@ Imf::Header make_header(const PictureToWrite& picture) {
     for (const auto& [name, value] : picture.info.metadata)
         if (!name.empty() && header.find(name.c_str()) == header.end())
             header.insert(name.c_str(), Imf::StringAttribute(value));
+    if (picture.info.frame) header.insert("frame", Imf::IntAttribute(*picture.info.frame));
+    if (!picture.info.scene.empty()) header.insert("scene", Imf::StringAttribute(picture.info.scene));
+    if (!picture.info.date.empty()) {
+        Imf::addCapDate(header, picture.info.date);
+        Imf::addUtcOffset(header, 0);
+    }
+    add_attributes(header, picture.plan.attributes);
     return header;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <filesystem>
 #include <set>
 
 #include "composite/image_output.h"
@@ -9,15 +11,32 @@
 #include "core/output_file.h"
 
 namespace trapeze {
+namespace {
+
+/// "a.N.exr" for a variable N in a file "a.exr" that another display of the picture has.
+std::string beside(const DisplayPlan& plan, const Display& display, const std::set<std::string>& places) {
+    const std::filesystem::path path(plan.path);
+    const std::string shown = plan.aov ? plan.aov->name : display.mode.empty() ? "rgba" : display.mode;
+    std::string apart;
+    for (int number = 1; apart.empty() || places.contains(apart); ++number)
+        apart = (path.parent_path() / fmt::format("{}.{}{}{}", path.stem().string(), shown,
+                                                  number > 1 ? std::to_string(number) : "",
+                                                  path.extension().string()))
+                    .string();
+    return apart;
+}
+
+}  // namespace
 
 bool write_displays(const Image& image, const RenderContext& context, const OutputInfo& info,
-                    std::vector<std::string>* written) {
+                    std::vector<WrittenFile>* written) {
     Diagnostics& diagnostics = *context.diagnostics;
     const AovLayout layout = aov_layout(context.scene->options);
     bool good = true;
     std::set<std::string> places;
     for (const Display& display : context.scene->options.displays) {
         if (context.is_cancelled()) return false;
+        const auto begin = std::chrono::steady_clock::now();
         auto plan = plan_display(display, context.scene->options, layout, diagnostics);
         if (!plan) continue;
         std::string error;
@@ -25,14 +44,23 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
             error = "the crop window holds no pixels";
         } else {
             std::string place = place_to_write(plan->path);
-            if (place != plan->path && !places.contains(place)) {
+            if (place != plan->path) {
                 diagnostics.warning(
                     display.location,
                     fmt::format("there is no folder for \"{}\"; it is written as \"{}\"", plan->path, place),
                     "no-folder");
                 plan->path = std::move(place);
             }
+            if (places.contains(plan->path)) {
+                const std::string apart = beside(*plan, display, places);
+                diagnostics.warning(display.location,
+                                    fmt::format("\"{}\" is another display's; \"{}\" is written beside it",
+                                                plan->path, apart),
+                                    "display-twice " + apart);
+                plan->path = apart;
+            }
             places.insert(plan->path);
+            if (info.before_picture && !plan->depth_map) info.before_picture(plan->path, display.location);
             OutputFile file(plan->path);
             const PictureToWrite picture{image, context, *plan, info};
             error = plan->format == FileFormat::OpenExr ? write_open_exr(picture, file)
@@ -40,7 +68,8 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
         }
         if (context.is_cancelled() && !error.empty()) return false;
         if (error.empty()) {
-            if (written) written->push_back(plan->path);
+            const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+            if (written) written->push_back({plan->path, seconds.count(), plan->depth_map});
             continue;
         }
         diagnostics.error(display.location, fmt::format("cannot write \"{}\": {}", plan->path, error));

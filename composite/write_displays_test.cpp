@@ -50,7 +50,9 @@ struct Written {
 
 Written write(const Image& image, const RasterScene& scene) {
     Written result;
-    result.good = write_displays(image, scene.context, kInfo, &result.paths);
+    std::vector<WrittenFile> files;
+    result.good = write_displays(image, scene.context, kInfo, &files);
+    for (const WrittenFile& file : files) result.paths.push_back(file.path);
     return result;
 }
 
@@ -228,7 +230,8 @@ TEST(WriteDisplays, TiffIsAssociatedAndCropped) {
     EXPECT_EQ(spec.full_width, 40);
     EXPECT_EQ(spec.full_height, 30);
     EXPECT_EQ(spec.get_string_attribute("Software"), "Trapeze test");
-    EXPECT_EQ(spec.get_string_attribute("ImageDescription"), "sampler: raytrace; samples: 8x8; transfer: srgb");
+    EXPECT_EQ(spec.get_string_attribute("ImageDescription"),
+              "sampler: raytrace; samples: 8x8; transfer: srgb");
     M44f camera_from_world;
     EXPECT_TRUE(spec.getattribute("worldtocamera", OIIO::TypeMatrix, &camera_from_world));
     EXPECT_EQ(camera_from_world, scene.scene.camera_from_world);

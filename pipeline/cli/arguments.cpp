@@ -143,7 +143,9 @@ void add_frame_options(CLI::App& app, Arguments& a) {
 }
 
 void add_render_options(CLI::App& app, Arguments& a) {
-    app.add_option("-o,--output", a.output, "replaces the first Display's name")->type_name("FILE");
+    app.add_option("-o,--output", a.output,
+                   "replaces the first Display's name; ####, %04d and <frame> are the frame's number")
+        ->type_name("FILE");
     app.add_option("-d,--driver", a.driver, "replaces every Display's driver; null writes nothing")
         ->type_name("DRIVER");
     add_sampler_option(app, a);
@@ -377,6 +379,12 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
     if (study->parsed()) arguments.command = Command::Study;
     if (compliance->parsed()) arguments.command = Command::Compliance;
     if (shader->parsed()) arguments.command = Command::Shader;
+    if (arguments.command == Command::Render && arguments.output == "-") {
+        std::cerr
+            << "trapeze: error: -o -: pictures are not written to standard output, for they are whole or "
+               "not at all; name a file\n";
+        return kExitUsage;
+    }
     std::string error;
     if (!samplers_are_right(arguments, &error)) {
         std::cerr << "trapeze: error: " << error << "\n";

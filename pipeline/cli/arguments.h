@@ -78,8 +78,8 @@ struct Arguments {
     StudyArguments study;
     ShaderArguments shader;
     std::string scenes_folder = "scenes";  ///< of `trapeze compliance`: tiny and gallery are in it
-    std::vector<std::string> first_rib;         ///< RIB to execute before the inputs
-    bool allow_programs = false;                ///< that scenes name
+    std::vector<std::string> first_rib;    ///< RIB to execute before the inputs
+    bool allow_programs = false;           ///< that scenes name
     bool strict = false, quiet = false, color = true;
 };
 

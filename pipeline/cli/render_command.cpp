@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <utility>
+#include <set>
 
 #include "composite/display_plan.h"
 #include "core/transfer.h"
@@ -9,6 +10,7 @@
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/on_threads.h"
+#include "pipeline/cli/output_names.h"
 #include "pipeline/cli/read_settings.h"
 #include "pipeline/cli/text_files.h"
 #include "pipeline/frame/make_map.h"
@@ -21,14 +23,6 @@ namespace trapeze {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "shot.exr" and 3: "shot.3.exr".
-std::string numbered(const std::string& name, int number) {
-    const fs::path path(name);
-    return (path.parent_path() /
-            (path.stem().string() + "." + std::to_string(number) + path.extension().string()))
-        .string();
-}
 
 bool has_missing_shader(const Diagnostics& diagnostics) {
     const auto kinds = diagnostics.kinds();
@@ -46,14 +40,20 @@ bool is_shadow_pass(const Options& options) {
 class RenderJob {
   public:
     RenderJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
-        : arguments_(arguments), terminal_(terminal), diagnostics_(diagnostics) {}
+        : arguments_(arguments),
+          terminal_(terminal),
+          diagnostics_(diagnostics),
+          kept_(diagnostics),
+          names_(arguments.output) {}
 
     int run();
 
   private:
     void render_world(Scene&& scene);
     void override_options(Options& options) const;
-    void override_displays(Options& options);
+    void override_displays(Scene& scene);
+    void name_output(Scene& scene);
+    void say_what_is_written(const FrameStats& stats);
     bool encode_for_viewing(Display& display, const Options& options) const;
     void make_map_of_pictures(MapRequest request);
     bool has_folder_for_output() const;
@@ -67,13 +67,10 @@ class RenderJob {
     double render_seconds_ = 0, last_read_seconds_ = 0;
     Stopwatch total_;
     std::vector<FrameStats> frames_;
-    int worlds_ = 0, pictures_ = 0, written_ = 0;
-    struct Renamed {
-        std::string file;
-        bool is_encoded = false;  ///< by the sRGB curve, for viewing
-        bool is_pass = false;     ///< a map was made of it
-    };
-    std::map<std::string, Renamed> renamed_;  ///< by `-o`: pictures by the names that displays give them
+    int worlds_ = 0;
+    KeptPictures kept_;
+    OutputNames names_;
+    std::set<std::string> encoded_;  ///< by the sRGB curve for viewing: files that `-o` names
     bool output_failed_ = false;
 };
 
@@ -84,11 +81,10 @@ void RenderJob::override_options(Options& options) const {
         options.samples_x = static_cast<float>(arguments_.samples->first);
         options.samples_y = static_cast<float>(arguments_.samples->second);
     }
-    if (!arguments_.transfer.empty()) set_transfer(options, arguments_.transfer);
 }
 
-/// What the scene would keep in floats, and the command line wants as a file of 8 bits, is to be looked at: by
-/// the curve of screens, where nobody says how. Whether it is.
+/// What the scene would keep in floats, and the command line wants as a file of 8 bits, is to be looked at:
+/// by the curve of screens, where nobody says how. Whether it is.
 bool RenderJob::encode_for_viewing(Display& display, const Options& options) const {
     const auto color = options.user.find("color");
     const bool is_said = color != options.user.end() && color->second.find("transfer");
@@ -105,39 +101,50 @@ bool RenderJob::encode_for_viewing(Display& display, const Options& options) con
     return true;
 }
 
-void RenderJob::override_displays(Options& options) {
-    if (options.displays.empty()) {
-        // RISpec's default display is one picture of a fixed name; ours has the scene's.
+/// The first display's file, as `-o` has it.
+void RenderJob::name_output(Scene& scene) {
+    Display& first = scene.options.displays.front();
+    const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, scene.options);
+    first.name = names_.take(first.name, scene.options.frame, !scene.primitives.empty());
+    first.type = "file";
+    if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
+    kept_.forget(first.name);
+    encoded_.erase(first.name);
+    if (for_viewing && encode_for_viewing(first, scene.options)) encoded_.insert(first.name);
+}
+
+void RenderJob::override_displays(Scene& scene) {
+    std::vector<Display>& displays = scene.options.displays;
+    if (displays.empty()) {
+        // RISpec's default display is one picture of a fixed name; ours has the scene's. What shows nothing,
+        // nowhere, is none where there is a picture.
         const std::string& input = arguments_.inputs.front();
         const std::string stem = input == "-" ? "stdin" : fs::path(input).stem().string();
-        options.displays.push_back({stem + ".exr", "file", "rgba", {}, {}});
+        const bool is_none = scene.primitives.empty() && names_.is_taken(scene.options.frame);
+        displays.push_back({stem + ".exr", is_none ? "null" : "file", "rgba", {}, {}});
+        if (is_none) return;
     }
-    if (!arguments_.output.empty()) {
-        Display& first = options.displays.front();
-        const std::string given = first.name;
-        const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, options);
-        first.name = pictures_ == 1 ? arguments_.output : numbered(arguments_.output, pictures_);
-        first.type = "file";
-        if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
-        std::erase_if(renamed_, [&](const auto& entry) { return entry.second.file == first.name; });
-        renamed_[given] = {first.name, for_viewing && encode_for_viewing(first, options)};
-    }
+    if (!names_.empty()) name_output(scene);
     if (!arguments_.driver.empty())
-        for (Display& display : options.displays) display.type = arguments_.driver;
+        for (Display& display : displays) display.type = arguments_.driver;
 }
 
 /// A picture that a map is made of was a pass, whatever `-o` has called it: it is found under that name,
 /// which the next picture takes.
 void RenderJob::make_map_of_pictures(MapRequest request) {
     for (std::string& picture : request.pictures) {
-        const auto found = renamed_.find(picture);
-        if (found == renamed_.end()) continue;
-        picture = found->second.file;
-        if (!std::exchange(found->second.is_pass, true)) --pictures_;
-        if (found->second.is_encoded) request.colorspace = Transfer::Srgb;
+        picture = names_.take_back(picture).value_or(picture);
+        if (encoded_.contains(picture)) request.colorspace = Transfer::Srgb;
+        kept_.forget(picture);
     }
     if (const auto transfer = transfer_named(arguments_.transfer)) request.transfer = *transfer;
     if (!make_map(request, diagnostics_)) output_failed_ = true;
+}
+
+void RenderJob::say_what_is_written(const FrameStats& stats) {
+    for (const FrameStats::Output& file : stats.outputs)
+        terminal_.say_on_terminal(fmt::format("wrote {}, {}x{}, {:.1f} s", file.path, stats.width,
+                                              stats.height, stats.seconds.total));
 }
 
 void RenderJob::render_world(Scene&& scene) {
@@ -145,15 +152,17 @@ void RenderJob::render_world(Scene&& scene) {
     Stopwatch watch;
     const double read_seconds = total_.elapsed() - render_seconds_;
     ++worlds_;
-    // Nothing, to be shown nowhere: the next picture takes its place.
-    const bool is_nothing = scene.primitives.empty() && scene.options.displays.empty();
+    const int frame = scene.options.frame;
+    if (!arguments_.transfer.empty()) set_transfer(scene.options, arguments_.transfer);
     if (!is_shadow_pass(scene.options)) {
-        ++pictures_;
         override_options(scene.options);
-        override_displays(scene.options);
-    } else if (pictures_ == 0 && !arguments_.output.empty() && arguments_.driver.empty()) {
+        override_displays(scene);
+    } else if (!names_.empty() && !names_.is_taken(frame) && arguments_.driver.empty()) {
         // The next picture takes its place; where none comes, what the light sees is what there is to see.
-        scene.options.displays.push_back({arguments_.output, "file", "rgba", {}, {}});
+        Display picture{with_frame_number(arguments_.output, frame), "file", "rgba", {}, {}};
+        encode_for_viewing(picture, scene.options);
+        kept_.forget(picture.name);
+        scene.options.displays.push_back(std::move(picture));
     }
 
     RenderSettings settings;
@@ -171,15 +180,13 @@ void RenderJob::render_world(Scene&& scene) {
     terminal_.end_progress();
     if (result) {
         FrameStats& stats = result->stats;
-        std::vector<std::string> written;
-        if (!write_frame(*result, context, &written)) output_failed_ = true;
-        written_ += static_cast<int>(written.size());
+        if (!write_frame(*result, context, arguments_.inputs, &kept_)) output_failed_ = true;
         stats.seconds.read = read_seconds - last_read_seconds_;
         stats.seconds.total += stats.seconds.read;
         last_read_seconds_ = read_seconds;
+        say_what_is_written(stats);
         frames_.push_back(stats);
     }
-    if (is_nothing) --pictures_;
     render_seconds_ += watch.lap();
 }
 
@@ -206,8 +213,10 @@ int RenderJob::exit_code() const {
 /// mistake, which is said before anything is rendered.
 bool RenderJob::has_folder_for_output() const {
     const fs::path folder = fs::path(arguments_.output).parent_path();
+    const bool is_of_a_frame = with_frame_number(folder.string(), 0) != folder.string();
     std::error_code failed;
-    if (folder.empty() || arguments_.driver == "null" || fs::is_directory(folder, failed)) return true;
+    if (folder.empty() || is_of_a_frame || arguments_.driver == "null" || fs::is_directory(folder, failed))
+        return true;
     diagnostics_.error(
         {}, "cannot write \"" + arguments_.output + "\": there is no folder \"" + folder.string() + "\"");
     return false;

@@ -70,6 +70,10 @@ void Terminal::say(const std::string& line) {
     write(line + "\n");
 }
 
+void Terminal::say_on_terminal(const std::string& line) {
+    if (stderr_is_terminal()) say(line);
+}
+
 void Terminal::summarise(const Diagnostics& diagnostics) {
     for (const auto& [kind, entry] : diagnostics.kinds()) {
         if (entry.count < 2) continue;

@@ -26,6 +26,8 @@ class Terminal {
 
     void show(const Diagnostic& diagnostic);
     void say(const std::string& line);
+    /// What nobody needs in a log: only if standard error is a terminal.
+    void say_on_terminal(const std::string& line);
     /// What repeated kinds were not shown: one line each.
     void summarise(const Diagnostics& diagnostics);
 

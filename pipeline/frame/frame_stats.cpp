@@ -15,7 +15,7 @@ uint64_t peak_resident_bytes() {
 std::string to_json(const FrameStats& s) {
     using json = nlohmann::ordered_json;
     const auto stage = [](double seconds) { return json{{"seconds", seconds}}; };
-    const json out = {
+    json out = {
         {"frame", s.frame},
         {"width", s.width},
         {"height", s.height},
@@ -44,7 +44,11 @@ std::string to_json(const FrameStats& s) {
         {"regions", s.regions},
         {"threads", s.threads},
         {"simd_target", s.simd_target},
-        {"sampler", s.sampler}};
+        {"sampler", s.sampler},
+        {"outputs", json::array()}};
+    for (const FrameStats::Output& output : s.outputs)
+        out["outputs"].push_back(
+            {{"path", output.path}, {"bytes", output.bytes}, {"seconds", output.seconds}});
     return out.dump(2);
 }
 

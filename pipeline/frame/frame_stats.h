@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/stats.h"
 
@@ -28,6 +29,12 @@ struct FrameStats {
     uint64_t samples = 0;
     int regions = 0, threads = 0, width = 0, height = 0, frame = 0;
     std::string sampler, simd_target;
+    struct Output {
+        std::string path;
+        uint64_t bytes = 0;
+        double seconds = 0;  ///< of writing
+    };
+    std::vector<Output> outputs;
 
     double rays_per_second() const {
         return seconds.trace > 0 ? static_cast<double>(sample.rays) / seconds.trace : 0;

@@ -1,20 +1,78 @@
 #include "pipeline/frame/write_frame.h"
 
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+
 #include "composite/write_displays.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/version.h"
 
 namespace trapeze {
+namespace {
 
-bool write_frame(FrameResult& frame, const RenderContext& context, std::vector<std::string>* written) {
-    Stopwatch watch;
-    FrameStats& stats = frame.stats;
+/// Of builds that are to be repeated (reproducible-builds.org).
+std::optional<std::time_t> date_of_environment() {
+    const char* const text = std::getenv("SOURCE_DATE_EPOCH");
+    if (!text) return {};
+    std::time_t seconds = 0;
+    const auto [end, problem] = std::from_chars(text, text + std::strlen(text), seconds);
+    return problem == std::errc() && *end == 0 ? std::optional(seconds) : std::nullopt;
+}
+
+/// "2026:01:31 23:59:59", UTC; empty for what no calendar has.
+std::string date_text(std::time_t seconds) {
+    std::tm parts{};
+    char text[32];
+    if (!gmtime_r(&seconds, &parts) || parts.tm_year + 1900 > 9999) return {};
+    return {text, std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &parts)};
+}
+
+/// Their names, without folders, which are nobody else's business.
+std::string names_of(const std::vector<std::string>& files) {
+    std::string names;
+    for (const std::string& file : files)
+        if (file != "-")
+            names += (names.empty() ? "" : " ") + std::filesystem::path(file).filename().string();
+    return names;
+}
+
+OutputInfo info_of(const FrameStats& stats, const RenderContext& context,
+                   const std::vector<std::string>& scene_files) {
     OutputInfo info;
     info.software = std::string("Trapeze ") + kVersion;
-    info.metadata = {{"sampler", stats.sampler},
-                     {"samples", std::to_string(context.samples_x) + "x" + std::to_string(context.samples_y)},
-                     {"renderTime", std::to_string(stats.seconds.total)}};
-    const bool all_written = write_displays(frame.image, context, info, written);
+    info.metadata = {
+        {"sampler", stats.sampler},
+        {"samples", std::to_string(context.samples_x) + "x" + std::to_string(context.samples_y)}};
+    const auto date = date_of_environment();
+    if (!date) info.metadata.emplace_back("renderTime", std::to_string(stats.seconds.total));
+    info.date = date_text(date.value_or(std::time(nullptr)));
+    if (context.scene->options.frame != 0) info.frame = context.scene->options.frame;
+    info.scene = names_of(scene_files);
+    return info;
+}
+
+}  // namespace
+
+bool write_frame(FrameResult& frame, const RenderContext& context,
+                 const std::vector<std::string>& scene_files, KeptPictures* kept) {
+    Stopwatch watch;
+    FrameStats& stats = frame.stats;
+    OutputInfo info = info_of(stats, context, scene_files);
+    if (kept)
+        info.before_picture = [&](const std::string& path, SourceLocation at) { kept->make_way(path, at); };
+    std::vector<WrittenFile> written;
+    const bool all_written = write_displays(frame.image, context, info, &written);
+    const bool shows_something = !context.scene->primitives.empty();
+    for (const WrittenFile& file : written) {
+        std::error_code unknown;
+        const auto bytes = std::filesystem::file_size(file.path, unknown);
+        stats.outputs.push_back({file.path, unknown ? 0 : bytes, file.seconds});
+        if (kept && shows_something && !file.is_depth_map)
+            kept->wrote(file.path, context.scene->options.frame);
+    }
     const double seconds = watch.lap();
     stats.seconds.composite += seconds;
     stats.seconds.total += seconds;

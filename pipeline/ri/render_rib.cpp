@@ -19,11 +19,12 @@ Message message_of(const Diagnostic& diagnostic) {
     return {code, severity, to_string(diagnostic)};
 }
 
-void render(Scene&& scene, Diagnostics& diagnostics) {
+void render(Scene&& scene, KeptPictures& kept, Diagnostics& diagnostics) {
     if (scene.options.displays.empty()) scene.options.displays.push_back({"ri.exr", "file", "rgba", {}, {}});
     const RenderSettings settings;
     const RenderContext context = make_context(scene, settings, diagnostics);
-    if (std::optional<FrameResult> frame = render_frame(context, settings)) write_frame(*frame, context);
+    if (std::optional<FrameResult> frame = render_frame(context, settings))
+        write_frame(*frame, context, {}, &kept);
 }
 
 }  // namespace
@@ -38,9 +39,13 @@ std::vector<Message> render_rib(const std::string& text, bool may_run_programs) 
     ReadOptions options;
     options.defaults_file = user_defaults_file();
     options.allow_programs = may_run_programs;
-    options.on_map = [&](const MapRequest& request) { make_map(request, diagnostics); };
+    KeptPictures kept(diagnostics);
+    options.on_map = [&](const MapRequest& request) {
+        make_map(request, diagnostics);
+        for (const std::string& picture : request.pictures) kept.forget(picture);
+    };
     read_rib_text(text, "ri", options, diagnostics,
-                  [&](Scene&& scene) { render(std::move(scene), diagnostics); });
+                  [&](Scene&& scene) { render(std::move(scene), kept, diagnostics); });
     return messages;
 }
 

@@ -74,7 +74,7 @@ std::string picture_mode(Reader& r, const std::string& mode) {
     if (!rest.empty() && !picture.empty())
         r.warn_once(
             "a file holds colour, alpha and depth, or one variable; " + in_quotes(rest) + " is left out",
-            "display-channels");
+            "display-channels " + rest);
     return picture.empty() ? mode : picture;
 }
 
@@ -94,7 +94,9 @@ void display(Reader& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     const bool is_further = !d.name.empty() && d.name[0] == '+';
     if (is_further && d.parameters.string_or("source", "").find("lpe:") != std::string::npos) {
-        r.warn_once("there are no paths of light to choose from; displays of them are left out", "lpe");
+        r.warn_once(
+            "there are no paths of light to choose from; " + in_quotes(d.name.substr(1)) + " is not written",
+            "lpe " + d.name);
         return;
     }
     if (is_further) {

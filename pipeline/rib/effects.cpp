@@ -44,8 +44,9 @@ constexpr SettledSetting kSettledAttributes[] = {
 
 constexpr std::string_view kHider[] = {"depthfilter", "jitter", "maxsamples", "minsamples", "samplemotion"};
 
-constexpr std::string_view kDisplay[] = {"quantize",       "dither",      "type",      "exrpixeltype",
-                                         "exrcompression", "compression", "colorspace"};
+constexpr std::string_view kHeaderPrefix = "exrheader_", kHeaderAttributes = "exrheader_NAME";
+constexpr std::string_view kDisplay[] = {"quantize",       "dither",      "type",       "exrpixeltype",
+                                         "exrcompression", "compression", "colorspace", kHeaderAttributes};
 
 template <size_t kCount>
 bool has(const Value (&values)[kCount], std::string_view category, std::string_view name) {
@@ -102,7 +103,7 @@ bool hider_parameter_has_effect(std::string_view name) {
     return has(kHider, name);
 }
 bool display_parameter_has_effect(std::string_view name) {
-    return has(kDisplay, name);
+    return has(kDisplay, name) || name.starts_with(kHeaderPrefix);
 }
 
 }  // namespace trapeze::rib

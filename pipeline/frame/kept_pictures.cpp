@@ -1,0 +1,56 @@
+#include "pipeline/frame/kept_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string key_of(const std::string& path) {
+    return fs::path(path).lexically_normal().string();
+}
+
+}  // namespace
+
+std::string numbered(const std::string& name, int number) {
+    const fs::path path(name);
+    const std::string file = fmt::format("{}.{}{}", path.stem().string(), number, path.extension().string());
+    return (path.parent_path() / file).string();
+}
+
+void KeptPictures::make_way(const std::string& path, SourceLocation location) {
+    const auto old = frames_.find(key_of(path));
+    if (old == frames_.end()) return;
+    const int frame = old->second;
+    frames_.erase(old);
+    int number = std::max(frame, 1);
+    while (frames_.contains(key_of(numbered(path, number)))) ++number;
+    const std::string kept = numbered(path, number);
+    std::error_code failed;
+    fs::rename(path, kept, failed);
+    if (failed) {
+        diagnostics_.warning(
+            location, fmt::format("\"{}\" of an earlier frame is not kept: {}", path, failed.message()));
+        return;
+    }
+    frames_[key_of(kept)] = frame;
+    diagnostics_.note(location,
+                      fmt::format("\"{}\" of an earlier frame is kept as \"{}\"; -o NAME.####.exr gives "
+                                  "every frame a name of its own",
+                                  path, kept),
+                      "kept-picture");
+}
+
+void KeptPictures::wrote(const std::string& path, int frame) {
+    frames_[key_of(path)] = frame;
+}
+
+void KeptPictures::forget(const std::string& path) {
+    frames_.erase(key_of(path));
+}
+
+}  // namespace trapeze

@@ -1,0 +1,173 @@
+/// The program from outside: names of pictures, what is said of them, displays that cannot be honoured.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/command_line.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// A frame or world of one pixel's worth of work.
+std::string world(const std::string& before, bool is_empty = false) {
+    return before + "\nFormat 8 8 1 PixelSamples 1 1 WorldBegin\n" +
+           (is_empty ? "" : "Translate 0 0 2 Sphere 1 -1 1 360\n") + "WorldEnd\n";
+}
+std::string frame(int number, const std::string& display, bool is_empty = false) {
+    return "FrameBegin " + std::to_string(number) + "\n" + world(display, is_empty) + "FrameEnd\n";
+}
+constexpr const char* kShot = "Display \"shot.exr\" \"openexr\" \"rgba\"";
+
+/// The pictures of a run, in order.
+std::vector<std::string> pictures(const WorkFolder& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        if (const std::string extension = entry.path().extension();
+            extension == ".exr" || extension == ".png")
+            names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(OutputFiles, HaveTheFramesNumber) {
+    WorkFolder folder;
+    folder.write("a.rib", frame(3, kShot) + frame(12, kShot));
+    const std::pair<const char*, Names> cases[] = {{"fo.####.exr", {"fo.0003.exr", "fo.0012.exr"}},
+                                                   {"fp.%04d.exr", {"fp.0003.exr", "fp.0012.exr"}},
+                                                   {"fq.<frame>.exr", {"fq.12.exr", "fq.3.exr"}}};
+    for (const auto& [name, files] : cases) {
+        const Outcome outcome = run_program(folder, std::string("render a.rib -o '") + name + "'");
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(pictures(folder), files) << name;
+        for (const std::string& file : pictures(folder)) fs::remove(folder / file);
+    }
+}
+
+TEST(OutputFiles, OfEarlierFramesAreKept) {
+    WorkFolder folder;
+    folder.write("a.rib", frame(3, kShot) + frame(4, kShot) + frame(5, kShot));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(pictures(folder), (Names{"shot.3.exr", "shot.4.exr", "shot.exr"}));
+    EXPECT_NE(outcome.err.find("note: \"shot.exr\" of an earlier frame is kept as \"shot.3.exr\""),
+              std::string::npos)
+        << outcome.err;
+}
+
+TEST(OutputFiles, OfEmptyWorldsTakeNoName) {
+    WorkFolder folder;
+    const std::string drawn = world(kShot), empty = world("Display \"empty.exr\" \"openexr\" \"rgba\"", true);
+    folder.write("first.rib", empty + drawn), folder.write("last.rib", drawn + world("", true));
+    for (const char* file : {"first.rib", "last.rib"}) {
+        ASSERT_EQ(run_program(folder, std::string("render ") + file + " -o x.exr --stats s.json").exit_code,
+                  0);
+        EXPECT_GT(fs::file_size(folder / "x.exr"), 0u);
+        EXPECT_FALSE(fs::exists(folder / "x.2.exr") && file == std::string("first.rib"));
+        fs::remove(folder / "x.exr");
+    }
+    // The one that shows something has the name.
+    folder.write("order.rib", drawn + empty);
+    ASSERT_EQ(run_program(folder, "render order.rib -o x.exr").exit_code, 0);
+    ASSERT_EQ(run_program(folder, "render first.rib -o y.exr").exit_code, 0);
+    EXPECT_EQ(fs::file_size(folder / "x.exr"), fs::file_size(folder / "y.exr"));
+}
+
+TEST(OutputFiles, AreNotStandardOutput) {
+    WorkFolder folder;
+    folder.write("a.rib", world(kShot));
+    const Outcome outcome = run_program(folder, "render a.rib -o -");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("standard output"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(pictures(folder).empty());
+}
+
+TEST(OutputFiles, OfTwoDisplaysAreBesideEachOther) {
+    WorkFolder folder;
+    folder.write(
+        "a.rib",
+        world("Display \"a.exr\" \"openexr\" \"rgba\"\nDisplay \"+a.exr\" \"openexr\" \"normal N\""));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(pictures(folder), (Names{"a.N.exr", "a.exr"}));
+    EXPECT_NE(outcome.err.find("a.rib:2:1: warning: \"a.exr\" is another display's"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(run_program(folder, "render a.rib --strict").exit_code, 1);
+}
+
+TEST(OutputFiles, AreInTheStatistics) {
+    WorkFolder folder;
+    folder.write("a.rib", world(std::string(kShot) + "\nDisplay \"+z.exr\" \"openexr\" \"z\""));
+    ASSERT_EQ(run_program(folder, "render a.rib --stats s.json").exit_code, 0);
+    const auto stats = nlohmann::json::parse(text_of(folder / "s.json"));
+    ASSERT_EQ(stats.at("outputs").size(), 2u);
+    EXPECT_EQ(stats["outputs"][0].at("path"), "shot.exr");
+    EXPECT_EQ(stats["outputs"][1].at("path"), "z.exr");
+    EXPECT_EQ(stats["outputs"][1].at("bytes"), fs::file_size(folder / "z.exr"));
+}
+
+TEST(OutputFiles, AreSaidOnATerminalAlone) {
+    WorkFolder folder;
+    folder.write("a.rib", world(kShot));
+    EXPECT_EQ(run_program(folder, "render a.rib").err, "");
+    const std::string in_terminal = "cd '" + folder.path().string() +
+                                    "' && script -qec \"'" TRAPEZE_PROGRAM
+                                    "' render a.rib --progress none\" said >/dev/null 2>&1 </dev/null";
+    ASSERT_EQ(std::system(in_terminal.c_str()), 0) << "script of util-linux is needed";
+    EXPECT_NE(text_of(folder / "said").find("wrote shot.exr, 8x8, "), std::string::npos)
+        << text_of(folder / "said");
+}
+
+/// Each is named, with what is done instead.
+TEST(Displays, ThatCannotBeHonouredAreNamedOneByOne) {
+    WorkFolder folder;
+    folder.write("a.rib",
+                 world("Display \"a.exr\" \"vortech\" \"rgba\"\nDisplay \"+b.exr\" \"teleporter\" \"rgb\"\n"
+                       "Display \"+c.exr\" \"openexr\" \"bgr\"\nDisplay \"+d.exr\" \"openexr\" \"sepia\"\n"
+                       "Display \"+e\" \"framebuffer\" \"a\"\nDisplay \"+f\" \"it\" \"az\"\n"
+                       "Display \"+g.exr\" \"openexr\" \"color one\"\n"
+                       "Display \"+h.exr\" \"openexr\" \"color two\""));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 0);
+    for (const char* text :
+         {"a.rib:1:1: warning: Display driver \"vortech\" is not known; \"a.exr\" is written as its "
+          "extension says",
+          "a.rib:2:1: warning: Display driver \"teleporter\"",
+          "a.rib:3:1: warning: Display mode \"bgr\" is not supported; \"c.exr\" is not written",
+          "a.rib:4:1: warning: Display mode \"sepia\"",
+          "a.rib:5:1: warning: Display \"framebuffer\": no window is opened; \"e.exr\" is written instead",
+          "a.rib:6:1: warning: Display \"it\"", "variable \"one\"", "variable \"two\""})
+        EXPECT_NE(outcome.err.find(text), std::string::npos) << text << "\n" << outcome.err;
+    EXPECT_EQ(run_program(folder, "render a.rib --strict").exit_code, 1);
+}
+
+TEST(Displays, WithoutANameHaveOne) {
+    WorkFolder folder;
+    folder.write("a.rib", world("Display \"\" \"framebuffer\" \"rgb\""));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(pictures(folder), Names{"untitled.exr"}) << outcome.err;
+}
+
+/// One who sets the date gets the same file each time.
+TEST(OutputFiles, AreTheSameBytesOnASetDate) {
+    WorkFolder folder;
+    folder.write("a.rib", frame(2, std::string(kShot) + "\nDisplay \"+b.png\" \"png\" \"rgb\""));
+    std::string first[2];
+    for (const bool again : {false, true}) {
+        const std::string run = "cd '" + folder.path().string() +
+                                "' && SOURCE_DATE_EPOCH=1700000000 '" TRAPEZE_PROGRAM "' render a.rib";
+        ASSERT_EQ(std::system(run.c_str()), 0);
+        for (const int i : {0, 1}) {
+            const std::string bytes = text_of(folder / (i ? "b.png" : "shot.exr"));
+            if (again) {
+                EXPECT_EQ(bytes, first[i]) << i;
+            }
+            first[i] = bytes;
+        }
+    }
+    EXPECT_NE(first[0].find("2023:11:14 22:13:20"), std::string::npos);
+    EXPECT_NE(first[0].find("a.rib"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trapeze::testing
