@@ -44,7 +44,7 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
             error = "the crop window holds no pixels";
         } else {
             std::string place = place_to_write(plan->path);
-            if (place != plan->path) {
+            if (place != plan->path && !places.contains(place)) {
                 diagnostics.warning(
                     display.location,
                     fmt::format("there is no folder for \"{}\"; it is written as \"{}\"", plan->path, place),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 namespace trapeze {
 namespace {
@@ -12,6 +13,21 @@ namespace fs = std::filesystem;
 
 std::string key_of(const std::string& path) {
     return fs::path(path).lexically_normal().string();
+}
+
+/// What files of a format begin with.
+std::string beginning(const std::string& path) {
+    char bytes[2] = {};
+    std::ifstream file(path, std::ios::binary);
+    file.read(bytes, sizeof bytes);
+    return {bytes, static_cast<size_t>(file.gcount())};
+}
+
+/// Nothing is there, or a picture of the same format, which a run before this one has left.
+bool may_become(const std::string& path, const std::string& kept) {
+    std::error_code failed;
+    return !fs::exists(kept, failed) ||
+           (fs::is_regular_file(kept, failed) && beginning(kept) == beginning(path));
 }
 
 }  // namespace
@@ -28,8 +44,8 @@ void KeptPictures::make_way(const std::string& path, SourceLocation location) {
     const int frame = old->second;
     frames_.erase(old);
     int number = std::max(frame, 1);
-    while (frames_.contains(key_of(numbered(path, number)))) ++number;
-    const std::string kept = numbered(path, number);
+    std::string kept = numbered(path, number);
+    while (frames_.contains(key_of(kept)) || !may_become(path, kept)) kept = numbered(path, ++number);
     std::error_code failed;
     fs::rename(path, kept, failed);
     if (failed) {

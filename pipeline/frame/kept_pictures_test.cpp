@@ -65,6 +65,16 @@ TEST_F(KeptPicturesTest, NamesOfOtherPicturesAreNotTaken) {
     EXPECT_EQ(text("a.exr"), "4");
 }
 
+TEST_F(KeptPicturesTest, OtherFilesOfTheUserAreLeftAlone) {
+    std::ofstream(path("a.3.exr")) << "letter";
+    std::ofstream(path("a.4.exr")) << "3, of an earlier run";
+    std::ofstream(path("a.exr")) << "3, a picture";
+    kept_.wrote(path("a.exr"), 3);
+    kept_.make_way(path("a.exr"), {});
+    EXPECT_EQ(text("a.3.exr"), "letter");
+    EXPECT_EQ(text("a.4.exr"), "3, a picture");
+}
+
 TEST_F(KeptPicturesTest, WhatNobodyMissesIsReplaced) {
     write("a.exr", 1);
     kept_.forget(path("./a.exr"));
