@@ -86,10 +86,12 @@ HWY_INLINE void for_rows(GridSpans spans, size_t lanes, int width, const Operand
     }
 }
 
-HWY_INLINE void divide_rows(const Row& a, const Row& b, int count, float* HWY_RESTRICT out) {
+/// 0 where b is no more than rounding.
+HWY_INLINE void divide_rows(const Row& a, const Row& b, float rounding, int count, float* HWY_RESTRICT out) {
     for (int i = 0; i < count; ++i) {
-        const float divisor = b.lanes[i] == 0 ? 1 : b.lanes[i];
-        out[i] = b.lanes[i] == 0 ? 0 : a.lanes[i] / divisor;
+        const bool counts = std::fabs(b.lanes[i]) > rounding;
+        const float divisor = counts ? b.lanes[i] : 1;
+        out[i] = counts ? a.lanes[i] / divisor : 0;
     }
 }
 
@@ -101,12 +103,18 @@ struct Derivatives {
     bool all_found;
 };
 
-/// Of most rows, along which no parameter but one changes; false for others.
-HWY_INLINE bool straight_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
-                                     const Row& dp, const Row& dq, float rounding, Derivatives& out) {
+/// Whether p alone changes along an axis, as it does in most rows; and the steps of both parameters.
+HWY_INLINE bool is_straight(const RowOf& row, Axis along, const Operand& p, const Operand& q, Row& dp,
+                            Row& dq) {
+    row.difference(along, p, 0, dp);
+    row.difference(along, q, 0, dq);
     int others = 0;
     for (int i = 0; i < row.count(); ++i) others += dq.lanes[i] != 0 || !(dp.lanes[i] != 0);
-    if (others > 0) return false;
+    return others == 0;
+}
+
+HWY_INLINE void straight_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
+                                     const Row& dp, float rounding, Derivatives& out) {
     Row step;
     for (int k = 0; k < width; ++k) {
         row.difference(along, value, k, step);
@@ -114,7 +122,7 @@ HWY_INLINE bool straight_derivatives(const RowOf& row, int width, Axis along, co
         for (int i = 0; i < row.count(); ++i)
             result[i] = std::fabs(step.lanes[i]) <= rounding ? 0 : step.lanes[i] / dp.lanes[i];
     }
-    return out.all_found = true;
+    out.all_found = true;
 }
 
 /// Where borders are snapped to their neighbours' rates, a step along one axis changes both parameters: then
@@ -126,9 +134,8 @@ HWY_INLINE void row_derivatives(const RowOf& row, int width, Axis along, const O
     constexpr float kLeast = 1e-3f;  // of a determinant, to its terms
     const Axis across = along == Axis::U ? Axis::V : Axis::U;
     Row dp, dq, dp_across, dq_across, step, step_across;
-    row.difference(along, p, 0, dp);
-    row.difference(along, q, 0, dq);
-    if (straight_derivatives(row, width, along, value, dp, dq, rounding, out)) return;
+    if (is_straight(row, along, p, q, dp, dq))
+        return straight_derivatives(row, width, along, value, dp, rounding, out);
     row.difference(across, p, 0, dp_across);
     row.difference(across, q, 0, dq_across);
     bool straight[kMaxRow];
@@ -204,12 +211,43 @@ void along_v(GridSpans spans, size_t lanes, int width, const Operand& value, con
 
 /// What the rounding of a span's values makes of steps between them.
 float rounding_of(const GridSpan& span, const Operand& value) {
-    constexpr float kShare = 1.0f / (1 << 20);  // some units of the last place
     if (value.lane_mask == 0) return 0;
     float largest = 0;
-    const float* first = value.data + span.first;
-    for (int i = 0; i < span.shape.vertex_count(); ++i) largest = std::max(largest, std::fabs(first[i]));
-    return kShare * largest;
+    for (const float x : std::span(value.data + span.first, static_cast<size_t>(span.shape.vertex_count())))
+        largest = std::max(largest, std::fabs(x));
+    return largest * 0x1p-20f;  // some units of the last place
+}
+
+/// Where each axis changes one parameter, the quotients of derivatives are those of steps.
+void derive_plain_row(const RowOf& row, int width, const Operand& num, const Operand& den, float rounding,
+                      const Operand& out) {
+    Row of_num, den_u, den_v, first;
+    row.difference(Axis::U, den, 0, den_u);
+    row.difference(Axis::V, den, 0, den_v);
+    for (int k = 0; k < width; ++k) {
+        float* HWY_RESTRICT sum = row.of(out, k);
+        row.difference(Axis::U, num, k, of_num);
+        divide_rows(of_num, den_u, rounding, row.count(), first.lanes);
+        row.difference(Axis::V, num, k, of_num);
+        divide_rows(of_num, den_v, rounding, row.count(), sum);
+        for (int i = 0; i < row.count(); ++i) sum[i] += first.lanes[i];
+    }
+}
+
+void derive_row(const RowOf& row, int width, const Operand& num, const Operand& den, const Operand& u,
+                const Operand& v, float rounding, const Operand& out) {
+    Derivatives num_u, num_v, den_u, den_v;
+    all_derivatives(row, 1, Axis::U, den, u, v, rounding, den_u);
+    all_derivatives(row, 1, Axis::V, den, v, u, rounding, den_v);
+    all_derivatives(row, width, Axis::U, num, u, v, 0, num_u);
+    all_derivatives(row, width, Axis::V, num, v, u, 0, num_v);
+    Row first;
+    for (int k = 0; k < width; ++k) {
+        float* HWY_RESTRICT sum = row.of(out, k);
+        divide_rows(num_u.value.component[k], den_u.value.component[0], 0, row.count(), first.lanes);
+        divide_rows(num_v.value.component[k], den_v.value.component[0], 0, row.count(), sum);
+        for (int i = 0; i < row.count(); ++i) sum[i] += first.lanes[i];
+    }
 }
 
 void along_both(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
@@ -218,18 +256,11 @@ void along_both(GridSpans spans, size_t lanes, int width, const Operand& num, co
     float rounding = 0;
     for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
         if (measured != &row.span) measured = &row.span, rounding = rounding_of(row.span, den);
-        Derivatives num_u, num_v, den_u, den_v;
-        all_derivatives(row, 1, Axis::U, den, u, v, rounding, den_u);
-        all_derivatives(row, 1, Axis::V, den, v, u, rounding, den_v);
-        all_derivatives(row, width, Axis::U, num, u, v, 0, num_u);
-        all_derivatives(row, width, Axis::V, num, v, u, 0, num_v);
-        Row first;
-        for (int k = 0; k < width; ++k) {
-            divide_rows(num_u.value.component[k], den_u.value.component[0], row.count(), first.lanes);
-            float* HWY_RESTRICT sum = row.of(out, k);
-            divide_rows(num_v.value.component[k], den_v.value.component[0], row.count(), sum);
-            for (int i = 0; i < row.count(); ++i) sum[i] += first.lanes[i];
-        }
+        Row dp, dq;
+        if (is_straight(row, Axis::U, u, v, dp, dq) && is_straight(row, Axis::V, v, u, dp, dq))
+            derive_plain_row(row, width, num, den, rounding, out);
+        else
+            derive_row(row, width, num, den, u, v, rounding, out);
     });
 }
 
