@@ -110,8 +110,9 @@ TEST(Derivatives, DifferencesAlongTheGridAreThoseOfTheSurface) {
 }
 
 TEST(Derivatives, ByTextureCoordinatesOfAFlatPatchAreTheSameEverywhere) {
-    for (const char* const coordinates : {"0 0 1 0 0 1 1 1", "0.1 0.3 1.1 0.3 0.1 1.3 1.1 1.3",
-                                          "0 0 0 1 1 0 1 1", "7.7 1.3 7.7 0.3 6.7 1.3 6.7 0.3"})
+    for (const char* const coordinates :
+         {"0 0 1 0 0 1 1 1", "0.1 0.3 1.1 0.3 0.1 1.3 1.1 1.3", "0 0 0 1 1 0 1 1",
+          "7.7 1.3 7.7 0.3 6.7 1.3 6.7 0.3", "50 99 51 99 50 100 51 100"})
         shade_primitives(std::string("TextureCoordinates ") + coordinates +
                              " Patch \"bilinear\" \"P\" [-2 -2 0 2 -2 0 -2 2 0 2 2 0]",
                          "color(length(Deriv(P, s)), length(Deriv(P, t)), 0)",
@@ -135,7 +136,12 @@ TEST(Derivatives, ByWhatGoesAlongOneParameterHaveOneTerm) {
                                     square(both("varying", four, across)),
                                     subdivision_mesh(both("varying", s, t)),
                                     subdivision_mesh(both("vertex", s, t))};
-    for (const std::string& text : parametric_surfaces())
+    std::vector<std::string> parametric = parametric_surfaces();
+    const std::string line = "\"P\" [-2 -2 0 -1 2 1 1 -2 -1 2 2 0] \"constantwidth\" [0.3]";
+    parametric.insert(parametric.end(), {"Curves \"cubic\" [4] \"nonperiodic\" " + line,
+                                         "Curves \"linear\" [4] \"nonperiodic\" " + line,
+                                         "Points \"P\" [0 0 0 1 1 0] \"constantwidth\" [1.5]"});
+    for (const std::string& text : parametric)
         all.push_back("TextureCoordinates 0.1 0.3 0.7 0.3 0.1 1.1 0.7 1.1 " + text);
     for (const std::string& text : all) {
         SCOPED_TRACE(text);
