@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "shade/grid_parts.h"
 #include "shade/grid_shader.h"
 #include "shade/stand_in_light.h"
 
@@ -60,6 +61,7 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
         material.asks_object_space |= shader && shader->asks_object_space();
     for (const auto& instance : attributes.lights)
         if (const Lamp* shining = lamp(*instance)) material.lights.push_back(shining);
+    material.shades_vertices_apart = shades_vertices_apart(material);
 }
 
 /// Null when there is no such shader, or it has errors. An earlier layer that there is not is reported.

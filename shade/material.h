@@ -28,6 +28,7 @@ struct Material {
     bool asks_object_space = false;
     /// The surface shader sets P, and the displacement bound allows it: the surface is displaced by it, too.
     bool surface_moves = false;
+    bool shades_vertices_apart = false;  ///< as grid_parts.h says
     std::vector<const Lamp*> lights;
     /// The farthest that the displacement shader, or such a surface shader, has moved a vertex, in camera
     /// space.

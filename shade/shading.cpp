@@ -71,6 +71,10 @@ void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, 
     }
 }
 
+bool Shading::can_be_parted(const ShadingGrid& grid) const {
+    return !impl_->known_endless && impl_->materials.of(grid.primitive_index).shades_vertices_apart;
+}
+
 bool Shading::found_endless_loops() {
     const size_t known = std::exchange(impl_->known_endless, impl_->materials.endless_count());
     return impl_->known_endless > known;

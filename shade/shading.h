@@ -43,6 +43,9 @@ class Shading {
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
 
+    /// Whether parts of the grid (grid_parts.h) get the same bits as the whole, and so threads may share it.
+    bool can_be_parted(const ShadingGrid& grid) const;
+
     /// Whether a loop has turned out to be endless since the last call. The shader then has shorter limits:
     /// what was shaded before is to be shaded again, so that no grid depends on the order of grids. From then
     /// on each runs alone, for a batch shares its limits.

@@ -3,13 +3,17 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <deque>
+#include <optional>
 
 #include "composite/film.h"
 #include "core/level_of_detail.h"
 #include "pipeline/frame/stopwatch.h"
 #include "sample/cut_hits.h"
+#include "shade/grid_parts.h"
 
 namespace trapeze {
 namespace {
@@ -25,8 +29,11 @@ struct GridMaker {
     double dice_seconds = 0, shade_seconds = 0;
 };
 
-/// The fewest subpatches that a thread takes at a time.
+/// The fewest subpatches that a thread takes at a time, where there are many.
 constexpr size_t kGrain = 4;
+/// With fewer subpatches than this for each thread, each is a task of its own, and those that can be are
+/// divided, so that there are so many tasks for each thread.
+constexpr size_t kFewForAThread = 16, kPartsForAThread = 2;
 
 /// Points, and curves without normals, have no back.
 bool faces_the_eye(const Shape& shape) {
@@ -39,6 +46,12 @@ PackOptions packing(const Scene& scene, const Primitive& primitive) {
     return {cut || !seen_numbers(*primitive.attributes).are_all() ||
                 depth_filter(scene.options) == DepthFilter::Midpoint,
             cut || faces_the_eye(primitive.shape())};
+}
+
+void pack(const Scene& scene, const ShadingGrid& grid, GridMaker& maker) {
+    int64_t not_finite = 0;
+    maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, packing(scene, *grid.primitive)));
+    maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
 }
 
 /// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
@@ -55,21 +68,15 @@ size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t
     }
     maker.dice_seconds += watch.lap();
     shading.shade(batch, maker.shade_scratch, maker.shade_stats);
-    int64_t not_finite = 0;
-    for (const ShadingGrid* grid : batch)
-        maker.grids.push_back(pack_grid(*grid, maker.arena, &not_finite, packing(scene, *grid->primitive)));
-    maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
+    for (const ShadingGrid* grid : batch) pack(scene, *grid, maker);
     maker.shade_seconds += watch.lap();
     return next;
 }
 
-}  // namespace
+using GridMakers = tbb::enumerable_thread_specific<GridMaker>;
 
-/// Dices and shades a region's subpatches.
-Grids make_grids(const RenderContext& context, const Region& region, const Tessellation& tessellation,
-                 const Shading& shading, FrameStats& stats, Progress& progress) {
-    Stopwatch wall;
-    tbb::enumerable_thread_specific<GridMaker> makers;
+void make_many(const RenderContext& context, const Region& region, const Tessellation& tessellation,
+               const Shading& shading, Progress& progress, GridMakers& makers) {
     const tbb::blocked_range<size_t> all(0, region.subpatches.size(), kGrain);
     tbb::parallel_for(all, [&](const tbb::blocked_range<size_t>& range) {
         GridMaker& maker = makers.local();
@@ -79,6 +86,81 @@ Grids make_grids(const RenderContext& context, const Region& region, const Tesse
             for (; i < next; ++i) progress.step();
         }
     });
+}
+
+/// What a thread shades at a time where there are few grids: one, or some of its vertices.
+struct Part {
+    size_t grid = 0, first = 0;
+    std::optional<ShadingGrid> own;  ///< nothing: the whole grid
+};
+
+std::vector<Part> divided(const std::vector<ShadingGrid>& grids, const Shading& shading, size_t wanted) {
+    std::vector<Part> parts;
+    const size_t for_each_grid = std::max<size_t>(wanted / grids.size(), 1);
+    for (size_t g = 0; g < grids.size(); ++g) {
+        const size_t vertices = grids[g].vertex_count(), size = part_size(vertices, for_each_grid);
+        if (for_each_grid == 1 || size >= vertices || !shading.can_be_parted(grids[g])) {
+            parts.push_back({g, 0, {}});
+            continue;
+        }
+        for (size_t first = 0; first < vertices; first += size)
+            parts.push_back({g, first, part_of(grids[g], first, std::min(size, vertices - first))});
+    }
+    return parts;
+}
+
+/// Each of `count` things by one thread.
+template <class Use>
+void for_each_alone(const RenderContext& context, size_t count, GridMakers& makers, const Use& use) {
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, count, 1),
+        [&](const tbb::blocked_range<size_t>& range) {
+            for (size_t i = range.begin(); i < range.end() && !context.is_cancelled(); ++i)
+                use(i, makers.local());
+        },
+        tbb::simple_partitioner());
+}
+
+/// Few grids, whose shaders may take long: dices all, then threads share the shading of each.
+void make_few(const RenderContext& context, const Region& region, const Tessellation& tessellation,
+              const Shading& shading, size_t threads, Progress& progress, GridMakers& makers) {
+    std::vector<ShadingGrid> grids(region.subpatches.size());
+    for_each_alone(context, grids.size(), makers, [&](size_t i, GridMaker& maker) {
+        Stopwatch watch;
+        tessellation.dice(region.subpatches[i], grids[i], maker.dice_scratch);
+        maker.dice_seconds += watch.lap();
+    });
+    if (context.is_cancelled()) return;
+    std::vector<Part> parts = divided(grids, shading, kPartsForAThread * threads);
+    for_each_alone(context, parts.size(), makers, [&](size_t i, GridMaker& maker) {
+        Stopwatch watch;
+        Part& part = parts[i];
+        ShadingGrid& whole = grids[part.grid];
+        ShadingGrid& shaded = part.own ? *part.own : whole;
+        shading.shade(shaded, maker.shade_scratch, maker.shade_stats);
+        if (part.first + shaded.vertex_count() == whole.vertex_count()) progress.step();
+        maker.shade_seconds += watch.lap();
+    });
+    if (context.is_cancelled()) return;
+    for (const Part& part : parts)
+        if (part.own) put_part(*part.own, part.first, grids[part.grid]);
+    for_each_alone(context, grids.size(), makers,
+                   [&](size_t i, GridMaker& maker) { pack(*context.scene, grids[i], maker); });
+}
+
+}  // namespace
+
+/// Dices and shades a region's subpatches.
+Grids make_grids(const RenderContext& context, const Region& region, const Tessellation& tessellation,
+                 const Shading& shading, FrameStats& stats, Progress& progress) {
+    Stopwatch wall;
+    GridMakers makers;
+    const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+    const size_t count = region.subpatches.size();
+    if (threads > 1 && count > 0 && count < kFewForAThread * threads)
+        make_few(context, region, tessellation, shading, threads, progress, makers);
+    else
+        make_many(context, region, tessellation, shading, progress, makers);
 
     Grids grids;
     double dice = 0, shade = 0;
