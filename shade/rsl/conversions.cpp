@@ -119,6 +119,7 @@ std::optional<int> conversion_cost(Base from, Base to) {
     if (from == Base::Float && to == Base::Matrix) return kFillMatrix;
     if (from == Base::Float && to == Base::Bool) return kTruth;
     if (from == Base::Bool && to == Base::Float) return kTruth;
+    if (from == Base::Bool && is_triple(to)) return kTruth + kFill;
     return {};
 }
 

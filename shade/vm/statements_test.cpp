@@ -17,6 +17,11 @@ TEST(Statements, IfByLaneAndWhole) {
                                                             : 0; });
 }
 
+TEST(Statements, TruthsAreOneOrZeroInAllComponents) {
+    expect_values("color c = s > 0.5; vector v = t < 0.25; r = comp(c, 2) + 10 * zcomp(v);",
+                  [](float s, float t) { return (s > 0.5f ? 1 : 0) + (t < 0.25f ? 10 : 0); });
+}
+
 TEST(Statements, VariablesInsideBranchesAreTheirOwn) {
     expect_values(
         "float x = 1; if (s > 0.5) { float x = 10; x += t; r = x; } r += x;",
