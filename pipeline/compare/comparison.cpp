@@ -39,10 +39,11 @@ std::string rate_text(SampleRate rate) {
 }
 
 std::string baseline_of(const std::vector<Sampler>& samplers) {
+    const std::string first(visibility_methods().front().name);
     std::string of_kind;
     for (const Sampler& sampler : samplers) {
-        if (sampler.name() == "raytrace") return "raytrace";
-        if (of_kind.empty() && sampler.method.name == "raytrace") of_kind = sampler.name();
+        if (sampler.name() == first) return first;
+        if (of_kind.empty() && sampler.method.name == first) of_kind = sampler.name();
     }
     if (!of_kind.empty()) return of_kind;
     return samplers.empty() ? std::string() : samplers.front().name();

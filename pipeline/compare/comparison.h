@@ -25,6 +25,8 @@ struct ComparedMethod {
 
 struct Comparison {
     std::string scene;  ///< as the user named it
+    std::vector<std::string> command;  ///< the command line's words, without the program's name
+    uint32_t seed = 0;
     Machine machine;
     FrameStats frame;  ///< of tessellation and shading
     FrameBlur blur;

@@ -99,8 +99,12 @@ TEST(ComparisonJson, HasTheFiguresAndTheVerdict) {
     auto c = compare(*shared.frame, settings_of({"raytrace"}, {{2, 2}}));
     ASSERT_TRUE(c);
     c->scene = "a \"name\"";
+    c->command = {"compare", "--seed", "7"}, c->seed = 7, c->machine.revision = "v1-2-gabc";
     const auto json = nlohmann::json::parse(to_json(*c).dump());
     EXPECT_EQ(json["scene"], c->scene);
+    EXPECT_EQ(json["command"], (std::vector<std::string>{"compare", "--seed", "7"}));
+    EXPECT_EQ(json["seed"], 7);
+    EXPECT_EQ(json["machine"]["revision"], "v1-2-gabc");
     EXPECT_EQ(json["results"][0]["rmse"].get<double>(), c->methods[0].rmse);
     EXPECT_EQ(json["results"][0]["ratio_to_baseline"].get<double>(), 1);
     EXPECT_EQ(json["reference_samples"], 64);

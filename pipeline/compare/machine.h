@@ -11,10 +11,11 @@ struct Machine {
     std::string system;    ///< operating system and its release
     std::string compiler;  ///< that built the program
     std::string trapeze;   ///< version
+    std::string revision;  ///< of the source that was built
     int threads = 1;       ///< that the work ran on
 };
 
-/// Of this process, but for `trapeze`; the threads are the calling task arena's.
+/// Of this process, but for `trapeze` and `revision`; the threads are the calling task arena's.
 Machine this_machine();
 
 }  // namespace trapeze

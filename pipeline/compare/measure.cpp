@@ -108,10 +108,21 @@ double median(std::vector<double> values) {
     return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-double MethodResult::total_median() const {
+std::vector<double> MethodResult::total_seconds() const {
     std::vector<double> sums;
     for (size_t i = 0; i < build_seconds.size(); ++i) sums.push_back(build_seconds[i] + resolve_seconds[i]);
-    return median(std::move(sums));
+    return sums;
+}
+
+double MethodResult::total_median() const {
+    return median(total_seconds());
+}
+
+MethodResult::Spread MethodResult::total_spread() const {
+    const std::vector<double> sums = total_seconds();
+    if (sums.empty()) return {};
+    const auto [least, most] = std::minmax_element(sums.begin(), sums.end());
+    return {*least, *most};
 }
 
 std::vector<MethodResult> measure(const SharedFrame& frame, const std::vector<Sampler>& samplers,

@@ -31,6 +31,11 @@ struct MethodResult {
     double build_median() const { return median(build_seconds); }
     double resolve_median() const { return median(resolve_seconds); }
     double total_median() const;
+    /// Of the rounds' sums.
+    struct Spread {
+        double least = 0, most = 0;
+    };
+    Spread total_spread() const;
 
     double samples_per_second() const { return ratio(static_cast<double>(sample.rays), resolve_median()); }
     double tests_per_sample() const { return ratio(sample.predicate_tests, sample.rays); }
@@ -40,6 +45,7 @@ struct MethodResult {
     double bytes_per_micropolygon() const { return ratio(build.tree_bytes, micropolygons); }
 
   private:
+    std::vector<double> total_seconds() const;  ///< by round
     /// 0 where there is nothing to divide by.
     static double ratio(double a, double b) { return b > 0 ? a / b : 0; }
     static double ratio(uint64_t a, uint64_t b) {

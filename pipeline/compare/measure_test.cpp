@@ -28,6 +28,8 @@ TEST(MethodResult, TheTotalIsTheMedianOfTheRoundsSums) {
     EXPECT_EQ(r.build_median(), 2);
     EXPECT_EQ(r.resolve_median(), 3);
     EXPECT_EQ(r.total_median(), 6);  // of 10, 6, 5
+    EXPECT_EQ(r.total_spread().least, 5);
+    EXPECT_EQ(r.total_spread().most, 10);
     EXPECT_EQ(r.tests_per_sample(), 0) << "nothing was sampled";
 }
 
@@ -115,6 +117,8 @@ TEST(ResultsJson, HasWhatTheResultSays) {
     EXPECT_EQ(json["method"], "raytrace");
     EXPECT_EQ(json["build_seconds_by_round"].size(), 3u);
     EXPECT_EQ(json["total_seconds"].get<double>(), results[0].total_median());
+    EXPECT_EQ(json["total_seconds_least"].get<double>(), results[0].total_spread().least);
+    EXPECT_EQ(json["total_seconds_most"].get<double>(), results[0].total_spread().most);
     EXPECT_EQ(json["predicate_tests"].get<uint64_t>(), results[0].sample.predicate_tests);
     EXPECT_GT(json["bytes_per_micropolygon"].get<double>(), 0);
 }

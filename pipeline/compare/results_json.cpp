@@ -10,6 +10,8 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
             {"build_seconds", r.build_median()},
             {"resolve_seconds", r.resolve_median()},
             {"total_seconds", r.total_median()},
+            {"total_seconds_least", r.total_spread().least},
+            {"total_seconds_most", r.total_spread().most},
             {"build_seconds_by_round", r.build_seconds},
             {"resolve_seconds_by_round", r.resolve_seconds},
             {"samples", r.sample.rays},
@@ -32,7 +34,8 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
 
 nlohmann::ordered_json to_json(const Machine& machine) {
     return {{"cpu", machine.cpu},       {"threads", machine.threads},   {"simd_target", machine.simd},
-            {"system", machine.system}, {"compiler", machine.compiler}, {"trapeze", machine.trapeze}};
+            {"system", machine.system}, {"compiler", machine.compiler}, {"trapeze", machine.trapeze},
+            {"revision", machine.revision}};
 }
 
 nlohmann::ordered_json to_json(const Comparison& c) {
@@ -48,6 +51,8 @@ nlohmann::ordered_json to_json(const Comparison& c) {
         return json{{"largest_pixels", blur.largest}, {"median_pixels", blur.median}};
     };
     return {{"scene", c.scene},
+            {"command", c.command},
+            {"seed", c.seed},
             {"machine", to_json(c.machine)},
             {"width", c.frame.width},
             {"height", c.frame.height},

@@ -38,14 +38,7 @@ std::string with_time(const MethodResult& r) {
 /// Whether the rounds' totals of two methods cannot be told apart.
 bool equal_times(const MethodResult& fast, const MethodResult& slow) {
     if (slow.total_median() <= kEqualTimes * fast.total_median()) return true;
-    double longest = 0, shortest = 0;
-    for (size_t i = 0; i < fast.build_seconds.size(); ++i)
-        longest = std::max(longest, fast.build_seconds[i] + fast.resolve_seconds[i]);
-    for (size_t i = 0; i < slow.build_seconds.size(); ++i) {
-        const double seconds = slow.build_seconds[i] + slow.resolve_seconds[i];
-        shortest = i == 0 ? seconds : std::min(shortest, seconds);
-    }
-    return shortest <= longest;
+    return slow.total_spread().least <= fast.total_spread().most;
 }
 
 /// On the same samples methods see the same, or (other code than ours) nearly so.

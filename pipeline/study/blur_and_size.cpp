@@ -42,7 +42,6 @@ struct Sweep {
     std::vector<double> alone_nanoseconds, alone_nodes;
 
     double growth(size_t method) const { return seconds[method].back() / seconds[method].front(); }
-    double growth_alone() const { return alone_nanoseconds.back() / alone_nanoseconds.front(); }
 };
 
 void measure_point(StudyBench& bench, const StudyScene& scene, const SharedFrame& frame, double x,
@@ -101,7 +100,7 @@ void add_sweep(StudyResult& result, const Sweep& sweep, const std::string& what,
     result.plots.push_back(plot_alone(sweep, "A ray by itself against " + what, x_title));
     result.tables.push_back(table_of(sweep, "Time against " + what, x_title));
     const auto grown = [&](size_t method) { return number_text(sweep.growth(method)) + "x"; };
-    StudyCheck interval{what + ": ray tracing grows less than INTERVAL",
+    StudyCheck interval{what + ": ray tracing's time grows less than INTERVAL's from none to most",
                         "\"significantly less sensitive\" (to defocus)",
                         fmt::format("{} against {} from none to most", grown(kRaytrace), grown(kInterval))};
     interval.held = sweep.growth(kRaytrace) < sweep.growth(kInterval);
@@ -114,12 +113,8 @@ void add_sweep(StudyResult& result, const Sweep& sweep, const std::string& what,
     StudyCheck uvt{what + ": ray tracing stays ahead of INTERLEAVEUVT k = 4 at every blur",
                    "ahead everywhere", "k = 4 takes at least " + number_text(least) + "x its time"};
     uvt.held = ahead;
-    StudyCheck bounded{what + ": ray tracing hardly depends on blur", "\"constant\" in theory",
-                       "time " + grown(kRaytrace) + " from none to most"};
-    bounded.held = sweep.growth(kRaytrace) < 2.5;
-    StudyCheck alone{what + ": a ray by itself hardly depends on blur", "\"constant\" in theory",
-                     "time " + number_text(sweep.growth_alone()) + "x from none to most"};
-    alone.held = sweep.growth_alone() < 2.5;
+    const StudyCheck bounded = check_of_blur(what + ": ray tracing", sweep.seconds[kRaytrace]);
+    const StudyCheck alone = check_of_blur(what + ": a ray by itself", sweep.alone_nanoseconds);
     result.checks.insert(result.checks.end(), {interval, uvt, bounded, alone});
 }
 

@@ -38,6 +38,9 @@ StudyCheck check_of_coarser_shading(const std::string& scene, const std::vector<
 StudyCheck check_of_order(const std::string& scene, const std::vector<double>& here,
                           const std::vector<double>& paper);
 
+/// That blur, which grows from none, costs little: a method's times by blur.
+StudyCheck check_of_blur(const std::string& method, const std::vector<double>& times);
+
 /// What a ray costs in scenes of ever more micropolygons.
 struct GrowthSeries {
     std::string name;

@@ -56,6 +56,13 @@ TEST(ShapeChecks, GrowthLikeTheLogarithm) {
         EXPECT_FALSE(check.held) << check.claim;
     EXPECT_FALSE(
         checks_of_growth(flat, {"", counts, {500, 600, 700}, {20, 40, 80}}).front().held);  // by nodes
+    for (const std::vector<double>& time : {std::vector<double>{500, 400, 300}, {500, 1200, 700}})
+        EXPECT_FALSE(checks_of_growth(flat, {"", counts, time, {20, 24, 28}}).front().held);
+}
+
+TEST(ShapeChecks, BlurOfAnySizeCounts) {
+    EXPECT_TRUE(check_of_blur("", {4, 6, 5}).held);
+    EXPECT_FALSE(check_of_blur("", {4, 12, 5}).held) << "in the middle";
 }
 
 TEST(ShapeChecks, WhatIsIllegibleIsNotCompared) {

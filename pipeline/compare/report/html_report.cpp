@@ -9,6 +9,7 @@
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/value_text.h"
+#include "pipeline/frame/json_text.h"
 
 namespace trapeze {
 
@@ -142,7 +143,7 @@ std::string html_report(const Comparison& c) {
            report_pictures(c) + machine(c) + verdict(c) +
            "</main>\n<dialog><img alt=\"\"><p></p></dialog>\n"
            "<script type=\"application/json\" id=\"figures\">" +
-           script_safe(to_json(c).dump()) + "</script>\n<script>\n" + kReportScript +
+           script_safe(json_text(to_json(c), -1)) + "</script>\n<script>\n" + kReportScript +
            "</script>\n</body>\n</html>\n";
 }
 

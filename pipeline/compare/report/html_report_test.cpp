@@ -70,6 +70,13 @@ TEST(HtmlReport, LoadsNothing) {
     EXPECT_EQ(count_of(html, "src=\""), count_of(html, "src=\"data:image/png;base64,iVBORw0KGgo"));
 }
 
+TEST(HtmlReport, TablesScrollWithinThePage) {
+    const std::string html = html_report(comparison());
+    EXPECT_GT(count_of(html, "<table"), 0u);
+    EXPECT_EQ(count_of(html, "<table"), count_of(html, "<div class=\"scroll\"><table"));
+    EXPECT_THAT(html, HasSubstr(".scroll { overflow-x: auto; max-width: 100%;"));
+}
+
 TEST(HtmlReport, HasThePicturesAndTheWorstPlaces) {
     const std::string html = html_report(comparison());
     const size_t methods = comparison().methods.size();

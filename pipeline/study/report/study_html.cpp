@@ -5,6 +5,7 @@
 #include "pipeline/compare/report/encoded_text.h"
 #include "pipeline/compare/report/html_page.h"
 #include "pipeline/compare/value_text.h"
+#include "pipeline/frame/json_text.h"
 #include "pipeline/study/report/plots.h"
 #include "pipeline/study/report/study_report.h"
 
@@ -99,7 +100,7 @@ std::string study_html(const StudyResult& r) {
     return html_head("Trapeze study: " + r.title) + title(r) + plots(r) + tables(r) + checks(r) + scenes(r) +
            "<section id=\"machine\">\n<h2>Machine</h2>\n<dl class=\"machine\">\n" + html_machine(r.machine) +
            "</dl>\n</section>\n</main>\n<script type=\"application/json\" id=\"figures\">" +
-           script_safe(study_json(r).dump()) + "</script>\n</body>\n</html>\n";
+           script_safe(json_text(study_json(r), -1)) + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace trapeze
