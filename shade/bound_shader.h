@@ -34,11 +34,14 @@ class BoundShader {
     const rsl::Program& program() const { return executable_->program(); }
     const ShaderInstance& instance() const { return instance_; }
 
-  private:
     struct Value {
         std::vector<float> floats;  ///< all elements
         std::vector<std::string> texts;
     };
+    /// Of program().parameters, as long as no primitive variable replaces them; points in camera space.
+    const std::vector<Value>& values() const { return values_; }
+
+  private:
     bool take_from_instance(const rsl::ProgramParameter& parameter, Value& value,
                             Diagnostics* diagnostics) const;
 

@@ -86,7 +86,7 @@ Imager::Imager(const RenderContext& context) : impl_(std::make_unique<Impl>(cont
     if (!executable) {
         auto instead = stand_in(instance);
         if (context.diagnostics)
-            context.diagnostics->warning(
+            context.diagnostics->error(
                 instance.location,
                 fmt::format("Imager: there is no shader \"{}\"; {}", instance.name,
                             instead ? "background is used" : "the picture stays as it is"),
@@ -106,6 +106,10 @@ Imager::~Imager() = default;
 
 bool Imager::is_there() const {
     return impl_->shader != nullptr;
+}
+
+const BoundShader* Imager::shader() const {
+    return impl_->shader.get();
 }
 
 void Imager::Impl::load_pixels(vm::Frame& frame, int x0, int y, size_t pixels, const float* rgba) const {

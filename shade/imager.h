@@ -8,6 +8,8 @@
 
 namespace trapeze {
 
+class BoundShader;
+
 class Imager {
   public:
     /// The shader that Options::imager names. One that is not known, is no imager or has errors is reported;
@@ -16,6 +18,7 @@ class Imager {
     ~Imager();
 
     bool is_there() const;
+    const BoundShader* shader() const;  ///< null: none
 
     /// Runs it over one row of pixels in place: `count` of them, red green blue alpha each, from pixel
     /// (x0, y) on. Thread-safe; what becomes of a pixel depends on the pixel alone.

@@ -101,14 +101,14 @@ TEST(Imager, WhatIsNotFiniteBecomesZero) {
     EXPECT_EQ(imaged(scene, {1, 0, 1, 0.5f}), (Pixels{0, 0, 0, 0.5f}));
 }
 
-TEST(Imager, OneThatIsNotThereWarnsAndOneOfAnotherKindToo) {
+TEST(Imager, OneThatIsNotThereIsAnErrorAndOneOfAnotherKindToo) {
     TestScene scene;
     EXPECT_FALSE(Imager(scene.context).is_there());
     EXPECT_TRUE(scene.reported.empty());
     set_imager(scene, "nosuch");
     EXPECT_FALSE(Imager(scene.context).is_there());
     ASSERT_EQ(scene.reported.size(), 1u);
-    EXPECT_EQ(scene.reported[0].severity, Severity::Warning);
+    EXPECT_EQ(scene.reported[0].severity, Severity::Error);
     set_imager(scene, "plastic");
     EXPECT_FALSE(Imager(scene.context).is_there());
     EXPECT_GE(scene.reported.size(), 2u);

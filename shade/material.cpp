@@ -50,11 +50,11 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     if (attributes.displacement) {
         material.displacement = layered(*attributes.displacement, rsl::ShaderKind::Displacement, varying);
         if (!material.displacement)
-            warn_missing("Displacement", *attributes.displacement, "nothing is displaced");
+            report_missing("Displacement", *attributes.displacement, "nothing is displaced");
     }
     if (attributes.atmosphere) {
         material.atmosphere = layered(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
-        if (!material.atmosphere) warn_missing("Atmosphere", *attributes.atmosphere, "there is none");
+        if (!material.atmosphere) report_missing("Atmosphere", *attributes.atmosphere, "there is none");
     }
     material.surface_moves = may_move(*material.surface, attributes);
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
@@ -75,7 +75,7 @@ const LayeredShader* Materials::layered(const ShaderInstance& instance, rsl::Sha
                 bound(*earlier, kind, varying, connected_parameters(instance, earlier->layer)))
             layers.push_back(layer);
         else
-            warn_missing("ShaderLayer", *earlier, "the layer is left out");
+            report_missing("ShaderLayer", *earlier, "the layer is left out");
     }
     const BoundShader* last = bound(instance, kind, varying, connected_parameters(instance, instance.layer));
     if (!last) return nullptr;
@@ -96,7 +96,7 @@ const BoundShader* Materials::bound(const ShaderInstance& instance, rsl::ShaderK
 const LayeredShader* Materials::surface(const ShaderInstance* instance, const Names& varying) {
     if (!instance) instance = &default_instance_;
     if (const LayeredShader* found = layered(*instance, rsl::ShaderKind::Surface, varying)) return found;
-    warn_missing("Surface", *instance, "defaultsurface is used");
+    report_missing("Surface", *instance, "defaultsurface is used");
     return layered(default_instance_, rsl::ShaderKind::Surface, varying);
 }
 
@@ -122,7 +122,7 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
     auto executable = library_.find(shader->name, rsl::ShaderKind::Light, {}, shader->location);
     if (!executable) {
         shader = &stand_ins_.emplace_back(stand_in_light(instance.shader));
-        warn_missing("LightSource", instance.shader, shader->name + " is used");
+        report_missing("LightSource", instance.shader, shader->name + " is used");
         executable = library_.find(shader->name, rsl::ShaderKind::Light, {}, shader->location);
         if (!executable) return nullptr;
     }
@@ -137,12 +137,22 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
     return at->second.get();
 }
 
-void Materials::warn_missing(std::string_view request, const ShaderInstance& instance,
-                             std::string_view instead) {
+std::vector<const BoundShader*> Materials::shaders() const {
+    std::vector<const BoundShader*> all;
+    for (const BoundShader& layer : layers_) all.push_back(&layer);
+    std::set<const Lamp*> seen;
+    for (const Material& material : materials_)
+        for (const Lamp* lamp : material.lights)
+            if (seen.insert(lamp).second) all.push_back(lamp->shader.get());
+    return all;
+}
+
+void Materials::report_missing(std::string_view request, const ShaderInstance& instance,
+                               std::string_view instead) {
     if (!diagnostics_) return;
-    diagnostics_->warning(instance.location,
-                          fmt::format("{}: there is no shader \"{}\"; {}", request, instance.name, instead),
-                          fmt::format("missing-shader {} {}", request, instance.name));
+    diagnostics_->error(instance.location,
+                        fmt::format("{}: there is no shader \"{}\"; {}", request, instance.name, instead),
+                        fmt::format("missing-shader {} {}", request, instance.name));
 }
 
 }  // namespace trapeze

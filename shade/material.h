@@ -42,6 +42,8 @@ class Materials {
     /// Of a primitive of the scene, by its index.
     const Material& of(uint32_t primitive) const { return materials_[of_primitive_[primitive]]; }
     const std::deque<Material>& all() const { return materials_; }
+    /// Every shader that a primitive has, layers and lights among them.
+    std::vector<const BoundShader*> shaders() const;
     /// Shaders that have turned out to have loops without an end.
     size_t endless_count() const { return library_.endless_count(); }
 
@@ -54,7 +56,7 @@ class Materials {
     const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
     bool may_move(const LayeredShader& surface, const Attributes& attributes);
     const Lamp* lamp(const LightInstance& instance);
-    void warn_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
+    void report_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
 
     const RenderContext& context_;
     Diagnostics* diagnostics_;

@@ -64,6 +64,42 @@ TEST(CommandLine, MapsAreMadeBetweenFrames) {
         EXPECT_TRUE(fs::exists(folder / file)) << file;
 }
 
+TEST(CommandLine, CheckFindsWhatIsMissing) {
+    WorkFolder folder;
+    const std::string scene = R"(ShadingRate 4
+MakeTexture "lost.tif" "made.tex" "clamp" "clamp" "box" 1 1
+WorldBegin
+LightSource "shadowspot" 1 "shadowname" "lost.shd"
+LightSource "lostlight" 2
+Surface "paintedplastic" "texturename" "lost.tex"
+Displacement "lostbumps"
+Sphere 1 -1 1 360
+Surface "paintedplastic" "texturename" "made.tex"
+Sphere 1 -1 1 360
+Surface "never"
+Surface "paintedplastic"
+Sphere 1 -1 1 360
+ReadArchive "lost.rib"
+Procedural "RunProgram" ["lost-program" ""] [-1 1 -1 1 -1 1]
+WorldEnd
+)";
+    folder.write("a.rib", scene);
+    const Outcome checked = run_program(folder, "check a.rib");
+    EXPECT_EQ(checked.exit_code, 1);
+    for (const char* text : {"a.rib:2:1: error: cannot make \"made.tex\" from \"lost.tif\"",
+                             "texture \"lost.shd\": is not found",
+                             "a.rib:5:1: error: LightSource: there is no shader \"lostlight\"",
+                             "texture \"lost.tex\": is not found",
+                             "a.rib:7:1: error: Displacement: there is no shader \"lostbumps\"",
+                             "a.rib:14:1: error: ReadArchive: \"lost.rib\" is not found",
+                             "the program \"lost-program\" is not found"})
+        EXPECT_NE(checked.err.find(text), std::string::npos) << text << "\n" << checked.err;
+    EXPECT_EQ(files_in(folder), "a.rib ");
+
+    folder.write("passes.rib", kPasses);
+    EXPECT_EQ(run_program(folder, "check --strict passes.rib").exit_code, 0) << "maps are made on the way";
+}
+
 TEST(CommandLine, TheOutputIsNotThatOfADepthPass) {
     WorkFolder folder;
     folder.write("a.rib", kPasses);
@@ -138,7 +174,7 @@ TEST(CommandLine, VariablesOfShadersAreWrittenAndMissingOnesWarnedOf) {
     folder.write("tall.sl",
                  "surface tall(output varying float height = 0;) { height = 2 + t; Ci = Oi = 1; }");
     const Outcome outcome = run_program(folder, "render a.rib");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     for (const char* file : {"sphere.exr", "height.tif", "nosuch.exr"})
         EXPECT_TRUE(fs::exists(folder / file)) << file;
     const auto warned = [&](const std::string& text) {
@@ -148,7 +184,7 @@ TEST(CommandLine, VariablesOfShadersAreWrittenAndMissingOnesWarnedOf) {
     EXPECT_TRUE(
         warned("a.rib:6:1: warning: Display: no surface shader of the scene has a variable \"nosuch\""))
         << outcome.err;
-    EXPECT_TRUE(warned("a.rib:7:1: warning: Imager: there is no shader \"lost\"")) << outcome.err;
+    EXPECT_TRUE(warned("a.rib:7:1: error: Imager: there is no shader \"lost\"")) << outcome.err;
     EXPECT_EQ(outcome.err.find("height"), std::string::npos) << outcome.err;
 }
 

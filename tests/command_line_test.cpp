@@ -122,7 +122,8 @@ TEST(CommandLine, ExitCodesSayWhatWentWrong) {
     EXPECT_EQ(run_program(folder, "render missing.rib").exit_code, 3);
     EXPECT_EQ(run_program(folder, "render empty.rib").exit_code, 4);
     EXPECT_EQ(run_program(folder, "render wrong.rib").exit_code, 1);
-    EXPECT_EQ(run_program(folder, "render shader.rib").exit_code, 0);
+    EXPECT_EQ(run_program(folder, "render shader.rib").exit_code, 1);
+    EXPECT_EQ(run_program(folder, "check shader.rib").exit_code, 1);
     EXPECT_EQ(run_program(folder, "render shader.rib --strict").exit_code, 5);
     EXPECT_EQ(run_program(folder, "render a.rib -o no/such/folder/x.exr").exit_code, 6);
     EXPECT_EQ(run_program(folder, "check a.rib").exit_code, 0);
@@ -199,13 +200,13 @@ TEST(CommandLine, AMissingShaderIsSaidOnce) {
     const std::string scene = kSphere;
     const size_t sphere = scene.find("Sphere");
     folder.write("a.rib", scene.substr(0, scene.find("Surface")) + "Surface \"gloop\"\n" +
-                              scene.substr(sphere, 20) + "Surface \"gloop\"\n" + scene.substr(sphere));
+                              scene.substr(sphere, 18) + "Surface \"gloop\"\n" + scene.substr(sphere));
     const Outcome outcome = run_program(folder, "render a.rib");
-    const size_t first = outcome.err.find("warning");
+    const size_t first = outcome.err.find("error");
     ASSERT_NE(first, std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("a.rib:"), std::string::npos);
     EXPECT_NE(outcome.err.find("gloop"), std::string::npos);
-    EXPECT_EQ(outcome.err.find("warning", first + 1), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("error", first + 1), std::string::npos) << outcome.err;
 }
 
 TEST(CommandLine, MemoryBoundsWhatEveryCommandReads) {

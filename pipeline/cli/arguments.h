@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/cli/parse_values.h"
@@ -55,6 +56,7 @@ struct ShaderArguments {
 
 struct Arguments {
     Command command = Command::Render;
+    std::vector<std::string> words;  ///< as they were given, without the program's name
     std::vector<std::string> inputs;
     std::string output;  ///< empty: as the scene says
     std::string driver;  ///< replaces every Display's type; "null" writes nothing
@@ -83,9 +85,7 @@ struct Arguments {
     bool strict = false, quiet = false, color = true;
 };
 
-/// RenderMan programs' spellings turned into ours: -progress -Progress -t:N -res W H -crop a b c d -frames
-/// ... -recover N, and "render" put first when the command is left out. `args` without the program's name.
-std::vector<std::string> modern_spelling(std::vector<std::string> args);
+bool is_command(std::string_view name);
 
 /// Reads the command line. When it says to stop (help, version, usage errors), prints and returns the exit
 /// code.

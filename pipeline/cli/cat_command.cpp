@@ -1,20 +1,18 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <optional>
 
 #include "core/output_file.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/read_settings.h"
+#include "pipeline/cli/standard_streams.h"
 #include "pipeline/rib/cat_rib.h"
 
 namespace trapeze {
 namespace {
 
-/// Standard output or a file that appears when all is written.
+/// A file that appears when all is written, or standard output, of which main() says what goes wrong.
 class CatOutput {
   public:
     explicit CatOutput(const std::string& path) {
@@ -25,10 +23,10 @@ class CatOutput {
         if (file_)
             good_ = good_ && file_->write(bytes.data(), bytes.size());
         else
-            good_ = good_ && std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+            print_text(bytes);
     }
-    bool close() { return good_ && (file_ ? file_->commit() : std::fflush(stdout) == 0); }
-    std::string error() const { return file_ ? file_->error() : std::strerror(errno); }
+    bool close() { return !file_ || (good_ && file_->commit()); }
+    std::string error() const { return file_ ? file_->error() : std::string(); }
 
   private:
     std::optional<OutputFile> file_;
@@ -38,7 +36,7 @@ class CatOutput {
 }  // namespace
 
 int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
-    if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
+    if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     const CatArguments& cat = arguments.cat;
     CatOutput output(arguments.output);
     const auto cannot_write = [&] {

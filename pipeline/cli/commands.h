@@ -17,7 +17,7 @@ int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& d
 int compliance_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 
-/// True when all inputs can be opened; reports those that cannot.
-bool inputs_exist(const Arguments& arguments, Diagnostics& diagnostics);
+/// True when all inputs ("-": standard input) can be opened; reports those that cannot.
+bool inputs_exist(const std::vector<std::string>& inputs, Diagnostics& diagnostics);
 
 }  // namespace trapeze

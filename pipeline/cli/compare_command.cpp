@@ -8,12 +8,14 @@
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/on_threads.h"
 #include "pipeline/cli/read_settings.h"
+#include "pipeline/cli/revision.h"
 #include "pipeline/cli/text_files.h"
 #include "pipeline/compare/report/html_report.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sampler_list.h"
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/write_pictures.h"
+#include "pipeline/frame/json_text.h"
 #include "pipeline/frame/version.h"
 #include "pipeline/rib/read_rib.h"
 
@@ -49,7 +51,7 @@ class CompareJob {
     Terminal& terminal_;
     Diagnostics& diagnostics_;
     Interrupt interrupt_;
-    int worlds_ = 0;
+    int worlds_ = 0, frame_number_ = 0;
     bool compared_ = false, output_failed_ = false;
 };
 
@@ -81,7 +83,9 @@ CompareSettings CompareJob::settings_for(const SharedFrame& frame) {
     }
     settings.measure.rounds = options_.rounds;
     settings.reference_side = options_.reference_side;
-    settings.on_stage = [this](const std::string& what) { terminal_.begin_progress(what); };
+    settings.on_stage = [this](const std::string& what) {
+        terminal_.begin_progress(what, {arguments_.inputs.front(), what, frame_number_});
+    };
     settings.on_progress = [this](double part) { terminal_.progress(part); };
     return settings;
 }
@@ -98,14 +102,16 @@ void CompareJob::take_world(Scene&& scene) {
     settings.seed = arguments_.seed;
     settings.cancelled = &interrupt_.requested();
     settings.on_progress = [this](double part) { terminal_.progress(part); };
-    terminal_.begin_progress("shading");
+    frame_number_ = options.frame;
+    terminal_.begin_progress("shading", {arguments_.inputs.front(), "shading", frame_number_});
     const auto frame = share_frame(std::move(scene), settings, diagnostics_);
     auto comparison = frame ? compare(*frame, settings_for(*frame)) : std::nullopt;
     terminal_.end_progress();
     if (!comparison) return;
     compared_ = true;
     comparison->scene = arguments_.inputs.front();
-    comparison->machine.trapeze = kVersion;
+    comparison->machine.trapeze = kVersion, comparison->machine.revision = revision();
+    comparison->command = arguments_.words, comparison->seed = arguments_.seed;
     print(*comparison);
     write_outputs(*comparison, *frame);
 }
@@ -118,7 +124,7 @@ void CompareJob::print(const Comparison& comparison) const {
 void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& frame) {
     bool good = true;
     if (!options_.json.empty())
-        good = write_text(options_.json, to_json(comparison).dump(2) + "\n", diagnostics_) && good;
+        good = write_text(options_.json, json_text(to_json(comparison)) + "\n", diagnostics_) && good;
     if (!options_.report.empty())
         good = write_text(options_.report, html_report(comparison), diagnostics_) && good;
     if (!options_.folder.empty())
@@ -129,7 +135,8 @@ void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& 
 int CompareJob::exit_code() const {
     if (interrupt_.requested()) return interrupt_.exit_code();
     if (output_failed_) return kExitNoOutput;
-    if (diagnostics_.kinds().contains(kTooLittleMemory)) return kExitNoMemory;
+    const auto kinds = diagnostics_.kinds();
+    if (kinds.contains(kTooLittleMemory) || kinds.contains(kPictureTooLarge)) return kExitNoMemory;
     if (!compared_) return kExitNothingRendered;
     const bool warned = diagnostics_.count(Severity::Warning) > 0;
     return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
@@ -153,7 +160,7 @@ int CompareJob::run() {
 }  // namespace
 
 int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
-    if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
+    if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     return CompareJob(arguments, terminal, diagnostics).run();
 }
 

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/compliance_page.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/standard_streams.h"
 
 namespace trapeze {
 
@@ -22,7 +22,7 @@ int compliance_command(const Arguments& arguments, Terminal&, Diagnostics& diagn
         return kExitNoInput;
     }
     std::sort(scenes.begin(), scenes.end());
-    std::fputs(compliance_page(scenes).c_str(), stdout);
+    print_text(compliance_page(scenes));
     return kExitOk;
 }
 

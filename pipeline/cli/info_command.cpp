@@ -36,7 +36,7 @@ void print_counts(const char* title, const std::map<std::string, uint64_t>& coun
 
 int info_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostics) {
     const Interrupt interrupt;
-    if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
+    if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     ReadOptions options = read_options(arguments);
     options.keep_geometry = false;
     int worlds = 0;

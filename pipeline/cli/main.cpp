@@ -6,6 +6,7 @@
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/read_settings.h"
+#include "pipeline/cli/standard_streams.h"
 #include "pipeline/ri/serve_procedural.h"
 
 namespace {
@@ -52,8 +53,12 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
 int main(int argc, char** argv) {
     using namespace trapeze;
     if (argc == 3 && std::string_view(argv[1]) == kServeProcedural) return serve_procedural(argv[2]);
+    prepare_standard_streams();
     Arguments arguments;
-    if (const auto code = parse_arguments(argc, argv, arguments)) return *code;
+    if (const auto code = parse_arguments(argc, argv, arguments)) {
+        Terminal terminal({});
+        return *code == kExitOk && !printed_all(terminal) ? kExitNoOutput : *code;
+    }
     Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet});
     std::string wrong;
     if (!limit_simd(arguments.simd, &wrong)) {
@@ -61,11 +66,14 @@ int main(int argc, char** argv) {
         return kExitUsage;
     }
     try {
-        return run(arguments, terminal);
+        const int code = run(arguments, terminal);
+        const bool is_worse = code == kExitOk || code == kExitErrors;
+        return !printed_all(terminal) && is_worse ? kExitNoOutput : code;
     } catch (const std::bad_alloc&) {
         terminal.show({Severity::Error, "out of memory; no output was written", {}, {}, {}});
         return kExitNoMemory;
     } catch (const std::exception& error) {
+        if (!printed_all(terminal)) return kExitNoOutput;  // what prints throws where it cannot
         terminal.show({Severity::Error, std::string("internal error: ") + error.what(), {}, {}, {}});
         return kExitInternal;
     }

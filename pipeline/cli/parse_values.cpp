@@ -48,7 +48,7 @@ std::optional<size_t> parse_size(std::string_view text) {
 }
 
 std::optional<std::pair<int, int>> parse_resolution(std::string_view text) {
-    return pair_of(text, 1, 65536);
+    return pair_of(text, 1, kMostPixelsOfSide);
 }
 
 std::optional<std::pair<int, int>> parse_samples(std::string_view text) {

@@ -14,7 +14,9 @@ namespace trapeze {
 /// "512M", "2G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024.
 std::optional<size_t> parse_size(std::string_view text);
 
-/// "640x480": positive numbers.
+inline constexpr int kMostPixelsOfSide = 65536;
+
+/// "640x480": from 1 to that.
 std::optional<std::pair<int, int>> parse_resolution(std::string_view text);
 
 /// "8" or "8x4": samples along x and y, 1 to 64.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "composite/display_plan.h"
 #include "core/transfer.h"
@@ -12,6 +13,7 @@
 #include "pipeline/cli/on_threads.h"
 #include "pipeline/cli/output_names.h"
 #include "pipeline/cli/read_settings.h"
+#include "pipeline/cli/stats_json.h"
 #include "pipeline/cli/text_files.h"
 #include "pipeline/frame/make_map.h"
 #include "pipeline/frame/render_frame.h"
@@ -36,6 +38,16 @@ bool is_shadow_pass(const Options& options) {
     return !options.displays.empty() && makes_depth_map(options.displays.front());
 }
 
+/// The files that sources of messages are: scenes, archives, shaders.
+std::vector<std::string> files_read(const Diagnostics& diagnostics) {
+    std::set<std::string> files;
+    std::error_code ignored;
+    std::string name;
+    for (uint32_t source = 1; !(name = diagnostics.source_name(source)).empty(); ++source)
+        if (fs::exists(name, ignored)) files.insert(std::move(name));
+    return {files.begin(), files.end()};
+}
+
 /// Renders the worlds of the input as they are read.
 class RenderJob {
   public:
@@ -56,7 +68,7 @@ class RenderJob {
     void say_what_is_written(const FrameStats& stats);
     bool encode_for_viewing(Display& display, const Options& options) const;
     void make_map_of_pictures(MapRequest request);
-    bool has_folder_for_output() const;
+    bool outputs_are_possible() const;
     bool write_stats() const;
     int exit_code() const;
 
@@ -174,7 +186,10 @@ void RenderJob::render_world(Scene&& scene) {
     settings.cancelled = &interrupt_.requested();
     settings.on_progress = [&](double fraction) { terminal_.progress(fraction); };
 
-    terminal_.begin_progress(scene.options.displays.front().name);
+    settings.on_stage = [&](std::string_view name) { terminal_.stage(name); };
+
+    const std::string& picture = scene.options.displays.front().name;
+    terminal_.begin_progress(picture, {picture, "tessellate", scene.options.frame});
     const RenderContext context = make_context(scene, settings, diagnostics_);
     std::optional<FrameResult> result = render_frame(context, settings);
     terminal_.end_progress();
@@ -192,17 +207,15 @@ void RenderJob::render_world(Scene&& scene) {
 
 bool RenderJob::write_stats() const {
     if (arguments_.stats_file.empty()) return true;
-    std::string text = frames_.size() == 1 ? to_json(frames_[0]) : "[";
-    if (frames_.size() != 1) {
-        for (size_t i = 0; i < frames_.size(); ++i) text += (i ? ",\n" : "\n") + to_json(frames_[i]);
-        text += "]";
-    }
-    return write_text(arguments_.stats_file, text + "\n", diagnostics_);
+    const RunFacts facts{arguments_.words, files_read(diagnostics_), diagnostics_.count(Severity::Error),
+                         diagnostics_.count(Severity::Warning)};
+    return write_text(arguments_.stats_file, stats_json(frames_, facts), diagnostics_);
 }
 
 int RenderJob::exit_code() const {
     if (interrupt_.requested()) return interrupt_.exit_code();
     if (output_failed_) return kExitNoOutput;
+    if (diagnostics_.kinds().contains(kPictureTooLarge)) return kExitNoMemory;
     if (frames_.empty()) return kExitNothingRendered;
     if (arguments_.strict && has_missing_shader(diagnostics_)) return kExitShaderMissing;
     const bool warned = diagnostics_.count(Severity::Warning) > 0;
@@ -211,19 +224,15 @@ int RenderJob::exit_code() const {
 
 /// Folders that scenes name are made where the pictures are written; one on the command line may be a
 /// mistake, which is said before anything is rendered.
-bool RenderJob::has_folder_for_output() const {
-    const fs::path folder = fs::path(arguments_.output).parent_path();
-    const bool is_of_a_frame = with_frame_number(folder.string(), 0) != folder.string();
-    std::error_code failed;
-    if (folder.empty() || is_of_a_frame || arguments_.driver == "null" || fs::is_directory(folder, failed))
-        return true;
-    diagnostics_.error(
-        {}, "cannot write \"" + arguments_.output + "\": there is no folder \"" + folder.string() + "\"");
-    return false;
+bool RenderJob::outputs_are_possible() const {
+    const std::string& output = arguments_.output;
+    const bool is_of_a_frame = with_frame_number(output, 0) != output;  // its folder, too, may have the number
+    const bool writes_output = arguments_.driver != "null" && !is_of_a_frame;
+    return can_write({arguments_.stats_file, writes_output ? output : ""}, diagnostics_);
 }
 
 int RenderJob::run() {
-    if (!has_folder_for_output()) return kExitNoOutput;
+    if (!outputs_are_possible()) return kExitNoOutput;
     ReadOptions options = read_options(arguments_);
     options.shading_rate = arguments_.shading_rate;
     if (arguments_.frames)
@@ -234,13 +243,19 @@ int RenderJob::run() {
     options.on_map = [this](const MapRequest& request) {
         if (!interrupt_.requested()) make_map_of_pictures(request);
     };
+    terminal_.begin_progress(arguments_.inputs.front(), {arguments_.inputs.front(), "read", 0});
+    int worlds_read = 0;
     on_threads(arguments_.threads, [&] {
-        read_rib(arguments_.inputs, options, diagnostics_,
-                 [&](Scene&& scene) { render_world(std::move(scene)); });
+        worlds_read = read_rib(arguments_.inputs, options, diagnostics_, [&](Scene&& scene) {
+                          render_world(std::move(scene));
+                      }).worlds;
     });
+    terminal_.end_progress();
     if (!interrupt_.requested()) {
         if (worlds_ == 0)
-            diagnostics_.error({}, "no WorldBegin block was found in the input; nothing rendered");
+            diagnostics_.error({}, worlds_read
+                                       ? "none of the frames asked for is in the input; nothing rendered"
+                                       : "no WorldBegin block was found in the input; nothing rendered");
         if (!frames_.empty() && !write_stats()) output_failed_ = true;
     }
     return exit_code();
@@ -249,7 +264,7 @@ int RenderJob::run() {
 }  // namespace
 
 int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
-    if (!inputs_exist(arguments, diagnostics)) return kExitNoInput;
+    if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     return RenderJob(arguments, terminal, diagnostics).run();
 }
 

@@ -63,10 +63,9 @@ void print_code(const rsl::Shader& shader, Diagnostics& diagnostics) {
     fmt::print("{}", rsl::listing(*program));
 }
 
-std::optional<std::string> read_source(const std::string& file) {
+std::string read_source(const std::string& file) {
     if (file == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
     std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) return {};
     return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
@@ -74,11 +73,11 @@ std::optional<std::string> read_source(const std::string& file) {
 
 int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     const ShaderArguments& a = arguments.shader;
-    const std::optional<std::string> text = read_source(a.file);
-    if (!text) {
-        diagnostics.error({}, "cannot read \"" + a.file + "\"");
-        return kExitNoInput;
-    }
+    if (!inputs_exist({a.file}, diagnostics)) return kExitNoInput;
+    const std::string text = read_source(a.file);
+    for (const std::string& folder : a.include_folders)
+        if (!std::filesystem::is_directory(folder))
+            diagnostics.warning({}, "--include: there is no folder \"" + folder + "\"");
     rsl::CompileOptions options;
     options.include_folders = a.include_folders;
     options.carried_file = standard_header;
@@ -87,7 +86,7 @@ int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& 
         options.defines.emplace_back(define.substr(0, equals),
                                      equals == std::string::npos ? "1" : define.substr(equals + 1));
     }
-    const auto unit = rsl::compile_front({a.file == "-" ? "<stdin>" : a.file, *text}, options, diagnostics);
+    const auto unit = rsl::compile_front({a.file == "-" ? "<stdin>" : a.file, text}, options, diagnostics);
     if (unit) {
         for (const auto& shader : unit->shaders) {
             fmt::print("{} {}\n", kind_name(shader->kind), shader->name);

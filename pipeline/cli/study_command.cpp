@@ -5,8 +5,10 @@
 #include "pipeline/cli/exit_codes.h"
 #include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/on_threads.h"
+#include "pipeline/cli/revision.h"
 #include "pipeline/cli/text_files.h"
 #include "pipeline/compare/shared_frame.h"
+#include "pipeline/frame/json_text.h"
 #include "pipeline/frame/version.h"
 #include "pipeline/study/report/study_report.h"
 #include "pipeline/study/study.h"
@@ -21,7 +23,9 @@ std::optional<StudyResult> run(const Arguments& arguments, const Interrupt& inte
     settings.rounds = arguments.study.rounds;
     settings.memory_bytes = arguments.memory_bytes;
     settings.cancelled = &interrupt.requested();
-    settings.on_stage = [&](const std::string& what) { terminal.begin_progress(what); };
+    settings.on_stage = [&](const std::string& what) {
+        terminal.begin_progress(what, {arguments.study.name, what});
+    };
     settings.on_progress = [&](double part) { terminal.progress(part); };
     settings.on_figure = [&](const std::string& line) { terminal.say(line); };
     std::optional<StudyResult> result;
@@ -39,11 +43,12 @@ int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& d
     auto result = run(arguments, interrupt, terminal, diagnostics);
     if (interrupt.requested()) return interrupt.exit_code();
     if (!result) return diagnostics.kinds().contains(kTooLittleMemory) ? kExitNoMemory : kExitInternal;
-    result->machine.trapeze = kVersion;
+    result->machine.trapeze = kVersion, result->machine.revision = revision();
+    result->command = arguments.words;
     fmt::print("{}", study_text(*result));
     bool good = true;
     if (!study.json.empty())
-        good = write_text(study.json, study_json(*result).dump(2) + "\n", diagnostics) && good;
+        good = write_text(study.json, json_text(study_json(*result)) + "\n", diagnostics) && good;
     if (!study.report.empty()) good = write_text(study.report, study_html(*result), diagnostics) && good;
     return good ? kExitOk : kExitNoOutput;
 }

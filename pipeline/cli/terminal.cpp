@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "pipeline/cli/json_lines.h"
+
 namespace trapeze {
 namespace {
 
@@ -57,6 +59,7 @@ const char* Terminal::color_of(Severity severity) const {
 void Terminal::show(const Diagnostic& diagnostic) {
     if (settings_.quiet && diagnostic.severity != Severity::Error) return;
     const std::lock_guard lock(mutex_);
+    if (settings_.progress == ProgressStyle::Json) return write(json_line(diagnostic));
     clear_bar();
     const char* color = color_of(diagnostic.severity);
     write(fmt::format("{}{}{}\n", color, to_string(diagnostic), *color ? "\033[0m" : ""));
@@ -66,8 +69,11 @@ void Terminal::show(const Diagnostic& diagnostic) {
 void Terminal::say(const std::string& line) {
     if (settings_.quiet) return;
     const std::lock_guard lock(mutex_);
+    if (settings_.progress == ProgressStyle::Json)
+        return write(json_line({Severity::Note, line, {}, {}, {}}));
     clear_bar();
     write(line + "\n");
+    if (active_) draw_bar();
 }
 
 void Terminal::say_on_terminal(const std::string& line) {
@@ -78,14 +84,26 @@ void Terminal::summarise(const Diagnostics& diagnostics) {
     for (const auto& [kind, entry] : diagnostics.kinds()) {
         if (entry.count < 2) continue;
         if (settings_.quiet && entry.severity != Severity::Error) continue;
-        say(fmt::format("    {} times: {}", entry.count, entry.text));
+        const std::string text = fmt::format("{} times: {}", entry.count, entry.text);
+        if (settings_.progress == ProgressStyle::Json)
+            show({entry.severity, text, {}, {}, {}});
+        else
+            say("    " + text);
     }
 }
 
-void Terminal::begin_progress(const std::string& what) {
+void Terminal::begin_progress(const std::string& label, Work work) {
     const std::lock_guard lock(mutex_);
-    what_ = what, fraction_ = 0, last_percent_ = -1, active_ = true;
+    label_ = label, work_ = std::move(work), fraction_ = 0, last_percent_ = -1, active_ = true;
     start_ = Clock::now();
+    if (settings_.progress == ProgressStyle::Json) write_progress();
+}
+
+void Terminal::stage(std::string_view name) {
+    const std::lock_guard lock(mutex_);
+    if (!active_ || work_.stage == name) return;
+    work_.stage = name;
+    if (settings_.progress == ProgressStyle::Json) write_progress();
 }
 
 void Terminal::progress(double fraction) {
@@ -95,8 +113,15 @@ void Terminal::progress(double fraction) {
     const int percent = static_cast<int>(fraction * 100);
     if (percent == last_percent_) return;
     last_percent_ = percent;
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-    const double remaining = fraction > 0 ? std::max(0.0, elapsed / fraction - elapsed) : 0;
+    write_progress();
+}
+
+double Terminal::elapsed_seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+void Terminal::write_progress() {
+    const int percent = static_cast<int>(fraction_ * 100);
     switch (settings_.progress) {
         case ProgressStyle::None:
             break;
@@ -104,13 +129,10 @@ void Terminal::progress(double fraction) {
             draw_bar();
             break;
         case ProgressStyle::Lines:
-            write(fmt::format("{} {}%\n", what_, percent));
+            write(fmt::format("{} {}%\n", label_, percent));
             break;
         case ProgressStyle::Json:
-            write(fmt::format(
-                R"({{"progress": {:.3f}, "elapsed_seconds": {:.2f}, "remaining_seconds": {:.2f}}})"
-                "\n",
-                fraction, elapsed, remaining));
+            write(json_line(work_, fraction_, elapsed_seconds()));
             break;
         case ProgressStyle::Prman:
             write(std::getenv("TR_PROGRESS") ? fmt::format("TR_PROGRESS {:03}%\n", percent)
@@ -136,18 +158,18 @@ void Terminal::draw_bar() {
     winsize window{};
     const int columns =
         ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0 ? window.ws_col : 80;
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double elapsed = elapsed_seconds();
     const double remaining = fraction_ > 0.01 ? elapsed / fraction_ - elapsed : 0;
     const std::string tail =
         fmt::format(" {:3.0f}%  {} elapsed  {} left", fraction_ * 100, clock_text(elapsed),
                     fraction_ > 0.01 ? clock_text(remaining) : "-:--");
-    const int room = columns - static_cast<int>(tail.size() + what_.size()) - 4;
+    const int room = columns - static_cast<int>(tail.size() + label_.size()) - 4;
     std::string bar;
     if (room >= 10) {
         const int filled = static_cast<int>(fraction_ * room);
         bar = " [" + std::string(filled, '=') + std::string(room - filled, ' ') + "]";
     }
-    write("\r" + what_ + bar + tail + "\033[K");
+    write("\r" + label_ + bar + tail + "\033[K");
     bar_shown_ = true;
 }
 

@@ -1,10 +1,11 @@
 /// All that the program says while it works: messages and progress, on standard error, without one tearing
-/// the other.
+/// the other. With ProgressStyle::Json every line is a JSON object.
 #pragma once
 
 #include <chrono>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include "core/diagnostics.h"
 
@@ -14,6 +15,13 @@ enum class ProgressStyle { None, Bar, Lines, Json, Prman };
 
 /// "auto" is a bar on a terminal and nothing elsewhere.
 ProgressStyle progress_style(const std::string& name);
+
+/// What is being done, as progress names it.
+struct Work {
+    std::string file;   ///< the picture that is made, or the scene that is read or measured
+    std::string stage;  ///< as in the statistics, or what is being measured
+    int frame = 0;      ///< 0: the file has none
+};
 
 class Terminal {
   public:
@@ -31,19 +39,24 @@ class Terminal {
     /// What repeated kinds were not shown: one line each.
     void summarise(const Diagnostics& diagnostics);
 
-    void begin_progress(const std::string& what);
+    /// `label` is what a bar or line begins with.
+    void begin_progress(const std::string& label, Work work);
+    void stage(std::string_view name);
     void progress(double fraction);
     void end_progress();
 
   private:
     using Clock = std::chrono::steady_clock;
+    double elapsed_seconds() const;
+    void write_progress();
     void clear_bar();
     void draw_bar();
     const char* color_of(Severity severity) const;
 
     Settings settings_;
     std::mutex mutex_;
-    std::string what_;
+    std::string label_;
+    Work work_;
     double fraction_ = 0;
     int last_percent_ = -1;
     bool bar_shown_ = false, active_ = false;

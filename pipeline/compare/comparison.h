@@ -24,7 +24,7 @@ struct ComparedMethod {
 };
 
 struct Comparison {
-    std::string scene;  ///< as the user named it
+    std::string scene;                 ///< as the user named it
     std::vector<std::string> command;  ///< the command line's words, without the program's name
     uint32_t seed = 0;
     Machine machine;

@@ -33,8 +33,8 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
 }
 
 nlohmann::ordered_json to_json(const Machine& machine) {
-    return {{"cpu", machine.cpu},       {"threads", machine.threads},   {"simd_target", machine.simd},
-            {"system", machine.system}, {"compiler", machine.compiler}, {"trapeze", machine.trapeze},
+    return {{"cpu", machine.cpu},          {"threads", machine.threads},   {"simd_target", machine.simd},
+            {"system", machine.system},    {"compiler", machine.compiler}, {"trapeze", machine.trapeze},
             {"revision", machine.revision}};
 }
 

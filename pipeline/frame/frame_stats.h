@@ -44,7 +44,4 @@ struct FrameStats {
 /// Peak resident memory of this process so far, in bytes.
 uint64_t peak_resident_bytes();
 
-/// One JSON object; the keys are documented in README.md.
-std::string to_json(const FrameStats& stats);
-
 }  // namespace trapeze

@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Empty: there is none.
 std::string found_picture(const std::string& name, const std::vector<std::string>& folders) {
     std::error_code ignored;
     std::vector<std::string> names = other_names(name);
@@ -24,7 +25,7 @@ std::string found_picture(const std::string& name, const std::vector<std::string
             if (fs::is_regular_file(path, ignored)) return path.string();
         }
     }
-    return name;
+    return {};
 }
 
 MapProblem made(const MapRequest& request, const std::string& map, const std::vector<std::string>& pictures) {
@@ -49,9 +50,19 @@ MapProblem made(const MapRequest& request, const std::string& map, const std::ve
 
 }  // namespace
 
+std::vector<std::string> missing_pictures(const MapRequest& request) {
+    std::vector<std::string> missing;
+    for (const std::string& name : request.pictures)
+        if (found_picture(name, request.folders).empty()) missing.push_back(name);
+    return missing;
+}
+
 bool make_map(const MapRequest& request, Diagnostics& diagnostics) {
     std::vector<std::string> pictures;
-    for (const std::string& name : request.pictures) pictures.push_back(found_picture(name, request.folders));
+    for (const std::string& name : request.pictures) {
+        pictures.push_back(found_picture(name, request.folders));
+        if (pictures.back().empty()) pictures.back() = name;
+    }
     std::error_code ignored;
     const std::string map =
         fs::is_regular_file(pictures[0], ignored) ? place_to_write(request.map) : request.map;

@@ -11,4 +11,7 @@ namespace trapeze {
 /// nothing is written. False when it was the map's file that could not be written.
 bool make_map(const MapRequest& request, Diagnostics& diagnostics);
 
+/// The names of those pictures of a request that are in none of these places.
+std::vector<std::string> missing_pictures(const MapRequest& request);
+
 }  // namespace trapeze

@@ -20,6 +20,14 @@
 namespace trapeze {
 namespace {
 
+constexpr int kPictureChannels = 6;  ///< colour, opacity, depth and a weight or id, of four bytes each
+
+size_t machine_memory() {
+    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGE_SIZE);
+    if (pages <= 0 || page_bytes <= 0) return size_t{1} << 31;
+    return static_cast<size_t>(pages) * static_cast<size_t>(page_bytes);
+}
+
 /// The part of a region's progress that is dicing and shading.
 constexpr double kMakingGrids = 0.2;
 
@@ -49,6 +57,11 @@ struct FrameParts {
     size_t memory_budget;  ///< bytes, of a region's grids and tree
     FrameStats& stats;
     Progress& progress;
+    const std::function<void(std::string_view)>& on_stage;
+
+    void begin(std::string_view stage) const {
+        if (on_stage) on_stage(stage);
+    }
 };
 
 /// Builds what the method needs of a region's grids, and adds what their samples see to the film. Of the
@@ -56,6 +69,7 @@ struct FrameParts {
 void sample_region(const FrameParts& frame, const Region& region, const Grids& grids, double begin,
                    double end, Film& film) {
     Stopwatch watch;
+    frame.begin("build");
     const std::unique_ptr<Visibility> visibility = frame.sampler.prepare(frame.context, grids, frame.pattern);
     const BuildStats build = visibility->build_stats();
     FrameStats& stats = frame.stats;
@@ -67,6 +81,7 @@ void sample_region(const FrameParts& frame, const Region& region, const Grids& g
     stats.peak_region_bytes = std::max<uint64_t>(stats.peak_region_bytes, bytes);
     check_memory(frame.context, region, bytes, frame.memory_budget);
 
+    frame.begin("trace");
     frame.progress.begin_part(begin, end, tiles_of(region.pixels, visibility->tile_side()).size());
     resolve_tiles(frame.context, region.pixels, grids, *visibility, frame.pattern, film, stats,
                   [&frame] { frame.progress.step(); });
@@ -75,9 +90,23 @@ void sample_region(const FrameParts& frame, const Region& region, const Grids& g
 }  // namespace
 
 size_t default_memory_budget() {
-    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGE_SIZE);
-    if (pages <= 0 || page_bytes <= 0) return size_t{1} << 31;
-    return static_cast<size_t>(pages) * static_cast<size_t>(page_bytes) / 4 * 3;
+    return machine_memory() / 4 * 3;
+}
+
+bool picture_fits(const RenderContext& context) {
+    const PixelRect pixels = sampled_pixels(context.camera, context.scene->options);
+    if (pixels.empty()) return true;
+    const int channels = kPictureChannels + aov_layout(context.scene->options).channel_count;
+    const double bytes = 4.0 * channels * pixels.width() * pixels.height();
+    if (bytes <= static_cast<double>(machine_memory())) return true;
+    context.diagnostics->error(
+        {},
+        "a picture of " + std::to_string(pixels.width()) + "x" + std::to_string(pixels.height()) +
+            " pixels takes " + std::to_string(static_cast<uint64_t>(bytes) >> 30) +
+            " GiB, more than the machine's memory of " + std::to_string(machine_memory() >> 30) +
+            " GiB; a smaller --resolution or --crop helps",
+        kPictureTooLarge);
+    return false;
 }
 
 RenderContext make_context(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics) {
@@ -101,6 +130,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
         context.diagnostics->error({}, wrong);
         return {};
     }
+    if (!picture_fits(context)) return {};
     Stopwatch total, watch;
     Progress progress(settings.on_progress);
     FrameResult result;
@@ -119,7 +149,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     const std::vector<Region> regions = split_into_regions(
         sampled_pixels(context.camera, context.scene->options), tessellation.subpatches(),
         {budget, settings.regions_at_least, aov_layout(context.scene->options).channel_count});
-    const FrameParts parts{context, *sampler, *pattern, budget, stats, progress};
+    const FrameParts parts{context, *sampler, *pattern, budget, stats, progress, settings.on_stage};
     std::optional<Film> film;
     const FrameStats before = stats;
     // Again from the start, when a shader is found to be endless: its limits are others then.
@@ -130,6 +160,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
         const Region& region = regions[r];
         const double begin = static_cast<double>(r) / regions.size(),
                      end = static_cast<double>(r + 1) / regions.size();
+        parts.begin("shade");
         progress.begin_part(begin, begin + kMakingGrids * (end - begin), region.subpatches.size());
         const Grids grids = make_grids(context, region, tessellation, shading, stats, progress);
         if (shading.found_endless_loops()) {
@@ -146,6 +177,7 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     shading.report_displacement_bounds();
 
     watch.lap();
+    parts.begin("composite");
     result.image = film->finish();
     run_imager(imager, result.image);
     stats.seconds.composite += watch.lap();

@@ -20,6 +20,9 @@ struct RenderSettings {
     uint32_t seed = 0;
     /// Called now and then from any thread, one at a time, with the part done in [0, 1].
     std::function<void(double)> on_progress;
+    /// Called at the beginning of each stage, by its name in the statistics; grids are diced while they
+    /// shade.
+    std::function<void(std::string_view)> on_stage;
     const std::atomic<bool>* cancelled = nullptr;
 };
 
@@ -31,10 +34,17 @@ struct FrameResult {
 /// Three quarters of the machine's memory, in bytes.
 size_t default_memory_budget();
 
+/// The kind of the error of a picture that the machine's memory cannot hold.
+inline constexpr const char* kPictureTooLarge = "picture-too-large";
+
+/// Whether the machine's memory could hold the picture, before it is asked for; says what would help if not.
+bool picture_fits(const RenderContext& context);
+
 /// The context of a scene's render: camera, sample counts (rounded to at least 1), whether anything moves.
 RenderContext make_context(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
 
-/// Renders with the threads of the calling task arena. Empty when cancelled. `context` is make_context's.
+/// Renders with the threads of the calling task arena. Empty when cancelled, or (reported) when the picture
+/// is too large. `context` is make_context's.
 std::optional<FrameResult> render_frame(const RenderContext& context, const RenderSettings& settings);
 
 }  // namespace trapeze

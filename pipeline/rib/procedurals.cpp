@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "pipeline/rib/find_program.h"
 #include "pipeline/rib/reader.h"
 
 namespace trapeze::rib {
@@ -74,7 +75,13 @@ void Reader::ask_program_for_rib(const char* kind, const std::string& shown,
                                  const std::vector<float>& bound) {
     if (!takes_procedural()) return;
     if (!read_options_.allow_programs) {
+        // A library's name is the last word, after its host's.
+        std::error_code ignored;
+        const bool is_there = std::string_view(kind) == "program"
+                                  ? !command.empty() && has_program(command[0], folders("procedural"))
+                                  : std::filesystem::is_regular_file(command.back(), ignored);
         ++summary_.unsupported[request_name_];
+        if (!is_there) error("the " + std::string(kind) + " " + in_quotes(shown) + " is not found");
         warn_once("programs are run only where that is allowed (--allow-programs); skipped",
                   "programs-not-allowed");
         return;

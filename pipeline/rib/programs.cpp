@@ -11,8 +11,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <utility>
+
+#include "pipeline/rib/find_program.h"
 
 extern char** environ;
 
@@ -49,17 +50,6 @@ class Descriptor {
   private:
     int fd_;
 };
-
-std::string program_path(const std::string& name, const std::vector<std::string>& folders) {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    if (fs::path(name).is_relative())
-        for (const std::string& folder : folders) {
-            const fs::path path = fs::path(folder.empty() ? "." : folder) / name;
-            if (fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0) return path.string();
-        }
-    return name;  // as it is, or along PATH
-}
 
 }  // namespace
 

@@ -51,11 +51,11 @@ TEST(ReadProcedurals, WhatCannotBeIsRefused) {
                                        kBound + "\nProcedural2 \"DelayedReadArchive2\" \"SimpleBound\"\n" +
                                        "MotionBegin [0 1] Procedural \"DelayedReadArchive\" [\"none.rib\"] " +
                                        kBound + "MotionEnd " + kSphere);
-    EXPECT_THAT(outcome.messages,
-                ElementsAre(HasSubstr("\"DynamicLoad\" is not supported here"),
-                            HasSubstr("no procedural \"Magic\""), HasSubstr("the bound has 2 numbers"),
-                            HasSubstr("\"none.rib\" is not found"), HasSubstr("\"filename\" is missing"),
-                            HasSubstr("inside a motion block")));
+    EXPECT_THAT(
+        outcome.messages,
+        ElementsAre(HasSubstr("\"DynamicLoad\" is not supported here"), HasSubstr("no procedural \"Magic\""),
+                    HasSubstr("the bound has 2 numbers"), HasSubstr("\"none.rib\" is not found"),
+                    HasSubstr("\"filename\" is missing"), HasSubstr("inside a motion block")));
     EXPECT_EQ(outcome.count(), 1u);
 }
 
@@ -69,6 +69,20 @@ TEST(ReadProcedurals, ProgramsRunOnlyWhereAllowed) {
     EXPECT_EQ(outcome.summary.unsupported.at("Procedural"), 2u);
     EXPECT_EQ(outcome.count(), 1u);
     EXPECT_FALSE(std::filesystem::exists(folder.path() + "/made"));
+}
+
+TEST(ReadProcedurals, WhatIsNotThereIsAnErrorWhereItWouldNotRunEither) {
+    ReadOptions options;
+    options.procedural_host = {"host"};
+    const Folder folder;
+    const std::string scene = "WorldBegin Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " + kBound +
+                              "Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " + kBound +
+                              "Procedural \"DynamicLoad\" [\"no-library\" \"\"] " + kBound + "WorldEnd";
+    const Outcome outcome = read_files(folder, {folder.write("a.rib", scene)}, options);
+    EXPECT_THAT(outcome.messages,
+                ElementsAre(HasSubstr("error: Procedural: the program \"no-such-program 1\" is not found"),
+                            HasSubstr("programs are run only where that is allowed"),
+                            HasSubstr("error: Procedural: the procedural \"no-library\" is not found")));
 }
 
 /// A program beside the scene, which is asked `requests` times.

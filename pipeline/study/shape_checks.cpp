@@ -48,9 +48,11 @@ void set_texts(StudyCheck& check, const RateSeries& here, const RateSeries& pape
 }
 
 StudyCheck uvt_is_linear(const RateSeries& here, const RateSeries& paper) {
-    StudyCheck check{here.scene + ": INTERLEAVEUVT k = 2 costs in proportion to samples, from the second rate on (power .85 to "
-                                 "1.15)",
-                     "", ""};
+    StudyCheck check{
+        here.scene +
+            ": INTERLEAVEUVT k = 2 costs in proportion to samples, from the second rate on (power .85 to "
+            "1.15)",
+        "", ""};
     const size_t last = here.samples.size() - 1;
     set_texts(check, here, paper,
               [&](const RateSeries& s) { return exponent_text(exponent_of(s, kUvt2, 1, last)); });
@@ -69,8 +71,9 @@ StudyCheck interval_is_sublinear(const RateSeries& here, const RateSeries& paper
 }
 
 StudyCheck larger_tiles_cost_more(const RateSeries& here, const RateSeries& paper) {
-    StudyCheck check{here.scene + ": k = 4 costs more than k = 2 at the most samples, by less than its four "
-                                 "times as many tuples",
+    StudyCheck check{here.scene +
+                         ": k = 4 costs more than k = 2 at the most samples, by less than its four "
+                         "times as many tuples",
                      "", ""};
     const auto ratio = [](const RateSeries& s) { return s.seconds[kUvt4].back() / s.seconds[kUvt2].back(); };
     set_texts(check, here, paper, [&](const RateSeries& s) { return times(ratio(s)); });
@@ -80,8 +83,9 @@ StudyCheck larger_tiles_cost_more(const RateSeries& here, const RateSeries& pape
 
 StudyCheck samples_favour_tracing(const RateSeries& here, const RateSeries& paper) {
     StudyCheck check{
-        here.scene + ": INTERLEAVEUVT k = 2 is ahead of ray tracing at 1x1, and relatively slower at the most "
-                     "samples",
+        here.scene +
+            ": INTERLEAVEUVT k = 2 is ahead of ray tracing at 1x1, and relatively slower at the most "
+            "samples",
         "", ""};
     const auto ratio = [](const RateSeries& s, size_t rate) {
         return s.seconds[kUvt2][rate] / s.seconds[kRaytrace][rate];
@@ -132,11 +136,11 @@ StudyCheck check_of_coarser_shading(const std::string& scene, const std::vector<
     StudyCheck check{scene + ": micropolygons 16 times as large help rasterizers more than ray tracing", "",
                      ""};
     const auto text = [](const std::vector<double>& before, const std::vector<double>& after) {
-        return fmt::format(
-            "time times {} traced, {} INTERVAL, {} k = 2, {} k = 4",
-            number_text(after[kRaytrace] / before[kRaytrace]),
-            number_text(after[kInterval] / before[kInterval]), number_text(after[kUvt2] / before[kUvt2]),
-            number_text(after[kUvt4] / before[kUvt4]));
+        return fmt::format("time times {} traced, {} INTERVAL, {} k = 2, {} k = 4",
+                           number_text(after[kRaytrace] / before[kRaytrace]),
+                           number_text(after[kInterval] / before[kInterval]),
+                           number_text(after[kUvt2] / before[kUvt2]),
+                           number_text(after[kUvt4] / before[kUvt4]));
     };
     const double traced = coarser[kRaytrace] / reference[kRaytrace];
     check.here = text(reference, coarser);

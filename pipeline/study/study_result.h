@@ -59,7 +59,7 @@ struct StudySceneFacts {
 struct StudyResult {
     std::string name, title;
     std::vector<std::string> command;  ///< the command line's words, without the program's name
-    std::vector<std::string> notes;  ///< sentences on how it was measured
+    std::vector<std::string> notes;    ///< sentences on how it was measured
     Machine machine;
     bool quick = false;
     int rounds = 0;

@@ -143,7 +143,9 @@ StudyCheck parametric_check(const SceneRun& run, size_t scene) {
     const double trace = greedy.resolve_median() / ours.resolve_median();
     const paper::BuildTrace &printed = paper::kTable4[kGreedySah][scene],
                             &printed_ours = paper::kTable4[kOurs][scene];
-    StudyCheck check{run.label + ": parametric splits build more than twice as fast as greedy SAH, and trace no more than 5 % slower",
+    StudyCheck check{run.label +
+                         ": parametric splits build more than twice as fast as greedy SAH, and trace no more "
+                         "than 5 % slower",
                      text(printed.build / printed_ours.build, printed.trace / printed_ours.trace),
                      text(build, trace)};
     check.held = build > 2 && trace >= .95;

@@ -31,7 +31,8 @@ std::string html_entry(const std::string& name, const std::string& value) {
 std::string html_machine(const Machine& machine) {
     return html_entry("Processor", machine.cpu) + html_entry("Threads", std::to_string(machine.threads)) +
            html_entry("Vector instructions", machine.simd) + html_entry("System", machine.system) +
-           html_entry("Compiler", machine.compiler) + html_entry("Trapeze", machine.trapeze + " (" + machine.revision + ")");
+           html_entry("Compiler", machine.compiler) +
+           html_entry("Trapeze", machine.trapeze + " (" + machine.revision + ")");
 }
 
 }  // namespace trapeze

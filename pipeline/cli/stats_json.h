@@ -1,0 +1,22 @@
+/// The file of `--stats`; README.md documents its keys.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pipeline/frame/frame_stats.h"
+
+namespace trapeze {
+
+/// What is true of all of a run's frames.
+struct RunFacts {
+    std::vector<std::string> words;  ///< the command line, without the program's name
+    std::vector<std::string> files;  ///< that were read, archives among them
+    uint64_t errors = 0, warnings = 0;
+};
+
+/// An object, or an array of them where there is more than one frame.
+std::string stats_json(const std::vector<FrameStats>& frames, const RunFacts& facts);
+
+}  // namespace trapeze

@@ -1,0 +1,44 @@
+#include "shade/check_looks.h"
+
+#include "shade/imager.h"
+#include "shade/material.h"
+#include "shade/named_maps.h"
+#include "shade/take_aovs.h"
+#include "shade/textures.h"
+
+namespace trapeze {
+namespace {
+
+/// Names of variables that any primitive has: shaders may find other values in their parameters' places.
+std::set<std::string> variables_of(const Scene& scene) {
+    std::set<std::string> names;
+    for (const Primitive& primitive : scene.primitives)
+        if (!primitive.shape_keys.empty())
+            for (const Parameter& variable : primitive.shape().variables.values) names.insert(variable.name);
+    return names;
+}
+
+}  // namespace
+
+void check_looks(const RenderContext& context, const MapIsMade& is_made) {
+    const Scene& scene = *context.scene;
+    Textures textures(scene.options, context.diagnostics);
+    const Materials materials(context);
+    const Imager imager(context);
+    if (context.diagnostics)
+        report_missing_aovs(aov_layout(scene.options), materials, scene.options, *context.diagnostics);
+
+    const std::set<std::string> varied = variables_of(scene);
+    std::vector<const BoundShader*> shaders = materials.shaders();
+    if (imager.shader()) shaders.push_back(imager.shader());
+    for (const BoundShader* shader : shaders)
+        for (const NamedMap& map : named_maps(*shader, varied)) {
+            if (is_made && is_made(map.name)) continue;
+            if (map.is_depths)
+                textures.find_shadow(map.name, map.location);
+            else
+                textures.find(map.name, map.location);
+        }
+}
+
+}  // namespace trapeze

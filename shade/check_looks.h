@@ -1,0 +1,19 @@
+/// What can be said of a scene's shaders and maps without a grid.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "core/render_context.h"
+
+namespace trapeze {
+
+/// Whether a map of this name will have been made when it is looked up.
+using MapIsMade = std::function<bool(std::string_view name)>;
+
+/// Makes every shader of the scene and opens the maps that they name; reports to the context's diagnostics
+/// what Shading would: shaders and maps that are not there, that have errors, values that do not fit. Of
+/// primitives only the attributes and the declarations of their variables count.
+void check_looks(const RenderContext& context, const MapIsMade& is_made);
+
+}  // namespace trapeze
