@@ -31,6 +31,7 @@ constexpr Named kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileForm
                               {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
                               {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
                               {"bmp", FileFormat::Bmp}};
+constexpr std::string_view kAttributePrefix = "exrheader_";
 constexpr std::string_view kWindowDrivers[] = {
     "framebuffer", "it",    "x11",     "windows", "idisplay", "piqsl",     "houdini",
     "rgl",         "mplay", "xwindow", "window",  "agshow",   "i-display", "zframebuffer"};
@@ -229,11 +230,10 @@ void choose_compression(const Display& display, Diagnostics& diagnostics, Displa
 }
 
 void take_attributes(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
-    constexpr std::string_view kPrefix = "exrheader_";
     for (const Parameter& parameter : display.parameters.values) {
-        if (!parameter.name.starts_with(kPrefix)) continue;
+        if (!parameter.name.starts_with(kAttributePrefix)) continue;
         Parameter attribute = parameter;
-        attribute.name.erase(0, kPrefix.size());
+        attribute.name.erase(0, kAttributePrefix.size());
         const std::string problem = plan.format == FileFormat::OpenExr
                                         ? problem_of_attribute(attribute)
                                         : fmt::format("needs OpenEXR, which \"{}\" is not", plan.path);
@@ -258,14 +258,29 @@ bool makes_depth_map(const Display& display) {
     return driver == "zfile" || driver == "shadow";
 }
 
-bool asks_for_whole_numbers(const Display& display, const Options& options) {
+std::optional<FileFormat> file_format(const Display& display) {
     Diagnostics unheard;
     DisplayPlan plan;
-    if (!choose_format(display, unheard, plan)) return false;
+    return choose_format(display, unheard, plan) ? std::optional(plan.format) : std::nullopt;
+}
+
+void rename(Display& display, std::string name) {
+    const auto before = file_format(display);
+    display.name = std::move(name), display.type = "file";
+    if (file_format(display) == before) return;
+    std::erase_if(display.parameters.values, [](const Parameter& parameter) {
+        return parameter.name == "compression" || parameter.name == "exrcompression" ||
+               parameter.name.starts_with(kAttributePrefix);
+    });
+}
+
+bool asks_for_whole_numbers(const Display& display, const Options& options) {
+    const auto format = file_format(display);
+    if (!format) return false;
     if (const Parameter* own = floats_of(display.parameters, "quantize", 4))
         return own->floats[0] != own->floats[1];
     if (const Parameter* given = floats_of(options.quantize, "rgba", 4)) return given->floats[0] != 0;
-    return plan.format != FileFormat::OpenExr;
+    return *format != FileFormat::OpenExr;
 }
 
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {

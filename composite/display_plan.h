@@ -50,6 +50,13 @@ bool holds_depth(const std::string& file);
 /// The names of the channels of its output variable.
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
 
+/// What its driver and its file's extension choose; nothing for driver "null".
+std::optional<FileFormat> file_format(const Display& display);
+
+/// Gives its file another name, written as the extension says. What it asks of a format that the file no
+/// longer has, a compression and attributes, it asks no more.
+void rename(Display& display, std::string name);
+
 /// Whether it asks for a file of whole numbers, by its format or by Quantize.
 bool asks_for_whole_numbers(const Display& display, const Options& options);
 

@@ -82,6 +82,17 @@ TEST(OutputFiles, AreNotStandardOutput) {
     EXPECT_TRUE(pictures(folder).empty());
 }
 
+TEST(OutputFiles, OfAnotherFormatAreNotAskedWhatTheFirstWas) {
+    WorkFolder folder;
+    folder.write("a.rib", world("Display \"a.exr\" \"openexr\" \"rgba\" \"string compression\" [\"piz\"] "
+                                "\"string exrheader_artist\" [\"Somebody\"]"));
+    const Outcome outcome = run_program(folder, "render a.rib -o x.png --transfer linear --strict");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "");
+    ASSERT_EQ(run_program(folder, "render a.rib -o x.exr").exit_code, 0);
+    EXPECT_NE(text_of(folder / "x.exr").find("Somebody"), std::string::npos);
+}
+
 TEST(OutputFiles, OfTwoDisplaysAreBesideEachOther) {
     WorkFolder folder;
     folder.write(

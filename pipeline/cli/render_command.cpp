@@ -117,8 +117,7 @@ bool RenderJob::encode_for_viewing(Display& display, const Options& options) con
 void RenderJob::name_output(Scene& scene) {
     Display& first = scene.options.displays.front();
     const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, scene.options);
-    first.name = names_.take(first.name, scene.options.frame, !scene.primitives.empty());
-    first.type = "file";
+    rename(first, names_.take(first.name, scene.options.frame, !scene.primitives.empty()));
     if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
     kept_.forget(first.name);
     encoded_.erase(first.name);
