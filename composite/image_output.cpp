@@ -31,6 +31,9 @@ const char* format_name(FileFormat format) {
     return "";
 }
 
+/// Of a side; beyond, libjpeg ends the program.
+constexpr int kMostJpegPixels = 65500;
+
 /// How the picture's pixels become the file's.
 struct Encoding {
     Quantization quantization;
@@ -174,6 +177,10 @@ bool write_pixels(OIIO::ImageOutput& out, const Image& image, const Encoding& e)
 
 std::string write_image(const PictureToWrite& picture, OutputFile& file) {
     if (lacks_variable(picture)) return kNoVariables;
+    const PixelRect& window = picture.image.window;
+    if (picture.plan.format == FileFormat::Jpeg &&
+        std::max(window.width(), window.height()) > kMostJpegPixels)
+        return fmt::format("JPEG files have at most {} pixels along a side", kMostJpegPixels);
     if (!file.open()) return file.error();
     // Into memory first: not every format's code notices a full disk, OutputFile does.
     OIIO::Filesystem::IOVecOutput memory;

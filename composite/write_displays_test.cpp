@@ -366,6 +366,20 @@ TEST(WriteDisplays, AFullDiskLeavesNothing) {
     EXPECT_EQ(folder.names().size(), 3u);
 }
 
+TEST(WriteDisplays, WhatAFormatDoesNotHoldIsAnError) {
+    const TemporaryFolder folder;
+    RasterScene scene(65536, 1, 1);
+    std::string errors;
+    Diagnostics diagnostics([&](const Diagnostic& d) { errors += d.text + "\n"; });
+    scene.context.diagnostics = &diagnostics;
+    scene.scene.options.displays = {{folder.file("a.jpg"), "jpeg", "rgb", {}, {}},
+                                    {folder.file("a.tga"), "targa", "rgb", {}, {}}};
+    EXPECT_FALSE(write(numbered_image(scene), scene).good);
+    EXPECT_NE(errors.find("at most 65500 pixels"), std::string::npos) << errors;
+    EXPECT_NE(errors.find("a.tga"), std::string::npos) << errors;
+    EXPECT_TRUE(folder.names().empty());
+}
+
 TEST(WriteDisplays, CancellingLeavesNothing) {
     const TemporaryFolder folder;
     RasterScene scene(40, 30, 1);
