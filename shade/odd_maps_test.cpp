@@ -97,6 +97,20 @@ TEST_F(OddMapsTest, RegionsWithoutAreaMayBeBlurred) {
     }
 }
 
+TEST_F(OddMapsTest, PartsOfPicturesRepeat) {
+    // 16 pixels of 20 by 20, which are black beyond.
+    ImageSpec spec(16, 16, 1, TypeDesc::FLOAT);
+    spec.full_width = spec.full_height = 20;
+    spec.attribute("wrapmodes", "periodic,periodic");
+    const std::string file = write("part.exr", spec, [](int x, int, int) { return x < 8 ? 1.0f : 2.0f; });
+    for (const float turn : {-3.0f, 0.0f, 1.0f, 5000.0f}) {
+        EXPECT_NEAR(look(file, at(0.2f + turn, 0.3f - turn), {}, 1)[0], 1, 1e-3f) << turn;
+        EXPECT_NEAR(look(file, at(0.6f + turn, 0.3f - turn), {}, 1)[0], 2, 1e-3f) << turn;
+        EXPECT_NEAR(look(file, at(0.95f + turn, 0.3f - turn), {}, 1)[0], 0, 1e-3f) << turn;
+    }
+    EXPECT_TRUE(std::isfinite(look(file, at(0.2f, 0.2f, 3, 0, 0, 3), {}, 1)[0]));
+}
+
 TEST_F(OddMapsTest, NumbersOfEverySizeAreHarmless) {
     constexpr float kNumbers[] = {0,
                                   -0.0f,

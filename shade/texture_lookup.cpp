@@ -28,9 +28,15 @@ OIIO::TextureOpt::Wrap wrap_of(MapOptions::Wrap asked, OIIO::TextureOpt::Wrap of
     return of_picture;
 }
 
+bool folds(bool must_fold, OIIO::TextureOpt::Wrap wrap) {
+    return must_fold && wrap == OIIO::TextureOpt::WrapPeriodic;
+}
+
 OIIO::TextureOpt lookup_options(const Textures::Picture& picture, const MapOptions& options) {
     OIIO::TextureOpt made;
     made.swrap = wrap_of(options.swrap, picture.swrap), made.twrap = wrap_of(options.twrap, picture.twrap);
+    if (folds(picture.s_folds, made.swrap)) made.swrap = OIIO::TextureOpt::WrapBlack;
+    if (folds(picture.t_folds, made.twrap)) made.twrap = OIIO::TextureOpt::WrapBlack;
     if (!options.lerp) made.mipmode = OIIO::TextureOpt::MipModeOneLevel;
     if (options.filter == MapOptions::Filter::Bilinear) made.interpmode = OIIO::TextureOpt::InterpBilinear;
     if (options.filter == MapOptions::Filter::Nearest) made.interpmode = OIIO::TextureOpt::InterpClosest;
@@ -123,6 +129,8 @@ void Textures::Impl::each_lane(const Picture* picture, const MapOptions& options
 
 void Textures::texture(const Picture* picture, const Lookup& at, const MapOptions& options, Lanes lanes,
                        std::span<const Plane> out) const {
+    const bool s_folded = picture && folds(picture->s_folds, wrap_of(options.swrap, picture->swrap));
+    const bool t_folded = picture && folds(picture->t_folds, wrap_of(options.twrap, picture->twrap));
     impl_->each_lane(
         picture, options, lanes, out,
         [&](OIIO::TextureOpt& made, OIIO::TextureSystem::Perthread* thread, size_t i, int channels,
@@ -133,10 +141,11 @@ void Textures::texture(const Picture* picture, const Lookup& at, const MapOption
             const auto t_change = [&](ConstPlane d) { return within(value(d, i) * twidth, kMostRegion); };
             Region region{s_change(at.dsdu), t_change(at.dtdu), s_change(at.dsdv), t_change(at.dtdv)};
             if (made.sblur + made.tblur > 0) region = with_area(region, picture->s_scale, picture->t_scale);
-            return impl_->system->texture(picture->handle, thread, made,
-                                          coordinate(value(at.s, i), made.swrap),
-                                          coordinate(value(at.t, i), made.twrap), region.dsdu, region.dtdu,
-                                          region.dsdv, region.dtdv, channels, color);
+            const float s = value(at.s, i), t = value(at.t, i);
+            return impl_->system->texture(
+                picture->handle, thread, made, s_folded ? s - std::floor(s) : coordinate(s, made.swrap),
+                t_folded ? t - std::floor(t) : coordinate(t, made.twrap), region.dsdu, region.dtdu,
+                region.dsdv, region.dtdv, channels, color);
         });
 }
 

@@ -168,7 +168,24 @@ std::string Textures::Impl::describe(Picture& picture, const OIIO::ImageSpec& sp
             if (*wrap == OIIO::TextureOpt::WrapDefault) *wrap = OIIO::TextureOpt::WrapBlack;
     }
     picture.y_up = spec.get_string_attribute("oiio:updirection") == "y";
+    find_folds(picture, spec);
     return {};
+}
+
+/// OpenImageIO repeats what is a power of two wide by a short cut, for which it takes the whole picture, of
+/// every resolution, to be one, too: it ends the program where a part or a smaller picture is not.
+void Textures::Impl::find_folds(Picture& picture, const OIIO::ImageSpec& spec) {
+    const auto is_power = [](int size) {
+        return std::has_single_bit(static_cast<unsigned>(std::max(size, 0)));
+    };
+    const ThreadState thread(*this);
+    OIIO::ImageSpec level = spec;
+    for (int i = 1;; ++i) {
+        picture.s_folds = picture.s_folds || (is_power(spec.width) && !is_power(level.full_width));
+        picture.t_folds = picture.t_folds || (is_power(spec.height) && !is_power(level.full_height));
+        if (!cache->get_imagespec(picture.image, thread.of_cache(), level, 0, i)) break;
+    }
+    cache->geterror();
 }
 
 Textures::Impl::Entry<Textures::Picture>& Textures::Impl::entry(std::string_view name,

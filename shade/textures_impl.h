@@ -24,8 +24,9 @@ class Textures::Picture {
     OIIO::TextureOpt::Wrap swrap = OIIO::TextureOpt::WrapBlack, twrap = OIIO::TextureOpt::WrapBlack;
     std::string wrap_modes;  ///< as the file records them, or empty
     int channels = 0;
-    double s_scale = 1, t_scale = 1;  ///< the picture over what the file has of it
-    bool y_up = false;                ///< an environment as OpenEXR has it
+    double s_scale = 1, t_scale = 1;        ///< the picture over what the file has of it
+    bool s_folds = false, t_folds = false;  ///< OpenImageIO cannot repeat it: coordinates are folded
+    bool y_up = false;                      ///< an environment as OpenEXR has it
     std::string name;
     SourceLocation location;
 };
@@ -81,7 +82,8 @@ struct Textures::Impl {
     Entry<Picture>& entry(std::string_view name, SourceLocation location);
     Entry<Picture>& decoded_entry(const Picture& picture);
     std::string open(Picture& picture);
-    static std::string describe(Picture& picture, const OIIO::ImageSpec& spec);
+    std::string describe(Picture& picture, const OIIO::ImageSpec& spec);
+    void find_folds(Picture& picture, const OIIO::ImageSpec& spec);
     std::string open_file(Picture& picture, const std::string& name, OIIO::ImageInput::Creator creator);
     std::string add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator);
     std::string open(DepthMap& map);
