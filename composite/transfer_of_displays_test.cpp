@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "composite/raster_harness.h"
-#include "composite/temporary_folder_harness.h"
+#include "core/temporary_folder_harness.h"
 #include "composite/write_displays.h"
 #include "core/transfer.h"
 
