@@ -8,7 +8,7 @@
 namespace trapeze {
 namespace {
 
-TEST(Shading, UnknownSurfacesWarnOnceAndBecomeDefaultsurface) {
+TEST(Shading, UnknownSurfacesAreSaidOnceAndBecomeDefaultsurface) {
     TestScene scene;
     const ShadingGrid expected = scene.shaded();
     scene.surface("limestone");
@@ -19,7 +19,7 @@ TEST(Shading, UnknownSurfacesWarnOnceAndBecomeDefaultsurface) {
     const ShadingGrid grid = scene.shaded();
     EXPECT_EQ(grid.Ci.c, expected.Ci.c);
     ASSERT_EQ(scene.reported.size(), 1u);
-    EXPECT_EQ(scene.reported[0].severity, Severity::Warning);
+    EXPECT_EQ(scene.reported[0].severity, Severity::Error);
     EXPECT_NE(scene.reported[0].text.find("\"limestone\""), std::string::npos) << scene.reported[0].text;
 }
 

@@ -61,7 +61,7 @@ TEST_F(TextureTransferTest, LookupsOfFloatsReadNumbersOfThemselves) {
     even("mask.png", 3, TypeDesc::UINT8);
     EXPECT_NEAR(seen("float texture(\"mask.png\"[1], 0.3, 0.6)", "auto"), kStored, 1e-3f);
     EXPECT_NEAR(seen("float texture(\"mask.png\"[1], 0.3, 0.6)", "srgb"), kDecoded, 1e-3f);
-    EXPECT_NEAR(seen("color texture(\"mask.png\") * 0 + float texture(\"mask.png\")", "auto"), kStored, 1e-3f)
+    EXPECT_NEAR(seen("color texture(\"mask.png\", 0.3, 0.6) * 0 + float texture(\"mask.png\", 0.3, 0.6)", "auto"), kStored, 1e-3f)
         << "both kinds of one file";
 }
 
@@ -73,14 +73,14 @@ TEST_F(TextureTransferTest, TheCallsOwnWordCounts) {
     EXPECT_NEAR(seen(own("srgb"), "linear"), kDecoded, 1e-3f);
     EXPECT_NEAR(seen(own("auto"), ""), kDecoded, 1e-3f);
     EXPECT_NEAR(seen(own("linear"), "srgb"), kStored, 1e-3f);
-    EXPECT_NEAR(seen("float texture(\"a.png\", \"colorspace\", \"srgb\")", ""), kDecoded, 1e-3f);
+    EXPECT_NEAR(seen("float texture(\"a.png\", 0.3, 0.6, \"colorspace\", \"srgb\")", ""), kDecoded, 1e-3f);
     EXPECT_NEAR(seen("color environment(\"a.png\", N, \"colorspace\", \"srgb\")", ""), kDecoded, 1e-3f);
     EXPECT_TRUE(reported_.empty());
 }
 
 TEST_F(TextureTransferTest, UnknownWordsAreSaidOnce) {
     even("a.png", 3, TypeDesc::UINT8);
-    EXPECT_NEAR(seen("color texture(\"a.png\", \"colorspace\", \"gamma\")", "srgb"), kDecoded, 1e-3f);
+    EXPECT_NEAR(seen("color texture(\"a.png\", 0.3, 0.6, \"colorspace\", \"gamma\")", "srgb"), kDecoded, 1e-3f);
     ASSERT_EQ(reported_.size(), 1u);
     EXPECT_EQ(reported_[0].severity, Severity::Warning);
     EXPECT_THAT(reported_[0].text, testing::HasSubstr("\"gamma\" is not known"));
@@ -101,7 +101,7 @@ TEST_F(TextureTransferTest, FilteringIsInTheLightThatIsRead) {
     write("checker.png", ImageSpec(64, 64, 3, TypeDesc::UINT8),
           [](int x, int y, int) { return (x + y) % 2 ? kStored : 0.0f; });
     const auto wide = [](const char* name) {
-        return std::string("color texture(\"checker.png\", 0.5, 0.5, \"blur\", 0.5, \"colorspace\", \"") +
+        return std::string("color texture(\"checker.png\", 0.5, 0.5, \"blur\", 0.5, \"wrap\", \"periodic\", \"colorspace\", \"") +
                name + "\")";
     };
     EXPECT_NEAR(seen(wide("srgb"), ""), kDecoded / 2, 5e-3f);

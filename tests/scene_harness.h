@@ -34,7 +34,7 @@ inline std::vector<std::string> tiny_scenes() {
 
 /// Whether a tiny scene is there to show how an error in it is met.
 inline bool is_wrong_on_purpose(const std::string& file) {
-    return file == "texture_missing.rib";
+    return file == "texture_missing.rib" || file == "surface_unknown.rib";
 }
 
 /// A test's name for a scene.
