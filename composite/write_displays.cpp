@@ -26,6 +26,14 @@ std::string beside(const DisplayPlan& plan, const Display& display, const std::s
     return apart;
 }
 
+/// Empty, or what went wrong.
+std::string write_picture(const PictureToWrite& picture, const OutputPlace& place) {
+    if (!place.problem.empty()) return place.problem;
+    OutputFile file(place.path);
+    return picture.plan.format == FileFormat::OpenExr ? write_open_exr(picture, file)
+                                                      : write_image(picture, file);
+}
+
 }  // namespace
 
 bool write_displays(const Image& image, const RenderContext& context, const OutputInfo& info,
@@ -43,14 +51,13 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
         if (image.window.empty()) {
             error = "the crop window holds no pixels";
         } else {
-            std::string place = place_to_write(plan->path);
-            if (place != plan->path && !places.contains(place)) {
-                diagnostics.warning(
-                    display.location,
-                    fmt::format("there is no folder for \"{}\"; it is written as \"{}\"", plan->path, place),
-                    "no-folder");
-                plan->path = std::move(place);
-            }
+            OutputPlace place = place_to_write(plan->path, *info.access, display.location, diagnostics);
+            // Of several pictures for other machines' folders one alone can have the name.
+            if (place.name == plan->path || !places.contains(place.name))
+                plan->path = place.name;
+            else
+                place.problem = fmt::format("there is no folder \"{}\"",
+                                            std::filesystem::path(plan->path).parent_path().string());
             if (places.contains(plan->path)) {
                 const std::string apart = beside(*plan, display, places);
                 diagnostics.warning(display.location,
@@ -58,13 +65,13 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
                                                 plan->path, apart),
                                     "display-twice " + apart);
                 plan->path = apart;
+                const Access::Writing writing = info.access->may_write(apart);
+                place = {apart, writing.path, writing.problem};
             }
             places.insert(plan->path);
-            if (info.before_picture && !plan->depth_map) info.before_picture(plan->path, display.location);
-            OutputFile file(plan->path);
-            const PictureToWrite picture{image, context, *plan, info};
-            error = plan->format == FileFormat::OpenExr ? write_open_exr(picture, file)
-                                                        : write_image(picture, file);
+            if (place.problem.empty() && info.before_picture && !plan->depth_map)
+                info.before_picture(plan->path, display.location);
+            error = write_picture({image, context, *plan, info}, place);
         }
         if (context.is_cancelled() && !error.empty()) return false;
         if (error.empty()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "composite/image.h"
+#include "core/access.h"
 #include "core/render_context.h"
 
 namespace trapeze {
@@ -18,6 +19,7 @@ struct OutputInfo {
     std::optional<int> frame = {};                              ///< its number
     std::string scene = {};                                     ///< the file it was made from
     std::string date = {};                                      ///< "2026:01:31 23:59:59", UTC
+    const Access* access = &kEverything;                        ///< where displays may be written
     /// Called, if it is there, before a file is written that is no depth map.
     std::function<void(const std::string& path, SourceLocation location)> before_picture = {};
 };
@@ -31,8 +33,8 @@ struct WrittenFile {
 
 /// Writes every Display of the context's scene, each file whole or not at all. What goes wrong is reported as
 /// one error at the Display, and the others are still written; then it returns false. Stops early, without an
-/// error and with false, when the context is cancelled. `written`, if not null, gets the files that are there.
-/// Of two displays of one file the second is written beside it, which is said.
+/// error and with false, when the context is cancelled. `written`, if not null, gets the files that are
+/// there. Of two displays of one file the second is written beside it, which is said.
 bool write_displays(const Image& image, const RenderContext& context, const OutputInfo& info,
                     std::vector<WrittenFile>* written = nullptr);
 

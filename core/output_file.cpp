@@ -36,6 +36,24 @@ bool names_drive(const std::string& path) {
     return path.size() > 1 && path[1] == ':';
 }
 
+/// Scenes name folders that were made by hand where they come from: those below the working folder are made.
+/// Others, which could be anywhere, are not. What is wrong is said when the file is written.
+void make_folder_of(const std::string& path) {
+    std::error_code failed;
+    const fs::path whole = fs::path(path).lexically_normal();
+    const fs::path here = whole.is_absolute() ? whole.lexically_relative(fs::current_path(failed)) : whole;
+    const fs::path folder = here.parent_path();
+    if (failed || folder.empty() || *folder.begin() == ".." || names_drive(path)) return;
+    fs::create_directories(folder, failed);
+}
+
+bool has_folder(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code failed;
+    return names_drive(path) ? fs::exists(folder, failed) && !folder.empty()
+                             : folder.empty() || fs::exists(folder, failed);
+}
+
 }  // namespace
 
 OutputFile::~OutputFile() {
@@ -135,22 +153,25 @@ void OutputFile::remove_partials() {
     partials().paths.clear();
 }
 
-void make_folder_of(const std::string& path) {
-    const fs::path folder = fs::path(path).parent_path().lexically_normal();
-    if (folder.empty() || folder.is_absolute() || names_drive(path) || *folder.begin() == "..") return;
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-}
-
-std::string place_to_write(const std::string& path) {
-    make_folder_of(path);
-    const fs::path folder = fs::path(path).parent_path();
-    std::error_code failed;
-    if (names_drive(path) ? fs::exists(folder, failed) && !folder.empty()
-                          : folder.empty() || fs::exists(folder, failed))
-        return path;
-    const std::vector<std::string> names = other_names(path);
-    return names.empty() ? path : names.back();
+OutputPlace place_to_write(const std::string& name, const Access& access, SourceLocation asked_at,
+                           Diagnostics& diagnostics) {
+    OutputPlace place{name, name, access.may_write(name).problem};
+    if (!place.problem.empty() && has_folder(name)) return place;
+    if (place.problem.empty()) make_folder_of(access.may_write(name).path);
+    if (!has_folder(name)) {
+        const std::vector<std::string> others = other_names(name);
+        if (!others.empty()) place.name = others.back();
+    }
+    const Access::Writing writing = access.may_write(place.name);
+    place.path = writing.path, place.problem = writing.problem;
+    if (place.name != name)
+        diagnostics.warning(
+            asked_at, "there is no folder for \"" + name + "\"; it is written as \"" + place.name + "\"",
+            "no-folder");
+    else if (writing.is_elsewhere && place.problem.empty())
+        diagnostics.note(asked_at, "\"" + name + "\" lies outside of the working folder",
+                         "written-elsewhere");
+    return place;
 }
 
 }  // namespace trapeze

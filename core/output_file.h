@@ -6,6 +6,9 @@
 #include <cstdio>
 #include <string>
 
+#include "core/access.h"
+#include "core/diagnostics.h"
+
 namespace trapeze {
 
 /// Every failure leaves a reason in error() and nothing on the disk; so does destruction before commit().
@@ -42,12 +45,18 @@ class OutputFile {
     std::string error_;
 };
 
-/// Scenes name folders that were made by hand where they come from: those below the working folder are made.
-/// Others, which could be anywhere, are not. What is wrong is said when the file is written.
-void make_folder_of(const std::string& path);
+/// Where a file that a scene names is to be written, and under which name the scene knows it.
+struct OutputPlace {
+    std::string name;     ///< as messages and later readers have it
+    std::string path;     ///< to open
+    std::string problem;  ///< why it may not be written; empty: it may
+};
 
-/// Where a file that a scene names is written: there, after make_folder_of(). A folder that is not here was
-/// another machine's: what belongs there goes into the working folder, where other_names() finds it.
-std::string place_to_write(const std::string& path);
+/// There, and the folders below the working folder that it names are made: scenes come from where they were
+/// made by hand. Another folder that is not here was another machine's: what belongs there goes into the
+/// working folder, where other_names() finds it, with a warning. What is written outside of the working
+/// folder is said.
+OutputPlace place_to_write(const std::string& name, const Access& access, SourceLocation asked_at,
+                           Diagnostics& diagnostics);
 
 }  // namespace trapeze

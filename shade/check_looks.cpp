@@ -20,11 +20,11 @@ std::set<std::string> variables_of(const Scene& scene) {
 
 }  // namespace
 
-void check_looks(const RenderContext& context, const MapIsMade& is_made) {
+void check_looks(const RenderContext& context, const MapIsMade& is_made, const Access& access) {
     const Scene& scene = *context.scene;
-    Textures textures(scene.options, context.diagnostics);
-    const Materials materials(context);
-    const Imager imager(context);
+    Textures textures(scene.options, context.diagnostics, access);
+    const Materials materials(context, access);
+    const Imager imager(context, access);
     if (context.diagnostics)
         report_missing_aovs(aov_layout(scene.options), materials, scene.options, *context.diagnostics);
 

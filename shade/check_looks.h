@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "core/access.h"
 #include "core/render_context.h"
 
 namespace trapeze {
@@ -14,6 +15,6 @@ using MapIsMade = std::function<bool(std::string_view name)>;
 /// Makes every shader of the scene and opens the maps that they name; reports to the context's diagnostics
 /// what Shading would: shaders and maps that are not there, that have errors, values that do not fit. Of
 /// primitives only the attributes and the declarations of their variables count.
-void check_looks(const RenderContext& context, const MapIsMade& is_made);
+void check_looks(const RenderContext& context, const MapIsMade& is_made, const Access& access = kEverything);
 
 }  // namespace trapeze

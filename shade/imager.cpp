@@ -77,11 +77,11 @@ struct Imager::Impl {
     std::unique_ptr<BoundShader> shader;
 };
 
-Imager::Imager(const RenderContext& context) : impl_(std::make_unique<Impl>(context)) {
+Imager::Imager(const RenderContext& context, const Access& access) : impl_(std::make_unique<Impl>(context)) {
     const Scene& scene = *context.scene;
     if (!scene.options.imager) return;
     ShaderInstance instance = *scene.options.imager;
-    ShaderLibrary library(scene.options, context.diagnostics);
+    ShaderLibrary library(scene.options, context.diagnostics, access);
     auto executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
     if (!executable) {
         auto instead = stand_in(instance);
@@ -96,7 +96,7 @@ Imager::Imager(const RenderContext& context) : impl_(std::make_unique<Impl>(cont
         executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
         if (!executable) return;
     }
-    impl_->textures = std::make_unique<Textures>(scene.options, context.diagnostics);
+    impl_->textures = std::make_unique<Textures>(scene.options, context.diagnostics, access);
     impl_->spaces = std::make_unique<SceneSpaces>(scene, context.camera, &instance, nullptr);
     impl_->shader =
         std::make_unique<BoundShader>(std::move(executable), instance, *impl_->spaces, context.diagnostics);

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "core/access.h"
 #include "core/render_context.h"
 
 namespace trapeze {
@@ -13,8 +14,9 @@ class BoundShader;
 class Imager {
   public:
     /// The shader that Options::imager names. One that is not known, is no imager or has errors is reported;
-    /// then there is none, and pictures stay as they are. The context and its scene must outlive this.
-    explicit Imager(const RenderContext& context);
+    /// then there is none, and pictures stay as they are. The context, its scene and `access`, to files, must
+    /// outlive this.
+    explicit Imager(const RenderContext& context, const Access& access = kEverything);
     ~Imager();
 
     bool is_there() const;

@@ -25,10 +25,10 @@ std::set<std::string> varying_variables(const Primitive& primitive) {
 
 }  // namespace
 
-Materials::Materials(const RenderContext& context)
+Materials::Materials(const RenderContext& context, const Access& access)
     : context_(context),
       diagnostics_(context.diagnostics),
-      library_(context.scene->options, context.diagnostics) {
+      library_(context.scene->options, context.diagnostics, access) {
     default_instance_.name = "defaultsurface";
     std::map<std::pair<const Attributes*, Names>, uint32_t> known;
     of_primitive_.reserve(context.scene->primitives.size());

@@ -37,7 +37,7 @@ struct Material {
 
 class Materials {
   public:
-    explicit Materials(const RenderContext& context);
+    Materials(const RenderContext& context, const Access& access);
 
     /// Of a primitive of the scene, by its index.
     const Material& of(uint32_t primitive) const { return materials_[of_primitive_[primitive]]; }

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "core/foreign_paths.h"
 #include "shade/rsl/front_end.h"
@@ -19,17 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint32_t kMostPlanes = 16384;  ///< varying floats of a shader: 20 MB a thread
-constexpr uintmax_t kLargestSource = 16 << 20;
-
-std::optional<std::string> file_text(const fs::path& path) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kLargestSource || error) return {};
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) return {};
-    return text.str();
-}
+constexpr size_t kLargestSource = 16 << 20;
 
 }  // namespace
 
@@ -39,18 +27,25 @@ struct ShaderLibrary::Compiled {
     std::map<std::set<std::string>, std::shared_ptr<const vm::Executable>> executables;
 };
 
-ShaderLibrary::ShaderLibrary(const Options& options, Diagnostics* diagnostics) : diagnostics_(diagnostics) {
+ShaderLibrary::ShaderLibrary(const Options& options, Diagnostics* diagnostics, const Access& access)
+    : access_(access), diagnostics_(diagnostics) {
     if (const auto paths = options.search_paths.find("shader"); paths != options.search_paths.end())
         folders_ = paths->second;
 }
 
 ShaderLibrary::~ShaderLibrary() = default;
 
+std::optional<std::string> ShaderLibrary::file_text(const std::string& path) const {
+    std::string text;
+    if (!access_.read(path, kLargestSource, &text)) return {};
+    return text;
+}
+
 /// Nameless when there is none.
 rsl::Source ShaderLibrary::source_named(const std::string& name) const {
     for (const std::string& folder : folders_) {
-        const fs::path path = fs::path(folder) / (name + ".sl");
-        if (auto text = file_text(path)) return {path.string(), std::move(*text)};
+        const std::string path = (fs::path(folder) / (name + ".sl")).string();
+        if (auto text = file_text(path)) return {path, std::move(*text)};
     }
     // What renderers call the surface that is drawn when none is named.
     const std::string standard = name == "default" ? "defaultsurface" : name;
@@ -76,10 +71,16 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
         source = source_named(names[i]);
         stem = names[i].substr(names[i].find_last_of('/') + 1);
     }
-    if (source.name.empty()) return *entry;
+    if (source.name.empty()) {
+        if (access_.is_closed(name))
+            diagnostics.error(asked_at, fmt::format("shader \"{}\" {}", name, Access::kClosed));
+        return *entry;
+    }
     rsl::CompileOptions options;
     options.include_folders = folders_;
     options.carried_file = standard_header;
+    if (access_.is_confined())
+        options.read_file = [this](const std::string& path) { return file_text(path); };
     const auto unit = rsl::compile_front(source, options, diagnostics);
     if (!unit || unit->shaders.empty()) {
         diagnostics.error(asked_at, fmt::format("shader \"{}\" has errors and is not used", name));

@@ -3,11 +3,13 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/access.h"
 #include "core/diagnostics.h"
 #include "core/scene.h"
 #include "shade/rsl/ast.h"
@@ -19,8 +21,8 @@ namespace trapeze {
 class ShaderLibrary {
   public:
     /// NAME.sl is looked for in the folders of Option "searchpath" "shader" (the scene's own among them),
-    /// then among the standard shaders. diagnostics may be null.
-    ShaderLibrary(const Options& options, Diagnostics* diagnostics);
+    /// then among the standard shaders. diagnostics may be null; `access` must outlive this.
+    ShaderLibrary(const Options& options, Diagnostics* diagnostics, const Access& access = kEverything);
     ~ShaderLibrary();
 
     /// A shader ready to run, in which the named parameters are varying besides those that it declares so.
@@ -34,10 +36,12 @@ class ShaderLibrary {
 
   private:
     struct Compiled;
+    std::optional<std::string> file_text(const std::string& path) const;
     rsl::Source source_named(const std::string& name) const;
     Compiled& compiled(const std::string& name, SourceLocation asked_at);
 
     std::vector<std::string> folders_;
+    const Access& access_;
     Diagnostics* diagnostics_;
     Diagnostics silent_;
     std::map<std::string, std::unique_ptr<Compiled>, std::less<>> shaders_;

@@ -26,10 +26,10 @@ ShadeScratch& ShadeScratch::operator=(ShadeScratch&&) noexcept = default;
 ShadeScratch::~ShadeScratch() = default;
 
 struct Shading::Impl {
-    explicit Impl(const RenderContext& render)
+    explicit Impl(const RenderContext& render, const Access& access)
         : context(render),
-          textures(render.scene->options, render.diagnostics),
-          materials(render),
+          textures(render.scene->options, render.diagnostics, access),
+          materials(render, access),
           aovs(aov_layout(render.scene->options)) {
         if (render.diagnostics)
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
@@ -42,7 +42,8 @@ struct Shading::Impl {
     size_t known_endless = 0;
 };
 
-Shading::Shading(const RenderContext& context) : impl_(std::make_unique<Impl>(context)) {}
+Shading::Shading(const RenderContext& context, const Access& access)
+    : impl_(std::make_unique<Impl>(context, access)) {}
 Shading::~Shading() = default;
 
 void Shading::shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const {

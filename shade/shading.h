@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "core/access.h"
 #include "core/depth_height.h"
 #include "core/render_context.h"
 #include "core/shading_grid.h"
@@ -26,9 +27,9 @@ class ShadeScratch {
 class Shading {
   public:
     /// Makes every shader that the scene names. One that is not known is reported once for each name, where
-    /// it is first named; a surface becomes defaultsurface, a light or displacement is left out. The context
-    /// and its scene must outlive this.
-    explicit Shading(const RenderContext& context);
+    /// it is first named; a surface becomes defaultsurface, a light or displacement is left out. The context,
+    /// its scene and `access`, to files, must outlive this.
+    explicit Shading(const RenderContext& context, const Access& access = kEverything);
     ~Shading();
 
     /// Displaces the grid at all keys, then sets Ci and Oi. Thread-safe with a scratch per thread; the result

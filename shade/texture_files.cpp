@@ -9,16 +9,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_file(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
-}
-
-std::optional<std::string> file_named(const std::string& name, const std::vector<std::string>& folders) {
+std::optional<std::string> file_named(const std::string& name, const std::vector<std::string>& folders,
+                                      const Access& access) {
     if (fs::path(name).is_relative())
         for (const std::string& folder : folders)
-            if (const fs::path path = fs::path(folder) / name; is_file(path)) return path.string();
-    return is_file(name) ? std::optional(name) : std::nullopt;
+            if (const std::string path = (fs::path(folder) / name).string(); access.has_file(path))
+                return path;
+    return access.has_file(name) ? std::optional(name) : std::nullopt;
 }
 
 /// What texture makers of other renderers put at the end of the names of what they make.
@@ -29,24 +26,25 @@ constexpr const char* kPictures[] = {".tif", ".tiff", ".png", ".jpg", ".jpeg", "
 
 }  // namespace
 
-std::optional<std::string> map_file(const std::string& name, const std::vector<std::string>& folders) {
-    if (auto found = file_named(name, folders)) return found;
+std::optional<std::string> map_file(const std::string& name, const std::vector<std::string>& folders,
+                                    const Access& access) {
+    if (auto found = file_named(name, folders, access)) return found;
     for (const std::string& other : other_names(name))
-        if (auto found = file_named(other, folders)) return found;
+        if (auto found = file_named(other, folders, access)) return found;
     return {};
 }
 
-std::optional<std::string> source_of_texture(const std::string& name,
-                                             const std::vector<std::string>& folders) {
+std::optional<std::string> source_of_texture(const std::string& name, const std::vector<std::string>& folders,
+                                             const Access& access) {
     for (const char* const made : kMade) {
         if (!name.ends_with(made)) continue;
         const std::string stem = name.substr(0, name.size() - std::string_view(made).size());
         if (stem.empty() || stem.back() == '/') continue;
         // picture.tif.tx
         if (fs::path(stem).has_extension())
-            if (auto found = map_file(stem, folders)) return found;
+            if (auto found = map_file(stem, folders, access)) return found;
         for (const char* const picture : kPictures)
-            if (auto found = map_file(stem + picture, folders)) return found;
+            if (auto found = map_file(stem + picture, folders, access)) return found;
     }
     return {};
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <thread>
 
+#include "core/picture_files.h"
 #include "shade/linear_image_input.h"
 #include "shade/map_matrices.h"
 #include "shade/texture_files.h"
@@ -15,7 +16,7 @@
 namespace trapeze {
 namespace {
 
-constexpr float kDefaultMemoryMegabytes = 256;
+constexpr float kDefaultMemoryMegabytes = 256, kMostConfinedMegabytes = 1024;
 
 float option(const Options& options, const char* category, const char* name, float fallback) {
     const auto list = options.user.find(category);
@@ -68,8 +69,11 @@ void map_lanes::pad(const Lanes& lanes, Plane out) {
         std::fill(out.begin() + static_cast<std::ptrdiff_t>(lanes.count), out.end(), out[lanes.count - 1]);
 }
 
-Textures::Textures(const Options& options, Diagnostics* diagnostics) : impl_(std::make_unique<Impl>()) {
+Textures::Textures(const Options& options, Diagnostics* diagnostics, const Access& access)
+    : impl_(std::make_unique<Impl>(access)) {
     impl_->memory_megabytes = memory_megabytes_of(options);
+    if (access.is_confined())
+        impl_->memory_megabytes = std::min(impl_->memory_megabytes, kMostConfinedMegabytes);
     impl_->shadow_bias = option(options, "shadow", "bias", option(options, "shadow", "bias0", -1));
     if (const auto paths = options.search_paths.find("texture"); paths != options.search_paths.end())
         impl_->folders = paths->second;
@@ -136,11 +140,14 @@ std::string Textures::Impl::open_file(Picture& picture, const std::string& name,
 /// Empty when it is open, else what is wrong.
 std::string Textures::Impl::open(Picture& picture) {
     if (is_traced(picture.name)) return "rays are not traced";
-    auto file = map_file(picture.name, folders);
-    if (!file && (file = source_of_texture(picture.name, folders)) && diagnostics)
+    auto file = map_file(picture.name, folders, access);
+    if (!file && (file = source_of_texture(picture.name, folders, access)) && diagnostics)
         diagnostics->warning(picture.location,
                              fmt::format("texture \"{}\" is not found; \"{}\" is used", picture.name, *file));
-    if (!file) return "is not found";
+    if (!file) return access.is_closed(picture.name) ? Access::kClosed : "is not found";
+    // What is behind rarer formats is wide: films, for one, which may name further files.
+    if (access.is_confined() && !is_common_picture(*file))
+        return "is of a format that is not open to scenes (--safe)";
     start();
     picture.file = *file;
     if (std::string problem = open_file(picture, *file, nullptr); !problem.empty()) return problem;

@@ -22,6 +22,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/access.h"
 #include "core/depth_height.h"
 #include "core/diagnostics.h"
 #include "core/math.h"
@@ -83,8 +84,8 @@ class Textures {
   public:
     /// Option "limits" "texturememory" (kilobytes) bounds the memory; searched are the folders of
     /// Option "searchpath" "texture"; Option "shadow" "bias" is the bias of shadows that have none of their
-    /// own. diagnostics may be null.
-    Textures(const Options& options, Diagnostics* diagnostics);
+    /// own. diagnostics may be null; `access` must outlive this.
+    Textures(const Options& options, Diagnostics* diagnostics, const Access& access = kEverything);
     ~Textures();
     Textures(const Textures&) = delete;
     Textures& operator=(const Textures&) = delete;
@@ -92,8 +93,7 @@ class Textures {
     /// An opened picture, of this object, whose numbers are taken as `transfer` says; null for an empty name
     /// or one that cannot be read, which is reported once. Thread-safe.
     class Picture;
-    const Picture* find(std::string_view name, SourceLocation location,
-                        Transfer transfer = Transfer::Linear);
+    const Picture* find(std::string_view name, SourceLocation location, Transfer transfer = Transfer::Linear);
 
     /// How a lookup takes a picture's numbers: by its "colorspace", which may be empty, or as Option "color"
     /// "transfer" says. An unknown name is reported once. What is "auto" are numbers for lookups of floats.

@@ -57,6 +57,7 @@ struct Textures::Impl {
     float shadow_bias = -1;  ///< below zero: none is set
     Transfer transfer = Transfer::Linear;
     Diagnostics* diagnostics = nullptr;
+    const Access& access;
 
     /// A picture or depth map, or why there is none.
     template <class Map>
@@ -70,6 +71,7 @@ struct Textures::Impl {
     std::map<std::string, Entry<Picture>, std::less<>> decoded;   ///< the same names, from sRGB
     std::map<std::string, Entry<DepthMap>, std::less<>> depth_maps;
 
+    explicit Impl(const Access& files) : access(files) {}
     ~Impl();
 
     /// Whole depth maps, for as long as somebody uses them; with a mutex of their own.

@@ -1,4 +1,6 @@
-/// Commands that a signal ends leave nothing behind: no files, no programs.
+/// Commands that a signal or their time limit ends leave nothing behind: no files, no programs.
+#include <sys/stat.h>
+
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -78,6 +80,39 @@ TEST(Interruption, AStudyCanBeInterrupted) {
                                 "' study table1 --json c.json >.stdout 2>.stderr";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 130);
     EXPECT_EQ(files_in(folder), "");
+}
+
+/// Hours of shading, of tracing and of waiting for a file.
+TEST(TimeLimit, EndsTheWorkWhereverItIs) {
+    WorkFolder folder;
+    folder.write(
+        "loop.sl",
+        "surface loop() { float i, j, k = 0; for (i = 0; i < 1e5; i += 1) for (j = 0; j < 1e5; j += 1)"
+        " k += noise(P * j); Ci = k; }\n");
+    folder.write("shade.rib",
+                 "Format 2000 2000 1\nWorldBegin\nShadingRate .05\nSurface \"loop\"\n"
+                 "Sphere 1 -1 1 360\nWorldEnd\n");
+    folder.write("trace.rib",
+                 "Format 1920 1080 1\nPixelSamples 32 32\nWorldBegin\nShadingRate .05\n"
+                 "Sphere 1 -1 1 360\nWorldEnd\n");
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    const std::string before = files_in(folder);
+    for (const char* arguments : {"render shade.rib", "render trace.rib", "render pipe", "check pipe",
+                                  "cat pipe", "info pipe", "compare trace.rib"}) {
+        const Outcome run = run_program(folder, std::string(arguments) + " --time-limit 0.5s");
+        EXPECT_EQ(run.exit_code, 8) << arguments << run.err;
+        EXPECT_TRUE(run.err.find("error: the time limit is reached") != std::string::npos)
+            << arguments << run.err;
+        EXPECT_EQ(files_in(folder), before) << arguments;
+    }
+}
+
+TEST(TimeLimit, LeavesWhatIsInTimeAlone) {
+    WorkFolder folder;
+    folder.write("a.rib", kSphere);
+    EXPECT_EQ(run_program(folder, "render a.rib --time-limit 1h").exit_code, 0);
+    EXPECT_EQ(run_program(folder, "render a.rib --time-limit soon").exit_code, 2);
+    EXPECT_EQ(run_program(folder, "render a.rib --time-limit 0").exit_code, 2);
 }
 
 }  // namespace

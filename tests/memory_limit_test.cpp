@@ -124,6 +124,15 @@ TEST(MemoryLimit, GridsOfMoreAreMadeInParts) {
     EXPECT_LT(run.mebibytes, whole.mebibytes);
 }
 
+TEST(MemoryLimit, PicturesOfStrangersAreBounded) {
+    WorkFolder folder;
+    folder.write("a.rib", "Format 6000 6000 1\nWorldBegin\n" + kSphere + "WorldEnd\n");
+    const Measured run = measured(folder, "render a.rib -t 2 --memory 64M --safe");
+    expect_said(run, "a picture of 6002x6002 pixels takes");
+    EXPECT_EQ(run.outcome.exit_code, 7);
+    expect_bounded(run, 1);
+}
+
 /// Each fills the picture, and all are there to be split before the first is diced.
 TEST(MemoryLimit, PrimitivesOfMoreSplitsAreLeftOut) {
     WorkFolder folder;

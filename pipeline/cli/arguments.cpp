@@ -12,6 +12,7 @@
 #include "pipeline/cli/standard_streams.h"
 #include "pipeline/cli/terminal.h"
 #include "pipeline/compare/sampler_list.h"
+#include "pipeline/frame/safe_mode.h"
 #include "pipeline/frame/version.h"
 #include "sample/visibility_method.h"
 
@@ -76,17 +77,32 @@ bool crop_is_right(const Arguments& a, std::string* error) {
     return false;
 }
 
+/// The environment's word counts as the command line's. False, and why, when it cannot.
+bool settle_safety(Arguments& a, std::string* error) {
+    a.safe = a.safe || safe_by_environment();
+    if (!a.safe) return true;
+    if (a.allow_programs) {
+        *error = "--allow-programs and --safe (or TRAPEZE_SAFE) exclude each other";
+        return false;
+    }
+    if (a.memory_bytes == 0) a.memory_bytes = safe_memory_budget();
+    if (!a.time_limit) a.time_limit = kSafeSeconds;
+    return true;
+}
+
 /// What is wrong with the options together, or nothing.
 bool output_is_a_file(const Arguments& a, std::string* error) {
     if (a.command != Command::Render || a.output != "-") return true;
-    *error = "-o -: pictures are not written to standard output, for they are whole or not at all; name a file";
+    *error =
+        "-o -: pictures are not written to standard output, for they are whole or not at all; name a file";
     return false;
 }
 
-std::string contradiction(const Arguments& a) {
+std::string contradiction(Arguments& a) {
     std::string error;
-    static_cast<void>(output_is_a_file(a, &error) && samplers_are_right(a, &error) &&
-                      crop_is_right(a, &error) && outputs_are_apart(a, &error));
+    static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) &&
+                      samplers_are_right(a, &error) && crop_is_right(a, &error) &&
+                      outputs_are_apart(a, &error));
     return error;
 }
 

@@ -82,6 +82,9 @@ struct Arguments {
     std::string scenes_folder = "scenes";  ///< of `trapeze compliance`: tiny and gallery are in it
     std::vector<std::string> first_rib;    ///< RIB to execute before the inputs
     bool allow_programs = false;           ///< that scenes name
+    double program_seconds = 10;           ///< in which they say nothing
+    bool safe = false;                     ///< scenes are confined (core/access.h)
+    std::optional<double> time_limit;      ///< seconds
     bool strict = false, quiet = false, color = true;
 };
 

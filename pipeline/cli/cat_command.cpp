@@ -5,6 +5,7 @@
 #include "core/output_file.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/interrupt.h"
 #include "pipeline/cli/read_settings.h"
 #include "pipeline/cli/standard_streams.h"
 #include "pipeline/rib/cat_rib.h"
@@ -36,6 +37,7 @@ class CatOutput {
 }  // namespace
 
 int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    const Interrupt interrupt(arguments.time_limit);
     if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     const CatArguments& cat = arguments.cat;
     CatOutput output(arguments.output);
@@ -48,9 +50,13 @@ int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& dia
     options.encoding = cat.binary ? rib::RibEncoding::Binary : rib::RibEncoding::Ascii;
     options.gzip = cat.gzip || arguments.output.ends_with(".gz");
     options.keep_archives = cat.keep_archives;
-    options.max_source_bytes = read_options(arguments).max_source_bytes;
+    Access access = scene_access(arguments);
+    options.access = &access;
+    options.max_source_bytes = read_options(arguments, access).max_source_bytes;
+    options.cancelled = &interrupt.requested();
     const ReadSummary summary = rib::cat_rib(arguments.inputs, options, diagnostics,
                                              [&](std::string_view bytes) { output.write(bytes); });
+    if (interrupt.requested()) return interrupt.exit_code();
     if (!output.close()) return cannot_write();
     uint64_t requests = 0;
     for (const auto& [name, count] : summary.requests) requests += count;

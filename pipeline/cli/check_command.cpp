@@ -33,7 +33,8 @@ class CheckJob {
         : arguments_(arguments), interrupt_(interrupt), diagnostics_(diagnostics) {}
 
     ReadSummary run() {
-        ReadOptions options = read_options(arguments_);
+        ReadOptions options = read_options(arguments_, access_);
+        options.cancelled = &interrupt_.requested();
         options.on_map = [this](const MapRequest& request) { take_map(request); };
         return read_rib(arguments_.inputs, options, diagnostics_,
                         [this](Scene&& scene) { take_world(scene); });
@@ -46,6 +47,7 @@ class CheckJob {
     const Arguments& arguments_;
     const Interrupt& interrupt_;
     Diagnostics& diagnostics_;
+    Access access_ = scene_access(arguments_);
     MadeFiles made_;
 };
 
@@ -58,7 +60,8 @@ void CheckJob::take_world(const Scene& scene) {
     const std::vector<std::string> none;
     const std::vector<std::string>& folders =
         texture_folders == scene.options.search_paths.end() ? none : texture_folders->second;
-    check_looks(context, [&](std::string_view name) { return made_.has(name, folders); });
+    check_looks(
+        context, [&](std::string_view name) { return made_.has(name, folders); }, access_);
     Diagnostics unsaid;
     const AovLayout layout = aov_layout(scene.options);
     for (const Display& display : scene.options.displays)
@@ -66,7 +69,7 @@ void CheckJob::take_world(const Scene& scene) {
 }
 
 void CheckJob::take_map(const MapRequest& request) {
-    for (const std::string& picture : missing_pictures(request))
+    for (const std::string& picture : missing_pictures(request, access_))
         if (!made_.has(picture, request.folders))
             diagnostics_.error(
                 request.location,
@@ -98,9 +101,10 @@ bool inputs_exist(const std::vector<std::string>& inputs, Diagnostics& diagnosti
 }
 
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(arguments.time_limit);
     if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     const ReadSummary summary = CheckJob(arguments, interrupt, diagnostics).run();
+    if (interrupt.requested()) return interrupt.exit_code();
     terminal.say(fmt::format("{} errors, {} warnings; {} requests not supported, {} settings without effect",
                              diagnostics.count(Severity::Error), diagnostics.count(Severity::Warning),
                              total(summary.unsupported), total(summary.without_effect)));

@@ -24,6 +24,14 @@ void add_color_option(CLI::App& app, Arguments& a) {
     app.add_flag("--no-color{false}", a.color, "no colours in messages (also: NO_COLOR in the environment)");
 }
 
+void add_safe_option(CLI::App& app, Arguments& a) {
+    app.add_flag(
+        "--safe", a.safe,
+        "for scenes from strangers: nothing is run, files are read below the scene's and the working "
+        "folder and those searched by --option, and written below the working folder or to -o; "
+        "memory and time are bounded (also: TRAPEZE_SAFE=1 in the environment)");
+}
+
 void add_inputs(CLI::App& app, Arguments& a) {
     app.add_option("scenes", a.inputs, "RIB files, read one after another as one stream; - is standard input")
         ->required()
@@ -35,6 +43,13 @@ void add_inputs(CLI::App& app, Arguments& a) {
         ->type_name("RIB");
     app.add_flag("--allow-programs", a.allow_programs,
                  "runs the programs that scenes name (Procedural \"RunProgram\")");
+    add_parsed(app, "--program-timeout", a.program_seconds, parse_duration,
+               "a program that says nothing for so long is ended (default: 10s)", "TIME like 10s",
+               ", more than none (units s, m, h)");
+    add_safe_option(app, a);
+    add_parsed(app, "--time-limit", a.time_limit, parse_duration,
+               "ends the work after so long, with exit code 8 (default under --safe: 10m)",
+               "TIME like 90s, 5m, 2h", ", more than none (units s, m, h)");
     add_color_option(app, a);
 }
 
@@ -89,8 +104,9 @@ void add_simd_option(CLI::App& app, Arguments& a) {
 }
 
 void add_memory_option(CLI::App& app, Arguments& a, const std::string& what_for) {
-    add_parsed(app, "--memory", a.memory_bytes, parse_size, what_for + " (default: 3/4 of the machine's)",
-               "SIZE like 4G", ", of 1 byte to 1e18 (units K, M, G, T)");
+    add_parsed(app, "--memory", a.memory_bytes, parse_size,
+               what_for + " (default: 3/4 of the machine's; under --safe at most 4G)", "SIZE like 4G",
+               ", of 1 byte to 1e18 (units K, M, G, T)");
 }
 
 /// How the machine is used, and what is said meanwhile.
@@ -261,6 +277,7 @@ void add_shader_options(CLI::App& app, Arguments& a) {
     app.add_flag("--ir", s.code, "prints the code that the grid machine runs");
     app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
     app.add_flag("-q,--quiet", a.quiet, "only errors");
+    add_safe_option(app, a);
     add_color_option(app, a);
 }
 

@@ -34,7 +34,9 @@ class CompareJob {
         : arguments_(arguments),
           options_(arguments.compare),
           terminal_(terminal),
-          diagnostics_(diagnostics) {}
+          diagnostics_(diagnostics),
+          access_(scene_access(arguments)),
+          interrupt_(arguments.time_limit) {}
 
     int run();
 
@@ -50,6 +52,7 @@ class CompareJob {
     const CompareArguments& options_;
     Terminal& terminal_;
     Diagnostics& diagnostics_;
+    Access access_;
     Interrupt interrupt_;
     int worlds_ = 0, frame_number_ = 0;
     bool compared_ = false, output_failed_ = false;
@@ -101,6 +104,7 @@ void CompareJob::take_world(Scene&& scene) {
     settings.memory_bytes = arguments_.memory_bytes;
     settings.seed = arguments_.seed;
     settings.cancelled = &interrupt_.requested();
+    settings.access = &access_;
     settings.on_progress = [this](double part) { terminal_.progress(part); };
     frame_number_ = options.frame;
     terminal_.begin_progress("shading", {arguments_.inputs.front(), "shading", frame_number_});
@@ -144,7 +148,8 @@ int CompareJob::exit_code() const {
 
 int CompareJob::run() {
     if (!outputs_are_possible()) return kExitNoOutput;
-    ReadOptions options = read_options(arguments_);
+    ReadOptions options = read_options(arguments_, access_);
+    options.cancelled = &interrupt_.requested();
     options.shading_rate = arguments_.shading_rate;
     on_threads(arguments_.threads, [&] {
         read_rib(arguments_.inputs, options, diagnostics_,

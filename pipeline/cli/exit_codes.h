@@ -12,6 +12,7 @@ enum ExitCode : int {
     kExitShaderMissing = 5,  ///< under --strict
     kExitNoOutput = 6,       ///< an output cannot be written
     kExitNoMemory = 7,       ///< or a picture that the machine cannot hold
+    kExitTimeLimit = 8,
     kExitInternal = 70,
     kExitInterrupted = 130,
     kExitTerminated = 143,
@@ -20,6 +21,6 @@ enum ExitCode : int {
 inline constexpr const char* kExitCodeHelp =
     "Exit codes: 0 ok; 1 done with errors (or warnings under --strict); 2 usage; 3 input not readable;\n"
     "4 nothing rendered; 5 a shader is missing (under --strict); 6 output not writable;\n"
-    "7 out of memory; 70 internal error; 130 interrupted; 143 terminated.";
+    "7 out of memory; 8 the time limit was reached; 70 internal error; 130 interrupted; 143 terminated.";
 
 }  // namespace trapeze

@@ -35,15 +35,18 @@ void print_counts(const char* title, const std::map<std::string, uint64_t>& coun
 }  // namespace
 
 int info_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostics) {
-    const Interrupt interrupt;
+    const Interrupt interrupt(arguments.time_limit);
     if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
-    ReadOptions options = read_options(arguments);
+    Access access = scene_access(arguments);
+    ReadOptions options = read_options(arguments, access);
+    options.cancelled = &interrupt.requested();
     options.keep_geometry = false;
     int worlds = 0;
     Stopwatch watch;
     const ReadSummary s = read_rib(arguments.inputs, options, diagnostics,
                                    [&](Scene&& scene) { print_world(++worlds, scene); });
     const double seconds = watch.lap();
+    if (interrupt.requested()) return interrupt.exit_code();
     print_counts("primitives", s.primitives);
     print_counts("shaders", s.shaders);
     print_counts("requests not supported", s.unsupported);

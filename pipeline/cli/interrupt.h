@@ -1,28 +1,37 @@
-/// Ctrl-C and SIGTERM: work is asked to stop; if it has not within most of a second, the process ends at
-/// once. Outputs that are being written are temporary files until they are renamed, and those are
-/// removed; programs that scenes have started are ended.
+/// Ctrl-C, SIGTERM and the time limit: work is asked to stop; if it has not within most of a second, the
+/// process ends at once. Outputs that are being written are temporary files until they are renamed, and those
+/// are removed; programs that scenes have started are ended.
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <optional>
+#include <string>
 #include <thread>
 
 namespace trapeze {
 
+/// What is said where the time limit ends the work.
+std::string time_limit_message();
+
 /// At most one at a time in a process.
 class Interrupt {
   public:
-    Interrupt();
+    /// The limit is in seconds from now.
+    explicit Interrupt(std::optional<double> time_limit = {});
     ~Interrupt();
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
 
     const std::atomic<bool>& requested() const { return requested_; }
-    int exit_code() const;  ///< 130 or 143 once requested
+    int exit_code() const;  ///< 130, 143 or 8 once requested
 
   private:
+    using Clock = std::chrono::steady_clock;
     void watch();
 
-    std::atomic<bool> requested_{false}, done_{false};
+    std::optional<Clock::time_point> deadline_;
+    std::atomic<bool> requested_{false}, done_{false}, too_late_{false};
     std::thread watcher_;
 };
 

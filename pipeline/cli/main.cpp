@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -5,11 +6,24 @@
 #include "core/simd_limit.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
+#include "pipeline/cli/interrupt.h"
+#include "pipeline/cli/memory_limit.h"
 #include "pipeline/cli/read_settings.h"
 #include "pipeline/cli/standard_streams.h"
 #include "pipeline/ri/serve_procedural.h"
 
 namespace {
+
+/// Of a shader that prints, say, before it is only counted.
+constexpr uint64_t kMostSafeMessages = 10'000;
+
+/// What is of the process and not of its scenes.
+void be_safe(const trapeze::Arguments& arguments) {
+    trapeze::limit_memory(arguments.memory_bytes);
+    // Where OpenImageIO looks for libraries to load, beside the loader, which is done.
+    unsetenv("OIIO_LIBRARY_PATH");
+    unsetenv("LD_LIBRARY_PATH");
+}
 
 int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
     using namespace trapeze;
@@ -44,6 +58,7 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
             code = scene_command(arguments, terminal, diagnostics);
             break;
     }
+    if (code == kExitTimeLimit) diagnostics.error({}, time_limit_message());
     terminal.summarise(diagnostics);
     return code;
 }
@@ -59,7 +74,9 @@ int main(int argc, char** argv) {
         Terminal terminal({});
         return *code == kExitOk && !printed_all(terminal) ? kExitNoOutput : *code;
     }
-    Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet});
+    if (arguments.safe) be_safe(arguments);
+    Terminal terminal({progress_style(arguments.progress), arguments.color, arguments.quiet,
+                       arguments.safe ? kMostSafeMessages : Terminal::Settings().most_messages});
     std::string wrong;
     if (!limit_simd(arguments.simd, &wrong)) {
         terminal.show({Severity::Error, "--simd: " + wrong, {}, {}, {}});

@@ -24,16 +24,23 @@ std::optional<std::pair<int, int>> pair_of(std::string_view text, int low, int h
     return {{*a, *b}};
 }
 
-}  // namespace
-
-std::optional<size_t> parse_size(std::string_view text) {
+/// The number that a text begins with, and what follows.
+std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text) {
     size_t digits = 0;
     while (digits < text.size() &&
            (std::isdigit(static_cast<unsigned char>(text[digits])) || text[digits] == '.'))
         ++digits;
     const auto value = number<double>(text.substr(0, digits));
-    std::string_view unit = text.substr(digits);
     if (!value || !(*value > 0)) return {};
+    return {{*value, text.substr(digits)}};
+}
+
+}  // namespace
+
+std::optional<size_t> parse_size(std::string_view text) {
+    const auto parts = number_and_unit(text);
+    if (!parts) return {};
+    auto [value, unit] = *parts;
     double scale = 1;
     if (!unit.empty()) {
         const size_t power = std::string_view("KMGT").find(static_cast<char>(std::toupper(unit[0])));
@@ -42,9 +49,19 @@ std::optional<size_t> parse_size(std::string_view text) {
         unit.remove_prefix(1);
         if (unit != "" && unit != "B" && unit != "iB") return {};
     }
-    const double bytes = *value * scale;
+    const double bytes = value * scale;
     if (bytes > 1e18) return {};
     return static_cast<size_t>(bytes);
+}
+
+std::optional<double> parse_duration(std::string_view text) {
+    constexpr double kMost = 1e9;  // thirty years
+    const auto parts = number_and_unit(text);
+    if (!parts) return {};
+    const auto& [value, unit] = *parts;
+    const double scale = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
+    if (scale == 0 || value * scale > kMost) return {};
+    return value * scale;
 }
 
 std::optional<std::pair<int, int>> parse_resolution(std::string_view text) {

@@ -14,6 +14,9 @@ namespace trapeze {
 /// "512M", "2G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024.
 std::optional<size_t> parse_size(std::string_view text);
 
+/// "90", "90s", "1.5m", "2h": seconds, more than none.
+std::optional<double> parse_duration(std::string_view text);
+
 inline constexpr int kMostPixelsOfSide = 65536;
 
 /// "640x480": from 1 to that.

@@ -14,6 +14,15 @@ TEST(ParseSize, ReadsUnits) {
         EXPECT_FALSE(parse_size(bad)) << bad;
 }
 
+TEST(ParseDuration, ReadsUnits) {
+    EXPECT_EQ(parse_duration("90"), 90);
+    EXPECT_EQ(parse_duration("30s"), 30);
+    EXPECT_EQ(parse_duration("1.5m"), 90);
+    EXPECT_EQ(parse_duration("2h"), 7200);
+    for (const char* bad : {"", "s", "-1", "0", "5d", "1e999", "2h30m", "nan", "99999999999"})
+        EXPECT_FALSE(parse_duration(bad)) << bad;
+}
+
 TEST(ParseResolution, WantsTwoPositiveNumbers) {
     EXPECT_EQ(parse_resolution("640x480"), (std::pair{640, 480}));
     for (const char* bad : {"640", "x480", "0x5", "-1x5", "640x480x2", "a x b", "99999999x1"})

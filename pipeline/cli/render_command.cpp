@@ -55,6 +55,8 @@ class RenderJob {
         : arguments_(arguments),
           terminal_(terminal),
           diagnostics_(diagnostics),
+          access_(scene_access(arguments)),
+          interrupt_(arguments.time_limit),
           kept_(diagnostics),
           names_(arguments.output) {}
 
@@ -75,6 +77,7 @@ class RenderJob {
     const Arguments& arguments_;
     Terminal& terminal_;
     Diagnostics& diagnostics_;
+    Access access_;
     Interrupt interrupt_;
     double render_seconds_ = 0, last_read_seconds_ = 0;
     Stopwatch total_;
@@ -119,6 +122,7 @@ void RenderJob::name_output(Scene& scene) {
     const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, scene.options);
     rename(first, names_.take(first.name, scene.options.frame, !scene.primitives.empty()));
     if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
+    access_.allow_writing(first.name);
     kept_.forget(first.name);
     encoded_.erase(first.name);
     if (for_viewing && encode_for_viewing(first, scene.options)) encoded_.insert(first.name);
@@ -149,7 +153,7 @@ void RenderJob::make_map_of_pictures(MapRequest request) {
         kept_.forget(picture);
     }
     if (const auto transfer = transfer_named(arguments_.transfer)) request.transfer = *transfer;
-    if (!make_map(request, diagnostics_)) output_failed_ = true;
+    if (!make_map(request, access_, diagnostics_)) output_failed_ = true;
 }
 
 void RenderJob::say_what_is_written(const FrameStats& stats) {
@@ -172,6 +176,7 @@ void RenderJob::render_world(Scene&& scene) {
         // The next picture takes its place; where none comes, what the light sees is what there is to see.
         Display picture{with_frame_number(arguments_.output, frame), "file", "rgba", {}, {}};
         encode_for_viewing(picture, scene.options);
+        access_.allow_writing(picture.name);
         kept_.forget(picture.name);
         scene.options.displays.push_back(std::move(picture));
     }
@@ -183,6 +188,7 @@ void RenderJob::render_world(Scene&& scene) {
     settings.regions_at_least = arguments_.regions_at_least;
     settings.seed = arguments_.seed;
     settings.cancelled = &interrupt_.requested();
+    settings.access = &access_;
     settings.on_progress = [&](double fraction) { terminal_.progress(fraction); };
 
     settings.on_stage = [&](std::string_view name) { terminal_.stage(name); };
@@ -194,7 +200,7 @@ void RenderJob::render_world(Scene&& scene) {
     terminal_.end_progress();
     if (result) {
         FrameStats& stats = result->stats;
-        if (!write_frame(*result, context, arguments_.inputs, &kept_)) output_failed_ = true;
+        if (!write_frame(*result, context, access_, arguments_.inputs, &kept_)) output_failed_ = true;
         stats.seconds.read = read_seconds - last_read_seconds_;
         stats.seconds.total += stats.seconds.read;
         last_read_seconds_ = read_seconds;
@@ -225,14 +231,19 @@ int RenderJob::exit_code() const {
 /// mistake, which is said before anything is rendered.
 bool RenderJob::outputs_are_possible() const {
     const std::string& output = arguments_.output;
-    const bool is_of_a_frame = with_frame_number(output, 0) != output;  // its folder, too, may have the number
+    const bool is_of_a_frame =
+        with_frame_number(output, 0) != output;  // its folder, too, may have the number
     const bool writes_output = arguments_.driver != "null" && !is_of_a_frame;
     return can_write({arguments_.stats_file, writes_output ? output : ""}, diagnostics_);
 }
 
 int RenderJob::run() {
     if (!outputs_are_possible()) return kExitNoOutput;
-    ReadOptions options = read_options(arguments_);
+    ReadOptions options = read_options(arguments_, access_);
+    options.cancelled = &interrupt_.requested();
+    options.on_wait = [this](const std::string& what, int seconds) {
+        terminal_.wait("waiting for " + what + ", " + std::to_string(seconds) + " s");
+    };
     options.shading_rate = arguments_.shading_rate;
     if (arguments_.frames)
         options.wants_frame = [this](int frame) {

@@ -18,6 +18,8 @@
 namespace trapeze {
 namespace {
 
+constexpr size_t kLargestHeader = 16 << 20;
+
 std::string kind_name(rsl::ShaderKind kind) {
     static constexpr const char* kNames[] = {"surface", "displacement", "light", "volume", "imager"};
     return kNames[static_cast<size_t>(kind)];
@@ -81,6 +83,15 @@ int shader_command(const Arguments& arguments, Terminal& terminal, Diagnostics& 
     rsl::CompileOptions options;
     options.include_folders = a.include_folders;
     options.carried_file = standard_header;
+    Access access = arguments.safe ? Access::confined() : Access();
+    access.allow_reading_below(std::filesystem::path(a.file).parent_path().string());
+    for (const std::string& folder : a.include_folders) access.allow_reading_below(folder);
+    if (access.is_confined())
+        options.read_file = [&](const std::string& path) -> std::optional<std::string> {
+            std::string bytes;
+            if (!access.read(path, kLargestHeader, &bytes)) return {};
+            return bytes;
+        };
     for (const std::string& define : a.defines) {
         const size_t equals = define.find('=');
         options.defines.emplace_back(define.substr(0, equals),

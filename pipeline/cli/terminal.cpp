@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/cli/json_lines.h"
 
@@ -59,8 +60,11 @@ const char* Terminal::color_of(Severity severity) const {
 void Terminal::show(const Diagnostic& diagnostic) {
     if (settings_.quiet && diagnostic.severity != Severity::Error) return;
     const std::lock_guard lock(mutex_);
+    const uint64_t shown = messages_++;
+    if (shown > settings_.most_messages) return;
     if (settings_.progress == ProgressStyle::Json) return write(json_line(diagnostic));
     clear_bar();
+    if (shown == settings_.most_messages) return write("    there are more messages, which are not shown\n");
     const char* color = color_of(diagnostic.severity);
     write(fmt::format("{}{}{}\n", color, to_string(diagnostic), *color ? "\033[0m" : ""));
     if (active_) draw_bar();
@@ -145,6 +149,27 @@ void Terminal::end_progress() {
     const std::lock_guard lock(mutex_);
     clear_bar();
     active_ = false;
+}
+
+void Terminal::wait(const std::string& what) {
+    const std::lock_guard lock(mutex_);
+    switch (settings_.progress) {
+        case ProgressStyle::None:
+        case ProgressStyle::Prman:
+            break;
+        case ProgressStyle::Bar:
+            write("\r" + what + "\033[K");
+            bar_shown_ = true;
+            break;
+        case ProgressStyle::Lines:
+            write(what + "\n");
+            break;
+        case ProgressStyle::Json:
+            write(nlohmann::json{{"waiting", what}}.dump(-1, ' ', false,
+                                                         nlohmann::json::error_handler_t::replace) +
+                  "\n");
+            break;
+    }
 }
 
 void Terminal::clear_bar() {

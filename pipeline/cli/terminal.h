@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -27,8 +28,9 @@ class Terminal {
   public:
     struct Settings {
         ProgressStyle progress = ProgressStyle::None;
-        bool color = true;   ///< if standard error is a terminal and NO_COLOR is not set
-        bool quiet = false;  ///< only errors
+        bool color = true;                      ///< if standard error is a terminal and NO_COLOR is not set
+        bool quiet = false;                     ///< only errors
+        uint64_t most_messages = ~uint64_t{0};  ///< that are shown
     };
     explicit Terminal(const Settings& settings);
 
@@ -44,6 +46,8 @@ class Terminal {
     void stage(std::string_view name);
     void progress(double fraction);
     void end_progress();
+    /// What keeps the work waiting, between two steps of it.
+    void wait(const std::string& what);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -60,6 +64,7 @@ class Terminal {
     double fraction_ = 0;
     int last_percent_ = -1;
     bool bar_shown_ = false, active_ = false;
+    uint64_t messages_ = 0;
     Clock::time_point start_;
 };
 

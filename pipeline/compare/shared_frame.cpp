@@ -44,7 +44,7 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     if (!picture_fits(frame.context)) return {};
 
     Stopwatch watch;
-    Shading shading(frame.context);
+    Shading shading(frame.context, *settings.access);
     watch.lap();
     const Tessellation tessellation(frame.context, shading.depth_heights(),
                                     std::numeric_limits<size_t>::max(), shading.displacing_surfaces());

@@ -14,6 +14,7 @@ class PictureWriter {
   public:
     PictureWriter(const SharedFrame& frame, const std::string& folder, const std::string& software)
         : folder_(folder), info_{software, {}}, context_(frame.context) {
+        info_.access = &access_;
         scene_.options = frame.scene->options;
         scene_.camera_from_world = frame.scene->camera_from_world;
         context_.scene = &scene_;
@@ -27,6 +28,7 @@ class PictureWriter {
         display.type = "openexr", display.mode = mode;
         display.parameters.set({"type", {StorageClass::Uniform, ValueType::String, 1}, {}, {"float"}});
         scene_.options.displays = {display};
+        access_.allow_writing(display.name);
         good_ = write_displays(image, context_, info_) && good_;
     }
     /// A map as a grey picture; nothing if the method did not fill it.
@@ -41,6 +43,7 @@ class PictureWriter {
 
   private:
     std::string folder_;
+    Access access_;
     OutputInfo info_;
     Scene scene_;
     RenderContext context_;

@@ -6,6 +6,7 @@
 
 #include "core/foreign_paths.h"
 #include "core/output_file.h"
+#include "core/picture_files.h"
 #include "shade/make_maps.h"
 
 namespace trapeze {
@@ -14,17 +15,25 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Empty: there is none.
-std::string found_picture(const std::string& name, const std::vector<std::string>& folders) {
-    std::error_code ignored;
+std::string found_picture(const std::string& name, const std::vector<std::string>& folders,
+                          const Access& access) {
     std::vector<std::string> names = other_names(name);
     names.insert(names.begin(), name);
     for (const std::string& candidate : names) {
-        if (fs::is_regular_file(candidate, ignored)) return candidate;
-        for (const std::string& folder : folders) {
-            const fs::path path = fs::path(folder) / candidate;
-            if (fs::is_regular_file(path, ignored)) return path.string();
-        }
+        if (access.has_file(candidate)) return candidate;
+        for (const std::string& folder : folders)
+            if (const std::string path = (fs::path(folder) / candidate).string(); access.has_file(path))
+                return path;
     }
+    return {};
+}
+
+/// Why a picture cannot be read; empty: it is there, and may be.
+std::string problem_with(const std::string& picture, const Access& access) {
+    if (access.is_closed(picture)) return fmt::format("\"{}\" {}", picture, Access::kClosed);
+    if (!access.has_file(picture)) return fmt::format("\"{}\" is not found", picture);
+    if (access.is_confined() && !is_common_picture(picture))
+        return fmt::format("\"{}\" is of a format that is not open to scenes (--safe)", picture);
     return {};
 }
 
@@ -50,32 +59,32 @@ MapProblem made(const MapRequest& request, const std::string& map, const std::ve
 
 }  // namespace
 
-std::vector<std::string> missing_pictures(const MapRequest& request) {
+std::vector<std::string> missing_pictures(const MapRequest& request, const Access& access) {
     std::vector<std::string> missing;
     for (const std::string& name : request.pictures)
-        if (found_picture(name, request.folders).empty()) missing.push_back(name);
+        if (found_picture(name, request.folders, access).empty()) missing.push_back(name);
     return missing;
 }
 
-bool make_map(const MapRequest& request, Diagnostics& diagnostics) {
+bool make_map(const MapRequest& request, const Access& access, Diagnostics& diagnostics) {
+    const auto report = [&](const std::string& problem) {
+        diagnostics.error(request.location, fmt::format("cannot make \"{}\" from \"{}\": {}", request.map,
+                                                        request.pictures[0], problem));
+    };
     std::vector<std::string> pictures;
     for (const std::string& name : request.pictures) {
-        pictures.push_back(found_picture(name, request.folders));
+        pictures.push_back(found_picture(name, request.folders, access));
         if (pictures.back().empty()) pictures.back() = name;
+        if (const std::string problem = problem_with(pictures.back(), access); !problem.empty()) {
+            report(problem);
+            return true;
+        }
     }
-    std::error_code ignored;
-    const std::string map =
-        fs::is_regular_file(pictures[0], ignored) ? place_to_write(request.map) : request.map;
-    const MapProblem problem = made(request, map, pictures);
-    if (problem.text.empty() && map != request.map)
-        diagnostics.warning(
-            request.location,
-            fmt::format("there is no folder for \"{}\"; it is made as \"{}\"", request.map, map),
-            "no-folder");
-    if (problem.text.empty()) return true;
-    diagnostics.error(request.location, fmt::format("cannot make \"{}\" from \"{}\": {}", request.map,
-                                                    request.pictures[0], problem.text));
-    return !problem.is_of_output;
+    const OutputPlace place = place_to_write(request.map, access, request.location, diagnostics);
+    const MapProblem problem =
+        place.problem.empty() ? made(request, place.path, pictures) : MapProblem{place.problem, true};
+    if (!problem.text.empty()) report(problem.text);
+    return problem.text.empty() || !problem.is_of_output;
 }
 
 }  // namespace trapeze

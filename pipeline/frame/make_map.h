@@ -1,6 +1,7 @@
 /// Carries out a file's requests to make maps.
 #pragma once
 
+#include "core/access.h"
 #include "core/diagnostics.h"
 #include "pipeline/rib/map_request.h"
 
@@ -9,9 +10,9 @@ namespace trapeze {
 /// Pictures are looked for where their names say, which is where displays are written, then in the request's
 /// folders; the map is written where its name says. What goes wrong is reported as an error, and
 /// nothing is written. False when it was the map's file that could not be written.
-bool make_map(const MapRequest& request, Diagnostics& diagnostics);
+bool make_map(const MapRequest& request, const Access& access, Diagnostics& diagnostics);
 
 /// The names of those pictures of a request that are in none of these places.
-std::vector<std::string> missing_pictures(const MapRequest& request);
+std::vector<std::string> missing_pictures(const MapRequest& request, const Access& access);
 
 }  // namespace trapeze

@@ -93,17 +93,20 @@ size_t default_memory_budget() {
     return machine_memory() / 4 * 3;
 }
 
-bool picture_fits(const RenderContext& context) {
+bool picture_fits(const RenderContext& context, const RenderSettings& settings) {
     const PixelRect pixels = sampled_pixels(context.camera, context.scene->options);
     if (pixels.empty()) return true;
     const int channels = kPictureChannels + aov_layout(context.scene->options).channel_count;
     const double bytes = 4.0 * channels * pixels.width() * pixels.height();
-    if (bytes <= static_cast<double>(machine_memory())) return true;
+    // A stranger's has what there is for all.
+    const size_t most =
+        settings.access->is_confined() && settings.memory_bytes ? settings.memory_bytes : machine_memory();
+    if (bytes <= static_cast<double>(most)) return true;
     context.diagnostics->error(
         {},
         "a picture of " + std::to_string(pixels.width()) + "x" + std::to_string(pixels.height()) +
-            " pixels takes " + std::to_string(static_cast<uint64_t>(bytes) >> 30) +
-            " GiB, more than the machine's memory of " + std::to_string(machine_memory() >> 30) +
+            " pixels takes " + std::to_string(static_cast<uint64_t>(bytes) >> 30) + " GiB, more than the " +
+            (most == machine_memory() ? "machine's memory" : "limit") + " of " + std::to_string(most >> 30) +
             " GiB; a smaller --resolution or --crop helps",
         kPictureTooLarge);
     return false;
@@ -130,20 +133,20 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
         context.diagnostics->error({}, wrong);
         return {};
     }
-    if (!picture_fits(context)) return {};
+    if (!picture_fits(context, settings)) return {};
     Stopwatch total, watch;
     Progress progress(settings.on_progress);
     FrameResult result;
     FrameStats& stats = result.stats;
 
-    Shading shading(context);
+    Shading shading(context, *settings.access);
     watch.lap();
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
     const Tessellation tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
     stats.tessellate = tessellation.stats();
     stats.tessellate.grids = stats.tessellate.micropolygons = 0;  // counted as they are made
     stats.seconds.tessellate = watch.lap();
-    const Imager imager(context);
+    const Imager imager(context, *settings.access);
     const auto pattern = sampler->make_pattern(context);
 
     const std::vector<Region> regions = split_into_regions(

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "composite/film.h"
+#include "core/access.h"
 #include "core/render_context.h"
 #include "pipeline/frame/frame_stats.h"
 
@@ -24,6 +25,7 @@ struct RenderSettings {
     /// shade.
     std::function<void(std::string_view)> on_stage;
     const std::atomic<bool>* cancelled = nullptr;
+    const Access* access = &kEverything;  ///< to the files that the scene names
 };
 
 struct FrameResult {

@@ -56,11 +56,12 @@ OutputInfo info_of(const FrameStats& stats, const RenderContext& context,
 
 }  // namespace
 
-bool write_frame(FrameResult& frame, const RenderContext& context,
+bool write_frame(FrameResult& frame, const RenderContext& context, const Access& access,
                  const std::vector<std::string>& scene_files, KeptPictures* kept) {
     Stopwatch watch;
     FrameStats& stats = frame.stats;
     OutputInfo info = info_of(stats, context, scene_files);
+    info.access = &access;
     if (kept)
         info.before_picture = [&](const std::string& path, SourceLocation at) { kept->make_way(path, at); };
     std::vector<WrittenFile> written;

@@ -14,7 +14,7 @@ namespace trapeze {
 /// that one who sets it gets the same bytes each time. The time and the names of the files go to the frame's
 /// statistics. Pictures of earlier frames are kept, if `kept` is not null. False when a file was not written;
 /// that has been reported.
-bool write_frame(FrameResult& frame, const RenderContext& context,
+bool write_frame(FrameResult& frame, const RenderContext& context, const Access& access,
                  const std::vector<std::string>& scene_files, KeptPictures* kept = nullptr);
 
 }  // namespace trapeze

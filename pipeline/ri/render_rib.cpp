@@ -1,9 +1,15 @@
 #include "pipeline/ri/render_rib.h"
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <mutex>
+#include <optional>
+#include <thread>
 
 #include "pipeline/frame/make_map.h"
 #include "pipeline/frame/render_frame.h"
+#include "pipeline/frame/safe_mode.h"
 #include "pipeline/frame/write_frame.h"
 #include "pipeline/rib/read_rib.h"
 #include "pipeline/rib/user_defaults.h"
@@ -19,12 +25,27 @@ Message message_of(const Diagnostic& diagnostic) {
     return {code, severity, to_string(diagnostic)};
 }
 
-void render(Scene&& scene, KeptPictures& kept, Diagnostics& diagnostics) {
+/// Asks for the end of the work after some time; a process of others' cannot be ended.
+class TimeLimit {
+  public:
+    TimeLimit(double seconds, std::atomic<bool>& cancelled)
+        : thread_([seconds, &cancelled](const std::stop_token& stop) {
+              std::mutex mutex;
+              std::unique_lock lock(mutex);
+              std::condition_variable_any wakes;
+              const auto time = std::chrono::duration<double>(seconds);
+              cancelled = !wakes.wait_for(lock, stop, time, [&] { return stop.stop_requested(); });
+          }) {}
+
+  private:
+    std::jthread thread_;
+};
+
+void render(Scene&& scene, const RenderSettings& settings, KeptPictures& kept, Diagnostics& diagnostics) {
     if (scene.options.displays.empty()) scene.options.displays.push_back({"ri.exr", "file", "rgba", {}, {}});
-    const RenderSettings settings;
     const RenderContext context = make_context(scene, settings, diagnostics);
     if (std::optional<FrameResult> frame = render_frame(context, settings))
-        write_frame(*frame, context, {}, &kept);
+        write_frame(*frame, context, *settings.access, {}, &kept);
 }
 
 }  // namespace
@@ -38,14 +59,27 @@ std::vector<Message> render_rib(const std::string& text, bool may_run_programs) 
     });
     ReadOptions options;
     options.defaults_file = user_defaults_file();
-    options.allow_programs = may_run_programs;
+    const bool safe = safe_by_environment();
+    options.allow_programs = may_run_programs && !safe;
+    Access access = safe ? Access::confined() : Access();
+    options.access = &access;
+    RenderSettings settings;
+    settings.access = &access;
+    std::atomic<bool> cancelled = false;
+    std::optional<TimeLimit> time_limit;
+    if (safe) {
+        options.max_source_bytes = options.most_scene_bytes = settings.memory_bytes = safe_memory_budget();
+        options.cancelled = settings.cancelled = &cancelled;
+        time_limit.emplace(kSafeSeconds, cancelled);
+    }
     KeptPictures kept(diagnostics);
     options.on_map = [&](const MapRequest& request) {
-        make_map(request, diagnostics);
+        make_map(request, access, diagnostics);
         for (const std::string& picture : request.pictures) kept.forget(picture);
     };
     read_rib_text(text, "ri", options, diagnostics,
-                  [&](Scene&& scene) { render(std::move(scene), kept, diagnostics); });
+                  [&](Scene&& scene) { render(std::move(scene), settings, kept, diagnostics); });
+    if (cancelled) diagnostics.error({}, "the time limit is reached; what was not done is left out");
     return messages;
 }
 

@@ -16,6 +16,10 @@ std::optional<size_t> AnswerEnd::find(std::string_view bytes) {
             next_ += c == '\\' ? 2 : 1;
         } else if (c == '\xff') {
             return next_;
+        } else if (c == '\xc3' && next_ + 1 >= bytes.size()) {
+            break;
+        } else if (c == '\xc3' && bytes[next_ + 1] == '\xbf') {
+            return next_;
         } else if (static_cast<unsigned char>(c) >= 0x80) {
             const std::string_view rest = bytes.substr(next_);
             const EncodedValue value = encoded_value(rest);

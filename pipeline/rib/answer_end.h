@@ -1,5 +1,6 @@
 /// Where the answer of a RunProgram ends: at a byte 0377 (RISpec 5.8) that is part of no string, comment or
-/// encoded value.
+/// encoded value. Programs whose output is text write it as that character in UTF-8, the bytes 0303 0277, the
+/// first of which RISpec reserves.
 #pragma once
 
 #include <cstddef>

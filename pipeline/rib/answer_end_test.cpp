@@ -23,6 +23,15 @@ TEST(AnswerEnd, IsTheByte0377) {
     EXPECT_EQ(end_of("Sphere 1"), std::nullopt);
 }
 
+/// As Python's print("\377") has it, say.
+TEST(AnswerEnd, IsThatCharacterInUtf8) {
+    EXPECT_EQ(end_of("Sphere 1 -1 1 360\n\xc3\xbf\n"), 18u);
+    EXPECT_EQ(end_of("\xc3\xbf"), 0u);
+    EXPECT_EQ(end_of("Sphere 1\xc3"), std::nullopt);
+    EXPECT_EQ(end_of("\"\xc3\xbf\" # \xc3\xbf\n\xc3\xbf"), 10u);
+    EXPECT_EQ(end_of("\xc3\xc3\xbf"), 1u);
+}
+
 TEST(AnswerEnd, IsNotWithinStringsAndComments) {
     EXPECT_EQ(end_of("\"\xff\" \xff"), 4u);
     EXPECT_EQ(end_of("\"\\\"\xff\" \xff"), 6u);

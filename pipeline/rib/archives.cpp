@@ -22,11 +22,10 @@ std::string canonical(const std::string& path) {
 }
 
 /// A file, or a member of a zip archive.
-bool is_readable(const std::string& path) {
-    std::error_code ignored;
-    if (fs::is_regular_file(path, ignored)) return true;
+bool is_readable(const std::string& path, const Access& access) {
+    if (access.has_file(path)) return true;
     const auto member = zip_member_named(path);
-    return member && has_zip_member(*member);
+    return member && has_zip_member(*member, access);
 }
 
 }  // namespace
@@ -81,13 +80,14 @@ std::optional<std::string> Reader::find_archive(const std::string& name) {
         for (const std::string& other : names) {
             const std::string candidate = (above / other).string();
             if (fs::path(other).is_relative() && other.find('/') != std::string::npos &&
-                is_readable(candidate))
+                is_readable(candidate, access_))
                 return instead(candidate);
         }
     }
-    for (const std::string& folder : usual_folders("archive", current_folder()))
+    for (const std::string& folder : usual_folders("archive", current_folder(), access_))
         for (const std::string& other : names)
-            if (const std::string candidate = (fs::path(folder) / other).string(); is_readable(candidate))
+            if (const std::string candidate = (fs::path(folder) / other).string();
+                is_readable(candidate, access_))
                 return instead(candidate);
     return {};
 }
@@ -96,15 +96,17 @@ std::optional<std::string> Reader::find_archive_named(const std::string& name) c
     std::error_code ignored;
     const fs::path path(name);
     if (path.is_absolute())
-        return is_readable(name) || fs::is_fifo(path, ignored) ? std::optional(name) : std::nullopt;
+        return is_readable(name, access_) || (!access_.is_confined() && fs::is_fifo(path, ignored))
+                   ? std::optional(name)
+                   : std::nullopt;
     std::vector<std::string> folders{current_folder()};
     if (const auto paths = scope_.options.search_paths.find("archive");
         paths != scope_.options.search_paths.end())
         folders.insert(folders.end(), paths->second.begin(), paths->second.end());
     folders.push_back("");
     for (const std::string& folder : folders)
-        if (const fs::path candidate = fs::path(folder) / path; is_readable(candidate.string()))
-            return candidate.string();
+        if (const fs::path candidate = fs::path(folder) / path; is_readable(candidate.string(), access_))
+            return candidate == "-" ? "./-" : candidate.string();  // a file of that name is not the input
     return {};
 }
 
@@ -152,7 +154,9 @@ void Reader::read_archive(const std::string& name) {
         return;
     }
     const auto path = find_archive(name);
-    if (!path)
+    if (!path && access_.is_closed(name, current_folder()))
+        error(in_quotes(name) + " " + Access::kClosed + "; nothing read");
+    else if (!path)
         error(in_quotes(name) + " is not found; nothing read");
     else if (may_read_archive(name, canonical(*path)))
         read_file(*path);

@@ -133,7 +133,7 @@ std::vector<std::string> Reader::folders(const std::string& category) const {
     all.insert(all.end(), {folder, ""});
     // Projects keep their scenes in a folder of their own, and name files from the one above.
     all.insert(all.end(), {folder + "/..", folder + "/../.."});
-    const std::vector<std::string> usual = usual_folders(category, folder);
+    const std::vector<std::string> usual = usual_folders(category, folder, access_);
     all.insert(all.end(), usual.begin(), usual.end());
     return all;
 }

@@ -32,6 +32,8 @@ ReadSummary cat_rib(std::span<const std::string> files, const CatOptions& cat, D
     ReadOptions options;
     options.keep_geometry = false;
     options.max_source_bytes = cat.max_source_bytes;
+    options.access = cat.access;
+    options.cancelled = cat.cancelled;
     options.on_request = [&](const RequestText& request) {
         const bool reads = reads_archive(request);
         if (!reads || cat.keep_archives) writer.write(request);

@@ -12,6 +12,8 @@ struct CatOptions {
     bool gzip = false;
     bool keep_archives = false;  ///< ReadArchive stays as it is
     size_t max_source_bytes = ReadOptions{}.max_source_bytes;
+    Access* access = nullptr;  ///< as ReadOptions has it
+    const std::atomic<bool>* cancelled = nullptr;
 };
 
 /// `write` takes the bytes as they come. Programs of procedurals are not run: their requests are written.

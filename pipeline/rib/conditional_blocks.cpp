@@ -74,7 +74,8 @@ ConditionValue Reader::variable(const std::string& name) const {
     if (name.starts_with(kOption)) return option_value(scope_.options, name.substr(kOption.size()));
     ConditionValue value = attribute_value(attributes().attributes, name);
     if (value.is_undefined()) value = option_value(scope_.options, name);
-    const char* const in_environment = value.is_undefined() ? std::getenv(name.c_str()) : nullptr;
+    const bool looks_further = value.is_undefined() && access_.may_see_environment();
+    const char* const in_environment = looks_further ? std::getenv(name.c_str()) : nullptr;
     if (in_environment) value.text = in_environment;
     return value;
 }

@@ -74,6 +74,11 @@ void Reader::ask_program_for_rib(const char* kind, const std::string& shown,
                                  const std::vector<std::string>& command, const std::string& data,
                                  const std::vector<float>& bound) {
     if (!takes_procedural()) return;
+    if (access_.is_confined()) {
+        ++summary_.unsupported[request_name_];
+        warn_once("programs are not run (--safe); skipped", "programs-not-allowed");
+        return;
+    }
     if (!read_options_.allow_programs) {
         // A library's name is the last word, after its host's.
         std::error_code ignored;
@@ -92,10 +97,17 @@ void Reader::ask_program_for_rib(const char* kind, const std::string& shown,
     char detail[32];
     const float area = bound.empty() ? 0 : raster_area(bound);
     const auto end = std::to_chars(detail, detail + sizeof detail, std::min(area, 1e38f)).ptr;
+    Patience patience;
+    patience.silence = std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000));
+    patience.most_bytes = read_options_.max_source_bytes;
+    patience.cancelled = read_options_.cancelled;
+    if (read_options_.on_wait)
+        patience.on_wait = [&](int seconds) {
+            read_options_.on_wait("the " + std::string(kind) + " " + in_quotes(shown), seconds);
+        };
     const ProgramAnswer answer =
-        programs_.ask(command, std::string(detail, end) + " " + data + "\n", folders("procedural"),
-                      std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000)),
-                      read_options_.max_source_bytes);
+        programs_.ask(command, std::string(detail, end) + " " + data + "\n", folders("procedural"), patience);
+    if (is_stopped()) return;
     if (!answer.problem.empty())
         error("the " + std::string(kind) + " " + in_quotes(shown) + " " + answer.problem);
     if (answer.text.empty()) return;

@@ -24,22 +24,48 @@ bool read_some(int output, std::string& text) {
     return got > 0 || (got < 0 && errno == EINTR);
 }
 
+/// For how long a program has said nothing.
+class Silence {
+  public:
+    explicit Silence(const Patience& patience) : patience_(patience) {}
+
+    void ends() { begin_ = Clock::now(), seconds_said_ = 0; }
+    bool is_too_long() {
+        if (patience_.cancelled && *patience_.cancelled) return true;
+        const auto length = Clock::now() - begin_;
+        const auto seconds =
+            static_cast<int>(std::chrono::duration_cast<std::chrono::seconds>(length).count());
+        if (seconds > seconds_said_ && patience_.on_wait) patience_.on_wait(seconds_said_ = seconds);
+        return length >= patience_.silence;
+    }
+    int milliseconds_to_wait() const {
+        constexpr std::chrono::milliseconds kLongest{200};
+        const auto left =
+            std::chrono::duration_cast<std::chrono::milliseconds>(begin_ + patience_.silence - Clock::now());
+        return static_cast<int>(std::clamp(left, std::chrono::milliseconds(0), kLongest).count());
+    }
+
+  private:
+    const Patience& patience_;
+    Clock::time_point begin_ = Clock::now();
+    int seconds_said_ = 0;
+};
+
 }  // namespace
 
-ProgramAnswer ask_program(int input, int output, const std::string& request,
-                          std::chrono::milliseconds time_limit, size_t most_bytes) {
+ProgramAnswer ask_program(int input, int output, const std::string& request, const Patience& patience) {
     ProgramAnswer answer;
     AnswerEnd end;
     size_t sent = 0;
-    for (const auto until = Clock::now() + time_limit;;) {
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
+    Silence silence(patience);
+    while (true) {
         pollfd waits[] = {{output, POLLIN, 0}, {sent < request.size() ? input : -1, POLLOUT, 0}};
-        const int ready = left.count() > 0 ? poll(waits, 2, static_cast<int>(left.count())) : 0;
-        if (ready == 0) {
+        const int ready = poll(waits, 2, silence.milliseconds_to_wait());
+        if (ready == 0 && silence.is_too_long()) {
             answer.problem = "does not answer";
             return answer;
         }
-        if (ready < 0) continue;  // a signal
+        if (ready <= 0) continue;  // not yet, or a signal
         if (waits[1].revents != 0) {
             const ssize_t count =
                 send(input, request.data() + sent, request.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -49,12 +75,13 @@ ProgramAnswer ask_program(int input, int output, const std::string& request,
         }
         if (waits[0].revents == 0) continue;
         const bool goes_on = read_some(output, answer.text);
+        silence.ends();
         if (const auto place = end.find(answer.text)) {
             answer.text.resize(*place);
             return answer;
         }
         if (!goes_on) answer.problem = "ended before its answer did (with a byte 0377)";
-        if (answer.text.size() > most_bytes) answer.problem = "answers with too much";
+        if (answer.text.size() > patience.most_bytes) answer.problem = "answers with too much";
         if (!answer.problem.empty()) return answer;
     }
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <utility>
 
@@ -57,8 +58,8 @@ class Programs::Program {
   public:
     /// Why it cannot be started, or nothing.
     std::string start(Command words, const std::vector<std::string>& folders);
-    ProgramAnswer ask(const std::string& request, std::chrono::milliseconds time_limit, size_t most_bytes) {
-        return ask_program(input_.get(), output_.get(), request, time_limit, most_bytes);
+    ProgramAnswer ask(const std::string& request, const Patience& patience) {
+        return ask_program(input_.get(), output_.get(), request, patience);
     }
     ~Program() { stop(kTimeToEnd); }
 
@@ -122,8 +123,7 @@ Programs::Programs() = default;
 Programs::~Programs() = default;
 
 ProgramAnswer Programs::ask(const Command& command, const std::string& request,
-                            const std::vector<std::string>& folders, std::chrono::milliseconds time_limit,
-                            size_t most_bytes) {
+                            const std::vector<std::string>& folders, const Patience& patience) {
     const auto known = programs_.find(command);
     if (known != programs_.end() && !known->second) return {{}, "has failed before"};
     if (known == programs_.end()) {
@@ -135,7 +135,7 @@ ProgramAnswer Programs::ask(const Command& command, const std::string& request,
         }
         programs_[command] = std::move(program);
     }
-    ProgramAnswer answer = programs_[command]->ask(request, time_limit, most_bytes);
+    ProgramAnswer answer = programs_[command]->ask(request, patience);
     if (!answer.problem.empty()) programs_[command] = nullptr;
     return answer;
 }

@@ -23,6 +23,19 @@ std::string zipped(const std::string& text) {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+/// Which a reader of streams takes for its input.
+TEST(ReadArchives, MayHaveAnyName) {
+    const Folder folder;
+    folder.write("-", "Sphere 1 -1 1 360");
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    const std::string file = "a.rib";
+    folder.write(file, "WorldBegin ReadArchive \"-\" WorldEnd");
+    const Outcome outcome = read_files(folder, {file});
+    std::filesystem::current_path(before);
+    EXPECT_EQ(outcome.count(), 1u);
+}
+
 TEST(ReadArchives, RelativeToTheFileThatNamesThem) {
     const Folder folder;
     folder.write("sub/b.rib", "ReadArchive \"deep/c.rib\"");

@@ -128,6 +128,31 @@ TEST_F(RunProgram, MessagesNameTheAnswersPlace) {
                     "skipped\n    included from a.rib:2:1"));
 }
 
+/// As programs write it whose output is text.
+TEST_F(RunProgram, MayEndItsAnswersInUtf8) {
+    const Outcome outcome =
+        run("while read line; do echo 'Sphere 1 -1 1 360'; printf '\\303\\277'; done", ask("a") + ask("b"));
+    EXPECT_THAT(outcome.messages, IsEmpty());
+    EXPECT_EQ(outcome.count(), 3u);
+}
+
+TEST_F(RunProgram, ThatSaysNothingIsSaid) {
+    options_.program_seconds = 1.1;
+    std::vector<std::string> waits;
+    options_.on_wait = [&](const std::string& what, int seconds) {
+        waits.push_back(what + " " + std::to_string(seconds));
+    };
+    run("sleep 100");
+    EXPECT_THAT(waits, ElementsAre("the program \"generate one two\" 1"));
+}
+
+TEST_F(RunProgram, IsNotWaitedForWhenTheReadingEnds) {
+    options_.program_seconds = 1000;
+    std::atomic<bool> cancelled = true;
+    options_.cancelled = &cancelled;
+    EXPECT_EQ(run("sleep 1000").count(), 0u);
+}
+
 TEST_F(RunProgram, ThatHangsIsEnded) {
     options_.program_seconds = 0.2;
     const auto begin = std::chrono::steady_clock::now();

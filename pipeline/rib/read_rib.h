@@ -4,6 +4,7 @@
 /// `file:line:col: error: Request: what is wrong; what was done`, and reading goes on at the next request.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/access.h"
 #include "core/diagnostics.h"
 #include "core/scene.h"
 #include "pipeline/rib/map_request.h"
@@ -36,17 +38,25 @@ struct ReadOptions {
     std::vector<Text> first_texts;
     std::string defaults_file;  ///< read before those and the files; empty: none
 
+    /// What the files may reach, else everything. Folders that `defaults_file` and `first_texts` search are
+    /// opened to the files; `files` and `defaults_file` themselves are read wherever they are.
+    Access* access = nullptr;
+
     bool allow_programs = false;  ///< Procedural "RunProgram" and "DynamicLoad" run what the file names
     /// A command that loads the library which is its last word, and answers as programs do; empty: there is
     /// no "DynamicLoad".
     std::vector<std::string> procedural_host;
-    double program_seconds = 120;  ///< a program's time for one answer
+    double program_seconds = 10;  ///< a program that says nothing for so long does not answer
+    /// Called each second of which a program says nothing, with its name and how many there have been.
+    std::function<void(const std::string&, int)> on_wait;
 
     /// Called for each known request whose arguments can be read, whether it is supported or not, in the
     /// order in which they are carried out: conditional blocks are resolved, and the requests of an archive
     /// come where it is read, after the ReadArchive (or between an AttributeBegin and an AttributeEnd after a
     /// Procedural). False: the request is not carried out. May be empty.
     std::function<bool(const rib::RequestText&)> on_request;
+    const std::atomic<bool>* cancelled = nullptr;  ///< ends the reading; no further world is delivered
+
     bool keep_geometry = true;                  ///< false: primitives are validated and counted, not kept
     size_t max_source_bytes = size_t{8} << 30;  ///< of any one file, unpacked
 

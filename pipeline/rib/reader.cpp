@@ -53,6 +53,7 @@ std::string kind_of(Severity severity, const std::string& text) {
 Reader::Reader(const ReadOptions& options, Diagnostics& diagnostics,
                const std::function<void(Scene&&)>& on_world)
     : read_options_(options),
+      access_(options.access ? *options.access : everything_),
       diagnostics_(diagnostics),
       on_world_(on_world),
       ready_bytes_left_(std::min(kMostReadyBytes, options.most_scene_bytes / 8)) {
@@ -108,7 +109,7 @@ std::shared_ptr<ReadyArchive> Reader::ready_archive(const std::string& path) {
     return file.ready;
 }
 
-void Reader::read_file(const std::string& path) {
+void Reader::read_file(const std::string& path, const Access& access) {
     const std::shared_ptr<ReadyArchive> ready = ready_archive(path);
     if (ready && ready->is_complete()) {
         const uint32_t id = diagnostics_.add_source(path, at_);
@@ -119,7 +120,7 @@ void Reader::read_file(const std::string& path) {
         return;
     }
     std::string problem;
-    auto source = read_source(path, read_options_.max_source_bytes, &problem);
+    auto source = read_source(path, read_options_.max_source_bytes, &problem, access);
     if (!source) {
         const std::string text = "cannot read " + in_quotes(path) + ": " + problem;
         if (open_files_.empty())
@@ -277,7 +278,15 @@ std::string Reader::current_folder() const {
 
 void Reader::set_search_path(const std::string& category, const std::string& path) {
     std::vector<std::string>& folders = scope_.options.search_paths[category];
-    folders = expand_search_path(path, folders, current_folder());
+    // What the user's own text reads is no longer that text.
+    const bool is_users = trusted_ && open_files_.size() == 1;
+    std::vector<std::string> closed;
+    folders = expand_search_path(path, folders, current_folder(), is_users ? kEverything : access_, &closed);
+    if (is_users)
+        for (const std::string& folder : folders) access_.allow_reading_below(folder);
+    for (const std::string& folder : closed)
+        warn_once("the folder " + in_quotes(folder) + " " + Access::kClosed + "; not searched",
+                  "closed-folder " + folder);
 }
 
 void Reader::set_error_handler(OnError handler) {
@@ -286,6 +295,7 @@ void Reader::set_error_handler(OnError handler) {
 }
 
 bool Reader::is_stopped() {
+    stopped_ = stopped_ || (read_options_.cancelled && *read_options_.cancelled);
     if (stopped_ || on_error_ != OnError::Abort) return stopped_;
     stopped_ = diagnostics_.count(Severity::Error) > errors_before_abort_;
     if (stopped_) diagnostics_.error(at_, "reading ends at the first error, as ErrorHandler \"abort\" asks");
@@ -309,9 +319,11 @@ namespace trapeze {
 ReadSummary read_rib(std::span<const std::string> files, const ReadOptions& options, Diagnostics& diagnostics,
                      const std::function<void(Scene&&)>& on_world) {
     rib::Reader reader(options, diagnostics, on_world);
-    if (!options.defaults_file.empty()) reader.read_file(options.defaults_file);
+    reader.set_trusted(true);
+    if (!options.defaults_file.empty()) reader.read_file(options.defaults_file, kEverything);
     for (const ReadOptions::Text& text : options.first_texts) reader.read_memory(text.rib, text.name);
-    for (const std::string& file : files) reader.read_file(file);
+    reader.set_trusted(false);
+    for (const std::string& file : files) reader.read_file(file, kEverything);
     reader.finish();
     return std::move(reader.summary());
 }

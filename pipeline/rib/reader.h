@@ -29,8 +29,12 @@ class Reader {
     Reader(const ReadOptions& options, Diagnostics& diagnostics,
            const std::function<void(Scene&&)>& on_world);
 
-    void read_file(const std::string& path);
+    /// A file that an archive request names, under what it may reach.
+    void read_file(const std::string& path) { read_file(path, access_); }
+    void read_file(const std::string& path, const Access& access);
     void read_memory(std::string_view text, const std::string& name);
+    /// Whether what is read now is the user's own, and not a scene.
+    void set_trusted(bool is_trusted) { trusted_ = is_trusted; }
     void finish();
     ReadSummary& summary() { return summary_; }
 
@@ -234,6 +238,9 @@ class Reader {
     float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
 
     const ReadOptions& read_options_;
+    Access everything_;
+    Access& access_;
+    bool trusted_ = false;
     Diagnostics& diagnostics_;
     const std::function<void(Scene&&)>& on_world_;
     ReadSummary summary_;

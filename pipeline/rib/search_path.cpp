@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <map>
 
 #include "core/foreign_paths.h"
@@ -20,6 +21,10 @@ bool is_name(char c) {
 std::string environment(const std::string& name) {
     const char* value = std::getenv(name.c_str());
     return value ? value : "";
+}
+
+bool has_variables(const std::string& text) {
+    return text[0] == '~' || text.find_first_of("$%") != std::string::npos;
 }
 
 std::string expand_variables(const std::string& text) {
@@ -47,53 +52,70 @@ std::string expand_variables(const std::string& text) {
     return expanded;
 }
 
-bool is_folder(const fs::path& path) {
+bool is_folder(const std::string& path, const Access& access) {
     std::error_code ignored;
-    return fs::is_directory(path, ignored);
+    return access.may_read(path) && fs::is_directory(path, ignored);
 }
 
 /// A folder that is not where it is said to be: without its leading folders, or seen from the folders above
 /// the file.
-std::string folder_elsewhere(const std::string& folder, const std::string& folder_of_file) {
+std::string folder_elsewhere(const std::string& folder, const std::string& folder_of_file,
+                             const Access& access) {
     std::vector<std::string> names = other_names(folder);
     if (fs::path(folder).is_relative()) names.insert(names.begin(), folder);
     fs::path from = folder_of_file.empty() ? "." : folder_of_file;
     for (int level = 0; level <= kMostFoldersAbove; ++level, from /= "..")
         for (const std::string& name : names)
-            if (const fs::path candidate = from / name; !name.empty() && is_folder(candidate))
-                return candidate.string();
+            if (const std::string candidate = (from / name).string();
+                !name.empty() && is_folder(candidate, access))
+                return candidate;
     return {};
 }
 
 }  // namespace
 
 std::vector<std::string> expand_search_path(const std::string& path, const std::vector<std::string>& previous,
-                                            const std::string& folder_of_file) {
+                                            const std::string& folder_of_file, const Access& access,
+                                            std::vector<std::string>* closed) {
     std::vector<std::string> folders;
+    const auto leave_out = [&](const std::string& entry) {
+        if (closed) closed->push_back(entry);
+    };
     for (size_t begin = 0; begin <= path.size();) {
         const size_t end = std::min(path.find(':', begin), path.size());
         const std::string entry = path.substr(begin, end - begin);
         begin = end + 1;
         if (entry == "&") folders.insert(folders.end(), previous.begin(), previous.end());
         if (entry.empty() || entry == "@" || entry == "&") continue;
+        if (!access.may_see_environment() && has_variables(entry)) {
+            leave_out(entry);
+            continue;
+        }
         const std::string folder = expand_variables(entry);
         if (folder.empty()) continue;
-        const size_t before = folders.size();
+        std::vector<std::string> places;
         if (fs::path(folder).is_absolute()) {
-            folders.push_back(folder);
+            places = {folder};
         } else {
-            folders.push_back((fs::path(folder_of_file) / folder).string());
-            if (!folder_of_file.empty()) folders.push_back(folder);
+            places = {(fs::path(folder_of_file) / folder).string()};
+            if (!folder_of_file.empty()) places.push_back(folder);
         }
-        if (std::any_of(folders.begin() + static_cast<std::ptrdiff_t>(before), folders.end(), is_folder))
+        const auto is_open = [&](const std::string& place) { return access.may_read(place); };
+        const bool all_closed = std::none_of(places.begin(), places.end(), is_open);
+        std::copy_if(places.begin(), places.end(), std::back_inserter(folders), is_open);
+        if (std::any_of(places.begin(), places.end(),
+                        [&](const std::string& place) { return is_folder(place, access); }))
             continue;
-        if (const std::string found = folder_elsewhere(folder, folder_of_file); !found.empty())
+        if (const std::string found = folder_elsewhere(folder, folder_of_file, access); !found.empty())
             folders.push_back(found);
+        else if (all_closed)
+            leave_out(entry);
     }
     return folders;
 }
 
-std::vector<std::string> usual_folders(const std::string& category, const std::string& folder_of_file) {
+std::vector<std::string> usual_folders(const std::string& category, const std::string& folder_of_file,
+                                       const Access& access) {
     static const std::map<std::string, std::vector<const char*>> kNames = {
         {"archive", {"archives", "archive", "ribs", "rib"}},
         {"shader", {"shaders", "shader", "sl"}},
@@ -105,7 +127,7 @@ std::vector<std::string> usual_folders(const std::string& category, const std::s
     const std::string folder = folder_of_file.empty() ? "." : folder_of_file;
     for (const std::string& parent : {folder, folder + "/.."})
         for (const char* name : names->second)
-            if (is_folder(parent + "/" + name)) folders.push_back(parent + "/" + name);
+            if (is_folder(parent + "/" + name, access)) folders.push_back(parent + "/" + name);
     return folders;
 }
 

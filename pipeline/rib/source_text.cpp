@@ -123,14 +123,15 @@ std::string inflated(const std::string& packed, Packing packing, size_t max_byte
     return bytes;
 }
 
-std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error) {
+std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error,
+                                      const Access& access) {
     std::error_code ignored;
     if (const auto member = zip_member_named(path); member && !std::filesystem::exists(path, ignored)) {
-        auto text = read_zip_member(*member, max_bytes, error);
+        auto text = read_zip_member(*member, max_bytes, error, access);
         if (!text) return {};
         return SourceText{std::move(*text), {}};
     }
-    std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
+    std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : access.open_to_read(path));
     if (!file) {
         *error = std::strerror(errno);
         return {};

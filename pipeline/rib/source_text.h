@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "core/access.h"
+
 namespace trapeze::rib {
 
 struct SourceText {
@@ -19,6 +21,7 @@ std::string inflated(const std::string& packed, Packing packing, size_t max_byte
 
 /// Reads "-" as standard input, "job.zip!member" as that member of an archive. Gzip and UTF-16 are
 /// known by the first two bytes. Never takes more than max_bytes, which UTF-8 may be half as much again of.
-std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error);
+std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error,
+                                      const Access& access = kEverything);
 
 }  // namespace trapeze::rib

@@ -75,8 +75,8 @@ std::optional<Entry> find_entry(const std::string& directory, const std::string&
     return {};
 }
 
-File open_archive(const std::string& path, std::string* error) {
-    File file(std::fopen(path.c_str(), "rb"));
+File open_archive(const std::string& path, const Access& access, std::string* error) {
+    File file(access.open_to_read(path));
     if (!file) *error = "the archive cannot be opened";
     return file;
 }
@@ -89,8 +89,9 @@ std::optional<ZipMember> zip_member_named(const std::string& path) {
     return ZipMember{path.substr(0, mark), path.substr(mark + 1)};
 }
 
-std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_bytes, std::string* error) {
-    const File file = open_archive(member.archive, error);
+std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_bytes, std::string* error,
+                                           const Access& access) {
+    const File file = open_archive(member.archive, access, error);
     if (!file) return {};
     const auto entry = find_entry(read_directory(file.get()), member.member);
     if (!entry) {
@@ -123,9 +124,9 @@ std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_b
     return bytes;
 }
 
-bool has_zip_member(const ZipMember& member) {
+bool has_zip_member(const ZipMember& member, const Access& access) {
     std::string ignored;
-    const File file = open_archive(member.archive, &ignored);
+    const File file = open_archive(member.archive, access, &ignored);
     return file && find_entry(read_directory(file.get()), member.member).has_value();
 }
 

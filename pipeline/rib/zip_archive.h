@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "core/access.h"
+
 namespace trapeze::rib {
 
 /// "job.zip" and "folder/name.rib" of "job.zip!folder/name.rib"; nothing for other names.
@@ -14,8 +16,9 @@ std::optional<ZipMember> zip_member_named(const std::string& path);
 
 /// The member's bytes, stored or deflated; never more than max_bytes. Otherwise nothing, and why. Archives
 /// that need the 64-bit form or a password are not read.
-std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_bytes, std::string* error);
+std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_bytes, std::string* error,
+                                           const Access& access = kEverything);
 /// Whether it is there.
-bool has_zip_member(const ZipMember& member);
+bool has_zip_member(const ZipMember& member, const Access& access);
 
 }  // namespace trapeze::rib

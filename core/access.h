@@ -1,0 +1,58 @@
+/// What a scene may reach on the machine that renders it: the one place that decides.
+///
+/// By default all that the user may. Confined, for scenes from strangers: files are read below the working
+/// folder, the scene's and those that the user has named, and written below the working folder or where the
+/// user has said; links count as what they lead to; nothing is known of the environment. In either case a
+/// scene overwrites nothing but pictures where the user may have files of other kinds.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace trapeze {
+
+class Access {
+  public:
+    /// Everything.
+    Access() = default;
+    /// Below the working folder alone; the root of all folders counts as none.
+    static Access confined();
+
+    bool is_confined() const { return confined_; }
+    bool may_see_environment() const { return !confined_; }
+
+    /// What the user has named, and not the scene.
+    void allow_reading_below(const std::string& folder);
+    void allow_writing(const std::string& file);
+
+    /// Whether a file of this name may be read, be it there or not.
+    bool may_read(const std::string& path) const;
+    /// Whether it is a regular file that may be read.
+    bool has_file(const std::string& path) const;
+    /// Why a name that starts from a folder was not even looked for, if so.
+    bool is_closed(const std::string& name, const std::string& folder = {}) const;
+    static constexpr const char* kClosed = "lies outside of the folders that are open to scenes (--safe)";
+    /// Opens a file. Confined, a regular one that may be read, which is asked of what has been opened. Null,
+    /// with errno, when there is none.
+    std::FILE* open_to_read(const std::string& path) const;
+    /// Its bytes; nothing where there is none or it has more.
+    bool read(const std::string& path, size_t most_bytes, std::string* bytes) const;
+
+    struct Writing {
+        std::string problem;        ///< why it may not be written; empty: it may
+        std::string path;           ///< under which to open it
+        bool is_elsewhere = false;  ///< outside of the working folder, without the user having said so
+    };
+    Writing may_write(const std::string& path) const;
+
+  private:
+    bool confined_ = false;
+    std::string working_folder_;        ///< as all here: without links and dots; empty: none
+    std::vector<std::string> folders_;  ///< to read below
+    std::vector<std::string> files_;    ///< to write
+};
+
+inline const Access kEverything;
+
+}  // namespace trapeze
