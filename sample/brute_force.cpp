@@ -102,6 +102,7 @@ class BruteForce final : public Visibility {
 
 VisibilityMethod brute_force_method() {
     return {"bruteforce",
+            MethodKind::Reference,
             {},
             stratified_pattern,
             any_pattern,

@@ -40,6 +40,7 @@ class DualSpace final : public Rasterizer {
 
 VisibilityMethod dual_space_method() {
     return {"dualspace",
+            MethodKind::Rasterizer,
             {{"parts", {"4", "1", "2", "8"}}},
             stratified_pattern,
             any_pattern,

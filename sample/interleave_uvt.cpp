@@ -38,6 +38,7 @@ class InterleaveUvt final : public Rasterizer {
 
 VisibilityMethod interleave_uvt_method() {
     return {"interleaveuvt",
+            MethodKind::Rasterizer,
             {{"k", {"2", "1", "4"}}, {"cull", {"off", "on"}}},
             [](const MethodSpec& method) { return "interleaved:k=" + method["k"]; },
             [](const MethodSpec& method, const MethodSpec& pattern) {

@@ -119,6 +119,7 @@ std::string natural_pattern(const MethodSpec& method) {
 
 VisibilityMethod interval_method() {
     return {"interval",
+            MethodKind::Rasterizer,
             {{"pairing", {"fixed", "shuffled"}}, {"cull", {"off", "on"}}},
             natural_pattern,
             [](const MethodSpec& method, const MethodSpec& pattern) {

@@ -29,6 +29,7 @@ std::string check_raytrace(const MethodSpec& spec) {
 
 VisibilityMethod raytrace_method() {
     return {"raytrace",
+            MethodKind::RayTracer,
             raytrace_options(),
             stratified_pattern,
             any_pattern,

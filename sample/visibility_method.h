@@ -86,9 +86,14 @@ struct VisibilityInput {
     const MethodSpec& spec;        ///< parse_method's
 };
 
-/// A row of the table of methods.
+/// How a method works, for comparisons: contests are between ray tracers and rasterizers, and a Reference
+/// takes no part in them.
+enum class MethodKind : uint8_t { RayTracer, Rasterizer, Reference };
+
+/// A row of the table of methods; the first is the default.
 struct VisibilityMethod {
     std::string_view name;
+    MethodKind kind;
     std::vector<SpecOption> options;
     /// The pattern that the method, with these options, was made for.
     std::string (*natural_pattern)(const MethodSpec& method);

@@ -29,9 +29,7 @@ std::vector<const ComparedMethod*> Comparison::at(SampleRate rate) const {
 }
 
 MethodKind kind_of(const MethodResult& result) {
-    const std::string& name = result.sampler.method.name;
-    if (name == "bruteforce") return MethodKind::BruteForce;
-    return name == "raytrace" || name == "embree" ? MethodKind::RayTracer : MethodKind::Rasterizer;
+    return find_named(visibility_methods(), result.sampler.method.name)->kind;
 }
 
 std::string rate_text(SampleRate rate) {

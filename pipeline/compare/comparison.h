@@ -56,7 +56,6 @@ std::optional<Comparison> compare(const SharedFrame& frame, const CompareSetting
 /// The method that ratios are to: "raytrace" as it is by default, else the first of its kind, else the first.
 std::string baseline_of(const std::vector<Sampler>& samplers);
 
-enum class MethodKind { RayTracer, Rasterizer, BruteForce };
 MethodKind kind_of(const MethodResult& result);
 
 /// "8x8"

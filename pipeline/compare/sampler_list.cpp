@@ -21,10 +21,10 @@ std::optional<std::vector<Sampler>> parse_samplers(std::string_view text, std::s
     return samplers;
 }
 
-std::vector<Sampler> default_samplers(std::string_view pattern, bool with_brute_force) {
+std::vector<Sampler> default_samplers(std::string_view pattern, bool with_references) {
     std::vector<Sampler> samplers;
     for (const VisibilityMethod& method : visibility_methods()) {
-        if (method.name == "bruteforce" && !with_brute_force) continue;
+        if (method.kind == MethodKind::Reference && !with_references) continue;
         std::string not_honoured;
         if (const auto sampler = choose_sampler(method.name, pattern, &not_honoured))
             samplers.push_back(*sampler);

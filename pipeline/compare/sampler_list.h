@@ -17,6 +17,6 @@ std::optional<std::vector<Sampler>> parse_samplers(std::string_view text, std::s
                                                    std::string* error);
 
 /// Every method of the table that honours the pattern, with its default options.
-std::vector<Sampler> default_samplers(std::string_view pattern, bool with_brute_force);
+std::vector<Sampler> default_samplers(std::string_view pattern, bool with_references);
 
 }  // namespace trapeze

@@ -31,6 +31,11 @@ TEST(SamplerList, SaysWhatIsWrong) {
     EXPECT_FALSE(parse_samplers("interleaveuvt", "stratified", &error)) << "it cannot";
 }
 
+TEST(SamplerList, WithoutReferencesNoneOfThatKindIsLeft) {
+    for (const Sampler& sampler : default_samplers("", false))
+        EXPECT_NE(find_named(visibility_methods(), sampler.method.name)->kind, MethodKind::Reference);
+}
+
 TEST(SamplerList, TheDefaultIsAllThatHonourThePattern) {
     const auto all = names(default_samplers("", true));
     EXPECT_EQ(all.size(), visibility_methods().size());

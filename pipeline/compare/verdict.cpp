@@ -71,7 +71,7 @@ std::string disagreement_sentences(const Comparison& c) {
 }
 
 bool takes_part(const Comparison& c, const MethodResult& r) {
-    return kind_of(r) != MethodKind::BruteForce && !opponent_of(c, r);
+    return kind_of(r) != MethodKind::Reference && !opponent_of(c, r);
 }
 
 /// The contest at one sample rate; null where a kind is not there.

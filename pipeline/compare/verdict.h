@@ -8,8 +8,8 @@
 
 namespace trapeze {
 
-/// Sentences; the last one says which method to take: the fastest, or the baseline where it is as fast. Brute
-/// force takes no part.
+/// Sentences; the last one says which method to take: the fastest, or the baseline where it is as fast.
+/// References take no part.
 std::vector<std::string> judge(const Comparison& comparison);
 
 }  // namespace trapeze

@@ -221,6 +221,7 @@ RTCBuildQuality quality_of(std::string_view name) {
 
 VisibilityMethod embree_method() {
     return {"embree",
+            MethodKind::RayTracer,
             {{"geometry", {"grid", "quad"}},
              {"mode", {"auto", "1", "8", "16", "stream"}},
              {"quality", {"medium", "low", "high"}}},

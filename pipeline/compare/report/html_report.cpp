@@ -23,7 +23,7 @@ const char* style_class(const MethodResult& result) {
             return "tracer";
         case MethodKind::Rasterizer:
             return "raster";
-        case MethodKind::BruteForce:
+        case MethodKind::Reference:
             return "other";
     }
     return "";
