@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+
+#include "shade/polygon_parameters.h"
 
 namespace trapeze {
 namespace {
@@ -42,30 +45,37 @@ class Loader {
              [](const ShadingGrid& grid, int k) -> const std::vector<float>& { return grid.P.front().c[k]; });
     }
 
-    /// The step of u or v from a vertex to the next, along the middle of the grid: vertices of its borders
-    /// may be moved along them to where a neighbour has its own.
+    /// The step of u or v from a vertex to the next.
     void load_steps(const Operand& out, std::vector<float> ShadingGrid::*plane, bool along_u) const {
         size_t at = 0;
         for (const ShadingGrid* grid : grids_) {
-            const std::vector<float>& values = grid->*plane;
             const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
-            const GridShape& shape = grid->shape;
-            const int steps = along_u ? shape.nu : shape.nv;
-            const auto begin = static_cast<size_t>(along_u ? shape.row_index(0, shape.nv / 2)
-                                                           : shape.row_index(shape.nu / 2, 0));
-            const auto end = static_cast<size_t>(along_u ? shape.row_index(shape.nu, shape.nv / 2)
-                                                         : shape.row_index(shape.nu / 2, shape.nv));
-            for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
-                const float way = values[first + end] - values[first + begin];
-                const float step = steps > 0 ? way / static_cast<float>(steps) : 1.0f;
-                std::fill_n(out.data + at, in_piece, step);
-                at += in_piece;
-            }
+            for (size_t piece = 0; piece < static_cast<size_t>(grid->pieces); ++piece, at += in_piece)
+                std::fill_n(out.data + at, in_piece, step_in(*grid, piece, (grid->*plane).data(), along_u));
         }
         std::fill(out.data + at, out.data + frame_.lanes(), at ? out.data[at - 1] : 0.0f);
     }
 
   private:
+    /// Along the middle of the grid: vertices of its borders may be moved along them to where a neighbour has
+    /// its own.
+    static float mean_step(const GridShape& shape, const float* values, bool along_u) {
+        const int steps = along_u ? shape.nu : shape.nv;
+        const int begin = along_u ? shape.row_index(0, shape.nv / 2) : shape.row_index(shape.nu / 2, 0);
+        const int end =
+            along_u ? shape.row_index(shape.nu, shape.nv / 2) : shape.row_index(shape.nu / 2, shape.nv);
+        return steps > 0 ? (values[end] - values[begin]) / static_cast<float>(steps) : 1.0f;
+    }
+
+    static float step_in(const ShadingGrid& grid, size_t piece, const float* values, bool along_u) {
+        values += piece * static_cast<size_t>(grid.shape.vertex_count());
+        const float step = mean_step(grid.shape, values, along_u);
+        if (!has_places_as_parameters(grid)) return step;
+        if (const V2f of_face = steps_of_face(grid, piece); of_face.x != 0) return of_face[along_u ? 0 : 1];
+        // Places change along both axes: so far apart neighbours may be.
+        return std::abs(step) + std::abs(mean_step(grid.shape, values, !along_u));
+    }
+
     vm::Frame& frame_;
     std::span<const ShadingGrid* const> grids_;
 };
@@ -151,7 +161,8 @@ vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared) {
         const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
         for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
             const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->ordinal;
-            points.spans.push_back({points.vertices, grid->shape, grid->reverse_orientation, seed});
+            points.spans.push_back({points.vertices, grid->shape, grid->reverse_orientation, seed,
+                                    steps_of_face(*grid, first / in_piece)});
             points.vertices += in_piece;
         }
     }

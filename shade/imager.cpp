@@ -46,7 +46,7 @@ vm::Points points_of(int x0, int y, size_t pixels) {
     points.lanes = padded_size(pixels);
     for (size_t i = 0; i < pixels; ++i) {
         const uint64_t row = static_cast<uint32_t>(y), column = static_cast<uint32_t>(x0) + i;
-        points.spans.push_back({i, GridShape{0, 0}, false, row << 32 | column});
+        points.spans.push_back({i, GridShape{0, 0}, false, row << 32 | column, V2f(0)});
     }
     return points;
 }

@@ -1,7 +1,9 @@
-/// Polygon meshes (RISpec 5.1): flat faces, bilinear or linear on each.
+/// Polygon meshes (RISpec 5.1): flat faces, bilinear or linear on each. Their u and v are x and y in object
+/// space.
 #include <algorithm>
 #include <numeric>
 
+#include "core/polygon_lean.h"
 #include "tessellate/face_evaluation.h"
 #include "tessellate/mesh_topology.h"
 #include "tessellate/polygon_faces.h"
@@ -16,18 +18,21 @@ bool has_normals(const ParameterList& variables) {
     return N && N->declaration.floats_per_item() == 3 && !N->is_string();
 }
 
+/// What u and v of faces are: their own square's, for meshes that stand for a curved surface.
+enum class FaceParameters { PlaceInObject, OwnSquare };
+
 class PolygonSurface : public TopologySurface<PolygonSurface> {
   public:
-    PolygonSurface(const Primitive& primitive, PolygonFaces faces)
+    PolygonSurface(const Primitive& primitive, PolygonFaces faces, FaceParameters parameters)
         : primitive_(primitive),
           faces_(std::move(faces)),
           topology_(faces_.sizes, faces_.vertices,
-                    std::get<PolygonMesh>(primitive.shape().topology).vertex_count, 4, {}) {
+                    std::get<PolygonMesh>(primitive.shape().topology).vertex_count, 4, {}),
+          parameters_(parameters) {
         for (const auto& shape : primitive.shape_keys)
             positions_.push_back(shape->variables.find("P")->floats.data());
         const ParameterList& variables = primitive.shape().variables;
         is_faceted_ = !has_normals(variables);
-        has_texture_coordinates_ = variables.find("s") || variables.find("t") || variables.find("st");
     }
 
     const MeshTopology& topology() const { return topology_; }
@@ -44,12 +49,16 @@ class PolygonSurface : public TopologySurface<PolygonSurface> {
 
     /// Positions at the corners of a mesh face.
     std::array<float, 12> corner_positions(const FacePiece& piece, int shape_key) const;
+    void set_places(int face, std::span<const V2f> uv, std::span<float> x, std::span<float> y) const;
+    bool has_place_derivatives(int face) const;
+    void differentiate_by_places(int face, V2f at, ShadingGrid& grid) const;
 
     const Primitive& primitive_;
     PolygonFaces faces_;
     MeshTopology topology_;
     std::vector<const float*> positions_;  ///< by shape key
-    bool is_faceted_ = true, has_texture_coordinates_ = false;
+    FaceParameters parameters_;
+    bool is_faceted_ = true;
 };
 
 std::array<float, 12> PolygonSurface::corner_positions(const FacePiece& piece, int shape_key) const {
@@ -114,18 +123,52 @@ class PolygonSurface::Values : public VariableSource {
     std::span<const V2f> uv_;
 };
 
+/// x and y in object space.
+void PolygonSurface::set_places(int face, std::span<const V2f> uv, std::span<float> x,
+                                std::span<float> y) const {
+    const FacePiece piece = topology_.piece(face);
+    const std::array<float, 12> positions = corner_positions(piece, 0);
+    float corners[4];
+    for (const auto& [axis, places] : {std::pair(0, x), std::pair(1, y)}) {
+        for (int i = 0; i < 4; ++i) corners[i] = positions[3 * i + axis];
+        values_on_piece(piece, corners, uv, places);
+    }
+}
+
+bool PolygonSurface::has_place_derivatives(int face) const {
+    const FacePiece piece = topology_.piece(face);
+    const std::array<float, 12> positions = corner_positions(piece, 0);
+    const auto corner = [&](int i) {
+        return V3d(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
+    };
+    const int last = piece.size - 1;  // of a quad these are the diagonals
+    return trapeze::has_place_derivatives((corner(2) - corner(0)).cross(corner(last) - corner(1)));
+}
+
+/// dPdu and dPdv from those by the face's own parameters, by the chain rule: the same all over the face,
+/// which is flat. `at`: of the grid's first vertex.
+void PolygonSurface::differentiate_by_places(int face, V2f at, ShadingGrid& grid) const {
+    const FacePiece piece = topology_.piece(face);
+    V3f P, du, dv;
+    evaluate_linear_piece(piece, corner_positions(piece, 0).data(), 3, {&at, 1}, sink_of({&P, 1}),
+                          sink_of({&du, 1}), sink_of({&dv, 1}));
+    const double determinant = double{du.x} * dv.y - double{dv.x} * du.y;
+    if (determinant == 0 || grid.dPdu.size() == 0) return;
+    const V3d by_u(grid.dPdu.at(0)), by_v(grid.dPdv.at(0));
+    const size_t count = grid.dPdu.size();
+    grid.dPdu.fill(count, V3f((by_u * double{dv.y} - by_v * double{du.y}) / determinant));
+    grid.dPdv.fill(count, V3f((by_v * double{du.x} - by_u * double{dv.x}) / determinant));
+}
+
 bool PolygonSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
                                         ShadingGrid& grid) const {
-    for (size_t i = 0; i < uv.size(); ++i) grid.u[i] = uv[i].x, grid.v[i] = uv[i].y;
-    if (!has_texture_coordinates_) {
-        // The default texture coordinates of polygons are x and y in object space.
-        const FacePiece piece = topology_.piece(face);
-        const std::array<float, 12> positions = corner_positions(piece, 0);
-        float x[4], y[4];
-        for (int i = 0; i < 4; ++i) x[i] = positions[3 * i], y[i] = positions[3 * i + 1];
-        values_on_piece(piece, x, uv, grid.s);
-        values_on_piece(piece, y, uv, grid.t);
+    const bool by_place = parameters_ == FaceParameters::PlaceInObject;
+    set_places(face, uv, grid.s, grid.t);
+    for (size_t i = 0; i < uv.size(); ++i) {
+        grid.u[i] = by_place ? grid.s[i] : uv[i].x;
+        grid.v[i] = by_place ? grid.t[i] : uv[i].y;
     }
+    if (by_place && has_place_derivatives(face)) differentiate_by_places(face, uv[0], grid);
     return set_variables(primitive_.shape().variables, Values(*this, face, uv), grid);
 }
 
@@ -159,13 +202,13 @@ bool is_valid(const Primitive& primitive, Diagnostics& diagnostics) {
     return true;
 }
 
-std::unique_ptr<Surface> surface_of(const Primitive& primitive, PolygonFaces faces,
+std::unique_ptr<Surface> surface_of(const Primitive& primitive, PolygonFaces faces, FaceParameters parameters,
                                     Diagnostics& diagnostics) {
     if (faces.sizes.empty()) {
         diagnostics.warning(primitive.location, "Polygon: has no area; skipped", "polygon-empty");
         return nullptr;
     }
-    return std::make_unique<PolygonSurface>(primitive, std::move(faces));
+    return std::make_unique<PolygonSurface>(primitive, std::move(faces), parameters);
 }
 
 }  // namespace
@@ -174,13 +217,13 @@ std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagno
     if (!is_valid(primitive, diagnostics)) return nullptr;
     const auto& mesh = std::get<PolygonMesh>(primitive.shape().topology);
     return surface_of(primitive, make_polygon_faces(mesh, primitive.shape().variables.find("P")->floats),
-                      diagnostics);
+                      FaceParameters::PlaceInObject, diagnostics);
 }
 
 std::unique_ptr<Surface> make_bilinear_surface(const Primitive& primitive, Diagnostics& diagnostics) {
     if (!is_valid(primitive, diagnostics)) return nullptr;
     return surface_of(primitive, make_whole_faces(std::get<PolygonMesh>(primitive.shape().topology)),
-                      diagnostics);
+                      FaceParameters::OwnSquare, diagnostics);
 }
 
 }  // namespace trapeze

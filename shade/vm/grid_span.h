@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/grid.h"
+#include "core/math.h"
 
 namespace trapeze::vm {
 
@@ -13,6 +14,7 @@ struct GridSpan {
     GridShape shape;
     bool reverse_orientation = false;  ///< dPdu x dPdv points inside
     uint64_t seed = 0;                 ///< of random numbers: the grid's own
+    V2f steps{0, 0};                   ///< where not 0, Du and Dv are differences along the axes over these
 };
 
 }  // namespace trapeze::vm

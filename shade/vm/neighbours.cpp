@@ -134,6 +134,10 @@ HWY_INLINE void row_derivatives(const RowOf& row, int width, Axis along, const O
     constexpr float kLeast = 1e-3f;  // of a determinant, to its terms
     const Axis across = along == Axis::U ? Axis::V : Axis::U;
     Row dp, dq, dp_across, dq_across, step, step_across;
+    if (const float over = row.span.steps[along == Axis::U ? 0 : 1]; over != 0) {
+        std::fill_n(dp.lanes, row.count(), over);
+        return straight_derivatives(row, width, along, value, dp, rounding, out);
+    }
     if (is_straight(row, along, p, q, dp, dq))
         return straight_derivatives(row, width, along, value, dp, rounding, out);
     row.difference(across, p, 0, dp_across);

@@ -19,7 +19,7 @@ using GridSpans = std::span<const GridSpan>;
 
 /// Du and Dv: each component's derivative by u or by v: the one that explains its differences along both
 /// axes, for at borders that are snapped to a neighbour's rate both parameters change along each. Where
-/// vertices share a place there, that of the vertex inside.
+/// vertices share a place there, that of the vertex inside. Spans that have steps: the difference over them.
 void derivative_u(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,
                   const Operand& v, const Operand& out);
 void derivative_v(GridSpans spans, size_t lanes, int width, const Operand& value, const Operand& u,

@@ -117,6 +117,25 @@ TEST(Neighbours, DerivativesAtSnappedBordersAreThoseOfTheSurface) {
     });
 }
 
+TEST(Neighbours, SpansWithStepsAreDifferentiatedAlongTheirAxes) {
+    Batch batch;
+    for (GridSpan& span : batch.spans) span.steps = {0.25f, 0.5f};
+    Register place = batch.make(1, [](float, float, int) { return 3.0f; });
+    Register value = batch.make(2, [](float u, float v, int k) { return k == 0 ? 5 * u : 5 * u - 3 * v; });
+    Register du(2, false, batch.lanes), dv(2, false, batch.lanes);
+    for_each_target([&] {
+        derivative_u(batch.spans, batch.lanes, 2, value.operand(), place.operand(), place.operand(),
+                     du.operand());
+        derivative_v(batch.spans, batch.lanes, 2, value.operand(), place.operand(), place.operand(),
+                     dv.operand());
+        batch.for_vertices([&](const GridSpan& span, int, int, size_t lane) {
+            EXPECT_NEAR(du.at(lane, 1), 5.0f / span.shape.nu / 0.25f, 1e-4);
+            EXPECT_NEAR(dv.at(lane, 1), -3.0f / span.shape.nv / 0.5f, 1e-4);
+            EXPECT_EQ(dv.at(lane, 0), 0);
+        });
+    });
+}
+
 TEST(Neighbours, DerivativesAddBothDirections) {
     const Batch batch;
     Register num = batch.make(1, [](float x, float y, int) { return 6 * x + 4 * y; });

@@ -157,5 +157,69 @@ TEST(Derivatives, ByWhatGoesAlongOneParameterHaveOneTerm) {
     }
 }
 
+/// Polygons in planes of every lean, turned so that x and y run along none of the grid's axes; the last two
+/// are parallel to the z axis.
+const char* const kPolygons[] = {
+    "Polygon \"P\" [-2 -2 0 2 -1 0 1 2 0 -2 1 0]",
+    "Polygon \"P\" [0 -2 1 2 0 0 0 2 1 -2 0 2]",
+    "PointsPolygons [3] [0 1 2] \"P\" [-2 -1 0 0 2 4 2 -1 0]",
+    "GeneralPolygon [4] \"P\" [2 -2 1 -2 -2 -1 -2 2 1 2 2 3]",
+    "Rotate 60 1 2 0 PointsGeneralPolygons [1] [4] [0 1 2 3] \"P\" [-2 0 0 2 0 0 2 0 3 -2 0 3]",
+    "Rotate 60 1 2 0 Polygon \"P\" [-1 -1 0 1 1 0 1 1 3 -1 -1 3]"};
+
+/// The least and the largest of a shader's red and green within grids.
+std::array<double, 2> range_of(const std::string& text, const std::string& found) {
+    std::array<double, 2> range = {1e9, -1e9};
+    shade_primitives(text, found, [&](const ShadingGrid& grid, size_t n) {
+        if (!is_inside(grid.shape, n)) return;
+        for (int k = 0; k < 2; ++k) {
+            const double value = grid.Ci.c[k][n];
+            range = {std::min(range[0], value), std::max(range[1], value)};
+        }
+    });
+    return range;
+}
+
+TEST(Derivatives, OfPolygonsAreByPlaceAndStayDefined) {
+    for (const char* text : kPolygons) {
+        SCOPED_TRACE(text);
+        const Found found = derivative_errors(text);
+        EXPECT_LE(found.mean, 0.001);
+        EXPECT_LE(found.worst, 0.01);
+        // dPdu and dPdv span the polygon's plane.
+        EXPECT_GE(range_of(text, "color(abs(normalize(dPdu ^ dPdv) . normalize(Ng)), 1, 0)")[0], 0.999);
+    }
+}
+
+TEST(Derivatives, ParametersOfPolygonsAreObjectXAndY) {
+    const std::string x = "xcomp(transform(\"object\", P))", y = "ycomp(transform(\"object\", P))";
+    for (const std::string text : kPolygons) {
+        SCOPED_TRACE(text);
+        EXPECT_LE(range_of("TextureCoordinates 1 1 2 2 3 3 4 4 " + text,
+                           "color(abs(u - " + x + ") + abs(s - u), abs(v - " + y + ") + abs(t - v), 0)")[1],
+                  1e-4);
+    }
+    const std::string du = "vtransform(\"object\", dPdu)", dv = "vtransform(\"object\", dPdv)";
+    for (const char* text : {kPolygons[0], kPolygons[1], kPolygons[2], kPolygons[3]}) {
+        SCOPED_TRACE(text);
+        EXPECT_LE(range_of(text, "color(abs(xcomp(" + du + ") - 1) + abs(ycomp(" + du +
+                                     ")) + abs(Du(u) - 1), abs(ycomp(" + dv + ") - 1) + abs(xcomp(" + dv +
+                                     ")) + abs(Dv(u)), 0)")[1],
+                  0.002);
+    }
+}
+
+/// What filters of shaders do: abs(Du(f) * du) + abs(Dv(f) * dv) is how far f changes to the neighbours.
+TEST(Derivatives, StepsOfPolygonsReachTheNextVertex) {
+    const std::string f = "((P - point(0, 0, 0)) . normalize(dPdv))",
+                      wide = "(abs(Du(" + f + ") * du) + abs(Dv(" + f + ") * dv)) / sqrt(area(P))";
+    for (const char* text : kPolygons) {
+        SCOPED_TRACE(text);
+        const std::array<double, 2> range = range_of(text, "color(" + wide + ", 1, 0)");
+        EXPECT_GT(range[0], 0.3);
+        EXPECT_LT(range[1], 8);
+    }
+}
+
 }  // namespace
 }  // namespace trapeze::test

@@ -64,12 +64,13 @@ void expect_polygon(const std::string& text, const std::vector<Loop>& loops) {
         const V3d normal = area.normalized() * placement.outside * handed;
         const V3d origin = in_camera_space(placement, loops[0][0]);
         const M44d to_object = placement.camera_from_object.inverse();
-        double off_plane = 0, off_normal = 0, off_st = 0;
+        double off_plane = 0, off_normal = 0, off_st = 0, off_uv = 0;
         for (const DicedGrid& grid : diced.grids)
             for (const DicedVertex& vertex : grid.vertices) {
                 off_plane = std::max(off_plane, std::abs((vertex.P - origin).dot(normal)));
                 off_normal = std::max({off_normal, (vertex.N - normal).length(),
                                        (vertex.Ng - normal).length(), (vertex.Ng - vertex.N).length()});
+                off_uv = std::max({off_uv, std::abs(vertex.u - vertex.s), std::abs(vertex.v - vertex.t)});
                 V3d p;
                 to_object.multVecMatrix(vertex.P, p);
                 // s and t are x and y, but of where the vertex was before it went to its edge's.
@@ -79,6 +80,7 @@ void expect_polygon(const std::string& text, const std::vector<Loop>& loops) {
         EXPECT_LE(off_plane, 1e-5);
         EXPECT_LE(off_normal, 2e-5);
         EXPECT_LE(off_st, 2e-5);
+        EXPECT_EQ(off_uv, 0);
     }
 }
 
@@ -102,6 +104,23 @@ TEST(PolygonForms, ConcaveOnesWithHoles) {
     // Backwards, the outline and one hole.
     expect_polygon("PointsGeneralPolygons [2] [7 3] [6 5 4 3 2 1 0 13 12 11] " + points_text(kLoops),
                    {{kLoops[0].rbegin(), kLoops[0].rend()}, {kLoops[2].rbegin(), kLoops[2].rend()}});
+}
+
+/// "s" alone, "t" alone and both, per vertex: what is not given is v or u, whatever TextureCoordinates say.
+TEST(PolygonForms, TextureCoordinatesAreOwnOrThePlace) {
+    const std::string points = "TextureCoordinates 5 5 6 5 5 6 6 6 Polygon \"P\" [0 1 0 2 1 0 2 4 0 0 4 0] ";
+    for (const auto& [given, own_s, own_t] : {std::tuple("", false, false),
+                                              {"\"s\" [7 7 7 7]", true, false},
+                                              {"\"t\" [8 8 8 8]", false, true},
+                                              {"\"st\" [7 8 7 8 7 8 7 8]", true, true}}) {
+        const DicedRib diced(points + given);
+        ASSERT_GT(diced.vertex_count(), 0u);
+        for (const DicedGrid& grid : diced.grids)
+            for (const DicedVertex& vertex : grid.vertices) {
+                EXPECT_NEAR(vertex.s, own_s ? 7 : vertex.u, 1e-6) << given;
+                EXPECT_NEAR(vertex.t, own_t ? 8 : vertex.v, 1e-6) << given;
+            }
+    }
 }
 
 /// Boxes of the mesh requests, each face with a hole's worth of other faces in it or none.
