@@ -7,6 +7,7 @@
 #include "shade/grid_parts.h"
 #include "shade/grid_shader.h"
 #include "shade/stand_in_light.h"
+#include "shade/unknown_parameters.h"
 
 namespace trapeze {
 namespace {
@@ -89,6 +90,7 @@ const BoundShader* Materials::bound(const ShaderInstance& instance, rsl::ShaderK
     varying.insert(connected.begin(), connected.end());
     auto executable = library_.find(instance.name, kind, varying, instance.location);
     if (!executable) return nullptr;
+    if (diagnostics_) report_unknown_parameters(instance, executable->program(), *diagnostics_);
     const SceneSpaces spaces(*context_.scene, context_.camera, &instance, nullptr);
     return &layers_.emplace_back(std::move(executable), instance, spaces, diagnostics_);
 }
@@ -125,6 +127,8 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
         report_missing("LightSource", instance.shader, shader->name + " is used");
         executable = library_.find(shader->name, rsl::ShaderKind::Light, {}, shader->location);
         if (!executable) return nullptr;
+    } else if (diagnostics_) {
+        report_unknown_parameters(*shader, executable->program(), *diagnostics_);
     }
     auto made = std::make_unique<Lamp>();
     made->spaces = std::make_unique<SceneSpaces>(*context_.scene, context_.camera, shader, nullptr);

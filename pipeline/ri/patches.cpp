@@ -14,7 +14,8 @@ constexpr int64_t kMostPoints = 1 << 28;
 void check_size(int nu, int nv) {
     if (nu < 2 || nv < 2) throw CallError{RIE_RANGE, "needs 2 points or more along each side"};
     if (nu > kLargestMesh || nv > kLargestMesh || int64_t{nu} * nv > kMostPoints)
-        throw CallError{RIE_LIMIT, "too many points"};
+        throw CallError{RIE_LIMIT, "more than " + std::to_string(kLargestMesh) + " points along a side, or " +
+                                       std::to_string(kMostPoints) + " in all"};
 }
 
 PatchMesh mesh_of_type(const Context& context, RtToken type) {

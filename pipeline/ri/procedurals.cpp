@@ -41,7 +41,9 @@ void write_procedural(Context& context, const Known& procedural, RtPointer data,
 void run(RtPointer data, RtProcSubdivFunc function) {
     thread_local int depth = 0;
     if (depth >= kDeepest)
-        return report({RIE_LIMIT, RIE_ERROR, "RiProcedural: too many within each other; left out"});
+        return report(
+            {RIE_LIMIT, RIE_ERROR,
+             "RiProcedural: more than " + std::to_string(kDeepest) + " within each other; left out"});
     ++depth;
     RiAttributeBegin();
     function(data, RI_INFINITY);

@@ -121,7 +121,7 @@ RtVoid RiMotionBegin(RtInt n, ...) {
     va_list rest;
     va_start(rest, n);
     guarded("RiMotionBegin", [&] {
-        if (n > kMostTimes) throw CallError{RIE_LIMIT, "too many times"};
+        if (n > kMostTimes) throw CallError{RIE_LIMIT, "more than " + std::to_string(kMostTimes) + " times"};
         for (int i = 0; i < n; ++i) times.push_back(static_cast<float>(va_arg(rest, double)));
     });
     va_end(rest);

@@ -58,7 +58,9 @@ void read_array(Scanner& scanner, Argument& array, RequestText& request, IsReque
                 if (string_bytes <= kMostStringBytes)
                     array.strings.push_back(token.string);
                 else
-                    note_problem(request, array.at, "an array of strings that are too long in all");
+                    note_problem(request, array.at,
+                                 "an array of strings that are too long in all, more than " +
+                                     std::to_string(kMostStringBytes >> 20) + " MiB");
                 break;
             case TokenKind::Close:
                 closed = true;

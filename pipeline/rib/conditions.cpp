@@ -151,7 +151,8 @@ class Evaluator {
     }
 
     ConditionValue primary() {
-        if (++depth_ > kDeepest) throw Problem{"it is nested too deep"};
+        if (++depth_ > kDeepest)
+            throw Problem{"it is nested too deep, more than " + std::to_string(kDeepest) + " times"};
         ConditionValue value = primary_within();
         --depth_;
         return value;

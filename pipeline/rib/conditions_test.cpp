@@ -99,7 +99,7 @@ TEST(Conditions, WrongOnesSayWhy) {
     EXPECT_THAT(problem("$ == 1"), HasSubstr("a name is expected"));
     EXPECT_THAT(problem("[1 2"), HasSubstr("never closed"));
     EXPECT_THAT(problem("[x]"), HasSubstr("a number is expected"));
-    EXPECT_THAT(problem(std::string(100000, '(')), HasSubstr("nested too deep"));
+    EXPECT_THAT(problem(std::string(100000, '(')), HasSubstr("nested too deep, more than 100 times"));
     EXPECT_THAT(problem(std::string(100000, '!')), HasSubstr("nested too deep"));
 }
 

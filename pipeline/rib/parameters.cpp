@@ -46,11 +46,6 @@ ParameterList Reader::parameters(ArgumentCursor& cursor, Undeclared undeclared) 
             declared = {token, guessed(numbers.size(), value.strings.size())};
         if (!declared && undeclared != Undeclared::LeaveOut && token.find(' ') == std::string::npos) {
             declared = {token, guessed(numbers.size(), value.strings.size())};
-            if (undeclared == Undeclared::ShaderKnows)
-                report(Severity::Warning, name_at,
-                       request_name_ + ": " + in_quotes(token) +
-                           " is not declared; it is what the shader says it is",
-                       "undeclared-" + token);
         }
         if (!declared) {
             report(Severity::Error, name_at,
@@ -105,7 +100,7 @@ std::vector<float> Reader::rgb(std::vector<float> colors) const {
 }
 
 ParameterList Reader::shader_parameters(ArgumentCursor& cursor) {
-    ParameterList list = parameters(cursor, Undeclared::ShaderKnows);
+    ParameterList list = parameters(cursor, Undeclared::Guess);
     std::erase_if(list.values, [&](const Parameter& p) {
         const size_t got = p.is_string() ? p.strings.size() : p.floats.size();
         const int wanted = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();

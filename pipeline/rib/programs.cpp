@@ -127,7 +127,8 @@ ProgramAnswer Programs::ask(const Command& command, const std::string& request,
     const auto known = programs_.find(command);
     if (known != programs_.end() && !known->second) return {{}, "has failed before"};
     if (known == programs_.end()) {
-        if (programs_.size() >= kMostPrograms) return {{}, "is one program too many"};
+        if (programs_.size() >= kMostPrograms)
+            return {{}, "is one of more than " + std::to_string(kMostPrograms) + " programs"};
         auto program = std::make_unique<Program>();
         if (const std::string problem = program->start(command, folders); !problem.empty()) {
             programs_[command] = nullptr;

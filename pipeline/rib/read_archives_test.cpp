@@ -280,7 +280,7 @@ TEST(ReadText, UnsupportedRequestsWarnOncePerKind) {
 }
 
 TEST(ReadText, MessagesAreOneShortLine) {
-    const Outcome r = read_world("Surface \"a\" \"new\nline" + std::string(1000, 'x') + "\" [1]");
+    const Outcome r = read_world("Sphere 1 -1 1 360 \"new\nline" + std::string(1000, 'x') + "\" [1]");
     ASSERT_EQ(r.messages.size(), 1u);
     EXPECT_EQ(r.messages[0].find('\n'), std::string::npos);
     EXPECT_LT(r.messages[0].size(), 250u);

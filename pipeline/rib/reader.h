@@ -18,8 +18,8 @@
 namespace trapeze::rib {
 
 /// What becomes of parameters that nobody declared: primitives leave them out, options and attributes keep
-/// them as what they look like; so do shaders, which know better what they are.
-enum class Undeclared { LeaveOut, Guess, ShaderKnows };
+/// them as what they look like; so do shaders, which know better what they are and say what they do not have.
+enum class Undeclared { LeaveOut, Guess };
 
 struct Request;
 enum class FarShape;
