@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shade/grid_footprints.h"
 #include "shade/grid_shader.h"
 #include "shade/take_aovs.h"
 
@@ -104,7 +105,8 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     bound.set_parameters(frame, grids);
     // Lights that ask for the surface's variables may see them before the surface sets them.
     const bool all = std::ranges::any_of(material_.lights, &Lamp::asks_surface);
-    set_variables(frame, grids, context_, shaded, all);
+    GridFootprints footprints(grids, context_.camera, bound.program().kind != rsl::ShaderKind::Displacement);
+    set_variables(frame, grids, context_, footprints, shaded, all);
     messages_.running = bound.program().name;
     // Lights may ask the surface that asks them.
     if (bound.program().kind == rsl::ShaderKind::Surface) messages_.surface = &frame;
@@ -112,6 +114,7 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     vm::Context surroundings;
     surroundings.points = &points;
     surroundings.spaces = &spaces;
+    surroundings.footprints = &footprints;
     surroundings.maps = &maps_;
     surroundings.lights = &scratch_.lights;
     surroundings.messages = &messages_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "shade/polygon_parameters.h"
 
@@ -45,43 +44,15 @@ class Loader {
              [](const ShadingGrid& grid, int k) -> const std::vector<float>& { return grid.P.front().c[k]; });
     }
 
-    /// The step of u or v from a vertex to the next.
-    void load_steps(const Operand& out, std::vector<float> ShadingGrid::*plane, bool along_u) const {
-        size_t at = 0;
-        for (const ShadingGrid* grid : grids_) {
-            const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
-            for (size_t piece = 0; piece < static_cast<size_t>(grid->pieces); ++piece, at += in_piece)
-                std::fill_n(out.data + at, in_piece, step_in(*grid, piece, (grid->*plane).data(), along_u));
-        }
-        std::fill(out.data + at, out.data + frame_.lanes(), at ? out.data[at - 1] : 0.0f);
-    }
+    void copy(const Operand& out, const float* plane) const { std::copy_n(plane, frame_.lanes(), out.data); }
 
   private:
-    /// Along the middle of the grid: vertices of its borders may be moved along them to where a neighbour has
-    /// its own.
-    static float mean_step(const GridShape& shape, const float* values, bool along_u) {
-        const int steps = along_u ? shape.nu : shape.nv;
-        const int begin = along_u ? shape.row_index(0, shape.nv / 2) : shape.row_index(shape.nu / 2, 0);
-        const int end =
-            along_u ? shape.row_index(shape.nu, shape.nv / 2) : shape.row_index(shape.nu / 2, shape.nv);
-        return steps > 0 ? (values[end] - values[begin]) / static_cast<float>(steps) : 1.0f;
-    }
-
-    static float step_in(const ShadingGrid& grid, size_t piece, const float* values, bool along_u) {
-        values += piece * static_cast<size_t>(grid.shape.vertex_count());
-        const float step = mean_step(grid.shape, values, along_u);
-        if (!has_places_as_parameters(grid)) return step;
-        if (const V2f of_face = steps_of_face(grid, piece); of_face.x != 0) return of_face[along_u ? 0 : 1];
-        // Places change along both axes: so far apart neighbours may be.
-        return std::abs(step) + std::abs(mean_step(grid.shape, values, !along_u));
-    }
-
     vm::Frame& frame_;
     std::span<const ShadingGrid* const> grids_;
 };
 
 void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& value,
-                  const RenderContext& context, bool shaded) {
+                  const RenderContext& context, vm::Footprints& footprints, bool shaded) {
     const Operand& out = frame.operand(value.id);
     const Options& options = context.scene->options;
     using vm::Predefined;
@@ -125,9 +96,9 @@ void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& 
         case Predefined::t:
             return loader.load(out, &ShadingGrid::t);
         case Predefined::du:
-            return loader.load_steps(out, &ShadingGrid::u, true);
+            return loader.copy(out, footprints.get().du);
         case Predefined::dv:
-            return loader.load_steps(out, &ShadingGrid::v, false);
+            return loader.copy(out, footprints.get().dv);
         case Predefined::ncomps: {
             const float three = 3;
             return frame.set_uniform(value.id, &three);
@@ -171,10 +142,10 @@ vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared) {
 }
 
 void set_variables(vm::Frame& frame, std::span<const ShadingGrid* const> grids, const RenderContext& context,
-                   bool shaded, bool all) {
+                   vm::Footprints& footprints, bool shaded, bool all) {
     const Loader loader(frame, grids);
     for (const vm::StartValue& value : frame.executable().start_values())
-        if (all || value.needed) set_variable(loader, frame, value, context, shaded);
+        if (all || value.needed) set_variable(loader, frame, value, context, footprints, shaded);
 }
 
 Plane3 variable_planes(const vm::Frame& frame, std::string_view name) {

@@ -6,6 +6,7 @@
 #include "core/render_context.h"
 #include "core/shading_grid.h"
 #include "shade/bound_shader.h"
+#include "shade/vm/footprint.h"
 
 namespace trapeze {
 
@@ -13,11 +14,12 @@ namespace trapeze {
 /// their places, and are the same in all grids that share them.
 vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared = false);
 
-/// Sets the predefined variables that the program names (RISpec 3.2, tables 12.1 to 12.5) from the grids. Ci
+/// Sets the predefined variables that the program names (RISpec 3.2, tables 12.1 to 12.5) from the grids,
+/// whose footprints are given. Ci
 /// and Oi are the grids' own if `shaded`, else Cs and Os. Not `all`: those that the program sets before it
 /// looks at them are left undefined.
 void set_variables(vm::Frame& frame, std::span<const ShadingGrid* const> grids, const RenderContext& context,
-                   bool shaded, bool all = false);
+                   vm::Footprints& footprints, bool shaded, bool all = false);
 
 /// A triple's planes in the frame; empty when the program does not name the variable.
 Plane3 variable_planes(const vm::Frame& frame, std::string_view name);

@@ -6,6 +6,7 @@
 
 #include "shade/differences.h"
 #include "shade/vm/context_ops.h"
+#include "shade/vm/neighbours.h"
 
 namespace trapeze {
 namespace {
@@ -54,6 +55,26 @@ class CallLanes {
             difference(span.shape, axis, values.subspan(span.first, count), out.subspan(span.first, count));
         }
         return out;
+    }
+
+    /// A component's changes along both axes of the vertices' footprints.
+    std::array<Plane, 2> changes(const Operand& operand, size_t component, ConstPlane values) const {
+        const vm::Context& context = run_.context();
+        if (!context.footprints || !context.points || is_uniform_ || !operand.lane_mask)
+            return {differences(GridAxis::U, values), differences(GridAxis::V, values)};
+        const vm::Footprint& footprint = context.footprints->get();
+        Operand value = operand;
+        value.data += component * operand.stride;
+        const Plane by_u = scratch(), by_v = scratch(), along_a = scratch(), along_b = scratch();
+        const vm::GridSpans spans = context.points->spans;
+        const auto into = [](Plane plane) { return Operand{plane.data(), ~size_t{0}, 0, 0, 0}; };
+        vm::derivative_u(spans, plane_, 1, value, footprint.u, footprint.v, into(by_u));
+        vm::derivative_v(spans, plane_, 1, value, footprint.u, footprint.v, into(by_v));
+        for (size_t i = 0; i < plane_; ++i) {
+            along_a[i] = by_u[i] * footprint.u_of_a[i] + by_v[i] * footprint.v_of_a[i];
+            along_b[i] = by_u[i] * footprint.u_of_b[i] + by_v[i] * footprint.v_of_b[i];
+        }
+        return {along_a, along_b};
     }
 
     std::vector<Plane> outputs(const Operand& out) const {
@@ -128,10 +149,11 @@ Coordinate quad(const CallLanes& lanes, std::span<const Operand> operands, size_
     return {middle, along_u, along_v};
 }
 
-/// A coordinate at the vertices, and its changes to the next ones.
+/// A coordinate at the vertices, and its changes along the axes of their footprints.
 Coordinate vertex_values(const CallLanes& lanes, const Operand& operand, size_t component) {
     const ConstPlane values = lanes.plane_of(operand, component);
-    return {values, lanes.differences(GridAxis::U, values), lanes.differences(GridAxis::V, values)};
+    const auto [along_a, along_b] = lanes.changes(operand, component, values);
+    return {values, along_a, along_b};
 }
 
 /// s and t from inputs `first` and the next, or from four corners.

@@ -46,6 +46,8 @@ struct TestScene {
         scene.primitives[0].camera_from_object = {M44f()};
         context.scene = &scene;
         context.diagnostics = &diagnostics;
+        // Pixels smaller than the micropolygons of small grids.
+        context.camera.plane_scale_x = 1e-3f, context.camera.plane_scale_y = -1e-3f;
     }
     TestScene(const TestScene&) = delete;
 

@@ -1,6 +1,7 @@
 /// Attributes that change how surfaces are diced: "dice", and the factors of GeometricApproximation.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -85,6 +86,94 @@ TEST(DiceAttributes, DefocusCoarsensByItsFactor) {
     ASSERT_GT(width, 8);
     EXPECT_NEAR(static_cast<double>(sharp.micropolygons()) / static_cast<double>(blurred.micropolygons()),
                 1 + 2 * width / 16, 0.15 * (1 + 2 * width / 16));
+}
+
+/// A floor 1 below the eye, from z = `from` to `to`, `half_width` to both sides of the middle of the picture.
+/// 200 pixels are a unit of the image plane.
+struct Floor {
+    TestScene scene;
+
+    explicit Floor(float from, float to, float half_width) {
+        scene.scene.options.width = scene.scene.options.height = 400;
+        PatchMesh mesh;
+        ParameterList variables;
+        variables.set(test::parameter(
+            "P", StorageClass::Vertex, ValueType::Point,
+            {-half_width, -1, from, half_width, -1, from, -half_width, -1, to, half_width, -1, to}));
+        scene.add(test::shape_of(mesh, variables), M44f());
+    }
+    double micropolygons() { return static_cast<double>(DicedScene(scene).stats.micropolygons); }
+};
+
+/// 10 to 20 pixels below the horizon a pixel is seen 10 to 20 times foreshortened.
+TEST(DiceAttributes, FloorsFarAwayHaveAMicropolygonForAPixel) {
+    Floor floor(10, 20, 0.5f), square_on(10, 20, 0.5f), displaced(10, 20, 0.5f);
+    // From 5 to 10 pixels to both sides, 10 pixels high.
+    const double pixels = 15 * 10;
+    EXPECT_GE(floor.micropolygons(), pixels);
+    EXPECT_LT(floor.micropolygons(), 2.2 * pixels);
+    // Where displacement may raise it, four times foreshortened at the most.
+    displaced.scene.attributes->displacement = std::make_shared<ShaderInstance>();
+    EXPECT_GT(displaced.micropolygons(), 2.5 * floor.micropolygons());
+    square_on.scene.attributes->dice.raster_oriented = false;
+    EXPECT_GT(square_on.micropolygons(), 8 * floor.micropolygons());
+}
+
+/// Lines that lead to the horizon are seen to cross those along it at a slant everywhere but in the middle.
+TEST(DiceAttributes, SlantedMicropolygonsAreLongerInstead) {
+    Floor floor(10, 40, 40), middle(10, 40, 0.2f);
+    // 200 pixels to both sides, 5 to 20 pixels below the horizon. By lengths alone there were 15 times more.
+    EXPECT_LT(floor.micropolygons(), 5 * 400 * 15);
+    EXPECT_GE(middle.micropolygons(), 5 * 15);
+}
+
+/// A sheet that leads away from the eye at first, and faces it when the shutter closes.
+TEST(DiceAttributes, WhatTurnsToTheViewerIsDicedForIt) {
+    const auto turned = [](float degrees) {
+        const double angle = degrees * M_PI / 180;
+        M44f m;
+        m[1][1] = m[2][2] = static_cast<float>(std::cos(angle));
+        m[1][2] = static_cast<float>(std::sin(angle));
+        m[2][1] = -m[1][2];
+        return m * translation(0, 0, 4);
+    };
+    const auto count = [&](std::vector<M44f> keys) {
+        Square square;
+        square.scene.scene.primitives.front().camera_from_object = std::move(keys);
+        return static_cast<double>(square.micropolygons());
+    };
+    const double still = count({turned(89)}), turning = count({turned(89), turned(60)});
+    EXPECT_GT(turning, 3 * still);
+}
+
+/// A ball's outline is as round as it was when its micropolygons were four pixels long there.
+TEST(DiceAttributes, SilhouettesAreSmooth) {
+    TestScene scene;
+    scene.scene.options.width = scene.scene.options.height = 400;
+    scene.add(test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), translation(0, 0, 5));
+    const DicedScene diced(scene);
+    const RenderContext context = scene.context();
+    // The outline's radius: 200 pixels times the tangent of asin(1 / 5).
+    const double radius = 200 / std::sqrt(24.0);
+    std::array<double, 256> farthest{};
+    for (const Grid& grid : diced.grids)
+        for (int j = 0; j < grid.shape.nv; ++j)
+            for (int i = 0; i < grid.shape.nu; ++i) {
+                // Along all four sides.
+                const Quad quad = grid.quad(i, j, 0);
+                for (const auto& [from, to] : {std::pair{0, 1}, {1, 3}, {3, 2}, {2, 0}})
+                    for (int step = 0; step < 16; ++step) {
+                        const float w = static_cast<float>(step) / 16;
+                        const V3f p((1 - w) * quad.x[from] + w * quad.x[to],
+                                    (1 - w) * quad.y[from] + w * quad.y[to],
+                                    (1 - w) * quad.z[from] + w * quad.z[to]);
+                        const V2f at = context.camera.raster_from_camera(p) - V2f(200, 200);
+                        const double angle = std::atan2(static_cast<double>(at.y), static_cast<double>(at.x));
+                        const auto place = static_cast<size_t>((angle / M_PI + 1) * 127.99);
+                        farthest[place] = std::max(farthest[place], static_cast<double>(at.length()));
+                    }
+            }
+    for (const double r : farthest) EXPECT_NEAR(r, radius, 0.08);
 }
 
 }  // namespace

@@ -1,24 +1,22 @@
 #include "tessellate/edges.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-
-#include "core/grid.h"
 
 namespace trapeze {
 namespace {
 
 /// Pieces measured first, and when there may be more than as many segments.
 constexpr int kCoarsePieces = 4, kFinePieces = 8;
+/// A face's parameter between a line and the one beside it.
+constexpr float kBeside = 1.0f / 16384;
 
 class EdgeCutter {
   public:
-    EdgeCutter(const PlacedSurface& surface, const EdgeLine& line, const ScreenMetric& metric,
+    EdgeCutter(const PlacedSurface& surface, const EdgeLine& line, const LineMeasure& measure,
                const EdgeRate& rate, EvaluationScratch& scratch, std::vector<EdgeInterval>& out)
         : surface_(surface),
           line_(line),
-          metric_(metric),
+          measure_(measure),
           rate_(rate),
           scratch_(scratch),
           out_(out),
@@ -26,8 +24,7 @@ class EdgeCutter {
 
     void cut(EdgeInterval interval) {
         const float rate = rate_.pixels_per_segment;
-        RateEstimate estimate = measure(interval, kCoarsePieces);
-        if (estimate.segments(rate) > kCoarsePieces) estimate = measure(interval, kFinePieces);
+        RateEstimate estimate = estimate_of(interval);
         const bool may_split = interval.depth < rate_.max_depth && out_.size() < limit_;
         if (may_split && estimate.wants_split(rate)) {
             ++interval.depth;
@@ -41,46 +38,53 @@ class EdgeCutter {
     }
 
   private:
-    RateEstimate measure(const EdgeInterval& interval, int pieces) {
+    RateEstimate estimate_of(const EdgeInterval& interval) {
+        const float rate = rate_.pixels_per_segment;
+        int pieces = kCoarsePieces;
+        std::span<const V3f> P = points(interval, pieces, 1);
+        RateEstimate estimate = measure_.of(P);
+        if (estimate.segments(rate) > kCoarsePieces) {
+            pieces = kFinePieces;
+            P = points(interval, pieces, 1);
+            estimate = measure_.of(P);
+        }
+        if (!measure_.may_want_less(estimate)) return estimate;
+        if (measure_.keys() > 1) P = points(interval, pieces, measure_.keys());
+        return measure_.foreshortened(P, points(interval, pieces, measure_.keys(), true));
+    }
+
+    /// Of the line, or of one beside it on the same face.
+    std::span<const V3f> points(const EdgeInterval& interval, int pieces, int keys, bool beside = false) {
         std::array<V2f, kFinePieces + 1> uv;
-        std::array<V3f, kFinePieces + 1> P;
         EdgeInterval pieces_of = interval;
         pieces_of.segments = static_cast<uint8_t>(pieces);
         for (int i = 0; i <= pieces; ++i) uv[i] = line_uv(line_, pieces_of, i);
+        if (beside) {
+            const int across = line_.from.x == line_.to.x ? 0 : 1;
+            for (int i = 0; i <= pieces; ++i) uv[i][across] += uv[i][across] < 0.5f ? kBeside : -kBeside;
+        }
         const size_t n = pieces + 1;
-        surface_.positions(line_.face, {uv.data(), n}, 1, scratch_, {P.data(), n});
-        RateEstimate estimate;
-        for (int i = 0; i < pieces; ++i) estimate.add(metric_.length(P[i], P[i + 1]));
-        return estimate;
+        const std::span<V3f> P{(beside ? beside_ : P_).data(), n * keys};
+        surface_.positions(line_.face, {uv.data(), n}, keys, scratch_, P);
+        return P;
     }
 
     const PlacedSurface& surface_;
     const EdgeLine& line_;
-    const ScreenMetric& metric_;
+    const LineMeasure& measure_;
     const EdgeRate& rate_;
     EvaluationScratch& scratch_;
     std::vector<EdgeInterval>& out_;
     const size_t limit_;
+    std::array<V3f, (kFinePieces + 1) * LineMeasure::kMostKeys> P_, beside_;
 };
 
 }  // namespace
 
-bool RateEstimate::wants_split(float pixels_per_segment) const {
-    const float even = sum / pixels_per_segment;
-    const float uneven = static_cast<float>(pieces) * longest / pixels_per_segment;
-    return even > kMaxGridSide || uneven > 1.5f * even + 2;  // false for NaN
-}
-
-int RateEstimate::clamped_segments(const EdgeRate& rate) const {
-    const float n = std::ceil(segments(rate.pixels_per_segment));
-    const int wanted = n >= 1 ? static_cast<int>(std::min<float>(n, kMaxGridSide)) : 1;  // also NaN
-    return rate.binary ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(wanted))) : wanted;
-}
-
-void EdgeTessellations::add(const PlacedSurface& surface, const EdgeLine& line, const ScreenMetric& metric,
+void EdgeTessellations::add(const PlacedSurface& surface, const EdgeLine& line, const LineMeasure& measure,
                             const EdgeRate& rate, EvaluationScratch& scratch) {
     const size_t first = intervals_.size();
-    EdgeCutter(surface, line, metric, rate, scratch, intervals_).cut({});
+    EdgeCutter(surface, line, measure, rate, scratch, intervals_).cut({});
     records_.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(intervals_.size() - first)});
 }
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "tessellate/line_measure.h"
 #include "tessellate/placed_surface.h"
-#include "tessellate/screen_metric.h"
 
 namespace trapeze {
 
@@ -41,28 +41,6 @@ struct BorderPoint {
     bool moved = false;  ///< not at the parameter asked for: snapped to a vertex
 };
 
-struct EdgeRate {
-    float pixels_per_segment = 1;
-    int max_depth = 14;
-    int max_intervals = 4096;  ///< then the rest is 16 segments for each interval
-    bool binary = false;       ///< numbers of segments are powers of two (Attribute "dice" "binary")
-};
-
-/// Whether pieces of these lengths, uniform in the parameter, want a split: too many segments, or too uneven
-/// to be uniform in the parameter. Otherwise *segments is how many they want.
-struct RateEstimate {
-    float sum = 0, longest = 0;
-    int pieces = 0;
-
-    void add(float length) {
-        sum += length, ++pieces;
-        if (length > longest) longest = length;
-    }
-    float segments(float pixels_per_segment) const { return sum / pixels_per_segment; }
-    bool wants_split(float pixels_per_segment) const;
-    int clamped_segments(const EdgeRate& rate) const;  ///< 1..16
-};
-
 /// The intervals of many edges, numbered from 0.
 class EdgeTessellations {
   public:
@@ -71,7 +49,7 @@ class EdgeTessellations {
         const Record& r = records_[edge];
         return {intervals_.data() + r.first, r.count};
     }
-    void add(const PlacedSurface& surface, const EdgeLine& line, const ScreenMetric& metric,
+    void add(const PlacedSurface& surface, const EdgeLine& line, const LineMeasure& measure,
              const EdgeRate& rate, EvaluationScratch& scratch);
     void append(const EdgeTessellations& other);
     /// Edge i becomes edge new_number[i].

@@ -32,7 +32,10 @@ struct LongEdge {
         line = surface->edge(surface->sides(0)[kLeft].edge);
         EdgeRate rate;
         rate.pixels_per_segment = pixels_per_segment;
-        tessellations.add(*placed, line, ScreenMetric(context.camera), rate, scratch);
+        const ScreenMetric metric(context.camera);
+        tessellations.add(*placed, line,
+                          LineMeasure(metric, context.camera, *placed, false, pixels_per_segment), rate,
+                          scratch);
     }
     V3f at(float parameter) {
         const V2f uv = line.from + (line.to - line.from) * parameter;

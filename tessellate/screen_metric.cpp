@@ -1,12 +1,9 @@
 #include "tessellate/screen_metric.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace trapeze {
 namespace {
-
-constexpr float kLeastForeshortening = 0.25f;
 
 /// The parameter of the segment's point nearest to the origin.
 template <class V>
@@ -17,9 +14,8 @@ float nearest_to_origin(const V& p, const V& d) {
 
 }  // namespace
 
-ScreenMetric::ScreenMetric(const Camera& camera, bool raster_oriented)
+ScreenMetric::ScreenMetric(const Camera& camera)
     : perspective_(camera.perspective),
-      least_foreshortening_(raster_oriented ? kLeastForeshortening : 1.0f),
       pixels_x_(std::abs(1 / camera.plane_scale_x)),
       pixels_y_(std::abs(1 / camera.plane_scale_y)),
       pixels_(std::max(pixels_x_, pixels_y_)) {
@@ -33,11 +29,7 @@ ScreenMetric::ScreenMetric(const Camera& camera, bool raster_oriented)
     radius_ = std::hypot(x1 - x0, y1 - y0) / 2;
 }
 
-float ScreenMetric::length(const V3f& p, const V3f& q) const {
-    return perspective_ ? perspective_length(p, q) : orthographic_length(p, q);
-}
-
-float ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
+PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
     const V3f d = q - p;
     const float least = view_cosine_ * view_cosine_;
     const bool in_view = p.z > 0 && q.z > 0 && p.z * p.z >= least * p.dot(p) && q.z * q.z >= least * q.dot(q);
@@ -45,24 +37,24 @@ float ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
         const float p_scale = 1 / p.z, q_scale = 1 / q.z;
         const float x = (q.x * q_scale - p.x * p_scale) * pixels_x_;
         const float y = (q.y * q_scale - p.y * p_scale) * pixels_y_;
-        return std::max(std::sqrt(x * x + y * y),
-                        least_foreshortening_ * std::sqrt(d.dot(d)) * pixels_ * 2 / (p.z + q.z));
+        return {std::sqrt(x * x + y * y), std::sqrt(d.dot(d)) * pixels_ * 2 / (p.z + q.z)};
     }
     const float angle = std::atan2(p.cross(q).length(), p.dot(q));
     const float nearest = (p + d * nearest_to_origin(p, d)).length();
     // A bound for pieces through the eye itself, whose splitting the depth limit ends.
     const float distance = std::max(nearest, d.length() / 64);
     const float square_on = distance > 0 ? d.length() / distance : 0.0f;
-    return std::max(angle / view_cosine_, least_foreshortening_ * square_on) * pixels_ / view_cosine_;
+    const float scale = pixels_ / view_cosine_;
+    return {angle / view_cosine_ * scale, square_on * scale};
 }
 
-float ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {
+PixelLength ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {
     const V3f d = q - p;
     const V2f from_center = V2f(p.x, p.y) - center_, across(d.x, d.y);
     const float outside = (from_center + across * nearest_to_origin(from_center, across)).length();
     const float x = d.x * pixels_x_, y = d.y * pixels_y_;
-    const float pixels = std::max(std::sqrt(x * x + y * y), least_foreshortening_ * std::abs(d.z) * pixels_);
-    return outside > radius_ ? pixels * radius_ / outside : pixels;
+    const float scale = outside > radius_ ? radius_ / outside : 1;
+    return {std::sqrt(x * x + y * y) * scale, std::sqrt(d.dot(d)) * pixels_ * scale};
 }
 
 }  // namespace trapeze

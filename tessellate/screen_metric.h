@@ -3,26 +3,40 @@
 /// eye splits are needed.
 #pragma once
 
+#include <algorithm>
+
 #include "core/camera.h"
 #include "core/math.h"
 
 namespace trapeze {
 
+/// In pixels: as it is seen, and as it would be if it were seen square on.
+struct PixelLength {
+    float seen = 0, square_on = 0;
+};
+
+/// The least foreshortening of what may turn to the viewer: while the shutter is open, or by displacement.
+inline constexpr float kLeastForeshortening = 0.25f;
+
 class ScreenMetric {
   public:
-    /// Not raster oriented (Attribute "dice" "rasterorient" 0): pieces count as if seen square on.
-    explicit ScreenMetric(const Camera& camera, bool raster_oriented = true);
+    explicit ScreenMetric(const Camera& camera);
 
-    /// Pixels from p to q, camera space. Not less than a quarter of what the piece would have if it were seen
-    /// square on: edge-on surfaces may turn to the viewer while the shutter is open, or be displaced.
-    float length(const V3f& p, const V3f& q) const;
+    /// Of the piece from p to q, camera space.
+    PixelLength of(const V3f& p, const V3f& q) const {
+        return perspective_ ? perspective_length(p, q) : orthographic_length(p, q);
+    }
+    /// As it is seen, but not less than the least foreshortening leaves of it.
+    float length(const V3f& p, const V3f& q) const {
+        const PixelLength length = of(p, q);
+        return std::max(length.seen, kLeastForeshortening * length.square_on);
+    }
 
   private:
-    float perspective_length(const V3f& p, const V3f& q) const;
-    float orthographic_length(const V3f& p, const V3f& q) const;
+    PixelLength perspective_length(const V3f& p, const V3f& q) const;
+    PixelLength orthographic_length(const V3f& p, const V3f& q) const;
 
     bool perspective_;
-    float least_foreshortening_;
     float pixels_x_, pixels_y_, pixels_;  ///< per unit of the image plane
     float view_cosine_;                   ///< of the angle to the image's farthest corner
     V2f center_{0, 0};                    ///< of the window, orthographic

@@ -18,6 +18,8 @@ struct Node {
     bool inside = false;  ///< the picture holds it: no culling
 };
 
+using LatticeLine = std::array<V3f, (kFine + 1) * LineMeasure::kMostKeys>;
+
 /// Positions of (pieces + 1)^2 points, at one key or all.
 struct Lattice {
     int pieces = 0, keys = 0;
@@ -25,6 +27,14 @@ struct Lattice {
 
     int row() const { return pieces + 1; }
     const V3f& at(int key, int i, int j) const { return P[(key * row() + j) * row() + i]; }
+    /// Its points along u (axis 0) or v, key by key.
+    std::span<const V3f> line(int axis, int number, LatticeLine& points) const {
+        size_t count = 0;
+        for (int key = 0; key < keys; ++key)
+            for (int k = 0; k <= pieces; ++k)
+                points[count++] = axis == 0 ? at(key, k, number) : at(key, number, k);
+        return {points.data(), count};
+    }
 };
 
 /// How many micropolygons a rectangle wants along a direction.
@@ -32,6 +42,7 @@ struct Want {
     bool split = false;
     int segments = 1;
     float pixels = 0;
+    bool less = false;  ///< perhaps, looked at more closely
 };
 
 class FaceSplitter {
@@ -52,12 +63,7 @@ class FaceSplitter {
 
   private:
     void split(Node node) {
-        Lattice lattice = sample(node, kCoarse, 1);
-        std::array<Want, 2> want = wanted(lattice);
-        if (std::max(want[0].segments, want[1].segments) > kCoarse || want[0].split || want[1].split) {
-            lattice = sample(node, kFine, 1);
-            want = wanted(lattice);
-        }
+        const std::array<Want, 2> want = wanted(node);
         const bool must_u = !in_interval(node.sides[kBottom]) || !in_interval(node.sides[kTop]);
         const bool must_v = !in_interval(node.sides[kLeft]) || !in_interval(node.sides[kRight]);
         const bool room = parts_ < context_.most_parts_of_face;
@@ -97,21 +103,36 @@ class FaceSplitter {
         return {pieces, keys, P};
     }
 
-    std::array<Want, 2> wanted(const Lattice& lattice) const {
+    std::array<Want, 2> wanted(const Node& node) {
+        Lattice lattice = sample(node, kCoarse, 1);
+        std::array<Want, 2> want = wanted(lattice);
+        if (std::max(want[0].segments, want[1].segments) > kCoarse || want[0].split || want[1].split) {
+            lattice = sample(node, kFine, 1);
+            want = wanted(lattice);
+        }
+        if (!want[0].less && !want[1].less) return want;
+        const int keys = context_.measure->keys();
+        if (lattice.pieces != kFine || keys != 1) lattice = sample(node, kFine, keys);
+        return wanted(lattice, true);
+    }
+
+    std::array<Want, 2> wanted(const Lattice& lattice, bool foreshortened = false) const {
         std::array<Want, 2> want;
         const float rate = context_.rate.pixels_per_segment;
-        for (int line = 0; line <= lattice.pieces; ++line) {
-            RateEstimate along[2];
-            for (int k = 0; k < lattice.pieces; ++k) {
-                along[0].add(context_.metric->length(lattice.at(0, k, line), lattice.at(0, k + 1, line)));
-                along[1].add(context_.metric->length(lattice.at(0, line, k), lattice.at(0, line, k + 1)));
+        const LineMeasure& measure = *context_.measure;
+        LatticeLine points, beside;
+        for (int d = 0; d < 2; ++d)
+            for (int line = 0; line <= lattice.pieces; ++line) {
+                const std::span<const V3f> P = lattice.line(d, line, points);
+                const RateEstimate along =
+                    foreshortened
+                        ? measure.foreshortened(P, lattice.line(d, line > 0 ? line - 1 : line + 1, beside))
+                        : measure.of(P);
+                want[d].split |= along.wants_split(rate);
+                want[d].segments = std::max(want[d].segments, along.clamped_segments(context_.rate));
+                want[d].pixels = std::max(want[d].pixels, along.sum);
+                want[d].less |= measure.may_want_less(along);
             }
-            for (int d = 0; d < 2; ++d) {
-                want[d].split |= along[d].wants_split(rate);
-                want[d].segments = std::max(want[d].segments, along[d].clamped_segments(context_.rate));
-                want[d].pixels = std::max(want[d].pixels, along[d].sum);
-            }
-        }
         return want;
     }
 
@@ -146,7 +167,7 @@ class FaceSplitter {
         rate.max_depth = depth < 0 ? 0 : std::max(0, rate.max_depth - depth);
         const size_t number = context_.surface_edges->size() + out_.made_lines.size();
         out_.made_lines.push_back(line);
-        out_.made.add(surface_, line, *context_.metric, rate, scratch_);
+        out_.made.add(surface_, line, *context_.measure, rate, scratch_);
         parts_ += out_.made.of(static_cast<uint32_t>(out_.made.size() - 1)).size() / kIntervalsLikeAPart;
         return static_cast<uint32_t>(number);
     }

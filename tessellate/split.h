@@ -22,7 +22,7 @@ struct SplitContext {
     const PlacedSurface* surface = nullptr;
     const EdgeTessellations* surface_edges = nullptr;
     const VertexTable* vertices = nullptr;
-    const ScreenMetric* metric = nullptr;
+    const LineMeasure* measure = nullptr;
     const RasterBound* raster = nullptr;
     EdgeRate rate;
     float displacement_bound = 0;

@@ -56,7 +56,7 @@ struct TessellatedPrimitive {
 };
 
 /// The surface's edges, in tasks of those that are evaluated on the same faces.
-EdgeTessellations tessellate_edges(const PlacedSurface& placed, const ScreenMetric& metric,
+EdgeTessellations tessellate_edges(const PlacedSurface& placed, const LineMeasure& measure,
                                    const EdgeRate& rate) {
     const Surface& surface = placed.surface();
     const uint32_t count = surface.edge_count();
@@ -69,7 +69,7 @@ EdgeTessellations tessellate_edges(const PlacedSurface& placed, const ScreenMetr
         EvaluationScratch scratch;
         const size_t end = std::min<size_t>((task + 1) * kEdgesPerTask, count);
         for (size_t i = task * kEdgesPerTask; i < end; ++i)
-            parts[task].add(placed, surface.edge(order[i].second), metric, rate, scratch);
+            parts[task].add(placed, surface.edge(order[i].second), measure, rate, scratch);
     });
     EdgeTessellations edges;
     for (const EdgeTessellations& part : parts) edges.append(part);
@@ -191,7 +191,7 @@ size_t most_parts_of_face(const Options& options, const EdgeRate& rate) {
 }
 
 void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
-                          const ScreenMetric& raster_metric, const RasterBound& raster, size_t most_bytes,
+                          const ScreenMetric& metric, const RasterBound& raster, size_t most_bytes,
                           TessellatedPrimitive& out) {
     if (!out.surface || !primitive.attributes->visible_to_camera || context.is_cancelled()) return;
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
@@ -206,9 +206,7 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
         return;
     }
     const Attributes& attributes = *primitive.attributes;
-    const float blur = blur_factor(*out.placed, context.camera, raster_metric);
-    const ScreenMetric square_on(context.camera, false);
-    const ScreenMetric& metric = attributes.dice.raster_oriented ? raster_metric : square_on;
+    const float blur = blur_factor(*out.placed, context.camera, metric);
     EdgeRate rate;
     rate.binary = attributes.dice.binary;
     rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur);
@@ -217,12 +215,13 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     const size_t most_parts = most_parts_of_face(context.scene->options, rate);
     rate.max_intervals = static_cast<int>(std::min<size_t>(most_parts, rate.max_intervals));
     out.pixels_per_segment = rate.pixels_per_segment;
-    out.surface_edges = tessellate_edges(*out.placed, metric, rate);
+    const LineMeasure measure(metric, context.camera, *out.placed, out.displaced, rate.pixels_per_segment);
+    out.surface_edges = tessellate_edges(*out.placed, measure, rate);
     SplitContext split;
     split.surface = out.placed.get();
     split.surface_edges = &out.surface_edges;
     split.vertices = &out.vertices;
-    split.metric = &metric;
+    split.measure = &measure;
     split.raster = &raster;
     split.rate = rate;
     split.displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);

@@ -10,6 +10,7 @@
 #include "core/math.h"
 #include "shade/planes.h"
 #include "shade/rsl/type.h"
+#include "shade/vm/footprint.h"
 #include "shade/vm/grid_span.h"
 #include "shade/vm/kernel.h"
 
@@ -85,6 +86,7 @@ struct LightOutput {
 struct Context {
     const Points* points = nullptr;
     const Spaces* spaces = nullptr;
+    Footprints* footprints = nullptr;  ///< of the points
     Maps* maps = nullptr;
     Lights* lights = nullptr;
     Messages* messages = nullptr;

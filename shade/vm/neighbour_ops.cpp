@@ -1,4 +1,6 @@
 // Operations that look at the vertices next to each one, and depth().
+#include <cmath>
+
 #include "shade/vm/context_ops.h"
 #include "shade/vm/neighbours.h"
 
@@ -35,12 +37,27 @@ void differences(Run& run, const Step& step, std::span<const Operand> operands) 
 }
 
 void area(Run& run, const Step& step, std::span<const Operand> operands) {
-    if (!is_flat(run, step, operands)) areas(spans_of(run), run.lanes(), operands[1], operands[0]);
+    if (is_flat(run, step, operands)) return;
+    areas(spans_of(run), run.lanes(), operands[1], operands[0]);
+    if (!run.context().footprints) return;
+    const float* const widening = run.context().footprints->get().widening;
+    for (size_t i = 0; i < run.lanes(); ++i) operands[0].data[i] *= widening[i];
 }
 
 void normals(Run& run, const Step& step, std::span<const Operand> operands) {
     if (!is_flat(run, step, operands))
         calculate_normals(spans_of(run), run.lanes(), operands[1], operands[0]);
+}
+
+/// How far x changes over a vertex' footprint, as headers' filterwidth() has it: by du and dv.
+void filter_width(Run& run, const Operand& x, const Operand& out) {
+    if (!run.context().footprints) return filter_widths(spans_of(run), run.lanes(), x, out);
+    const Footprint& f = run.context().footprints->get();
+    float* const by_v = run.scratch(1);
+    derivative_u(spans_of(run), run.lanes(), 1, x, f.u, f.v, out);
+    derivative_v(spans_of(run), run.lanes(), 1, x, f.u, f.v, {by_v, ~size_t{0}});
+    for (size_t i = 0; i < run.lanes(); ++i)
+        out.data[i] = std::abs(out.data[i] * f.du[i]) + std::abs(by_v[i] * f.dv[i]);
 }
 
 /// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts.
@@ -59,7 +76,7 @@ void filtered_step(Run& run, const Step& step, std::span<const Operand> operands
     widths.data = run.scratch(1);
     widths.lane_mask = ~size_t{0};
     if (operands[2].lane_mask)
-        filter_widths(spans_of(run), run.lanes(), operands[2], widths);
+        filter_width(run, operands[2], widths);
     else
         std::fill_n(widths.data, run.lanes(), 0.0f);
     filter_step(lanes, operands[1], operands[2], widths, scale, operands[0]);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "shade/grid_footprints.h"
 #include "shade/grid_shader.h"
 #include "shade/rsl/front_end.h"
 #include "shade/rsl/generate.h"
@@ -46,7 +47,9 @@ class ShaderRun {
         frame_ = &machine_.frame(executable_);
         frame_->start(points_.lanes);
         bound.set_parameters(*frame_, grids);
-        set_variables(*frame_, grids, scene_.context, false);
+        GridFootprints footprints(grids, scene_.context.camera);
+        set_variables(*frame_, grids, scene_.context, footprints, false);
+        context.footprints = &footprints;
         context.points = &points_;
         context.spaces = &spaces;
         context.diagnostics = &scene_.diagnostics;

@@ -1,0 +1,185 @@
+#include "shade/grid_footprints.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/scene.h"
+#include "shade/differences.h"
+#include "shade/polygon_parameters.h"
+
+namespace trapeze {
+namespace {
+
+/// The shortest axis, pixels. A pixel's samples lie about so far apart, and together cover it; a whole pixel,
+/// which the pixel's filter would spread once more, is farther from the truth and blurred.
+constexpr float kLeastAxis = 0.5f;
+/// Bounds a footprint that is seen edge-on: in micropolygons.
+constexpr float kMostStretch = 4096;
+/// The least cosine of the angle to the view's axis of what is projected.
+constexpr float kLeastCosine = 0.05f;
+
+/// How far the parameters (u, v) go from a vertex to the next along each of a grid's axes.
+struct ParameterSteps {
+    V2f along_u, along_v;
+};
+
+/// Along the middle of a piece: vertices of its borders may be moved along them to where a neighbour has its
+/// own.
+ParameterSteps mean_steps(const ShadingGrid& grid, size_t first) {
+    const GridShape& shape = grid.shape;
+    const auto step = [&](const std::vector<float>& values, int from, int to, int count, float alone) {
+        return count > 0
+                   ? (values[first + static_cast<size_t>(to)] - values[first + static_cast<size_t>(from)]) /
+                         static_cast<float>(count)
+                   : alone;
+    };
+    const int u0 = shape.row_index(0, shape.nv / 2), u1 = shape.row_index(shape.nu, shape.nv / 2);
+    const int v0 = shape.row_index(shape.nu / 2, 0), v1 = shape.row_index(shape.nu / 2, shape.nv);
+    return {{step(grid.u, u0, u1, shape.nu, 1), step(grid.v, u0, u1, shape.nu, 0)},
+            {step(grid.u, v0, v1, shape.nv, 0), step(grid.v, v0, v1, shape.nv, 1)}};
+}
+
+/// u goes along the first axis and v along the second, but for polygons, where they are places.
+ParameterSteps parameter_steps(const ShadingGrid& grid, size_t first) {
+    ParameterSteps steps = mean_steps(grid, first);
+    if (has_places_as_parameters(grid)) {
+        const V2f of_face = steps_of_face(grid, first / static_cast<size_t>(grid.shape.vertex_count()));
+        if (of_face.x == 0) return steps;
+        steps.along_u.x = of_face.x, steps.along_v.y = of_face.y;
+    }
+    steps.along_u.y = steps.along_v.x = 0;
+    return steps;
+}
+
+/// How far a parameter goes over both steps, which are so many times as wide.
+float way_of(float along_u, float wider_u, float along_v, float wider_v) {
+    if (along_v == 0) return along_u * wider_u;
+    if (along_u == 0) return along_v * wider_v;
+    return std::abs(along_u) * wider_u + std::abs(along_v) * wider_v;
+}
+
+/// From a vertex of a displaced piece to the next along an axis: of one inside, since those of borders may
+/// share places. `index` is of row order in the piece.
+V3f displaced_step(const ShadingGrid& grid, size_t piece, int index, GridAxis axis) {
+    const GridShape& shape = grid.shape;
+    const auto inside = [](int i, int last) { return last >= 2 ? std::clamp(i, 1, last - 1) : i; };
+    const int i = inside(index % shape.vertices_u(), shape.nu),
+              j = inside(index / shape.vertices_u(), shape.nv);
+    const int u = axis == GridAxis::U ? 1 : 0, v = 1 - u;
+    const int i0 = std::max(i - u, 0), i1 = std::min<int>(i + u, shape.nu);
+    const int j0 = std::max(j - v, 0), j1 = std::min<int>(j + v, shape.nv);
+    const Triples& P = grid.P.front();
+    const V3f way = P.at(piece + static_cast<size_t>(shape.row_index(i1, j1))) -
+                    P.at(piece + static_cast<size_t>(shape.row_index(i0, j0)));
+    return way / static_cast<float>(std::max(i1 - i0 + j1 - j0, 1));
+}
+
+/// The steps along u and v that a vertex stands for.
+struct VertexSteps {
+    V3f u, v;
+
+    VertexSteps(const ShadingGrid& grid, size_t piece, size_t vertex, const ParameterSteps& step) {
+        if (!grid.displaced) {
+            const V3f dPdu = grid.dPdu.at(vertex), dPdv = grid.dPdv.at(vertex);
+            u = dPdu * step.along_u.x + dPdv * step.along_u.y;
+            v = dPdu * step.along_v.x + dPdv * step.along_v.y;
+            return;
+        }
+        const int index = static_cast<int>(vertex - piece);
+        u = displaced_step(grid, piece, index, GridAxis::U);
+        v = displaced_step(grid, piece, index, GridAxis::V);
+    }
+    /// False where the surface has no plane there.
+    bool span_a_plane() const {
+        constexpr float kParallel = 1e-4f;  // sine of the angle
+        return u.cross(v).length() > kParallel * u.length() * v.length();
+    }
+};
+
+/// A vector from P as it is seen: in pixels.
+V2f seen(const V3f& P, const V3f& d, const V2f& pixels, bool perspective) {
+    if (!perspective) return {d.x * pixels.x, d.y * pixels.y};
+    const float nearness = 1 / P.z;
+    return {(d.x - P.x * nearness * d.z) * nearness * pixels.x,
+            (d.y - P.y * nearness * d.z) * nearness * pixels.y};
+}
+
+/// A symmetric matrix that stretches the unit circle.
+struct Stretch {
+    float uu = 1, uv = 0, vv = 1;
+};
+
+/// Of steps that are seen as `u` and `v`, so that no axis of the ellipse that they span is shorter than
+/// `least` pixels.
+Stretch stretch(const V2f& u, const V2f& v, float least) {
+    const float a = u.dot(u), b = u.dot(v), c = v.dot(v), area = u.x * v.y - u.y * v.x;
+    const float middle = (a + c) / 2, apart = std::sqrt((a - c) * (a - c) / 4 + b * b);
+    // Squares of the ellipse's axes.
+    const float longer = middle + apart, shorter = area * area / std::max(longer, 1e-30f);
+    const auto wanted = [&](float square) {
+        return std::clamp(least / std::sqrt(std::max(square, 1e-30f)), 1.0f, kMostStretch);
+    };
+    const float of_longer = wanted(longer), of_shorter = wanted(shorter);
+    const float more = apart > 0 ? (of_longer - of_shorter) / (2 * apart) : 0;
+    return {of_shorter + more * (a - shorter), more * b, of_shorter + more * (c - shorter)};
+}
+
+/// Of a micropolygon at P; none behind the eye and beside it.
+Stretch stretch_at(const V3f& P, const VertexSteps& along, const Camera& camera, float least) {
+    if (camera.perspective && !(P.z > kLeastCosine * P.length())) return {};
+    if (!along.span_a_plane()) return {};
+    const V2f pixels(std::abs(1 / camera.plane_scale_x), std::abs(1 / camera.plane_scale_y));
+    const Stretch found = stretch(seen(P, along.u, pixels, camera.perspective),
+                                  seen(P, along.v, pixels, camera.perspective), least);
+    return std::isfinite(found.uu + found.uv + found.vv) ? found : Stretch{};
+}
+
+}  // namespace
+
+const vm::Footprint& GridFootprints::get() {
+    if (found_) return footprint_;
+    found_ = true;
+    size_t vertices = 0;
+    for (const ShadingGrid* grid : grids_) vertices += grid->vertex_count();
+    pool_.start(vertices);
+    Plane* const planes[] = {&u_, &v_, &u_of_a_, &v_of_a_, &u_of_b_, &v_of_b_, &du_, &dv_, &widening_};
+    for (Plane* plane : planes) *plane = pool_.take();
+    size_t first = 0;
+    for (const ShadingGrid* grid : grids_) {
+        std::ranges::copy(grid->u, u_.begin() + static_cast<std::ptrdiff_t>(first));
+        std::ranges::copy(grid->v, v_.begin() + static_cast<std::ptrdiff_t>(first));
+        find(*grid, first);
+        first += grid->vertex_count();
+    }
+    for (Plane* plane : planes)
+        std::fill(plane->begin() + static_cast<std::ptrdiff_t>(first), plane->end(),
+                  first > 0 ? (*plane)[first - 1] : 0.0f);
+    const auto operand = [](Plane plane) { return vm::Operand{plane.data(), ~size_t{0}, 0, 0, 0}; };
+    footprint_ = {operand(u_),    operand(v_), u_of_a_.data(), v_of_a_.data(),  u_of_b_.data(),
+                  v_of_b_.data(), du_.data(),  dv_.data(),     widening_.data()};
+    return footprint_;
+}
+
+void GridFootprints::find(const ShadingGrid& grid, size_t first) {
+    const auto in_piece = static_cast<size_t>(grid.shape.vertex_count());
+    const float rate = grid.primitive ? grid.primitive->attributes->shading_rate : 1.0f;
+    const float least = kLeastAxis * std::sqrt(std::clamp(rate, 0.0f, 1.0f));
+    const Triples& P = grid.P.front();
+    for (size_t piece = 0; piece < grid.vertex_count(); piece += in_piece) {
+        const ParameterSteps step = parameter_steps(grid, piece);
+        const V2f &U = step.along_u, &V = step.along_v;
+        for (size_t i = piece; i < piece + in_piece; ++i) {
+            Stretch s;
+            if (stretched_) s = stretch_at(P.at(i), VertexSteps(grid, piece, i, step), camera_, least);
+            const size_t to = first + i;
+            const float wider_u = std::hypot(s.uu, s.uv), wider_v = std::hypot(s.uv, s.vv);
+            u_of_a_[to] = U.x * s.uu + V.x * s.uv, v_of_a_[to] = U.y * s.uu + V.y * s.uv;
+            u_of_b_[to] = U.x * s.uv + V.x * s.vv, v_of_b_[to] = U.y * s.uv + V.y * s.vv;
+            du_[to] = way_of(U.x, wider_u, V.x, wider_v), dv_[to] = way_of(U.y, wider_u, V.y, wider_v);
+            widening_[to] = wider_u * wider_v;
+        }
+    }
+}
+
+}  // namespace trapeze
