@@ -7,6 +7,7 @@
 #include <iterator>
 #include <vector>
 
+#include "core/access.h"
 #include "pipeline/cli/commands.h"
 #include "pipeline/cli/exit_codes.h"
 #include "shade/rsl/front_end.h"

@@ -40,7 +40,7 @@ size_t default_memory_budget();
 inline constexpr const char* kPictureTooLarge = "picture-too-large";
 
 /// Whether the machine's memory could hold the picture, before it is asked for; says what would help if not.
-bool picture_fits(const RenderContext& context);
+bool picture_fits(const RenderContext& context, const RenderSettings& settings);
 
 /// The context of a scene's render: camera, sample counts (rounded to at least 1), whether anything moves.
 RenderContext make_context(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
