@@ -102,7 +102,8 @@ TEST(Derivatives, DifferencesAlongTheGridAreThoseOfTheSurface) {
     all.insert(all.end(), {subdivision_mesh(""), polygons("")});
     for (const std::string& text : all) {
         SCOPED_TRACE(text);
-        const Found found = derivative_errors(text);
+        // Many micropolygons, also where a side is seen end on.
+        const Found found = derivative_errors("Attribute \"dice\" \"rasterorient\" [0] " + text);
         // Differences over two micropolygons of half a pixel, on curves of radius 8 and more.
         EXPECT_LE(found.mean, 0.004);
         EXPECT_LE(found.worst, 0.05);
