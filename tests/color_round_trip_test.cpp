@@ -70,9 +70,9 @@ INSTANTIATE_TEST_SUITE_P(
                       RoundTrip{"srgb", "tif", 8, true}, RoundTrip{"srgb", "tif", 16, true},
                       RoundTrip{"auto", "png", 8, true}, RoundTrip{"auto", "png", 16, false},
                       RoundTrip{"auto", "tif", 8, true}, RoundTrip{"auto", "tif", 16, false}),
-    [](const auto& info) {
-        return std::string(info.param.transfer) + "_" + info.param.extension +
-               std::to_string(info.param.bits);
+    [](const auto& row) {
+        return std::string(row.param.transfer) + "_" + row.param.extension +
+               std::to_string(row.param.bits);
     });
 
 TEST(Transfer, TheCommandLineComesBeforeTheScene) {

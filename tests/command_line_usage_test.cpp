@@ -89,7 +89,7 @@ TEST(CommandLine, WhatCannotBePrintedIsAnError) {
     folder.write("a.rib", std::string("Option \"limits\" \"int eyesplits\" [5]\n") + kSphere);
     folder.write("a.sl", "surface a() { Ci = 1; }\n");
     const std::string scenes = " --scenes '" TRAPEZE_SOURCE_DIR "/scenes'";
-    for (const std::string command :
+    for (const std::string& command :
          {std::string("info a.rib"), std::string("check a.rib"), std::string("cat a.rib"),
           std::string("shader a.sl"), std::string("scene halberd"), "compliance" + scenes,
           std::string("compare a.rib -r 8x8 --samples 1 --reference 1 --repeat 1 --samplers raytrace"),
