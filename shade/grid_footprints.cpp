@@ -93,7 +93,7 @@ struct VertexSteps {
     /// False where the surface has no plane there.
     bool span_a_plane() const {
         constexpr float kParallel = 1e-4f;  // sine of the angle
-        return u.cross(v).length() > kParallel * u.length() * v.length();
+        return u.cross(v).length2() > kParallel * kParallel * u.length2() * v.length2();
     }
 };
 
@@ -127,12 +127,41 @@ Stretch stretch(const V2f& u, const V2f& v, float least) {
 
 /// Of a micropolygon at P; none behind the eye and beside it.
 Stretch stretch_at(const V3f& P, const VertexSteps& along, const Camera& camera, float least) {
-    if (camera.perspective && !(P.z > kLeastCosine * P.length())) return {};
-    if (!along.span_a_plane()) return {};
+    if (camera.perspective && !(P.z > 0 && P.z * P.z > kLeastCosine * kLeastCosine * P.length2())) return {};
     const V2f pixels(std::abs(1 / camera.plane_scale_x), std::abs(1 / camera.plane_scale_y));
     const Stretch found = stretch(seen(P, along.u, pixels, camera.perspective),
                                   seen(P, along.v, pixels, camera.perspective), least);
+    if (!along.span_a_plane()) return {};
     return std::isfinite(found.uu + found.uv + found.vv) ? found : Stretch{};
+}
+
+/// Which vertices of a piece that is not displaced stretch_at() may stretch: 1, else 0. Most need not be looked
+/// at closer: their micropolygon's area is so large that no axis is short.
+void find_thin(const ShadingGrid& grid, size_t piece, const ParameterSteps& step, const Camera& camera,
+               float least, Plane thin) {
+    const auto from = [piece](const Triples& triples, int k) { return triples.c[k].data() + piece; };
+    const float *const Px = from(grid.P.front(), 0), *const Py = from(grid.P.front(), 1),
+                *const Pz = from(grid.P.front(), 2);
+    const float *const ux = from(grid.dPdu, 0), *const uy = from(grid.dPdu, 1), *const uz = from(grid.dPdu, 2);
+    const float *const vx = from(grid.dPdv, 0), *const vy = from(grid.dPdv, 1), *const vz = from(grid.dPdv, 2);
+    const float pixels_x = std::abs(1 / camera.plane_scale_x), pixels_y = std::abs(1 / camera.plane_scale_y);
+    const float of_depth = camera.perspective ? 1.0f : 0.0f;  // seen(), without a branch
+    const V2f U = step.along_u, V = step.along_v;
+    float* __restrict const out = thin.data();
+    for (size_t i = 0; i < thin.size(); ++i) {
+        const float nearness = of_depth / Pz[i] + (1 - of_depth), x = Px[i] * nearness * of_depth,
+                    y = Py[i] * nearness * of_depth;
+        const float across = nearness * pixels_x, down = nearness * pixels_y;
+        const float z_of_u = uz[i] * U.x + vz[i] * U.y, z_of_v = uz[i] * V.x + vz[i] * V.y;
+        const float x_of_u = (ux[i] * U.x + vx[i] * U.y - x * z_of_u) * across;
+        const float y_of_u = (uy[i] * U.x + vy[i] * U.y - y * z_of_u) * down;
+        const float x_of_v = (ux[i] * V.x + vx[i] * V.y - x * z_of_v) * across;
+        const float y_of_v = (uy[i] * V.x + vy[i] * V.y - y * z_of_v) * down;
+        const float area = x_of_u * y_of_v - y_of_u * x_of_v;
+        const float squares = x_of_u * x_of_u + y_of_u * y_of_u + x_of_v * x_of_v + y_of_v * y_of_v;
+        // The shorter axis is not less than area / root of the squares' sum; half a thousandth is for rounding.
+        out[i] = area * area >= 1.001f * least * least * squares ? 0.0f : 1.0f;
+    }
 }
 
 }  // namespace
@@ -145,6 +174,7 @@ const vm::Footprint& GridFootprints::get() {
     pool_.start(vertices);
     Plane* const planes[] = {&u_, &v_, &u_of_a_, &v_of_a_, &u_of_b_, &v_of_b_, &du_, &dv_, &widening_};
     for (Plane* plane : planes) *plane = pool_.take();
+    thin_ = pool_.take();
     size_t first = 0;
     for (const ShadingGrid* grid : grids_) {
         std::ranges::copy(grid->u, u_.begin() + static_cast<std::ptrdiff_t>(first));
@@ -169,9 +199,21 @@ void GridFootprints::find(const ShadingGrid& grid, size_t first) {
     for (size_t piece = 0; piece < grid.vertex_count(); piece += in_piece) {
         const ParameterSteps step = parameter_steps(grid, piece);
         const V2f &U = step.along_u, &V = step.along_v;
+        const auto fill = [&](Plane& plane, float value) {
+            std::fill_n(plane.begin() + static_cast<std::ptrdiff_t>(first + piece), in_piece, value);
+        };
+        fill(u_of_a_, U.x), fill(v_of_a_, U.y), fill(u_of_b_, V.x), fill(v_of_b_, V.y);
+        fill(du_, way_of(U.x, 1, V.x, 1)), fill(dv_, way_of(U.y, 1, V.y, 1));
+        fill(widening_, 1);
+        if (!stretched_) continue;
+        const Plane thin = thin_.subspan(first + piece, in_piece);
+        if (grid.displaced)
+            std::ranges::fill(thin, 1.0f);
+        else
+            find_thin(grid, piece, step, camera_, least, thin);
         for (size_t i = piece; i < piece + in_piece; ++i) {
-            Stretch s;
-            if (stretched_) s = stretch_at(P.at(i), VertexSteps(grid, piece, i, step), camera_, least);
+            if (thin[i - piece] == 0) continue;
+            const Stretch s = stretch_at(P.at(i), VertexSteps(grid, piece, i, step), camera_, least);
             const size_t to = first + i;
             const float wider_u = std::hypot(s.uu, s.uv), wider_v = std::hypot(s.uv, s.vv);
             u_of_a_[to] = U.x * s.uu + V.x * s.uv, v_of_a_[to] = U.y * s.uu + V.y * s.uv;

@@ -31,7 +31,7 @@ class GridFootprints : public vm::Footprints {
     const Camera& camera_;
     const bool stretched_;
     PlanePool pool_;
-    Plane u_, v_, u_of_a_, v_of_a_, u_of_b_, v_of_b_, du_, dv_, widening_;
+    Plane u_, v_, u_of_a_, v_of_a_, u_of_b_, v_of_b_, du_, dv_, widening_, thin_;
     vm::Footprint footprint_;
     bool found_ = false;
 };

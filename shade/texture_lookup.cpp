@@ -111,23 +111,31 @@ void Textures::Impl::each_lane(const Picture* picture, const MapOptions& options
     const ThreadState thread(*this);
     const OIIO::TextureOpt for_all = lookup_options(*picture, options);
     OIIO::TextureOpt made = for_all;
+    int present = 0;
+    float fill = 0;
+    const auto set_for_lane = [&](size_t i) {
+        const float first = options.first_channel.at(i);
+        present = present_channels(picture->channels, first, wanted);
+        fill = options.fill.at(i);
+        made.firstchannel = static_cast<int>(std::clamp(first, 0.0f, static_cast<float>(picture->channels)));
+        made.sblur = std::clamp(options.sblur.at(i), 0.0f, kMostRegion);
+        made.tblur = std::clamp(options.tblur.at(i), 0.0f, kMostRegion);
+    };
+    const bool lanes_differ = options.first_channel.varies() || options.fill.varies() ||
+                              options.sblur.varies() || options.tblur.varies();
+    if (!lanes_differ) set_for_lane(0);
     for (size_t i = 0; i < lanes.count; ++i) {
         if (!map_lanes::is_on(lanes, i)) continue;
-        const float first = options.first_channel.at(i), fill = options.fill.at(i);
-        const int present = present_channels(picture->channels, first, wanted);
+        if (lanes_differ) set_for_lane(i);
         float color[3] = {0, 0, 0};
-        std::fill(color + present, color + 3, fill);
         if (present) {
             made.swrap = for_all.swrap, made.twrap = for_all.twrap;  // which OpenImageIO changes
-            made.firstchannel = static_cast<int>(std::max(first, 0.0f));
-            made.sblur = std::clamp(options.sblur.at(i), 0.0f, kMostRegion);
-            made.tblur = std::clamp(options.tblur.at(i), 0.0f, kMostRegion);
             if (!look_up(made, thread.get(), i, present, color)) {
                 report_read_error(picture->name, picture->location, system->geterror());
                 std::fill(color, color + present, 0.0f);
             }
         }
-        for (int k = 0; k < wanted; ++k) out[k][i] = color[k];
+        for (int k = 0; k < wanted; ++k) out[k][i] = k < present ? color[k] : fill;
     }
     for (const Plane& plane : out) map_lanes::pad(lanes, plane);
 }

@@ -42,6 +42,7 @@ class LaneNumber {
         const float value = plane_.empty() ? value_ : plane_[lane];
         return std::isfinite(value) ? value : 0;
     }
+    bool varies() const { return !plane_.empty(); }
 
   private:
     float value_ = 0;

@@ -125,7 +125,7 @@ TEST(Edges, BordersTakeAllVerticesInOrder) {
 }
 
 TEST(Edges, EndsOnEdgesFollowThemToTheirVertices) {
-    LongEdge base(4, 6, 20);  // one interval of few segments
+    LongEdge base(5, 6, 20);  // one interval of few segments
     ASSERT_EQ(base.tessellations.of(0).size(), 1u);
     EdgeTessellations of_surface;
     of_surface.append(base.tessellations);

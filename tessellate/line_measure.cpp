@@ -27,9 +27,19 @@ float bend(const V3f& before, const V3f& at, const V3f& after) {
     return length > 0 ? second.cross(chord).length() / length : second.length();
 }
 
+/// Depths of a line's ends of which the ratio is above this make grids that are in the way of rays which
+/// pass far from them: trees over grids have axis-aligned boxes.
+constexpr float kDeepest = 1.25f;
+
+bool is_deep(std::span<const V3f> P) {
+    const float a = P.front().z, b = P.back().z;
+    return a > 0 && b > 0 && std::max(a, b) > kDeepest * std::min(a, b);
+}
+
 }  // namespace
 
 bool RateEstimate::wants_split(float pixels_per_segment) const {
+    if (deep) return true;
     const float even = sum / pixels_per_segment;
     const float uneven = static_cast<float>(pieces) * longest / pixels_per_segment;
     return even > kMaxGridSide || uneven > 1.5f * even + 2;  // false for NaN
@@ -80,6 +90,7 @@ float LineMeasure::slant(const V3f& p, const V3f& along, const V3f& across) cons
 RateEstimate LineMeasure::foreshortened(std::span<const V3f> P, std::span<const V3f> beside) const {
     const size_t points = P.size() / static_cast<size_t>(keys_), pieces = points - 1;
     std::array<float, kMostPieces> seen{}, least{}, most{};
+    bool in_view = true;
     for (int key = 0; key < keys_; ++key) {
         const V3f* const p = P.data() + static_cast<size_t>(key) * points;
         const V3f* const q = beside.data() + static_cast<size_t>(key) * points;
@@ -88,9 +99,12 @@ RateEstimate LineMeasure::foreshortened(std::span<const V3f> P, std::span<const 
             const PixelLength length = metric_.of(p[i], p[i + 1]);
             const float own = (p[i + 1] - p[i]).length();
             scale[i] = own > 0 ? length.square_on / own : 0;
-            const float slanted = length.seen * slant(p[i], p[i + 1] - p[i], q[i] - p[i]);
-            if (key == 0) seen[i] = slanted, most[i] = std::max(length.seen, least_ * length.square_on);
-            least[i] = std::max({least[i], slanted, lens_angle(p[i]) * length.square_on});
+            const float at_most = std::max(length.seen, least_ * length.square_on);
+            in_view &= length.in_view;
+            const float counted =
+                length.in_view ? length.seen * slant(p[i], p[i + 1] - p[i], q[i] - p[i]) : at_most;
+            if (key == 0) seen[i] = counted, most[i] = at_most;
+            least[i] = std::max({least[i], counted, lens_angle(p[i]) * length.square_on});
         }
         // n segments of a curve that is h high over its chord leave it by h / n^2.
         for (size_t i = 1; i < pieces; ++i) {
@@ -100,6 +114,7 @@ RateEstimate LineMeasure::foreshortened(std::span<const V3f> P, std::span<const 
         }
     }
     RateEstimate estimate;
+    estimate.deep = perspective_ && in_view && is_deep(P.first(points));
     for (size_t i = 0; i < pieces; ++i) estimate.add(std::max(seen[i], std::min(most[i], least[i])));
     return estimate;
 }

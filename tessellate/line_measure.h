@@ -5,7 +5,8 @@
 /// that turn to the viewer while the shutter is open or to other places of the lens count as long as they are
 /// there, and curved ones are diced so finely that silhouettes are smooth. None of this takes more than a
 /// quarter of the length seen square on, which is also what displaced surfaces (who knows where to), curves
-/// and points count with at the least.
+/// and points count with at the least, and what leads out of the view: long pieces that pass under the eye
+/// would be in the way of rays all over the picture.
 #pragma once
 
 #include <span>
@@ -24,10 +25,11 @@ struct EdgeRate {
 };
 
 /// Whether pieces of these lengths, uniform in the parameter, want a split: too many segments, or too uneven
-/// to be uniform in the parameter. Otherwise *segments is how many they want.
+/// to be uniform in the parameter, or too deep. Otherwise *segments is how many they want.
 struct RateEstimate {
     float sum = 0, longest = 0;
     int pieces = 0;
+    bool deep = false;  ///< one end is so much farther from the eye that a box around it is seen far too large
 
     void add(float length) {
         sum += length, ++pieces;

@@ -45,7 +45,7 @@ PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
     const float distance = std::max(nearest, d.length() / 64);
     const float square_on = distance > 0 ? d.length() / distance : 0.0f;
     const float scale = pixels_ / view_cosine_;
-    return {angle / view_cosine_ * scale, square_on * scale};
+    return {angle / view_cosine_ * scale, square_on * scale, false};
 }
 
 PixelLength ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {

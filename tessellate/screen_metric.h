@@ -13,6 +13,7 @@ namespace trapeze {
 /// In pixels: as it is seen, and as it would be if it were seen square on.
 struct PixelLength {
     float seen = 0, square_on = 0;
+    bool in_view = true;  ///< or beside the picture, where `seen` is an angle
 };
 
 /// The least foreshortening of what may turn to the viewer: while the shutter is open, or by displacement.

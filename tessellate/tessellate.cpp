@@ -183,7 +183,7 @@ void make_surfaces(const RenderContext& context, const FindDepthHeight& depth_he
 /// Many times the grids that fill the picture: a bound on absurd input, such as a surface that comes near
 /// infinity again and again.
 size_t most_parts_of_face(const Options& options, const EdgeRate& rate) {
-    constexpr double kTimesThePicture = 64, kAtLeast = 256, kAtMost = 1 << 20;
+    constexpr double kTimesThePicture = 64, kAtLeast = 1024, kAtMost = 1 << 20;
     const double grid_side = static_cast<double>(kMaxGridSide) * static_cast<double>(rate.pixels_per_segment);
     const double pixels = static_cast<double>(options.width) * options.height;
     return static_cast<size_t>(

@@ -32,6 +32,7 @@ ShadingGrid bent_grid(const Scene& scene, int side) {
     const size_t count = grid.vertex_count();
     grid.P.resize(1);
     for (Triples* triples : {&grid.P[0], &grid.N, &grid.Ng, &grid.dPdu, &grid.dPdv}) triples->resize(count);
+    for (auto* plane : {&grid.u, &grid.v, &grid.s, &grid.t}) plane->resize(count);
     grid.Cs.fill(count, V3f(0.8f, 0.5f, 0.2f));
     grid.Os.fill(count, V3f(1));
     for (int j = 0; j <= side; ++j)
@@ -42,8 +43,9 @@ ShadingGrid bent_grid(const Scene& scene, int side) {
             grid.P[0].set(at, V3f(x, y, 5 + (x * x + y * y) / 2));
             grid.N.set(at, normal), grid.Ng.set(at, normal);
             grid.dPdu.set(at, V3f(1, 0, x)), grid.dPdv.set(at, V3f(0, 1, y));
+            for (auto* plane : {&grid.u, &grid.s}) (*plane)[at] = x + 0.5f;
+            for (auto* plane : {&grid.v, &grid.t}) (*plane)[at] = y + 0.5f;
         }
-    for (auto* plane : {&grid.u, &grid.v, &grid.s, &grid.t}) plane->assign(count, 0.5f);
     return grid;
 }
 
@@ -109,6 +111,7 @@ void shade(benchmark::State& state, const char* surface, const char* light, int 
     scene.options.search_paths["shader"] = scene.options.search_paths["texture"] = {shaders_of_the_bench()};
     RenderContext context;
     context.scene = &scene;
+    context.camera.plane_scale_x = 1 / 80.0f, context.camera.plane_scale_y = -1 / 80.0f;  // pixels of micropolygons
     const Shading shading(context);
     const ShadingGrid undisplaced = bent_grid(scene, side);
     ShadingGrid grid = undisplaced;
