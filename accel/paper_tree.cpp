@@ -8,7 +8,7 @@ namespace {
 
 /// Nodes of up to this many grids are bounded from the vertices. 32 saves a further hundredth of the nodes
 /// visited, for a third more time to build.
-constexpr size_t kBoundFromVerticesUpTo = 8;
+constexpr size_t kTightUpTo = 8;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ PaperTree::PaperTree(const Grids& grids, const PaperTreeOptions& options,
         [&](uint32_t grid, const Frame& frame) {
             return bound_in_frame(grids.grids[grid], summaries[grid].absolute_max, frame);
         },
-        kBoundFromVerticesUpTo};
+        kTightUpTo};
     top_ = bound_top_level(build_top_topology(summaries, options.orient_split), count, grids.max_key_count(),
                            options, bounds);
     grid_bounds_ = {};

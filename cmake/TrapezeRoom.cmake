@@ -1,13 +1,32 @@
-# trapeze_room(NAME SOURCES ... TESTS ... LINKS ... PRIVATE_LINKS ...)
+# trapeze_compile_together(TARGET SOURCE ...)
+# Several sources are one to the compiler, which then reads headers once for all of them: most of what it does.
+# Kernels stay alone, since each of their files is compiled again for every instruction set, and so do the
+# ALONE sources of a room: those that have names of their own that others have too.
+function(trapeze_compile_together target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${TRAPEZE_COMPILE_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+    foreach(source ${ARGN})
+        if(NOT IS_ABSOLUTE ${source})
+            file(STRINGS ${source} kernel REGEX "foreach_target.h" LIMIT_COUNT 1)
+            if(kernel)
+                set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+            endif()
+        endif()
+    endforeach()
+endfunction()
+
+# trapeze_room(NAME SOURCES ... TESTS ... ALONE ... LINKS ... PRIVATE_LINKS ...)
 # A room is one static library and, when tests are built, one test program made of the tests beside its sources.
 # Includes are written from the root of the repository: #include "core/grid.h".
 function(trapeze_room name)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;TESTS;LINKS;PRIVATE_LINKS" ${ARGN})
+    cmake_parse_arguments(ROOM "" "" "SOURCES;TESTS;ALONE;LINKS;PRIVATE_LINKS" ${ARGN})
+    set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     add_library(trapeze_${name} STATIC ${ROOM_SOURCES})
+    trapeze_compile_together(trapeze_${name} ${ROOM_SOURCES})
     target_include_directories(trapeze_${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(trapeze_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
     if(TRAPEZE_BUILD_TESTS AND ROOM_TESTS)
         add_executable(${name}_test ${ROOM_TESTS})
+        trapeze_compile_together(${name}_test ${ROOM_TESTS})
         target_compile_options(${name}_test PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
         target_link_libraries(${name}_test PRIVATE trapeze_${name} ${ROOM_PRIVATE_LINKS} GTest::gtest_main GTest::gmock)
         target_compile_definitions(${name}_test PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

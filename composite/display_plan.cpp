@@ -18,19 +18,19 @@ std::string lower(std::string text) {
     return text;
 }
 
-struct Named {
+struct NamedFormat {
     std::string_view name;
     FileFormat format;
 };
 
-constexpr Named kExtensions[] = {{".exr", FileFormat::OpenExr}, {".tif", FileFormat::Tiff},
-                                 {".tiff", FileFormat::Tiff},   {".png", FileFormat::Png},
-                                 {".jpg", FileFormat::Jpeg},    {".jpeg", FileFormat::Jpeg},
-                                 {".tga", FileFormat::Targa},   {".bmp", FileFormat::Bmp}};
-constexpr Named kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileFormat::OpenExr},
-                              {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
-                              {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
-                              {"bmp", FileFormat::Bmp}};
+constexpr NamedFormat kExtensions[] = {{".exr", FileFormat::OpenExr}, {".tif", FileFormat::Tiff},
+                                       {".tiff", FileFormat::Tiff},   {".png", FileFormat::Png},
+                                       {".jpg", FileFormat::Jpeg},    {".jpeg", FileFormat::Jpeg},
+                                       {".tga", FileFormat::Targa},   {".bmp", FileFormat::Bmp}};
+constexpr NamedFormat kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileFormat::OpenExr},
+                                    {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
+                                    {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
+                                    {"bmp", FileFormat::Bmp}};
 constexpr std::string_view kAttributePrefix = "exrheader_";
 constexpr std::string_view kWindowDrivers[] = {
     "framebuffer", "it",    "x11",     "windows", "idisplay", "piqsl",     "houdini",
@@ -38,7 +38,7 @@ constexpr std::string_view kWindowDrivers[] = {
 
 template <class Table>
 std::optional<FileFormat> look_up(const Table& table, std::string_view name) {
-    for (const Named& row : table)
+    for (const NamedFormat& row : table)
         if (row.name == name) return row.format;
     return {};
 }
@@ -76,7 +76,7 @@ const Display* file_beside_window(const Display& display, const Options& options
 /// Of a display that has none.
 std::string usual_path(const DisplayPlan& plan) {
     const auto row = std::find_if(std::begin(kExtensions), std::end(kExtensions),
-                                  [&](const Named& named) { return named.format == plan.format; });
+                                  [&](const NamedFormat& named) { return named.format == plan.format; });
     return "untitled" + std::string(plan.depth_map ? ".z" : row->name);
 }
 

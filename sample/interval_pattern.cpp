@@ -9,7 +9,9 @@ namespace trapeze {
 namespace {
 
 /// Which number of an index; part of what is hashed.
-enum Dimension : uint32_t { kSubpixelX, kSubpixelY, kLensU, kLensV, kTime, kShuffle };
+namespace dimension {
+enum : uint32_t { kSubpixelX, kSubpixelY, kLensU, kLensV, kTime, kShuffle };
+}
 
 /// A permutation from the numbers themselves [Fisher, Yates], by a pixel's hash.
 void shuffle(std::vector<uint32_t>& order, uint32_t pixel_hash) {
@@ -28,7 +30,8 @@ IntervalPattern::IntervalPattern(const RenderContext& context)
       ny_(std::max(1, context.samples_y)),
       seed_(context.seed),
       motion_(context.motion),
-      lens_of_(hashed_permutation(static_cast<size_t>(sample_count()), hash(context.seed, kLensU))) {}
+      lens_of_(
+          hashed_permutation(static_cast<size_t>(sample_count()), hash(context.seed, dimension::kLensU))) {}
 
 void IntervalPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
     tile.pixels = pixels;
@@ -43,20 +46,20 @@ void IntervalPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const
 void IntervalPattern::make_pixel(int px, int py, std::vector<uint32_t>& subpixels, size_t first,
                                  SampleTile& tile) const {
     const uint32_t pixel_hash = hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
-    shuffle(subpixels, hash(pixel_hash, kShuffle));
+    shuffle(subpixels, hash(pixel_hash, dimension::kShuffle));
     const auto nx = static_cast<uint32_t>(nx_);
     for (uint32_t s = 0; s < subpixels.size(); ++s) {
         const uint32_t sample_hash = hash(pixel_hash + s);
-        const auto jitter = [sample_hash](Dimension d) { return unit_float(hash(sample_hash + d)); };
+        const auto jitter = [sample_hash](uint32_t d) { return unit_float(hash(sample_hash + d)); };
         const size_t at = first + s;
-        tile.x[at] = within_pixel(px, place(subpixels[s] % nx, jitter(kSubpixelX), nx_));
-        tile.y[at] = within_pixel(py, place(subpixels[s] / nx, jitter(kSubpixelY), ny_));
+        tile.x[at] = within_pixel(px, place(subpixels[s] % nx, jitter(dimension::kSubpixelX), nx_));
+        tile.y[at] = within_pixel(py, place(subpixels[s] / nx, jitter(dimension::kSubpixelY), ny_));
         V2f on_lens(0, 0);
         if (camera_.has_lens())
-            on_lens = disk_from_square(place(lens_of_[s] % nx, jitter(kLensU), nx_),
-                                       place(lens_of_[s] / nx, jitter(kLensV), ny_));
+            on_lens = disk_from_square(place(lens_of_[s] % nx, jitter(dimension::kLensU), nx_),
+                                       place(lens_of_[s] / nx, jitter(dimension::kLensV), ny_));
         tile.lens_u[at] = on_lens.x, tile.lens_v[at] = on_lens.y;
-        tile.time[at] = motion_ ? place(s, jitter(kTime), sample_count()) : 0.0f;
+        tile.time[at] = motion_ ? place(s, jitter(dimension::kTime), sample_count()) : 0.0f;
         tile.rays[at] = camera_.ray(tile.x[at], tile.y[at], on_lens.x, on_lens.y, tile.time[at]);
     }
 }

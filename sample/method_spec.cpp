@@ -3,7 +3,7 @@
 namespace trapeze {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     return "\"" + std::string(text) + "\"";
 }
 
@@ -32,12 +32,12 @@ std::optional<MethodSpec> parse_spec(std::string_view text, std::string* error) 
         std::string_view value = take_until(',', rest);
         const size_t equals = value.find('=');
         if (equals == std::string_view::npos || equals == 0) {
-            *error = quoted(value) + " in " + quoted(text) + " is not of the form key=value";
+            *error = in_quotes(value) + " in " + in_quotes(text) + " is not of the form key=value";
             return {};
         }
         const std::string_view key = take_until('=', value);
         if (!spec.options.emplace(key, value).second) {
-            *error = "option " + quoted(key) + " is given twice in " + quoted(text);
+            *error = "option " + in_quotes(key) + " is given twice in " + in_quotes(text);
             return {};
         }
     }
@@ -50,13 +50,13 @@ bool complete_spec(MethodSpec& spec, const std::vector<SpecOption>& options, std
         if (!option) {
             std::vector<std::string_view> names;
             for (const SpecOption& o : options) names.push_back(o.name);
-            *error = quoted(spec.name) + " has no option " + quoted(key) +
+            *error = in_quotes(spec.name) + " has no option " + in_quotes(key) +
                      (names.empty() ? std::string() : "; it has: " + joined(names));
             return false;
         }
         if (std::find(option->values.begin(), option->values.end(), value) == option->values.end()) {
-            *error = "option " + quoted(key) + " of " + quoted(spec.name) + " is one of " +
-                     joined(option->values) + ", not " + quoted(value);
+            *error = "option " + in_quotes(key) + " of " + in_quotes(spec.name) + " is one of " +
+                     joined(option->values) + ", not " + in_quotes(value);
             return false;
         }
     }
@@ -79,7 +79,7 @@ std::string spec_text(const MethodSpec& spec, const std::vector<SpecOption>& opt
 
 std::string unknown_name(std::string_view kind, std::string_view name,
                          const std::vector<std::string_view>& names) {
-    return "no " + std::string(kind) + " " + quoted(name) + "; there are: " + joined(names);
+    return "no " + std::string(kind) + " " + in_quotes(name) + "; there are: " + joined(names);
 }
 
 }  // namespace trapeze

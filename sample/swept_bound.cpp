@@ -7,17 +7,17 @@
 namespace trapeze {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 /// Samples lie this far outside the image at most (filters).
 constexpr double kBorderPixels = 1024;
 
-struct Range {
+struct Interval {
     double min, max;
 };
 
 /// From a range of the image plane, grown, to raster coordinates.
-Range raster_range(Range plane, double grow, double scale, double offset) {
+Interval raster_range(Interval plane, double grow, double scale, double offset) {
     const double a = (plane.min - grow - offset) / scale, b = (plane.max + grow - offset) / scale;
     return {std::min(a, b), std::max(a, b)};
 }
@@ -33,11 +33,11 @@ double ray_reach(const Camera& camera) {
 }
 
 RasterBox RasterBox::everything() {
-    return {-kInfinite, -kInfinite, kInfinite, kInfinite};
+    return {-kEverywhere, -kEverywhere, kEverywhere, kEverywhere};
 }
 
 RasterBox RasterBox::nothing() {
-    return {kInfinite, kInfinite, -kInfinite, -kInfinite};
+    return {kEverywhere, kEverywhere, -kEverywhere, -kEverywhere};
 }
 
 void SweptBound::add(float xf, float yf, float zf) {
@@ -56,7 +56,7 @@ RasterBox SweptBound::raster(const Camera& camera) const {
     if (!(absolute_max_ < kBoundable)) return RasterBox::everything();
     const double radius = camera.lens_radius * (1 + kRasterRounding), in_focus = 1.0 / camera.focal_distance;
     const double reach = ray_reach(camera);
-    Range x{x_min_, x_max_}, y{y_min_, y_max_};
+    Interval x{x_min_, x_max_}, y{y_min_, y_max_};
     double grow;
     if (camera.perspective) {
         if (!(z_min_ > camera.near_clip && z_min_ > 0)) return RasterBox::everything();
@@ -67,8 +67,8 @@ RasterBox SweptBound::raster(const Camera& camera) const {
         grow = radius * std::max(std::abs(z_min_ * in_focus - 1), std::abs(z_max_ * in_focus - 1)) +
                kRasterRounding * (absolute_max_ * (1 + radius * in_focus) + reach);
     }
-    const Range rx = raster_range(x, grow, camera.plane_scale_x, camera.plane_offset_x);
-    const Range ry = raster_range(y, grow, camera.plane_scale_y, camera.plane_offset_y);
+    const Interval rx = raster_range(x, grow, camera.plane_scale_x, camera.plane_offset_x);
+    const Interval ry = raster_range(y, grow, camera.plane_scale_y, camera.plane_offset_y);
     return {rx.min, ry.min, rx.max, ry.max};
 }
 

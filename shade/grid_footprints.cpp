@@ -92,8 +92,8 @@ struct VertexSteps {
     }
     /// False where the surface has no plane there.
     bool span_a_plane() const {
-        constexpr float kParallel = 1e-4f;  // sine of the angle
-        return u.cross(v).length2() > kParallel * kParallel * u.length2() * v.length2();
+        constexpr float kLeastSine = 1e-4f;
+        return u.cross(v).length2() > kLeastSine * kLeastSine * u.length2() * v.length2();
     }
 };
 
@@ -135,15 +135,17 @@ Stretch stretch_at(const V3f& P, const VertexSteps& along, const Camera& camera,
     return std::isfinite(found.uu + found.uv + found.vv) ? found : Stretch{};
 }
 
-/// Which vertices of a piece that is not displaced stretch_at() may stretch: 1, else 0. Most need not be looked
-/// at closer: their micropolygon's area is so large that no axis is short.
+/// Which vertices of a piece that is not displaced stretch_at() may stretch: 1, else 0. Most need not be
+/// looked at closer: their micropolygon's area is so large that no axis is short.
 void find_thin(const ShadingGrid& grid, size_t piece, const ParameterSteps& step, const Camera& camera,
                float least, Plane thin) {
     const auto from = [piece](const Triples& triples, int k) { return triples.c[k].data() + piece; };
     const float *const Px = from(grid.P.front(), 0), *const Py = from(grid.P.front(), 1),
-                *const Pz = from(grid.P.front(), 2);
-    const float *const ux = from(grid.dPdu, 0), *const uy = from(grid.dPdu, 1), *const uz = from(grid.dPdu, 2);
-    const float *const vx = from(grid.dPdv, 0), *const vy = from(grid.dPdv, 1), *const vz = from(grid.dPdv, 2);
+                       *const Pz = from(grid.P.front(), 2);
+    const float *const ux = from(grid.dPdu, 0), *const uy = from(grid.dPdu, 1),
+                       *const uz = from(grid.dPdu, 2);
+    const float *const vx = from(grid.dPdv, 0), *const vy = from(grid.dPdv, 1),
+                       *const vz = from(grid.dPdv, 2);
     const float pixels_x = std::abs(1 / camera.plane_scale_x), pixels_y = std::abs(1 / camera.plane_scale_y);
     const float of_depth = camera.perspective ? 1.0f : 0.0f;  // seen(), without a branch
     const V2f U = step.along_u, V = step.along_v;
@@ -159,7 +161,8 @@ void find_thin(const ShadingGrid& grid, size_t piece, const ParameterSteps& step
         const float y_of_v = (uy[i] * V.x + vy[i] * V.y - y * z_of_v) * down;
         const float area = x_of_u * y_of_v - y_of_u * x_of_v;
         const float squares = x_of_u * x_of_u + y_of_u * y_of_u + x_of_v * x_of_v + y_of_v * y_of_v;
-        // The shorter axis is not less than area / root of the squares' sum; half a thousandth is for rounding.
+        // The shorter axis is not less than area / root of the squares' sum; half a thousandth is for
+        // rounding.
         out[i] = area * area >= 1.001f * least * least * squares ? 0.0f : 1.0f;
     }
 }

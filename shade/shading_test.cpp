@@ -132,7 +132,7 @@ TEST(Shading, ThreadsShadeAlike) {
     }
 }
 
-class BatchOf : public testing::TestWithParam<const char*> {};
+class BatchOf : public ::testing::TestWithParam<const char*> {};
 
 /// Grids of all sizes, primitives and uniform values, in one call: each as if it were alone.
 TEST_P(BatchOf, GivesEachGridTheSameBits) {

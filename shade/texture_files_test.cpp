@@ -7,7 +7,7 @@
 namespace trapeze {
 namespace {
 
-class TextureFiles : public testing::Test {
+class TextureFiles : public ::testing::Test {
   protected:
     void touch(const std::string& name) {
         const std::filesystem::path path = std::filesystem::path(folder_.path()) / name;

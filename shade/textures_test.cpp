@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Top row red, green; bottom row blue, grey 188 (0.5029 in linear light).
-class TexturesTest : public testing::Test {
+class TexturesTest : public ::testing::Test {
   protected:
     TexturesTest() {
         OIIO::attribute("threads", 1);  // its own threads are not known to sanitizers

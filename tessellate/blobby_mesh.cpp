@@ -9,7 +9,7 @@
 namespace trapeze {
 namespace {
 
-constexpr int kSide = BlobbyBlock::kSide, kSize = BlobbyBlock::kSize;
+constexpr int kSize = BlobbyBlock::kSize;
 constexpr GridIndex kAxes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 bool is_inside(float value) {
@@ -34,17 +34,19 @@ class BlockCorners {
   public:
     BlockCorners(const BlobbyBlocks& blocks, const BlobbyBlock& block, std::vector<FieldValue>& scratch) {
         size_t n = 0;
-        for (int k = 0; k <= kSide; ++k)
-            for (int j = 0; j <= kSide; ++j)
-                for (int i = 0; i <= kSide; ++i) {
+        for (int k = 0; k <= BlobbyBlock::kSide; ++k)
+            for (int j = 0; j <= BlobbyBlock::kSide; ++j)
+                for (int i = 0; i <= BlobbyBlock::kSide; ++i) {
                     const GridIndex p = block.at + GridIndex{i, j, k} * (1 << block.level);
                     values_[n++] = blocks.value(block, blocks.place(p), scratch);
                 }
     }
-    float at(const GridIndex& p) const { return values_[(p.k * (kSide + 1) + p.j) * (kSide + 1) + p.i]; }
+    float at(const GridIndex& p) const {
+        return values_[(p.k * (BlobbyBlock::kSide + 1) + p.j) * (BlobbyBlock::kSide + 1) + p.i];
+    }
 
   private:
-    std::array<float, (kSide + 1) * (kSide + 1) * (kSide + 1)> values_;
+    std::array<float, (BlobbyBlock::kSide + 1) * (BlobbyBlock::kSide + 1) * (BlobbyBlock::kSide + 1)> values_;
 };
 
 class Net {
@@ -79,7 +81,8 @@ bool Net::cells_round(int block, const GridIndex& edge, int axis, std::array<Cel
         if (found.level == level && first < 0) first = found.block;
         const GridIndex q = finest[n] - blocks_.all()[found.block].at;
         cells[n] = {found.block,
-                    ((q.k >> found.level) * kSide + (q.j >> found.level)) * kSide + (q.i >> found.level)};
+                    ((q.k >> found.level) * BlobbyBlock::kSide + (q.j >> found.level)) * BlobbyBlock::kSide +
+                        (q.i >> found.level)};
     }
     return first == block;
 }
@@ -108,9 +111,9 @@ std::vector<Crossing> Net::crossings(int number) const {
     const BlockCorners corners(blocks_, block, scratch);
     for (int axis = 0; axis < 3; ++axis) {
         const GridIndex along = kAxes[axis];
-        for (int k = 0; k + along.k <= kSide; ++k)
-            for (int j = 0; j + along.j <= kSide; ++j)
-                for (int i = 0; i + along.i <= kSide; ++i) {
+        for (int k = 0; k + along.k <= BlobbyBlock::kSide; ++k)
+            for (int j = 0; j + along.j <= BlobbyBlock::kSide; ++j)
+                for (int i = 0; i + along.i <= BlobbyBlock::kSide; ++i) {
                     const GridIndex p{i, j, k};
                     const float at_from = corners.at(p), at_to = corners.at(p + along);
                     if (is_inside(at_from) == is_inside(at_to)) continue;

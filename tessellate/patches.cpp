@@ -12,14 +12,14 @@ namespace trapeze {
 namespace {
 
 /// Control points of one shape key: P, or Pw with weights.
-struct ControlPoints {
+struct PatchPoints {
     const float* values = nullptr;
     bool rational = false;
 };
 
 class PatchSurface : public TopologySurface<PatchSurface> {
   public:
-    PatchSurface(const Primitive& primitive, std::vector<ControlPoints> points);
+    PatchSurface(const Primitive& primitive, std::vector<PatchPoints> points);
 
     const FaceGrid& topology() const { return faces_; }
     V2f faces_per_unit(int) const override {
@@ -43,12 +43,12 @@ class PatchSurface : public TopologySurface<PatchSurface> {
 
     const Primitive& primitive_;
     const PatchMesh& mesh_;
-    std::vector<ControlPoints> points_;  ///< by shape key
+    std::vector<PatchPoints> points_;  ///< by shape key
     FaceGrid faces_;
     M44f u_bezier_, v_bezier_;
 };
 
-PatchSurface::PatchSurface(const Primitive& primitive, std::vector<ControlPoints> points)
+PatchSurface::PatchSurface(const Primitive& primitive, std::vector<PatchPoints> points)
     : primitive_(primitive),
       mesh_(std::get<PatchMesh>(primitive.shape().topology)),
       points_(std::move(points)) {
@@ -202,7 +202,7 @@ Box3f PatchSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
 }  // namespace
 
 std::unique_ptr<Surface> make_patch_surface(const Primitive& primitive, Diagnostics& diagnostics) {
-    std::vector<ControlPoints> points;
+    std::vector<PatchPoints> points;
     for (const auto& shape : primitive.shape_keys) {
         const Parameter* P = shape->variables.find("P");
         const Parameter* Pw = shape->variables.find("Pw");

@@ -13,9 +13,9 @@
 namespace trapeze {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kHalfTurn = std::numbers::pi_v<float>;
 /// Half the side of the square that is as large as a circle of radius 1.
-const float kSquare = std::sqrt(kPi) / 2;
+const float kSquare = std::sqrt(kHalfTurn) / 2;
 
 /// A point of the disk of radius 1, with its derivatives by u and v.
 struct DiskPoint {
@@ -26,7 +26,7 @@ struct DiskPoint {
 /// [Shirley and Chiu 1997].
 DiskPoint disk_point(V2f uv) {
     const float a = 2 * uv.x - 1, b = 2 * uv.y - 1;
-    constexpr float kQuarter = kPi / 4;
+    constexpr float kQuarter = kHalfTurn / 4;
     const bool sideways = std::abs(a) >= std::abs(b);
     const float r = sideways ? a : b, other = sideways ? b : a;
     const float angle = r != 0 ? kQuarter * other / r : 0.0f;
@@ -41,7 +41,7 @@ DiskPoint disk_point(V2f uv) {
 
 /// How much larger than its circle a polygon's circle is, when both are to have the same area.
 float polygon_factor(int corners) {
-    const float turn = 2 * kPi / static_cast<float>(corners);
+    const float turn = 2 * kHalfTurn / static_cast<float>(corners);
     return std::sqrt(turn / std::sin(turn));
 }
 
@@ -138,7 +138,7 @@ float PointsSurface::factor(int point, const Camera* camera) const {
     const float size = std::abs(pixels) / std::sqrt(std::max(primitive_.attributes->shading_rate, 1e-4f));
     if (size * kSquare <= 1) return 0;
     // A side of the disk is diced by the length of four chords; its number of segments and the area must fit.
-    const float chords = size * 4 * std::sin(kPi / 16);
+    const float chords = size * 4 * std::sin(kHalfTurn / 16);
     constexpr int kMostSides = 8;
     constexpr float kFits = 0.012f;
     if (chords > kMostSides) return 1;
@@ -186,7 +186,7 @@ PointsSurface::Disk PointsSurface::disk(int point, int key) const {
     }
     const V3f u = facing_[key].u_axis() * (diameter / 2), v = facing_[key].v_axis() * (diameter / 2);
     if (type_ == PointType::Picture) {
-        const float angle = keys_[mix.first].angle[point] * kPi / 180,
+        const float angle = keys_[mix.first].angle[point] * kHalfTurn / 180,
                     aspect = keys_[mix.first].aspect[point];
         // v runs down, as a texture's t does.
         disk.x = u * std::cos(angle) - v * std::sin(angle);

@@ -30,6 +30,8 @@ constexpr float kLeastShadingRate = 1e-4f;
 /// be found out of view, and all would be diced.
 constexpr float kFarthest = 1e11f;
 
+}  // namespace
+
 /// A primitive's part of a Tessellation.
 struct TessellatedPrimitive {
     std::shared_ptr<const Surface> surface;
@@ -54,6 +56,8 @@ struct TessellatedPrimitive {
         splits = {};
     }
 };
+
+namespace {
 
 /// The surface's edges, in tasks of those that are evaluated on the same faces.
 EdgeTessellations tessellate_edges(const PlacedSurface& placed, const LineMeasure& measure,

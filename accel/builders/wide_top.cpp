@@ -10,14 +10,14 @@
 namespace trapeze {
 namespace {
 
-constexpr int kBins = 16;
-constexpr size_t kParallelFrom = 512;  ///< grids below which a subtree is one task
+constexpr int kTopBins = 16;
+constexpr size_t kTaskFrom = 512;  ///< grids below which a subtree is one task
 /// Deeper subtrees are halved without looking: the depth of the tree stays bounded.
 constexpr int kSahDepthLimit = 60;
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 struct Box {
-    float low[3] = {kInfinite, kInfinite, kInfinite}, high[3] = {-kInfinite, -kInfinite, -kInfinite};
+    float low[3] = {kEndless, kEndless, kEndless}, high[3] = {-kEndless, -kEndless, -kEndless};
 
     void add(const Box& o) {
         for (int k = 0; k < 3; ++k)
@@ -55,25 +55,25 @@ EndBoxes both(const EndBoxes& a, const EndBoxes& b) {
 }
 
 /// Bins of centroids along one axis.
-struct Binning {
+struct TopBinning {
     int axis = 0;
     float from = 0, scale = 0;
 
     int of(const Item& item) const {
         const float at = (item.place(axis) - from) * scale;
-        return at > 0 ? static_cast<int>(std::min(at, kBins - 1.0f)) : 0;
+        return at > 0 ? static_cast<int>(std::min(at, kTopBins - 1.0f)) : 0;
     }
 };
 
-struct Split {
-    float cost = kInfinite;
-    Binning binning;
+struct TopSplit {
+    float cost = kEndless;
+    TopBinning binning;
     int bin = 0;  ///< the first bin of the upper side
 };
 
-class Builder {
+class TopBuilder {
   public:
-    Builder(std::span<const GridExtent> extents, std::span<const uint32_t> grids) : extents_(extents) {
+    TopBuilder(std::span<const GridExtent> extents, std::span<const uint32_t> grids) : extents_(extents) {
         items_.reserve(grids.size());
         for (const uint32_t grid : grids) {
             const EndBoxes& e = extents[grid].box;
@@ -107,7 +107,7 @@ class Builder {
         const auto low = part.first(middle), high = part.subspan(middle);
         const auto high_first = first + static_cast<uint32_t>(middle);
         BinaryNode& node = nodes_[first];
-        if (part.size() < kParallelFrom) {
+        if (part.size() < kTaskFrom) {
             node.child[0] = binary(low, first + 1, depth + 1);
             node.child[1] = binary(high, high_first, depth + 1);
         } else {
@@ -121,8 +121,8 @@ class Builder {
 
     /// Moves the lower part to the front and tells its size, which is neither 0 nor all.
     static size_t part_in_two(std::span<Item> part, int depth) {
-        const Split split = depth < kSahDepthLimit ? best_split(part) : Split{};
-        if (split.cost == kInfinite) return filling(part.size(), part.size() / 2);
+        const TopSplit split = depth < kSahDepthLimit ? best_split(part) : TopSplit{};
+        if (split.cost == kEndless) return filling(part.size(), part.size() / 2);
         const auto middle = std::partition(
             part.begin(), part.end(), [&](const Item& item) { return split.binning.of(item) < split.bin; });
         const auto filled = part.begin() + static_cast<std::ptrdiff_t>(filling(
@@ -148,36 +148,36 @@ class Builder {
         return away(low) <= away(high) ? low : high;
     }
 
-    static Split best_split(std::span<const Item> part) {
-        float from[3] = {kInfinite, kInfinite, kInfinite}, to[3] = {-kInfinite, -kInfinite, -kInfinite};
+    static TopSplit best_split(std::span<const Item> part) {
+        float from[3] = {kEndless, kEndless, kEndless}, to[3] = {-kEndless, -kEndless, -kEndless};
         for (const Item& item : part)
             for (int k = 0; k < 3; ++k)
                 from[k] = std::min(from[k], item.place(k)), to[k] = std::max(to[k], item.place(k));
-        Split best;
+        TopSplit best;
         for (int axis = 0; axis < 3; ++axis)
             if (to[axis] > from[axis])
-                consider(part, {axis, from[axis], kBins / (to[axis] - from[axis])}, best);
+                consider(part, {axis, from[axis], kTopBins / (to[axis] - from[axis])}, best);
         return best;
     }
 
-    static void consider(std::span<const Item> part, const Binning& binning, Split& best) {
-        std::array<Box, kBins> bins;
-        std::array<uint32_t, kBins> counts{};
+    static void consider(std::span<const Item> part, const TopBinning& binning, TopSplit& best) {
+        std::array<Box, kTopBins> bins;
+        std::array<uint32_t, kTopBins> counts{};
         for (const Item& item : part) {
             const int bin = binning.of(item);
             bins[bin].add(item.box);
             ++counts[bin];
         }
-        std::array<float, kBins> cost_above{};  // of bins [b, kBins)
+        std::array<float, kTopBins> cost_above{};  // of bins [b, kTopBins)
         Box above, below;
         uint32_t count = 0;
-        for (int b = kBins - 1; b > 0; --b) {
+        for (int b = kTopBins - 1; b > 0; --b) {
             above.add(bins[b]);
             count += counts[b];
             cost_above[b] = above.half_area() * static_cast<float>(count);
         }
         count = 0;
-        for (int b = 1; b < kBins; ++b) {
+        for (int b = 1; b < kTopBins; ++b) {
             below.add(bins[b - 1]);
             count += counts[b - 1];
             if (count == 0 || count == part.size()) continue;
@@ -229,7 +229,7 @@ class Builder {
 
 std::vector<WideChildren> build_wide_top(std::span<const GridExtent> extents,
                                          std::span<const uint32_t> grids) {
-    return Builder(extents, grids).build();
+    return TopBuilder(extents, grids).build();
 }
 
 }  // namespace trapeze

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class KeptPicturesTest : public testing::Test {
+class KeptPicturesTest : public ::testing::Test {
   protected:
     KeptPicturesTest() {
         std::string name = (fs::temp_directory_path() / "trapeze-kept-XXXXXX").string();

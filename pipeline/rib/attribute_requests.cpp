@@ -157,7 +157,7 @@ void attribute(Reader& r, ArgumentCursor& c) {
     }
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kAttributeRequests[] = {
     {"Attribute", attribute},
     {"Color",
      [](Reader& r, ArgumentCursor& c) {
@@ -178,7 +178,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> attribute_requests() {
-    return kRows;
+    return kAttributeRequests;
 }
 
 }  // namespace trapeze::rib

@@ -121,14 +121,14 @@ void blobby(Reader& r, ArgumentCursor& c) {
     r.add_shape("Blobby", std::move(shape), leaves);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kBlobbyRequests[] = {
     {"Blobby", blobby},
 };
 
 }  // namespace
 
 std::span<const RequestRow> blobby_requests() {
-    return kRows;
+    return kBlobbyRequests;
 }
 
 }  // namespace trapeze::rib

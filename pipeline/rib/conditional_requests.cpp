@@ -21,7 +21,7 @@ void skip_block(Reader& r, ArgumentCursor& c) {
     r.skip_block();
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kConditionalRequests[] = {
     {"IfBegin", [](Reader& r, ArgumentCursor& c) { r.if_begin(condition(r, c)); }},
     {"ElseIf", else_if},
     {"Else", [](Reader& r, ArgumentCursor&) { r.else_if(nullptr); }},
@@ -37,7 +37,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> conditional_requests() {
-    return kRows;
+    return kConditionalRequests;
 }
 
 }  // namespace trapeze::rib

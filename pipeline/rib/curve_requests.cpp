@@ -95,7 +95,7 @@ void points(Reader& r, ArgumentCursor& c) {
     r.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kCurveRequests[] = {
     {"Curves", curves},
     {"Points", points},
 };
@@ -103,7 +103,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> curve_requests() {
-    return kRows;
+    return kCurveRequests;
 }
 
 }  // namespace trapeze::rib

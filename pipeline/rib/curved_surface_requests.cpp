@@ -11,7 +11,7 @@ namespace trapeze::rib {
 namespace {
 
 constexpr int kLargestMesh = 1 << 20;  ///< control points along a side
-constexpr int64_t kMostPoints = 1 << 28;
+constexpr int64_t kMostControlPoints = 1 << 28;
 
 PatchMesh mesh_of_type(Reader& r, const std::string& type) {
     PatchMesh mesh;
@@ -50,8 +50,8 @@ void patch_mesh(Reader& r, ArgumentCursor& c) {
     };
     side("u", mesh.nu, mesh.u_wraps, mesh.u_step);
     side("v", mesh.nv, mesh.v_wraps, mesh.v_step);
-    if (int64_t{mesh.nu} * mesh.nv > kMostPoints)
-        throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
+    if (int64_t{mesh.nu} * mesh.nv > kMostControlPoints)
+        throw RequestError{"more than " + std::to_string(kMostControlPoints) + " points", {}};
     add_patches(r, c, "PatchMesh", mesh);
 }
 
@@ -124,7 +124,7 @@ void quadric(Reader& r, ArgumentCursor& c) {
     r.add_shape(row.name, std::move(shape), 1);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kCurvedSurfaceRequests[] = {
     {"Patch", patch},           {"PatchMesh", patch_mesh}, {"Sphere", quadric<0>},
     {"Cone", quadric<1>},       {"Cylinder", quadric<2>},  {"Hyperboloid", quadric<3>},
     {"Paraboloid", quadric<4>}, {"Disk", quadric<5>},      {"Torus", quadric<6>},
@@ -133,7 +133,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> curved_surface_requests() {
-    return kRows;
+    return kCurvedSurfaceRequests;
 }
 
 }  // namespace trapeze::rib

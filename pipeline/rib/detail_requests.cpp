@@ -54,7 +54,7 @@ void geometric_representation(Reader& r, ArgumentCursor& c) {
     r.count_without_effect();
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kDetailRequests[] = {
     {"Bound", bound},
     {"Detail", detail},
     {"DetailRange", detail_range},
@@ -65,7 +65,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> detail_requests() {
-    return kRows;
+    return kDetailRequests;
 }
 
 }  // namespace trapeze::rib

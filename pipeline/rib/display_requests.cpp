@@ -123,12 +123,12 @@ void display_channel(Reader& r, ArgumentCursor& c) {
     r.display_channels()[channel] = {*variable, std::move(parameters)};
 }
 
-constexpr RequestRow kRows[] = {{"Display", display}, {"DisplayChannel", display_channel}};
+constexpr RequestRow kDisplayRequests[] = {{"Display", display}, {"DisplayChannel", display_channel}};
 
 }  // namespace
 
 std::span<const RequestRow> display_requests() {
-    return kRows;
+    return kDisplayRequests;
 }
 
 }  // namespace trapeze::rib

@@ -83,14 +83,14 @@ void geometry(Reader& r, ArgumentCursor& c) {
         "geometry-" + name);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kGeometryRequests[] = {
     {"Geometry", geometry},
 };
 
 }  // namespace
 
 std::span<const RequestRow> geometry_requests() {
-    return kRows;
+    return kGeometryRequests;
 }
 
 }  // namespace trapeze::rib

@@ -68,7 +68,7 @@ void make_shadow(Reader& r, ArgumentCursor& c) {
     finish(r, c, std::move(request));
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kMapRequests[] = {
     {"MakeTexture", [](Reader& r, ArgumentCursor& c) { make_flat(r, c, Kind::Texture); }},
     {"MakeBump", [](Reader& r, ArgumentCursor& c) { make_flat(r, c, Kind::Bump); }},
     {"MakeLatLongEnvironment", make_lat_long_environment},
@@ -79,7 +79,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> map_requests() {
-    return kRows;
+    return kMapRequests;
 }
 
 }  // namespace trapeze::rib

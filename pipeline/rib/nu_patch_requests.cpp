@@ -143,14 +143,14 @@ constexpr RequestRow kAttributeRows[] = {
     {"TrimCurve", trim_curve},
 };
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kNuPatchRequests[] = {
     {"NuPatch", nu_patch},
 };
 
 }  // namespace
 
 std::span<const RequestRow> nu_patch_requests() {
-    return kRows;
+    return kNuPatchRequests;
 }
 
 std::span<const RequestRow> trim_requests() {

@@ -255,7 +255,7 @@ void color_samples(Reader& r, ArgumentCursor& c) {
     r.scope().color_samples = std::move(samples);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kOptionRequests[] = {
     {"Format", format},
     {"FrameAspectRatio", frame_aspect_ratio},
     {"ScreenWindow", screen_window},
@@ -289,7 +289,7 @@ Options& changeable_options(Reader& reader) {
 }
 
 std::span<const RequestRow> option_requests() {
-    return kRows;
+    return kOptionRequests;
 }
 
 }  // namespace trapeze::rib

@@ -217,7 +217,7 @@ void hierarchical_subdivision_mesh(Reader& r, ArgumentCursor& c) {
     add_mesh(r, c, "HierarchicalSubdivisionMesh", std::move(mesh));
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kPolygonRequests[] = {
     {"Polygon", polygon},
     {"GeneralPolygon", general_polygon},
     {"PointsPolygons", points_polygons},
@@ -229,7 +229,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> polygon_requests() {
-    return kRows;
+    return kPolygonRequests;
 }
 
 }  // namespace trapeze::rib

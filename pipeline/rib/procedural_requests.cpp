@@ -48,12 +48,12 @@ void procedural2(Reader& r, ArgumentCursor& c) {
     }
 }
 
-constexpr RequestRow kRows[] = {{"Procedural", procedural}, {"Procedural2", procedural2}};
+constexpr RequestRow kProceduralRequests[] = {{"Procedural", procedural}, {"Procedural2", procedural2}};
 
 }  // namespace
 
 std::span<const RequestRow> procedural_requests() {
-    return kRows;
+    return kProceduralRequests;
 }
 
 }  // namespace trapeze::rib

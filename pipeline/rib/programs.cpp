@@ -34,6 +34,9 @@ void note_group(pid_t from, pid_t to) {
         if (pid_t expected = from; group.compare_exchange_strong(expected, to)) return;
 }
 
+}  // namespace
+
+/// A file's descriptor, closed at the end.
 class Descriptor {
   public:
     explicit Descriptor(int fd = -1) : fd_(fd) {}
@@ -51,8 +54,6 @@ class Descriptor {
   private:
     int fd_;
 };
-
-}  // namespace
 
 class Programs::Program {
   public:

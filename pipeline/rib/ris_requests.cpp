@@ -80,7 +80,7 @@ void skip(Reader& r, ArgumentCursor& c) {
     note(r);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kRisRequests[] = {
     {"Bxdf", bxdf},       {"Pattern", pattern}, {"Light", light},        {"LightFilter", skip},
     {"Integrator", skip}, {"Displace", skip},   {"DisplayFilter", skip}, {"SampleFilter", skip},
 };
@@ -103,7 +103,7 @@ void add_ris_light(Reader& r, const std::string& handle, const ShaderInstance& s
 }
 
 std::span<const RequestRow> ris_requests() {
-    return kRows;
+    return kRisRequests;
 }
 
 }  // namespace trapeze::rib

@@ -125,7 +125,7 @@ void illuminate(Reader& r, ArgumentCursor& c) {
     if (!on && place != lights.end()) lights.erase(place);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kShaderRequests[] = {
     {"Surface", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
     {"Displacement",
      [](Reader& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
@@ -142,7 +142,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> shader_requests() {
-    return kRows;
+    return kShaderRequests;
 }
 
 }  // namespace trapeze::rib

@@ -15,7 +15,7 @@ Solid::Operation operation_of(ArgumentCursor& c) {
     throw RequestError{in_quotes(name) + " is none of primitive, union, intersection, difference", {}};
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kSolidRequests[] = {
     {"SolidBegin", [](Reader& r, ArgumentCursor& c) { r.begin_solid(operation_of(c)); }},
     {"SolidEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Solid); }},
 };
@@ -23,7 +23,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> solid_requests() {
-    return kRows;
+    return kSolidRequests;
 }
 
 int SolidList::add(Solid::Operation operation, int parent) {

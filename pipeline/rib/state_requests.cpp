@@ -72,7 +72,7 @@ void volume_pixel_samples(Reader& r, ArgumentCursor& c) {
     r.count_without_effect();
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kStateRequests[] = {
     {"Resource", resource},
     {"ResourceBegin", [](Reader& r, ArgumentCursor&) { r.begin_resources(); }},
     {"ResourceEnd", [](Reader& r, ArgumentCursor&) { r.end_resources(); }},
@@ -88,7 +88,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> state_requests() {
-    return kRows;
+    return kStateRequests;
 }
 
 }  // namespace trapeze::rib

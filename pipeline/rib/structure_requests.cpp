@@ -34,7 +34,7 @@ void read_archive(Reader& r, ArgumentCursor& c) {
     r.read_archive(name);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kStructureRequests[] = {
     {"version", version},
     {"Declare", declare},
     {"FrameBegin", frame_begin},
@@ -58,7 +58,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> structure_requests() {
-    return kRows;
+    return kStructureRequests;
 }
 
 }  // namespace trapeze::rib

@@ -42,7 +42,7 @@ void set_transform(Reader& r, ArgumentCursor& c) {
     r.set_transform(&matrix);
 }
 
-constexpr RequestRow kRows[] = {
+constexpr RequestRow kTransformRequests[] = {
     {"Identity", [](Reader& r, ArgumentCursor&) { r.set_transform(nullptr); }},
     {"Transform", set_transform},
     {"ConcatTransform", concat<TransformKind::Matrix, 16>},
@@ -60,7 +60,7 @@ constexpr RequestRow kRows[] = {
 }  // namespace
 
 std::span<const RequestRow> transform_requests() {
-    return kRows;
+    return kTransformRequests;
 }
 
 }  // namespace trapeze::rib

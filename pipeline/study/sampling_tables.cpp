@@ -13,7 +13,7 @@
 namespace trapeze {
 namespace {
 
-constexpr const char* kMethods = "raytrace interval interleaveuvt:k=2 interleaveuvt:k=4";
+constexpr const char* kPaperMethods = "raytrace interval interleaveuvt:k=2 interleaveuvt:k=4";
 constexpr size_t kMethodCount = paper::kMethods.size();
 
 /// Seconds by row, then by column; negative where there are none.
@@ -104,7 +104,7 @@ void study_table1(StudyBench& bench, StudyResult& result) {
         if (effect == 1) scene.parameters.defocus = 0;
         scene.label = effect == 0 ? "Car, defocus" : effect == 1 ? "Car, motion blur" : "Car, both";
         const SharedFrame frame = bench.frame(scene);
-        set_column(here, effect, totals(bench.measure(frame, scene, kMethods, {rate})));
+        set_column(here, effect, totals(bench.measure(frame, scene, kPaperMethods, {rate})));
     }
     add_tables(result, {"defocus", "motion blur", "both"}, here, times_of(paper::kTable1), "Sampling time");
     add_effect_checks(result, here);
@@ -119,7 +119,7 @@ void study_table2(StudyBench& bench, StudyResult& result) {
     for (const StudyScene& scene : scenes_of_the_paper(bench)) {
         columns.push_back(fmt::format("{} ({})", paper::kScenes[column], scene.name));
         const SharedFrame frame = bench.frame(scene);
-        set_column(here, column++, totals(bench.measure(frame, scene, kMethods, {rate})));
+        set_column(here, column++, totals(bench.measure(frame, scene, kPaperMethods, {rate})));
     }
     const Times printed = times_of(paper::kTable2);
     add_tables(result, columns, here, printed, "Sampling time");
@@ -134,7 +134,7 @@ Times rates_of_scene(StudyBench& bench, const StudyScene& scene, const std::vect
     Times here(kMethodCount, std::vector<double>(rates.size() + 2));
     {
         const SharedFrame frame = bench.frame(scene);
-        const auto seconds = totals(bench.measure(frame, scene, kMethods, rates));
+        const auto seconds = totals(bench.measure(frame, scene, kPaperMethods, rates));
         for (size_t r = 0; r < rates.size(); ++r)
             for (size_t m = 0; m < kMethodCount; ++m) here[m][r] = seconds[r * kMethodCount + m];
     }
@@ -143,7 +143,7 @@ Times rates_of_scene(StudyBench& bench, const StudyScene& scene, const std::vect
         StudyScene coarse = scene;
         coarse.parameters.shading_rate = coarser;
         const SharedFrame frame = bench.frame(coarse);
-        set_column(here, column++, totals(bench.measure(frame, coarse, kMethods, {rates.back()})));
+        set_column(here, column++, totals(bench.measure(frame, coarse, kPaperMethods, {rates.back()})));
     }
     return here;
 }

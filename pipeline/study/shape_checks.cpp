@@ -11,7 +11,7 @@ namespace trapeze {
 namespace {
 
 // Rows of paper::kMethods.
-constexpr size_t kRaytrace = 0, kInterval = 1, kUvt2 = 2, kUvt4 = 3;
+constexpr size_t kRaytraceRow = 0, kIntervalRow = 1, kUvt2Row = 2, kUvt4Row = 3;
 
 /// How far from 1 the exponent of something linear may measure.
 constexpr double kLinear = .15;
@@ -55,8 +55,8 @@ StudyCheck uvt_is_linear(const RateSeries& here, const RateSeries& paper) {
         "", ""};
     const size_t last = here.samples.size() - 1;
     set_texts(check, here, paper,
-              [&](const RateSeries& s) { return exponent_text(exponent_of(s, kUvt2, 1, last)); });
-    check.held = std::abs(exponent_of(here, kUvt2, 1, last) - 1) <= kLinear;
+              [&](const RateSeries& s) { return exponent_text(exponent_of(s, kUvt2Row, 1, last)); });
+    check.held = std::abs(exponent_of(here, kUvt2Row, 1, last) - 1) <= kLinear;
     return check;
 }
 
@@ -65,8 +65,8 @@ StudyCheck interval_is_sublinear(const RateSeries& here, const RateSeries& paper
                      ""};
     const size_t last = here.samples.size() - 1;
     set_texts(check, here, paper,
-              [&](const RateSeries& s) { return exponent_text(exponent_of(s, kInterval, 0, last)); });
-    check.held = exponent_of(here, kInterval, 0, last) < 1 - kLinear;
+              [&](const RateSeries& s) { return exponent_text(exponent_of(s, kIntervalRow, 0, last)); });
+    check.held = exponent_of(here, kIntervalRow, 0, last) < 1 - kLinear;
     return check;
 }
 
@@ -75,7 +75,9 @@ StudyCheck larger_tiles_cost_more(const RateSeries& here, const RateSeries& pape
                          ": k = 4 costs more than k = 2 at the most samples, by less than its four "
                          "times as many tuples",
                      "", ""};
-    const auto ratio = [](const RateSeries& s) { return s.seconds[kUvt4].back() / s.seconds[kUvt2].back(); };
+    const auto ratio = [](const RateSeries& s) {
+        return s.seconds[kUvt4Row].back() / s.seconds[kUvt2Row].back();
+    };
     set_texts(check, here, paper, [&](const RateSeries& s) { return times(ratio(s)); });
     check.held = ratio(here) > 1 && ratio(here) < 4;
     return check;
@@ -88,7 +90,7 @@ StudyCheck samples_favour_tracing(const RateSeries& here, const RateSeries& pape
             "samples",
         "", ""};
     const auto ratio = [](const RateSeries& s, size_t rate) {
-        return s.seconds[kUvt2][rate] / s.seconds[kRaytrace][rate];
+        return s.seconds[kUvt2Row][rate] / s.seconds[kRaytraceRow][rate];
     };
     const size_t last = here.samples.size() - 1;
     set_texts(check, here, paper, [&](const RateSeries& s) {
@@ -137,16 +139,17 @@ StudyCheck check_of_coarser_shading(const std::string& scene, const std::vector<
                      ""};
     const auto text = [](const std::vector<double>& before, const std::vector<double>& after) {
         return fmt::format("time times {} traced, {} INTERVAL, {} k = 2, {} k = 4",
-                           number_text(after[kRaytrace] / before[kRaytrace]),
-                           number_text(after[kInterval] / before[kInterval]),
-                           number_text(after[kUvt2] / before[kUvt2]),
-                           number_text(after[kUvt4] / before[kUvt4]));
+                           number_text(after[kRaytraceRow] / before[kRaytraceRow]),
+                           number_text(after[kIntervalRow] / before[kIntervalRow]),
+                           number_text(after[kUvt2Row] / before[kUvt2Row]),
+                           number_text(after[kUvt4Row] / before[kUvt4Row]));
     };
-    const double traced = coarser[kRaytrace] / reference[kRaytrace];
+    const double traced = coarser[kRaytraceRow] / reference[kRaytraceRow];
     check.here = text(reference, coarser);
-    check.paper = paper_coarser[kInterval] > 0 ? text(paper_reference, paper_coarser) : "-";
-    check.held = coarser[kInterval] / reference[kInterval] < traced &&
-                 coarser[kUvt2] / reference[kUvt2] < traced && coarser[kUvt4] / reference[kUvt4] < traced;
+    check.paper = paper_coarser[kIntervalRow] > 0 ? text(paper_reference, paper_coarser) : "-";
+    check.held = coarser[kIntervalRow] / reference[kIntervalRow] < traced &&
+                 coarser[kUvt2Row] / reference[kUvt2Row] < traced &&
+                 coarser[kUvt4Row] / reference[kUvt4Row] < traced;
     return check;
 }
 
@@ -189,12 +192,13 @@ StudyCheck check_of_order(const std::string& scene, const std::vector<double>& h
                           const std::vector<double>& paper) {
     StudyCheck check{scene + ": ray tracing is the fastest", "", ""};
     const auto text = [](const std::vector<double>& seconds) {
-        return fmt::format(
-            "INTERVAL {}, k = 2 {}, k = 4 {} its time", times(seconds[kInterval] / seconds[kRaytrace]),
-            times(seconds[kUvt2] / seconds[kRaytrace]), times(seconds[kUvt4] / seconds[kRaytrace]));
+        return fmt::format("INTERVAL {}, k = 2 {}, k = 4 {} its time",
+                           times(seconds[kIntervalRow] / seconds[kRaytraceRow]),
+                           times(seconds[kUvt2Row] / seconds[kRaytraceRow]),
+                           times(seconds[kUvt4Row] / seconds[kRaytraceRow]));
     };
     check.here = text(here), check.paper = text(paper);
-    check.held = here[kRaytrace] < std::min({here[kInterval], here[kUvt2], here[kUvt4]});
+    check.held = here[kRaytraceRow] < std::min({here[kIntervalRow], here[kUvt2Row], here[kUvt4Row]});
     return check;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kMostOverloads = 32;  // written functions of one name
 
-std::string quoted(std::string_view name) {
+std::string in_quotes(std::string_view name) {
     return "\"" + std::string(name.substr(0, 80)) + "\"";
 }
 
@@ -44,13 +44,13 @@ void Analyser::run() {
         std::vector<const Function*>& same_name = file_functions_[function->name];
         same_name.push_back(function.get());
         if (same_name.size() > kMostOverloads)
-            return error(function->at, "too many functions are called " + quoted(function->name));
+            return error(function->at, "too many functions are called " + in_quotes(function->name));
     }
     std::set<std::string_view> names;
     for (const auto& shader : unit_.shaders) {
         if (messages_.full()) return;
         if (!names.insert(shader->name).second)
-            error(shader->at, "there are two shaders " + quoted(shader->name) + " in this file");
+            error(shader->at, "there are two shaders " + in_quotes(shader->name) + " in this file");
         analyse_shader(*shader);
     }
     unit_.functions = std::move(kept_);
@@ -107,7 +107,7 @@ Analyser::Instance* Analyser::instance_of(const Function& original, bool nested,
         std::vector<Instance*>& same_name = scopes_.back().functions[original.name];
         same_name.push_back(&instance);
         if (same_name.size() > kMostOverloads) {
-            error(original.at, "too many functions are called " + quoted(original.name));
+            error(original.at, "too many functions are called " + in_quotes(original.name));
             return nullptr;
         }
     } else {
@@ -151,7 +151,7 @@ void Analyser::analyse_body(Function& function) {
     statement(function.body);
     if (function.result.base != Base::Void && !frame().returns)
         messages_.warning(function.at,
-                          "function " + quoted(function.name) + " never returns a value: it is 0");
+                          "function " + in_quotes(function.name) + " never returns a value: it is 0");
 }
 
 void Analyser::finish_instance(Instance& instance) {
@@ -197,9 +197,9 @@ void Analyser::declare(Variable& variable) {
     Variable*& known = scopes_.back().variables[variable.name];
     if (known && variable.kind == Variable::Kind::Local && known->kind == Variable::Kind::Local)
         messages_.warning(variable.at,
-                          quoted(variable.name) + " is declared twice: this one hides the other");
+                          in_quotes(variable.name) + " is declared twice: this one hides the other");
     else if (known)
-        error(variable.at, quoted(variable.name) + " is declared twice");
+        error(variable.at, in_quotes(variable.name) + " is declared twice");
     known = &variable;
 }
 
@@ -211,14 +211,14 @@ void Analyser::check_array(Variable& variable) {
             variable.initial->children.size() <= static_cast<size_t>(kLongestArray)) {
             variable.type.length = static_cast<int>(variable.initial->children.size());
         } else {
-            error(variable.at, "array " + quoted(variable.name) + " needs a length");
+            error(variable.at, "array " + in_quotes(variable.name) + " needs a length");
             variable.type.length = 1;
         }
     }
     const uint64_t floats = static_cast<uint64_t>(variable.type.length) *
                             static_cast<uint64_t>(std::max(width_of(variable.type.base), 1));
     if (floats > kMostArrayFloats)
-        error(variable.at, "array " + quoted(variable.name) + " is too large: " + std::to_string(floats) +
+        error(variable.at, "array " + in_quotes(variable.name) + " is too large: " + std::to_string(floats) +
                                " floats, at most " + std::to_string(kMostArrayFloats));
     else if (variable.kind != Variable::Kind::FunctionParameter)
         frame().array_floats += floats;
@@ -231,7 +231,7 @@ void Analyser::initial_value(Variable& variable) {
     } else if (variable.type.is_array()) {
         value_of_array(variable);
     } else if (variable.initial->kind == Expression::Kind::List) {
-        error(variable.initial->at, quoted(variable.name) + " is no array, and has one value");
+        error(variable.initial->at, in_quotes(variable.name) + " is no array, and has one value");
     } else {
         value(variable.initial, variable.type.base);
     }
@@ -247,7 +247,7 @@ void Analyser::value_of_array(Variable& variable) {
         const Type given = variable.initial->type;
         if (is_array && (given.base != variable.type.base ||
                          (given.length != variable.type.length && given.length != Type::kUnsized)))
-            error(variable.initial->at, quoted(variable.name) + " is a " + print(variable.type) +
+            error(variable.initial->at, in_quotes(variable.name) + " is a " + print(variable.type) +
                                             ", its initial value a " + print(given));
         return;
     }
@@ -255,7 +255,7 @@ void Analyser::value_of_array(Variable& variable) {
     if (values.size() > static_cast<size_t>(variable.type.length))
         error(values[static_cast<size_t>(variable.type.length)]->at,
               std::to_string(values.size()) + " values for the " + std::to_string(variable.type.length) +
-                  " elements of " + quoted(variable.name));
+                  " elements of " + in_quotes(variable.name));
     for (ExpressionPtr& e : values) value(e, variable.type.base);
     variable.initial->type = variable.type;
 }
@@ -269,15 +269,15 @@ bool Analyser::bind_external(const Variable& variable) {
         Suggestion suggestion(variable.name);
         for (const GlobalVariable& row : global_variables(shader_->kind)) suggestion.consider(row.name);
         for (const auto& parameter : shader_->parameters) suggestion.consider(parameter->name);
-        error(variable.at, "there is no variable " + quoted(variable.name) + " outside, in " +
-                               std::string(name_of(shader_->kind)) + " shader " + quoted(shader_->name) +
+        error(variable.at, "there is no variable " + in_quotes(variable.name) + " outside, in " +
+                               std::string(name_of(shader_->kind)) + " shader " + in_quotes(shader_->name) +
                                suggestion.text());
         return false;
     }
     const bool same_kind = same_family(found->type.base, variable.type.base) &&
                            found->type.is_array() == variable.type.is_array();
     if (!same_kind)
-        error(variable.at, "extern " + quoted(variable.name) + " is a " + print(found->type) +
+        error(variable.at, "extern " + in_quotes(variable.name) + " is a " + print(found->type) +
                                " outside, not a " + print(variable.type));
     scopes_.back().variables[found->name] = found;
     return true;
@@ -324,7 +324,7 @@ Variable* Analyser::global(std::string_view name) {
 void Analyser::unknown_variable(const Expression& e) {
     if (frames_.size() > 1 && find_outside(e.text, frames_.size() - 1)) {
         error(e.at,
-              quoted(e.text) + " is a variable of the shader: functions name those as \"extern\" first");
+              in_quotes(e.text) + " is a variable of the shader: functions name those as \"extern\" first");
         return;
     }
     Suggestion suggestion(e.text);
@@ -338,7 +338,7 @@ void Analyser::unknown_variable(const Expression& e) {
             if (where.empty() && find_global(kind, e.text))
                 where = "; " + std::string(name_of(kind)) + " shaders have one, this is a " +
                         std::string(name_of(shader_->kind)) + " shader";
-    error(e.at, "there is no variable " + quoted(e.text) + where + suggestion.text());
+    error(e.at, "there is no variable " + in_quotes(e.text) + where + suggestion.text());
 }
 
 }  // namespace trapeze::rsl

@@ -66,7 +66,7 @@ std::string number_text(float value) {
     return {text, end};
 }
 
-std::string quoted(std::string_view value) {
+std::string escaped(std::string_view value) {
     std::string text = "\"";
     for (const char c : value) {
         if (c == '"' || c == '\\') {
@@ -247,7 +247,7 @@ void Printer::bare(const Expression& e) {
             text += number_text(e.number);
             break;
         case Expression::Kind::Text:
-            text += quoted(e.text);
+            text += escaped(e.text);
             break;
         case Expression::Kind::Variable:
             text += e.text;
@@ -291,7 +291,7 @@ void Printer::bare(const Expression& e) {
             if (e.implicit) return bare(*e.children[0]);
             text += name_of(e.type.base);
             text += ' ';
-            if (!e.text.empty()) text += quoted(e.text) + " ";
+            if (!e.text.empty()) text += escaped(e.text) + " ";
             // "vector P" at a statement's beginning would be a declaration.
             expression(*e.children[0], names_a_variable(*e.children[0]) ? kPrimary + 1 : kUnary);
             break;

@@ -18,7 +18,7 @@ V3d at(const Register& r, size_t i) {
 }
 
 /// A light and a surface at each vertex; some are black, some without direction.
-class LightKernels : public testing::TestWithParam<bool> {
+class LightKernels : public ::testing::TestWithParam<bool> {
   protected:
     LightKernels()
         : N(vectors(1)),

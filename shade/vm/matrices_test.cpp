@@ -25,7 +25,7 @@ void put(const M44d& m, double* out) {
     for (int k = 0; k < 16; ++k) out[k] = m[k / 4][k % 4];
 }
 
-class Matrices : public testing::Test {
+class Matrices : public ::testing::Test {
   protected:
     /// The sixteen numbers of matrices that are far from singular, one after the other.
     std::function<float()> regular() {

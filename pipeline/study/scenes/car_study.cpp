@@ -72,7 +72,7 @@ void write_lights(RibWriter& rib) {
                     Numbers{1});
 }
 
-void write_world(RibWriter& rib, const SceneParameters& p) {
+void write_car_study_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("Rotate", -18.5, 0, 1, 0);
     write_lights(rib);
     write_horizon(rib);
@@ -106,7 +106,7 @@ Shot car_shot(double scale) {
 }  // namespace
 
 std::string car_study_scene(const SceneParameters& p) {
-    return scene_of(car_shot(p.scale), write_world, p);
+    return scene_of(car_shot(p.scale), write_car_study_world, p);
 }
 
 }  // namespace trapeze::scenes

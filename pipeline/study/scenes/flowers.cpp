@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFlowers = 520, kTufts = 1100;  ///< at scale 1
 constexpr double kNear = 2.3, kFar = 34;
-constexpr double kShadingRate = 5;
+constexpr double kFlowerShadingRate = 5;
 /// Soft from edge to edge, and as many at any scale.
 constexpr double kBackgroundRate = 64;
 const V3d kEye(0, 1.55, 0);
@@ -174,11 +174,11 @@ Shot flowers_shot() {
         "Right: a few flowers and the ladybug on one are sharp; what stands before and behind is soft."};
     shot.eye = kEye, shot.pitch = 6;
     shot.f_stop = 2, shot.focal_length = .32, shot.focal_distance = 4.9;
-    shot.shading_rate = kShadingRate;
+    shot.shading_rate = kFlowerShadingRate;
     return shot;
 }
 
-void write_world(RibWriter& rib, const SceneParameters& p) {
+void write_flowers_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("LightSource", "ambientlight", 1, "intensity", Numbers{.32}, "lightcolor",
                 Numbers{.72, .86, 1});
     rib.request("LightSource", "distantlight", 2, "intensity", Numbers{.85}, "lightcolor",
@@ -194,7 +194,7 @@ void write_world(RibWriter& rib, const SceneParameters& p) {
 }  // namespace
 
 std::string flowers_scene(const SceneParameters& p) {
-    return scene_of(flowers_shot(), write_world, p);
+    return scene_of(flowers_shot(), write_flowers_world, p);
 }
 
 }  // namespace trapeze::scenes

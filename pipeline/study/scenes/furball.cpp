@@ -37,7 +37,7 @@ void write_hairs(RibWriter& rib, int first, int count, double width) {
                 "varying float width", widths, "uniform color Cs", colors);
 }
 
-void write_world(RibWriter& rib, const SceneParameters& p) {
+void write_furball_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("LightSource", "ambientlight", 1, "intensity", Numbers{.15});
     rib.request("LightSource", "distantlight", 2, "intensity", Numbers{.9}, "lightcolor",
                 Numbers{1, .93, .82}, "from", Numbers{-1, 1.5, -1.8}, "to", Numbers{0, 0, 0});
@@ -74,7 +74,7 @@ std::string furball_scene(const SceneParameters& p) {
     shot.comments = {"A ball of fur that turns and drifts: every hair is a cubic curve, thick at its root."};
     shot.f_stop = 8, shot.focal_length = .3, shot.focal_distance = 6;
     shot.shading_rate = 4;
-    return scene_of(shot, write_world, p);
+    return scene_of(shot, write_furball_world, p);
 }
 
 }  // namespace trapeze::scenes

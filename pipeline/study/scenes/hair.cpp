@@ -128,7 +128,7 @@ Shot hair_shot() {
     return shot;
 }
 
-void write_world(RibWriter& rib, const SceneParameters& p) {
+void write_hair_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("LightSource", "ambientlight", 1, "intensity", Numbers{.10}, "lightcolor",
                 Numbers{.75, .85, 1});
     rib.request("LightSource", "spotlight", 2, "intensity", Numbers{38}, "lightcolor", Numbers{1, .90, .76},
@@ -146,7 +146,7 @@ void write_world(RibWriter& rib, const SceneParameters& p) {
 }  // namespace
 
 std::string hair_scene(const SceneParameters& p) {
-    return scene_of(hair_shot(), write_world, p);
+    return scene_of(hair_shot(), write_hair_world, p);
 }
 
 }  // namespace trapeze::scenes

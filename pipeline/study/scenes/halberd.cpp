@@ -55,7 +55,7 @@ Shot halberd_shot() {
     return shot;
 }
 
-void write_world(RibWriter& rib, const SceneParameters& p) {
+void write_halberd_world(RibWriter& rib, const SceneParameters& p) {
     write_lights(rib);
     write_backdrop(rib);
     const auto weapon = rib.block("Attribute");
@@ -72,7 +72,7 @@ void write_world(RibWriter& rib, const SceneParameters& p) {
 std::string halberd_scene(const SceneParameters& p) {
     Shot shot = halberd_shot();
     shot.shading_rate = kShadingRate / p.scale;
-    return scene_of(shot, write_world, p);
+    return scene_of(shot, write_halberd_world, p);
 }
 
 }  // namespace trapeze::scenes
