@@ -62,16 +62,25 @@ configure() {
     fi
 }
 
+# progress_of_ninja: turns its lines into one that says how far it is and how long it will take.
+progress_of_ninja() {
+    local line counts done_ all left start=$SECONDS
+    while IFS= read -r line; do
+        case $line in \[*/*\]*) ;; *) continue ;; esac
+        counts=${line%%]*} counts=${counts#[}
+        done_=${counts%/*} all=${counts#*/} left=
+        [ $((SECONDS - start)) -ge 5 ] && left=$(((SECONDS - start) * (all - done_) / done_)) &&
+            left=", $((left / 60)):$(printf %02d $((left % 60))) left"
+        printf '\rtrapeze: building, %d%%%s \033[K' $((100 * done_ / all)) "$left" >&2
+    done
+}
+
 # build FOLDER TARGET...: one short progress line on a terminal; the first failing command's output when it fails.
 build() {
     local folder=$1 log="$root/build/build.log" status
     shift
     if [ -t 2 ]; then
-        ninja -C "$folder" "$@" 2>&1 | tee "$log" | while IFS= read -r line; do
-            case $line in
-            \[*/*\]*) printf '\rtrapeze: building %s \033[K' "${line%%]*}]" >&2 ;;
-            esac
-        done
+        ninja -C "$folder" "$@" 2>&1 | tee "$log" | progress_of_ninja
         status=${PIPESTATUS[0]}
         printf '\r\033[K' >&2
     else
