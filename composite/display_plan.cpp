@@ -294,10 +294,11 @@ std::optional<DisplayPlan> plan_display(const Display& display, const Options& o
                                         const AovLayout& layout, Diagnostics& diagnostics) {
     DisplayPlan plan;
     if (const Display* file = file_beside_window(display, options)) {
-        diagnostics.note(
-            display.location,
-            fmt::format("Display \"{}\": no window is opened; see \"{}\"", lower(display.type), file->name),
-            "display-window of " + file->name);
+        const std::string which = display.name.empty() ? "" : fmt::format(" of \"{}\"", display.name);
+        diagnostics.warning(display.location,
+                            fmt::format("Display{}: no window (\"{}\") is opened; see \"{}\"", which,
+                                        lower(display.type), file->name),
+                            fmt::format("display-window {} beside {}", display.name, file->name));
         return {};
     }
     if (!choose_format(display, diagnostics, plan)) return {};

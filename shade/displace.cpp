@@ -97,4 +97,17 @@ float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& po
     return longest;
 }
 
+float longest_move(const Displaced& displaced, const ShadingGrid& grid) {
+    if (displaced.P.size() == 0) return 0;
+    constexpr float kRounding = 1e-5f;  // of the distance
+    const Triples& P = grid.P.front();
+    float longest = 0;
+    for (size_t i = 0; i < grid.vertex_count(); ++i) {
+        const V3f here = P.at(i);
+        const float move = (V3f(displaced.P.x[i], displaced.P.y[i], displaced.P.z[i]) - here).length();
+        if (move > kRounding * here.length()) longest = std::max(longest, move);
+    }
+    return longest;
+}
+
 }  // namespace trapeze

@@ -28,4 +28,7 @@ M44d key_from_first(const Primitive& primitive, int key, int key_count);
 /// Returns the farthest that a vertex moved, in camera space at any key.
 float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& pool);
 
+/// The farthest that it would move a vertex at the first key, camera space; 0 for what is rounding.
+float longest_move(const Displaced& displaced, const ShadingGrid& grid);
+
 }  // namespace trapeze

@@ -196,6 +196,17 @@ TEST(Displacement, SurfaceShadersWithoutABoundAreWarnedOf) {
     EXPECT_FALSE(Shading(scene.context).displacing_surfaces()(0));
 }
 
+/// As Displace(.., truedisp) of shaders that may move P, and bump N alone for now.
+TEST(Displacement, SurfaceShadersThatLeavePAreNotWarnedOf) {
+    MovingSurface scene;
+    scene.folder.write("bumpy",
+                       "surface bumpy(float truedisp = 0) { P += truedisp * normalize(N);"
+                       "  N = calculatenormal(P); Ci = Cs; Oi = 1; }");
+    scene.surface("bumpy");
+    scene.shaded(scene.grid());
+    EXPECT_TRUE(scene.reported.empty()) << scene.reported.front().text;
+}
+
 TEST(Displacement, ToNowhereStays) {
     TestScene scene;
     scene.displacement("sinewaves", {number("amplitude", 3e38f)}).camera_from_shader.setScale(V3f(10));

@@ -163,6 +163,17 @@ void GridRun::move_grids(const vm::Frame& frame) {
     }
 }
 
+/// How far a surface shader would move the grids.
+void GridRun::note_moves(const vm::Frame& frame) {
+    if (!writes_variable(frame.program(), "P")) return;
+    size_t first = 0;
+    for (const ShadingGrid* grid : grids_) {
+        raise(material_.displacement_reach,
+              longest_move(displaced_by(frame, first, grid->vertex_count()), *grid));
+        first += grid->vertex_count();
+    }
+}
+
 GridRun::Frames GridRun::displace() {
     const LayeredShader& shader = *material_.displacement;
     const std::vector<BorderWeld> welds = welds_of(grids_);
@@ -188,6 +199,7 @@ GridRun::Frames GridRun::color(const LayeredShader& shader, bool shaded, const v
         announced = &frame;
         take_colors(frame, grids_);
         if (moves && writes_variable(frame.program(), "P")) move_grids(frame);
+        if (&shader == material_.surface && material_.surface_only_sets_P) note_moves(frame);
     }
     for (size_t g = 0; g < welds.size(); ++g) welds[g].close(*grids_[g]);
     return frames;

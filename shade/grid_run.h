@@ -44,6 +44,7 @@ class GridRun {
     Frames color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced);
     void move_borders(const LayeredShader& shader);
     void move_grids(const vm::Frame& frame);
+    void note_moves(const vm::Frame& frame);
 
     const RenderContext& context_;
     const Material& material_;

@@ -85,7 +85,7 @@ Imager::Imager(const RenderContext& context, const Access& access) : impl_(std::
     auto executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
     if (!executable) {
         auto instead = stand_in(instance);
-        if (context.diagnostics)
+        if (context.diagnostics && !library.has_said_why_not(instance.name))
             context.diagnostics->error(
                 instance.location,
                 fmt::format("Imager: there is no shader \"{}\"; {}", instance.name,

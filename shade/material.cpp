@@ -57,7 +57,12 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
         material.atmosphere = layered(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
         if (!material.atmosphere) report_missing("Atmosphere", *attributes.atmosphere, "there is none");
     }
-    material.surface_moves = may_move(*material.surface, attributes);
+    const bool sets_P = std::ranges::any_of(material.surface->layers, [](const BoundShader* layer) {
+        return writes_variable(layer->program(), "P");
+    });
+    // Without a bound it has P for itself, which many use as just another point.
+    material.surface_moves = sets_P && attributes.displacement_bound > 0;
+    material.surface_only_sets_P = sets_P && !material.surface_moves;
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
         material.asks_object_space |= shader && shader->asks_object_space();
     for (const auto& instance : attributes.lights)
@@ -102,21 +107,6 @@ const LayeredShader* Materials::surface(const ShaderInstance* instance, const Na
     return layered(default_instance_, rsl::ShaderKind::Surface, varying);
 }
 
-/// A surface shader that sets P: without a bound it has P for itself, which many use as just another point.
-bool Materials::may_move(const LayeredShader& surface, const Attributes& attributes) {
-    const bool moves = std::ranges::any_of(
-        surface.layers, [](const BoundShader* layer) { return writes_variable(layer->program(), "P"); });
-    if (!moves || attributes.displacement_bound > 0) return moves;
-    const ShaderInstance& shader = surface.last().instance();
-    if (diagnostics_)
-        diagnostics_->warning(shader.location,
-                              fmt::format("Surface \"{}\" sets P: the surface is not displaced, since there "
-                                          "is no Attribute \"displacementbound\"",
-                                          shader.name),
-                              "surface-moves " + shader.name);
-    return false;
-}
-
 const Lamp* Materials::lamp(const LightInstance& instance) {
     const auto [at, is_new] = lamps_.try_emplace(&instance);
     if (!is_new) return at->second.get();
@@ -154,9 +144,14 @@ std::vector<const BoundShader*> Materials::shaders() const {
 void Materials::report_missing(std::string_view request, const ShaderInstance& instance,
                                std::string_view instead) {
     if (!diagnostics_) return;
-    diagnostics_->error(instance.location,
-                        fmt::format("{}: there is no shader \"{}\"; {}", request, instance.name, instead),
-                        fmt::format("missing-shader {} {}", request, instance.name));
+    const std::string kind = fmt::format("missing-shader {} {}", request, instance.name);
+    if (library_.has_said_why_not(instance.name))
+        diagnostics_->note(instance.location, fmt::format("{} \"{}\": {}", request, instance.name, instead),
+                           kind);
+    else
+        diagnostics_->error(instance.location,
+                            fmt::format("{}: there is no shader \"{}\"; {}", request, instance.name, instead),
+                            kind);
 }
 
 }  // namespace trapeze

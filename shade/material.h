@@ -28,10 +28,12 @@ struct Material {
     bool asks_object_space = false;
     /// The surface shader sets P, and the displacement bound allows it: the surface is displaced by it, too.
     bool surface_moves = false;
+    /// It sets P, and there is no bound: the surface stays.
+    bool surface_only_sets_P = false;
     bool shades_vertices_apart = false;  ///< as grid_parts.h says
     std::vector<const Lamp*> lights;
-    /// The farthest that the displacement shader, or such a surface shader, has moved a vertex, in camera
-    /// space.
+    /// The farthest that the displacement shader, or a surface shader that sets P, has moved a vertex or would
+    /// have, in camera space.
     mutable std::atomic<float> displacement_reach{0};
 };
 
@@ -54,7 +56,6 @@ class Materials {
     const BoundShader* bound(const ShaderInstance& instance, rsl::ShaderKind kind, Names varying,
                              std::span<const std::string> connected);
     const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
-    bool may_move(const LayeredShader& surface, const Attributes& attributes);
     const Lamp* lamp(const LightInstance& instance);
     void report_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
 

@@ -72,8 +72,10 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
         stem = names[i].substr(names[i].find_last_of('/') + 1);
     }
     if (source.name.empty()) {
-        if (access_.is_closed(name))
+        if (access_.is_closed(name)) {
             diagnostics.error(asked_at, fmt::format("shader \"{}\" {}", name, Access::kClosed));
+            reported_.insert(name);
+        }
         return *entry;
     }
     rsl::CompileOptions options;
@@ -84,6 +86,7 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
     const auto unit = rsl::compile_front(source, options, diagnostics);
     if (!unit || unit->shaders.empty()) {
         diagnostics.error(asked_at, fmt::format("shader \"{}\" has errors and is not used", name));
+        reported_.insert(name);
         return *entry;
     }
     const rsl::Shader* shader = unit->shaders.front().get();
@@ -100,6 +103,7 @@ std::shared_ptr<const vm::Executable> ShaderLibrary::find(std::string_view name,
     Compiled& shader = compiled(std::string(name), asked_at);
     if (!shader.program) return nullptr;
     if (shader.program->kind != kind) {
+        reported_.insert(std::string(name));
         if (diagnostics_)
             diagnostics_->error(asked_at,
                                 fmt::format("\"{}\" is a {} shader, and a {} shader is wanted here", name,

@@ -31,6 +31,9 @@ class ShaderLibrary {
     std::shared_ptr<const vm::Executable> find(std::string_view name, rsl::ShaderKind kind,
                                                const std::set<std::string>& varying, SourceLocation asked_at);
 
+    /// Whether an error has said that this one cannot be used, and why. Else there is none of the name.
+    bool has_said_why_not(std::string_view name) const { return reported_.contains(name); }
+
     /// How many of them have turned out to have loops without an end.
     size_t endless_count() const;
 
@@ -45,6 +48,7 @@ class ShaderLibrary {
     Diagnostics* diagnostics_;
     Diagnostics silent_;
     std::map<std::string, std::unique_ptr<Compiled>, std::less<>> shaders_;
+    std::set<std::string, std::less<>> reported_;
 };
 
 /// What a kind of shader is called in messages and requests: "surface", "light"...

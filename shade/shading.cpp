@@ -98,6 +98,17 @@ void Shading::report_displacement_bounds() const {
         const float bound = material.attributes->displacement_bound;
         const float reach = material.displacement_reach.load(std::memory_order_relaxed);
         if (reach <= bound * kBoundTolerance) continue;
+        if (material.surface_only_sets_P && !material.displacement) {
+            const ShaderInstance& shader = material.surface->last().instance();
+            diagnostics->warning(
+                shader.location,
+                fmt::format("Surface \"{}\" sets P: the surface is not displaced, since there "
+                            "is no Attribute \"displacementbound\" (a bound of {:.4g} in camera "
+                            "space is needed)",
+                            shader.name, reach),
+                "surface-moves " + shader.name);
+            continue;
+        }
         std::string needed = fmt::format("a bound of {:.4g} in camera space is needed", reach);
         const auto given = material.attributes->user.find("displacementbound");
         const float sphere =

@@ -123,7 +123,7 @@ TEST(Surfaces, NullHasItsOwnColourAndOpacity) {
     scene.surface("null");
     const ShadingGrid grid = scene.shaded();
     for (size_t i = 0; i < grid.vertex_count(); ++i) {
-        EXPECT_EQ(grid.Ci.at(i), scene.grid().Cs.at(i));
+        EXPECT_EQ(grid.Ci.at(i), scene.grid().Cs.at(i) * scene.grid().Os.at(i));
         EXPECT_EQ(grid.Oi.at(i), scene.grid().Os.at(i));
     }
 }

@@ -152,6 +152,65 @@ TEST(Displays, ThatCannotBeHonouredAreNamedOneByOne) {
     EXPECT_EQ(run_program(folder, "render a.rib --strict").exit_code, 1);
 }
 
+/// A window beside a file is not opened either.
+TEST(Displays, WindowsAreNamedOneByOne) {
+    WorkFolder folder;
+    folder.write("a.rib",
+                 world("Display \"a.exr\" \"openexr\" \"rgba\"\nDisplay \"+one\" \"framebuffer\" \"rgb\"\n"
+                       "Display \"+two\" \"it\" \"rgb\""));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 0);
+    for (const char* text :
+         {"a.rib:2:1: warning: Display of \"one\": no window (\"framebuffer\") is opened; see \"a.exr\"",
+          "a.rib:3:1: warning: Display of \"two\": no window (\"it\") is opened; see \"a.exr\""})
+        EXPECT_NE(outcome.err.find(text), std::string::npos) << text << "\n" << outcome.err;
+    EXPECT_EQ(run_program(folder, "render a.rib --strict").exit_code, 1);
+}
+
+TEST(OutputFiles, MapsAreInTheStatistics) {
+    WorkFolder folder;
+    folder.write("a.rib",
+                 world(kShot) + "MakeTexture \"shot.exr\" \"shot.tex\" \"black\" \"black\" \"box\" 1 1\n");
+    ASSERT_EQ(run_program(folder, "render a.rib --stats s.json").exit_code, 0);
+    const auto maps = nlohmann::json::parse(text_of(folder / "s.json")).at("maps");
+    ASSERT_EQ(maps.size(), 1u);
+    EXPECT_EQ(maps[0].at("path"), "shot.tex");
+    EXPECT_EQ(maps[0].at("bytes"), fs::file_size(folder / "shot.tex"));
+}
+
+/// A file of map requests alone is no mistake.
+TEST(OutputFiles, MapsAloneAreEnough) {
+    WorkFolder folder;
+    folder.write("a.rib", world(kShot));
+    ASSERT_EQ(run_program(folder, "render a.rib").exit_code, 0);
+    folder.write("b.rib", "MakeTexture \"shot.exr\" \"shot.tex\" \"black\" \"black\" \"box\" 1 1\n");
+    const Outcome outcome = run_program(folder, "render b.rib --stats s.json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(text_of(folder / "s.json")).at("maps").size(), 1u);
+    folder.write("b.rib", "MakeTexture \"none.exr\" \"shot.tex\" \"black\" \"black\" \"box\" 1 1\n");
+    EXPECT_EQ(run_program(folder, "render b.rib").exit_code, 4);
+}
+
+/// Outside of the working folder they write over reports of other runs, and over nothing else.
+TEST(Statistics, ElsewhereWriteOverTheirLikesAlone) {
+    WorkFolder folder, elsewhere;
+    folder.write("a.rib", world(kShot));
+    const std::string file = (elsewhere / "notes.txt").string(), run = "render a.rib --stats '" + file + "'";
+    elsewhere.write("notes.txt", "mine");
+    const Outcome refused = run_program(folder, run);
+    EXPECT_EQ(refused.exit_code, 6);
+    EXPECT_NE(refused.err.find("is no report of a run"), std::string::npos) << refused.err;
+    EXPECT_EQ(text_of(elsewhere / "notes.txt"), "mine");
+    fs::remove(file);
+    for (const bool is_there : {false, true}) {
+        const Outcome outcome = run_program(folder, run);
+        EXPECT_EQ(outcome.exit_code, 0) << is_there << outcome.err;
+        EXPECT_NE(outcome.err.find("lies outside of the working folder"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(run_program(folder, run + " --safe").exit_code, 6);
+    EXPECT_EQ(run_program(folder, "render a.rib --safe --stats s.json").exit_code, 0);
+}
+
 TEST(Displays, WithoutANameHaveOne) {
     WorkFolder folder;
     folder.write("a.rib", world("Display \"\" \"framebuffer\" \"rgb\""));

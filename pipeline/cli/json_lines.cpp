@@ -48,10 +48,11 @@ std::string json_line(const Diagnostic& diagnostic) {
     return json_text(object, -1) + "\n";
 }
 
-std::string json_line(const Work& work, double fraction, double seconds) {
+std::string json_line(const Work& work, double fraction, double seconds, const std::string& waiting) {
     json object{{"frame", work.frame},           {"file", work.file},           {"stage", work.stage},
                 {"fraction", rounded(fraction)}, {"seconds", rounded(seconds)}, {"estimate", nullptr}};
     if (fraction > 0) object["estimate"] = rounded(std::max(0.0, seconds / fraction - seconds));
+    if (!waiting.empty()) object["waiting"] = waiting;
     return json_text(object, -1) + "\n";
 }
 

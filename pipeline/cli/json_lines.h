@@ -13,7 +13,7 @@ namespace trapeze {
 std::string json_line(const Diagnostic& diagnostic);
 
 /// {"frame", "file", "stage", "fraction", "seconds", "estimate"}: since the work began, and that are left by
-/// the fraction; null: not known.
-std::string json_line(const Work& work, double fraction, double seconds);
+/// the fraction; null: not known. And "waiting", for what, where the work does.
+std::string json_line(const Work& work, double fraction, double seconds, const std::string& waiting = {});
 
 }  // namespace trapeze

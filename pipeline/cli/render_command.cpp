@@ -82,6 +82,7 @@ class RenderJob {
     double render_seconds_ = 0, last_read_seconds_ = 0;
     Stopwatch total_;
     std::vector<FrameStats> frames_;
+    std::vector<FrameStats::Output> maps_;
     int worlds_ = 0;
     KeptPictures kept_;
     OutputNames names_;
@@ -153,7 +154,14 @@ void RenderJob::make_map_of_pictures(MapRequest request) {
         kept_.forget(picture);
     }
     if (const auto transfer = transfer_named(arguments_.transfer)) request.transfer = *transfer;
-    if (!make_map(request, access_, diagnostics_)) output_failed_ = true;
+    Stopwatch watch;
+    std::string map;
+    if (!make_map(request, access_, diagnostics_, &map)) output_failed_ = true;
+    if (map.empty()) return;
+    std::error_code unknown;
+    const auto bytes = fs::file_size(map, unknown);
+    maps_.push_back({map, unknown ? 0 : bytes, watch.lap()});
+    terminal_.say_on_terminal(fmt::format("wrote {}, {:.1f} s", map, maps_.back().seconds));
 }
 
 void RenderJob::say_what_is_written(const FrameStats& stats) {
@@ -213,7 +221,7 @@ void RenderJob::render_world(Scene&& scene) {
 bool RenderJob::write_stats() const {
     if (arguments_.stats_file.empty()) return true;
     const RunFacts facts{arguments_.words, files_read(diagnostics_), diagnostics_.count(Severity::Error),
-                         diagnostics_.count(Severity::Warning)};
+                         diagnostics_.count(Severity::Warning), maps_};
     return write_text(arguments_.stats_file, stats_json(frames_, facts), diagnostics_);
 }
 
@@ -221,7 +229,7 @@ int RenderJob::exit_code() const {
     if (interrupt_.requested()) return interrupt_.exit_code();
     if (output_failed_) return kExitNoOutput;
     if (diagnostics_.kinds().contains(kPictureTooLarge)) return kExitNoMemory;
-    if (frames_.empty()) return kExitNothingRendered;
+    if (frames_.empty() && maps_.empty()) return kExitNothingRendered;
     if (arguments_.strict && has_missing_shader(diagnostics_)) return kExitShaderMissing;
     const bool warned = diagnostics_.count(Severity::Warning) > 0;
     return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
@@ -233,6 +241,7 @@ bool RenderJob::outputs_are_possible() const {
     const std::string& output = arguments_.output;
     const bool is_of_a_frame =
         with_frame_number(output, 0) != output;  // its folder, too, may have the number
+    if (!may_write_report(arguments_.stats_file, access_, diagnostics_)) return false;
     const bool writes_output = arguments_.driver != "null" && !is_of_a_frame;
     return can_write({arguments_.stats_file, writes_output ? output : ""}, diagnostics_);
 }
@@ -262,11 +271,11 @@ int RenderJob::run() {
     });
     terminal_.end_progress();
     if (!interrupt_.requested()) {
-        if (worlds_ == 0)
+        if (worlds_ == 0 && maps_.empty())
             diagnostics_.error({}, worlds_read
                                        ? "none of the frames asked for is in the input; nothing rendered"
                                        : "no WorldBegin block was found in the input; nothing rendered");
-        if (!frames_.empty() && !write_stats()) output_failed_ = true;
+        if (!(frames_.empty() && maps_.empty()) && !write_stats()) output_failed_ = true;
     }
     return exit_code();
 }

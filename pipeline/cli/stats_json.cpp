@@ -9,6 +9,10 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+json to_json(const FrameStats::Output& output) {
+    return {{"path", output.path}, {"bytes", output.bytes}, {"seconds", output.seconds}};
+}
+
 json to_json(const FrameStats& s) {
     const auto stage = [](double seconds) { return json{{"seconds", seconds}}; };
     json out = {
@@ -42,20 +46,21 @@ json to_json(const FrameStats& s) {
         {"simd_target", s.simd_target},
         {"sampler", s.sampler},
         {"outputs", json::array()}};
-    for (const FrameStats::Output& output : s.outputs)
-        out["outputs"].push_back(
-            {{"path", output.path}, {"bytes", output.bytes}, {"seconds", output.seconds}});
+    for (const FrameStats::Output& output : s.outputs) out["outputs"].push_back(to_json(output));
     return out;
 }
 
 }  // namespace
 
 std::string stats_json(const std::vector<FrameStats>& frames, const RunFacts& facts) {
-    const json run = {{"version", kVersion},
-                      {"revision", revision()},
-                      {"command", facts.words},
-                      {"scene_files", facts.files},
-                      {"messages", {{"errors", facts.errors}, {"warnings", facts.warnings}}}};
+    json run = {{"version", kVersion},
+                {"revision", revision()},
+                {"command", facts.words},
+                {"scene_files", facts.files},
+                {"messages", {{"errors", facts.errors}, {"warnings", facts.warnings}}}};
+    run["maps"] = json::array();
+    for (const FrameStats::Output& map : facts.maps) run["maps"].push_back(to_json(map));
+    if (frames.empty()) return json_text(run) + "\n";
     json all = json::array();
     for (const FrameStats& stats : frames) {
         json frame = to_json(stats);

@@ -14,9 +14,11 @@ struct RunFacts {
     std::vector<std::string> words;  ///< the command line, without the program's name
     std::vector<std::string> files;  ///< that were read, archives among them
     uint64_t errors = 0, warnings = 0;
+    std::vector<FrameStats::Output> maps;  ///< that requests made
 };
 
-/// An object, or an array of them where there is more than one frame.
+/// An object, or an array of them where there is more than one frame; what is true of the run alone where
+/// there is none.
 std::string stats_json(const std::vector<FrameStats>& frames, const RunFacts& facts);
 
 }  // namespace trapeze

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "pipeline/cli/json_lines.h"
 
@@ -165,9 +164,7 @@ void Terminal::wait(const std::string& what) {
             write(what + "\n");
             break;
         case ProgressStyle::Json:
-            write(nlohmann::json{{"waiting", what}}.dump(-1, ' ', false,
-                                                         nlohmann::json::error_handler_t::replace) +
-                  "\n");
+            write(json_line(work_, fraction_, elapsed_seconds(), what));
             break;
     }
 }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "core/output_file.h"
 
 namespace trapeze {
@@ -20,6 +23,28 @@ bool can_write(std::initializer_list<std::string> paths, Diagnostics& diagnostic
         OutputFile file(path);
         if (!file.open()) return report(path, file, diagnostics);
     }
+    return true;
+}
+
+bool may_write_report(const std::string& path, const Access& access, Diagnostics& diagnostics) {
+    // Devices and pipes are the user's way to look at it.
+    std::error_code ignored;
+    if (path.empty() || path == "-" || std::filesystem::is_other(path, ignored) ||
+        std::filesystem::is_fifo(path, ignored) || std::filesystem::is_character_file(path, ignored))
+        return true;
+    const Access::Writing writing = access.may_write(path);
+    char first = 0;
+    std::ifstream(path) >> first;
+    const bool is_report = first == '{' || first == '[';
+    if (!writing.problem.empty() && (access.is_confined() || !is_report)) {
+        const std::string why =
+            access.is_confined() ? writing.problem : "the file that is there is no report of a run";
+        diagnostics.error({}, fmt::format("cannot write \"{}\": {}", path, why));
+        return false;
+    }
+    if (writing.is_elsewhere)
+        diagnostics.note({}, fmt::format("\"{}\" lies outside of the working folder", path),
+                         "written-elsewhere");
     return true;
 }
 

@@ -66,7 +66,9 @@ std::vector<std::string> missing_pictures(const MapRequest& request, const Acces
     return missing;
 }
 
-bool make_map(const MapRequest& request, const Access& access, Diagnostics& diagnostics) {
+bool make_map(const MapRequest& request, const Access& access, Diagnostics& diagnostics,
+              std::string* written) {
+    if (written) written->clear();
     const auto report = [&](const std::string& problem) {
         diagnostics.error(request.location, fmt::format("cannot make \"{}\" from \"{}\": {}", request.map,
                                                         request.pictures[0], problem));
@@ -84,6 +86,7 @@ bool make_map(const MapRequest& request, const Access& access, Diagnostics& diag
     const MapProblem problem =
         place.problem.empty() ? made(request, place.path, pictures) : MapProblem{place.problem, true};
     if (!problem.text.empty()) report(problem.text);
+    if (problem.text.empty() && written) *written = place.path;
     return problem.text.empty() || !problem.is_of_output;
 }
 

@@ -1,5 +1,6 @@
 #include "pipeline/frame/render_frame.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
@@ -102,12 +103,14 @@ bool picture_fits(const RenderContext& context, const RenderSettings& settings) 
     const size_t most =
         settings.access->is_confined() && settings.memory_bytes ? settings.memory_bytes : machine_memory();
     if (bytes <= static_cast<double>(most)) return true;
+    constexpr double kMiB = 1 << 20;
     context.diagnostics->error(
         {},
-        "a picture of " + std::to_string(pixels.width()) + "x" + std::to_string(pixels.height()) +
-            " pixels takes " + std::to_string(static_cast<uint64_t>(bytes) >> 30) + " GiB, more than the " +
-            (most == machine_memory() ? "machine's memory" : "limit") + " of " + std::to_string(most >> 30) +
-            " GiB; a smaller --resolution or --crop helps",
+        fmt::format("a picture of {}x{} pixels takes {:.0f} MiB, more than the {} of {:.0f} MiB; a smaller "
+                    "--resolution or --crop helps",
+                    pixels.width(), pixels.height(), bytes / kMiB,
+                    most == machine_memory() ? "machine's memory" : "limit",
+                    static_cast<double>(most) / kMiB),
         kPictureTooLarge);
     return false;
 }

@@ -169,6 +169,10 @@ void quantize(Reader& r, ArgumentCursor& c) {
     Parameter value;
     value.name = c.string("the type");
     value.floats = c.numbers(4, "one, min, max and dither");
+    if (value.name == "rgb") value.name = "rgba";  // as scenes in the world write it
+    if (value.name != "rgba" && value.name != "z")
+        r.warn_once(in_quotes(value.name) + " is not known: the type is \"rgba\" or \"z\"",
+                    "quantize-" + value.name);
     value.declaration.array_length = 4;
     changeable_options(r).quantize.set(std::move(value));
 }

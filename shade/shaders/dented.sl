@@ -1,6 +1,6 @@
 /* Dents: moved inwards by amplitude * |noise|, summed over octaves from frequency (to the unit of shader space)
-   up. Amplitude is a length of shader space along its x axis. */
-displacement dented(float amplitude = 0.1, frequency = 1, octaves = 3;)
+   up. Amplitude is a length of shader space along its x axis; Km scales it. */
+displacement dented(float Km = 1, amplitude = 0.1, frequency = 1, octaves = 3;)
 {
     point Q = transform("shader", P) * frequency;
     uniform float unit = length(vector "shader" (1, 0, 0));
@@ -14,6 +14,6 @@ displacement dented(float amplitude = 0.1, frequency = 1, octaves = 3;)
         Q *= 2;
         weight /= 2;
     }
-    P -= amplitude * unit * depth * normalize(N);
+    P -= Km * amplitude * unit * depth * normalize(N);
     N = calculatenormal(P);
 }

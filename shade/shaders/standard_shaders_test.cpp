@@ -54,7 +54,7 @@ const std::vector<Expected> kExpected = {
     {"marble", "surface", {"roughness"}},
     {"granite", "surface", {"roughness"}},
     {"brick", "surface", {"brickwidth", "brickheight", "mortarthickness"}},
-    {"dented", "displacement", {"amplitude = 0.1", "frequency = 1", "octaves = 3"}},
+    {"dented", "displacement", {"Km = 1", "amplitude = 0.1", "frequency = 1", "octaves = 3"}},
     {"sinewaves", "displacement", {"amplitude = 0.1", "frequency = 1"}},
     {"fractal", "displacement", {"amplitude"}},
     {"shadowspot", "light", {"shadowname = \"\"", "samples = 16", "width = 1", "coneangle = radians(30)"}},
@@ -68,7 +68,7 @@ const std::vector<Expected> kExpected = {
     {"uberlight",
      "light",
      {"lighttype = \"spot\"", "cuton", "cutoff", "width", "height", "wedge", "hedge", "roundness",
-      "slidename", "shadowmap"}}};
+      "slidename", "shadowmap", "nonspecular = 0"}}};
 
 TEST(StandardShaders, AllAreThereByKindAndParameters) {
     for (const Expected& expected : kExpected) {

@@ -7,7 +7,8 @@
    z, the superellipse then has its size at every z. Distances below cuton and beyond cutoff are dark, with soft
    ranges of nearedge and faredge. falloff: the power of the distance, and falloffdist where the light has its
    intensity; within it the light grows to maxintensity at most. slidename: a picture projected by the spot.
-   Light in the shadow of shadowmap takes on shadowcolor. */
+   Light in the shadow of shadowmap takes on shadowcolor.
+   nonspecular 1: it makes no highlights. */
 float superellipse_outside(float x, y, w, h, we, he, roundness)
 {
     float result;
@@ -40,6 +41,7 @@ light uberlight(
     string shadowmap = "";
     float shadowblur = 0, shadowbias = 0.01, shadownsamps = 16;
     color shadowcolor = 0;
+    float nonspecular = 0;
     output varying float __nondiffuse = 0, __nonspecular = 0;
     output float __foglight = 1;)
 {
@@ -51,6 +53,7 @@ light uberlight(
     float atten, distance_to, x, y, z, reach;
     color lcol, tint;
 
+    __nonspecular = nonspecular;
     z = zcomp(PL);
     distance_to = (parallelrays == 0) ? length(vector PL) : z;
     x = xcomp(PL) - shearx * z;
