@@ -73,6 +73,9 @@ HWY_INLINE V flip(V x, VU bits) {
 HWY_INLINE V choose(VU bits, V yes, V no) {
 #if HWY_TARGET == HWY_SCALAR  // whose IfNegativeThenElse() compares, and so misses -0 and NaN
     return static_cast<int32_t>(hn::GetLane(bits)) < 0 ? yes : no;
+#elif HWY_TARGET == HWY_EMU128  // alike
+    const VI signs = hn::BroadcastSignBit(hn::BitCast(DI(), bits));
+    return hn::IfThenElse(hn::MaskFromVec(hn::BitCast(D(), signs)), yes, no);
 #else
     return hn::IfNegativeThenElse(hn::BitCast(D(), bits), yes, no);
 #endif
