@@ -220,6 +220,11 @@ void look_up(Textures& textures, const std::string& name, ByteSource& bytes) {
 
 }  // namespace
 
+/// Messages that OpenImageIO keeps for threads that have ended.
+extern "C" const char* __lsan_default_suppressions() {
+    return "leak:libOpenImageIO";
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static const Folder folder;
     ByteSource bytes(data, size);
