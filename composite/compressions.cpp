@@ -6,7 +6,7 @@ namespace trapeze {
 namespace {
 
 struct Named {
-    std::string_view asked, library;
+    std::string_view asked, written;  ///< `written`: OpenImageIO's and OpenEXR's name of it
 };
 
 constexpr Named kOpenExr[] = {{"none", "none"}, {"rle", "rle"},     {"zips", "zips"}, {"zip", "zip"},
@@ -41,7 +41,7 @@ std::span<const Named> table(FileFormat format) {
 
 std::optional<std::string> compression_named(FileFormat format, std::string_view name) {
     for (const Named& row : table(format))
-        if (row.asked == name) return std::string(row.library);
+        if (row.asked == name) return std::string(row.written);
     return {};
 }
 

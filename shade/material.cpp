@@ -62,7 +62,7 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     });
     // Without a bound it has P for itself, which many use as just another point.
     material.surface_moves = sets_P && attributes.displacement_bound > 0;
-    material.surface_only_sets_P = sets_P && !material.surface_moves;
+    material.surface_only_sets_P = sets_P && !material.surface_moves && !material.displacement;
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
         material.asks_object_space |= shader && shader->asks_object_space();
     for (const auto& instance : attributes.lights)

@@ -28,12 +28,12 @@ struct Material {
     bool asks_object_space = false;
     /// The surface shader sets P, and the displacement bound allows it: the surface is displaced by it, too.
     bool surface_moves = false;
-    /// It sets P, and there is no bound: the surface stays.
+    /// It sets P, there is no bound, and no displacement shader of which reach is told: the surface stays.
     bool surface_only_sets_P = false;
     bool shades_vertices_apart = false;  ///< as grid_parts.h says
     std::vector<const Lamp*> lights;
-    /// The farthest that the displacement shader, or a surface shader that sets P, has moved a vertex or would
-    /// have, in camera space.
+    /// The farthest that the displacement shader, or a surface shader that sets P, has moved a vertex or
+    /// would have, in camera space.
     mutable std::atomic<float> displacement_reach{0};
 };
 

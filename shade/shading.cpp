@@ -98,7 +98,7 @@ void Shading::report_displacement_bounds() const {
         const float bound = material.attributes->displacement_bound;
         const float reach = material.displacement_reach.load(std::memory_order_relaxed);
         if (reach <= bound * kBoundTolerance) continue;
-        if (material.surface_only_sets_P && !material.displacement) {
+        if (material.surface_only_sets_P) {
             const ShaderInstance& shader = material.surface->last().instance();
             diagnostics->warning(
                 shader.location,

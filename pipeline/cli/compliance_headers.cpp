@@ -10,22 +10,19 @@ constexpr HeaderNote kHeaders[] = {
     {"filterwidth.h", "MINFILTWIDTH, filterwidth, filterwidthp, fadeout", ""},
     {"locillum.h", "LocIllumOrenNayar, LocIllumWardAnisotropic, LocIllumGlossy", "further reflection models"},
     {"material.h",
-     "MaterialMatte, MaterialClay, MaterialPlastic, MaterialThinPlastic, MaterialRoughMetal, "
-     "MaterialBrushedMetal, "
+     "MaterialMatte, MaterialClay, MaterialPlastic, MaterialThinPlastic, MaterialRoughMetal, MaterialBrushedMetal, "
      "MaterialShinyMetal, MaterialShinyPlastic, MaterialCeramic, MaterialGlass",
      "jitter and number of rays of glass are not used; rays are traced only where the program traces them"},
     {"materials.h", "material.h", "functions of single studios under this name"},
     {"noises.h",
-     "snoise, snoisexy, vsnoise, snoisept, filteredsnoise, filteredvsnoise, filteredsnoiset, VLNoise, "
-     "filteredVLNoise, fBm, "
+     "snoise, snoisexy, vsnoise, snoisept, filteredsnoise, filteredvsnoise, filteredsnoiset, VLNoise, filteredVLNoise, fBm, "
      "vfBm, VLfBm, turbulence, fBm_default, vfBm_default, VLfBm_default, turbulence_default, voronoi_f1_2d, "
      "voronoi_f1f2_2d, voronoi_f1_3d, voronoi_f1f2_3d",
      "variants with a parameter of time, but filteredsnoiset"},
     {"oak.h", "oaktexture", ""},
     {"patterns.h",
      "boxstep, sqr, filteredabs, smoothstepintegral, filteredsmoothstep, pulse, filteredpulse, pulsetrain, "
-     "pulsetrainintegral, filteredpulsetrain, smoothpulse, filteredsmoothpulse, smoothpulsetrain, varyEach, "
-     "tilepattern, "
+     "pulsetrainintegral, filteredpulsetrain, smoothpulse, filteredsmoothpulse, smoothpulsetrain, varyEach, tilepattern, "
      "basicbrick",
      "counts of pulses"},
     {"project.h",
@@ -46,8 +43,7 @@ constexpr HeaderNote kHeaders[] = {
      "the number of rays (samples) among the parameters"},
     {"rmannotes.h", "rmannotes.sl", ""},
     {"rmannotes.sl",
-     "blend, intersection, union, difference, complement, pulse, repeat, whichtile, odd, even, snoise, "
-     "snoise2, udn, udn2, "
+     "blend, intersection, union, difference, complement, pulse, repeat, whichtile, odd, even, snoise, snoise2, udn, udn2, "
      "rotate2d, topolar2d, fromPolar2d",
      "noises of more dimensions"},
     {"textures.h", "project.h", "functions of single studios under this name"},

@@ -77,12 +77,9 @@ constexpr Capability kCapabilities[] = {
     {"Area Lights", "not supported",
      "AreaLightSource shines from the middle of its first shape, with a warning."},
     {"Texture, Environment and Shadow Mapping", "supported",
-     "The Make requests and what OpenImageIO reads. Numbers of 8 and 16 bits are as RISpec has them, or by "
-     "the sRGB "
-     "curve where Option \"color\" \"transfer\" or a \"colorspace\" asks for it (docs/colour.md). Files that "
-     "do not "
-     "record wrap modes are black outside; longitude 0 (+x) of environments is at the left edge, z is up; "
-     "channels that "
+     "The Make requests and what OpenImageIO reads. Numbers of 8 and 16 bits are as RISpec has them, or by the sRGB "
+     "curve where Option \"color\" \"transfer\" or a \"colorspace\" asks for it (docs/colour.md). Files that do not "
+     "record wrap modes are black outside; longitude 0 (+x) of environments is at the left edge, z is up; channels that "
      "a file lacks are \"fill\"."},
 };
 

@@ -114,8 +114,7 @@ void add_wrong_header_notes(std::vector<std::string>& wrong) {
         const std::string_view text = standard_header(note.name);
         std::istringstream names(note.has);
         for (std::string name; std::getline(names >> std::ws, name, ',');)
-            if (text.find(name) == std::string_view::npos)
-                wrong.push_back(std::string(note.name) + ": " + name);
+            if (text.find(name) == std::string_view::npos) wrong.push_back(std::string(note.name) + ": " + name);
     }
 }
 
@@ -159,10 +158,8 @@ std::string compliance_page(const std::vector<std::string>& paths) {
     const auto names = standard_shader_names();
     text += "\n## Standard shaders\n\n" + joined({names.begin(), names.end()});
     text +=
-        "\n## Headers for shaders\n\nFiles that shaders include by custom, written anew from what is "
-        "published of "
-        "their functions; a file of the same name beside a scene or on the shaders' search path comes "
-        "first.\n\n";
+        "\n## Headers for shaders\n\nFiles that shaders include by custom, written anew from what is published of "
+        "their functions; a file of the same name beside a scene or on the shaders' search path comes first.\n\n";
     text += headers();
     text +=
         "\n## Built-in functions of the shading language\n\nAll statements are supported; the rays of gather "
