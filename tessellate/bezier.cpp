@@ -1,5 +1,6 @@
 #include "tessellate/bezier.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trapeze {
@@ -20,6 +21,14 @@ Weights weights(int degree, float t) {
 
 void add(Control& sum, const Control& p, float weight) {
     for (int k = 0; k < 4; ++k) sum[k] += p[k] * weight;
+}
+
+/// The nearer end's value and steps from there: those between equal values are 0, and ends are exact.
+float combine(const std::array<float, 4>& c, int degree, const Weights& weights, float t) {
+    const float from = c[t < 0.5f ? 0 : degree];
+    float steps = 0;
+    for (int i = 0; i <= degree; ++i) steps += weights.w[i] * (c[i] - from);
+    return from + steps;
 }
 
 Control lerp(const Control& a, const Control& b, float t) {
@@ -58,6 +67,16 @@ Control BezierPatch::at(V2f uv) const {
         add(sum, row, v.w[j]);
     }
     return sum;
+}
+
+float BezierPatch::number_at(V2f uv) const {
+    const Weights u = weights(degree, uv.x), v = weights(degree, uv.y);
+    std::array<float, 4> rows{};
+    for (int j = 0; j <= degree; ++j) {
+        const Control* const row = &p[j * 4];
+        rows[j] = combine({row[0][0], row[1][0], row[2][0], row[3][0]}, degree, u, uv.x);
+    }
+    return combine(rows, degree, v, uv.y);
 }
 
 void BezierPatch::at(V2f uv, Control* value, Control* by_u, Control* by_v) const {
@@ -140,6 +159,27 @@ void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis,
                 for (int k = 0; k < 4; ++k) add(sum, q[line * across + k * along], m[i][k]);
                 patch.p[line * across + i * along] = sum;
             }
+    };
+    convert(u_bezier_from_basis, 1, 4);
+    convert(v_bezier_from_basis, 4, 1);
+}
+
+void numbers_to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch) {
+    constexpr float kRounding = 1e-6f;
+    const auto convert = [&](const M44f& m, int along, int across) {
+        for (int line = 0; line < 4; ++line) {
+            std::array<float, 4> q;
+            for (int k = 0; k < 4; ++k) q[k] = patch.p[line * across + k * along][0];
+            for (int i = 0; i < 4; ++i) {
+                // From the weightiest, so that patches which share a border begin at the same point.
+                const float* const w = m[i];
+                const float from = q[std::max_element(w, w + 4) - w];
+                float whole = 0, steps = 0;
+                for (int k = 0; k < 4; ++k) whole += w[k], steps += w[k] * (q[k] - from);
+                if (std::abs(whole - 1) < kRounding) whole = 1;
+                patch.p[line * across + i * along][0] = whole * from + steps;
+            }
+        }
     };
     convert(u_bezier_from_basis, 1, 4);
     convert(v_bezier_from_basis, 4, 1);

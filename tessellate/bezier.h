@@ -18,6 +18,9 @@ struct BezierPatch {
 
     Control at(V2f uv) const;
     void at(V2f uv, Control* value, Control* by_u, Control* by_v) const;
+    /// The first component of a net of numbers. Where control points are equal along u or along v there is
+    /// nothing but their value in between, without rounding, as in between.h.
+    float number_at(V2f uv) const;
     /// The same surface over a rectangle of its parameters.
     BezierPatch restricted(V2f lo, V2f hi) const;
 };
@@ -40,6 +43,10 @@ bool pieces_join(const M44f& bezier_from_basis, int step);
 
 /// Changes four control points of another basis into Bezier form.
 void to_bezier(const M44f& bezier_from_basis, BezierCurve& curve);
+
+/// Changes a 4x4 net of numbers of other bases into Bezier form, for BezierPatch::number_at(): equal control
+/// points stay equal, where a basis' weights add up to 1.
+void numbers_to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch);
 
 /// Changes a 4x4 net of other bases into Bezier form.
 void to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_from_basis, BezierPatch& patch);

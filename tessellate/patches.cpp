@@ -34,6 +34,10 @@ class PatchSurface : public TopologySurface<PatchSurface> {
 
     /// One to four floats of each control point, starting at values, `stride` floats apart.
     BezierPatch net(int face, const float* values, int count, size_t stride) const;
+    /// One component of a variable.
+    BezierPatch numbers(int face, const float* values, size_t stride) const;
+    /// In the mesh's own basis.
+    BezierPatch controls(int face, const float* values, int count, size_t stride) const;
     const PatchMesh& mesh() const { return mesh_; }
 
   private:
@@ -95,6 +99,18 @@ void PatchSurface::find_tears(bool along_u) {
 }
 
 BezierPatch PatchSurface::net(int face, const float* values, int count, size_t stride) const {
+    BezierPatch patch = controls(face, values, count, stride);
+    if (mesh_.bicubic) to_bezier(u_bezier_, v_bezier_, patch);
+    return patch;
+}
+
+BezierPatch PatchSurface::numbers(int face, const float* values, size_t stride) const {
+    BezierPatch patch = controls(face, values, 1, stride);
+    if (mesh_.bicubic) numbers_to_bezier(u_bezier_, v_bezier_, patch);
+    return patch;
+}
+
+BezierPatch PatchSurface::controls(int face, const float* values, int count, size_t stride) const {
     BezierPatch patch;
     patch.degree = mesh_.bicubic ? 3 : 1;
     const int first_i = faces_.column_of(face) * (mesh_.bicubic ? mesh_.u_step : 1);
@@ -105,7 +121,6 @@ BezierPatch PatchSurface::net(int face, const float* values, int count, size_t s
                 static_cast<size_t>((first_j + j) % mesh_.nv) * mesh_.nu + (first_i + i) % mesh_.nu;
             std::copy_n(values + at * stride, count, patch.p[j * 4 + i].data());
         }
-    if (mesh_.bicubic) to_bezier(u_bezier_, v_bezier_, patch);
     return patch;
 }
 
@@ -147,8 +162,8 @@ class PatchValues : public VariableSource {
         const size_t stride = parameter.declaration.floats_per_item();
         const float* const first = parameter.floats.data() + component;
         if (parameter.declaration.storage == StorageClass::Vertex) {
-            const BezierPatch patch = surface_.net(face_, first, 1, stride);
-            for (size_t i = 0; i < values.size(); ++i) values[i] = patch.at(uv_[i])[0];
+            const BezierPatch patch = surface_.numbers(face_, first, stride);
+            for (size_t i = 0; i < values.size(); ++i) values[i] = patch.number_at(uv_[i]);
             return;
         }
         float c[4];

@@ -225,7 +225,32 @@ TEST(Patches, VertexVariablesFollowTheBasis) {
     const MadePatches made(mesh, variables);
     const ShadingGrid grid = variables_of(made, 0, {{0.3f, 0.6f}});
     const V3f at = made.at(0, {0.3f, 0.6f});
-    for (int k = 0; k < 3; ++k) EXPECT_FLOAT_EQ(grid.find("where")->planes[k][0], at[k]);
+    // Numbers are added in another order than positions; all are within (-1, 1).
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(grid.find("where")->planes[k][0], at[k], 0x1p-22f);
+}
+
+/// Shaders divide by differences: what runs along u alone must not differ along v by rounding.
+TEST(Patches, VertexVariablesThatRunOneWayAreThatAlone) {
+    for (const bool bicubic_one : {false, true}) {
+        PatchMesh mesh;
+        mesh.nu = mesh.nv = 2;
+        if (bicubic_one) mesh = bicubic(4, 4, kBSpline, 1, kBSpline, 1);
+        const int side = bicubic_one ? 4 : 2;
+        ParameterList variables;
+        std::vector<float> s;
+        for (int i = 0; i < side * side; ++i) s.push_back(0.1f + 0.2f * static_cast<float>(i % side));
+        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                      random_floats(static_cast<size_t>(3 * side * side), 5)));
+        variables.set(test::parameter("s", StorageClass::Vertex, ValueType::Float, s));
+        const MadePatches made(mesh, variables);
+        for (int i = 0; i <= 40; ++i) {
+            std::vector<V2f> column;
+            for (int j = 0; j <= 40; ++j)
+                column.push_back({static_cast<float>(i) / 40, static_cast<float>(j) / 40});
+            const ShadingGrid grid = variables_of(made, 0, column);
+            for (size_t j = 1; j < column.size(); ++j) EXPECT_EQ(grid.s[j], grid.s[0]) << i << " " << j;
+        }
+    }
 }
 
 TEST(Patches, MissingPointsAreReported) {
