@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/camera.h"
+#include "core/scene/camera.h"
 
 namespace trapeze {
 

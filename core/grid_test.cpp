@@ -6,8 +6,8 @@
 #include <limits>
 #include <set>
 
-#include "core/scene.h"
-#include "core/shading_grid.h"
+#include "core/scene/scene.h"
+#include "core/scene/shading_grid.h"
 
 namespace trapeze {
 namespace {

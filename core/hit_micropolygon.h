@@ -27,7 +27,7 @@
 ///
 /// Departs from the paper: depth on the triangle instead of bilinear interpolation of all four, clamped to
 /// the quad's own depth range: the weights of a triangle seen edge-on round to anything, and this much stays
-/// certain. (Culls by the depth at which a bound is entered must allow for it: see accel/paper_tree.h.)
+/// certain. (Culls by the depth at which a bound is entered must allow for it: see accel/paper/paper_tree.h.)
 #pragma once
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/hit_micropolygon.h"
-#include "core/test_targets.h"
+#include "core/simd/targets_harness.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/hit_micropolygon_simd_test.cpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/test_grids.h"
+#include "core/grids_harness.h"
 
 namespace trapeze {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
-#include "core/test_targets.h"
-#include "sample/interval_pattern.h"
-#include "sample/stratified_pattern.h"
-#include "sample/test_frame.h"
-#include "sample/visibility_method.h"
+#include "core/simd/targets_harness.h"
+#include "sample/frame_harness.h"
+#include "sample/patterns/interval_pattern.h"
+#include "sample/patterns/stratified_pattern.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "core/scene.h"
-#include "sample/visibility_method.h"
+#include "core/scene/scene.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/hit_buffer.h"
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 

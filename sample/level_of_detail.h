@@ -1,11 +1,11 @@
-/// What samples see of levels of detail in transition (core/level_of_detail.h): hits on levels that are not
+/// What samples see of levels of detail in transition (core/scene/level_of_detail.h): hits on levels that are not
 /// theirs are taken out of finished lists, alike for all methods.
 #pragma once
 
 #include <memory>
 
-#include "core/level_of_detail.h"
-#include "sample/visibility_method.h"
+#include "core/scene/level_of_detail.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 

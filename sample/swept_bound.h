@@ -1,8 +1,8 @@
 /// Where on the raster a moving, defocused thing can be seen: a conservative box.
 #pragma once
 
-#include "core/camera.h"
 #include "core/grid.h"
+#include "core/scene/camera.h"
 
 namespace trapeze {
 

@@ -1,10 +1,10 @@
 #include "shade/check_looks.h"
 
 #include "shade/imager.h"
-#include "shade/material.h"
-#include "shade/named_maps.h"
+#include "shade/maps/textures.h"
+#include "shade/materials/material.h"
+#include "shade/materials/named_maps.h"
 #include "shade/take_aovs.h"
-#include "shade/textures.h"
 
 namespace trapeze {
 namespace {

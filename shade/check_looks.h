@@ -4,8 +4,8 @@
 #include <functional>
 #include <string_view>
 
-#include "core/access.h"
-#include "core/render_context.h"
+#include "core/files/access.h"
+#include "core/scene/render_context.h"
 
 namespace trapeze {
 

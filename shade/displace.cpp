@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/motion_keys.h"
-#include "core/scene.h"
-#include "shade/differences.h"
-#include "shade/grid_shader.h"
+#include "core/scene/scene.h"
+#include "shade/materials/grid_shader.h"
+#include "shade/planes/differences.h"
 
 namespace trapeze {
 namespace {

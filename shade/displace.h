@@ -1,8 +1,8 @@
 /// Moves a grid by a displacement shader, at all its motion keys.
 #pragma once
 
-#include "core/shading_grid.h"
-#include "shade/planes.h"
+#include "core/scene/shading_grid.h"
+#include "shade/planes/planes.h"
 #include "shade/vm/frame.h"
 
 namespace trapeze {

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "core/scene.h"
-#include "shade/differences.h"
-#include "shade/polygon_parameters.h"
+#include "core/scene/scene.h"
+#include "shade/materials/polygon_parameters.h"
+#include "shade/planes/differences.h"
 
 namespace trapeze {
 namespace {

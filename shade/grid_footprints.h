@@ -7,9 +7,9 @@
 #include <memory>
 #include <span>
 
-#include "core/camera.h"
-#include "core/shading_grid.h"
-#include "shade/planes.h"
+#include "core/scene/camera.h"
+#include "core/scene/shading_grid.h"
+#include "shade/planes/planes.h"
 #include "shade/vm/footprint.h"
 
 namespace trapeze {

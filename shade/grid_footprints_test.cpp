@@ -1,6 +1,6 @@
 #include "shade/grid_footprints.h"
 
-#include "shade/test_scene.h"
+#include "shade/shading_harness.h"
 #include "shade/vm/run_shader_harness.h"
 
 namespace trapeze {

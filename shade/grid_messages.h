@@ -2,8 +2,8 @@
 /// section 15.8).
 #pragma once
 
-#include "core/render_context.h"
-#include "shade/light_rig.h"
+#include "core/scene/render_context.h"
+#include "shade/materials/light_rig.h"
 
 namespace trapeze {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "shade/grid_footprints.h"
-#include "shade/grid_shader.h"
+#include "shade/materials/grid_shader.h"
 #include "shade/take_aovs.h"
 
 namespace trapeze {

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "core/aov.h"
+#include "core/scene/aov.h"
 #include "shade/displace.h"
 #include "shade/grid_messages.h"
-#include "shade/map_service.h"
-#include "shade/material.h"
+#include "shade/maps/map_service.h"
+#include "shade/materials/material.h"
 #include "shade/weld.h"
 
 namespace trapeze {

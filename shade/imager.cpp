@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "shade/grid_messages.h"
-#include "shade/map_service.h"
-#include "shade/scene_spaces.h"
-#include "shade/shader_library.h"
+#include "shade/maps/map_service.h"
+#include "shade/materials/scene_spaces.h"
+#include "shade/materials/shader_library.h"
 
 namespace trapeze {
 namespace {

@@ -1,7 +1,7 @@
 #include "shade/imager.h"
 
-#include "shade/shader_folder_harness.h"
-#include "shade/test_scene.h"
+#include "shade/materials/shader_folder_harness.h"
+#include "shade/shading_harness.h"
 
 namespace trapeze {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <span>
 
-#include "core/access.h"
 #include "core/depth_height.h"
-#include "core/render_context.h"
-#include "core/shading_grid.h"
+#include "core/files/access.h"
+#include "core/scene/render_context.h"
+#include "core/scene/shading_grid.h"
 #include "core/stats.h"
 
 namespace trapeze {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "shade/material.h"
+#include "shade/materials/material.h"
 
 namespace trapeze {
 namespace {

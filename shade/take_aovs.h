@@ -1,10 +1,10 @@
-/// Output variables (core/aov.h) from a grid's shaders into the grid.
+/// Output variables (core/scene/aov.h) from a grid's shaders into the grid.
 #pragma once
 
 #include <span>
 
-#include "core/aov.h"
-#include "core/shading_grid.h"
+#include "core/scene/aov.h"
+#include "core/scene/shading_grid.h"
 #include "shade/vm/frame.h"
 
 namespace trapeze {

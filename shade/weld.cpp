@@ -1,6 +1,6 @@
 #include "shade/weld.h"
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 
 namespace trapeze {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tessellate/placed_surface.h"
+#include "tessellate/topology/placed_surface.h"
 
 namespace trapeze {
 namespace {

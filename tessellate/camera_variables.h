@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/math.h"
-#include "core/shading_grid.h"
+#include "core/scene/shading_grid.h"
 
 namespace trapeze {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "tessellate/test_scene.h"
+#include "tessellate/dicing_harness.h"
 
 namespace trapeze {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/random.h"
-#include "tessellate/test_scene.h"
+#include "tessellate/dicing_harness.h"
 
 namespace trapeze {
 namespace {

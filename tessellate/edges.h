@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "tessellate/line_measure.h"
-#include "tessellate/placed_surface.h"
+#include "tessellate/measure/line_measure.h"
+#include "tessellate/topology/placed_surface.h"
 
 namespace trapeze {
 

@@ -2,7 +2,7 @@
 
 #include "core/random.h"
 #include "tessellate/border.h"
-#include "tessellate/test_scene.h"
+#include "tessellate/dicing_harness.h"
 
 namespace trapeze {
 namespace {

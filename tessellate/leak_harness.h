@@ -14,7 +14,7 @@
 #include "core/hit_micropolygon.h"
 #include "core/random.h"
 #include "core/rays.h"
-#include "tessellate/test_scene.h"
+#include "tessellate/dicing_harness.h"
 
 namespace trapeze::test {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "tessellate/leak_harness.h"
-#include "tessellate/test_meshes.h"
+#include "tessellate/mesh_harness.h"
 
 namespace trapeze {
 namespace {

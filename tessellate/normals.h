@@ -1,7 +1,7 @@
 /// Unit normals from derivatives, also where these vanish.
 #pragma once
 
-#include "tessellate/placed_surface.h"
+#include "tessellate/topology/placed_surface.h"
 
 namespace trapeze {
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "core/camera.h"
 #include "core/math.h"
+#include "core/scene/camera.h"
 
 namespace trapeze {
 

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "core/random.h"
+#include "tessellate/dicing_harness.h"
 #include "tessellate/raster_bound.h"
-#include "tessellate/test_scene.h"
 
 namespace trapeze {
 namespace {

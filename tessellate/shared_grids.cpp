@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "tessellate/topology_surface.h"
+#include "tessellate/topology/topology_surface.h"
 
 namespace trapeze {
 namespace {

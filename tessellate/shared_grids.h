@@ -7,7 +7,7 @@
 #include <atomic>
 #include <memory>
 
-#include "tessellate/surface.h"
+#include "tessellate/topology/surface.h"
 
 namespace trapeze {
 

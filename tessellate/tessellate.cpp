@@ -1,5 +1,5 @@
 #include "tessellate/tessellate.h"
-#include "tessellate/blur_factor.h"
+#include "tessellate/measure/blur_factor.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/depth_height.h"
-#include "core/render_context.h"
-#include "core/shading_grid.h"
+#include "core/scene/render_context.h"
+#include "core/scene/shading_grid.h"
 #include "core/stats.h"
 
 namespace trapeze {

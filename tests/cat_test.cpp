@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pipeline/rib/cat_rib.h"
+#include "pipeline/rib/write/cat_rib.h"
 #include "tests/program.h"
 #include "tests/scene_harness.h"
 

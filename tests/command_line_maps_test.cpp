@@ -1,7 +1,7 @@
 /// The program from outside: passes, maps made of them, variables of shaders.
 
+#include "core/files/temporary_folder_harness.h"
 #include "core/random.h"
-#include "core/temporary_folder_harness.h"
 #include "tests/command_line.h"
 
 namespace trapeze::testing {

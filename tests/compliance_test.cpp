@@ -1,7 +1,7 @@
 /// COMPLIANCE.md says what the program does.
 #include <gtest/gtest.h>
 
-#include "pipeline/cli/compliance_page.h"
+#include "pipeline/cli/commands/compliance_page.h"
 #include "tests/program.h"
 
 namespace trapeze::testing {
@@ -21,7 +21,7 @@ TEST(Compliance, NotesAreOfWhatThereIs) {
 }
 
 /// Whatever RISpec defines and the program carries out has a scene. Environments made from panoramas alone
-/// have none: shade/make_maps_test.cpp shows them.
+/// have none: shade/maps/make_maps_test.cpp shows them.
 TEST(Compliance, EverySupportedRequestOfRISpecIsShown) {
     const std::string page = text_of(TRAPEZE_SOURCE_DIR "/COMPLIANCE.md");
     const size_t begin = page.find("## Requests of RISpec 3.2"), end = page.find("## Requests of later");

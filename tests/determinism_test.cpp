@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "core/simd_limit.h"
+#include "core/simd/simd_limit.h"
 #include "tests/program.h"
 #include "tests/scene_harness.h"
 

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "shade/shader_folder_harness.h"
+#include "shade/materials/shader_folder_harness.h"
 #include "shade/shading.h"
 #include "tessellate/leak_harness.h"
-#include "tessellate/test_meshes.h"
+#include "tessellate/mesh_harness.h"
 
 namespace trapeze {
 namespace {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/rib/arguments.h"
 #include "pipeline/rib/read_rib.h"
-#include "pipeline/rib/rib_writer.h"
+#include "pipeline/rib/syntax/arguments.h"
+#include "pipeline/rib/write/rib_writer.h"
 #include "tests/program.h"
 
 namespace trapeze::testing {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "sample/cut_hits.h"
-#include "tessellate/test_scene.h"
+#include "tessellate/dicing_harness.h"
 
 namespace trapeze {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "accel/paper_options.h"
+#include "accel/builders/paper_options.h"
 #include "core/grid.h"
 #include "core/hyper_trapezoid.h"
 

@@ -3,13 +3,13 @@
 #include <new>
 #include <string_view>
 
-#include "core/simd_limit.h"
-#include "pipeline/cli/commands.h"
-#include "pipeline/cli/exit_codes.h"
-#include "pipeline/cli/interrupt.h"
-#include "pipeline/cli/memory_limit.h"
-#include "pipeline/cli/read_settings.h"
-#include "pipeline/cli/standard_streams.h"
+#include "core/simd/simd_limit.h"
+#include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/cli/support/interrupt.h"
+#include "pipeline/cli/support/memory_limit.h"
+#include "pipeline/cli/support/read_settings.h"
+#include "pipeline/cli/support/standard_streams.h"
 #include "pipeline/ri/serve_procedural.h"
 
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/camera.h"
 #include "core/grid.h"
+#include "core/scene/camera.h"
 
 namespace trapeze {
 

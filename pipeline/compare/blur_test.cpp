@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/compare/compare_harness.h"
-#include "sample/test_frame.h"
+#include "sample/frame_harness.h"
 
 namespace trapeze {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "pipeline/compare/shared_frame.h"
 #include "pipeline/rib/read_rib.h"
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze::testing {
 

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipeline/compare/shared_frame.h"
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 

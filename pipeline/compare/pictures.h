@@ -9,7 +9,7 @@
 #include "composite/image.h"
 #include "pipeline/compare/shared_frame.h"
 #include "pipeline/frame/resolve_tiles.h"
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sample/sample_pattern.h"
+#include "sample/patterns/sample_pattern.h"
 
 namespace trapeze {
 

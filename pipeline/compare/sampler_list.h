@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 

@@ -6,7 +6,7 @@
 
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/frame/stopwatch.h"
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 namespace {

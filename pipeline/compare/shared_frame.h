@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/grid.h"
-#include "core/render_context.h"
+#include "core/scene/render_context.h"
 #include "pipeline/frame/render_frame.h"
 
 namespace trapeze {

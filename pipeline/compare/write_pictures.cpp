@@ -4,7 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "composite/write_displays.h"
+#include "composite/displays/write_displays.h"
 
 namespace trapeze {
 namespace {

@@ -9,11 +9,11 @@
 #include <deque>
 #include <optional>
 
-#include "composite/film.h"
-#include "core/level_of_detail.h"
+#include "composite/film/film.h"
+#include "core/scene/level_of_detail.h"
 #include "pipeline/frame/stopwatch.h"
 #include "sample/cut_hits.h"
-#include "shade/grid_parts.h"
+#include "shade/materials/grid_parts.h"
 
 namespace trapeze {
 namespace {

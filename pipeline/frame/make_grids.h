@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/grid.h"
-#include "core/render_context.h"
+#include "core/scene/render_context.h"
 #include "pipeline/frame/frame_stats.h"
 #include "pipeline/frame/progress.h"
 #include "pipeline/frame/regions.h"

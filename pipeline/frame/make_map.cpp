@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "core/foreign_paths.h"
-#include "core/output_file.h"
-#include "core/picture_files.h"
-#include "shade/make_maps.h"
+#include "core/files/foreign_paths.h"
+#include "core/files/output_file.h"
+#include "core/files/picture_files.h"
+#include "shade/maps/make_maps.h"
 
 namespace trapeze {
 namespace {

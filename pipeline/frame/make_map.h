@@ -1,8 +1,8 @@
 /// Carries out a file's requests to make maps.
 #pragma once
 
-#include "core/access.h"
 #include "core/diagnostics.h"
+#include "core/files/access.h"
 #include "pipeline/rib/map_request.h"
 
 namespace trapeze {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/camera.h"
 #include "core/samples.h"
+#include "core/scene/camera.h"
 #include "tessellate/tessellate.h"
 
 namespace trapeze {

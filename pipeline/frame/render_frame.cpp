@@ -14,7 +14,7 @@
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/resolve_tiles.h"
 #include "pipeline/frame/stopwatch.h"
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 #include "shade/imager.h"
 #include "shade/shading.h"
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "composite/film.h"
-#include "core/access.h"
-#include "core/render_context.h"
+#include "composite/film/film.h"
+#include "core/files/access.h"
+#include "core/scene/render_context.h"
 #include "pipeline/frame/frame_stats.h"
 
 namespace trapeze {

@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "composite/film.h"
-#include "core/render_context.h"
+#include "composite/film/film.h"
+#include "core/scene/render_context.h"
 #include "pipeline/frame/frame_stats.h"
-#include "sample/visibility_method.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <filesystem>
 
-#include "composite/write_displays.h"
+#include "composite/displays/write_displays.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/version.h"
 

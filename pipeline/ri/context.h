@@ -8,7 +8,7 @@
 #include "pipeline/ri/errors.h"
 #include "pipeline/ri/rib_output.h"
 #include "pipeline/ri/spaces.h"
-#include "pipeline/rib/declarations.h"
+#include "pipeline/rib/state/declarations.h"
 
 namespace trapeze::ri {
 

@@ -4,7 +4,7 @@
 #include "pipeline/ri/call.h"
 #include "pipeline/ri/names.h"
 #include "pipeline/ri/parameters.h"
-#include "pipeline/rib/search_path.h"
+#include "pipeline/rib/syntax/search_path.h"
 
 namespace trapeze::ri {
 namespace {

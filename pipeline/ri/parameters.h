@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/shapes.h"
+#include "core/scene/shapes.h"
 #include "pipeline/ri/context.h"
 
 namespace trapeze::ri {

@@ -12,7 +12,7 @@
 #include "pipeline/frame/safe_mode.h"
 #include "pipeline/frame/write_frame.h"
 #include "pipeline/rib/read_rib.h"
-#include "pipeline/rib/user_defaults.h"
+#include "pipeline/rib/state/user_defaults.h"
 
 namespace trapeze::ri {
 namespace {

@@ -2,7 +2,7 @@
 #include <numeric>
 
 #include "pipeline/ri/ri_harness.h"
-#include "pipeline/rib/arguments.h"
+#include "pipeline/rib/syntax/arguments.h"
 
 namespace trapeze::ri {
 namespace {
@@ -22,11 +22,11 @@ RtFloat* ramp() {
 /// How many numbers the constant, uniform, varying, vertex and facevarying variables of a request have.
 std::vector<size_t> lengths_in(const std::string& rib) {
     Diagnostics diagnostics;
-    rib::Scanner scanner(rib, {0, 1, 1});
+    rib::Lexer lexer(rib, {0, 1, 1});
     rib::RequestText request;
     std::vector<size_t> lengths;
     while (rib::read_request(
-        scanner, request, [](std::string_view) { return true; }, diagnostics)) {
+        lexer, request, [](std::string_view) { return true; }, diagnostics)) {
         EXPECT_EQ(request.problem, "");
         for (size_t i = 0; i + 1 < request.arguments.size(); ++i) {
             const rib::Argument& token = request.arguments[i];

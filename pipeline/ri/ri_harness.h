@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/temporary_folder_harness.h"
+#include "core/files/temporary_folder_harness.h"
 #include "pipeline/ri/ri.h"
 
 namespace trapeze::ri {

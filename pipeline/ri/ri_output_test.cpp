@@ -1,5 +1,5 @@
 /// Files, formats, contexts; what is written reads back the same.
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "pipeline/ri/ri_harness.h"
 #include "pipeline/rib/read_rib.h"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/output_file.h"
-#include "pipeline/rib/gzip_writer.h"
-#include "pipeline/rib/rib_writer.h"
+#include "core/files/output_file.h"
+#include "pipeline/rib/write/gzip_writer.h"
+#include "pipeline/rib/write/rib_writer.h"
 
 namespace trapeze::ri {
 

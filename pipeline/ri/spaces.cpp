@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/camera.h"
+#include "core/scene/camera.h"
 
 namespace trapeze::ri {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/math.h"
-#include "core/scene.h"
-#include "pipeline/rib/moving_transform.h"
+#include "core/scene/scene.h"
+#include "pipeline/rib/state/moving_transform.h"
 
 namespace trapeze::ri {
 

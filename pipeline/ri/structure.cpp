@@ -5,7 +5,7 @@
 
 #include "pipeline/ri/call.h"
 #include "pipeline/ri/parameters.h"
-#include "pipeline/rib/comments.h"
+#include "pipeline/rib/syntax/comments.h"
 
 namespace trapeze::ri {
 namespace {

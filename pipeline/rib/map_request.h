@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
-#include "core/transfer.h"
+#include "core/scene/transfer.h"
 
 namespace trapeze {
 

@@ -1,5 +1,5 @@
 /// Streams: archives, search paths, gzip, limits, and text that is hardly RIB.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 #include <zlib.h>
 

@@ -1,5 +1,5 @@
 /// Requests in the binary encoding, mixed with text.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 #include <bit>
 

@@ -1,5 +1,5 @@
 /// IfBegin and its kin, blocks skipped whole, variables in texts.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

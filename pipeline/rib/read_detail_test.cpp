@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/level_of_detail.h"
-#include "pipeline/rib/test_reading.h"
+#include "core/scene/level_of_detail.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,6 +1,6 @@
 /// Displays and what they show, and the imager before them.
-#include "core/transfer.h"
-#include "pipeline/rib/test_reading.h"
+#include "core/scene/transfer.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,6 +1,6 @@
 /// The freedom that RIB leaves in how values are written, and checks that only whole requests allow.
 #include "core/motion_keys.h"
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

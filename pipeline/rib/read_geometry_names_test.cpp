@@ -1,6 +1,6 @@
 /// Geometry: shapes by name.
-#include "pipeline/rib/teapot.h"
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
+#include "pipeline/rib/requests/teapot.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,5 +1,5 @@
 /// Every primitive, valid and with arrays of the wrong lengths.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,5 +1,5 @@
 /// Requests that RISpec 3.2 does not have, and its rarer ones.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

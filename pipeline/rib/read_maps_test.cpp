@@ -1,4 +1,4 @@
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib {
 namespace {

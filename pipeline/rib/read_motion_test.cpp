@@ -1,5 +1,5 @@
 /// Motion blocks round transformations, geometry and all else.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,5 +1,5 @@
 /// Orientation and ReverseOrientation, in spaces that are mirrored before and afterwards.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,7 +1,7 @@
 /// Procedural: archives, programs and what is refused.
 #include <chrono>
 
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

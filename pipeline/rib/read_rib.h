@@ -12,9 +12,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/access.h"
 #include "core/diagnostics.h"
-#include "core/scene.h"
+#include "core/files/access.h"
+#include "core/scene/scene.h"
 #include "pipeline/rib/map_request.h"
 
 namespace trapeze {

@@ -1,7 +1,7 @@
 /// The path tracer's surfaces and lights (RIS), as the shading language's.
 #include <cmath>
 
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,5 +1,5 @@
 /// Shaders in layers, area lights.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,5 +1,5 @@
 /// Constructive solid geometry as trees of solids.
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::test {
 namespace {

@@ -1,6 +1,6 @@
 /// Archives that are read again: parsed once, and still read as if their text was read anew.
-#include "pipeline/rib/ready_archive.h"
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
+#include "pipeline/rib/state/ready_archive.h"
 
 namespace trapeze::rib::test {
 namespace {

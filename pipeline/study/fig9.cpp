@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "accel/sah_cost.h"
+#include "accel/paper/sah_cost.h"
 #include "pipeline/compare/value_text.h"
 #include "pipeline/study/paper_figures.h"
 #include "pipeline/study/studies.h"

@@ -10,8 +10,8 @@
 
 #include "sample/embree/embree_scene.h"
 #include "sample/hit_lists.h"
-#include "sample/tile_order.h"
-#include "sample/visibility_method.h"
+#include "sample/raytrace/tile_order.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 namespace {

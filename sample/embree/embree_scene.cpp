@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/simd_limit.h"
+#include "core/simd/simd_limit.h"
 
 namespace trapeze {
 namespace {

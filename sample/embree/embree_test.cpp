@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "core/simd_limit.h"
-#include "sample/test_frame.h"
-#include "sample/visibility_method.h"
+#include "core/simd/simd_limit.h"
+#include "sample/frame_harness.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 namespace {

@@ -1,10 +1,10 @@
 #include "shade/rsl/front_end.h"
 
-#include "shade/rsl/analysis.h"
-#include "shade/rsl/lexer.h"
-#include "shade/rsl/messages.h"
-#include "shade/rsl/parser.h"
-#include "shade/rsl/preprocessor.h"
+#include "shade/rsl/analysis/analysis.h"
+#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/parser.h"
+#include "shade/rsl/syntax/preprocessor.h"
+#include "shade/rsl/syntax/token_values.h"
 
 namespace trapeze::rsl {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
-#include "shade/rsl/ast.h"
+#include "shade/rsl/syntax/ast.h"
 
 namespace trapeze::rsl {
 

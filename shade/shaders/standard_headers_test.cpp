@@ -1,9 +1,9 @@
 /// The files that shaders include by custom: shaders that use them, and values known from elsewhere.
 #include <gtest/gtest.h>
 
-#include "shade/shader_folder_harness.h"
+#include "shade/materials/shader_folder_harness.h"
 #include "shade/shaders/standard_shaders.h"
-#include "shade/test_scene.h"
+#include "shade/shading_harness.h"
 
 namespace trapeze {
 namespace {

@@ -8,8 +8,8 @@
 #include <regex>
 #include <sstream>
 
+#include "shade/code/generate.h"
 #include "shade/rsl/front_end.h"
-#include "shade/rsl/generate.h"
 
 namespace trapeze {
 namespace {

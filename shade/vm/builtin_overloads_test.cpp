@@ -3,7 +3,7 @@
 #include <array>
 #include <set>
 
-#include "shade/rsl/builtins.h"
+#include "shade/rsl/analysis/builtins.h"
 #include "shade/vm/builtin_cases.h"
 #include "shade/vm/run_shader_harness.h"
 

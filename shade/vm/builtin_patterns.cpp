@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "shade/vm/builtin_cases.h"
-#include "shade/vm/exact_noise.h"
+#include "shade/vm/kernels/exact_noise.h"
 
 namespace trapeze::vm::test {
 namespace {

@@ -8,11 +8,11 @@
 
 #include "core/diagnostics.h"
 #include "core/math.h"
-#include "shade/planes.h"
-#include "shade/rsl/type.h"
+#include "shade/planes/planes.h"
+#include "shade/rsl/syntax/type.h"
 #include "shade/vm/footprint.h"
-#include "shade/vm/grid_span.h"
-#include "shade/vm/kernel.h"
+#include "shade/vm/kernels/grid_span.h"
+#include "shade/vm/kernels/kernel.h"
 
 namespace trapeze::vm {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstring>
 
-#include "shade/vm/light_kernels.h"
+#include "shade/vm/kernels/light_kernels.h"
 #include "shade/vm/machine.h"
 
 namespace trapeze::vm {

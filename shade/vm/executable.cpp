@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "shade/rsl/blocks.h"
-#include "shade/rsl/op_traits.h"
+#include "shade/code/blocks.h"
+#include "shade/operations/op_traits.h"
 #include "shade/vm/plane_slots.h"
 #include "shade/vm/run_defaults.h"
 

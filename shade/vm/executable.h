@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "shade/rsl/program.h"
-#include "shade/vm/kernel.h"
+#include "shade/code/program.h"
+#include "shade/vm/kernels/kernel.h"
 #include "shade/vm/start_values.h"
 
 namespace trapeze::vm {

@@ -2,7 +2,7 @@
 /// seen thinner than a pixel.
 #pragma once
 
-#include "shade/vm/kernel.h"
+#include "shade/vm/kernels/kernel.h"
 
 namespace trapeze::vm {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "shade/vm/context_ops.h"
-#include "shade/vm/light_kernels.h"
+#include "shade/vm/kernels/light_kernels.h"
 
 namespace trapeze::vm {
 namespace {

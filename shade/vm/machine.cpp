@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include "shade/rsl/op_traits.h"
+#include "shade/operations/op_traits.h"
 
 namespace trapeze::vm {
 

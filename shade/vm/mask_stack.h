@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "shade/planes.h"
+#include "shade/planes/planes.h"
 
 namespace trapeze::vm {
 

@@ -1,9 +1,9 @@
 // Operations that a text chooses: coordinate systems, colour spaces, bases of splines.
 #include <fmt/format.h>
 
-#include "shade/vm/color.h"
 #include "shade/vm/context_ops.h"
-#include "shade/vm/spline.h"
+#include "shade/vm/kernels/color.h"
+#include "shade/vm/kernels/spline.h"
 
 namespace trapeze::vm {
 namespace {

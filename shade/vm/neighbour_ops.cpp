@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "shade/vm/context_ops.h"
-#include "shade/vm/neighbours.h"
+#include "shade/vm/kernels/neighbours.h"
 
 namespace trapeze::vm {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "shade/rsl/blocks.h"
-#include "shade/rsl/op_traits.h"
+#include "shade/code/blocks.h"
+#include "shade/operations/op_traits.h"
 
 namespace trapeze::vm {
 namespace {

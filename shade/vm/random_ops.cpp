@@ -1,7 +1,7 @@
 // random(): other numbers at each vertex and in each call, the same in each render.
 #include "core/random.h"
 #include "shade/vm/context_ops.h"
-#include "shade/vm/random.h"
+#include "shade/vm/kernels/random.h"
 
 namespace trapeze::vm {
 namespace {

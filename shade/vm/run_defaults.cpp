@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shade/rsl/op.h"
+#include "shade/operations/op.h"
 
 namespace trapeze::vm {
 namespace {

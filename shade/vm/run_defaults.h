@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "shade/rsl/program.h"
+#include "shade/code/program.h"
 
 namespace trapeze::vm {
 

@@ -2,7 +2,7 @@
 #include "shade/vm/run_defaults.h"
 
 #include "shade/imager.h"
-#include "shade/shader_folder_harness.h"
+#include "shade/materials/shader_folder_harness.h"
 #include "shade/vm/run_shader_harness.h"
 
 namespace trapeze::vm::test {

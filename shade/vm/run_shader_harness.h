@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "shade/code/generate.h"
+#include "shade/code/infer_storage.h"
+#include "shade/code/optimise.h"
 #include "shade/grid_footprints.h"
-#include "shade/grid_shader.h"
+#include "shade/materials/grid_shader.h"
+#include "shade/materials/scene_spaces.h"
 #include "shade/rsl/front_end.h"
-#include "shade/rsl/generate.h"
-#include "shade/rsl/infer_storage.h"
-#include "shade/rsl/optimise.h"
-#include "shade/scene_spaces.h"
-#include "shade/test_scene.h"
+#include "shade/shading_harness.h"
 
 namespace trapeze::vm::test {
 

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "composite/film.h"
-#include "composite/raster_harness.h"
-#include "composite/write_displays.h"
+#include "composite/displays/write_displays.h"
+#include "composite/film/film.h"
+#include "composite/film/raster_harness.h"
 
 namespace trapeze {
 namespace {

@@ -5,7 +5,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "shade/vm/elementary-inl.h"
+#include "shade/vm/kernels/elementary-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze::vm::HWY_NAMESPACE {

@@ -2,7 +2,7 @@
 /// values in registers. The bound that the grid machine is measured against.
 #pragma once
 
-#include "shade/vm/kernel.h"
+#include "shade/vm/kernels/kernel.h"
 
 namespace trapeze::vm {
 

@@ -7,11 +7,11 @@
 #include <memory>
 #include <random>
 
-#include "shade/vm/color.h"
-#include "shade/vm/kernel.h"
-#include "shade/vm/light_kernels.h"
-#include "shade/vm/neighbours.h"
-#include "shade/vm/spline.h"
+#include "shade/vm/kernels/color.h"
+#include "shade/vm/kernels/kernel.h"
+#include "shade/vm/kernels/light_kernels.h"
+#include "shade/vm/kernels/neighbours.h"
+#include "shade/vm/kernels/spline.h"
 #include "tests/bench/fused_plastic.h"
 
 namespace trapeze::vm {

@@ -21,8 +21,8 @@
 #include <sstream>
 #include <string>
 
-#include "core/simd_limit.h"
-#include "sample/visibility_method.h"
+#include "core/simd/simd_limit.h"
+#include "sample/visibility.h"
 #include "sampling_scenes.h"
 
 namespace trapeze {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "core/test_grids.h"
-#include "sample/test_frame.h"
+#include "core/grids_harness.h"
+#include "sample/frame_harness.h"
 
 namespace trapeze::testing {
 

@@ -12,12 +12,12 @@
 #include <cstdio>
 #include <cstring>
 
-#include "core/simd_limit.h"
+#include "core/simd/simd_limit.h"
+#include "shade/code/generate.h"
+#include "shade/code/infer_storage.h"
+#include "shade/code/optimise.h"
+#include "shade/materials/shader_folder_harness.h"
 #include "shade/rsl/front_end.h"
-#include "shade/rsl/generate.h"
-#include "shade/rsl/infer_storage.h"
-#include "shade/rsl/optimise.h"
-#include "shade/shader_folder_harness.h"
 #include "shade/shading.h"
 #include "shade/vm/executable.h"
 

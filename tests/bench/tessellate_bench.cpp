@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tessellate/test_scene.h"
+#include "tessellate/dicing_harness.h"
 
 namespace trapeze {
 namespace {

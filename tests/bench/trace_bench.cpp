@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "sample/stratified_pattern.h"
-#include "sample/test_frame.h"
-#include "sample/visibility_method.h"
+#include "sample/frame_harness.h"
+#include "sample/patterns/stratified_pattern.h"
+#include "sample/visibility.h"
 
 namespace trapeze {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <string>
 
-#include "pipeline/rib/gzip_writer.h"
-#include "pipeline/rib/source_text.h"
+#include "pipeline/rib/syntax/source_text.h"
+#include "pipeline/rib/write/gzip_writer.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "shade/make_maps.h"
-#include "shade/textures.h"
+#include "shade/maps/make_maps.h"
+#include "shade/maps/textures.h"
 #include "tests/fuzz/byte_source.h"
 
 namespace {

@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
-#include "pipeline/rib/answer_end.h"
-#include "pipeline/rib/program_answer.h"
+#include "pipeline/rib/programs/end_of_answer.h"
+#include "pipeline/rib/programs/program_answer.h"
 #include "pipeline/rib/read_rib.h"
 #include "tests/fuzz/byte_source.h"
 

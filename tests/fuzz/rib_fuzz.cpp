@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/rib/answer_end.h"
+#include "pipeline/rib/programs/end_of_answer.h"
 #include "pipeline/rib/read_rib.h"
 
 /// A program's answer ends at the same place however it arrives.

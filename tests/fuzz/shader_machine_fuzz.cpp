@@ -15,12 +15,12 @@
 #include <memory>
 #include <string>
 
-#include "shade/rsl/blocks.h"
+#include "shade/code/blocks.h"
+#include "shade/code/generate.h"
+#include "shade/code/infer_storage.h"
+#include "shade/code/optimise.h"
+#include "shade/operations/op_traits.h"
 #include "shade/rsl/front_end.h"
-#include "shade/rsl/generate.h"
-#include "shade/rsl/infer_storage.h"
-#include "shade/rsl/op_traits.h"
-#include "shade/rsl/optimise.h"
 #include "shade/vm/machine.h"
 
 namespace {

@@ -1,5 +1,5 @@
 /// Derivatives as shaders see them: Du(P) and Dv(P) over a grid are dPdu and dPdv, for every kind of surface.
-#include "shade/shader_folder_harness.h"
+#include "shade/materials/shader_folder_harness.h"
 #include "shade/shading.h"
 #include "tests/primitives/dice_rib.h"
 

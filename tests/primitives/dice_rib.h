@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/rib/test_reading.h"
+#include "pipeline/rib/reading_harness.h"
+#include "tessellate/dicing_harness.h"
 #include "tessellate/leak_harness.h"
-#include "tessellate/test_scene.h"
 
 namespace trapeze::test {
 

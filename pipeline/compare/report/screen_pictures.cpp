@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "composite/png_bytes.h"
-#include "composite/srgb.h"
+#include "composite/displays/png_bytes.h"
+#include "composite/displays/srgb.h"
 #include "pipeline/compare/report/encoded_text.h"
 #include "pipeline/compare/report/viridis.h"
 

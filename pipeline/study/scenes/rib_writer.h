@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/math.h"
-#include "pipeline/rib/rib_writer.h"
+#include "pipeline/rib/write/rib_writer.h"
 
 namespace trapeze::scenes {
 

@@ -1,0 +1,130 @@
+#include "accel/paper/top_bounds.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <span>
+
+namespace trapeze {
+namespace {
+
+constexpr int kParallelDepth = 7;  ///< levels whose subtrees are bounded in parallel
+
+/// Nodes of up to this many leaves are bounded from the leaves' bounds, turned once; larger ones from their
+/// children's.
+constexpr size_t kFromLeavesUpTo = 1024;
+
+class Bounding {
+  public:
+    Bounding(const TopTopology& topology, const PaperTreeOptions& options, const LeafBounds& leaf_bounds,
+             TopLevel& top)
+        : topology_(topology),
+          options_(options),
+          leaf_bounds_(leaf_bounds),
+          top_(top),
+          leaves_(topology.inner.size() + 1) {}
+
+    /// Leaves from left to right. Inner nodes are in preorder, so that a subtree's are those from its root's
+    /// on; it has a leaf more than inner nodes.
+    struct Part {
+        TopLink link;
+        size_t first_leaf, leaf_count;
+    };
+    Part all() const { return {topology_.root, 0, leaves_.size()}; }
+
+    NodeBound bound(const Part& part, int depth) {
+        if (part.link.is_leaf()) {
+            NodeBound leaf = leaf_bounds_.own(part.link.index());
+            leaf.box = leaf.box.in(leaf.box.frame, top_.key_count);
+            leaves_[part.first_leaf] = {part.link.index(), leaf.box};
+            return leaf;
+        }
+        NodeBound child[2];
+        const auto build = [&](int side) {
+            const Part below = child_of(part, side);
+            child[side] = bound(below, depth + 1);
+            set_node(2 * size_t{part.link.index()} + side, below.link, child[side]);
+        };
+        if (depth < kParallelDepth)
+            tbb::parallel_invoke([&] { build(0); }, [&] { build(1); });
+        else
+            build(0), build(1);
+        return {union_of(part, child[0].box, child[1].box),
+                std::max(child[0].absolute_max, child[1].absolute_max),
+                std::max(child[0].quad_extent, child[1].quad_extent)};
+    }
+
+    void set_node(size_t index, TopLink link, const NodeBound& bound) const {
+        top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link};
+        if (top_.oriented) top_.frames[index] = FrameColumns(bound.box.frame);
+        for (int key = 0; key < top_.key_count; ++key) {
+            KeyBox& box = top_.boxes[index * top_.key_count + key];
+            for (int k = 0; k < 3; ++k) {
+                box.low[k] = bound.box.keys[key].min[k];
+                box.high[k] = bound.box.keys[key].max[k];
+            }
+        }
+    }
+
+  private:
+    Part child_of(const Part& part, int side) const {
+        const auto& [low, high] = topology_.inner[part.link.index()];
+        size_t low_leaves = part.leaf_count - 1;  // when the high one is a leaf
+        if (!high.is_leaf()) low_leaves = high.index() - part.link.index();
+        if (side == 0) return {low, part.first_leaf, low_leaves};
+        return {high, part.first_leaf + low_leaves, part.leaf_count - low_leaves};
+    }
+
+    /// Without propagation axis-aligned; else in the orientation of that child which makes it smaller, the
+    /// first one's of equals.
+    HyperTrapezoid union_of(const Part& part, const HyperTrapezoid& a, const HyperTrapezoid& b) const {
+        if (!options_.orient_propagation) return union_in(Frame{}, part, a, b);
+        HyperTrapezoid in_a = union_in(a.frame, part, a, b);
+        if (a.frame == b.frame) return in_a;
+        HyperTrapezoid in_b = union_in(b.frame, part, a, b);
+        return in_b.expected_half_area() < in_a.expected_half_area() ? in_b : in_a;
+    }
+    HyperTrapezoid union_in(const Frame& frame, const Part& part, const HyperTrapezoid& a,
+                            const HyperTrapezoid& b) const {
+        HyperTrapezoid both{frame, std::vector<Box3f>(static_cast<size_t>(top_.key_count))};
+        if (part.leaf_count > kFromLeavesUpTo || (a.frame == frame && b.frame == frame)) {
+            both.merge(a);
+            both.merge(b);
+            return both;
+        }
+        const bool from_contents = part.leaf_count <= leaf_bounds_.in_up_to;
+        for (const Leaf& leaf : std::span(leaves_).subspan(part.first_leaf, part.leaf_count))
+            both.merge(from_contents && !(leaf.box.frame == frame) ? leaf_bounds_.in(leaf.index, frame)
+                                                                   : leaf.box);
+        return both;
+    }
+
+    struct Leaf {
+        uint32_t index = 0;
+        HyperTrapezoid box;
+    };
+
+    const TopTopology& topology_;
+    const PaperTreeOptions& options_;
+    const LeafBounds& leaf_bounds_;
+    TopLevel& top_;
+    std::vector<Leaf> leaves_;
+};
+
+}  // namespace
+
+TopLevel bound_top_level(const TopTopology& topology, size_t leaf_count, int key_count,
+                         const PaperTreeOptions& options, const LeafBounds& leaves) {
+    TopLevel top;
+    top.key_count = options.bounds == PaperTreeOptions::Bounds::WholeMotion ? 1 : key_count;
+    top.oriented = options.oriented();
+    if (leaf_count == 0) return top;
+    top.nodes.resize(2 * leaf_count - 1);
+    if (top.oriented) top.frames.resize(top.nodes.size());
+    top.boxes.resize(top.nodes.size() * top.key_count);
+    Bounding bounding(topology, options, leaves, top);
+    bounding.set_node(top.nodes.size() - 1, topology.root, bounding.bound(bounding.all(), 0));
+    return top;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,31 @@
+/// The bottom-up pass that bounds the nodes of a topology [Hou10 sec. 3.3].
+#pragma once
+
+#include <functional>
+
+#include "accel/builders/paper_options.h"
+#include "accel/paper/top_level.h"
+#include "core/hyper_trapezoid.h"
+
+namespace trapeze {
+
+struct NodeBound {
+    HyperTrapezoid box;
+    float absolute_max = 0;  ///< largest coordinate of what is inside
+    float quad_extent = 0;   ///< longest side of the box of any one micropolygon inside
+};
+
+/// How leaves are bounded; called from many threads.
+struct LeafBounds {
+    std::function<NodeBound(uint32_t leaf)> own;  ///< in the leaf's orientation
+    std::function<HyperTrapezoid(uint32_t leaf, const Frame& frame)> in;
+    /// A box that is turned into another orientation grows, which a small node feels more than a large one:
+    /// nodes of up to this many leaves are bounded from what is in these.
+    size_t in_up_to;
+};
+
+/// Nodes with boxes at key_count keys.
+TopLevel bound_top_level(const TopTopology& topology, size_t leaf_count, int key_count,
+                         const PaperTreeOptions& options, const LeafBounds& leaves);
+
+}  // namespace trapeze

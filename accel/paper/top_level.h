@@ -1,0 +1,71 @@
+/// The levels of the paper's tree above grids: a binary tree of hyper-trapezoids, oriented or axis-aligned,
+/// whose leaves are grids. (The leaves of a MicropolygonTree are lists of micropolygons.)
+#pragma once
+
+#include <vector>
+
+#include "accel/builders/sah_topology.h"
+#include "accel/paper/beam.h"
+#include "accel/ray_tree.h"
+#include "accel/slabs.h"
+#include "core/motion_keys.h"
+
+namespace trapeze {
+
+struct TopLevel {
+    /// A node as its parent sees it, with key_count boxes.
+    struct alignas(16) Node {
+        float absolute_max = 0;  ///< largest coordinate of any grid below
+        float quad_extent = 0;   ///< size of the largest micropolygon below
+        TopLink link;
+    };
+
+    int key_count = 1;
+    bool oriented = true;
+    std::vector<Node>
+        nodes;  ///< children of inner node i at 2 i and 2 i + 1; the root last; none without grids
+    std::vector<FrameColumns> frames;  ///< of the nodes; none unless oriented
+    std::vector<KeyBox> boxes;
+
+    const FrameColumns& frame_of(size_t node) const { return oriented ? frames[node] : kAxes; }
+    const KeyBox* boxes_of(size_t node) const { return boxes.data() + node * key_count; }
+    size_t bytes() const {
+        return nodes.capacity() * sizeof(Node) + frames.capacity() * sizeof(FrameColumns) +
+               boxes.capacity() * sizeof(KeyBox);
+    }
+
+    /// The part of the tree that a beam may meet, into a tree whose memory is reused. An inner node of which
+    /// one child is left gives way to it. Adds the nodes looked at to *looked_at.
+    void within(const Beam& beam, TopLevel& part, uint64_t* looked_at) const;
+
+  private:
+    inline static const FrameColumns kAxes{Frame{}};
+};
+
+/// A TopLevel prepared for one ray. A RayTree whose leaves are indices of grids.
+class TopLevelView {
+  public:
+    static constexpr int kStackSize = kTopDepthLimit + 2;
+
+    TopLevelView(const TopLevel& tree, const TraceRay& ray)
+        : tree_(tree), segment_(segment_at(ray.axis.time, tree.key_count)) {
+        if (!tree.oriented) along_axes_ = FrameRay(ray);
+    }
+
+    Visits enter(const TraceRay& ray) const;
+    Visits step(const Visit& at, const TraceRay& ray) const;
+    bool is_leaf(uint32_t node) const { return TopLink{node}.is_leaf(); }
+    uint32_t leaf(uint32_t node) const { return TopLink{node}.index(); }
+
+    /// The ray as all boxes of an axis-aligned tree see it; null of an oriented one.
+    const FrameRay* along_axes() const { return tree_.oriented ? nullptr : &along_axes_; }
+
+  private:
+    bool meet(size_t index, const TraceRay& ray, Visit& visit) const;
+
+    const TopLevel& tree_;
+    MotionSegment segment_;
+    FrameRay along_axes_;
+};
+
+}  // namespace trapeze

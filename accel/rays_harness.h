@@ -1,0 +1,56 @@
+/// Grids and rays in all directions for tests of trees, and what the rays hit.
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "accel/hit_policies.h"
+#include "core/grids_harness.h"
+#include "core/ray_query.h"
+
+namespace trapeze::testing {
+
+struct Noise {
+    std::mt19937 engine{9};
+    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
+    V3f point(float reach) {
+        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
+    }
+};
+
+inline void add_sheets(GridMaker& maker, int count, int keys, Noise& noise) {
+    for (int n = 0; n < count; ++n) {
+        const V3f origin = noise.point(4), along_u = noise.point(2), along_v = noise.point(2),
+                  shift = noise.point(1);
+        const int nu = 1 + static_cast<int>(noise.engine() % 16),
+                  nv = 1 + static_cast<int>(noise.engine() % 16);
+        maker.add(nu, nv, keys, [=](int i, int j, float t) {
+            const float u = static_cast<float>(i) / static_cast<float>(nu),
+                        v = static_cast<float>(j) / static_cast<float>(nv);
+            return origin + along_u * u + along_v * v + V3f(0, 0.2f * std::sin(8 * u + 5 * v), 0) +
+                   shift * (t * t);
+        });
+    }
+}
+
+/// The truth, for rays in any direction.
+inline Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange range) {
+    const TurnedRay turned = axis_ray(ray);
+    Hit best = kNoHit;
+    for (size_t g = 0; g < grids.grids.size(); ++g) {
+        const Grid& grid = grids.grids[g];
+        for (int v = 0; v < grid.shape.nv; ++v)
+            for (int u = 0; u < grid.shape.nu; ++u) {
+                const Quad quad = grid.quad(u, v, ray.time, turned.x_plane, turned.y_plane, turned.z_plane);
+                float z;
+                if (!hit_micropolygon(turned.ray, quad, Facing::Both, &z)) continue;
+                const MicropolygonId id{static_cast<uint32_t>(g), static_cast<uint8_t>(u),
+                                        static_cast<uint8_t>(v)};
+                const Hit hit{(z - turned.ray.oz) * turned.depth_sign, id.packed()};
+                if (hit.depth >= range.min && hit.depth <= range.max && in_front(hit, best)) best = hit;
+            }
+    }
+    return best;
+}
+
+}  // namespace trapeze::testing

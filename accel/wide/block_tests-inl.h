@@ -1,0 +1,130 @@
+/// The rays listed for a block (BlockRays) against its micropolygons. Compiled once a target.
+#if defined(TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
+#undef TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
+#else
+#define TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "accel/wide/bundle_state-inl.h"
+#include "core/simd/lane_numbers-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Fewer rays than this are tested one by one, lanes being micropolygons.
+inline constexpr size_t kFewInBlock = 3;
+
+/// Keeps the hits of lanes of rays, block rays from `first` on.
+inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI u, VI v, VF depth) {
+    const F32 d;
+    const I32 di;
+    hit =
+        hn::And(hit, hn::And(hn::Ge(depth, hn::Set(d, t.range.min)), hn::Le(depth, hn::Set(d, t.range.max))));
+    uint32_t lanes = mask_bits(hit);
+    if (lanes == 0) return;
+    HWY_ALIGN float depths[kLanes];
+    HWY_ALIGN int32_t uv[kLanes];
+    hn::Store(depth, d, depths);
+    hn::Store(hn::Or(u, hn::ShiftLeft<4>(v)), di, uv);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const auto lane = static_cast<size_t>(std::countr_zero(lanes));
+        t.keep_hit(t.scratch.active.ray[t.scratch.block.active[first + lane]], depths[lane],
+                   block.id + static_cast<uint32_t>(uv[lane]), block.opaque);
+    }
+}
+
+/// One ray, at a time local to the block's segment, against all micropolygons of a block: lanes are
+/// micropolygons. Whether something nearer was found.
+template <bool kMoves, bool kLens>
+bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local) {
+    const F32 d;
+    const I32 di;
+    RayLanes r;
+    if constexpr (kLens) r.ox = hn::Set(d, t.rays.ox[ray]), r.oy = hn::Set(d, t.rays.oy[ray]);
+    r.ux = hn::Set(d, t.rays.ux[ray]), r.uy = hn::Set(d, t.rays.uy[ray]);
+    if constexpr (kMoves) r.local = hn::Set(d, local);
+    bool nearer = false;
+    for (int m = 0; m < 4 * block.view.rows; m += static_cast<int>(kLanes)) {
+        const VI number = lane_numbers(di, m), u = hn::And(number, hn::Set(di, 3)),
+                 v = hn::ShiftRight<2>(number);
+        VF depth = hn::Zero(d);
+        const QuadLanes<VF> q = quads_at<kMoves, kLens>(block.view, r, u, hn::And(v, hn::Set(di, 3)));
+        MF hit = inside(d, q);
+        if (hn::AllFalse(d, hit)) continue;
+        hit = hn::And(hit, depth_inside(d, q, block.facing, depth));
+        hit = hn::And(hit, hn::RebindMask(d, hn::And(hn::Lt(u, hn::Set(di, block.columns)),
+                                                     hn::Lt(v, hn::Set(di, block.view.rows)))));
+        hit = hn::And(
+            hit, hn::And(hn::Ge(depth, hn::Set(d, t.range.min)), hn::Le(depth, hn::Set(d, t.range.max))));
+        uint32_t lanes = mask_bits(hit);
+        if (lanes == 0) continue;
+        HWY_ALIGN float depths[kLanes];
+        hn::Store(depth, d, depths);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes), micropolygon = m + lane;
+            const auto uv = static_cast<uint32_t>((micropolygon & 3) | micropolygon >> 2 << 4);
+            nearer |= t.keep_hit(ray, depths[lane], block.id + uv, block.opaque);
+        }
+    }
+    return nearer;
+}
+
+inline void count_block_tests(BundleState& t, const Block& block, size_t rays) {
+    t.stats.leaves_visited += rays;
+    t.stats.predicate_tests += rays * static_cast<uint64_t>(block.view.rows * block.columns);
+}
+inline void count_tests_of(BundleState& t, const Block& block, uint32_t ray) {
+    t.rays.tests[ray] += static_cast<uint32_t>(block.view.rows * block.columns);
+}
+
+/// The rays listed for a block.
+template <bool kMoves, bool kLens>
+void test_block_rays(BundleState& t, const Block& block, size_t count) {
+    const F32 d;
+    const BlockRays& from = t.scratch.block;
+    count_block_tests(t, block, count);
+    if (t.rays.tests)
+        for (size_t i = 0; i < count; ++i) count_tests_of(t, block, t.scratch.active.ray[from.active[i]]);
+    const auto test_one = [&](size_t i) HWY_ATTR {
+        test_one_ray<kMoves, kLens>(t, block, t.scratch.active.ray[from.active[i]],
+                                    kMoves ? from.local[i] : 0.0f);
+    };
+    for (size_t i = 0; i < count; i += kLanes) {
+        const size_t left = count - i;
+        if (left < kFewInBlock) {
+            for (size_t k = i; k < count; ++k) test_one(k);
+            return;
+        }
+        RayLanes r;
+        if constexpr (kLens) r.ox = hn::Load(d, from.ox + i), r.oy = hn::Load(d, from.oy + i);
+        r.ux = hn::Load(d, from.ux + i), r.uy = hn::Load(d, from.uy + i);
+        if constexpr (kMoves) r.local = hn::Load(d, from.local + i);
+        const BlockBits bits = block.columns == 1 ? block_bits<kMoves, kLens, 1>(block.view, r)
+                                                  : block_bits<kMoves, kLens, 4>(block.view, r);
+        const MF valid = hn::FirstN(d, left);
+        const MF any = hn::And(predicate_lanes::negative(d, bits.any), valid);
+        if (hn::AllFalse(d, any)) continue;
+        const MF several = hn::And(predicate_lanes::negative(d, bits.several), valid);
+        VI u, v;
+        decode(bits, u, v);
+        VF depth = hn::Zero(d);
+        const MF faces = depth_inside(d, quads_at<kMoves, kLens>(block.view, r, u, v), block.facing, depth);
+        const MF hit = hn::AndNot(several, hn::And(any, faces));
+        settle(t, block, i, hit, u, v, depth);
+        for (uint32_t more = mask_bits(several); more != 0; more &= more - 1)
+            test_one(i + static_cast<size_t>(std::countr_zero(more)));
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

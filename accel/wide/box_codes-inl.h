@@ -1,0 +1,103 @@
+/// From the codes of a grid's boxes to their planes (see box_codes.h). Compiled once a target.
+#if defined(TRAPEZE_ACCEL_BOX_CODES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRAPEZE_ACCEL_BOX_CODES_INL_H_
+#undef TRAPEZE_ACCEL_BOX_CODES_INL_H_
+#else
+#define TRAPEZE_ACCEL_BOX_CODES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstring>
+
+#include "accel/wide/wide_tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The planes of row k at a key, for `boxes` boxes and those that a whole vector has besides.
+HWY_INLINE void decode_row(const uint8_t* codes, const CodeScale& scale, size_t boxes, float* out) {
+    const hn::CappedTag<float, BoxPlanes::kMost> d;
+    const hn::Rebind<int32_t, decltype(d)> di;
+    const hn::Rebind<uint8_t, decltype(d)> d8;
+    for (size_t b = 0; b < boxes; b += hn::Lanes(d)) {
+        const auto code = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d8, codes + b)));
+        hn::Store(hn::MulAdd(code, hn::Set(d, scale.step), hn::Set(d, scale.low)), d, out + b);
+    }
+}
+
+#if HWY_TARGET != HWY_SCALAR  // it has one lane
+/// Four numbers between bounds, from their codes; what is read past the third means nothing.
+HWY_INLINE auto decode_planes(const float* low, const float* high, const uint8_t* codes) {
+    const hn::FixedTag<float, 4> d;
+    const auto from = hn::LoadU(d, low),
+               step = hn::Mul(hn::Sub(hn::LoadU(d, high), from), hn::Set(d, 1.0f / 255));
+    const auto code = hn::PromoteTo(hn::FixedTag<int32_t, 4>(), hn::LoadU(hn::FixedTag<uint8_t, 4>(), codes));
+    return hn::MulAdd(hn::ConvertTo(d, code), step, from);
+}
+#endif
+
+/// WideTree::read_frame() of a moving grid, in vectors.
+HWY_INLINE void read_moving_frame(const WideTree& tree, const WideGrid& grid, int segment,
+                                  SegmentFrame& frame) {
+#if HWY_TARGET == HWY_SCALAR
+    tree.read_frame(grid, segment, frame);
+#else
+    const hn::FixedTag<float, 4> d;
+    const hn::FixedTag<int16_t, 4> d16;
+    const hn::FixedTag<int32_t, 4> d32;
+    const int16_t* axes = grid.axes.code[0];
+    float* to = frame.axes.axis[0];
+    const auto one = hn::Set(d, 1 / PackedAxes::kOne);
+    for (size_t i = 0; i < 8; i += 4)
+        hn::StoreU(hn::Mul(hn::ConvertTo(d, hn::PromoteTo(d32, hn::LoadU(d16, axes + i))), one), d, to + i);
+    to[8] = static_cast<float>(axes[8]) * (1 / PackedAxes::kOne);
+
+    const uint8_t* bytes = tree.keys_of(grid);
+    float bounds[8];  // low x, y, z, high x, y, z
+    std::memcpy(bounds, bytes, sizeof(KeyBounds));
+    bounds[6] = bounds[7] = 0;
+    const uint8_t* begin = GridKeys(grid, bytes).of_key(segment);
+    const uint8_t* end = begin + grid.key_bytes();
+    const auto low0 = decode_planes(bounds, bounds + 3, begin), low1 = decode_planes(bounds, bounds + 3, end);
+    const auto high0 = decode_planes(bounds, bounds + 3, begin + 3),
+               high1 = decode_planes(bounds, bounds + 3, end + 3);
+    // Each store of four is overwritten past its third by the next.
+    hn::StoreU(low0, d, frame.at[0].low), hn::StoreU(high0, d, frame.at[0].high);
+    hn::StoreU(low1, d, frame.at[1].low), hn::StoreU(high1, d, frame.at[1].high);
+    hn::StoreU(low0, d, frame.box.low), hn::StoreU(high0, d, frame.box.high);
+    hn::StoreU(hn::Sub(low1, low0), d, frame.box.low_delta),
+        hn::StoreU(hn::Sub(high1, high0), d, frame.box.high_delta);
+#endif
+}
+
+/// The boxes of a grid in a segment of its motion, of which the frame has been read; at its start alone
+/// unless kMoves.
+template <bool kMoves>
+HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int segment,
+                             const SegmentFrame& frame, BoxPlanes& out) {
+    const hn::CappedTag<float, BoxPlanes::kMost> d;
+    const auto boxes = static_cast<size_t>(grid.box_count());
+    const GridKeys keys(grid, tree.keys_of(grid));
+    for (int end = 0; end < (kMoves ? 2 : 1); ++end) {
+        const uint8_t* codes = keys.box_codes(segment + end);
+        const KeyBounds& whole = frame.at[end];
+        float* rows = out.row(6 * static_cast<size_t>(end));
+        for (size_t k = 0; k < 3; ++k) {
+            const CodeScale scale(whole.low[k], whole.high[k]);
+            decode_row(codes + k * boxes, scale, boxes, rows + k * BoxPlanes::kMost);
+            decode_row(codes + (3 + k) * boxes, scale, boxes, rows + (3 + k) * BoxPlanes::kMost);
+        }
+    }
+    if constexpr (kMoves)
+        for (size_t i = 0; i < 6 * BoxPlanes::kMost; i += hn::Lanes(d))
+            hn::Store(hn::Sub(hn::Load(d, out.row(6) + i), hn::Load(d, out.row(0) + i)), d, out.row(6) + i);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

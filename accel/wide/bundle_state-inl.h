@@ -1,0 +1,139 @@
+/// What all stages of a bundle's tracing share: its state, hits kept, blocks as hits name them. Compiled once
+/// a target.
+#if defined(TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_
+#undef TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_
+#else
+#define TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "accel/wide/block_hits-inl.h"
+#include "accel/wide/bundle.h"
+#include "accel/wide/bundle_scratch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr size_t kLanes = hn::MaxLanes(F32());
+constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
+constexpr size_t kMaskBytes = (kLanes + 7) / 8;
+constexpr uint32_t kLanesOfByte = kLanes < 8 ? kLanes : 8;  ///< of a mask as it is stored
+constexpr size_t kMetStride = BundleScratch::kMetStride;
+
+HWY_INLINE uint32_t mask_bits(MF mask) {
+    uint8_t bytes[8] = {};
+    hn::StoreMaskBits(F32(), mask, bytes);
+    return static_cast<uint32_t>(bytes[0] | bytes[1] << 8);
+}
+
+HWY_INLINE MF mask_of(uint32_t bits) {
+    const uint8_t bytes[8] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
+    return hn::LoadMaskBits(F32(), bytes);
+}
+
+HWY_INLINE float largest(VF v) {
+    return hn::GetLane(hn::MaxOfLanes(F32(), v));
+}
+HWY_INLINE float least(VF v) {
+    return hn::GetLane(hn::MinOfLanes(F32(), v));
+}
+
+/// One bundle on its way through a tree.
+struct BundleState {
+    const WideTree& tree;
+    DepthRange range;
+    float inverse_focal;
+    RayBundle& rays;
+    BundleScratch& scratch;
+    SampleStats& stats;
+    float nearest_depth;  ///< no box before this depth matters
+    size_t packets;
+    /// Of a group: whole vectors of them.
+    size_t group_packets =
+        (packets + kLanes * BundleScratch::kGroups - 1) / (kLanes * BundleScratch::kGroups) * kLanes;
+    float first_time = 0, last_time = 0;
+    float farthest_depth = 0;  ///< some ray still looks as far as this
+
+    size_t groups() const { return (packets + group_packets - 1) / group_packets; }
+
+    /// visit(first) for each vector of packets of some groups.
+    template <class Visit>
+    HWY_INLINE void for_packets(uint32_t some, const Visit& visit) const {
+        for (; some != 0; some &= some - 1) {
+            const size_t first = static_cast<size_t>(std::countr_zero(some)) * group_packets,
+                         end = std::min(first + group_packets, packets);
+            for (size_t p = first; p < end; p += kLanes) visit(p);
+        }
+    }
+
+    void refresh_packet(size_t packet) {
+        scratch.farthest[packet] = largest(hn::Load(F32(), rays.depth + packet * kLanes));
+    }
+    void refresh_farthest() {
+        const F32 d;
+        VF farthest = hn::Load(d, scratch.farthest);
+        for (size_t p = kLanes; p < packets; p += kLanes)
+            farthest = hn::Max(farthest, hn::Load(d, scratch.farthest + p));
+        farthest_depth = largest(farthest);
+    }
+
+    /// Whether it is the nearest opaque hit now.
+    HWY_INLINE bool keep_hit(uint32_t ray, float depth, uint32_t id, bool opaque) {
+        ++stats.predicate_hits;
+        float& nearest = rays.depth[ray];
+        if (!opaque) {
+            if (depth <= nearest) rays.layers.push_back({ray, depth, id});
+            return false;
+        }
+        if (!(depth < nearest || (depth == nearest && id < rays.id[ray]))) return false;
+        nearest = depth;
+        rays.id[ray] = id;
+        return true;
+    }
+};
+
+inline void count_packet(uint32_t* counts, size_t first, uint32_t count) {
+    for (size_t i = 0; i < kLanes; ++i) counts[first + i] += count;
+}
+
+/// A block and what its hits are called.
+struct Block {
+    BlockView view;
+    int columns;
+    Facing facing;
+    bool opaque;
+    uint32_t id;  ///< of its first micropolygon
+    float slack;
+};
+
+inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
+    const int tiles_u = grid.tiles_u(), tiles_v = grid.tiles_v();
+    const size_t plane_size = grid.plane_size();
+    Block block;
+    block.view.plane = plane_size;
+    block.view.tile = grid.planes + static_cast<size_t>(segment) * 6 * plane_size +
+                      static_cast<size_t>(v * tiles_u + u) * 16;
+    block.view.right = u + 1 < tiles_u ? 16 : 3;
+    block.view.down = v + 1 < tiles_v ? tiles_u * 16 : 12;
+    block.view.rows = std::min(4, grid.nv - 4 * v);
+    block.columns = std::min(4, grid.nu - 4 * u);
+    block.facing = static_cast<Facing>(grid.facing);
+    block.opaque = grid.opaque != 0;
+    block.id = index << 8 | static_cast<uint32_t>(v) << 6 | static_cast<uint32_t>(u) << 2;
+    block.slack = grid.slack;
+    return block;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

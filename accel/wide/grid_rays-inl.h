@@ -1,0 +1,210 @@
+/// The rays of a bundle that may meet a grid (ActiveRays). Compiled once a target.
+#if defined(TRAPEZE_ACCEL_GRID_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TRAPEZE_ACCEL_GRID_RAYS_INL_H_
+#undef TRAPEZE_ACCEL_GRID_RAYS_INL_H_
+#else
+#define TRAPEZE_ACCEL_GRID_RAYS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "accel/wide/box_codes-inl.h"
+#include "accel/wide/bundle_state-inl.h"
+#include "accel/wide/compact_lanes-inl.h"
+#include "accel/wide/ray_intervals-inl.h"
+#include "core/simd/lane_numbers-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// segment_at() in lanes: whether a time is in a segment, and where.
+HWY_INLINE MF in_segment(VF time, int key_count, int segment, VF& local) {
+    const F32 d;
+    const I32 di;
+    const VF scaled = hn::Mul(time, hn::Set(d, static_cast<float>(key_count - 1)));
+    const VI index = hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Zero(di)), hn::Set(di, key_count - 2));
+    local = hn::Sub(scaled, hn::ConvertTo(d, index));
+    return hn::RebindMask(d, hn::Eq(index, hn::Set(di, segment)));
+}
+
+/// From times of the shutter to local ones; false where none is in the segment.
+HWY_INLINE MF to_segment(int key_count, int segment, Interval& time) {
+    const F32 d;
+    const VF scale = hn::Set(d, static_cast<float>(key_count - 1)),
+             start = hn::Set(d, static_cast<float>(segment));
+    const VF low = hn::MulSub(time.low, scale, start), high = hn::MulSub(time.high, scale, start);
+    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    time = {hn::Max(low, zero), hn::Min(high, one)};
+    // A little more than the segment, for times round.
+    return hn::And(hn::Le(low, hn::Set(d, 1.0f + 0x1p-12f)), hn::Ge(high, hn::Set(d, -0x1p-12f)));
+}
+
+/// Those rays that pass through a grid's axis-aligned box no farther than their limits: a third of the work
+/// that the oriented box is, and of a packet that is wider than a grid most often no ray is left.
+template <bool kMoves, bool kLens>
+HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) {
+    const F32 d;
+    const auto plane = [&](const float* at, const float* delta, int k) HWY_ATTR {
+        const VF value = hn::Set(d, at[k]);
+        return kMoves ? hn::MulAdd(r.local, hn::Set(d, delta[k]), value) : value;
+    };
+    const VF z0 = plane(box.low, box.low_delta, 2), z1 = hn::Min(plane(box.high, box.high_delta, 2), limit);
+    const auto passes = [&](VF o, VF u, int k) HWY_ATTR {
+        const VF from = kLens ? hn::MulAdd(u, z0, o) : hn::Mul(u, z0),
+                 to = kLens ? hn::MulAdd(u, z1, o) : hn::Mul(u, z1);
+        return hn::And(hn::Le(hn::Min(from, to), plane(box.high, box.high_delta, k)),
+                       hn::Ge(hn::Max(from, to), plane(box.low, box.low_delta, k)));
+    };
+    return hn::And(hn::Le(z0, z1), hn::And(passes(r.ox, r.ux, 0), passes(r.oy, r.uy, 1)));
+}
+
+/// They are needed once all packets of the bundle have been looked at.
+template <bool kMoves>
+HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int segment) {
+    constexpr size_t kLine = 64;
+    const size_t bytes = grid.key_bytes() * (kMoves ? 2 : 1);
+    const uint8_t* keys = GridKeys(grid, t.tree.keys_of(grid)).of_key(segment);
+    for (size_t i = 0; i < bytes; i += kLine) __builtin_prefetch(keys + i);
+    __builtin_prefetch(keys + bytes - 1);
+}
+
+/// The rays of a packet, and whether they look in a segment, at times local to it.
+template <bool kMoves, bool kLens>
+HWY_INLINE MF rays_in_segment(const BundleState& t, const WideGrid& grid, int segment, size_t packet,
+                              RayLanes& r) {
+    const F32 d;
+    const size_t i = packet * kLanes;
+    r.ox = kLens ? hn::Load(d, t.rays.ox + i) : hn::Zero(d);
+    r.oy = kLens ? hn::Load(d, t.rays.oy + i) : hn::Zero(d);
+    r.ux = hn::Load(d, t.rays.ux + i), r.uy = hn::Load(d, t.rays.uy + i);
+    r.local = kMoves ? hn::Load(d, t.rays.time + i) : hn::Zero(d);
+    if constexpr (kMoves) {
+        if (grid.has_segments()) return in_segment(r.local, grid.key_count, segment, r.local);
+    }
+    return hn::FirstN(d, kLanes);
+}
+
+/// How far the rays of a packet look, with what depths may differ by.
+HWY_INLINE VF limit_of(const BundleState& t, const WideGrid& grid, size_t packet) {
+    const F32 d;
+    return hn::Add(hn::Load(d, t.rays.depth + packet * kLanes), hn::Set(d, grid.slack));
+}
+
+/// Of `count` packets keeps those with rays that meet the grid's axis-aligned box; how many. Without a
+/// branch: about every second packet has none, which cannot be predicted.
+template <bool kMoves, bool kLens>
+HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const MovingBox& box, int segment,
+                               size_t count) {
+    MetPackets& met = t.scratch.met_packets;
+    size_t kept = 0;
+    for (size_t n = 0; n < count; ++n) {
+        const uint32_t packet = met.packet[n];
+        RayLanes r;
+        const MF looks = rays_in_segment<kMoves, kLens>(t, grid, segment, packet, r);
+        const VF limit = limit_of(t, grid, packet);
+        met.lanes[kept] = mask_bits(hn::And(looks, in_aligned_box<kMoves, kLens>(box, r, limit)));
+        met.packet[kept] = packet;
+        kept += met.lanes[kept] != 0;
+    }
+    return kept;
+}
+
+/// Lists those rays of a packet that meet the grid's oriented box, of those that meet the other.
+template <bool kMoves, bool kLens>
+HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t packet, uint32_t lanes,
+                               int segment, float depth) {
+    const F32 d;
+    RayLanes r;
+    rays_in_segment<kMoves, kLens>(t, grid, segment, packet, r);
+    const VF limit = limit_of(t, grid, packet);
+    const SegmentFrame& frame = t.scratch.frame;
+    const MovingBox& framed = frame.box;
+    VF inverse[3], offset[3], near = hn::Set(d, depth), far = limit;
+    for (int k = 0; k < 3; ++k) {
+        const float* axis = frame.axes.axis[k];
+        const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]);
+        inverse[k] = reciprocal(hn::MulAdd(x, r.ux, hn::MulAdd(y, r.uy, hn::Set(d, axis[2]))));
+        offset[k] = kLens ? hn::Mul(hn::MulAdd(x, r.ox, hn::Mul(y, r.oy)), inverse[k]) : hn::Zero(d);
+        VF low = hn::Set(d, framed.low[k]), high = hn::Set(d, framed.high[k]);
+        if constexpr (kMoves) {
+            low = hn::MulAdd(r.local, hn::Set(d, framed.low_delta[k]), low);
+            high = hn::MulAdd(r.local, hn::Set(d, framed.high_delta[k]), high);
+        }
+        const VF a = hn::MulSub(low, inverse[k], offset[k]), b = hn::MulSub(high, inverse[k], offset[k]);
+        near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
+    }
+    const MF met = hn::And(mask_of(lanes), hn::Le(near, far));
+    const size_t count = hn::CountTrue(d, met);
+    if (count == 0) return;
+    ActiveRays& to = t.scratch.active;
+    const size_t at = to.count;
+    const CompactLanes compact(met);
+    if constexpr (kLens) compact.store(r.ox, to.ox + at), compact.store(r.oy, to.oy + at);
+    compact.store(r.ux, to.ux + at), compact.store(r.uy, to.uy + at);
+    if constexpr (kMoves) compact.store(r.local, to.local + at);
+    for (int k = 0; k < 3; ++k) {
+        compact.store(inverse[k], to.inverse[k] + at);
+        if constexpr (kLens) compact.store(offset[k], to.offset[k] + at);
+    }
+    compact.store(limit, to.limit + at);
+    const hn::RebindToUnsigned<F32> du;
+    compact.store(lane_numbers(du, static_cast<uint32_t>(packet * kLanes)), to.ray + at);
+    to.count += count;
+    t.scratch.touched[t.scratch.touched_count++] = packet;
+}
+
+/// Packets whose intervals meet the grid's axis-aligned box, then those of their rays that meet its
+/// oriented one (and, of a moving grid, look in the segment).
+template <bool kMoves, bool kLens>
+void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, int segment,
+                    const Candidate& candidate) {
+    const F32 d;
+    const hn::RebindToUnsigned<F32> du;
+    t.scratch.active.count = 0;
+    t.scratch.touched_count = 0;
+    MetPackets& packets = t.scratch.met_packets;
+    size_t count = 0;
+    t.for_packets(candidate.groups, [&](size_t p) HWY_ATTR {
+        auto q = IntervalLanes::of<kMoves, kLens>(
+            [&](int row) HWY_ATTR { return hn::Load(d, t.scratch.intervals.row[row] + p); });
+        VF low[3], high[3];
+        MF looks = hn::FirstN(d, kLanes);
+        if constexpr (kMoves) {
+            if (grid.has_segments()) looks = to_segment(grid.key_count, segment, q.time);
+        }
+        for (int k = 0; k < 3; ++k) {
+            low[k] = hn::Set(d, box.low[k]), high[k] = hn::Set(d, box.high[k]);
+            if constexpr (kMoves) {
+                low[k] = lowest(low[k], hn::Set(d, box.low_delta[k]), q.time);
+                high[k] = highest(high[k], hn::Set(d, box.high_delta[k]), q.time);
+            }
+        }
+        looks = hn::And(looks, hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]));
+        const MF met = hn::And(
+            looks, meets<kLens>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal)));
+        CompactLanes(met).store(lane_numbers(du, static_cast<uint32_t>(p)), packets.packet + count);
+        count += hn::CountTrue(d, met);
+    });
+    t.stats.nodes_visited += count * kLanes;
+    if (t.rays.nodes)
+        for (size_t n = 0; n < count; ++n) count_packet(t.rays.nodes, packets.packet[n] * kLanes, 1);
+    count = keep_aligned<kMoves, kLens>(t, grid, box, segment, count);
+    if (count == 0) return;
+    if constexpr (kMoves)
+        read_moving_frame(t.tree, grid, segment, t.scratch.frame);
+    else
+        t.tree.read_frame(grid, segment, t.scratch.frame);
+    prefetch_boxes<kMoves>(t, grid, segment);
+    for (size_t n = 0; n < count; ++n)
+        collect_packet<kMoves, kLens>(t, grid, packets.packet[n], packets.lanes[n], segment, candidate.depth);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

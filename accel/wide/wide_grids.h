@@ -1,0 +1,26 @@
+/// The first pass of a WideTree's build: every grid's frame and boxes.
+#pragma once
+
+#include "accel/wide/wide_tree.h"
+
+namespace trapeze {
+
+/// A box at both ends of the shutter, linear between.
+struct EndBoxes {
+    KeyBounds at[2];
+};
+
+/// What the pass finds of a grid besides WideGrid and its block boxes.
+struct GridExtent {
+    EndBoxes box;  ///< camera space, grown for rounding; linear in time around all keys
+    float absolute_max;
+    float largest_micropolygon;  ///< the extent of the largest along any axis
+};
+
+/// Fills in a grid's record (all but first_pair, which is set, and leaf) and what it has at its keys. `scale` and `base`:
+/// bounds grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an absolute_max
+/// of infinity, and boxes that mean nothing.
+void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint8_t* keys,
+                GridExtent& extent);
+
+}  // namespace trapeze

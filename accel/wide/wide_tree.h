@@ -1,0 +1,153 @@
+/// The fast acceleration structure, for rays that go through it in bundles [docs/decisions/0006]:
+///
+///   top level     16-wide nodes of axis-aligned hyper-trapezoids, whose leaves are grids;
+///   in a grid     one implicit level: blocks of 4 x 4 micropolygons, the tiles in which vertices are stored,
+///                 each with an oriented hyper-trapezoid in the grid's own frame [Hou10 sec. 3.2 and 3.3],
+///                 kept in a byte a plane.
+///
+/// How a grid is kept is in accel/wide/wide_grid.h.
+///
+/// Nothing is stored for micropolygons. Boxes are linear in time: above grids over the whole shutter (a
+/// conservative line where there are several motion segments), inside grids over each segment.
+///
+/// All boxes are grown once by what rounds away between a vertex and a slab test of a ray within RayReach.
+/// A hit's depth lies in its micropolygon's own range of depths, hence in axis-aligned boxes' range of z; the
+/// depth at which a ray enters an oriented box may exceed it by the micropolygon's extent (slack).
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "accel/wide/bfloat16.h"
+#include "accel/wide/wide_grid.h"
+#include "core/grid.h"
+#include "core/ray_query.h"
+#include "core/stats.h"
+
+namespace trapeze {
+
+/// What the rays of bundles stay within; origins are at z = 0.
+struct RayReach {
+    float slope = 2;   ///< |ux| + |uy|
+    float origin = 0;  ///< |ox| + |oy|
+};
+
+/// Memory aligned to cache lines, readable 64 bytes past its end. Not initialised.
+template <class T>
+class AlignedArray {
+  public:
+    void allocate(size_t count) {
+        count_ = count;
+        data_.reset(static_cast<T*>(::operator new (count * sizeof(T) + 128, std::align_val_t{64})));
+    }
+    size_t size() const { return count_; }
+    size_t bytes() const { return count_ * sizeof(T); }
+    T* data() { return data_.get(); }
+    const T* data() const { return data_.get(); }
+    T& operator[](size_t i) { return data_.get()[i]; }
+    const T& operator[](size_t i) const { return data_.get()[i]; }
+
+  private:
+    struct Free {
+        void operator()(T* p) const { ::operator delete (p, std::align_val_t{64}); }
+    };
+    std::unique_ptr<T, Free> data_;
+    size_t count_ = 0;
+};
+
+/// Child links of nodes: a grid, a node, or none.
+inline constexpr uint32_t kGridLink = uint32_t{1} << 31;
+inline constexpr uint32_t kNoLink = ~uint32_t{0};
+
+struct alignas(64) WideNode {
+    static constexpr int kChildren = 16;
+    float low[3][kChildren], high[3][kChildren];  ///< at time 0; inverted where there is no child
+    uint32_t child[kChildren];
+};
+/// What nodes of moving scenes have besides: how far planes move, rounded outward (accel/wide/bfloat16.h).
+struct alignas(64) WideNodeMotion {
+    uint16_t low[3][WideNode::kChildren], high[3][WideNode::kChildren];
+};
+
+struct GridExtent;
+struct WideChildren;
+
+class WideTree final : public RayQuery {
+  public:
+    /// Grids beyond this many cannot be told apart in the tree's 32-bit micropolygon ids.
+    static constexpr size_t kMaxGrids = size_t{1} << 24;
+
+    /// Keeps a reference to the grids, of which there are at most kMaxGrids.
+    WideTree(const Grids& grids, const RayReach& reach);
+
+    std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const override;
+    bool any(const SpaceRay& ray, DepthRange range) const override;
+
+    const Grids& grids() const { return grids_; }
+    const RayReach& reach() const { return reach_; }
+    BuildStats stats() const { return stats_; }
+    bool moves() const { return moves_; }
+
+    /// What bounds of things within some coordinates have to grow by, so that no test of a ray within reach
+    /// loses a hit to rounding.
+    float rounding(float absolute_max) const { return rounding_scale_ * absolute_max + rounding_base_; }
+
+    /// The extent along z of the largest micropolygon of all.
+    float max_slack() const { return max_slack_; }
+    const WideNode* nodes() const { return nodes_.data(); }
+    const WideNodeMotion* node_motions() const { return node_motions_.data(); }
+    size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
+    const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
+    /// What it has at its keys, as WideGrid tells.
+    const uint8_t* keys_of(const WideGrid& grid) const { return keys_.data() + 2 * size_t{grid.first_pair}; }
+    /// The boxes of a grid in a segment, which tracing decodes in vectors; at its start alone where it is
+    /// still.
+    void decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const;
+    /// A grid's box in camera space over the whole shutter; not of unbounded ones.
+    MovingBox grid_box(const WideGrid& grid) const {
+        const size_t node = grid.leaf / WideNode::kChildren, child = grid.leaf % WideNode::kChildren;
+        MovingBox box{};
+        for (int k = 0; k < 3; ++k) {
+            box.low[k] = nodes_[node].low[k][child], box.high[k] = nodes_[node].high[k][child];
+            if (!moves_) continue;
+            box.low_delta[k] = from_bfloat16(node_motions_[node].low[k][child]);
+            box.high_delta[k] = from_bfloat16(node_motions_[node].high[k][child]);
+        }
+        return box;
+    }
+    /// The same in a segment.
+    MovingBox segment_box(const WideGrid& grid, int segment) const {
+        if (!grid.has_segments()) return grid_box(grid);
+        const GridKeys keys(grid, keys_of(grid));
+        return between(keys.aligned(segment), keys.aligned(segment + 1));
+    }
+    void read_frame(const WideGrid& grid, int segment, SegmentFrame& frame) const {
+        const GridKeys keys(grid, keys_of(grid));
+        frame.axes = grid.axes.unpacked();
+        frame.at[0] = keys.framed(segment);
+        frame.at[1] = grid.moves() ? keys.framed(segment + 1) : frame.at[0];
+        frame.box = between(frame.at[0], frame.at[1]);
+    }
+    /// Grids too far out for bounds: every ray must look at them.
+    const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
+
+  private:
+    void bound_grids(std::vector<GridExtent>& extents);
+    void write_nodes(const std::vector<WideChildren>& wide);
+
+    const Grids& grids_;
+    RayReach reach_;
+    float rounding_scale_, rounding_base_;
+    bool moves_ = false;
+    float max_slack_ = 0, max_extent_ = 0, absolute_max_ = 0;
+    AlignedArray<WideGrid> wide_grids_;
+    AlignedArray<uint8_t> keys_;  ///< WideGrid::keys_bytes() of all grids
+    AlignedArray<WideNode> nodes_;
+    AlignedArray<WideNodeMotion> node_motions_;
+    std::vector<uint32_t> unbounded_;
+    BuildStats stats_;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,315 @@
+#include "composite/displays/display_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "composite/displays/compressions.h"
+#include "composite/displays/exr_attributes.h"
+#include "core/scene/transfer.h"
+
+namespace trapeze {
+namespace {
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+struct NamedFormat {
+    std::string_view name;
+    FileFormat format;
+};
+
+constexpr NamedFormat kExtensions[] = {{".exr", FileFormat::OpenExr}, {".tif", FileFormat::Tiff},
+                                       {".tiff", FileFormat::Tiff},   {".png", FileFormat::Png},
+                                       {".jpg", FileFormat::Jpeg},    {".jpeg", FileFormat::Jpeg},
+                                       {".tga", FileFormat::Targa},   {".bmp", FileFormat::Bmp}};
+constexpr NamedFormat kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileFormat::OpenExr},
+                                    {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
+                                    {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
+                                    {"bmp", FileFormat::Bmp}};
+constexpr std::string_view kAttributePrefix = "exrheader_";
+constexpr std::string_view kWindowDrivers[] = {
+    "framebuffer", "it",    "x11",     "windows", "idisplay", "piqsl",     "houdini",
+    "rgl",         "mplay", "xwindow", "window",  "agshow",   "i-display", "zframebuffer"};
+
+template <class Table>
+std::optional<FileFormat> look_up(const Table& table, std::string_view name) {
+    for (const NamedFormat& row : table)
+        if (row.name == name) return row.format;
+    return {};
+}
+
+std::optional<FileFormat> format_by_extension(const std::string& file) {
+    return look_up(kExtensions, lower(std::filesystem::path(file).extension().string()));
+}
+
+bool opens_window(const Display& display) {
+    return std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), lower(display.type)) !=
+           std::end(kWindowDrivers);
+}
+
+/// The same of the picture, whether with alpha or without.
+bool show_the_same(const Display& a, const Display& b) {
+    const auto without_alpha = [](const Display& display) {
+        const std::string mode = lower(display.mode.empty() ? "rgba" : display.mode);
+        return mode.starts_with("rgba") ? mode.substr(0, 3) + mode.substr(4) : mode;
+    };
+    return without_alpha(a) == without_alpha(b);
+}
+
+/// The file beside a window, of the same name or of the same picture, as many scenes have it: the window is
+/// to be looked at, not to be kept. Null: none.
+const Display* file_beside_window(const Display& display, const Options& options) {
+    if (!opens_window(display)) return nullptr;
+    const auto found =
+        std::find_if(options.displays.begin(), options.displays.end(), [&](const Display& other) {
+            return (other.name == display.name || show_the_same(other, display)) && !opens_window(other) &&
+                   lower(other.type) != "null";
+        });
+    return found == options.displays.end() ? nullptr : &*found;
+}
+
+/// Of a display that has none.
+std::string usual_path(const DisplayPlan& plan) {
+    const auto row = std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                                  [&](const NamedFormat& named) { return named.format == plan.format; });
+    return "untitled" + std::string(plan.depth_map ? ".z" : row->name);
+}
+
+/// Driver and extension to format and path. Nothing: driver "null".
+bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    const std::string driver = lower(display.type);
+    if (driver == "null") return false;
+    plan.path = display.name;
+    plan.depth_map = makes_depth_map(display);
+    const auto by_driver = plan.depth_map ? std::optional(FileFormat::Tiff) : look_up(kDrivers, driver);
+    const auto by_extension = format_by_extension(display.name);
+    plan.format = by_driver.value_or(by_extension.value_or(FileFormat::OpenExr));
+    if (plan.path.empty()) plan.path = usual_path(plan);
+    if (by_driver) return true;
+    if (opens_window(display)) {
+        if (!by_extension && !display.name.empty()) plan.path += ".exr";
+        diagnostics.warning(
+            display.location,
+            fmt::format("Display \"{}\": no window is opened; \"{}\" is written instead", driver, plan.path),
+            "display-window " + plan.path);
+    } else if (driver != "file" && !driver.empty()) {
+        diagnostics.warning(
+            display.location,
+            fmt::format("Display driver \"{}\" is not known; \"{}\" is written as {}", display.type,
+                        plan.path, by_extension ? "its extension says" : "OpenEXR"),
+            "display-driver " + plan.path);
+    } else if (!by_extension) {
+        diagnostics.note(display.location,
+                         fmt::format("\"{}\" has no known extension; it is written as OpenEXR", plan.path),
+                         "display-extension " + plan.path);
+    }
+    return true;
+}
+
+/// The variable that the mode names.
+bool choose_variable(const Display& display, const AovLayout& layout, Diagnostics& diagnostics,
+                     DisplayPlan& plan) {
+    plan.rgb = plan.alpha = false;
+    if (const Aov* aov = layout.find(*display.variable)) {
+        plan.aov = *aov;
+        plan.aov_is_color = display.variable->type == ValueType::Color;
+        return true;
+    }
+    diagnostics.warning(
+        display.location,
+        fmt::format("displays ask for more than {} channels of variables; \"{}\" is not written",
+                    kMostAovChannels, plan.path),
+        "display-variables " + plan.path);
+    return false;
+}
+
+/// rgb, a and z in this order, each or not; or "id".
+bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    const bool depth = plan.depth_map || (display.variable && is_depth(*display.variable));
+    std::string_view mode = depth ? "z" : std::string_view(display.mode);
+    const auto take = [&](std::string_view channels) {
+        if (!mode.starts_with(channels)) return false;
+        mode.remove_prefix(channels.size());
+        return true;
+    };
+    if (mode.empty()) mode = "rgba";
+    plan.id = take("id");
+    plan.rgb = !plan.id && take("rgb");
+    plan.alpha = !plan.id && take("a");
+    plan.depth = !plan.id && take("z");
+    if (!mode.empty()) {
+        diagnostics.warning(display.location,
+                            fmt::format("Display mode \"{}\" is not supported; \"{}\" is not written",
+                                        display.mode, plan.path),
+                            "display-mode " + plan.path);
+        return false;
+    }
+    if (plan.format == FileFormat::OpenExr) return true;
+    const bool depth_fits = !plan.depth || (plan.format == FileFormat::Tiff && !plan.rgb && !plan.alpha);
+    if (plan.id || (!depth_fits && !plan.rgb && !plan.alpha)) {
+        diagnostics.warning(
+            display.location,
+            fmt::format("mode \"{}\" needs OpenEXR; \"{}\" is not written", display.mode, plan.path),
+            "display-mode-format " + plan.path);
+        return false;
+    }
+    if (!depth_fits) {
+        plan.depth = false;
+        diagnostics.warning(display.location, fmt::format("\"{}\" cannot hold z; it is left out", plan.path),
+                            "display-z-format " + plan.path);
+    }
+    return true;
+}
+
+const Parameter* floats_of(const ParameterList& list, std::string_view name, size_t count) {
+    const Parameter* parameter = list.find(name);
+    return parameter && parameter->floats.size() >= count ? parameter : nullptr;
+}
+
+/// What the format cannot hold becomes 8 bits. OpenEXR has no use for it.
+void fit_to_format(Quantization& quantization, FileFormat format) {
+    const bool takes_floats = format == FileFormat::Tiff || format == FileFormat::OpenExr;
+    const bool takes_16_bits = takes_floats || format == FileFormat::Png;
+    if (quantization.to_float() ? !takes_floats : quantization.has_16_bits() && !takes_16_bits)
+        quantization = Quantization{};
+}
+
+/// Whether colours are encoded by the sRGB curve. What a display itself says comes before the options.
+bool is_encoded(const Display& display, const Options& options, const DisplayPlan& plan) {
+    if (plan.format == FileFormat::OpenExr || plan.quantization.to_float()) return false;
+    if (!plan.rgb && !plan.aov_is_color) return false;
+    const Transfer transfer =
+        transfer_named(display.parameters.string_or("colorspace", "")).value_or(transfer_of(options));
+    return transfer == Transfer::Srgb ||
+           (transfer == Transfer::Auto && options.exposure_gamma == 1 && !plan.quantization.has_16_bits());
+}
+
+void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
+    const Parameter* own = floats_of(display.parameters, "quantize", 4);
+    const bool color = plan.rgb || plan.alpha || plan.aov_is_color;
+    const Parameter* given = plan.aov ? floats_of(options.quantize, plan.aov->name, 4) : nullptr;
+    if (!given && plan.aov && !plan.aov_is_color) plan.quantization.make_float();
+    if (!given && (!plan.aov || plan.aov_is_color))
+        given = floats_of(options.quantize, color ? "rgba" : "z", 4);
+    if (given) plan.quantization = {given->floats[0], given->floats[1], given->floats[2], given->floats[3]};
+    if (own) {  // zero one min max; the dither is apart
+        plan.quantization.zero = own->floats[0], plan.quantization.one = own->floats[1];
+        plan.quantization.min = own->floats[2], plan.quantization.max = own->floats[3];
+    }
+    plan.quantization.dither = display.parameters.float_or("dither", plan.quantization.dither);
+    if (!color && !plan.aov) plan.quantization.make_float();  // depth
+    plan.float_pixels =
+        own && std::all_of(own->floats.begin(), own->floats.begin() + 4, [](float v) { return v == 0; });
+    const std::string type =
+        lower(display.parameters.string_or("exrpixeltype", display.parameters.string_or("type", "")));
+    if (type == "float") plan.float_pixels = true, plan.quantization.make_float();
+    if (type == "half") plan.float_pixels = false;
+    if (plan.aov && !plan.aov_is_color) plan.float_pixels = true;
+    fit_to_format(plan.quantization, plan.format);
+    plan.srgb = is_encoded(display, options, plan);
+}
+
+void choose_compression(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    std::string name = display.parameters.string_or("compression", "");
+    if (plan.format == FileFormat::OpenExr) name = display.parameters.string_or("exrcompression", name);
+    if (name.empty()) return;
+    if (const auto compression = compression_named(plan.format, lower(name))) {
+        plan.compression = *compression;
+        return;
+    }
+    diagnostics.warning(
+        display.location,
+        fmt::format("\"{}\" is no compression of \"{}\", whose format has {}; the usual one is used", name,
+                    plan.path, compression_names(plan.format)),
+        "display-compression " + name + ' ' + plan.path);
+}
+
+void take_attributes(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    for (const Parameter& parameter : display.parameters.values) {
+        if (!parameter.name.starts_with(kAttributePrefix)) continue;
+        Parameter attribute = parameter;
+        attribute.name.erase(0, kAttributePrefix.size());
+        const std::string problem = plan.format == FileFormat::OpenExr
+                                        ? problem_of_attribute(attribute)
+                                        : fmt::format("needs OpenEXR, which \"{}\" is not", plan.path);
+        if (problem.empty())
+            plan.attributes.push_back(std::move(attribute));
+        else
+            diagnostics.warning(display.location,
+                                fmt::format("\"{}\" {}; it is left out", parameter.name, problem),
+                                "display-attribute " + parameter.name + ' ' + plan.path);
+    }
+}
+
+}  // namespace
+
+bool holds_depth(const std::string& file) {
+    const FileFormat format = format_by_extension(file).value_or(FileFormat::OpenExr);
+    return format == FileFormat::OpenExr || format == FileFormat::Tiff;
+}
+
+bool makes_depth_map(const Display& display) {
+    const std::string driver = lower(display.type);
+    return driver == "zfile" || driver == "shadow";
+}
+
+std::optional<FileFormat> file_format(const Display& display) {
+    Diagnostics unheard;
+    DisplayPlan plan;
+    return choose_format(display, unheard, plan) ? std::optional(plan.format) : std::nullopt;
+}
+
+void rename(Display& display, std::string name) {
+    const auto before = file_format(display);
+    display.name = std::move(name), display.type = "file";
+    if (file_format(display) == before) return;
+    std::erase_if(display.parameters.values, [](const Parameter& parameter) {
+        return parameter.name == "compression" || parameter.name == "exrcompression" ||
+               parameter.name.starts_with(kAttributePrefix);
+    });
+}
+
+bool asks_for_whole_numbers(const Display& display, const Options& options) {
+    const auto format = file_format(display);
+    if (!format) return false;
+    if (const Parameter* own = floats_of(display.parameters, "quantize", 4))
+        return own->floats[0] != own->floats[1];
+    if (const Parameter* given = floats_of(options.quantize, "rgba", 4)) return given->floats[0] != 0;
+    return *format != FileFormat::OpenExr;
+}
+
+std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {
+    if (!plan.aov) return {};
+    if (plan.aov->channels == 1) return {"Y"};
+    if (plan.aov_is_color) return {"R", "G", "B"};
+    return {plan.aov->name + ".X", plan.aov->name + ".Y", plan.aov->name + ".Z"};
+}
+
+std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
+                                        const AovLayout& layout, Diagnostics& diagnostics) {
+    DisplayPlan plan;
+    if (const Display* file = file_beside_window(display, options)) {
+        const std::string which = display.name.empty() ? "" : fmt::format(" of \"{}\"", display.name);
+        diagnostics.warning(display.location,
+                            fmt::format("Display{}: no window (\"{}\") is opened; see \"{}\"", which,
+                                        lower(display.type), file->name),
+                            fmt::format("display-window {} beside {}", display.name, file->name));
+        return {};
+    }
+    if (!choose_format(display, diagnostics, plan)) return {};
+    const bool variable = display.variable && !is_depth(*display.variable) && !plan.depth_map;
+    if (!(variable ? choose_variable(display, layout, diagnostics, plan)
+                   : choose_channels(display, diagnostics, plan)))
+        return {};
+    choose_pixel_type(display, options, plan);
+    choose_compression(display, diagnostics, plan);
+    take_attributes(display, diagnostics, plan);
+    return plan;
+}
+
+}  // namespace trapeze

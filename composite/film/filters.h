@@ -1,0 +1,118 @@
+/// Pixel filters (RISpec 4.1.1, PixelFilter; the formulas are those of its appendix on built-in filters,
+/// where the table in filters.cpp says nothing else). A filter is a function of the vector from a pixel's
+/// centre to a sample, in pixels; it counts within [-width/2, width/2) on each axis. The film divides by the
+/// sum of the weights, so scale does not matter.
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+namespace trapeze {
+
+/// The filter's value, straight from its formula, without its support. Unknown names give the gaussian's.
+double filter_value(std::string_view name, double x, double y, double width_x, double width_y);
+
+bool is_known_filter(std::string_view name);
+
+/// The first of the pixels that a sample reaches; its weights on them follow row by row, taps_y() rows of
+/// taps_x().
+struct FilterTaps {
+    int x0 = 0, y0 = 0;
+};
+
+/// A filter ready to weigh millions of samples: tabulated, in double precision from the C library and
+/// rounded, so that its last bits do not depend on the processor. What the tables lose is below 1e-5 of the
+/// largest weight.
+class FilterKernel {
+  public:
+    /// Warns once about a name that is not known and uses the gaussian.
+    explicit FilterKernel(const PixelFilter& filter, Diagnostics* diagnostics = nullptr);
+
+    int taps_x() const { return x_.taps; }
+    int taps_y() const { return y_.taps; }
+    int tap_count() const { return x_.taps * y_.taps; }
+    /// How many pixels beyond its own a sample reaches on each side.
+    int reach_x() const { return x_.reach; }
+    int reach_y() const { return y_.reach; }
+
+    /// What samples in these pixels may name as taps: the pixels in reach and, with some widths between
+    /// integers, one more on the far sides, whose weight is always 0.
+    PixelRect footprint(const PixelRect& pixels) const {
+        return {pixels.x0 - x_.reach, pixels.y0 - y_.reach, pixels.x1 + x_.reach + x_.spare(),
+                pixels.y1 + y_.reach + y_.spare()};
+    }
+
+    /// The weights of a sample at raster position (x, y) in pixel (pixel_x, pixel_y). Depends on nothing
+    /// else. `weights` has room for tap_count(); taps outside the support get 0. kTaps: taps_x() and
+    /// taps_y() where these are equal and known to the caller's compiler, else 0.
+    template <int kTaps = 0>
+    FilterTaps weigh(float x, float y, int pixel_x, int pixel_y, float* weights) const {
+        if (!separable_) return weigh_radially(x, y, pixel_x, pixel_y, weights);
+        const int nx = kTaps ? kTaps : x_.taps, ny = kTaps ? kTaps : y_.taps;
+        float wx[kTaps ? kTaps : kMaxTaps], wy[kTaps ? kTaps : kMaxTaps];
+        const FilterTaps taps{x_.weigh<kTaps>(x, pixel_x, wx), y_.weigh<kTaps>(y, pixel_y, wy)};
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i) weights[j * nx + i] = wx[i] * wy[j];
+        return taps;
+    }
+
+  private:
+    static constexpr int kMaxTaps = 64;
+    static constexpr int kPhases = 1024;
+
+    /// One axis of the support. A sample's first tap is the first pixel whose centre lies less than half a
+    /// width to its left; its phase in [0, 1) is how far it lies beyond the position where that tap came in.
+    /// Both give all distances: tap i is at half_width - 1 + phase - i.
+    struct Axis {
+        float half_width = 1;
+        int taps = 2, reach = 1;
+        float rim = 0;  ///< below this phase the last tap is outside: a width between integers
+        std::vector<float>
+            phases;  ///< of a separable filter: kPhases + 2 rows of `taps` weights, interpolated
+
+        int locate(float position, int pixel, float* phase) const {
+            // Rounding may put a sample on its pixel's far edge; it stays that pixel's. So does one that is
+            // no number.
+            const float in_pixel =
+                std::max(0.0f, std::min(0x1.fffffep-1f, position - static_cast<float>(pixel)));
+            const float start = in_pixel + (static_cast<float>(reach) + 0.5f - half_width);
+            const int first = static_cast<int>(start);
+            *phase = start - static_cast<float>(first);
+            return pixel - reach + first;
+        }
+        int spare() const { return taps > 2 * reach && rim > 0 ? 1 : 0; }
+        template <int kTaps>
+        int weigh(float position, int pixel, float* weights) const {
+            float phase;
+            const int first = locate(position, pixel, &phase), n = kTaps ? kTaps : taps;
+            const float at = phase * kPhases;
+            const int row = static_cast<int>(at);
+            const float part = at - static_cast<float>(row);
+            const float* low = phases.data() + static_cast<size_t>(row) * n;
+            for (int i = 0; i < n; ++i) weights[i] = low[i] + part * (low[n + i] - low[i]);
+            if (phase < rim) weights[n - 1] = 0;
+            return first;
+        }
+    };
+    /// A function of the distance from the centre.
+    struct RadialTable {
+        std::vector<float>
+            values;        ///< one more than `last` says, so that interpolation at the end stays inside
+        float scale = 1;   ///< entries per pixel
+        float last = 0;    ///< index of the end, from which on it is 0
+        float aspect = 1;  ///< y is multiplied by it before the radius is taken
+    };
+    static Axis make_axis(float width);
+    FilterTaps weigh_radially(float x, float y, int pixel_x, int pixel_y, float* weights) const;
+
+    Axis x_, y_;
+    bool separable_ = true;
+    RadialTable radial_;
+};
+
+}  // namespace trapeze

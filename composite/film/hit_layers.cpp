@@ -1,0 +1,177 @@
+#include "composite/film/hit_layers.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "composite/film/hit_layers.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+#include <hwy/highway.h>
+
+#ifndef TRAPEZE_COMPOSITE_HIT_LAYERS_ONCE
+#define TRAPEZE_COMPOSITE_HIT_LAYERS_ONCE
+namespace trapeze {
+
+/// What is needed of some hits, from all over memory to lanes.
+struct GatheredHits {
+    static constexpr size_t kCount = 16;
+
+    template <class T>
+    using Lanes = T[kCount];
+
+    alignas(64) Lanes<float> ox, oy, oz, ux, uy, local_time;
+    /// Coordinate c of corner k is row 4 * c + k: at the segment's first key, and on to its next.
+    alignas(64) Lanes<float> start[12], delta[12];
+    alignas(64) Lanes<uint16_t> color[12], opacity[12];  ///< halves; channel c of corner k is row 4 * c + k
+    alignas(64) Lanes<uint32_t> constant, opaque;        ///< all bits set where they hold
+    bool moves = false, some_constant = false, some_see_through = false;
+};
+
+}  // namespace trapeze
+#endif
+
+#include "core/hit_micropolygon-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze {
+namespace HWY_NAMESPACE {
+
+using F = hn::CappedTag<float, GatheredHits::kCount>;
+using FloatLanes = hn::Vec<F>;
+
+/// A channel from the four corners.
+HWY_INLINE FloatLanes blend(const WeightLanes<FloatLanes>& w, const GatheredHits::Lanes<uint16_t>* corners,
+                            size_t i) {
+    const F d;
+    const hn::Rebind<hwy::float16_t, F> half;
+    const auto corner = [&](int k) HWY_ATTR {
+        return hn::PromoteTo(d, hn::Load(half, reinterpret_cast<const hwy::float16_t*>(corners[k]) + i));
+    };
+    FloatLanes sum = hn::Add(hn::Zero(d), hn::Mul(w.w00, corner(0)));
+    sum = hn::Add(sum, hn::Mul(w.w10, corner(1)));
+    sum = hn::Add(sum, hn::Mul(w.w01, corner(2)));
+    return hn::Add(sum, hn::Mul(w.w11, corner(3)));
+}
+
+void blend_hits(const GatheredHits& hits, float* const* planes) {
+    const F d;
+    const auto mask_at = [d](const uint32_t* lanes) HWY_ATTR {
+        return hn::MaskFromVec(hn::BitCast(d, hn::Load(hn::RebindToUnsigned<F>(), lanes)));
+    };
+    for (size_t i = 0; i < GatheredHits::kCount; i += hn::Lanes(d)) {
+        const FloatLanes local = hn::Load(d, hits.local_time + i), one = hn::Set(d, 1.0f);
+        const auto vertex = [&](int component, int corner) HWY_ATTR {
+            const int row = 4 * component + corner;
+            const FloatLanes start = hn::Load(d, hits.start[row] + i);
+            if (!hits.moves) return start;
+            return position_at(start, hn::Load(d, hits.delta[row] + i), local);
+        };
+        WeightLanes<FloatLanes> w = hit_weights(
+            d, quad_lanes(hn::Load(d, hits.ox + i), hn::Load(d, hits.oy + i), hn::Load(d, hits.oz + i),
+                          hn::Load(d, hits.ux + i), hn::Load(d, hits.uy + i), vertex));
+        if (hits.some_constant) {
+            const auto constant = mask_at(hits.constant + i);
+            w = {hn::IfThenElse(constant, one, w.w00), hn::IfThenZeroElse(constant, w.w10),
+                 hn::IfThenZeroElse(constant, w.w01), hn::IfThenZeroElse(constant, w.w11)};
+        }
+        for (int c = 0; c < 3; ++c) hn::StoreU(blend(w, hits.color + 4 * c, i), d, planes[c] + i);
+        for (int c = 0; c < 3; ++c) {
+            FloatLanes opacity = one;  // weights sum to 1 only within rounding
+            if (hits.some_see_through)
+                opacity = hn::IfThenElse(mask_at(hits.opaque + i), one, blend(w, hits.opacity + 4 * c, i));
+            hn::StoreU(opacity, d, planes[3 + c] + i);
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace trapeze
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze {
+
+HWY_EXPORT(blend_hits);
+
+namespace {
+
+void gather_halves(const Grid& grid, int first_plane, const int* at, size_t lane,
+                   GatheredHits::Lanes<uint16_t>* rows) {
+    const auto size = static_cast<size_t>(grid.shape.vertex_count());
+    for (int c = 0; c < 3; ++c) {
+        const Imath::half* plane = grid.colors + static_cast<size_t>(first_plane + c) * size;
+        for (int k = 0; k < 4; ++k) rows[4 * c + k][lane] = plane[at[k]].bits();
+    }
+}
+
+void gather_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, size_t lane,
+                GatheredHits& to) {
+    to.ox[lane] = ray.ox, to.oy[lane] = ray.oy, to.oz[lane] = ray.oz;
+    to.ux[lane] = ray.ux, to.uy[lane] = ray.uy;
+    int tiled[4], in_rows[4];
+    for (int k = 0; k < 4; ++k) {
+        const int i = id.u + (k & 1), j = id.v + (k >> 1);
+        tiled[k] = grid.shape.tiled_index(i, j), in_rows[k] = grid.shape.row_index(i, j);
+    }
+    const MotionSegment segment = grid.moves() ? segment_at(ray.time, grid.key_count) : MotionSegment{};
+    to.local_time[lane] = segment.local;
+    for (int c = 0; c < 3; ++c) {
+        const float* start = grid.plane(segment.index, c);
+        for (int k = 0; k < 4; ++k) to.start[4 * c + k][lane] = start[tiled[k]];
+    }
+    if (grid.moves()) {
+        to.moves = true;
+        for (int c = 0; c < 3; ++c) {
+            const float* delta = grid.plane(segment.index, 3 + c);
+            for (int k = 0; k < 4; ++k) to.delta[4 * c + k][lane] = delta[tiled[k]];
+        }
+    } else {
+        for (auto& row : to.delta) row[lane] = 0;
+    }
+    gather_halves(grid, 0, in_rows, lane, to.color);
+    if (!grid.opaque) gather_halves(grid, 3, in_rows, lane, to.opacity);
+    to.opaque[lane] = grid.opaque ? ~0u : 0u, to.constant[lane] = grid.smooth ? 0u : ~0u;
+    to.some_see_through |= !grid.opaque, to.some_constant |= !grid.smooth;
+}
+
+}  // namespace
+
+Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id) {
+    if (!grid.smooth) return {grid.color(id.u, id.v), grid.opacity(id.u, id.v)};
+    const QuadWeights weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
+    Layer layer{V3f(0), V3f(0)};
+    for (int corner = 0; corner < 4; ++corner) {
+        const int i = id.u + (corner & 1), j = id.v + (corner >> 1);
+        layer.color += weights.w[corner] * grid.color(i, j);
+        if (!grid.opaque) layer.opacity += weights.w[corner] * grid.opacity(i, j);
+    }
+    if (grid.opaque) layer.opacity = V3f(1);  // weights sum to 1 only within rounding
+    return layer;
+}
+
+void HitLayers::interpolate(const SampleTile& samples, const HitBuffer& hits, size_t begin, size_t end,
+                            const Grids& grids) {
+    first_ = hits.first[begin];
+    const size_t count = hits.first[end] - first_;
+    for (std::vector<float>& plane : planes_)
+        plane.resize(std::max(plane.size(), count + GatheredHits::kCount));
+    GatheredHits gathered{};
+    size_t done = 0, lane = 0;
+    const auto blend = [&] {
+        float* planes[6];
+        for (int k = 0; k < 6; ++k) planes[k] = planes_[k].data() + done;
+        HWY_DYNAMIC_DISPATCH(blend_hits)(gathered, planes);
+        done += lane, lane = 0;
+        gathered.moves = gathered.some_constant = gathered.some_see_through = false;
+    };
+    for (size_t sample = begin; sample < end; ++sample)
+        for (const Hit& hit : hits.of(sample)) {
+            const MicropolygonId id = MicropolygonId::unpack(hit.id);
+            if (id.grid < grids.grids.size())
+                gather_hit(samples.rays[sample], grids.grids[id.grid], id, lane, gathered);
+            if (++lane == GatheredHits::kCount) blend();
+        }
+    if (lane > 0) blend();
+}
+
+}  // namespace trapeze
+#endif  // HWY_ONCE

@@ -1,0 +1,109 @@
+#include "composite/film/hit_layers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <random>
+#include <string>
+
+#include "core/simd/simd_limit.h"
+
+namespace trapeze {
+namespace {
+
+/// Grids of all kinds with random vertices and colours; rays that meet them anywhere, or nowhere.
+class HitLayersOfRandomGrids : public ::testing::Test {
+  protected:
+    HitLayersOfRandomGrids() {
+        grids_.arenas.emplace_back();
+        for (int kind = 0; kind < 24; ++kind) add_grid(kind);
+        make_samples();
+    }
+
+    float between(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+    int below(int end) { return std::uniform_int_distribution<int>(0, end - 1)(random_); }
+
+    void add_grid(int kind) {
+        Grid grid;
+        grid.shape = {static_cast<uint8_t>(1 + below(kMaxGridSide)),
+                      static_cast<uint8_t>(1 + below(kMaxGridSide))};
+        grid.smooth = kind % 2 == 0, grid.opaque = kind / 2 % 2 == 0;
+        grid.key_count = static_cast<uint8_t>(std::array{1, 2, 5}[static_cast<size_t>(kind) / 4 % 3]);
+        grids_.arenas[0].allocate(grid);
+        const int floats = grid.plane_count() * grid.shape.plane_size();
+        for (int i = 0; i < floats; ++i) grid.positions[i] = between(-2, 2);
+        if (kind == 0) std::fill_n(grid.positions, floats, 1.0f);  // all in one point
+        const int halves = grid.color_plane_count() * grid.shape.vertex_count();
+        for (int i = 0; i < halves; ++i)
+            grid.colors[i] = Imath::half(below(8) ? between(0, 1) : between(0, 1e-6f));  // some subnormal
+        grids_.grids.push_back(grid);
+    }
+
+    /// 0 to 3 hits a sample, one in thirty on a grid that is not there.
+    void make_samples() {
+        samples_.resize(400);
+        hits_.first.push_back(0);
+        for (AxisRay& ray : samples_.rays) {
+            ray = {between(-2, 2), between(-2, 2), 0, between(-1, 1), between(-1, 1), between(0, 0.999f)};
+            for (int n = below(4); n > 0; --n) {
+                auto at = static_cast<uint32_t>(below(static_cast<int>(grids_.grids.size())));
+                const GridShape shape = grids_.grids[at].shape;
+                if (below(30) == 0) at = 1000;
+                const MicropolygonId id{at, static_cast<uint8_t>(below(shape.nu)),
+                                        static_cast<uint8_t>(below(shape.nv))};
+                hits_.hits.push_back({between(1, 9), id.packed()});
+            }
+            hits_.first.push_back(static_cast<uint32_t>(hits_.hits.size()));
+        }
+    }
+
+    static void expect_same_bits(const V3f& a, const V3f& b, size_t hit) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_EQ(std::bit_cast<uint32_t>(a[c]), std::bit_cast<uint32_t>(b[c])) << hit;
+    }
+
+    void check(size_t begin, size_t end) {
+        HitLayers layers;
+        layers.interpolate(samples_, hits_, begin, end, grids_);
+        for (size_t s = begin; s < end; ++s)
+            for (size_t i = hits_.first[s]; i < hits_.first[s + 1]; ++i) {
+                const MicropolygonId id = MicropolygonId::unpack(hits_.hits[i].id);
+                if (id.grid >= grids_.grids.size()) continue;
+                const Layer expected = layer_at(samples_.rays[s], grids_.grids[id.grid], id);
+                expect_same_bits(layers[i].color, expected.color, i);
+                expect_same_bits(layers[i].opacity, expected.opacity, i);
+            }
+    }
+
+    std::mt19937 random_{7};
+    Grids grids_;
+    SampleTile samples_;
+    HitBuffer hits_;
+};
+
+TEST_F(HitLayersOfRandomGrids, AreThoseOfEachHitAloneOnAllTargets) {
+    std::string error;
+    for (const std::string_view name : simd_names()) {
+        if (!limit_simd(name, &error)) continue;
+        check(0, samples_.size());
+        check(17, 18), check(50, 50), check(100, 161);
+    }
+    ASSERT_TRUE(limit_simd("best", &error));
+}
+
+TEST_F(HitLayersOfRandomGrids, AreTheLastOnesAskedFor) {
+    HitLayers layers;
+    layers.interpolate(samples_, hits_, 0, 300, grids_);
+    layers.interpolate(samples_, hits_, 300, 400, grids_);
+    const size_t i = hits_.first[350];
+    const MicropolygonId id = MicropolygonId::unpack(hits_.hits[i].id);
+    const auto owner = static_cast<size_t>(std::upper_bound(hits_.first.begin(), hits_.first.end(), i) -
+                                           hits_.first.begin() - 1);
+    ASSERT_LT(id.grid, grids_.grids.size());
+    expect_same_bits(layers[i].color, layer_at(samples_.rays[owner], grids_.grids[id.grid], id).color, i);
+}
+
+}  // namespace
+}  // namespace trapeze

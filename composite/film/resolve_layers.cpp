@@ -1,0 +1,109 @@
+#include "composite/film/resolve_layers.h"
+
+#include <algorithm>
+
+namespace trapeze {
+namespace {
+
+/// What the loop below makes of a first hit that hides everything, to the bit.
+template <class LayerOf>
+bool resolve_opaque(const Hit& hit, const Grids& grids, const LayerOf& layer_of, SampleColor& sample) {
+    const MicropolygonId id = MicropolygonId::unpack(hit.id);
+    if (id.grid >= grids.grids.size()) return false;
+    const Grid& grid = grids.grids[id.grid];
+    if (!grid.opaque || grid.matte) return false;
+    const V3f color = layer_of(0, grid, id).color;
+    sample.rgba[0] = color.x, sample.rgba[1] = color.y, sample.rgba[2] = color.z, sample.rgba[3] = 1;
+    sample.depth = hit.depth;
+    sample.primitive = grid.primitive;
+    return true;
+}
+
+bool shows(const Grid& grid, const Layer& layer) {
+    return !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));
+}
+
+/// Adds a layer's values, weighed by what reaches it.
+void add_aovs(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, const AovLayout& layout,
+              const V3f& transmission, float* values) {
+    QuadWeights weights{{1, 0, 0, 0}};
+    if (grid.smooth) weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
+    const int corners = grid.smooth ? 4 : 1;
+    const bool gray = transmission.x == transmission.y && transmission.y == transmission.z;
+    const float mean = gray ? transmission.x : (transmission.x + transmission.y + transmission.z) / 3;
+    for (const Aov& aov : layout.aovs)
+        for (int c = 0; c < aov.channels; ++c) {
+            const float* plane = grid.aov_plane(aov.offset + c);
+            float value = 0;
+            for (int corner = 0; corner < corners; ++corner)
+                value += weights.w[corner] *
+                         plane[grid.shape.row_index(id.u + (corner & 1), id.v + (corner >> 1))];
+            values[aov.offset + c] += (aov.channels == 3 ? transmission[c] : mean) * value;
+        }
+}
+
+/// `layer_of(i, grid, id)`: hit i's layer.
+template <class LayerOf>
+SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of) {
+    SampleColor sample;
+    int layers = 0;
+    if (!hits.empty() && !midpoint && resolve_opaque(hits.front(), grids, layer_of, sample)) return sample;
+    V3f transmission(1), color(0), alpha(0);
+    for (size_t i = 0; i < hits.size(); ++i) {
+        const Hit& hit = hits[i];
+        const MicropolygonId id = MicropolygonId::unpack(hit.id);
+        if (id.grid >= grids.grids.size()) continue;
+        const Grid& grid = grids.grids[id.grid];
+        const Layer layer = layer_of(i, grid, id);
+        for (int c = 0; c < 3; ++c) {
+            const float opacity = std::clamp(layer.opacity[c], 0.0f, 1.0f);
+            if (!grid.matte) color[c] += transmission[c] * layer.color[c];
+            if (grid.matte != 1) alpha[c] += transmission[c] * opacity;
+            transmission[c] *= 1 - opacity;
+        }
+        if (shows(grid, layer) && ++layers <= 2) {
+            if (layers == 1) sample.depth = hit.depth, sample.primitive = grid.primitive;
+            if (layers == 2 && midpoint) sample.depth = (sample.depth + hit.depth) / 2;
+        }
+        if (transmission == V3f(0) && (!midpoint || layers >= 2)) break;
+    }
+    if (midpoint && layers == 1) sample.depth = kInfinity;
+    for (int c = 0; c < 3; ++c) sample.rgba[c] = color[c];
+    // An equal alpha in all channels is kept exactly: (1 + 1 + 1) * (1 / 3) need not be 1.
+    const bool gray = alpha.x == alpha.y && alpha.y == alpha.z;
+    sample.rgba[3] = gray ? alpha.x : (alpha.x + alpha.y + alpha.z) / 3;
+    return sample;
+}
+
+}  // namespace
+
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, bool midpoint) {
+    return resolve(hits, grids, midpoint, [&ray](size_t, const Grid& grid, const MicropolygonId& id) {
+        return layer_at(ray, grid, id);
+    });
+}
+
+SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
+                           const Grids& grids, bool midpoint) {
+    return resolve(hits, grids, midpoint, [&layers, first_hit](size_t i, const Grid&, const MicropolygonId&) {
+        return layers[first_hit + i];
+    });
+}
+
+void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+                  float* values) {
+    std::fill_n(values, layout.channel_count, 0.0f);
+    V3f transmission(1);
+    for (const Hit& hit : hits) {
+        const MicropolygonId id = MicropolygonId::unpack(hit.id);
+        if (id.grid >= grids.grids.size()) continue;
+        const Grid& grid = grids.grids[id.grid];
+        const Layer layer = layer_at(ray, grid, id);
+        if (grid.aov_channels == layout.channel_count && shows(grid, layer))
+            add_aovs(ray, grid, id, layout, transmission, values);
+        for (int c = 0; c < 3; ++c) transmission[c] *= 1 - std::clamp(layer.opacity[c], 0.0f, 1.0f);
+        if (transmission == V3f(0)) break;
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,41 @@
+/// What one sample sees, out of its hits: colour, coverage and depth.
+#pragma once
+
+#include <span>
+
+#include "composite/film/hit_layers.h"
+#include "core/grid.h"
+#include "core/hit_buffer.h"
+#include "core/rays.h"
+#include "core/scene/aov.h"
+#include "core/scene/scene.h"
+
+namespace trapeze {
+
+struct SampleColor {
+    float rgba[4] = {0, 0, 0,
+                     0};      ///< colour premultiplied by opacity; alpha is the mean of the three opacities
+    float depth = kInfinity;  ///< of the first layer that counts: not held out, not wholly transparent
+    uint32_t primitive = ~uint32_t{0};  ///< whose that layer is; all ones when there is none
+};
+
+/// Composites a sample's hits, front to back. Ci is premultiplied by Oi (RISpec 3.4), each channel has its
+/// own opacity. A matte micropolygon holds out: it adds neither colour nor alpha but hides what is behind it
+/// by its Oi; Matte 2 (Aqsis) adds its alpha.
+///
+/// `midpoint`: the depth is that half-way between the first two layers that count, infinite when there is
+/// one: what shadow maps want, so that no surface shadows itself. Hits must not end at the
+/// first opaque one.
+SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids,
+                           bool midpoint = false);
+
+/// The same of hits whose layers are known: hits[0] is number `first_hit` of its buffer.
+SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
+                           const Grids& grids, bool midpoint = false);
+
+/// The same for output variables, as aov.h says: `values` gets layout.channel_count numbers. Grids that carry
+/// other channels than the layout's count as having 0 everywhere.
+void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+                  float* values);
+
+}  // namespace trapeze

@@ -1,0 +1,177 @@
+#include "core/files/output_file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <set>
+
+#include "core/files/foreign_paths.h"
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The temporary files on the disk. A process has one set of them as it has one set of signal handlers, for
+/// which this is kept: no render reads it.
+struct Partials {
+    std::mutex mutex;
+    std::set<std::string> paths;
+    uint64_t count = 0;
+};
+
+Partials& partials() {
+    static Partials instance;
+    return instance;
+}
+
+constexpr size_t kNameBytes = 200;  ///< of the target's name kept in the temporary one: names end at 255
+
+constexpr int kMaxLinks = 40;  ///< as Linux has it
+
+bool names_drive(const std::string& path) {
+    return path.size() > 1 && path[1] == ':';
+}
+
+/// Scenes name folders that were made by hand where they come from: those below the working folder are made.
+/// Others, which could be anywhere, are not. What is wrong is said when the file is written.
+void make_folder_of(const std::string& path) {
+    std::error_code failed;
+    const fs::path whole = fs::path(path).lexically_normal();
+    const fs::path here = whole.is_absolute() ? whole.lexically_relative(fs::current_path(failed)) : whole;
+    const fs::path folder = here.parent_path();
+    if (failed || folder.empty() || *folder.begin() == ".." || names_drive(path)) return;
+    fs::create_directories(folder, failed);
+}
+
+bool has_folder(const std::string& path) {
+    const fs::path folder = fs::path(path).parent_path();
+    std::error_code failed;
+    return names_drive(path) ? fs::exists(folder, failed) && !folder.empty()
+                             : folder.empty() || fs::exists(folder, failed);
+}
+
+}  // namespace
+
+OutputFile::~OutputFile() {
+    if (file_) std::fclose(file_);
+    if (partial_.empty()) return;
+    const std::lock_guard lock(partials().mutex);
+    ::unlink(partial_.c_str());
+    partials().paths.erase(partial_);
+}
+
+bool OutputFile::fail(std::string reason) {
+    if (error_.empty()) error_ = std::move(reason);
+    return false;
+}
+
+bool OutputFile::fail_with_errno() {
+    return fail(std::strerror(errno));
+}
+
+/// The folder and name to write, after links; false if something that is not a file of ours to replace is
+/// there.
+bool OutputFile::find_place(std::string& folder, std::string& name) {
+    std::error_code failed;
+    fs::path path(target_);
+    // A link stays a link: what it points to is replaced, or made.
+    for (int links = 0; links < kMaxLinks && fs::is_symlink(fs::symlink_status(path, failed)); ++links) {
+        path = path.parent_path() / fs::read_symlink(path, failed);
+        if (failed) return fail(failed.message());
+    }
+    target_ = path.string();
+    name = path.filename().string();
+    folder = path.parent_path().string();
+    if (name.empty()) return fail("it names no file");
+    if (!folder.empty() && !fs::is_directory(folder, failed))
+        return fail("there is no folder \"" + folder + "\"");
+    const fs::file_status status = fs::status(path, failed);
+    if (!fs::exists(status)) return true;
+    if (fs::is_directory(status)) return fail("it is a folder");
+    if (!fs::is_regular_file(status)) return fail("it is not a regular file");
+    return ::access(target_.c_str(), W_OK) == 0 || fail_with_errno();
+}
+
+bool OutputFile::open() {
+    std::string folder, name;
+    if (!find_place(folder, name)) return false;
+    const std::lock_guard lock(partials().mutex);
+    if (!folder.empty() && folder.back() != '/') folder += '/';
+    const std::string partial = folder + name.substr(0, kNameBytes) + "." + std::to_string(::getpid()) +
+                                ".part-" + std::to_string(++partials().count);
+    file_ = std::fopen(partial.c_str(), "wbx");
+    if (!file_ && errno == EEXIST) {
+        // Of a process of the same number that was killed.
+        ::unlink(partial.c_str());
+        file_ = std::fopen(partial.c_str(), "wbx");
+    }
+    if (!file_) return fail_with_errno();
+    partial_ = partial;
+    partials().paths.insert(partial);
+    return true;
+}
+
+bool OutputFile::write(const void* bytes, size_t count) {
+    if (!error_.empty()) return false;
+    if (!file_) return fail("it is not open");
+    if (std::fwrite(bytes, 1, count, file_) != count) return fail_with_errno();
+    position_ += count;
+    return true;
+}
+
+bool OutputFile::seek(uint64_t position) {
+    if (!error_.empty()) return false;
+    if (!file_) return fail("it is not open");
+    if (::fseeko(file_, static_cast<off_t>(position), SEEK_SET) != 0) return fail_with_errno();
+    position_ = position;
+    return true;
+}
+
+bool OutputFile::commit() {
+    if (!error_.empty()) return false;
+    if (!file_) return fail("it is not open");
+    if (std::fflush(file_) != 0) return fail_with_errno();
+    // Some file systems know no fsync; a full disk may be noticed only here.
+    if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP) return fail_with_errno();
+    const bool closed = std::fclose(file_) == 0;
+    file_ = nullptr;
+    if (!closed) return fail_with_errno();
+    const std::lock_guard lock(partials().mutex);
+    if (::rename(partial_.c_str(), target_.c_str()) != 0) return fail_with_errno();
+    partials().paths.erase(partial_);
+    partial_.clear();
+    return true;
+}
+
+void OutputFile::remove_partials() {
+    const std::lock_guard lock(partials().mutex);
+    for (const std::string& path : partials().paths) ::unlink(path.c_str());
+    partials().paths.clear();
+}
+
+OutputPlace place_to_write(const std::string& name, const Access& access, SourceLocation asked_at,
+                           Diagnostics& diagnostics) {
+    OutputPlace place{name, name, access.may_write(name).problem};
+    if (!place.problem.empty() && has_folder(name)) return place;
+    if (place.problem.empty()) make_folder_of(access.may_write(name).path);
+    if (!has_folder(name)) {
+        const std::vector<std::string> others = other_names(name);
+        if (!others.empty()) place.name = others.back();
+    }
+    const Access::Writing writing = access.may_write(place.name);
+    place.path = writing.path, place.problem = writing.problem;
+    if (place.name != name)
+        diagnostics.warning(
+            asked_at, "there is no folder for \"" + name + "\"; it is written as \"" + place.name + "\"",
+            "no-folder");
+    else if (writing.is_elsewhere && place.problem.empty())
+        diagnostics.note(asked_at, "\"" + name + "\" lies outside of the working folder",
+                         "written-elsewhere");
+    return place;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,62 @@
+/// A file that appears whole or not at all: written under a temporary name in the folder of its target, then
+/// renamed.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "core/diagnostics.h"
+#include "core/files/access.h"
+
+namespace trapeze {
+
+/// Every failure leaves a reason in error() and nothing on the disk; so does destruction before commit().
+class OutputFile {
+  public:
+    explicit OutputFile(std::string target) : target_(std::move(target)) {}
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    bool open();
+    bool write(const void* bytes, size_t count);
+    bool seek(uint64_t position);
+    uint64_t position() const { return position_; }
+    /// Puts all on the disk and renames. Fails when anything before has failed.
+    bool commit();
+
+    /// Why it failed, without the file's name; empty if it did not.
+    const std::string& error() const { return error_; }
+
+    /// Removes the temporary files of all OutputFiles of the process: for a process about to be ended by a
+    /// signal. Thread-safe; their commit() fails from then on.
+    static void remove_partials();
+
+  private:
+    bool fail(std::string reason);
+    bool fail_with_errno();
+    bool find_place(std::string& folder, std::string& name);
+
+    std::string target_;   ///< symbolic links resolved by open()
+    std::string partial_;  ///< empty unless it is on the disk
+    std::FILE* file_ = nullptr;
+    uint64_t position_ = 0;
+    std::string error_;
+};
+
+/// Where a file that a scene names is to be written, and under which name the scene knows it.
+struct OutputPlace {
+    std::string name;     ///< as messages and later readers have it
+    std::string path;     ///< to open
+    std::string problem;  ///< why it may not be written; empty: it may
+};
+
+/// There, and the folders below the working folder that it names are made: scenes come from where they were
+/// made by hand. Another folder that is not here was another machine's: what belongs there goes into the
+/// working folder, where other_names() finds it, with a warning. What is written outside of the working
+/// folder is said.
+OutputPlace place_to_write(const std::string& name, const Access& access, SourceLocation asked_at,
+                           Diagnostics& diagnostics);
+
+}  // namespace trapeze

@@ -1,0 +1,29 @@
+#include "core/scene/aov.h"
+
+namespace trapeze {
+
+const Aov* AovLayout::find(const DisplayVariable& variable) const& {
+    const int channels = component_count(variable.type);
+    for (const Aov& aov : aovs)
+        if (aov.name == variable.name && aov.channels == channels) return &aov;
+    return nullptr;
+}
+
+AovLayout aov_layout(const Options& options) {
+    AovLayout layout;
+    for (const Display& display : options.displays) {
+        if (!display.variable || is_depth(*display.variable) || layout.find(*display.variable)) continue;
+        if (display.type == "null") continue;  // nobody sees it
+        const int channels = component_count(display.variable->type);
+        if (layout.channel_count + channels > kMostAovChannels) continue;
+        layout.aovs.push_back({display.variable->name, channels, layout.channel_count});
+        layout.channel_count += channels;
+    }
+    return layout;
+}
+
+bool is_depth(const DisplayVariable& variable) {
+    return variable.name == "z" && variable.type == ValueType::Float;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,48 @@
+/// Arbitrary output variables: which variables of surface shaders the Displays of a scene ask for by name
+/// (RISpec 3.2, section 4.1.2, Display: "varying color foo"), and where each stands among the channels that
+/// grids, the film and the picture carry for them.
+///
+/// They go through the renderer as Ci does: a micropolygon's value is its vertex 00's, or interpolated when
+/// shading is smooth; a sample's layers are added up from front to back, each weighed by what the layers
+/// before it let through (1 - Oi of each, by channel; the mean of the three for a float), so that a value is
+/// taken to be premultiplied as Ci is; then they are filtered as colour is. A held-out (Matte) layer adds
+/// nothing and hides what is behind it; neither does a layer add anything that shows nothing at all, its Ci
+/// and Oi both 0. Pixels where nothing is have 0. Exposure and imager shaders leave them alone. The variable
+/// z is no such channel but the depth of the picture, by the hider's depth filter.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+
+namespace trapeze {
+
+/// All variables of a scene together take at most this many channels: a grid's vertices each have so many
+/// floats.
+inline constexpr int kMostAovChannels = 192;
+
+struct Aov {
+    std::string name;
+    int channels = 3;  ///< 1: a float; 3: a colour, point, vector or normal
+    int offset = 0;    ///< of the first among the layout's channels
+};
+
+/// The variables asked for, each once for a number of channels, in the order of the Displays.
+struct AovLayout {
+    std::vector<Aov> aovs;
+    int channel_count = 0;
+
+    bool empty() const { return aovs.empty(); }
+    /// Null when it is not there: too many were asked for.
+    const Aov* find(const DisplayVariable& variable) const&;
+    const Aov* find(const DisplayVariable& variable) && = delete;
+};
+
+/// Follows from the Displays alone. What does not fit in kMostAovChannels is left out.
+AovLayout aov_layout(const Options& options);
+
+/// Whether it is the depth that every picture has.
+bool is_depth(const DisplayVariable& variable);
+
+}  // namespace trapeze

@@ -1,0 +1,32 @@
+/// Levels of detail in transition (RISpec 4.2.7). Every sample has a number from 0 to 1 and sees those levels
+/// in whose range it lies. Ranges of levels that pass into each other add up to all numbers: together they
+/// cover what one would cover alone.
+#pragma once
+
+#include "core/scene/scene.h"
+
+namespace trapeze {
+
+/// The numbers of the samples that see a primitive.
+struct SeenNumbers {
+    float from = 0, to = 1;  ///< `to` is not among them
+
+    bool are_all() const { return from <= 0 && to >= 1; }
+    bool are_none() const { return !(from < to); }
+    bool contain(float number) const { return number >= from && number < to; }
+};
+
+/// They are kept among the attributes by category, as "detail" "seen", where they are not all.
+inline SeenNumbers seen_numbers(const Attributes& attributes) {
+    const auto detail = attributes.user.find("detail");
+    const Parameter* const seen = detail == attributes.user.end() ? nullptr : detail->second.find("seen");
+    return seen && seen->floats.size() == 2 ? SeenNumbers{seen->floats[0], seen->floats[1]} : SeenNumbers{};
+}
+
+inline void set_seen_numbers(Attributes& attributes, const SeenNumbers& numbers) {
+    if (numbers.are_all()) return;
+    attributes.user["detail"].set(
+        {"seen", {StorageClass::Uniform, ValueType::Float, 2}, {numbers.from, numbers.to}, {}});
+}
+
+}  // namespace trapeze

@@ -1,0 +1,25 @@
+/// What every stage of a render may read; nothing is global (decision 7).
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "core/diagnostics.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
+
+namespace trapeze {
+
+struct RenderContext {
+    const Scene* scene = nullptr;
+    Camera camera;
+    int samples_x = 2, samples_y = 2;
+    uint32_t seed = 0;
+    bool motion = false;                 ///< the shutter is open for some time and something moves
+    Diagnostics* diagnostics = nullptr;  ///< the one thing here that is written to; thread-safe
+    const std::atomic<bool>* cancelled = nullptr;
+
+    bool is_cancelled() const { return cancelled && cancelled->load(std::memory_order_relaxed); }
+};
+
+}  // namespace trapeze

@@ -1,0 +1,165 @@
+/// What one WorldBegin/WorldEnd block describes, resolved by the RIB border: options, camera, lights,
+/// primitives. Everything here is valid; later stages may rely on it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/math.h"
+#include "core/motion_keys.h"
+#include "core/scene/parameters.h"
+#include "core/scene/shapes.h"
+
+namespace trapeze {
+
+/// RISpec's RI_INFINITY: the default far clipping plane, and the depth of an empty pixel.
+inline constexpr float kInfinity = 1e30f;
+inline constexpr float kEpsilon = 1e-10f;  ///< RISpec's RI_EPSILON: the default near clipping plane
+
+/// A variable of the surfaces that a Display shows: a float, colour, point, vector or normal.
+struct DisplayVariable {
+    std::string name;
+    ValueType type = ValueType::Color;
+};
+
+struct Display {
+    std::string name;  ///< without the leading '+'
+    std::string type;  ///< driver: file, tiff, openexr, exr, png, framebuffer, ...
+    std::string mode;  ///< rgb, rgba, a, z, rgbaz, or "varying color foo"
+    ParameterList parameters;
+    SourceLocation location;
+    std::optional<DisplayVariable> variable =
+        {};  ///< what the mode names, unless it is colour, alpha or depth
+};
+
+struct PixelFilter {
+    std::string name = "gaussian";
+    float width_x = 2, width_y = 2;  ///< pixels, the whole support
+};
+
+/// ConnectShaderLayers: an output of one layer becomes a parameter of a later one.
+struct LayerConnection {
+    std::string from_layer, from_variable, to_layer, to_variable;
+};
+
+/// A shader as the scene names it. Parameters are in `parameters`; points among them are in shader space.
+struct ShaderInstance {
+    std::string name;
+    ParameterList parameters;
+    M44f camera_from_shader;  ///< at shutter open
+    SourceLocation location;
+
+    /// ShaderLayer: this is the last of several layers, which run in order; the earlier ones have none of
+    /// their own. Connections may name any of them.
+    std::string layer;
+    std::vector<std::shared_ptr<const ShaderInstance>> earlier_layers;
+    std::vector<LayerConnection> connections;
+};
+
+/// RISpec 4.1, table 4.1 and 4.2, with its defaults.
+struct Options {
+    int frame = 0;
+    int width = 640, height = 480;
+    float pixel_aspect = 1;
+    std::optional<float> frame_aspect;
+    std::optional<std::array<float, 4>> screen_window;  ///< left right bottom top
+    std::array<float, 4> crop_window{0, 1, 0, 1};       ///< xmin xmax ymin ymax, fractions of the raster
+    std::string projection = "orthographic";            ///< or "perspective"
+    float fov = 90;                                     ///< degrees
+    float near_clip = kEpsilon, far_clip = kInfinity;   ///< camera-space z
+    float f_stop = kInfinity, focal_length = 0, focal_distance = 0;  ///< infinite f_stop: pinhole
+    float shutter_open = 0, shutter_close = 0;
+    float samples_x = 2, samples_y = 2;
+    PixelFilter filter;
+    float exposure_gain = 1, exposure_gamma = 1;
+    ParameterList quantize;                        ///< kept
+    std::shared_ptr<const ShaderInstance> imager;  ///< null: none
+    std::string hider = "hidden";
+    ParameterList hider_parameters;
+    std::vector<Display> displays;              ///< the first is the primary one; others came with '+'
+    std::map<std::string, ParameterList> user;  ///< Option "category" "name" value, by category
+    std::map<std::string, std::vector<std::string>>
+        search_paths;  ///< by category; "." and the scene's folder included
+};
+
+/// A light, at shutter open.
+struct LightInstance {
+    std::string handle;
+    ShaderInstance shader;
+};
+
+/// RISpec table 4.7 onwards: the graphics state attached to each primitive.
+struct Attributes {
+    V3f color{1, 1, 1};
+    V3f opacity{1, 1, 1};
+    std::array<float, 8> texture_coordinates{0, 0, 1, 0, 0, 1, 1, 1};  ///< s1 t1 .. s4 t4
+    float shading_rate = 1;                                            ///< pixel area of a micropolygon
+    bool smooth_shading = false;                                       ///< ShadingInterpolation "smooth"
+    int matte = 0;
+    int sides = 2;
+    bool reverse_orientation =
+        false;  ///< normals are flipped: Orientation, ReverseOrientation and a mirrored space
+    std::shared_ptr<const ShaderInstance> surface;                         ///< null: defaultsurface
+    std::shared_ptr<const ShaderInstance> displacement;                    ///< may be null
+    std::shared_ptr<const ShaderInstance> atmosphere, interior, exterior;  ///< kept
+    std::vector<std::shared_ptr<const LightInstance>> lights;              ///< those switched on
+    float displacement_bound = 0;                                          ///< camera-space length
+    std::string name;                                                      ///< Attribute "identifier" "name"
+    bool visible_to_camera = true;
+    /// Attribute "dice".
+    struct Dice {
+        bool binary = false;          ///< rates are powers of two
+        bool raster_oriented = true;  ///< rates by the size on the screen, not by the size alone
+        float min_length = 0;         ///< of a curve's micropolygons, pixels
+        bool operator==(const Dice&) const = default;
+    } dice;
+    /// GeometricApproximation: blur by motion or defocus coarsens dicing by this much; 0: never.
+    float motion_factor = 0, focus_factor = 0;
+    std::map<std::string, ParameterList> user;  ///< every Attribute, by category
+};
+
+/// Geometry with its attributes and motion.
+struct Primitive {
+    std::shared_ptr<const Attributes> attributes;
+    /// Poses of a deforming shape at its own evenly spaced keys (1 or 2^m + 1 of them), all of one topology
+    /// and with the same variables. Shared by object instances.
+    std::vector<std::shared_ptr<const Shape>> shape_keys;
+    /// camera_from_object at 1 or 2^m + 1 evenly spaced keys of the shutter.
+    std::vector<M44f> camera_from_object;
+    SourceLocation location;
+    int solid = -1;  ///< index of the leaf in Scene::solids that it bounds; -1: no part of a solid
+
+    /// Keys of the moving primitive: the finer of both.
+    int key_count() const { return static_cast<int>(std::max(shape_keys.size(), camera_from_object.size())); }
+    const Shape& shape() const { return *shape_keys.front(); }
+};
+
+/// A node of constructive solid geometry (RISpec 5.7). Parents come before their children.
+struct Solid {
+    enum class Operation : uint8_t { Primitive, Union, Intersection, Difference };
+
+    Operation operation = Operation::Primitive;
+    int parent = -1;  ///< -1: outermost
+    int place = 0;    ///< among the parent's children: a difference subtracts all but the first
+};
+
+/// A plane that cuts away the half space in which normal . p < distance; camera space, at shutter open.
+struct ClippingPlane {
+    V3f normal{0, 0, 1};
+    float distance = 0;
+};
+
+struct Scene {
+    Options options;
+    std::vector<Solid> solids;  ///< of all SolidBegin/SolidEnd blocks
+    std::vector<ClippingPlane> clipping_planes;
+    std::vector<Primitive> primitives;              ///< in the order of the file
+    M44f camera_from_world;                         ///< at shutter open
+    std::map<std::string, M44f> camera_from_named;  ///< CoordinateSystem, at shutter open
+};
+
+}  // namespace trapeze

@@ -1,0 +1,98 @@
+#include "core/scene/shading_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/scene.h"
+
+namespace trapeze {
+namespace {
+
+float finite_or(float value, float fallback, int64_t* not_finite) {
+    if (std::isfinite(value)) return value;
+    ++*not_finite;
+    return fallback;
+}
+
+float coordinate_or(float value, float fallback, int64_t* not_finite) {
+    return finite_or(std::abs(value) <= kLargestCoordinate ? value : HUGE_VALF, fallback, not_finite);
+}
+
+/// One plane in tiles, lanes past the end repeating the last row and column. Where a value is not finite, or
+/// farther out than the predicate allows, the last good one holds: a bad vertex collapses onto a neighbour.
+void pack_plane(const GridShape& shape, const float* rows, float* tiles, int64_t* not_finite) {
+    float last = 0;
+    for (int tv = 0; tv < shape.tiles_v(); ++tv)
+        for (int tu = 0; tu < shape.tiles_u(); ++tu)
+            for (int lane = 0; lane < 16; ++lane, ++tiles) {
+                const int i = std::min<int>(tu * 4 + (lane & 3), shape.nu);
+                const int j = std::min<int>(tv * 4 + (lane >> 2), shape.nv);
+                last = *tiles = coordinate_or(rows[shape.row_index(i, j)], last, not_finite);
+            }
+}
+
+Imath::half to_half(float value) {
+    return Imath::half(std::clamp(value, -65504.0f, 65504.0f));
+}
+
+void pack_colors(const Triples& colors, size_t count, Imath::half* out, int64_t* not_finite) {
+    for (const std::vector<float>& plane : colors.c)
+        for (size_t i = 0; i < count; ++i) *out++ = to_half(finite_or(plane[i], 0, not_finite));
+}
+
+void pack_aovs(const std::vector<std::vector<float>>& planes, const Grid& grid, int64_t* not_finite) {
+    const size_t count = grid.shape.vertex_count();
+    for (int channel = 0; channel < grid.aov_channels; ++channel) {
+        float* out = grid.aov_plane(channel);
+        for (size_t i = 0; i < count; ++i)
+            out[i] = std::clamp(finite_or(planes[channel][i], 0, not_finite), -kInfinity, kInfinity);
+    }
+}
+
+bool all_opaque(const Triples& opacity, size_t count) {
+    for (const std::vector<float>& plane : opacity.c)
+        if (!std::all_of(plane.begin(), plane.begin() + count, [](float o) { return o >= 1; })) return false;
+    return true;
+}
+
+}  // namespace
+
+Facing facing_for_sides(int sides, bool reverse_orientation) {
+    if (sides != 1) return Facing::Both;
+    return reverse_orientation ? Facing::PositiveOnly : Facing::NegativeOnly;
+}
+
+Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite,
+               const PackOptions& options) {
+    const Attributes& attributes = *shading.primitive->attributes;
+    const size_t count = shading.vertex_count();
+    Grid grid;
+    grid.shape = shading.shape;
+    grid.key_count = static_cast<uint8_t>(shading.key_count);
+    grid.facing =
+        options.both_sides ? Facing::Both : facing_for_sides(attributes.sides, shading.reverse_orientation);
+    grid.opaque = !options.keep_hits_behind && all_opaque(shading.Oi, count);
+    grid.smooth = attributes.smooth_shading;
+    grid.matte = static_cast<uint8_t>(attributes.matte);
+    grid.primitive = shading.primitive_index;
+    grid.ordinal = shading.ordinal;
+    grid.aov_channels = static_cast<uint8_t>(shading.aovs.size());
+    arena.allocate(grid);
+
+    const size_t plane_size = grid.shape.plane_size();
+    for (int segment = 0; segment < segment_count(grid.key_count); ++segment)
+        for (int k = 0; k < 3; ++k) {
+            float* start = grid.plane(segment, k);
+            pack_plane(grid.shape, shading.P[segment].c[k].data(), start, not_finite);
+            if (!grid.moves()) continue;
+            float* delta = grid.plane(segment, 3 + k);
+            pack_plane(grid.shape, shading.P[segment + 1].c[k].data(), delta, not_finite);
+            for (size_t i = 0; i < plane_size; ++i) delta[i] -= start[i];
+        }
+    pack_colors(shading.Ci, count, grid.colors, not_finite);
+    if (!grid.opaque) pack_colors(shading.Oi, count, grid.colors + 3 * count, not_finite);
+    pack_aovs(shading.aovs, grid, not_finite);
+    return grid;
+}
+
+}  // namespace trapeze

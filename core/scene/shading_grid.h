@@ -1,0 +1,107 @@
+/// A grid on its way from the dicer through the shaders: structure of arrays, row by row, u fastest,
+/// shape.vertex_count() values each. Camera space at shutter open unless said. One per thread, reused:
+/// clear() keeps memory.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/grid.h"
+#include "core/scene/parameters.h"
+
+namespace trapeze {
+
+struct Primitive;
+
+/// Three planes of floats: points, vectors, normals or colours.
+struct Triples {
+    std::array<std::vector<float>, 3> c;
+
+    void resize(size_t n) {
+        for (auto& plane : c) plane.resize(n);
+    }
+    void fill(size_t n, const V3f& value) {
+        for (int k = 0; k < 3; ++k) c[k].assign(n, value[k]);
+    }
+    V3f at(size_t i) const { return {c[0][i], c[1][i], c[2][i]}; }
+    void set(size_t i, const V3f& v) {
+        for (int k = 0; k < 3; ++k) c[k][i] = v[k];
+    }
+    size_t size() const { return c[0].size(); }
+};
+
+/// A primitive variable diced on the grid: planes of `vertex_count` floats, or one value when uniform over
+/// the grid.
+struct GridVariable {
+    std::string name;
+    Declaration declaration;
+    bool uniform = false;                    ///< one value for the whole grid
+    std::vector<std::vector<float>> planes;  ///< declaration.floats_per_item() planes
+    std::vector<std::string> strings;        ///< strings are always uniform
+};
+
+struct ShadingGrid {
+    GridShape shape;
+    int pieces = 1;  ///< so many grids of `shape`, one after the other in each plane; 1 but in a border
+    int key_count = 1;
+    const Primitive* primitive = nullptr;
+    uint32_t primitive_index = 0;
+    uint64_t ordinal = 0;
+    bool reverse_orientation = false;  ///< dPdu x dPdv points inside
+
+    std::vector<Triples>
+        P;       ///< position at each key; shaders see and displace P[0], which is moved into all keys
+    Triples N;   ///< unit shading normal: primitive variable "N", or the surface's own; oriented outside
+    Triples Ng;  ///< unit normal of the surface, dPdu x dPdv, oriented outside
+    Triples dPdu,
+        dPdv;  ///< derivatives by the surface's u and v, which run 0..1 over the primitive's face or patch
+    std::vector<float> u, v;  ///< surface parameters
+    std::vector<float> s, t;  ///< texture coordinates
+    Triples Cs, Os;           ///< surface colour and opacity
+    std::vector<GridVariable>
+        variables;  ///< other primitive variables, transformed to camera space where they are geometry
+
+    Triples Ci, Oi;          ///< what shading makes
+    bool displaced = false;  ///< a displacement shader has moved P
+
+    /// For displacement: what the vertices on the grid's border share with neighbouring grids. Pieces of 2x2
+    /// vertices, of which the values depend on the shared point alone; one of each piece's vertices is the
+    /// border vertex itself. A grid of pieces for each face of the surface that they lie on.
+    std::vector<ShadingGrid> border;
+    struct SharedVertex {
+        int vertex = 0;     ///< of this grid
+        int in_border = 0;  ///< counted through the vertices of all of border
+    };
+    std::vector<SharedVertex> shared_vertices;
+
+    /// What Displays ask for besides: a plane of vertex_count() floats for each channel of aov_layout(), or
+    /// none at all.
+    std::vector<std::vector<float>> aovs;
+
+    size_t vertex_count() const { return static_cast<size_t>(shape.vertex_count()) * pieces; }
+    const GridVariable* find(std::string_view name) const {
+        for (const GridVariable& variable : variables)
+            if (variable.name == name) return &variable;
+        return nullptr;
+    }
+};
+
+/// Facing of the grid's micropolygons for Sides 1: which sign of projected area shows the outside. See grid
+/// winding in hit_micropolygon.h: with rays along +z, dPdu x dPdv points to the viewer (negative z) when the
+/// area is negative.
+Facing facing_for_sides(int sides, bool reverse_orientation);
+
+struct PackOptions {
+    bool keep_hits_behind = false;  ///< the grid does not count as opaque, whatever Oi
+    bool both_sides = false;        ///< hit from both, whatever Sides
+};
+
+/// Packs a shaded grid: positions into tiles, Ci and Oi into halves, output variables into floats. Values
+/// that are not finite become 0 (colours and output variables) or the nearest finite vertex's position;
+/// *not_finite counts them. Output variables are clamped to +-kInfinity, so that sums of them are finite.
+Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite,
+               const PackOptions& options = {});
+
+}  // namespace trapeze

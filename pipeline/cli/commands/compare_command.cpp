@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/cli/support/interrupt.h"
+#include "pipeline/cli/support/on_threads.h"
+#include "pipeline/cli/support/read_settings.h"
+#include "pipeline/cli/support/revision.h"
+#include "pipeline/cli/support/text_files.h"
+#include "pipeline/compare/report/html_report.h"
+#include "pipeline/compare/results_json.h"
+#include "pipeline/compare/sampler_list.h"
+#include "pipeline/compare/table.h"
+#include "pipeline/compare/write_pictures.h"
+#include "pipeline/frame/json_text.h"
+#include "pipeline/frame/version.h"
+#include "pipeline/rib/read_rib.h"
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Brute force is compared by default where its tests, all micropolygons for every sample, are so few.
+constexpr double kFewTests = 2e9;
+
+/// Compares methods on the first world of the input.
+class CompareJob {
+  public:
+    CompareJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
+        : arguments_(arguments),
+          options_(arguments.compare),
+          terminal_(terminal),
+          diagnostics_(diagnostics),
+          access_(scene_access(arguments)),
+          interrupt_(arguments.time_limit) {}
+
+    int run();
+
+  private:
+    bool outputs_are_possible();
+    void take_world(Scene&& scene);
+    CompareSettings settings_for(const SharedFrame& frame);
+    void write_outputs(const Comparison& comparison, const SharedFrame& frame);
+    void print(const Comparison& comparison) const;
+    int exit_code() const;
+
+    const Arguments& arguments_;
+    const CompareArguments& options_;
+    Terminal& terminal_;
+    Diagnostics& diagnostics_;
+    Access access_;
+    Interrupt interrupt_;
+    int worlds_ = 0, frame_number_ = 0;
+    bool compared_ = false, output_failed_ = false;
+};
+
+/// Before minutes are spent on figures that cannot be written.
+bool CompareJob::outputs_are_possible() {
+    if (!can_write({options_.report, options_.json}, diagnostics_)) return false;
+    if (options_.folder.empty()) return true;
+    std::error_code error;
+    fs::create_directories(options_.folder, error);
+    if (!error && fs::is_directory(options_.folder, error)) return true;
+    diagnostics_.error({}, fmt::format("cannot make the folder \"{}\": {}", options_.folder,
+                                       error ? error.message() : "a file is in its place"));
+    return false;
+}
+
+CompareSettings CompareJob::settings_for(const SharedFrame& frame) {
+    CompareSettings settings;
+    for (const auto& [x, y] : options_.samples) settings.rates.push_back({x, y});
+    if (settings.rates.empty()) settings.rates = {{frame.context.samples_x, frame.context.samples_y}};
+    if (options_.samplers.empty()) {
+        double samples = 0;
+        for (const SampleRate& rate : settings.rates)
+            samples += static_cast<double>(rate.per_pixel()) * frame.pixels.width() * frame.pixels.height();
+        const double tests = samples * static_cast<double>(frame.grids.micropolygon_count());
+        settings.samplers = default_samplers(arguments_.pattern, tests <= kFewTests);
+    } else {
+        std::string error;  // the command line was checked
+        settings.samplers = *parse_samplers(options_.samplers, arguments_.pattern, &error);
+    }
+    settings.measure.rounds = options_.rounds;
+    settings.reference_side = options_.reference_side;
+    settings.on_stage = [this](const std::string& what) {
+        terminal_.begin_progress(what, {arguments_.inputs.front(), what, frame_number_});
+    };
+    settings.on_progress = [this](double part) { terminal_.progress(part); };
+    return settings;
+}
+
+void CompareJob::take_world(Scene&& scene) {
+    if (interrupt_.requested() || ++worlds_ > 1) return;
+    Options& options = scene.options;
+    if (arguments_.resolution) std::tie(options.width, options.height) = *arguments_.resolution;
+    if (arguments_.crop) options.crop_window = *arguments_.crop;
+    options.exposure_gamma = 1;  // errors are of linear values
+
+    RenderSettings settings;
+    settings.memory_bytes = arguments_.memory_bytes;
+    settings.seed = arguments_.seed;
+    settings.cancelled = &interrupt_.requested();
+    settings.access = &access_;
+    settings.on_progress = [this](double part) { terminal_.progress(part); };
+    frame_number_ = options.frame;
+    terminal_.begin_progress("shading", {arguments_.inputs.front(), "shading", frame_number_});
+    const auto frame = share_frame(std::move(scene), settings, diagnostics_);
+    auto comparison = frame ? compare(*frame, settings_for(*frame)) : std::nullopt;
+    terminal_.end_progress();
+    if (!comparison) return;
+    compared_ = true;
+    comparison->scene = arguments_.inputs.front();
+    comparison->machine.trapeze = kVersion, comparison->machine.revision = revision();
+    comparison->command = arguments_.words, comparison->seed = arguments_.seed;
+    print(*comparison);
+    write_outputs(*comparison, *frame);
+}
+
+void CompareJob::print(const Comparison& comparison) const {
+    fmt::print("{}\n", table_text(comparison));
+    for (const std::string& sentence : comparison.verdict) fmt::print("{}\n", sentence);
+}
+
+void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& frame) {
+    bool good = true;
+    if (!options_.json.empty())
+        good = write_text(options_.json, json_text(to_json(comparison)) + "\n", diagnostics_) && good;
+    if (!options_.report.empty())
+        good = write_text(options_.report, html_report(comparison), diagnostics_) && good;
+    if (!options_.folder.empty())
+        good = write_pictures(comparison, frame, options_.folder, std::string("Trapeze ") + kVersion) && good;
+    output_failed_ = !good;
+}
+
+int CompareJob::exit_code() const {
+    if (interrupt_.requested()) return interrupt_.exit_code();
+    if (output_failed_) return kExitNoOutput;
+    const auto kinds = diagnostics_.kinds();
+    if (kinds.contains(kTooLittleMemory) || kinds.contains(kPictureTooLarge)) return kExitNoMemory;
+    if (!compared_) return kExitNothingRendered;
+    const bool warned = diagnostics_.count(Severity::Warning) > 0;
+    return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
+}
+
+int CompareJob::run() {
+    if (!outputs_are_possible()) return kExitNoOutput;
+    ReadOptions options = read_options(arguments_, access_);
+    options.cancelled = &interrupt_.requested();
+    options.shading_rate = arguments_.shading_rate;
+    on_threads(arguments_.threads, [&] {
+        read_rib(arguments_.inputs, options, diagnostics_,
+                 [&](Scene&& scene) { take_world(std::move(scene)); });
+    });
+    if (!interrupt_.requested()) {
+        if (worlds_ == 0) diagnostics_.error({}, "no WorldBegin block was found in the input");
+        if (worlds_ > 1) diagnostics_.note({}, fmt::format("the first of {} worlds was compared", worlds_));
+    }
+    return exit_code();
+}
+
+}  // namespace
+
+int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
+    return CompareJob(arguments, terminal, diagnostics).run();
+}
+
+}  // namespace trapeze

@@ -1,0 +1,209 @@
+#include "pipeline/cli/commands/compliance_notes.h"
+
+namespace trapeze {
+namespace {
+
+constexpr RequestNote kRequests[] = {
+    {"AreaLightSource", "shines from the middle of its first shape, with a warning"},
+    {"Atmosphere", "at visible points; no volume between surfaces"},
+    {"Bound", "read; the renderer finds bounds itself"},
+    {"Bxdf", "RIS shaders are not run: rissurface, in the Bxdf's colour or texture"},
+    {"ColorSamples", "colours are turned into RGB where they are read"},
+    {"Deformation", "no such shaders"},
+    {"Detail", "not within object definitions"},
+    {"Displace", "read; RIS shaders are not run"},
+    {"DisplayFilter", "read; RIS shaders are not run"},
+    {"EditAttributeBegin", "the block is skipped"},
+    {"EditBegin", "the block is skipped"},
+    {"EditWorldBegin", "the block is skipped"},
+    {"Exterior", "kept; nothing runs it until rays are traced"},
+    {"GeometricApproximation", "motionfactor, focusfactor; flatness is read"},
+    {"GeometricRepresentation", "read; all is drawn as it is"},
+    {"HierarchicalSubdivisionMesh",
+     "as SubdivisionMesh; edits of finer levels, which OpenSubdiv has not, are left out with one warning"},
+    {"Hider",
+     "hidden; others are warned about and hidden is used; jitter, depthfilter, samplemotion; minsamples and "
+     "maxsamples "
+     "(as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
+    {"Imager", "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture"},
+    {"Integrator", "read; RIS shaders are not run"},
+    {"Interior", "kept; nothing runs it until rays are traced"},
+    {"Light", "RIS shaders are not run: rislight, distantlight and ambientlight, without shadows"},
+    {"LightFilter", "read; RIS shaders are not run"},
+    {"MakeBump", "as MakeTexture"},
+    {"MotionBegin",
+     "any number of keys for transforms and geometry; other requests take their values as the shutter opens, "
+     "with a note"},
+    {"Pattern", "RIS shaders are not run: Bxdfs have the mean of its colours, or its texture"},
+    {"Perspective", "read; surfaces are not transformed by projections"},
+    {"PixelVariance", "read; every pixel has all its samples"},
+    {"Procedural", "at once, for infinite detail; programs and libraries where the command line allows them"},
+    {"Projection", "perspective and orthographic"},
+    {"Quantize", "8, 16 bits and floats, by display"},
+    {"SampleFilter", "read; RIS shaders are not run"},
+    {"ShaderLayer", "surface, displacement and atmosphere"},
+    {"System", "never run"},
+};
+
+constexpr Capability kCapabilities[] = {
+    {"Solid Modeling", "supported",
+     "SolidBegin and SolidEnd with primitive, union, intersection and difference to any depth, resolved "
+     "along "
+     "each sample's ray: exact with motion blur and depth of field. A ray that starts inside a solid behind "
+     "which an opaque surface stands is taken to start outside."},
+    {"Trim Curves", "supported", "TrimCurve on NuPatch, with Attribute \"trimcurve\" \"sense\"."},
+    {"Level of Detail", "supported",
+     "Detail, DetailRange and RelativeDetail; levels in transition share "
+     "out each pixel's samples, which together cover what one level would."},
+    {"Motion Blur", "supported",
+     "Transforms and deforming geometry with any number of keys, also within instances. Shading is at "
+     "shutter "
+     "open; parameters of shaders and lights take their values there."},
+    {"Depth of Field", "supported", "Every sample has its own point of the lens."},
+    {"Special Camera Projections", "not supported", "Perspective and orthographic alone."},
+    {"Displacements", "supported",
+     "P is moved and normals are found again; closed surfaces stay closed. Attribute \"displacementbound\" "
+     "is "
+     "needed, and a shader that goes beyond it is reported with the bound that it needs. With a bound, "
+     "surface shaders that set P displace, too."},
+    {"Deformations", "not supported", "Deformation shaders are not run."},
+    {"Spectral Colors", "supported with limits", "ColorSamples converts to three samples when RIB is read."},
+    {"Programmable Shading", "supported",
+     "RenderMan Shading Language 3.2: surface, displacement, light, volume and imager shaders."},
+    {"Volume Shading", "supported with limits",
+     "Atmosphere shaders run at visible points. Interior and Exterior are kept."},
+    {"Ray Tracing", "not supported", "trace() and its kin see nothing, with one warning."},
+    {"Global Illumination", "not supported", "occlusion() and indirectdiffuse() are 0, with one warning."},
+    {"Area Lights", "not supported",
+     "AreaLightSource shines from the middle of its first shape, with a warning."},
+    {"Texture, Environment and Shadow Mapping", "supported",
+     "The Make requests and what OpenImageIO reads. Numbers of 8 and 16 bits are as RISpec has them, or by the sRGB "
+     "curve where Option \"color\" \"transfer\" or a \"colorspace\" asks for it (docs/colour.md). Files that do not "
+     "record wrap modes are black outside; longitude 0 (+x) of environments is at the left edge, z is up; channels that "
+     "a file lacks are \"fill\"."},
+};
+
+constexpr const char* kRispec[] = {"version",
+                                   "Declare",
+                                   "FrameBegin",
+                                   "FrameEnd",
+                                   "WorldBegin",
+                                   "WorldEnd",
+                                   "Format",
+                                   "FrameAspectRatio",
+                                   "ScreenWindow",
+                                   "CropWindow",
+                                   "Projection",
+                                   "Clipping",
+                                   "ClippingPlane",
+                                   "DepthOfField",
+                                   "Shutter",
+                                   "PixelVariance",
+                                   "PixelSamples",
+                                   "PixelFilter",
+                                   "Exposure",
+                                   "Imager",
+                                   "Quantize",
+                                   "Display",
+                                   "Hider",
+                                   "ColorSamples",
+                                   "RelativeDetail",
+                                   "Option",
+                                   "AttributeBegin",
+                                   "AttributeEnd",
+                                   "Color",
+                                   "Opacity",
+                                   "TextureCoordinates",
+                                   "LightSource",
+                                   "AreaLightSource",
+                                   "Illuminate",
+                                   "Surface",
+                                   "Displacement",
+                                   "Atmosphere",
+                                   "Interior",
+                                   "Exterior",
+                                   "ShadingRate",
+                                   "ShadingInterpolation",
+                                   "Matte",
+                                   "Bound",
+                                   "Detail",
+                                   "DetailRange",
+                                   "GeometricApproximation",
+                                   "Orientation",
+                                   "ReverseOrientation",
+                                   "Sides",
+                                   "Identity",
+                                   "Transform",
+                                   "ConcatTransform",
+                                   "Perspective",
+                                   "Translate",
+                                   "Rotate",
+                                   "Scale",
+                                   "Skew",
+                                   "CoordinateSystem",
+                                   "CoordSysTransform",
+                                   "TransformBegin",
+                                   "TransformEnd",
+                                   "Attribute",
+                                   "Polygon",
+                                   "GeneralPolygon",
+                                   "PointsPolygons",
+                                   "PointsGeneralPolygons",
+                                   "Basis",
+                                   "Patch",
+                                   "PatchMesh",
+                                   "NuPatch",
+                                   "TrimCurve",
+                                   "SubdivisionMesh",
+                                   "Sphere",
+                                   "Cone",
+                                   "Cylinder",
+                                   "Hyperboloid",
+                                   "Paraboloid",
+                                   "Disk",
+                                   "Torus",
+                                   "Points",
+                                   "Curves",
+                                   "Blobby",
+                                   "Procedural",
+                                   "Geometry",
+                                   "SolidBegin",
+                                   "SolidEnd",
+                                   "ObjectBegin",
+                                   "ObjectEnd",
+                                   "ObjectInstance",
+                                   "MotionBegin",
+                                   "MotionEnd",
+                                   "MakeTexture",
+                                   "MakeLatLongEnvironment",
+                                   "MakeCubeFaceEnvironment",
+                                   "MakeShadow",
+                                   "ErrorHandler",
+                                   "ReadArchive"};
+
+constexpr RequestNote kFunctions[] = {
+    {"trace", "black, with one warning"},
+    {"transmission", "1 everywhere, with one warning"},
+    {"occlusion", "0, with one warning"},
+    {"incident", "0: rays are not traced"},
+    {"opposite", "0: rays are not traced"},
+    {"specular", "the exponent of N.H is 8 / roughness, where RISpec writes 1 / roughness"},
+    {"specularbrdf", "the exponent of N.H is 8 / roughness, where RISpec writes 1 / roughness"},
+};
+
+}  // namespace
+
+std::span<const RequestNote> request_notes() {
+    return kRequests;
+}
+std::span<const Capability> capabilities() {
+    return kCapabilities;
+}
+std::span<const char* const> rispec_requests() {
+    return kRispec;
+}
+std::span<const RequestNote> function_notes() {
+    return kFunctions;
+}
+
+}  // namespace trapeze

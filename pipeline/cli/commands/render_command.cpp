@@ -1,0 +1,290 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "composite/displays/display_plan.h"
+#include "core/scene/transfer.h"
+#include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/cli/support/interrupt.h"
+#include "pipeline/cli/support/on_threads.h"
+#include "pipeline/cli/support/output_names.h"
+#include "pipeline/cli/support/read_settings.h"
+#include "pipeline/cli/support/stats_json.h"
+#include "pipeline/cli/support/text_files.h"
+#include "pipeline/frame/make_map.h"
+#include "pipeline/frame/render_frame.h"
+#include "pipeline/frame/stopwatch.h"
+#include "pipeline/frame/write_frame.h"
+#include "pipeline/rib/read_rib.h"
+
+namespace trapeze {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_missing_shader(const Diagnostics& diagnostics) {
+    const auto kinds = diagnostics.kinds();
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [](const auto& kind) { return kind.first.starts_with("missing-shader"); });
+}
+
+/// A pass that makes a depth map for the worlds after it. What the command line says of the picture is not
+/// for it.
+bool is_shadow_pass(const Options& options) {
+    return !options.displays.empty() && makes_depth_map(options.displays.front());
+}
+
+/// The files that sources of messages are: scenes, archives, shaders.
+std::vector<std::string> files_read(const Diagnostics& diagnostics) {
+    std::set<std::string> files;
+    std::error_code ignored;
+    std::string name;
+    for (uint32_t source = 1; !(name = diagnostics.source_name(source)).empty(); ++source)
+        if (fs::exists(name, ignored)) files.insert(std::move(name));
+    return {files.begin(), files.end()};
+}
+
+/// Renders the worlds of the input as they are read.
+class RenderJob {
+  public:
+    RenderJob(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics)
+        : arguments_(arguments),
+          terminal_(terminal),
+          diagnostics_(diagnostics),
+          access_(scene_access(arguments)),
+          interrupt_(arguments.time_limit),
+          kept_(diagnostics),
+          names_(arguments.output) {}
+
+    int run();
+
+  private:
+    void render_world(Scene&& scene);
+    void override_options(Options& options) const;
+    void override_displays(Scene& scene);
+    void name_output(Scene& scene);
+    void say_what_is_written(const FrameStats& stats);
+    bool encode_for_viewing(Display& display, const Options& options) const;
+    void make_map_of_pictures(MapRequest request);
+    bool outputs_are_possible() const;
+    bool write_stats() const;
+    int exit_code() const;
+
+    const Arguments& arguments_;
+    Terminal& terminal_;
+    Diagnostics& diagnostics_;
+    Access access_;
+    Interrupt interrupt_;
+    double render_seconds_ = 0, last_read_seconds_ = 0;
+    Stopwatch total_;
+    std::vector<FrameStats> frames_;
+    std::vector<FrameStats::Output> maps_;
+    int worlds_ = 0;
+    KeptPictures kept_;
+    OutputNames names_;
+    std::set<std::string> encoded_;  ///< by the sRGB curve for viewing: files that `-o` names
+    bool output_failed_ = false;
+};
+
+void RenderJob::override_options(Options& options) const {
+    if (arguments_.resolution) std::tie(options.width, options.height) = *arguments_.resolution;
+    if (arguments_.crop) options.crop_window = *arguments_.crop;
+    if (arguments_.samples) {
+        options.samples_x = static_cast<float>(arguments_.samples->first);
+        options.samples_y = static_cast<float>(arguments_.samples->second);
+    }
+}
+
+/// What the scene would keep in floats, and the command line wants as a file of 8 bits, is to be looked at:
+/// by the curve of screens, where nobody says how. Whether it is.
+bool RenderJob::encode_for_viewing(Display& display, const Options& options) const {
+    const auto color = options.user.find("color");
+    const bool is_said = color != options.user.end() && color->second.find("transfer");
+    if (is_said || display.parameters.find("colorspace")) return false;
+    display.parameters.set({"colorspace", {StorageClass::Uniform, ValueType::String, 1}, {}, {"auto"}});
+    Diagnostics unheard;
+    const auto plan = plan_display(display, options, aov_layout(options), unheard);
+    if (!plan || !plan->srgb) return false;
+    diagnostics_.note({},
+                      "\"" + display.name +
+                          "\" is for viewing: its colours are encoded by the sRGB curve (--transfer linear "
+                          "writes the scene's numbers)",
+                      "encoded for viewing");
+    return true;
+}
+
+/// The first display's file, as `-o` has it.
+void RenderJob::name_output(Scene& scene) {
+    Display& first = scene.options.displays.front();
+    const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, scene.options);
+    rename(first, names_.take(first.name, scene.options.frame, !scene.primitives.empty()));
+    if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
+    access_.allow_writing(first.name);
+    kept_.forget(first.name);
+    encoded_.erase(first.name);
+    if (for_viewing && encode_for_viewing(first, scene.options)) encoded_.insert(first.name);
+}
+
+void RenderJob::override_displays(Scene& scene) {
+    std::vector<Display>& displays = scene.options.displays;
+    if (displays.empty()) {
+        // RISpec's default display is one picture of a fixed name; ours has the scene's. What shows nothing,
+        // nowhere, is none where there is a picture.
+        const std::string& input = arguments_.inputs.front();
+        const std::string stem = input == "-" ? "stdin" : fs::path(input).stem().string();
+        const bool is_none = scene.primitives.empty() && names_.is_taken(scene.options.frame);
+        displays.push_back({stem + ".exr", is_none ? "null" : "file", "rgba", {}, {}});
+        if (is_none) return;
+    }
+    if (!names_.empty()) name_output(scene);
+    if (!arguments_.driver.empty())
+        for (Display& display : displays) display.type = arguments_.driver;
+}
+
+/// A picture that a map is made of was a pass, whatever `-o` has called it: it is found under that name,
+/// which the next picture takes.
+void RenderJob::make_map_of_pictures(MapRequest request) {
+    for (std::string& picture : request.pictures) {
+        picture = names_.take_back(picture).value_or(picture);
+        if (encoded_.contains(picture)) request.colorspace = Transfer::Srgb;
+        kept_.forget(picture);
+    }
+    if (const auto transfer = transfer_named(arguments_.transfer)) request.transfer = *transfer;
+    Stopwatch watch;
+    std::string map;
+    if (!make_map(request, access_, diagnostics_, &map)) output_failed_ = true;
+    if (map.empty()) return;
+    std::error_code unknown;
+    const auto bytes = fs::file_size(map, unknown);
+    maps_.push_back({map, unknown ? 0 : bytes, watch.lap()});
+    terminal_.say_on_terminal(fmt::format("wrote {}, {:.1f} s", map, maps_.back().seconds));
+}
+
+void RenderJob::say_what_is_written(const FrameStats& stats) {
+    for (const FrameStats::Output& file : stats.outputs)
+        terminal_.say_on_terminal(fmt::format("wrote {}, {}x{}, {:.1f} s", file.path, stats.width,
+                                              stats.height, stats.seconds.total));
+}
+
+void RenderJob::render_world(Scene&& scene) {
+    if (interrupt_.requested()) return;
+    Stopwatch watch;
+    const double read_seconds = total_.elapsed() - render_seconds_;
+    ++worlds_;
+    const int frame = scene.options.frame;
+    if (!arguments_.transfer.empty()) set_transfer(scene.options, arguments_.transfer);
+    if (!is_shadow_pass(scene.options)) {
+        override_options(scene.options);
+        override_displays(scene);
+    } else if (!names_.empty() && !names_.is_taken(frame) && arguments_.driver.empty()) {
+        // The next picture takes its place; where none comes, what the light sees is what there is to see.
+        Display picture{with_frame_number(arguments_.output, frame), "file", "rgba", {}, {}};
+        encode_for_viewing(picture, scene.options);
+        access_.allow_writing(picture.name);
+        kept_.forget(picture.name);
+        scene.options.displays.push_back(std::move(picture));
+    }
+
+    RenderSettings settings;
+    settings.sampler = arguments_.sampler;
+    settings.pattern = arguments_.pattern;
+    settings.memory_bytes = arguments_.memory_bytes;
+    settings.regions_at_least = arguments_.regions_at_least;
+    settings.seed = arguments_.seed;
+    settings.cancelled = &interrupt_.requested();
+    settings.access = &access_;
+    settings.on_progress = [&](double fraction) { terminal_.progress(fraction); };
+
+    settings.on_stage = [&](std::string_view name) { terminal_.stage(name); };
+
+    const std::string& picture = scene.options.displays.front().name;
+    terminal_.begin_progress(picture, {picture, "tessellate", scene.options.frame});
+    const RenderContext context = make_context(scene, settings, diagnostics_);
+    std::optional<FrameResult> result = render_frame(context, settings);
+    terminal_.end_progress();
+    if (result) {
+        FrameStats& stats = result->stats;
+        if (!write_frame(*result, context, access_, arguments_.inputs, &kept_)) output_failed_ = true;
+        stats.seconds.read = read_seconds - last_read_seconds_;
+        stats.seconds.total += stats.seconds.read;
+        last_read_seconds_ = read_seconds;
+        say_what_is_written(stats);
+        frames_.push_back(stats);
+    }
+    render_seconds_ += watch.lap();
+}
+
+bool RenderJob::write_stats() const {
+    if (arguments_.stats_file.empty()) return true;
+    const RunFacts facts{arguments_.words, files_read(diagnostics_), diagnostics_.count(Severity::Error),
+                         diagnostics_.count(Severity::Warning), maps_};
+    return write_text(arguments_.stats_file, stats_json(frames_, facts), diagnostics_);
+}
+
+int RenderJob::exit_code() const {
+    if (interrupt_.requested()) return interrupt_.exit_code();
+    if (output_failed_) return kExitNoOutput;
+    if (diagnostics_.kinds().contains(kPictureTooLarge)) return kExitNoMemory;
+    if (frames_.empty() && maps_.empty()) return kExitNothingRendered;
+    if (arguments_.strict && has_missing_shader(diagnostics_)) return kExitShaderMissing;
+    const bool warned = diagnostics_.count(Severity::Warning) > 0;
+    return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
+}
+
+/// Folders that scenes name are made where the pictures are written; one on the command line may be a
+/// mistake, which is said before anything is rendered.
+bool RenderJob::outputs_are_possible() const {
+    const std::string& output = arguments_.output;
+    const bool is_of_a_frame =
+        with_frame_number(output, 0) != output;  // its folder, too, may have the number
+    if (!may_write_report(arguments_.stats_file, access_, diagnostics_)) return false;
+    const bool writes_output = arguments_.driver != "null" && !is_of_a_frame;
+    return can_write({arguments_.stats_file, writes_output ? output : ""}, diagnostics_);
+}
+
+int RenderJob::run() {
+    if (!outputs_are_possible()) return kExitNoOutput;
+    ReadOptions options = read_options(arguments_, access_);
+    options.cancelled = &interrupt_.requested();
+    options.on_wait = [this](const std::string& what, int seconds) {
+        terminal_.wait("waiting for " + what + ", " + std::to_string(seconds) + " s");
+    };
+    options.shading_rate = arguments_.shading_rate;
+    if (arguments_.frames)
+        options.wants_frame = [this](int frame) {
+            return std::any_of(arguments_.frames->begin(), arguments_.frames->end(),
+                               [&](const FrameRange& range) { return range.has(frame); });
+        };
+    options.on_map = [this](const MapRequest& request) {
+        if (!interrupt_.requested()) make_map_of_pictures(request);
+    };
+    terminal_.begin_progress(arguments_.inputs.front(), {arguments_.inputs.front(), "read", 0});
+    int worlds_read = 0;
+    on_threads(arguments_.threads, [&] {
+        worlds_read = read_rib(arguments_.inputs, options, diagnostics_, [&](Scene&& scene) {
+                          render_world(std::move(scene));
+                      }).worlds;
+    });
+    terminal_.end_progress();
+    if (!interrupt_.requested()) {
+        if (worlds_ == 0 && maps_.empty())
+            diagnostics_.error({}, worlds_read
+                                       ? "none of the frames asked for is in the input; nothing rendered"
+                                       : "no WorldBegin block was found in the input; nothing rendered");
+        if (!(frames_.empty() && maps_.empty()) && !write_stats()) output_failed_ = true;
+    }
+    return exit_code();
+}
+
+}  // namespace
+
+int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
+    return RenderJob(arguments, terminal, diagnostics).run();
+}
+
+}  // namespace trapeze

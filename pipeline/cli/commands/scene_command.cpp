@@ -1,0 +1,21 @@
+#include <tuple>
+
+#include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/cli/support/standard_streams.h"
+#include "pipeline/cli/support/text_files.h"
+
+namespace trapeze {
+
+int scene_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostics) {
+    SceneParameters parameters = arguments.scene.parameters;
+    if (arguments.resolution) std::tie(parameters.width, parameters.height) = *arguments.resolution;
+    const std::string text = scene_text(arguments.scene.name, parameters);
+    if (arguments.output.empty()) {
+        print_text(text);
+        return kExitOk;
+    }
+    return write_text(arguments.output, text, diagnostics) ? kExitOk : kExitNoOutput;
+}
+
+}  // namespace trapeze

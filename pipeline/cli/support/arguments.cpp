@@ -1,0 +1,172 @@
+#include "pipeline/cli/support/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "pipeline/cli/support/command_options.h"
+#include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/cli/support/modern_spelling.h"
+#include "pipeline/cli/support/revision.h"
+#include "pipeline/cli/support/standard_streams.h"
+#include "pipeline/cli/support/terminal.h"
+#include "pipeline/compare/sampler_list.h"
+#include "pipeline/frame/safe_mode.h"
+#include "pipeline/frame/version.h"
+#include "sample/visibility.h"
+
+namespace trapeze {
+namespace {
+
+struct CommandRow {
+    const char* name;
+    Command command;
+    void (*add_options)(CLI::App& app, Arguments& arguments);
+    const char* about;
+};
+
+constexpr CommandRow kCommands[] = {
+    {"render", Command::Render, add_render_options, "renders scenes"},
+    {"check", Command::Check, add_check_options,
+     "reads scenes and reports all that is wrong, missing or not supported; renders nothing"},
+    {"info", Command::Info, add_info_options, "says what is in scenes"},
+    {"cat", Command::Cat, add_cat_options,
+     "writes scenes as one RIB file: ASCII or binary, archives read, conditions resolved"},
+    {"compare", Command::Compare, add_compare_options,
+     "measures visibility methods side by side on a scene: times, counts, errors"},
+    {"scene", Command::Scene, add_scene_options, "writes a scene made for measurements, of any size, as RIB"},
+    {"study", Command::Study, add_study_options,
+     "repeats a table or figure of the micropolygon ray tracing paper on this machine"},
+    {"shader", Command::Shader, add_shader_options, "checks a shader's source, and says what it takes"},
+    {"compliance", Command::Compliance, add_compliance_options,
+     "writes what of the RenderMan Interface is supported, as Markdown"},
+};
+
+/// Whether the methods and patterns asked for go together; says what is wrong.
+bool samplers_are_right(const Arguments& a, std::string* error) {
+    if (a.command != Command::Compare) return choose_sampler(a.sampler, a.pattern, error).has_value();
+    return a.compare.samplers.empty() || parse_samplers(a.compare.samplers, a.pattern, error);
+}
+
+bool is_one_file(const std::string& a, const std::string& b) {
+    std::error_code failed;
+    return !a.empty() && !b.empty() && (a == b || (std::filesystem::equivalent(a, b, failed) && !failed));
+}
+
+/// Files that would be written over each other or over what is read. `cat` may write over its input, which it
+/// has read by then.
+bool outputs_are_apart(const Arguments& a, std::string* error) {
+    std::vector<std::pair<const char*, std::string>> outputs;
+    if (a.command == Command::Render) outputs = {{"-o", a.output}, {"--stats", a.stats_file}};
+    if (a.command == Command::Compare) outputs = {{"--report", a.compare.report}, {"--json", a.compare.json}};
+    if (a.command == Command::Study) outputs = {{"--report", a.study.report}, {"--json", a.study.json}};
+    if (outputs.empty()) return true;
+    if (is_one_file(outputs[0].second, outputs[1].second) && !outputs[0].second.starts_with("/dev/"))
+        *error = std::string(outputs[0].first) + " and " + outputs[1].first + " name the same file";
+    for (const auto& [option, file] : outputs)
+        for (const std::string& input : a.inputs)
+            if (is_one_file(file, input) && !file.starts_with("/dev/"))
+                *error = std::string(option) + ": \"" + file + "\" is an input, which would be written over";
+    return error->empty();
+}
+
+bool crop_is_right(const Arguments& a, std::string* error) {
+    if (!a.crop || ((*a.crop)[0] < (*a.crop)[1] && (*a.crop)[2] < (*a.crop)[3])) return true;
+    *error = "--crop: X0 must be less than X1, and Y0 less than Y1";
+    return false;
+}
+
+/// The environment's word counts as the command line's. False, and why, when it cannot.
+bool settle_safety(Arguments& a, std::string* error) {
+    a.safe = a.safe || safe_by_environment();
+    if (!a.safe) return true;
+    if (a.allow_programs) {
+        *error = "--allow-programs and --safe (or TRAPEZE_SAFE) exclude each other";
+        return false;
+    }
+    if (a.memory_bytes == 0) a.memory_bytes = safe_memory_budget();
+    if (!a.time_limit) a.time_limit = kSafeSeconds;
+    return true;
+}
+
+/// What is wrong with the options together, or nothing.
+bool output_is_a_file(const Arguments& a, std::string* error) {
+    if (a.command != Command::Render || a.output != "-") return true;
+    *error =
+        "-o -: pictures are not written to standard output, for they are whole or not at all; name a file";
+    return false;
+}
+
+std::string contradiction(Arguments& a) {
+    std::string error;
+    static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) &&
+                      samplers_are_right(a, &error) && crop_is_right(a, &error) &&
+                      outputs_are_apart(a, &error));
+    return error;
+}
+
+/// Whether messages shall be JSON: asked of words that may be wrong otherwise.
+bool wants_json(const std::vector<std::string>& words) {
+    std::string progress;
+    for (size_t i = 0; i < words.size(); ++i) {
+        if (words[i].starts_with("--progress=")) progress = words[i].substr(11);
+        if (words[i] == "--progress" && i + 1 < words.size()) progress = words[i + 1];
+    }
+    return progress == "json";
+}
+
+int usage_error(const std::string& text, const std::vector<std::string>& words) {
+    const bool json = wants_json(words);
+    Terminal({json ? ProgressStyle::Json : ProgressStyle::None, true, false})
+        .show({Severity::Error,
+               text + (json ? "" : "\nRun with --help for more information."),
+               json ? "" : "trapeze",
+               {},
+               {}});
+    return kExitUsage;
+}
+
+}  // namespace
+
+bool is_command(std::string_view name) {
+    return std::ranges::any_of(kCommands, [&](const CommandRow& row) { return row.name == name; });
+}
+
+std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) {
+    CLI::App app{
+        "Trapeze: a Reyes renderer that samples micropolygons by ray tracing.\n"
+        "RIB scenes in, EXR pictures out."};
+    app.name("trapeze");
+    app.footer(
+        std::string(kExitCodeHelp) +
+        "\n`trapeze help COMMAND` is `trapeze COMMAND --help`. RenderMan programs' spellings are accepted:\n"
+        "-progress -Progress -t:N -res W H -crop X0 X1 Y0 Y1 -frames A B -d DRIVER.");
+    app.set_version_flag("--version", std::string("Trapeze ") + kVersion + " (" + revision() + ")");
+    app.require_subcommand(1);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    for (const CommandRow& row : kCommands) {
+        CLI::App* const command = app.add_subcommand(row.name, row.about);
+        command->footer(kExitCodeHelp);
+        row.add_options(*command, arguments);
+        command->callback([&arguments, &row] { arguments.command = row.command; });
+    }
+
+    arguments.words.assign(argv + 1, argv + argc);
+    const std::vector<std::string> words = modern_spelling(arguments.words);
+    if (argc > 2 && std::string_view(argv[1]) == "help" && !is_command(argv[2]))
+        return usage_error("there is no command \"" + std::string(argv[2]) + "\"", words);
+    try {
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // backwards, as CLI11 takes them
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) return usage_error(error.what(), words);
+        std::ostringstream text;
+        app.exit(error, text, text);
+        print_text(text.str());
+        return kExitOk;
+    }
+    if (const std::string error = contradiction(arguments); !error.empty()) return usage_error(error, words);
+    return {};
+}
+
+}  // namespace trapeze

@@ -1,0 +1,97 @@
+/// The command line as a value.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/cli/support/parse_values.h"
+#include "pipeline/study/scenes/scenes.h"
+
+namespace trapeze {
+
+enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader, Compliance };
+
+/// What `trapeze compare` alone has.
+struct CompareArguments {
+    std::string samplers;                      ///< as parse_samplers() reads it; empty: all
+    std::vector<std::pair<int, int>> samples;  ///< rates to compare at; empty: the scene's own
+    int reference_side = 32;
+    int rounds = 3;
+    std::string report, json;  ///< files; empty: none
+    std::string folder;        ///< for pictures; empty: none
+};
+
+/// What `trapeze scene` alone has; the picture's size is Arguments::resolution.
+struct SceneArguments {
+    std::string name;
+    SceneParameters parameters;
+};
+
+/// What `trapeze study` alone has.
+struct StudyArguments {
+    std::string name;
+    bool quick = false;
+    int rounds = 3;
+    std::string report, json;  ///< files; empty: none
+};
+
+/// What `trapeze cat` alone has; the file to write is Arguments::output, empty or "-": standard output.
+struct CatArguments {
+    bool binary = false;
+    bool gzip = false;           ///< also when the output's name ends with .gz
+    bool keep_archives = false;  ///< ReadArchive stays as it is
+};
+
+/// What `trapeze shader` alone has.
+struct ShaderArguments {
+    std::string file;  ///< - is standard input
+    std::vector<std::string> include_folders;
+    std::vector<std::string> defines;  ///< NAME or NAME=TEXT
+    bool parameters = false;           ///< print them
+    bool code = false;
+};
+
+struct Arguments {
+    Command command = Command::Render;
+    std::vector<std::string> words;  ///< as they were given, without the program's name
+    std::vector<std::string> inputs;
+    std::string output;  ///< empty: as the scene says
+    std::string driver;  ///< replaces every Display's type; "null" writes nothing
+    std::optional<std::pair<int, int>> resolution, samples;
+    std::optional<std::array<float, 4>> crop;
+    std::optional<float> shading_rate;
+    std::optional<std::vector<FrameRange>> frames;
+    std::string sampler = "raytrace";
+    std::string pattern;        ///< empty: the sampler's natural one
+    std::string transfer;       ///< as transfer_named() reads it; empty: as the scene says
+    std::string simd = "best";  ///< as limit_simd() reads it
+    int threads = 0;            ///< 0: all; negative: all but so many
+    uint32_t seed = 0;
+    size_t memory_bytes = 0;
+    int regions_at_least = 1;
+    std::string progress = "auto";
+    std::string stats_file;
+    CatArguments cat;
+    CompareArguments compare;
+    SceneArguments scene;
+    StudyArguments study;
+    ShaderArguments shader;
+    std::string scenes_folder = "scenes";  ///< of `trapeze compliance`: tiny and gallery are in it
+    std::vector<std::string> first_rib;    ///< RIB to execute before the inputs
+    bool allow_programs = false;           ///< that scenes name
+    double program_seconds = 10;           ///< in which they say nothing
+    bool safe = false;                     ///< scenes are confined (core/files/access.h)
+    std::optional<double> time_limit;      ///< seconds
+    bool strict = false, quiet = false, color = true;
+};
+
+bool is_command(std::string_view name);
+
+/// Reads the command line. When it says to stop (help, version, usage errors), prints and returns the exit
+/// code.
+std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments);
+
+}  // namespace trapeze

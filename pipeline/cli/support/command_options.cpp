@@ -1,0 +1,290 @@
+#include "pipeline/cli/support/command_options.h"
+
+#include "core/simd/simd_limit.h"
+#include "pipeline/cli/support/option_kinds.h"
+#include "pipeline/compare/sampler_list.h"
+#include "pipeline/study/study.h"
+#include "sample/visibility.h"
+
+namespace trapeze {
+namespace {
+
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& file, const std::string& help,
+                      const std::string& form) {
+    return app.add_option(name, file, help)->check(a_name())->type_name(form);
+}
+
+template <class Number>
+CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value, Number low, Number high,
+                        const std::string& help, const std::string& form) {
+    return app.add_option(name, value, help)->check(in_range(low, high))->type_name(form);
+}
+
+void add_color_option(CLI::App& app, Arguments& a) {
+    app.add_flag("--no-color{false}", a.color, "no colours in messages (also: NO_COLOR in the environment)");
+}
+
+void add_safe_option(CLI::App& app, Arguments& a) {
+    app.add_flag(
+        "--safe", a.safe,
+        "for scenes from strangers: nothing is run, files are read below the scene's and the working "
+        "folder and those searched by --option, and written below the working folder or to -o; "
+        "memory and time are bounded (also: TRAPEZE_SAFE=1 in the environment)");
+}
+
+void add_inputs(CLI::App& app, Arguments& a) {
+    app.add_option("scenes", a.inputs, "RIB files, read one after another as one stream; - is standard input")
+        ->required()
+        ->check(a_name())
+        ->type_name("SCENE.rib");
+    app.add_option("--option", a.first_rib,
+                   "RIB to execute before the scenes, such as 'PixelSamples 8 8'; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("RIB");
+    app.add_flag("--allow-programs", a.allow_programs,
+                 "runs the programs that scenes name (Procedural \"RunProgram\")");
+    add_parsed(app, "--program-timeout", a.program_seconds, parse_duration,
+               "a program that says nothing for so long is ended (default: 10s)", "TIME like 10s",
+               ", more than none (units s, m, h)");
+    add_safe_option(app, a);
+    add_parsed(app, "--time-limit", a.time_limit, parse_duration,
+               "ends the work after so long, with exit code 8 (default under --safe: 10m)",
+               "TIME like 90s, 5m, 2h", ", more than none (units s, m, h)");
+    add_color_option(app, a);
+}
+
+/// " name:key=a|b,key=..." for each row of a table.
+template <class Row>
+std::string listed(const std::vector<Row>& table) {
+    std::string text;
+    for (const Row& row : table) {
+        text += " " + std::string(row.name);
+        char separator = ':';
+        for (const SpecOption& option : row.options) {
+            text += separator + std::string(option.name) + "=";
+            for (const std::string_view value : option.values)
+                text += (value == option.values.front() ? "" : "|") + std::string(value);
+            separator = ',';
+        }
+    }
+    return text;
+}
+
+void add_sampler_option(CLI::App& app, Arguments& a) {
+    const auto is_method = [](const std::string& text) {
+        std::string error;
+        choose_sampler(text, "", &error);
+        return error;
+    };
+    app.add_option("--sampler", a.sampler, "visibility method, one of:" + listed(visibility_methods()))
+        ->check(is_method)
+        ->type_name("METHOD")
+        ->capture_default_str();
+}
+
+void add_pattern_option(CLI::App& app, Arguments& a) {
+    const auto is_pattern = [](const std::string& text) {
+        std::string error;
+        parse_pattern(text, &error);
+        return error;
+    };
+    app.add_option(
+           "--pattern", a.pattern,
+           "sample pattern (default: what the method was made for), one of:" + listed(sample_patterns()))
+        ->check(is_pattern)
+        ->type_name("PATTERN");
+}
+
+void add_simd_option(CLI::App& app, Arguments& a) {
+    std::string names;
+    for (const std::string_view name : simd_names()) names += " " + std::string(name);
+    app.add_option("--simd", a.simd, "the best instruction set to use, one of:" + names)
+        ->type_name("NAME")
+        ->capture_default_str();
+}
+
+void add_memory_option(CLI::App& app, Arguments& a, const std::string& what_for) {
+    add_parsed(app, "--memory", a.memory_bytes, parse_size,
+               what_for + " (default: 3/4 of the machine's; under --safe at most 4G)", "SIZE like 4G",
+               ", of 1 byte to 1e18 (units K, M, G, T)");
+}
+
+/// How the machine is used, and what is said meanwhile.
+void add_work_options(CLI::App& app, Arguments& a) {
+    add_simd_option(app, a);
+    add_number(app, "-t,--threads", a.threads, -1024, 1024, "threads; 0: all, -N: all but N", "N");
+    app.add_option("--progress", a.progress, "how to show progress")
+        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "prman", "none"}))
+        ->capture_default_str();
+    add_memory_option(app, a, "for grids and tree, and as much for a file and its scene");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+}
+
+void add_resolution_option(CLI::App& app, Arguments& a, const std::string& help) {
+    add_parsed(app, "-r,--resolution", a.resolution, parse_resolution, help, "WxH",
+               ", each from 1 to " + std::to_string(kMostPixelsOfSide));
+}
+
+/// What says how a frame is made, for all commands that make one.
+void add_frame_options(CLI::App& app, Arguments& a) {
+    add_resolution_option(app, a, "size of the whole picture");
+    app.add_option("--crop", a.crop, "part of the picture to make, as fractions: x0 x1 y0 y1")
+        ->check(in_range(0.0f, 1.0f))
+        ->type_name("X0 X1 Y0 Y1");
+    app.add_option("--shading-rate", a.shading_rate, "pixel area of a micropolygon, everywhere")
+        ->check(in_range(1e-4f, 1e6f))
+        ->type_name("AREA");
+    add_pattern_option(app, a);
+    add_number(app, "--seed", a.seed, uint32_t{0}, ~uint32_t{0}, "of all random numbers", "N");
+    app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
+    add_work_options(app, a);
+}
+
+/// Of commands that measure methods in turns.
+void add_rounds_option(CLI::App& app, int& rounds) {
+    add_number(app, "--repeat", rounds, 1, 1000,
+               "rounds in which every method takes its turn; medians are reported", "R")
+        ->capture_default_str();
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& app, Arguments& a) {
+    add_inputs(app, a);
+    add_file(app, "-o,--output", a.output,
+             "replaces the first Display's name; ####, %04d and <frame> are the frame's number", "FILE");
+    add_file(app, "-d,--driver", a.driver, "replaces every Display's driver; null writes nothing", "DRIVER");
+    add_sampler_option(app, a);
+    add_parsed(app, "--samples", a.samples, parse_samples, "samples per pixel", "N|NxM",
+               ", each from 1 to 64");
+    add_frame_options(app, a);
+    app.add_option("--transfer", a.transfer,
+                   "how 8- and 16-bit files stand for light, written and read (default: linear, or the "
+                   "scene's Option \"color\" \"transfer\")")
+        ->check(CLI::IsMember({"linear", "srgb", "auto"}));
+    add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20",
+               " (ranges upwards, with a step as in 1-9x2)");
+    add_file(app, "--stats", a.stats_file, "writes statistics as JSON", "FILE.json");
+    add_number(app, "--regions", a.regions_at_least, 1, 100000,
+               "split the picture into at least so many regions", "N");
+    // PRMan's -recover: there is nothing to resume yet; accepted so that farm scripts run.
+    static_cast<void>(app.add_option("--recover")->group(""));
+}
+
+void add_check_options(CLI::App& app, Arguments& a) {
+    add_inputs(app, a);
+    add_memory_option(app, a, "for a file and for its scene, each");
+    app.add_flag("--strict", a.strict, "warnings, and what has no effect, count as errors for the exit code");
+}
+
+void add_info_options(CLI::App& app, Arguments& a) {
+    add_inputs(app, a);
+    add_memory_option(app, a, "for a file and for its scene, each");
+}
+
+void add_cat_options(CLI::App& app, Arguments& a) {
+    add_inputs(app, a);
+    add_file(app, "-o,--output", a.output, "the file to write; - is standard output, the default",
+             "FILE.rib");
+    app.add_flag("-b,--binary", a.cat.binary, "writes the binary encoding");
+    app.add_flag("-z,--gzip", a.cat.gzip, "compresses; also when FILE ends with .gz");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+    app.add_flag("--keep-archives", a.cat.keep_archives,
+                 "leaves ReadArchive as it is, instead of the archive's requests in its place");
+    add_memory_option(app, a, "for a file and for its scene, each");
+}
+
+void add_compare_options(CLI::App& app, Arguments& a) {
+    CompareArguments& c = a.compare;
+    add_inputs(app, a);
+    app.add_option("--samplers", c.samplers,
+                   "visibility methods, separated by spaces or semicolons (commas are part of a method: "
+                   "\"raytrace interval raytrace:tree=paper,bundle=off\"); default: every method as it is by "
+                   "default, bruteforce only where the scene is small. There are:" +
+                       listed(visibility_methods()))
+        ->check(a_name())
+        ->type_name("LIST");
+    add_parsed(app, "--samples", c.samples, parse_samples_list,
+               "samples per pixel to compare at (default: the scene's)", "LIST like 1x1,4x4,8x8",
+               ", each from 1 to 64");
+    add_number(app, "--reference", c.reference_side, 1, 64,
+               "NxN samples per pixel of the picture that errors are to", "N")
+        ->capture_default_str();
+    add_rounds_option(app, c.rounds);
+    add_file(app, "--report", c.report, "writes a report with pictures and charts, one file", "FILE.html");
+    add_file(app, "--json", c.json, "writes every figure as JSON", "FILE.json");
+    add_file(app, "-o,--output", c.folder, "writes pictures and heat maps as OpenEXR into a folder", "DIR");
+    add_frame_options(app, a);
+}
+
+void add_scene_options(CLI::App& app, Arguments& a) {
+    std::string names;
+    std::vector<std::string> known;
+    for (const std::string_view name : scene_names()) known.emplace_back(name), names += " " + known.back();
+    SceneParameters& p = a.scene.parameters;
+    app.add_option("name", a.scene.name, "one of:" + names)
+        ->required()
+        ->check(CLI::IsMember(known))
+        ->type_name("NAME");
+    add_number(app, "--scale", p.scale, 1e-3, 1e3, "multiplies the number of micropolygons", "S")
+        ->capture_default_str();
+    add_number(app, "--motion", p.motion, 0.0, 1e3, "multiplies the motion; 0: none", "M")
+        ->capture_default_str();
+    add_number(app, "--defocus", p.defocus, 0.0, 1e3, "multiplies the lens; 0: a pinhole", "D")
+        ->capture_default_str();
+    add_number(app, "--shading-factor", p.shading_rate, 1e-3, 1e3, "multiplies the scene's ShadingRate", "F")
+        ->capture_default_str();
+    add_resolution_option(app, a, "size of the picture");
+    add_file(app, "-o,--output", a.output, "writes to a file instead of standard output", "FILE.rib");
+}
+
+void add_study_options(CLI::App& app, Arguments& a) {
+    StudyArguments& s = a.study;
+    std::string names;
+    std::vector<std::string> known;
+    for (const StudyName& study : study_names()) {
+        known.emplace_back(study.name);
+        names += "\n  " + known.back() + ": " + std::string(study.about);
+    }
+    app.add_option("name", s.name, "one of:" + names)
+        ->required()
+        ->check(CLI::IsMember(known))
+        ->type_name("NAME");
+    app.add_flag("--quick", s.quick, "a quarter of the pixels and fewer samples: minutes instead of an hour");
+    add_rounds_option(app, s.rounds);
+    add_file(app, "--report", s.report, "writes a report with tables, plots and checks, one file",
+             "FILE.html");
+    add_file(app, "--json", s.json, "writes every figure as JSON", "FILE.json");
+    add_work_options(app, a);
+}
+
+void add_shader_options(CLI::App& app, Arguments& a) {
+    ShaderArguments& s = a.shader;
+    app.add_option("file", s.file, "a shader's source; - is standard input")
+        ->required()
+        ->check(a_name())
+        ->type_name("FILE.sl");
+    app.add_option("-I,--include", s.include_folders,
+                   "a folder to search for included files; may be repeated")
+        ->allow_extra_args(false)
+        ->check(a_name())
+        ->type_name("DIR");
+    app.add_option("-D,--define", s.defines, "defines a macro, as 1 if no text is given; may be repeated")
+        ->allow_extra_args(false)
+        ->check(a_macro())
+        ->type_name("NAME[=TEXT]");
+    app.add_flag("--params", s.parameters, "prints the parameters: storage, type, name, default");
+    app.add_flag("--ir", s.code, "prints the code that the grid machine runs");
+    app.add_flag("--strict", a.strict, "warnings count as errors for the exit code");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+    add_safe_option(app, a);
+    add_color_option(app, a);
+}
+
+void add_compliance_options(CLI::App& app, Arguments& a) {
+    add_file(app, "--scenes", a.scenes_folder, "where tiny and gallery lie, whose RIB files show requests",
+             "DIR")
+        ->capture_default_str();
+}
+
+}  // namespace trapeze

@@ -1,0 +1,74 @@
+#include "pipeline/cli/support/interrupt.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "composite/displays/write_displays.h"
+#include "pipeline/cli/support/exit_codes.h"
+#include "pipeline/rib/programs/programs.h"
+
+namespace trapeze {
+namespace {
+
+// A signal handler can reach nothing but a global; this is the process's one.
+volatile std::sig_atomic_t g_signal = 0;
+
+void on_signal(int signal) {
+    g_signal = signal;
+}
+
+constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr auto kPatience = std::chrono::milliseconds(700);
+
+/// Without waiting for a reader who has gone to sleep.
+void say_to_stderr(const std::string& text) {
+    pollfd ready{STDERR_FILENO, POLLOUT, 0};
+    if (poll(&ready, 1, 0) == 1) static_cast<void>(!write(STDERR_FILENO, text.data(), text.size()));
+}
+
+}  // namespace
+
+std::string time_limit_message() {
+    return "the time limit is reached; what was not done is left out";
+}
+
+Interrupt::Interrupt(std::optional<double> time_limit) {
+    if (time_limit)
+        deadline_ = Clock::now() +
+                    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*time_limit));
+    g_signal = 0;
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+    watcher_ = std::thread([this] { watch(); });
+}
+
+Interrupt::~Interrupt() {
+    done_ = true;
+    watcher_.join();
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
+int Interrupt::exit_code() const {
+    if (too_late_) return kExitTimeLimit;
+    return 128 + (g_signal ? static_cast<int>(g_signal) : SIGINT);
+}
+
+void Interrupt::watch() {
+    while (!done_ && g_signal == 0 && !(deadline_ && Clock::now() >= *deadline_))
+        std::this_thread::sleep_for(kPoll);
+    if (done_) return;
+    too_late_ = g_signal == 0;
+    requested_ = true;
+    const auto asked = Clock::now();
+    while (!done_ && Clock::now() - asked < kPatience) std::this_thread::sleep_for(kPoll);
+    if (done_) return;
+    remove_partial_outputs();
+    rib::end_all_programs();
+    if (too_late_) say_to_stderr("error: " + time_limit_message() + "\n");
+    _exit(exit_code());
+}
+
+}  // namespace trapeze

@@ -1,0 +1,37 @@
+#include "pipeline/cli/support/read_settings.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "pipeline/frame/render_frame.h"
+#include "pipeline/rib/state/user_defaults.h"
+
+namespace trapeze {
+
+Access scene_access(const Arguments& arguments) {
+    namespace fs = std::filesystem;
+    Access access = arguments.safe ? Access::confined() : Access();
+    if (!arguments.output.empty()) access.allow_writing(arguments.output);
+    std::error_code ignored;
+    for (const std::string& input : arguments.inputs)
+        if (fs::is_regular_file(input, ignored))
+            access.allow_reading_below(fs::path(input).parent_path().string());
+    return access;
+}
+
+ReadOptions read_options(const Arguments& arguments, Access& access) {
+    ReadOptions options;
+    options.access = &access;
+    options.defaults_file = user_defaults_file();
+    for (const std::string& rib : arguments.first_rib) options.first_texts.push_back({"--option", rib});
+    // A file's bytes and the scene's primitives are in memory whole, before there are grids.
+    const size_t memory = arguments.memory_bytes ? arguments.memory_bytes : default_memory_budget();
+    options.max_source_bytes = std::min(options.max_source_bytes, memory);
+    options.most_scene_bytes = memory;
+    options.allow_programs = arguments.allow_programs;
+    options.program_seconds = arguments.program_seconds;
+    options.procedural_host = {"/proc/self/exe", kServeProcedural};
+    return options;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,37 @@
+#include "pipeline/rib/programs/end_of_answer.h"
+
+#include "pipeline/rib/syntax/encoded_values.h"
+
+namespace trapeze::rib {
+
+std::optional<size_t> AnswerEnd::find(std::string_view bytes) {
+    while (next_ < bytes.size()) {
+        const char c = bytes[next_];
+        if (within_ == Within::Comment) {
+            if (c == '\n' || c == '\r') within_ = Within::Text;
+            ++next_;
+        } else if (within_ == Within::String) {
+            if (c == '\\' && next_ + 1 >= bytes.size()) break;
+            if (c == '"') within_ = Within::Text;
+            next_ += c == '\\' ? 2 : 1;
+        } else if (c == '\xff') {
+            return next_;
+        } else if (c == '\xc3' && next_ + 1 >= bytes.size()) {
+            break;
+        } else if (c == '\xc3' && bytes[next_ + 1] == '\xbf') {
+            return next_;
+        } else if (static_cast<unsigned char>(c) >= 0x80) {
+            const std::string_view rest = bytes.substr(next_);
+            const EncodedValue value = encoded_value(rest);
+            if (value.header > rest.size() || value.length > rest.size()) break;
+            next_ += static_cast<size_t>(value.length);
+        } else {
+            if (c == '"') within_ = Within::String;
+            if (c == '#') within_ = Within::Comment;
+            ++next_;
+        }
+    }
+    return {};
+}
+
+}  // namespace trapeze::rib

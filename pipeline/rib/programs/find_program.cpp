@@ -1,0 +1,40 @@
+#include "pipeline/rib/programs/find_program.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace trapeze::rib {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_program(const std::string& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+}
+
+}  // namespace
+
+std::string program_path(const std::string& name, const std::vector<std::string>& folders) {
+    if (fs::path(name).is_relative())
+        for (const std::string& folder : folders) {
+            const fs::path path = fs::path(folder.empty() ? "." : folder) / name;
+            if (is_program(path.string())) return path.string();
+        }
+    return name;
+}
+
+bool has_program(const std::string& name, const std::vector<std::string>& folders) {
+    const std::string path = program_path(name, folders);
+    if (path.find('/') != std::string::npos) return is_program(path);
+    const char* const variable = std::getenv("PATH");
+    std::istringstream places(variable ? variable : "/bin:/usr/bin");
+    for (std::string folder; std::getline(places, folder, ':');)
+        if (is_program((folder.empty() ? "." : folder) + "/" + path)) return true;
+    return false;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,37 @@
+/// Programs that answer requests with RIB: Procedural "RunProgram" (RISpec 5.8). They run until the reader
+/// ends.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/rib/programs/program_answer.h"
+
+namespace trapeze::rib {
+
+class Programs {
+  public:
+    Programs();
+    ~Programs();
+    Programs(const Programs&) = delete;
+    Programs& operator=(const Programs&) = delete;
+
+    using Command = std::vector<std::string>;
+
+    /// Sends a request to the program of that command (no shell), which is
+    /// started at its first; its name is looked for in the folders, then in PATH. A program that does not
+    /// answer within the limits is ended, with all that it has started in its group, and asked no more.
+    ProgramAnswer ask(const Command& command, const std::string& request,
+                      const std::vector<std::string>& folders, const Patience& patience);
+
+  private:
+    class Program;
+    std::map<Command, std::unique_ptr<Program>> programs_;  ///< null: has failed
+};
+
+/// Ends all programs of the process at once, for its own forced end; from any thread.
+void end_all_programs();
+
+}  // namespace trapeze::rib

@@ -1,0 +1,167 @@
+/// Parts of a stream that are read but not executed: branches of IfBegin, ElseIf, Else and IfEnd (no part of
+/// RISpec 3.2; PRMan's and Pixie's), and blocks that are skipped whole.
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/syntax/conditions.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr size_t kDeepestConditional = 1000;
+
+constexpr const char* kIf = "IfBegin";
+
+struct SkippedBlock {
+    std::string_view begin, end;
+};
+/// Changes for a renderer that keeps the scene between pictures.
+constexpr SkippedBlock kSkippedBlocks[] = {
+    {"EditBegin", "EditEnd"}, {"EditAttributeBegin", "EditAttributeEnd"}, {"EditWorldBegin", "EditWorldEnd"}};
+
+ConditionValue value_of(const Parameter* parameter) {
+    if (!parameter) return {};
+    if (!parameter->strings.empty()) return {{}, parameter->strings[0]};
+    return {{parameter->floats.begin(), parameter->floats.end()}, {}};
+}
+
+/// "category:name"; a name alone is the user's.
+ConditionValue user_value(const std::map<std::string, ParameterList>& lists, const std::string& name) {
+    const size_t colon = name.find(':');
+    const auto list = lists.find(colon == std::string::npos ? "user" : name.substr(0, colon));
+    if (list == lists.end()) return {};
+    return value_of(list->second.find(colon == std::string::npos ? name : name.substr(colon + 1)));
+}
+
+/// Of what requests of their own set.
+ConditionValue attribute_value(const Attributes& a, const std::string& name) {
+    if (name == "Color") return {{a.color.x, a.color.y, a.color.z}, {}};
+    if (name == "Opacity") return {{a.opacity.x, a.opacity.y, a.opacity.z}, {}};
+    if (name == "ShadingRate") return {{a.shading_rate}, {}};
+    if (name == "Matte") return {{static_cast<double>(a.matte)}, {}};
+    if (name == "Sides") return {{static_cast<double>(a.sides)}, {}};
+    if (name == "Surface" && a.surface) return {{}, a.surface->name};
+    return user_value(a.user, name);
+}
+
+ConditionValue option_value(const Options& o, const std::string& name) {
+    if (name == "Frame") return {{static_cast<double>(o.frame)}, {}};
+    if (name == "Format")
+        return {{static_cast<double>(o.width), static_cast<double>(o.height), o.pixel_aspect}, {}};
+    if (name == "PixelSamples") return {{o.samples_x, o.samples_y}, {}};
+    if (name == "Shutter") return {{o.shutter_open, o.shutter_close}, {}};
+    if (name == "Clipping") return {{o.near_clip, o.far_clip}, {}};
+    if (name == "Hider") return {{}, o.hider};
+    return user_value(o.user, name);
+}
+
+}  // namespace
+
+bool Reader::is_conditional(std::string_view request) {
+    constexpr std::string_view kRequests[] = {kIf, "ElseIf", "Else", "IfEnd"};
+    return std::find(std::begin(kRequests), std::end(kRequests), request) != std::end(kRequests) ||
+           std::any_of(std::begin(kSkippedBlocks), std::end(kSkippedBlocks), [&](const SkippedBlock& block) {
+               return block.begin == request || block.end == request;
+           });
+}
+
+ConditionValue Reader::variable(const std::string& name) const {
+    constexpr std::string_view kAttribute = "Attribute:", kOption = "Option:";
+    if (name.starts_with(kAttribute))
+        return attribute_value(attributes().attributes, name.substr(kAttribute.size()));
+    if (name.starts_with(kOption)) return option_value(scope_.options, name.substr(kOption.size()));
+    ConditionValue value = attribute_value(attributes().attributes, name);
+    if (value.is_undefined()) value = option_value(scope_.options, name);
+    const bool looks_further = value.is_undefined() && access_.may_see_environment();
+    const char* const in_environment = looks_further ? std::getenv(name.c_str()) : nullptr;
+    if (in_environment) value.text = in_environment;
+    return value;
+}
+
+bool Reader::holds(const std::string& expression) {
+    const ConditionResult result =
+        evaluate_condition(expression, [this](const std::string& name) { return variable(name); });
+    if (!result.problem.empty()) {
+        error("the condition " + in_quotes(expression) + " is wrong: " + result.problem + "; taken as false");
+        return false;
+    }
+    for (const std::string& name : result.undefined)
+        warn_once("no option or attribute " + in_quotes(name) + "; it equals nothing", "undefined-" + name);
+    return result.holds;
+}
+
+void Reader::push_conditional(std::string_view name, bool active) {
+    if (conditionals_.size() >= kDeepestConditional)
+        throw RequestError{"conditions are nested more than " + std::to_string(kDeepestConditional) + " deep",
+                           {}};
+    conditionals_.push_back({name, at_, is_skipping(), active, active, false});
+}
+
+void Reader::if_begin(const std::string& expression) {
+    const bool outer_skips = is_skipping();
+    push_conditional(kIf, !outer_skips && holds(expression));
+}
+
+Reader::Conditional& Reader::open_conditional(std::string_view name) {
+    if (conditionals_.size() <= first_conditional_ || conditionals_.back().name != name)
+        throw RequestError{"no " + std::string(name) + " is open here", {}};
+    return conditionals_.back();
+}
+
+void Reader::else_if(const std::string* expression) {
+    Conditional& block = open_conditional(kIf);
+    if (block.had_else) throw RequestError{"stands after Else", {}};
+    block.had_else = !expression;
+    const bool may = !block.outer_skips && !block.taken;
+    block.active = may && (!expression || holds(*expression));
+    block.taken |= block.active;
+}
+
+void Reader::if_end() {
+    open_conditional(kIf);
+    conditionals_.pop_back();
+}
+
+void Reader::skip_block() {
+    for (const SkippedBlock& block : kSkippedBlocks) {
+        if (request_name_ == block.begin) {
+            if (!is_skipping()) {
+                ++summary_.unsupported[request_name_];
+                warn_once("is not supported; skipped up to " + std::string(block.end),
+                          "unsupported-" + request_name_);
+            }
+            push_conditional(block.begin, false);
+        } else if (request_name_ == block.end) {
+            open_conditional(block.begin);
+            conditionals_.pop_back();
+        }
+    }
+}
+
+void Reader::close_conditionals() {
+    for (; conditionals_.size() > first_conditional_; conditionals_.pop_back()) {
+        request_name_ = conditionals_.back().name;
+        error(conditionals_.back().at, "never closed; closed at the end of the stream");
+    }
+}
+
+/// PRMan's Option "ribparse" "string varsubst" (older: "rib"): from then on texts in requests may name
+/// options and attributes.
+void Reader::substitute(RequestText& request) const {
+    if (scope_.options.user.empty() || is_conditional(request.name)) return;
+    for (const char* category : {"ribparse", "rib"}) {
+        const auto list = scope_.options.user.find(category);
+        if (list == scope_.options.user.end()) continue;
+        const std::string marker = list->second.string_or("varsubst", "");
+        if (marker.empty()) continue;
+        for (Argument& argument : request.arguments)
+            for (std::string& text : argument.strings)
+                if (text.find(marker) != std::string::npos)
+                    text = substitute_variables(text, marker,
+                                                [this](const std::string& name) { return variable(name); });
+    }
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,147 @@
+/// Retained geometry: ObjectBegin, ObjectEnd, ObjectInstance.
+#include <algorithm>
+
+#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/state/scene_size.h"
+
+namespace trapeze::rib {
+namespace {
+
+/// Of instances in objects, which can double with every line of a file.
+constexpr size_t kMostInObject = size_t{1} << 20;
+
+bool same(const ParameterList& a, const ParameterList& b) {
+    if (a.values.size() != b.values.size()) return false;
+    for (size_t i = 0; i < a.values.size(); ++i) {
+        const Parameter &x = a.values[i], &y = b.values[i];
+        if (x.name != y.name || x.floats != y.floats || x.strings != y.strings) return false;
+    }
+    return true;
+}
+
+using ShaderPointer = std::shared_ptr<const ShaderInstance>;
+
+/// A shader of the definition, with its layers, where an instance stands.
+ShaderPointer placed_in(const M44f& camera_from_object, const ShaderPointer& shader) {
+    if (!shader) return shader;
+    auto copy = std::make_shared<ShaderInstance>(*shader);
+    copy->camera_from_shader = copy->camera_from_shader * camera_from_object;
+    for (ShaderPointer& layer : copy->earlier_layers) layer = placed_in(camera_from_object, layer);
+    return copy;
+}
+
+/// The instance's attributes, but for those that the definition changed between ObjectBegin and its
+/// primitive. Shaders of the definition are placed with the object.
+std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& instance,
+                                                          const AttributeState& at_begin,
+                                                          const AttributeState& at_primitive,
+                                                          const M44f& camera_from_object) {
+    auto result = std::make_shared<AttributeState>(instance);
+    const Attributes &old = at_begin.attributes, &now = at_primitive.attributes;
+    const auto take = [&](auto... members) {
+        ((now.*members == old.*members ? void() : void(result->attributes.*members = now.*members)), ...);
+    };
+    take(&Attributes::color, &Attributes::opacity, &Attributes::texture_coordinates,
+         &Attributes::shading_rate, &Attributes::smooth_shading, &Attributes::matte, &Attributes::sides,
+         &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera, &Attributes::dice,
+         &Attributes::motion_factor, &Attributes::focus_factor);
+    const auto take_shader = [&](auto... members) {
+        const auto placed = [&](const std::shared_ptr<const ShaderInstance>& shader) {
+            return placed_in(camera_from_object, shader);
+        };
+        ((now.*members == old.*members ? void() : void(result->attributes.*members = placed(now.*members))),
+         ...);
+    };
+    take_shader(&Attributes::surface, &Attributes::displacement, &Attributes::atmosphere,
+                &Attributes::interior, &Attributes::exterior);
+    for (const auto& [category, values] : now.user)
+        if (const auto before = old.user.find(category);
+            before == old.user.end() || !same(before->second, values))
+            for (const Parameter& value : values.values) result->attributes.user[category].set(value);
+    if (at_primitive.displacement_bound != at_begin.displacement_bound)
+        result->displacement_bound = at_primitive.displacement_bound;
+    if (at_primitive.orientation != Orientation::OfInstance) {
+        result->orientation = at_primitive.orientation;
+        result->orientation_reversed = at_primitive.orientation_reversed;
+    } else if (at_primitive.orientation_reversed) {
+        result->orientation_reversed = !instance.orientation_reversed;
+    }
+    return result;
+}
+
+}  // namespace
+
+void Reader::begin_object(const std::string& handle) {
+    if (object_) throw RequestError{"object definitions do not nest", {}};
+    begin_block(Block::Object);
+    AttributeState& state = change_attributes();
+    state.orientation = Orientation::OfInstance, state.orientation_reversed = false;
+    object_ = std::make_shared<RetainedObject>();
+    object_->attributes = state_.attributes;
+    scope_.objects[handle] = object_;
+    state_.transform = MovingTransform();
+}
+
+void Reader::instance(const std::string& handle) {
+    if (motion_) throw RequestError{"inside a motion block", {}};
+    if (!takes_geometry()) return;
+    const auto found = scope_.objects.find(handle);
+    if (found == scope_.objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
+    if (found->second == object_) throw RequestError{"an object in its own definition", {}};
+    RetainedObject& object = *found->second;
+    place_lights(object);
+    instanced_primitives_ += object.primitives.size();
+    if (instanced_primitives_ > read_options_.most_instanced_primitives) {
+        diagnostics_.error(at_,
+                           request_name_ + ": instances make more than " +
+                               std::to_string(read_options_.most_instanced_primitives) +
+                               " primitives, which is the limit; this and further ones are left out",
+                           "instance-limit");
+        return;
+    }
+    if (object_ && object_->primitives.size() + object.primitives.size() > kMostInObject)
+        throw RequestError{"the object has more than " + std::to_string(kMostInObject) + " primitives", {}};
+    const AttributeState* merged_from = nullptr;
+    std::shared_ptr<const AttributeState> merged;
+    const int first_solid = place_solids(object.solids);
+    const bool some_bare = std::any_of(object.primitives.begin(), object.primitives.end(),
+                                       [](const ObjectPrimitive& p) { return p.solid < 0; });
+    const int around = some_bare ? solid_of_surface(solids_here()) : -1;
+    for (ObjectPrimitive& primitive : object.primitives) {
+        const int solid = primitive.solid >= 0 ? first_solid + primitive.solid : around;
+        const bool own = primitive.attributes != object.attributes;
+        if (own && merged_from != primitive.attributes.get()) {
+            merged_from = primitive.attributes.get();
+            merged = instance_attributes(*state_.attributes, *object.attributes, *primitive.attributes,
+                                         camera_from_current());
+        }
+        place_instance(primitive, own ? merged : state_.attributes, solid);
+    }
+}
+
+/// A primitive of an object with the current transformation: into the scene, or into the object that is being
+/// defined.
+void Reader::place_instance(ObjectPrimitive& primitive,
+                            const std::shared_ptr<const AttributeState>& attributes, int solid) {
+    MovingTransform transform = state_.transform;
+    transform.concat(primitive.object_from_shape);
+    if (object_) {
+        if (keeps_geometry() && !has_room(sizeof(ObjectPrimitive))) return;
+        ObjectPrimitive& copy = object_->primitives.emplace_back(primitive);
+        copy.object_from_shape = std::move(transform);
+        copy.attributes = attributes;
+        copy.at = at_;
+        copy.solid = solid;
+        return;
+    }
+    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
+        primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
+        primitive.keys_open = open, primitive.keys_close = close;
+        if (primitive.keys.size() > 1 && !has_room(primitive.keys.size() * bytes_of(*primitive.keys.front())))
+            return;
+    }
+    emit(primitive.request, primitive.keys, transform, attributes, at_, solid);
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,113 @@
+/// Lights that shine from shapes, and the path tracer's (RIS), which shine on all of a world, wherever they
+/// stand in it.
+#include <algorithm>
+#include <map>
+
+#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/ris/ris_lights.h"
+#include "pipeline/rib/state/scene_size.h"
+
+namespace trapeze::rib {
+namespace {
+
+/// Each is looked at by every surface.
+constexpr size_t kMostWorldLights = 64;
+
+/// The space with another origin: a point of the shape's.
+M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_from_shape) {
+    const V3f origin = point * camera_from_shape;
+    for (int axis = 0; axis < 3; ++axis) camera_from_space[3][axis] = origin[axis];
+    return camera_from_space;
+}
+
+}  // namespace
+
+void Reader::add_world_light(std::shared_ptr<const LightInstance> light) {
+    auto& lights = object_ ? object_->lights : scope_.ris.lights;
+    if (lights.size() >= kMostWorldLights) {
+        warn_once("more than " + std::to_string(kMostWorldLights) + " lights; this and further ones are dark",
+                  "ris-lights");
+        return;
+    }
+    if (!object_) {
+        ++summary_.lights;
+        scope_.lights[light->handle] = light;
+    }
+    lights.push_back(std::move(light));
+}
+
+/// Those of an object, where it is placed.
+void Reader::place_lights(const RetainedObject& object) {
+    for (const auto& light : object.lights) {
+        if (!object_ && scope_.ris.lights.size() >= kMostWorldLights)
+            return add_world_light(light);  // says so
+        auto placed = std::make_shared<LightInstance>(*light);
+        placed->shader.camera_from_shader = placed->shader.camera_from_shader * camera_from_current();
+        add_world_light(std::move(placed));
+    }
+}
+
+void Reader::place_emitter(const Shape& shape) {
+    Emitter* const emitter = state_.attributes->emitter.get();
+    if (!emitter || std::exchange(emitter->is_placed, true)) return;
+    ShaderInstance& shader = emitter->light->shader;
+    if (emitter->is_of_ris)
+        place_mesh_light(*emitter->light, shape, camera_from_current());
+    else if (!shader.parameters.find("from"))
+        shader.camera_from_shader =
+            with_origin(shader.camera_from_shader, middle_of(shape), camera_from_current());
+}
+
+void Reader::place_far_emitter(FarShape shape, float angle) {
+    Emitter* const emitter = state_.attributes->emitter.get();
+    if (!emitter || !emitter->is_of_ris || std::exchange(emitter->is_placed, true)) return;
+    const auto lights = far_lights(*emitter->light, shape, camera_from_current(), angle);
+    *emitter->light = *lights.front();
+    for (size_t i = 1; i < lights.size(); ++i) add_world_light(lights[i]);
+}
+
+/// Area lights whose block ended, and that no Illuminate ever named, would shine on themselves alone: they
+/// are of files for renderers in which what shines is seen by all.
+void Reader::add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights) {
+    const auto& current = state_.attributes->attributes.lights;
+    for (const auto& emitter : scope_.emitters) {
+        const std::shared_ptr<const LightInstance> light = emitter->light;
+        if (!emitter->is_placed || std::find(current.begin(), current.end(), light) != current.end())
+            continue;
+        warn_once("light " + in_quotes(light->handle) +
+                      " is of a block that ended, and no Illuminate names it; "
+                      "it shines on all",
+                  "stray-area-light");
+        lights.push_back(light);
+    }
+}
+
+/// Adds the world's lights to all primitives. Bxdfs that nothing lights have a light at the eye, so that
+/// there is something to see, and are shaded once a pixel at least: path tracers do not look at ShadingRate.
+void Reader::light_world() {
+    auto lights = scope_.ris.lights;
+    add_strays(lights);
+    const std::shared_ptr<const LightInstance> at_eye = headlight();
+    std::map<std::shared_ptr<const Attributes>, std::shared_ptr<const Attributes>> lit;
+    for (Primitive& primitive : scene_.primitives) {
+        const Attributes& unlit = *primitive.attributes;
+        const bool is_ris = unlit.surface && unlit.surface->name == "rissurface";
+        const bool is_dark = is_ris && unlit.lights.empty() && lights.empty();
+        const bool is_coarse = is_ris && unlit.shading_rate > 1 && !read_options_.shading_rate;
+        if (lights.empty() && !is_dark && !is_coarse) continue;
+        std::shared_ptr<const Attributes>& known = lit[primitive.attributes];
+        if (!known) {
+            auto made = std::make_shared<Attributes>(unlit);
+            for (const auto& light : lights)
+                if (std::find(made->lights.begin(), made->lights.end(), light) == made->lights.end())
+                    made->lights.push_back(light);
+            if (is_dark) made->lights.push_back(at_eye);
+            if (is_coarse) made->shading_rate = 1;
+            if (!has_room(bytes_of(*made))) return;
+            known = std::move(made);
+        }
+        primitive.attributes = known;
+    }
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,184 @@
+/// RISpec 4.2: what is attached to primitives.
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/rib/requests/request_table.h"
+#include "pipeline/rib/requests/ri_values.h"
+#include "pipeline/rib/state/recognised_names.h"
+
+namespace trapeze::rib {
+namespace {
+
+Attributes& change(Reader& r) {
+    return r.change_attributes().attributes;
+}
+
+V3f color_of(Reader& r, ArgumentCursor& c, const char* what) {
+    const size_t samples = r.samples_per_color();
+    const SourceLocation at = c.done() ? SourceLocation{} : c.peek()->at;
+    std::vector<float> given = c.next_is_array() ? c.number_array(what) : c.numbers(1, samples, what);
+    if (given.size() != samples && given.size() != 1 && given.size() != samples + 1)
+        throw RequestError{std::string(what) + " has " + std::to_string(given.size()) + " numbers, needs " +
+                               std::to_string(samples),
+                           at};
+    if (given.size() < samples)
+        r.warn_once("one number for " + std::string(what) + "; all of it is taken to be that", "grey-color");
+    if (given.size() > samples) r.warn_once("a number too many for " + std::string(what), "long-color");
+    given.resize(samples, given[0]);
+    const auto v = r.rgb(given);
+    return {v[0], v[1], v[2]};
+}
+
+void opacity(Reader& r, ArgumentCursor& c) {
+    const V3f o = color_of(r, c, "the opacity");
+    change(r).opacity = o;
+}
+
+void texture_coordinates(Reader& r, ArgumentCursor& c) {
+    const auto v = c.numbers(8, "the coordinates");
+    std::copy(v.begin(), v.end(), change(r).texture_coordinates.begin());
+}
+
+void shading_rate(Reader& r, ArgumentCursor& c) {
+    const float rate = c.number("the rate");
+    if (!(rate > 0)) throw RequestError{"the rate must be positive", {}};
+    change(r).shading_rate = rate;
+}
+
+void shading_interpolation(Reader& r, ArgumentCursor& c) {
+    const std::string type = c.string("the type");
+    if (type != "constant" && type != "smooth")
+        throw RequestError{in_quotes(type) + " is neither constant nor smooth", {}};
+    change(r).smooth_shading = type == "smooth";
+}
+
+void matte(Reader& r, ArgumentCursor& c) {
+    change(r).matte = c.integer("the flag", 0, 2);
+}
+
+void sides(Reader& r, ArgumentCursor& c) {
+    const float n = c.number("1 or 2");
+    if (n != 1 && n != 2) throw RequestError{"must be 1 or 2", {}};
+    change(r).sides = static_cast<int>(n);
+}
+
+void orientation(Reader& r, ArgumentCursor& c) {
+    const std::string name = c.string("the orientation");
+    if (name != "outside" && name != "inside" && name != "lh" && name != "rh")
+        throw RequestError{in_quotes(name) + " is none of outside, inside, lh, rh", {}};
+    const bool mismatches = name == (r.is_right_handed() ? "lh" : "rh");
+    AttributeState& state = r.change_attributes();
+    state.orientation = name == "inside" || mismatches ? Orientation::Inside : Orientation::Outside;
+    state.orientation_reversed = false;
+}
+
+void reverse_orientation(Reader& r, ArgumentCursor&) {
+    AttributeState& state = r.change_attributes();
+    state.orientation_reversed = !state.orientation_reversed;
+}
+
+void basis(Reader& r, ArgumentCursor& c) {
+    const auto one = [&](M44f& matrix, int& step, const char* what) {
+        if (c.next_is_string()) {
+            const std::string name = c.string(what);
+            if (name == "bezier")
+                matrix = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0), step = 3;
+            else if (name == "b-spline")
+                matrix = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1.0f / 6), step = 1;
+            else if (name == "catmull-rom")
+                matrix = M44f(-1, 3, -3, 1, 2, -5, 4, -1, -1, 0, 1, 0, 0, 2, 0, 0) * 0.5f, step = 1;
+            else if (name == "hermite")
+                matrix = M44f(2, 1, -2, 1, -3, -2, 3, -1, 0, 1, 0, 0, 1, 0, 0, 0), step = 2;
+            else if (name == "power")
+                matrix = M44f(), step = 4;
+            else
+                throw RequestError{"no basis " + in_quotes(name), {}};
+        } else {
+            const auto v = c.numbers(16, what);
+            for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = v[i];
+        }
+        if (c.next_is_number() && !c.next_is_array()) {
+            step = c.integer("a step", 1, 4);
+        }
+    };
+    M44f u, v;
+    int u_step = 3, v_step = 3;
+    one(u, u_step, "the u basis");
+    one(v, v_step, "the v basis");
+    AttributeState& state = r.change_attributes();
+    state.u_basis = u, state.v_basis = v, state.u_step = u_step, state.v_step = v_step;
+}
+
+/// Older files say in words what newer ones say by numbers.
+bool is_on(const std::string& text) {
+    return text != "0" && text != "off" && text != "no" && text != "false" && text != "invisible" &&
+           text != "transparent";
+}
+
+void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
+    if (name == "binary") dice.binary = value != 0;
+    if (name == "rasterorient") dice.raster_oriented = value != 0;
+    if (name == "minlength") dice.min_length = std::max(value, 0.0f);
+}
+
+void attribute(Reader& r, ArgumentCursor& c) {
+    const std::string category = c.string("the category");
+    const ParameterList values = r.parameters(c, Undeclared::Guess);
+    AttributeState& state = r.change_attributes();
+    for (const Parameter& value : values.values) {
+        state.attributes.user[category].set(value);
+        const bool is_executed = category == "Ri" && execute_ri_value(r, value);
+        const SettledSetting* const settled = settled_attribute(category, value.name);
+        if (settled)
+            r.count_settled(' ' + in_quotes(category) + ' ' + in_quotes(value.name) + ": " +
+                            std::string(settled->why));
+        else if (!is_executed && !attribute_has_effect(category, value.name))
+            r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
+        const float number = value.floats.empty() ? 0 : value.floats[0];
+        const std::string text = value.strings.empty() ? "" : value.strings[0];
+        if (category == "displacementbound" && value.name == "sphere")
+            state.displacement_bound.sphere = std::abs(number);
+        if (category == "bound" && value.name == "displacement")  // before RISpec 3.1
+            state.displacement_bound = {std::abs(number), "object"};
+        if (category == "displacementbound" && value.name == "coordinatesystem")
+            state.displacement_bound.coordinate_system = text;
+        if (category == "trimcurve" && value.name == "sense") {
+            if (text != "inside" && text != "outside")
+                r.error("the sense " + in_quotes(text) + " is neither inside nor outside");
+            state.trim_outside = text == "outside";
+        }
+        if (category == "identifier" && value.name == "name") state.attributes.name = text;
+        if (category == "visibility" && value.name == "camera")
+            state.attributes.visible_to_camera = value.is_string() ? is_on(text) : number != 0;
+        // BMRT's: a bit for the camera, one for reflections, one for shadows.
+        if (category == "render" && value.name == "visibility" && !value.floats.empty())
+            state.attributes.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
+        if (category == "dice") set_dice(state.attributes.dice, value.name, number);
+    }
+}
+
+constexpr RequestRow kAttributeRequests[] = {
+    {"Attribute", attribute},
+    {"Color",
+     [](Reader& r, ArgumentCursor& c) {
+         const V3f v = color_of(r, c, "the colour");
+         change(r).color = v;
+     }},
+    {"Opacity", opacity},
+    {"TextureCoordinates", texture_coordinates},
+    {"ShadingRate", shading_rate},
+    {"ShadingInterpolation", shading_interpolation},
+    {"Matte", matte},
+    {"Sides", sides},
+    {"Orientation", orientation},
+    {"ReverseOrientation", reverse_orientation},
+    {"Basis", basis},
+};
+
+}  // namespace
+
+std::span<const RequestRow> attribute_requests() {
+    return kAttributeRequests;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,16 @@
+/// What a file says of how numbers of pictures stand for light (core/scene/transfer.h).
+#pragma once
+
+#include "core/scene/transfer.h"
+#include "pipeline/rib/reader/reader.h"
+
+namespace trapeze::rib {
+
+/// Whether the value of Option "color" "transfer", or of a "colorspace", is one that there is; an error where
+/// it is not.
+bool names_transfer(Reader& reader, const Parameter& value);
+
+/// The "colorspace" among a request's parameters; one that is not known is an error, and none.
+std::optional<Transfer> colorspace_of(Reader& reader, ParameterList& parameters);
+
+}  // namespace trapeze::rib

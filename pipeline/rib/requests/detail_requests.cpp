@@ -1,0 +1,71 @@
+/// RISpec 4.2.5 to 4.2.8: bounds, levels of detail, and how geometry may be approximated.
+#include <limits>
+
+#include "pipeline/rib/requests/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+std::vector<float> box(ArgumentCursor& c) {
+    auto v = c.numbers(6, "the bound");
+    for (int axis = 0; axis < 3; ++axis)
+        if (v[2 * axis] > v[2 * axis + 1]) throw RequestError{"the bound is empty", {}};
+    return v;
+}
+
+/// Primitives are bounded by themselves.
+void bound(Reader& r, ArgumentCursor& c) {
+    box(c);
+    r.count_without_effect();
+}
+
+void detail(Reader& r, ArgumentCursor& c) {
+    r.set_detail(box(c));
+}
+
+void detail_range(Reader& r, ArgumentCursor& c) {
+    const auto v = c.numbers(4, "the range");
+    if (!(v[0] <= v[1] && v[1] <= v[2] && v[2] <= v[3]))
+        throw RequestError{"needs minvisible <= lowertransition <= uppertransition <= maxvisible", {}};
+    const auto limit = [](float size) {
+        return size >= kInfinity ? std::numeric_limits<float>::infinity() : size;
+    };
+    Detail& range = r.change_attributes().detail;
+    range.least = v[0], range.full_from = v[1], range.full_to = limit(v[2]), range.most = limit(v[3]);
+}
+
+void geometric_approximation(Reader& r, ArgumentCursor& c) {
+    const std::string type = c.string("the type");
+    const float value = c.number("the value");
+    if (type == "motionfactor" || type == "focusfactor") {
+        if (value < 0) throw RequestError{"the factor must not be negative", {}};
+        Attributes& a = r.change_attributes().attributes;
+        (type == "motionfactor" ? a.motion_factor : a.focus_factor) = value;
+    } else if (type == "flatness") {  // which ShadingRate makes fine enough
+        r.count_without_effect(" \"flatness\"");
+    } else {
+        r.warn_once(in_quotes(type) + " is not known; ignored", "approximation-" + type);
+    }
+}
+
+/// What RISpec calls "primitive" and "smooth": there is one way to draw.
+void geometric_representation(Reader& r, ArgumentCursor& c) {
+    c.string("the type");
+    r.count_without_effect();
+}
+
+constexpr RequestRow kDetailRequests[] = {
+    {"Bound", bound},
+    {"Detail", detail},
+    {"DetailRange", detail_range},
+    {"GeometricApproximation", geometric_approximation},
+    {"GeometricRepresentation", geometric_representation},
+};
+
+}  // namespace
+
+std::span<const RequestRow> detail_requests() {
+    return kDetailRequests;
+}
+
+}  // namespace trapeze::rib

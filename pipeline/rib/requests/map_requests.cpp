@@ -1,0 +1,85 @@
+/// MakeTexture, MakeBump, MakeLatLongEnvironment, MakeCubeFaceEnvironment, MakeShadow (RISpec 3.2, section
+/// 7).
+#include "pipeline/rib/map_request.h"
+#include "pipeline/rib/requests/colorspaces.h"
+#include "pipeline/rib/requests/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+using Kind = MapRequest::Kind;
+
+/// The filter and its widths, of which there is no use.
+void take_filter(ArgumentCursor& c, MapRequest& request) {
+    request.filter = c.string("the filter");
+    c.numbers(2, "the filter's widths");
+}
+
+/// Of its parameters, the "colorspace" counts.
+void finish(Reader& r, ArgumentCursor& c, MapRequest request) {
+    ParameterList parameters = r.parameters(c, Undeclared::Guess);
+    request.colorspace = colorspace_of(r, parameters);
+    r.make_map(std::move(request));
+}
+
+void make_flat(Reader& r, ArgumentCursor& c, Kind kind) {
+    MapRequest request;
+    request.kind = kind;
+    request.pictures = {c.string("the picture's name")};
+    request.map = c.string("the texture's name");
+    request.swrap = c.string("the wrap mode of s");
+    request.twrap = c.string("the wrap mode of t");
+    take_filter(c, request);
+    finish(r, c, std::move(request));
+}
+
+void make_lat_long_environment(Reader& r, ArgumentCursor& c) {
+    MapRequest request;
+    request.kind = Kind::LatLongEnvironment;
+    request.pictures = {c.string("the picture's name")};
+    request.map = c.string("the environment's name");
+    take_filter(c, request);
+    finish(r, c, std::move(request));
+}
+
+void make_cube_face_environment(Reader& r, ArgumentCursor& c) {
+    MapRequest request;
+    request.kind = Kind::CubeFaceEnvironment;
+    for (int i = 0; i < 6; ++i) request.pictures.push_back(c.string("the name of a face's picture"));
+    request.map = c.string("the environment's name");
+    request.fov = c.number("the field of view");
+    if (!(request.fov >= 90 && request.fov < 180))
+        throw RequestError{"the field of view must be from 90 to less than 180 degrees", {}};
+    request.filter = c.string("the filter");
+    if (request.filter == "black" || request.filter == "clamp" || request.filter == "periodic") {
+        // Some exporters write wrap modes, as for textures; a cube has none.
+        c.string("the wrap mode of t");
+        request.filter = c.string("the filter");
+    }
+    c.numbers(2, "the filter's widths");
+    finish(r, c, std::move(request));
+}
+
+void make_shadow(Reader& r, ArgumentCursor& c) {
+    MapRequest request;
+    request.kind = Kind::Shadow;
+    request.pictures = {c.string("the picture's name")};
+    request.map = c.string("the shadow map's name");
+    finish(r, c, std::move(request));
+}
+
+constexpr RequestRow kMapRequests[] = {
+    {"MakeTexture", [](Reader& r, ArgumentCursor& c) { make_flat(r, c, Kind::Texture); }},
+    {"MakeBump", [](Reader& r, ArgumentCursor& c) { make_flat(r, c, Kind::Bump); }},
+    {"MakeLatLongEnvironment", make_lat_long_environment},
+    {"MakeCubeFaceEnvironment", make_cube_face_environment},
+    {"MakeShadow", make_shadow},
+};
+
+}  // namespace
+
+std::span<const RequestRow> map_requests() {
+    return kMapRequests;
+}
+
+}  // namespace trapeze::rib

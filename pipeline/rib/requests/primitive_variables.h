@@ -1,0 +1,23 @@
+#pragma once
+
+#include "pipeline/rib/reader/reader.h"
+
+namespace trapeze::rib {
+
+/// How a primitive takes its points. Mesh: "P", or "Pw" divided by its weights. Patch: "P", "Pw", or heights
+/// "Pz" over a regular grid. None: a quadric.
+enum class PointForm { Mesh, Patch, None };
+
+/// The parameter list at the end of a primitive. RISpec's own variables have their own types in it, and of
+/// all forms of points only one is left.
+ParameterList read_variables(Reader& reader, ArgumentCursor& cursor, PointForm form);
+
+/// Number of points in such a list; 0 when there are none.
+int point_count_of(const ParameterList& list);
+
+/// Checks the list against its primitive: points of a wrong number end the request, other variables of a
+/// wrong length are reported and left out. "Pz" becomes "P", "st"
+/// becomes "s" and "t".
+ParameterList checked_variables(Reader& reader, ParameterList list, const Topology& topology);
+
+}  // namespace trapeze::rib

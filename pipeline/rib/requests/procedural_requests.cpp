@@ -1,0 +1,59 @@
+/// Procedural (RISpec 5.8) and PRMan's Procedural2.
+#include "pipeline/rib/requests/request_table.h"
+
+namespace trapeze::rib {
+namespace {
+
+[[noreturn]] void refuse(const std::string& kind) {
+    if (kind == "DynamicLoad" || kind == "DynamicLoad2")
+        throw RequestError{
+            in_quotes(kind) + " of Procedural2 wants another renderer's interface; not supported", {}};
+    throw RequestError{"no procedural " + in_quotes(kind), {}};
+}
+
+void procedural(Reader& r, ArgumentCursor& c) {
+    const std::string kind = c.string("the procedural's name");
+    std::vector<std::string> data = c.string_array("the arguments");
+    std::vector<float> bound;
+    if (c.next_is_number()) bound = c.numbers(6, "the bound");
+    if (data.empty()) throw RequestError{"has no arguments", {}};
+    data.resize(2);
+    if (kind == "DelayedReadArchive")
+        r.delayed_archive(data[0]);
+    else if (kind == "RunProgram")
+        r.run_program(data[0], data[1], bound);
+    else if (kind == "DynamicLoad")
+        r.load_procedural(data[0], data[1], bound);
+    else
+        refuse(kind);
+}
+
+/// Name, how it is bounded, and the rest as parameters.
+void procedural2(Reader& r, ArgumentCursor& c) {
+    const std::string kind = c.string("the procedural's name");
+    c.string("the kind of bound");
+    const ParameterList parameters = r.parameters(c, Undeclared::Guess);
+    const std::string file = parameters.string_or("filename", "");
+    if (kind == "DelayedReadArchive" || kind == "DelayedReadArchive2") {
+        if (file.empty()) throw RequestError{"\"filename\" is missing", {}};
+        r.delayed_archive(file);
+    } else if (kind == "RunProgram" || kind == "RunProgram2") {
+        if (file.empty()) throw RequestError{"\"filename\" is missing", {}};
+        const Parameter* const hidden = parameters.find("__bound");
+        const Parameter* const bound = hidden ? hidden : parameters.find("bound");
+        const bool is_box = bound && bound->floats.size() == 6;
+        r.run_program(file, parameters.string_or("data", ""), is_box ? bound->floats : std::vector<float>());
+    } else {
+        refuse(kind);
+    }
+}
+
+constexpr RequestRow kProceduralRequests[] = {{"Procedural", procedural}, {"Procedural2", procedural2}};
+
+}  // namespace
+
+std::span<const RequestRow> procedural_requests() {
+    return kProceduralRequests;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,95 @@
+#include "pipeline/rib/requests/ri_values.h"
+
+#include <cmath>
+#include <string_view>
+
+namespace trapeze::rib {
+namespace {
+
+struct RiValue {
+    std::string_view value, request;
+    double before[2] = {0, 0};  ///< arguments before the value's
+    int before_count = 0;
+    double after = 0;
+    bool has_after = false;
+};
+
+/// Sizes and aspects below 0 leave Format's as they are.
+constexpr RiValue kValues[] = {
+    {"FormatResolution", "Format", {}, 0, -1, true},
+    {"FormatPixelAspectRatio", "Format", {-1, -1}, 2, 0, false},
+    {"FrameAspectRatio", "FrameAspectRatio"},
+    {"ScreenWindow", "ScreenWindow"},
+    {"CropWindow", "CropWindow"},
+    {"Clipping", "Clipping"},
+    {"Shutter", "Shutter"},
+    {"DepthOfField", "DepthOfField"},
+    {"PixelVariance", "PixelVariance"},
+    {"RelativeDetail", "RelativeDetail"},
+    {"ShadingRate", "ShadingRate"},
+    {"Sides", "Sides"},
+    {"Matte", "Matte"},
+    {"Orientation", "Orientation"},
+    {"DetailRange", "DetailRange"},
+};
+
+Argument text_argument(const std::string& value, SourceLocation at) {
+    Argument argument;
+    argument.kind = Argument::Kind::String;
+    argument.at = at, argument.strings.push_back(value);
+    return argument;
+}
+
+Argument number(double value, SourceLocation at) {
+    Argument argument;
+    argument.at = at, argument.number = value;
+    return argument;
+}
+
+/// Each of these is half of a PixelFilter: the other stays.
+bool execute_filter(Reader& reader, const Parameter& value) {
+    PixelFilter filter = reader.options().filter;
+    if (value.name == "PixelFilterName" && value.strings.size() == 1)
+        filter.name = value.strings[0];
+    else if (value.name == "PixelFilterWidth" && value.floats.size() == 2)
+        filter.width_x = value.floats[0], filter.width_y = value.floats[1];
+    else
+        return false;
+    RequestText text;
+    text.arguments = {text_argument(filter.name, reader.at()), number(filter.width_x, reader.at()),
+                      number(filter.width_y, reader.at())};
+    ArgumentCursor cursor(text);
+    find_request("PixelFilter")->handler(reader, cursor);
+    return true;
+}
+
+bool set_frame(Reader& reader, const Parameter& value) {
+    if (value.name != "Frame" || value.floats.size() != 1 || !(std::abs(value.floats[0]) < 1e9f))
+        return false;
+    reader.options().frame = static_cast<int>(value.floats[0]);
+    return true;
+}
+
+}  // namespace
+
+bool execute_ri_value(Reader& reader, const Parameter& value) {
+    if (execute_filter(reader, value) || set_frame(reader, value)) return true;
+    for (const RiValue& known : kValues) {
+        if (known.value != value.name) continue;
+        RequestText text;
+        text.at = reader.at();
+        for (int i = 0; i < known.before_count; ++i)
+            text.arguments.push_back(number(known.before[i], text.at));
+        Argument& argument = text.arguments.emplace_back();
+        argument.at = text.at;
+        argument.kind = value.is_string() ? Argument::Kind::String : Argument::Kind::Array;
+        argument.floats = value.floats, argument.strings = value.strings;
+        if (known.has_after) text.arguments.push_back(number(known.after, text.at));
+        ArgumentCursor cursor(text);
+        find_request(known.request)->handler(reader, cursor);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace trapeze::rib

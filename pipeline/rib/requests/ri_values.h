@@ -1,0 +1,12 @@
+/// PRMan since version 22 writes options and attributes that have requests of their own as values of the
+/// category "Ri": Option "Ri" "int[2] FormatResolution" [640 480].
+#pragma once
+
+#include "pipeline/rib/reader/reader.h"
+
+namespace trapeze::rib {
+
+/// Executes the request that sets the value; false when there is none.
+bool execute_ri_value(Reader& reader, const Parameter& value);
+
+}  // namespace trapeze::rib

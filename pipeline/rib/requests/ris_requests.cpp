@@ -1,0 +1,109 @@
+/// Requests of PRMan's path tracer (RIS), which has other shaders than RSL: surfaces have the colours, or the
+/// textures, that its Bxdfs and Patterns are told, and its lights shine without shadows.
+#include <algorithm>
+#include <string_view>
+
+#include "pipeline/rib/requests/request_table.h"
+#include "pipeline/rib/ris/ris_lights.h"
+#include "pipeline/rib/ris/ris_network.h"
+
+namespace trapeze::rib {
+namespace {
+
+void note(Reader& r) {
+    r.count_unsupported();
+    r.warn_once(
+        "RIS shading is not supported; Bxdfs are seen by their colours and textures, lights have no shadows",
+        "ris");
+}
+
+void set_color(ShaderInstance& shader, const char* name, const V3f& v) {
+    if (v.x != 0 || v.y != 0 || v.z != 0) set_triple(shader, name, ValueType::Color, v);
+}
+
+/// The shader that shows a look; its colour is Cs.
+void show(const RisLook& look, ShaderInstance& shader) {
+    shader.name = look.is_constant ? "constant" : "rissurface";
+    if (look.is_constant) return;
+    set_color(shader, "specularcolor", look.specular);
+    set_color(shader, "emission", look.emission);
+    set_number(shader, "roughness", look.roughness);
+    if (look.opacity < 1) set_number(shader, "opacity", look.opacity);
+    if (look.texture.empty()) return;
+    set_text(shader, "texturename", look.texture);
+    if (!look.colorspace.empty()) set_text(shader, "colorspace", look.colorspace);
+    set_number(shader, "scales", look.scale_s);
+    set_number(shader, "scalet", look.scale_t);
+}
+
+/// Exporters describe a material once, and name it by its id alone on every object that has it.
+RisLook known_look(RisNetwork& network, const std::string& shader, const RisParameters& parameters) {
+    const std::string id = parameters.text("__materialid");
+    const auto known = network.materials.find(id);
+    if (known != network.materials.end() && parameters.all().size() == 1) return known->second;
+    RisLook look = look_of_bxdf(shader, parameters, network);
+    if (!id.empty()) network.materials[id] = look;
+    return look;
+}
+
+void bxdf(Reader& r, ArgumentCursor& c) {
+    ShaderInstance surface = r.shader(c, "bxdf");
+    const std::string handle = c.handle("the handle");
+    const RisParameters parameters = RisParameters::read(c);
+    RisNetwork& network = r.scope().ris;
+    const RisLook look = network.bxdfs[handle] = known_look(network, surface.name, parameters);
+    Attributes& a = r.change_attributes().attributes;
+    a.color = look.color.value_or(look.is_constant ? V3f(1, 1, 1) : V3f(0.5f, 0.5f, 0.5f));
+    show(look, surface);
+    a.surface = std::make_shared<const ShaderInstance>(std::move(surface));
+    note(r);
+}
+
+void pattern(Reader& r, ArgumentCursor& c) {
+    RisPattern made;
+    made.shader = c.string("the pattern's name");
+    const std::string handle = c.handle("the handle");
+    made.parameters = RisParameters::read(c);
+    r.scope().ris.patterns[handle] = std::move(made);
+    note(r);
+}
+
+void light(Reader& r, ArgumentCursor& c) {
+    const ShaderInstance shader = r.shader(c, "light");
+    const std::string handle = c.handle("the handle");
+    add_ris_light(r, handle, shader, RisParameters::read(c), false);
+    note(r);
+}
+
+void skip(Reader& r, ArgumentCursor& c) {
+    while (!c.done()) c.take("");
+    note(r);
+}
+
+constexpr RequestRow kRisRequests[] = {
+    {"Bxdf", bxdf},       {"Pattern", pattern}, {"Light", light},        {"LightFilter", skip},
+    {"Integrator", skip}, {"Displace", skip},   {"DisplayFilter", skip}, {"SampleFilter", skip},
+};
+
+}  // namespace
+
+void add_ris_light(Reader& r, const std::string& handle, const ShaderInstance& shader,
+                   const RisParameters& parameters, bool is_area_light) {
+    const auto lighting = r.attributes().attributes.user.find("lighting");
+    if (lighting != r.attributes().attributes.user.end() && lighting->second.float_or("mute", 0) != 0) return;
+    if (is_mesh_light(shader.name, is_area_light)) {
+        auto emitter = std::make_shared<Emitter>();
+        emitter->light = mesh_light(handle, shader, parameters);
+        emitter->is_of_ris = true;
+        r.add_world_light(emitter->light);
+        r.change_attributes().emitter = std::move(emitter);
+        return;
+    }
+    for (const auto& one : ris_lights(handle, shader, parameters)) r.add_world_light(one);
+}
+
+std::span<const RequestRow> ris_requests() {
+    return kRisRequests;
+}
+
+}  // namespace trapeze::rib

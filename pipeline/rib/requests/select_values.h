@@ -1,0 +1,31 @@
+/// Values of the parts of a shape that stay when others are left out.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/scene/parameters.h"
+
+namespace trapeze::rib {
+
+/// Of runs of `item` values those that are kept.
+template <class Value>
+void keep_values(std::vector<Value>& values, const std::vector<char>& kept, size_t item = 1) {
+    size_t to = 0;
+    for (size_t from = 0; from < kept.size(); ++from) {
+        if (!kept[from]) continue;
+        for (size_t k = 0; k < item; ++k, ++to)
+            if (to != from * item + k) values[to] = std::move(values[from * item + k]);
+    }
+    values.resize(to);
+}
+
+/// Of a variable's items, an array as one, those that are kept.
+inline void keep_items(Parameter& variable, const std::vector<char>& kept) {
+    if (variable.is_string())
+        keep_values(variable.strings, kept, static_cast<size_t>(variable.declaration.array_length));
+    else
+        keep_values(variable.floats, kept, static_cast<size_t>(variable.declaration.floats_per_item()));
+}
+
+}  // namespace trapeze::rib

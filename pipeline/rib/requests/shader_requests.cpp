@@ -1,0 +1,148 @@
+/// RISpec 4.2: shaders, their layers, and lights.
+#include <algorithm>
+
+#include "pipeline/rib/requests/request_table.h"
+#include "pipeline/rib/ris/ris_lights.h"
+
+namespace trapeze::rib {
+namespace {
+
+using ShaderMember = std::shared_ptr<const ShaderInstance> Attributes::*;
+
+Attributes& change(Reader& r) {
+    return r.change_attributes().attributes;
+}
+
+template <ShaderMember kWhere>
+void shader(Reader& r, ArgumentCursor& c, const char* kind) {
+    auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
+    instance->parameters = r.shader_parameters(c);
+    // Exporters write "null" for what does nothing; the surface of that name is a shader.
+    const bool is_none =
+        instance->name.empty() || (instance->name == "null" && kWhere != &Attributes::surface);
+    change(r).*kWhere = is_none ? nullptr : std::move(instance);
+}
+
+ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
+    kind = c.string("the kind of shader");
+    if (kind == "surface") return &Attributes::surface;
+    if (kind == "displacement") return &Attributes::displacement;
+    if (kind == "atmosphere" || kind == "volume") return &Attributes::atmosphere;
+    throw RequestError{
+        in_quotes(kind) + " shaders have no layers here (surface, displacement, atmosphere do)", {}};
+}
+
+/// ShaderLayer type name layer parameters: a layer after those there are, or in the place of one of its name.
+void shader_layer(Reader& r, ArgumentCursor& c) {
+    constexpr size_t kMostLayers = 64;
+    std::string kind;
+    const ShaderMember where = layered_kind(c, kind);
+    auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind.c_str()));
+    instance->layer = c.string("the layer's name");
+    instance->parameters = r.shader_parameters(c);
+    std::shared_ptr<const ShaderInstance>& current = change(r).*where;
+    // A shader that is no layer is replaced by the first.
+    std::vector<std::shared_ptr<const ShaderInstance>> layers;
+    if (current && !current->layer.empty()) {
+        layers = current->earlier_layers;
+        auto last = std::make_shared<ShaderInstance>(*current);
+        instance->connections = std::move(last->connections);
+        last->earlier_layers.clear(), last->connections.clear();
+        layers.push_back(std::move(last));
+        std::erase_if(layers, [&](const auto& layer) { return layer->layer == instance->layer; });
+        if (layers.size() >= kMostLayers)
+            throw RequestError{"more than " + std::to_string(kMostLayers) + " layers", {}};
+    }
+    instance->earlier_layers = std::move(layers);
+    current = std::move(instance);
+}
+
+/// ConnectShaderLayers type layer variable layer variable.
+void connect_shader_layers(Reader& r, ArgumentCursor& c) {
+    std::string kind;
+    const ShaderMember where = layered_kind(c, kind);
+    LayerConnection connection;
+    connection.from_layer = c.string("the earlier layer");
+    connection.from_variable = c.string("its variable");
+    connection.to_layer = c.string("the later layer");
+    connection.to_variable = c.string("its variable");
+    std::shared_ptr<const ShaderInstance>& current = change(r).*where;
+    if (!current || current->layer.empty()) throw RequestError{"there are no layers to connect", {}};
+    auto connected = std::make_shared<ShaderInstance>(*current);
+    connected->connections.push_back(std::move(connection));
+    current = std::move(connected);
+}
+
+/// Some files leave the handle out: what follows the name is a parameter then, and no handle with parameters.
+bool has_handle(const ArgumentCursor& c) {
+    const Argument *first = c.peek(), *second = c.peek(1);
+    if (!first || !second || first->kind != Argument::Kind::String) return true;
+    return second->kind == Argument::Kind::String;
+}
+
+std::shared_ptr<LightInstance> light_of(Reader& r, ArgumentCursor& c) {
+    auto light = std::make_shared<LightInstance>();
+    light->shader = r.shader(c, "light");
+    if (has_handle(c))
+        light->handle = c.handle("the handle");
+    else
+        r.warn_once("the light has no handle, and cannot be switched", "light-without-handle");
+    light->shader.parameters = r.shader_parameters(c);
+    return light;
+}
+
+/// Area Lights is an optional capability (RISpec 1.1): the light shines from the middle of the first shape
+/// that follows, and all that follows is geometry.
+void area_light_source(Reader& r, ArgumentCursor& c) {
+    if (const Argument* name = c.peek(); name && name->is_text() && is_ris_light(name->strings[0])) {
+        const ShaderInstance shader = r.shader(c, "light");
+        const std::string handle = c.handle("the handle");
+        return add_ris_light(r, handle, shader, RisParameters::read(c), true);
+    }
+    auto light = light_of(r, c);
+    if (light->shader.name.empty() || light->shader.name == "null") {  // ends an area light
+        r.change_attributes().emitter = nullptr;
+        return;
+    }
+    r.warn_once("area lights are not sampled; the light shines from the middle of its first shape",
+                "area-light");
+    auto emitter = std::make_shared<Emitter>();
+    emitter->light = light;
+    r.add_light(std::move(light));
+    r.scope().emitters.push_back(emitter);
+    r.change_attributes().emitter = std::move(emitter);
+}
+
+void illuminate(Reader& r, ArgumentCursor& c) {
+    const std::string handle = c.handle("the light's handle");
+    const bool on = c.done() || c.number("0 or 1") != 0;
+    const auto light = r.light(handle);
+    if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
+    std::erase_if(r.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
+    auto& lights = change(r).lights;
+    const auto place = std::find(lights.begin(), lights.end(), light);
+    if (on && place == lights.end()) lights.push_back(light);
+    if (!on && place != lights.end()) lights.erase(place);
+}
+
+constexpr RequestRow kShaderRequests[] = {
+    {"Surface", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
+    {"Displacement",
+     [](Reader& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
+    {"Atmosphere", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
+    {"Interior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
+    {"Exterior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
+    {"ShaderLayer", shader_layer},
+    {"ConnectShaderLayers", connect_shader_layers},
+    {"LightSource", [](Reader& r, ArgumentCursor& c) { r.add_light(light_of(r, c)); }},
+    {"AreaLightSource", area_light_source},
+    {"Illuminate", illuminate},
+};
+
+}  // namespace
+
+std::span<const RequestRow> shader_requests() {
+    return kShaderRequests;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,28 @@
+/// Shapes given at the times of a motion block, resolved to the even keys of the shutter.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/scene/shapes.h"
+
+namespace trapeze::rib {
+
+using ShapePointer = std::shared_ptr<const Shape>;
+
+/// Place `key` of `keys` even ones in the shutter, in seconds of the scene.
+float key_time(float open, float close, int key, int keys);
+
+/// Whether all of them have one topology and the same variables.
+bool can_deform(const std::vector<ShapePointer>& shapes);
+
+/// Colours ("Cs", "Os") do not move: what the surface has as the shutter opens is shaded. Poses that have
+/// other ones than that which the shutter opens with are given its own. Whether some do not stay the same.
+bool settle_colors(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open);
+
+/// One shape when nothing moves within the shutter, else 2^m + 1 at even times. Before the first time and
+/// after the last a shape stays as it is.
+std::vector<ShapePointer> shapes_at_keys(const std::vector<ShapePointer>& shapes,
+                                         const std::vector<float>& times, float open, float close);
+
+}  // namespace trapeze::rib

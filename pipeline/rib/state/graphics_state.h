@@ -1,0 +1,157 @@
+/// The graphics state of RISpec 4: what blocks save and restore.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene/level_of_detail.h"
+#include "core/scene/scene.h"
+#include "pipeline/rib/ris/ris_network.h"
+#include "pipeline/rib/state/moving_transform.h"
+#include "pipeline/rib/syntax/arguments.h"
+
+namespace trapeze::rib {
+
+/// Attribute "displacementbound", resolved when a primitive takes it.
+struct DisplacementBound {
+    float sphere = 0;
+    std::string coordinate_system = "object";
+
+    bool operator==(const DisplacementBound&) const = default;
+};
+
+/// Whether the current orientation matches that of the current coordinate system (outside): it goes on
+/// matching, or not matching, whatever transformations reflect, for both flip together (RISpec 4.2). In an
+/// object's definition that has not said it is what the instance has.
+enum class Orientation { OfInstance, Outside, Inside };
+
+/// Detail and DetailRange (RISpec 4.2.7). Sizes are areas of the picture in pixels, RelativeDetail included.
+struct Detail {
+    float size = std::numeric_limits<float>::infinity();  ///< of the bound; infinite: none was given
+    float least = 0, full_from = 0;                       ///< grows in between
+    float full_to = std::numeric_limits<float>::infinity(), most = full_to;  ///< fades in between
+
+    /// Of the samples that see the primitive.
+    SeenNumbers seen() const;
+};
+
+/// A light that shines from the first shape after it.
+struct Emitter {
+    std::shared_ptr<LightInstance> light;
+    bool is_of_ris = false;  ///< else an AreaLightSource of RSL
+    bool is_placed = false;
+};
+
+struct AttributeState {
+    Attributes attributes;
+    Detail detail;
+    DisplacementBound displacement_bound;
+    Orientation orientation = Orientation::Outside;
+    bool orientation_reversed = false;
+    M44f u_basis, v_basis;
+    int u_step = 3, v_step = 3;
+    std::shared_ptr<const std::vector<std::vector<TrimCurve>>> trim_loops;  ///< null: none
+    bool trim_outside = false;
+    std::shared_ptr<Emitter> emitter;  ///< null: none
+};
+
+using NamedSpaces = std::map<std::string, MovingTransform>;  ///< camera_from_space
+
+struct GraphicsState {
+    MovingTransform transform;  ///< camera_from_current
+    std::shared_ptr<const AttributeState> attributes;
+    std::shared_ptr<const NamedSpaces> scoped_spaces;  ///< ScopedCoordinateSystem; null: none
+};
+
+enum class Block { Frame, World, Attribute, Transform, Motion, Object, Solid };
+
+/// The request that opens it.
+const char* block_name(Block kind);
+
+/// Solids as they are defined, and which is open.
+struct SolidList {
+    std::vector<Solid> solids;
+    std::vector<int> children;  ///< how many each has
+    int open = -1;              ///< -1: none
+
+    /// Throws a RequestError when there are too many.
+    int add(Solid::Operation operation, int parent);
+};
+
+/// A primitive as an object definition keeps it: placed by each instance.
+struct ObjectPrimitive {
+    std::string request;
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    std::vector<float> times;
+    MovingTransform object_from_shape;
+    std::shared_ptr<const AttributeState>
+        attributes;  ///< what changed since ObjectBegin outdoes the instance's
+    SourceLocation at;
+    /// `shapes` at the keys of the shutter, made by the first instance for all.
+    std::vector<std::shared_ptr<const Shape>> keys;
+    float keys_open = 0, keys_close = 0;
+    int solid = -1;  ///< of the object's
+};
+
+struct RetainedObject {
+    std::shared_ptr<const AttributeState> attributes;  ///< at ObjectBegin
+    std::vector<ObjectPrimitive> primitives;
+    std::vector<std::shared_ptr<const LightInstance>> lights;  ///< of RIS; in the object's space
+    SolidList solids;
+};
+
+/// A channel that modes of Displays may name.
+struct DisplayChannel {
+    DisplayVariable variable;
+    ParameterList parameters;
+};
+
+/// ColorSamples (RISpec 4.1.4): colours of n samples, and their matrix of n rows of red, green, blue.
+struct ColorSamples {
+    size_t samples = 0;
+    std::vector<float> rgb_from_samples;
+};
+
+/// What frames and worlds restore besides the graphics state: RISpec ends the life of lights, objects and
+/// options with them.
+struct Scope {
+    Options options;
+    NamedSpaces named_spaces;
+    std::vector<ClippingPlane> clipping_planes;
+    std::optional<ColorSamples> color_samples;
+    float relative_detail = 1;
+    bool has_pixel_samples = false;  ///< PixelSamples was given: a hider's sample counts are not looked at
+    std::map<std::string, std::shared_ptr<const LightInstance>> lights;
+    std::vector<std::shared_ptr<const Emitter>> emitters;  ///< of RSL, that no Illuminate has named
+    std::map<std::string, DisplayChannel> display_channels;
+    std::map<std::string, std::shared_ptr<RetainedObject>> objects;
+    RisNetwork ris;
+};
+
+struct OpenBlock {
+    Block kind = Block::Attribute;
+    uint64_t id = 0;  ///< no other block's
+    SourceLocation at;
+    GraphicsState saved;
+    std::unique_ptr<Scope> scope;  ///< of frames and worlds
+};
+
+/// Geometry or transforms, gathered between MotionBegin and MotionEnd.
+struct MotionBlock {
+    SourceLocation at;
+    std::vector<float> times;
+    std::string request;  ///< what of transforms or geometry the block holds
+    TransformKind transform_kind = TransformKind::Matrix;
+    bool absolute = false;  ///< Transform
+    std::vector<TransformArguments> transforms;
+    std::vector<std::shared_ptr<const Shape>> shapes;
+    /// Requests of other kinds (colours, shaders), which do not move: by name, in the order of the first
+    /// ones.
+    std::vector<std::vector<RequestText>> others;
+};
+
+}  // namespace trapeze::rib

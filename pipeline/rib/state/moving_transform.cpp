@@ -1,0 +1,209 @@
+#include "pipeline/rib/state/moving_transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion_keys.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr int kMostKeysForTimes = 17;
+constexpr float kDegreesPerSegment = 10;
+constexpr double kLinearTolerance = 0.004;  ///< 1 - cos(5 degrees): as far as a chord of ten degrees is off
+
+double radians(double degrees) {
+    return degrees * (M_PI / 180);
+}
+
+/// RISpec: about an axis, in the sense in which x goes to y about z.
+M44d rotation(const TransformArguments& a) {
+    V3d axis(a[1], a[2], a[3]);
+    if (axis.length() == 0) return M44d();
+    axis.normalize();
+    const double c = std::cos(radians(a[0])), s = std::sin(radians(a[0])), k = 1 - c;
+    const double x = axis.x, y = axis.y, z = axis.z;
+    return M44d(k * x * x + c, k * x * y + s * z, k * x * z - s * y, 0,  //
+                k * x * y - s * z, k * y * y + c, k * y * z + s * x, 0,  //
+                k * x * z + s * y, k * y * z - s * x, k * z * z + c, 0,  //
+                0, 0, 0, 1);
+}
+
+/// RISpec: shifts points along the second vector so that the first is moved by the angle towards it.
+M44d skew(const TransformArguments& a) {
+    V3d from(a[1], a[2], a[3]), to(a[4], a[5], a[6]);
+    if (from.length() == 0 || to.length() == 0) return M44d();
+    from.normalize(), to.normalize();
+    const double cosine = from.dot(to);
+    const V3d across_vector = from - to * cosine;
+    const double sine = across_vector.length();
+    if (sine < 1e-9) return M44d();
+    const V3d across = across_vector / sine;
+    // In the plane of both, `from` is (cosine along `to`, sine across): after the shear its angle to `to` is
+    // smaller.
+    const double angle = std::atan2(sine, cosine);
+    const double shifted = angle - radians(a[0]);
+    const double shear =
+        std::abs(std::sin(shifted)) < 1e-9 ? 0 : sine * std::cos(shifted) / std::sin(shifted) - cosine;
+    const double amount = shear / sine;
+    M44d m;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) m[i][j] += across[i] * amount * to[j];
+    return m;
+}
+
+}  // namespace
+
+M44d transform_matrix(TransformKind kind, const TransformArguments& a) {
+    M44d m;
+    switch (kind) {
+        case TransformKind::Translate:
+            m.setTranslation(V3d(a[0], a[1], a[2]));
+            break;
+        case TransformKind::Scale:
+            m.setScale(V3d(a[0], a[1], a[2]));
+            break;
+        case TransformKind::Rotate:
+            m = rotation(a);
+            break;
+        case TransformKind::Skew:
+            m = skew(a);
+            break;
+        case TransformKind::Matrix:
+            for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = a[i];
+            break;
+        case TransformKind::Perspective: {
+            const double t = std::tan(radians(a[0]) / 2);
+            m = M44d(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, t, t, 0, 0, -t, 0);
+            break;
+        }
+    }
+    return m;
+}
+
+M44d MovingFactor::at(float time) const {
+    if (time <= times.front()) return transform_matrix(kind, arguments.front());
+    if (time >= times.back()) return transform_matrix(kind, arguments.back());
+    const size_t next = std::upper_bound(times.begin(), times.end(), time) - times.begin();
+    const float t = (time - times[next - 1]) / (times[next] - times[next - 1]);
+    TransformArguments between = arguments[next - 1];
+    for (size_t i = 0; i < between.size(); ++i) between[i] += t * (arguments[next][i] - between[i]);
+    return transform_matrix(kind, between);
+}
+
+bool MovingFactor::moves_between(float open, float close) const {
+    if (!(close > open) || close <= times.front() || open >= times.back()) return false;
+    return std::any_of(arguments.begin(), arguments.end(),
+                       [&](const auto& a) { return a != arguments.front(); });
+}
+
+float MovingFactor::fastest_turn(float open, float close) const {
+    if (kind != TransformKind::Rotate) return 0;
+    float fastest = 0;
+    for (size_t i = 1; i < times.size(); ++i) {
+        if (times[i] <= open || times[i - 1] >= close) continue;
+        const float shutters = (times[i] - times[i - 1]) / (close - open);
+        fastest =
+            std::max(fastest, std::abs(arguments[i][0] - arguments[i - 1][0]) / std::max(shutters, 1e-6f));
+    }
+    return fastest;
+}
+
+void MovingTransform::concat(const M44d& matrix) {
+    auto factor = std::make_shared<Factor>();
+    factor->fixed = matrix;
+    if (newest_) {
+        factor->older = newest_;
+        factor->moving_factors = newest_->moving_factors;
+        if (!newest_->moving) factor->fixed = matrix * newest_->fixed, factor->older = newest_->older;
+    }
+    newest_ = std::move(factor);
+}
+
+void MovingTransform::concat(MovingFactor moving) {
+    auto factor = std::make_shared<Factor>();
+    factor->moving_factors = moving_factors() + 1;
+    factor->older = std::move(newest_);
+    factor->moving = std::move(moving);
+    newest_ = std::move(factor);
+}
+
+void MovingTransform::concat(const MovingTransform& newer) {
+    std::vector<const Factor*> factors;
+    for (const Factor* f = newer.newest_.get(); f; f = f->older.get()) factors.push_back(f);
+    for (size_t i = factors.size(); i-- > 0;)
+        if (factors[i]->moving)
+            concat(*factors[i]->moving);
+        else
+            concat(factors[i]->fixed);
+}
+
+M44d MovingTransform::at(float time) const {
+    if (!newest_) return M44d();
+    M44d m = newest_->at(time);
+    for (const Factor* f = newest_->older.get(); f; f = f->older.get()) m = m * f->at(time);
+    return m;
+}
+
+bool MovingTransform::moves_between(float open, float close) const {
+    for (const Factor* f = newest_.get(); f; f = f->older.get())
+        if (f->moving && f->moving->moves_between(open, close)) return true;
+    return false;
+}
+
+bool MovingTransform::may_bend(float open, float close) const {
+    int moving = 0;
+    for (const Factor* f = newest_.get(); f; f = f->older.get()) {
+        if (!f->moving || !f->moving->moves_between(open, close)) continue;
+        const TransformKind kind = f->moving->kind;
+        if (kind == TransformKind::Rotate || kind == TransformKind::Skew || ++moving > 1) return true;
+    }
+    return false;
+}
+
+bool MovingTransform::is_nearly_linear(float open, float close, int keys) const {
+    const auto segment = static_cast<double>(close - open) / (keys - 1);
+    M44d from = at(open);
+    for (int k = 0; k + 1 < keys; ++k) {
+        const M44d middle = at(static_cast<float>(open + (k + 0.5) * segment));
+        const M44d to = at(static_cast<float>(open + (k + 1) * segment));
+        double largest = 0, error = 0;
+        for (int i = 0; i < 16; ++i) {
+            const double exact = middle[i / 4][i % 4], linear = (from[i / 4][i % 4] + to[i / 4][i % 4]) / 2;
+            largest = std::max(largest, std::abs(exact));
+            error = std::max(error, std::abs(exact - linear));
+        }
+        if (error > kLinearTolerance * largest) return false;
+        from = to;
+    }
+    return true;
+}
+
+int MovingTransform::wanted_keys(float open, float close) const {
+    int keys = 1, moving = 0;
+    for (const Factor* f = newest_.get(); f; f = f->older.get()) {
+        if (!f->moving || !f->moving->moves_between(open, close)) continue;
+        ++moving;
+        keys = std::max(keys, keys_meeting(f->moving->times, open, close));
+        const float degrees = f->moving->fastest_turn(open, close);
+        while (keys < kMaxKeyCount && degrees / static_cast<float>(keys - 1) > kDegreesPerSegment)
+            keys = 2 * keys - 1;
+    }
+    // The product of several motions bends even when each is straight.
+    while (moving > 1 && keys < kMaxKeyCount && !is_nearly_linear(open, close, keys)) keys = 2 * keys - 1;
+    return keys;
+}
+
+int keys_meeting(const std::vector<float>& times, float open, float close) {
+    for (int keys = 2; keys < kMostKeysForTimes; keys = 2 * keys - 1) {
+        const bool all_met = std::all_of(times.begin(), times.end(), [&](float time) {
+            if (time <= open || time >= close) return true;
+            const float place = (time - open) / (close - open) * static_cast<float>(keys - 1);
+            return std::abs(place - std::round(place)) < 1e-4f;
+        });
+        if (all_met) return keys;
+    }
+    return kMostKeysForTimes;
+}
+
+}  // namespace trapeze::rib

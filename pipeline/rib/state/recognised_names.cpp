@@ -1,0 +1,109 @@
+#include "pipeline/rib/state/recognised_names.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace trapeze::rib {
+namespace {
+
+struct Value {
+    std::string_view category, name;  ///< an empty name: all of the category
+};
+
+constexpr Value kOptions[] = {{"user", ""},
+                              {"color", "transfer"},
+                              {"searchpath", "archive"},
+                              {"searchpath", "procedural"},
+                              {"searchpath", "shader"},
+                              {"searchpath", "texture"},
+                              {"limits", "texturememory"},
+                              {"rib", "varsubst"},
+                              {"ribparse", "varsubst"},
+                              {"shadow", "bias"},
+                              {"shadow", "bias0"}};
+
+constexpr Value kAttributes[] = {{"user", ""},
+                                 {"identifier", "name"},
+                                 {"bound", "displacement"},
+                                 {"displacementbound", ""},
+                                 {"visibility", "camera"},
+                                 {"render", "visibility"},
+                                 {"dice", "binary"},
+                                 {"dice", "rasterorient"},
+                                 {"dice", "minlength"},
+                                 {"trimcurve", "sense"}};
+
+constexpr SettledSetting kSettledAttributes[] = {
+    {"cull", "backfacing", "all that is in view is shaded, whichever way it faces"},
+    {"cull", "hidden", "all that is in view is shaded, hidden or not"},
+    {"dice", "hair", "curves thinner than a micropolygon are one wide in any case"},
+    {"stitch", "enable", "grids join without cracks in any case"},
+    {"stitch", "newgroup", "grids join without cracks in any case"},
+    {"stitch", "traceenable", "grids join without cracks in any case"},
+};
+
+constexpr std::string_view kHider[] = {"depthfilter", "jitter", "maxsamples", "minsamples", "samplemotion"};
+
+constexpr std::string_view kHeaderPrefix = "exrheader_", kHeaderAttributes = "exrheader_NAME";
+constexpr std::string_view kDisplay[] = {"quantize",       "dither",      "type",       "exrpixeltype",
+                                         "exrcompression", "compression", "colorspace", kHeaderAttributes};
+
+template <size_t kCount>
+bool has(const Value (&values)[kCount], std::string_view category, std::string_view name) {
+    return std::any_of(std::begin(values), std::end(values), [&](const Value& value) {
+        return value.category == category && (value.name.empty() || value.name == name);
+    });
+}
+
+template <size_t kCount>
+bool has(const std::string_view (&names)[kCount], std::string_view name) {
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+template <size_t kCount>
+std::vector<std::string> listed(const Value (&values)[kCount]) {
+    std::vector<std::string> names;
+    for (const Value& value : values)
+        names.push_back(std::string(value.category) + " " +
+                        (value.name.empty() ? "(all)" : std::string(value.name)));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+template <size_t kCount>
+std::vector<std::string> listed(const std::string_view (&values)[kCount]) {
+    std::vector<std::string> names(std::begin(values), std::end(values));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+}  // namespace
+
+EffectiveSettings effective_settings() {
+    return {listed(kOptions), listed(kAttributes), listed(kHider), listed(kDisplay)};
+}
+
+std::span<const SettledSetting> settled_attributes() {
+    return kSettledAttributes;
+}
+const SettledSetting* settled_attribute(std::string_view category, std::string_view name) {
+    const auto found = std::ranges::find_if(kSettledAttributes, [&](const SettledSetting& setting) {
+        return setting.category == category && setting.name == name;
+    });
+    return found == std::end(kSettledAttributes) ? nullptr : &*found;
+}
+
+bool option_has_effect(std::string_view category, std::string_view name) {
+    return has(kOptions, category, name);
+}
+bool attribute_has_effect(std::string_view category, std::string_view name) {
+    return has(kAttributes, category, name);
+}
+bool hider_parameter_has_effect(std::string_view name) {
+    return has(kHider, name);
+}
+bool display_parameter_has_effect(std::string_view name) {
+    return has(kDisplay, name) || name.starts_with(kHeaderPrefix);
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,16 @@
+/// What parts of a scene take in memory, about: for a limit, not for accounts.
+#pragma once
+
+#include <cstddef>
+
+#include "core/scene/scene.h"
+
+namespace trapeze::rib {
+
+size_t bytes_of(const Shape& shape);
+/// Without what attributes share: shaders and lights.
+size_t bytes_of(const Attributes& attributes);
+/// Without its shapes and attributes.
+size_t bytes_of(const Primitive& primitive);
+
+}  // namespace trapeze::rib

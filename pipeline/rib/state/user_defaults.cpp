@@ -1,0 +1,24 @@
+#include "pipeline/rib/state/user_defaults.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace trapeze {
+
+std::string user_defaults_file() {
+    namespace fs = std::filesystem;
+    const char* const config = std::getenv("XDG_CONFIG_HOME");
+    const char* const home = std::getenv("HOME");
+    fs::path folder;
+    if (config && *config)
+        folder = config;
+    else if (home && *home)
+        folder = fs::path(home) / ".config";
+    else
+        return {};
+    const fs::path file = folder / "trapeze" / "trapeze.rib";
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored) ? file.string() : std::string();
+}
+
+}  // namespace trapeze

@@ -1,0 +1,98 @@
+/// The arguments of one request as they stand in the file, and a cursor that takes them as RISpec allows: a
+/// fixed number of values with or without brackets, then name and value pairs.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "pipeline/rib/syntax/lexer.h"
+
+namespace trapeze::rib {
+
+/// A number, a string, or an array of either (arrays of both are invalid).
+struct Argument {
+    enum class Kind { Number, String, Array };
+
+    Kind kind = Kind::Number;
+    SourceLocation at;
+    double number = 0;                 ///< Number
+    std::vector<float> floats;         ///< Array
+    std::vector<std::string> strings;  ///< Array; String: just one
+    /// Elements of `floats` that are integers too large to be floats, by their place.
+    std::vector<std::pair<size_t, double>> large_integers;
+
+    bool is_text() const { return kind == Kind::String || !strings.empty(); }
+    size_t number_count() const { return kind == Kind::Number ? 1 : floats.size(); }
+    /// The numbers, moved out.
+    std::vector<float> take_numbers();
+};
+
+/// A request's name and all that follows up to the next word.
+struct RequestText {
+    std::string name;
+    SourceLocation at;
+    std::vector<Argument> arguments;
+    std::string problem;  ///< what is wrong with the arguments as text; empty when nothing
+    SourceLocation problem_at;
+    /// Memory of names that earlier requests had, for the next ones.
+    std::vector<std::vector<std::string>> spare_strings;
+
+    void clear();
+};
+
+/// Words that begin a request. Any other word within brackets is an error there, and not the next request.
+using IsRequest = bool (*)(std::string_view word);
+
+/// Reads the next request; false at the end of the text. What stands between requests is reported and passed
+/// over.
+bool read_request(Lexer& lexer, RequestText& request, IsRequest is_request, Diagnostics& diagnostics);
+
+/// Text from a file as messages show it: in quotes, clipped, one line.
+std::string in_quotes(std::string_view text);
+/// The same without quotes, for names of requests.
+std::string clipped(std::string_view text);
+
+/// Thrown by handlers through the cursor below and caught by the reader of requests: the request is skipped.
+struct RequestError {
+    std::string text;
+    SourceLocation at;  ///< line 0: the request's own place
+};
+
+class ArgumentCursor {
+  public:
+    explicit ArgumentCursor(RequestText& request) : request_(request) {}
+
+    bool done() const { return next_ >= request_.arguments.size(); }
+    /// The argument after `ahead` others, or null.
+    const Argument* peek(size_t ahead = 0) const {
+        return next_ + ahead < request_.arguments.size() ? &request_.arguments[next_ + ahead] : nullptr;
+    }
+    bool next_is_number() const { return !done() && !peek()->is_text(); }
+    bool next_is_string() const { return !done() && peek()->is_text(); }
+    bool next_is_array() const { return !done() && peek()->kind == Argument::Kind::Array; }
+
+    float number(const char* what);
+    int integer(const char* what, int lowest, int highest);
+    /// `count` numbers, as arrays or one by one.
+    std::vector<float> numbers(size_t count, const char* what) { return numbers(count, count, what); }
+    std::vector<float> numbers(size_t least, size_t most, const char* what);
+    std::string string(const char* what);
+    /// An array of any length; a single number counts as an array of one.
+    std::vector<float> number_array(const char* what);
+    std::vector<int> int_array(const char* what);
+    std::vector<std::string> string_array(const char* what);
+    /// A handle: a string, or an integer as text.
+    std::string handle(const char* what);
+    Argument take(const char* what);
+
+  private:
+    [[noreturn]] void missing(const char* what) const;
+
+    RequestText& request_;
+    size_t next_ = 0;
+};
+
+}  // namespace trapeze::rib

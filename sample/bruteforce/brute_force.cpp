@@ -1,0 +1,114 @@
+/// Every sample against every micropolygon whose swept, lens-grown raster box covers it: the truth that other
+/// methods are tested against, simple where it could be fast.
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "sample/bruteforce/moving_quad.h"
+#include "sample/hit_lists.h"
+#include "sample/swept_bound.h"
+#include "sample/visibility.h"
+
+namespace trapeze {
+namespace {
+
+void fill_planes(const SampleTile& samples, SampleScratch& scratch) {
+    const size_t n = samples.size(), padded = n + kRayPadding;
+    for (auto* plane : {&scratch.ox, &scratch.oy, &scratch.ux, &scratch.uy, &scratch.time})
+        plane->assign(padded, 0.0f);
+    for (size_t i = 0; i < n; ++i) {
+        const AxisRay& ray = samples.rays[i];
+        scratch.ox[i] = ray.ox, scratch.oy[i] = ray.oy, scratch.ux[i] = ray.ux, scratch.uy[i] = ray.uy;
+        scratch.time[i] = ray.time;
+    }
+}
+
+class BruteForce final : public Visibility {
+  public:
+    BruteForce(const RenderContext& context, const Grids& grids)
+        : camera_(context.camera),
+          grids_(grids),
+          all_opaque_(every_grid_is_opaque(grids)),
+          boxes_(grids.grids.size()) {
+        tbb::parallel_for(size_t{0}, boxes_.size(),
+                          [this](size_t i) { boxes_[i] = raster_bound(grids_.grids[i], camera_); });
+    }
+
+    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                 SampleStats& stats) const override {
+        fill_planes(samples, scratch);
+        scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
+        scratch.hits.clear();
+        scratch.hit_sample.clear();
+        scratch.found.resize(samples.size());
+        scratch.found_depth.resize(samples.size());
+        for (size_t i = 0; i < boxes_.size(); ++i)
+            if (!pixels_within(boxes_[i], samples.pixels).empty()) test_grid(i, samples, scratch, stats);
+        stats.rays += samples.size();
+        if (all_opaque_)
+            buffer_of_nearest(scratch, samples.size(), hits);
+        else
+            buffer_of_loose_hits(scratch, samples.size(), hits);
+    }
+
+  private:
+    void test_grid(size_t index, const SampleTile& samples, SampleScratch& scratch,
+                   SampleStats& stats) const {
+        const Grid& grid = grids_.grids[index];
+        for (int v = 0; v < grid.shape.nv; ++v)
+            for (int u = 0; u < grid.shape.nu; ++u) {
+                SweptBound bound;
+                for (int corner = 0; corner < 4; ++corner)
+                    add_vertex(grid, u + (corner & 1), v + (corner >> 1), bound);
+                const PixelRect pixels = pixels_within(bound.raster(camera_), samples.pixels);
+                if (pixels.empty()) continue;
+                const MicropolygonId id{static_cast<uint32_t>(index), static_cast<uint8_t>(u),
+                                        static_cast<uint8_t>(v)};
+                test_micropolygon(MovingQuad(grid, u, v), id, grid.opaque, pixels, samples, scratch, stats);
+            }
+    }
+
+    void test_micropolygon(const MovingQuad& quad, const MicropolygonId& id, bool opaque,
+                           const PixelRect& pixels, const SampleTile& samples, SampleScratch& scratch,
+                           SampleStats& stats) const {
+        const RayPlanes rays{scratch.ox.data(), scratch.oy.data(), scratch.ux.data(), scratch.uy.data(),
+                             scratch.time.data()};
+        const size_t count = static_cast<size_t>(pixels.width()) * samples.samples_per_pixel;
+        for (int py = pixels.y0; py < pixels.y1; ++py) {
+            const size_t found = find_hits(rays, samples.first_of_pixel(pixels.x0, py), count, quad,
+                                           scratch.found.data(), scratch.found_depth.data());
+            stats.predicate_tests += count, stats.predicate_hits += found;
+            for (size_t i = 0; i < found; ++i)
+                keep(scratch.found[i], {scratch.found_depth[i], id.packed()}, opaque, scratch);
+        }
+    }
+
+    void keep(uint32_t sample, const Hit& hit, bool opaque, SampleScratch& scratch) const {
+        if (!(hit.depth >= camera_.near_clip && hit.depth <= camera_.far_clip)) return;
+        if (!in_front(hit, scratch.nearest[sample])) return;
+        if (opaque) scratch.nearest[sample] = hit;
+        if (all_opaque_) return;
+        scratch.hits.push_back(hit);
+        scratch.hit_sample.push_back(sample);
+    }
+
+    const Camera& camera_;
+    const Grids& grids_;
+    bool all_opaque_;
+    std::vector<RasterBox> boxes_;
+};
+
+}  // namespace
+
+VisibilityMethod brute_force_method() {
+    return {"bruteforce",
+            MethodKind::Reference,
+            {},
+            stratified_pattern,
+            any_pattern,
+            [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
+                return std::make_unique<BruteForce>(input.context, input.grids);
+            }};
+}
+
+}  // namespace trapeze

@@ -1,0 +1,133 @@
+/// Pixar's stochastic rasterizer as [Hou10 sec. 5] rebuilt it, INTERVAL: the samples of a pixel are slots,
+/// each with a region of the shutter and of the lens; a micropolygon has a box on the raster for each slot,
+/// and is tested against the samples of that slot in the box. The samples of a slot lie side by side, so that
+/// vector lanes are pixels.
+///
+/// pairing=fixed is the paper's form, where all pixels pair times with lens points alike. pairing=shuffled is
+/// that of production renderers: pixels pair them in different ways, and there is a box for each region of
+/// the lens and each part of the shutter.
+///
+/// No occlusion culling, as in the paper; cull=on goes through grids front to back and leaves out what lies
+/// behind the hits found. What is still and seen through a pinhole has one box for all slots.
+#include <algorithm>
+
+#include "sample/interval/slot_plan.h"
+#include "sample/interval/slot_raster.h"
+#include "sample/rasterize/rasterizer.h"
+
+namespace trapeze {
+namespace {
+
+constexpr int kIntervalTileSide = 64;
+
+/// Parts of the shutter with boxes of their own when pairing is shuffled. Each has its samples scattered
+/// among the pixels, and boxes to set up: 4 were fastest of 1 to 64 at 60 pixels of motion, 20 of blur.
+constexpr int kShuffledTimeSlots = 4;
+
+/// Cells of 4 x 4 pixels: a block of each slot.
+constexpr int kSlotCellShift = 2;
+
+/// One of kShuffledTimeSlots pixels has its time in a slot: cells of as many as fill a block.
+constexpr int kSparseCellShift = 3;
+
+class Interval final : public Rasterizer {
+  public:
+    Interval(const VisibilityInput& input) : Rasterizer(input, kIntervalTileSide) {
+        if (input.spec["pairing"] == "fixed") {
+            const auto& pattern = dynamic_cast<const IntervalPattern&>(input.pattern);
+            still_plan_ = still_plan(pattern.sample_count());
+            plan_ = fixed_plan(pattern);
+        } else {
+            shuffled_ = &dynamic_cast<const StratifiedPattern&>(input.pattern);
+            still_plan_ = still_plan(shuffled_->sample_count());
+            plan_ = shuffled_plan(*shuffled_, std::min(kShuffledTimeSlots, shuffled_->sample_count()));
+        }
+    }
+
+  private:
+    void raster(const SampleTile& samples, const std::vector<uint32_t>& grids, SampleScratch& scratch,
+                SampleStats& stats) const override {
+        std::vector<uint32_t>&still = scratch.interval.still, &blurred = scratch.interval.blurred;
+        still.clear();
+        blurred.clear();
+        for (const uint32_t index : grids) {
+            const bool blurs = camera().has_lens() || (context().motion && grid(index).moves());
+            (blurs ? blurred : still).push_back(index);
+        }
+        resolve_still(samples, scratch, stats);
+        resolve_blurred(samples, scratch, stats);
+    }
+
+    void resolve_still(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats) const {
+        if (scratch.interval.still.empty()) return;
+        // A block has the samples of one pixel, or of as few as fill it.
+        const int cell_shift = samples.samples_per_pixel > 4 ? 0 : samples.samples_per_pixel > 1 ? 1 : 2;
+        scratch.interval.slots.build(samples, still_plan_.table({}), cell_shift, false);
+        raster_slots(samples, still_plan_, scratch.interval.still, false, scratch, stats);
+    }
+
+    void resolve_blurred(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats) const {
+        if (scratch.interval.blurred.empty()) return;
+        std::vector<uint32_t>& keys = scratch.interval.key_of_pixel;
+        keys.clear();
+        const bool shifted = shuffled_ && shuffled_->has_time_shifts();
+        if (shifted)
+            for (int y = samples.pixels.y0; y < samples.pixels.y1; ++y)
+                for (int x = samples.pixels.x0; x < samples.pixels.x1; ++x)
+                    keys.push_back(shuffled_->time_shift(x, y));
+        const int cell_shift = shifted ? kSparseCellShift : kSlotCellShift;
+        scratch.interval.slots.build(samples, plan_.table(keys), cell_shift, shifted);
+        raster_slots(samples, plan_, scratch.interval.blurred, shifted, scratch, stats);
+    }
+
+    void raster_slots(const SampleTile& samples, const SlotPlan& plan, const std::vector<uint32_t>& grids,
+                      bool sparse, SampleScratch& scratch, SampleStats& stats) const {
+        SampleSlots& slots = scratch.interval.slots;
+        SlotRaster slot_raster{camera(), slots,  samples.pixels.x0, samples.pixels.y0, all_opaque(), cull(),
+                               sparse,   scratch};
+        for (size_t slot = 0; slot < plan.slots.size(); ++slot) {
+            if (slots.is_empty(slot)) continue;
+            for (const uint32_t index : grids)
+                raster_grid_in_slot(slot_raster, samples.pixels, index, plan.slots[slot], slot, stats);
+        }
+        slots.merge_into(scratch.nearest);
+    }
+
+    void raster_grid_in_slot(SlotRaster& raster, const PixelRect& tile, uint32_t index, const Slot& at,
+                             size_t slot, SampleStats& stats) const {
+        const Grid& seen = grid(index);
+        std::vector<SegmentPart>& parts = raster.scratch.interval.parts;
+        parts.clear();
+        segment_parts(at.time, seen.key_count, parts);
+        const SlotBound bound = bounds().slot_bound(index, parts, at.lens);
+        PixelRect pixels = pixels_within(bound.box, tile);
+        if (pixels.empty()) return;
+        pixels.x0 -= tile.x0, pixels.x1 -= tile.x0, pixels.y0 -= tile.y0, pixels.y1 -= tile.y0;
+        raster_grid(raster, {seen, index, bounds()[index], slot, parts, at.lens, pixels, bound.z_min},
+                    raster.scratch.interval.grid, stats);
+    }
+
+    const StratifiedPattern* shuffled_ = nullptr;  ///< pairing=shuffled
+    SlotPlan still_plan_, plan_;
+};
+
+std::string natural_pattern(const MethodSpec& method) {
+    return method["pairing"] == "fixed" ? "interval" : "stratified";
+}
+
+}  // namespace
+
+VisibilityMethod interval_method() {
+    return {"interval",
+            MethodKind::Rasterizer,
+            {{"pairing", {"fixed", "shuffled"}}, {"cull", {"off", "on"}}},
+            natural_pattern,
+            [](const MethodSpec& method, const MethodSpec& pattern) {
+                return pattern.name == natural_pattern(method);
+            },
+            [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
+                return std::make_unique<Interval>(input);
+            }};
+}
+
+}  // namespace trapeze

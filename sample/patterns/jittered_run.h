@@ -1,0 +1,61 @@
+/// Jittered samples of pixels next to each other in a row, many at once: the vector code of
+/// StratifiedPattern. Same values on every instruction set, bit for bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/camera.h"
+
+namespace trapeze {
+
+/// Which number of a sample's index; part of what is hashed.
+enum SampleDimension : uint32_t { kSubpixelX, kSubpixelY, kLensU, kLensV, kTime, kTimeShift, kShuffle };
+
+/// Pixels of a run: so many that few samples a pixel also fill vectors.
+inline constexpr size_t kMaxRunPixels = 64;
+
+/// The regions of a run's samples, the same in all runs. Padded to whole vectors.
+struct RunRegions {
+    int nx = 1, ny = 1;
+    bool lens = false, motion = false;
+    bool jittered = true;                      ///< in the subpixel; else in its middle
+    size_t pixels = 1;                         ///< of a whole run
+    std::vector<uint32_t> index;               ///< within the pixel
+    std::vector<uint32_t> pixel;               ///< within the run
+    std::vector<float> column, row;            ///< of the pixel
+    std::vector<float> lens_column, lens_row;  ///< of the lens' square
+    std::vector<uint32_t> time;                ///< before the pixel's shift
+
+    /// `lens_of` and `time_of` tell each subpixel region's.
+    RunRegions(int columns, int rows, bool has_lens, bool has_motion, const std::vector<uint32_t>& lens_of,
+               const std::vector<uint32_t>& time_of);
+    int samples_per_pixel() const { return nx * ny; }
+};
+
+/// What a run's pixels do not share.
+struct RunPixels {
+    uint32_t hash[kMaxRunPixels], time_shift[kMaxRunPixels];
+    float x[kMaxRunPixels], x_limit[kMaxRunPixels];  ///< left edge; the greatest place before the right one
+    float y = 0, y_limit = 0;
+};
+
+/// Samples in planes. Rays start at z = 0.
+struct RunSamples {
+    static constexpr size_t kCount = 256, kPadding = 64;
+
+    alignas(64) float x[kCount + kPadding], y[kCount + kPadding];
+    alignas(64) float lens_u[kCount + kPadding], lens_v[kCount + kPadding], time[kCount + kPadding];
+    alignas(64) float ox[kCount + kPadding], oy[kCount + kPadding];
+    alignas(64) float ux[kCount + kPadding], uy[kCount + kPadding];
+};
+
+/// Makes samples first .. first + count - 1 of a run, at most RunSamples::kCount.
+void make_run_samples(const RunRegions& regions, const RunPixels& pixels, const Camera& camera, size_t first,
+                      size_t count, RunSamples& out);
+
+/// The rays of the first `count` samples, interleaved.
+void interleave_rays(const RunSamples& samples, size_t count, AxisRay* rays);
+
+}  // namespace trapeze

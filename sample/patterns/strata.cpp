@@ -1,0 +1,94 @@
+#include "sample/patterns/strata.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/random.h"
+
+namespace trapeze {
+namespace {
+
+/// disk_from_square() rounds by less than this.
+constexpr double kDiskRounding = 2e-6;
+
+struct Range {
+    double min, max;
+};
+
+/// The disk's x of a point of the square [-1, 1]^2; y is the same with a and b exchanged.
+double disk_x(double a, double b) {
+    if (a == 0) return 0;
+    if (std::abs(a) > std::abs(b)) return a * std::cos(M_PI / 4 * (b / a));
+    return b * std::sin(M_PI / 4 * (a / b));
+}
+
+/// The range of disk_x over a rectangle. It grows with a. For given a it is even in b; its magnitude is
+/// largest at b = 0, falls until |b| = |a|, and rises from there: extremes are at these and at the ends.
+Range disk_x_range(Range a, Range b) {
+    Range range{2, -2};
+    const auto add = [&](double at_a, double at_b) {
+        if (at_b < b.min || at_b > b.max) return;
+        const double x = disk_x(at_a, at_b);
+        range = {std::min(range.min, x), std::max(range.max, x)};
+    };
+    for (const double at : {a.min, a.max})
+        for (const double at_b : {b.min, b.max, 0.0, at, -at}) add(at, at_b);
+    return {range.min - kDiskRounding, range.max + kDiskRounding};
+}
+
+}  // namespace
+
+std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed) {
+    std::vector<uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [seed](uint32_t a, uint32_t b) { return hash(seed, a) < hash(seed, b); });
+    return order;
+}
+
+V2f disk_from_square(float u, float v) {
+    const float a = 2 * u - 1, b = 2 * v - 1;
+    const bool wide = std::abs(a) > std::abs(b);
+    const float r = wide ? a : b, other = wide ? b : a;
+    const float angle = kQuarterPi * (other / (r == 0 ? 1 : r));  // from the nearer axis
+    const float z = angle * angle;
+    const float sine = (((kSine[0] * z + kSine[1]) * z + kSine[2]) * z + kSine[3]) * angle;
+    const float cosine = (((kCosine[0] * z + kCosine[1]) * z + kCosine[2]) * z + kCosine[3]) * z + kCosine[4];
+    const float along = r * cosine, across = r * sine;
+    return wide ? V2f(along, across) : V2f(across, along);
+}
+
+float place(uint32_t index, float jitter, int count) {
+    return std::min((static_cast<float>(index) + jitter) / static_cast<float>(count), kBelowOne);
+}
+
+float last_place_of(int pixel) {
+    // nextafter(pixel + 1, pixel), which takes a library's call for each pixel.
+    if (pixel == -1) return -std::numeric_limits<float>::denorm_min();
+    const auto bits = std::bit_cast<uint32_t>(static_cast<float>(pixel + 1));
+    return std::bit_cast<float>(pixel < 0 ? bits + 1 : bits - 1);
+}
+
+float within_pixel(int pixel, float fraction) {
+    return std::min(static_cast<float>(pixel) + fraction, last_place_of(pixel));
+}
+
+TimeSpan time_region(uint32_t index, int count) {
+    return {place(index, 0, count), place(index, 1, count)};  // every step of place() is monotone
+}
+
+LensBox lens_region(uint32_t index, int nx, int ny) {
+    const auto axis = [](uint32_t at, int count) {
+        return Range{2.0 * at / count - 1, 2.0 * (at + 1) / count - 1};
+    };
+    const Range a = axis(index % static_cast<uint32_t>(nx), nx),
+                b = axis(index / static_cast<uint32_t>(nx), ny);
+    const Range u = disk_x_range(a, b), v = disk_x_range(b, a);
+    return {static_cast<float>(u.min), static_cast<float>(v.min), static_cast<float>(u.max),
+            static_cast<float>(v.max)};
+}
+
+}  // namespace trapeze

@@ -1,0 +1,102 @@
+#include "sample/patterns/stratified_pattern.h"
+
+#include <algorithm>
+
+#include "core/random.h"
+#include "sample/patterns/magic_square.h"
+
+namespace trapeze {
+namespace {
+
+/// Subpixel region -> lens region.
+std::vector<uint32_t> lens_permutation(int nx, int ny, uint32_t seed) {
+    if (nx == ny && nx >= 3) return magic_square(nx);
+    return hashed_permutation(static_cast<size_t>(nx) * ny, hash(seed, kLensU));
+}
+
+/// Subpixel region -> time region: the lens permutation with its rows and columns shuffled.
+std::vector<uint32_t> time_permutation(const std::vector<uint32_t>& lens_of, int nx, int ny, uint32_t seed) {
+    const std::vector<uint32_t> columns = hashed_permutation(nx, hash(seed, kShuffle, 0));
+    const std::vector<uint32_t> rows = hashed_permutation(ny, hash(seed, kShuffle, 1));
+    std::vector<uint32_t> time_of(lens_of.size());
+    for (int y = 0; y < ny; ++y)
+        for (int x = 0; x < nx; ++x)
+            time_of[static_cast<size_t>(y) * nx + x] =
+                lens_of[static_cast<size_t>(rows[y]) * nx + columns[x]];
+    return time_of;
+}
+
+}  // namespace
+
+StratifiedPattern::StratifiedPattern(const RenderContext& context)
+    : camera_(context.camera),
+      nx_(std::max(1, context.samples_x)),
+      ny_(std::max(1, context.samples_y)),
+      seed_(context.seed),
+      motion_(context.motion),
+      lens_of_(lens_permutation(nx_, ny_, context.seed)),
+      time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)),
+      regions_(nx_, ny_, camera_.has_lens(), motion_, lens_of_, time_of_) {
+    // Hider "jitter" 0: depth maps want the depths at the middles of pixels.
+    regions_.jittered = !context.scene || context.scene->options.hider_parameters.float_or("jitter", 1) != 0;
+}
+
+uint32_t StratifiedPattern::pixel_hash(int px, int py) const {
+    return hash(seed_, static_cast<uint32_t>(px), static_cast<uint32_t>(py));
+}
+
+uint32_t StratifiedPattern::time_shift_of(uint32_t pixel_hash) const {
+    // Without defocus there is no correlation with the lens to break.
+    if (!camera_.has_lens()) return 0;
+    return hash(pixel_hash, kTimeShift) % static_cast<uint32_t>(sample_count());
+}
+
+uint32_t StratifiedPattern::time_shift(int px, int py) const {
+    return time_shift_of(pixel_hash(px, py));
+}
+
+TimeSpan StratifiedPattern::time_bounds(int sample, uint32_t shift) const {
+    return motion_ ? time_region(time_region_of(sample, shift), sample_count()) : TimeSpan{};
+}
+
+LensBox StratifiedPattern::lens_bounds(int sample) const {
+    return camera_.has_lens() ? lens_region(lens_of_[sample], nx_, ny_) : LensBox{};
+}
+
+void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
+    tile.pixels = pixels;
+    tile.samples_per_pixel = nx_ * ny_;
+    tile.resize(static_cast<size_t>(pixels.width()) * pixels.height() * tile.samples_per_pixel);
+    RunPixels run;
+    RunSamples made;
+    const auto longest = static_cast<int>(regions_.pixels);
+    for (int py = pixels.y0; py < pixels.y1; ++py) {
+        run.y = static_cast<float>(py), run.y_limit = last_place_of(py);
+        for (int px = pixels.x0; px < pixels.x1; px += longest) {
+            const int width = std::min(longest, pixels.x1 - px);
+            for (int i = 0; i < width; ++i) {
+                run.x[i] = static_cast<float>(px + i), run.x_limit[i] = last_place_of(px + i);
+                run.hash[i] = pixel_hash(px + i, py);
+                run.time_shift[i] = time_shift_of(run.hash[i]);
+            }
+            make_run(run, static_cast<size_t>(width) * tile.samples_per_pixel, tile.first_of_pixel(px, py),
+                     made, tile);
+        }
+    }
+}
+
+void StratifiedPattern::make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made,
+                                 SampleTile& tile) const {
+    for (size_t first = 0; first < count; first += RunSamples::kCount, to += RunSamples::kCount) {
+        const size_t n = std::min(count - first, RunSamples::kCount);
+        make_run_samples(regions_, run, camera_, first, n, made);
+        std::copy_n(made.x, n, tile.x.data() + to);
+        std::copy_n(made.y, n, tile.y.data() + to);
+        std::copy_n(made.lens_u, n, tile.lens_u.data() + to);
+        std::copy_n(made.lens_v, n, tile.lens_v.data() + to);
+        std::copy_n(made.time, n, tile.time.data() + to);
+        interleave_rays(made, n, tile.rays.data() + to);
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,47 @@
+/// Where the samples of pixels lie [Hou10 sec. 3.4]: jittered stratified in subpixel position, on the lens
+/// and in time, each domain in as many regions as a pixel has samples.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sample/patterns/jittered_run.h"
+#include "sample/patterns/sample_pattern.h"
+#include "sample/patterns/strata.h"
+
+namespace trapeze {
+
+class StratifiedPattern final : public SamplePattern {
+  public:
+    explicit StratifiedPattern(const RenderContext& context);
+
+    void make_tile(const PixelRect& pixels, SampleTile& tile) const override;
+
+    int sample_count() const { return nx_ * ny_; }
+    /// How far a pixel's times are moved along, in regions: what its neighbours do not share.
+    uint32_t time_shift(int px, int py) const;
+    /// Else it is 0 everywhere, or does not matter.
+    bool has_time_shifts() const { return motion_ && camera_.has_lens(); }
+    uint32_t time_region_of(int sample, uint32_t shift) const {
+        return (time_of_[static_cast<size_t>(sample)] + shift) % static_cast<uint32_t>(sample_count());
+    }
+    uint32_t lens_region_of(int sample) const { return lens_of_[static_cast<size_t>(sample)]; }
+    /// Where sample `sample` of all pixels of a time shift looks.
+    TimeSpan time_bounds(int sample, uint32_t shift) const;
+    LensBox lens_bounds(int sample) const;
+
+  private:
+    uint32_t pixel_hash(int px, int py) const;
+    uint32_t time_shift_of(uint32_t pixel_hash) const;
+    void make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made, SampleTile& tile) const;
+
+    Camera camera_;
+    int nx_, ny_;
+    uint32_t seed_;
+    bool motion_;
+    std::vector<uint32_t> lens_of_;  ///< subpixel region -> lens region, the same in all pixels
+    std::vector<uint32_t> time_of_;  ///< subpixel region -> time region, before the pixel's shift
+    RunRegions regions_;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,126 @@
+#include "sample/raytrace/paper_raytrace.h"
+
+#include <algorithm>
+
+#include "accel/paper/micropolygon_tree.h"
+#include "accel/paper/paper_tree.h"
+#include "sample/hit_lists.h"
+#include "sample/raytrace/ray_order.h"
+
+namespace trapeze {
+namespace {
+
+/// Rays of a beam. 64 to 512 are within 10 % of each other in tests/bench/trace_bench.cpp.
+constexpr size_t kGroupSize = 128;
+
+PaperTreeOptions tree_options(const MethodSpec& spec) {
+    using Bounds = PaperTreeOptions::Bounds;
+    PaperTreeOptions options;
+    if (spec["bounds"] == "aabb") options.bounds = Bounds::AxisAligned;
+    if (spec["bounds"] == "aabb4d") options.bounds = Bounds::WholeMotion;
+    options.orient_split = spec.is_on("orient_split");
+    options.orient_propagation = spec.is_on("orient_propagation");
+    options.leaf = spec.number("leaf");
+    return options;
+}
+
+/// `Tree` is PaperTree or MicropolygonTree.
+template <class Tree>
+class PaperRayTraced final : public Visibility {
+  public:
+    explicit PaperRayTraced(const VisibilityInput& input)
+        : bundles_(input.spec.is_on("bundle")),
+          range_{input.context.camera.near_clip, input.context.camera.far_clip},
+          sort_by_time_(input.context.motion && input.spec.is_on("ray_sort")),
+          sort_by_direction_(input.context.camera.has_lens() && input.spec.is_on("ray_sort")),
+          all_opaque_(every_grid_is_opaque(input.grids)),
+          tree_(input.grids, tree_options(input.spec)) {}
+
+    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                 SampleStats& stats) const override {
+        order_rays(samples, sort_by_time_, sort_by_direction_, scratch);
+        SampleStats counted;  // on the stack, so that counting stays in registers
+        if (all_opaque_)
+            resolve_closest(samples, hits, scratch, counted);
+        else
+            resolve_layers(samples, hits, scratch, counted);
+        stats += counted;
+    }
+
+    BuildStats build_stats() const override { return tree_.stats(); }
+
+  private:
+    /// Calls trace_one(sample, part of the tree) for all samples in order. What a beam looks at counts in the
+    /// stats, but for no one sample.
+    template <class TraceOne>
+    void trace_in_order(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats,
+                        TraceOne&& trace_one) const {
+        const std::span<const uint32_t> order = scratch.order;
+        if (order.empty()) return;
+        const auto trace_group = [&](std::span<const uint32_t> group, const TopLevel& part) {
+            for (const uint32_t sample : group) {
+                const SampleStats before = stats;
+                trace_one(sample, part);
+                if (!scratch.heat) continue;
+                scratch.heat->tests[sample] +=
+                    static_cast<uint32_t>(stats.predicate_tests - before.predicate_tests);
+                scratch.heat->nodes[sample] +=
+                    static_cast<uint32_t>(stats.nodes_visited - before.nodes_visited);
+            }
+        };
+        if (!bundles_) {
+            trace_group(order, tree_.top());
+            return;
+        }
+        tree_.top().within(Beam(samples.rays, order, range_), scratch.tile_top, &stats.nodes_visited);
+        for (size_t first = 0; first < order.size(); first += kGroupSize) {
+            const auto group = order.subspan(first, std::min(kGroupSize, order.size() - first));
+            scratch.tile_top.within(Beam(samples.rays, group, range_), scratch.group_top,
+                                    &stats.nodes_visited);
+            trace_group(group, scratch.group_top);
+        }
+    }
+
+    void resolve_closest(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                         SampleStats& stats) const {
+        scratch.nearest.resize(samples.size());
+        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
+            TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
+            ClosestHit policy;
+            tree_.trace(part, ray, policy, stats);
+            scratch.nearest[sample] = policy.best;
+        });
+        buffer_of_nearest(scratch, samples.size(), hits);
+    }
+
+    void resolve_layers(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                        SampleStats& stats) const {
+        scratch.hits.clear();
+        scratch.first.resize(samples.size());
+        scratch.count.resize(samples.size());
+        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
+            TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
+            const size_t first = scratch.hits.size();
+            HitsUntilOpaque policy{scratch.hits};
+            tree_.trace(part, ray, policy, stats);
+            policy.finish(first);
+            scratch.first[sample] = static_cast<uint32_t>(first);
+            scratch.count[sample] = static_cast<uint32_t>(scratch.hits.size() - first);
+        });
+        buffer_of_lists(scratch, samples.size(), hits);
+    }
+
+    bool bundles_;
+    DepthRange range_;
+    bool sort_by_time_, sort_by_direction_, all_opaque_;
+    Tree tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Visibility> prepare_paper_raytrace(const VisibilityInput& input) {
+    if (input.spec["split"] == "sah") return std::make_unique<PaperRayTraced<MicropolygonTree>>(input);
+    return std::make_unique<PaperRayTraced<PaperTree>>(input);
+}
+
+}  // namespace trapeze

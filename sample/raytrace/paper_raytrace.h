@@ -1,0 +1,17 @@
+/// The method of [Hou10]: one ray after another through the hyper-trapezoid tree, in the order of
+/// section 3.4.
+///
+/// With bundles, rays that follow each other first look together, as a beam, for what they may meet of the
+/// levels above grids, and then traverse that part only. It takes most of the steps above grids away and
+/// changes no hit. The nodes that a beam looks at count as visited. Without bundles it is the paper's own
+/// form: every ray from the root (docs/decisions/0001-interval-traversal.md).
+#pragma once
+
+#include "sample/visibility.h"
+
+namespace trapeze {
+
+/// Of the row "raytrace" with tree=paper.
+std::unique_ptr<Visibility> prepare_paper_raytrace(const VisibilityInput& input);
+
+}  // namespace trapeze

@@ -1,0 +1,153 @@
+#include "sample/raytrace/wide_raytrace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "accel/wide/bundle.h"
+#include "sample/hit_lists.h"
+#include "sample/raytrace/tile_order.h"
+
+namespace trapeze {
+namespace {
+
+/// Samples lie this far outside the image at most (filters).
+constexpr float kBorderPixels = 1024;
+
+/// The largest coordinate of the image plane, along one axis, that a sample may have.
+float plane_reach(float scale, float offset, int pixels) {
+    const float border = std::abs(scale) * kBorderPixels;
+    return std::max(std::abs(offset), std::abs(offset + scale * static_cast<float>(pixels))) + border;
+}
+
+RayReach reach_of(const Camera& camera) {
+    const float plane = plane_reach(camera.plane_scale_x, camera.plane_offset_x, camera.width) +
+                        plane_reach(camera.plane_scale_y, camera.plane_offset_y, camera.height);
+    const float lens = 2 * camera.lens_radius, lens_slope = lens / camera.focal_distance;
+    if (camera.perspective) return {plane + lens_slope, lens};
+    return {lens_slope, plane + lens};
+}
+
+class WideRayTraced final : public Visibility {
+  public:
+    explicit WideRayTraced(const VisibilityInput& input)
+        : camera_(input.context.camera),
+          lens_(camera_.has_lens()),
+          all_opaque_(every_grid_is_opaque(input.grids)),
+          tree_(input.grids, reach_of(input.context.camera)),
+          motion_(tree_.moves()),
+          order_(camera_, input.grids, motion_) {}
+
+    void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
+                 SampleStats& stats) const override {
+        if (!scratch.bundle) scratch.bundle = std::make_unique<RayBundle>();
+        if (!scratch.bundle_scratch) scratch.bundle_scratch = make_bundle_scratch();
+        const std::span<const uint32_t> all = order_.of(samples, scratch);
+        // Where every grid is opaque the hits need no list: they are written to their places.
+        std::vector<Hit>& nearest = all_opaque_ ? hits.hits : scratch.nearest;
+        nearest.resize(samples.size());
+        scratch.hits.clear();
+        scratch.hit_sample.clear();
+        const auto bundle_at = [&](size_t first) {
+            first = std::min(first, all.size());
+            return all.subspan(first, std::min(RayBundle::kRays, all.size() - first));
+        };
+        size_t misses = 0;
+        for (size_t first = 0; first < all.size(); first += RayBundle::kRays) {
+            scratch.bundle->coming_rays = samples.rays.data();
+            scratch.bundle->coming = bundle_at(first + RayBundle::kRays);
+            misses += resolve_bundle(samples, bundle_at(first), nearest, scratch, stats);
+        }
+        if (all_opaque_)
+            close_gaps(misses, hits);
+        else
+            join_layers(hits, scratch);
+    }
+
+    BuildStats build_stats() const override { return tree_.stats(); }
+
+  private:
+    /// How many of the rays hit nothing opaque.
+    size_t resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order,
+                          std::vector<Hit>& nearest, SampleScratch& scratch, SampleStats& stats) const {
+        RayBundle& rays = *scratch.bundle;
+        // Rays start in one point only where they all pass a pinhole.
+        const bool origins = lens_ || !camera_.perspective;
+        fill_bundle(samples.rays, order, origins, motion_, rays);
+        count_costs_from(rays, scratch);
+        // Parallel rays meet nowhere: their intervals are as wide everywhere.
+        const float meet_at = lens_ ? camera_.focal_distance : HUGE_VALF;
+        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, meet_at, rays,
+                     *scratch.bundle_scratch, stats);
+        size_t misses = 0;
+        for (size_t i = 0; i < order.size(); ++i) {
+            const bool missed = rays.id[i] == RayBundle::kNone;
+            nearest[order[i]] = {rays.depth[i], missed ? MicropolygonId::kNone : rays.id[i]};
+            misses += missed;
+        }
+        for (const RayBundle::Layer& layer : rays.layers) {
+            scratch.hits.push_back({layer.depth, layer.id});
+            scratch.hit_sample.push_back(order[layer.ray]);
+        }
+        add_costs(rays, order, scratch);
+        return misses;
+    }
+
+    static void count_costs_from(RayBundle& rays, SampleScratch& scratch) {
+        rays.tests = rays.nodes = nullptr;
+        if (!scratch.heat) return;
+        scratch.ray_tests.assign(RayBundle::kRoom, 0);
+        scratch.ray_nodes.assign(RayBundle::kRoom, 0);
+        rays.tests = scratch.ray_tests.data(), rays.nodes = scratch.ray_nodes.data();
+    }
+    static void add_costs(const RayBundle& rays, std::span<const uint32_t> order, SampleScratch& scratch) {
+        if (!scratch.heat) return;
+        for (size_t i = 0; i < order.size(); ++i) {
+            scratch.heat->tests[order[i]] += rays.tests[i];
+            scratch.heat->nodes[order[i]] += rays.nodes[i];
+        }
+    }
+
+    /// From a hit for every sample, some of them none, to a list.
+    static void close_gaps(size_t misses, HitBuffer& hits) {
+        const size_t sample_count = hits.hits.size();
+        hits.first.resize(sample_count + 1);
+        if (misses == 0) {
+            std::iota(hits.first.begin(), hits.first.end(), 0u);
+            return;
+        }
+        uint32_t next = 0;
+        for (size_t s = 0; s < sample_count; ++s) {
+            hits.first[s] = next;
+            const Hit hit = hits.hits[s];
+            hits.hits[next] = hit;
+            next += hit.id != MicropolygonId::kNone;
+        }
+        hits.first[sample_count] = next;
+        hits.hits.resize(next);
+    }
+
+    /// Layers and nearest opaque hits together.
+    static void join_layers(HitBuffer& hits, SampleScratch& scratch) {
+        for (size_t s = 0; s < scratch.nearest.size(); ++s)
+            if (scratch.nearest[s].id != MicropolygonId::kNone) {
+                scratch.hits.push_back(scratch.nearest[s]);
+                scratch.hit_sample.push_back(static_cast<uint32_t>(s));
+            }
+        buffer_of_loose_hits(scratch, scratch.nearest.size(), hits);
+    }
+
+    const Camera& camera_;
+    bool lens_, all_opaque_;
+    WideTree tree_;
+    bool motion_;  ///< of grids; samples may have times all the same
+    TileOrder order_;
+};
+
+}  // namespace
+
+std::unique_ptr<Visibility> prepare_wide_raytrace(const VisibilityInput& input) {
+    return std::make_unique<WideRayTraced>(input);
+}
+
+}  // namespace trapeze

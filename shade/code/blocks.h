@@ -1,0 +1,24 @@
+/// Where the blocks of a program's code begin, divide and end.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "shade/code/program.h"
+
+namespace trapeze::rsl {
+
+struct Blocks {
+    static constexpr size_t kNone = ~size_t{0};
+    explicit Blocks(const Code& code);
+
+    std::vector<size_t> end;      ///< of an opening instruction, and of its middle: the closing one
+    std::vector<size_t> middle;   ///< of an opening instruction: its Else, GatherElse or LoopStep; kNone
+    std::vector<size_t> opening;  ///< of a middle or closing instruction
+    std::vector<size_t> around;   ///< of any instruction: the opening of the innermost block around it; kNone
+};
+
+/// Adds `id` to `ids` for each register that code[first, last) writes.
+void collect_written(const Code& code, size_t first, size_t last, std::vector<RegisterId>& ids);
+
+}  // namespace trapeze::rsl

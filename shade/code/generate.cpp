@@ -1,0 +1,158 @@
+#include "shade/code/generate.h"
+
+#include <fmt/format.h>
+
+#include "shade/code/generator.h"
+
+namespace trapeze::rsl {
+
+std::unique_ptr<Program> generate(const Shader& shader, Diagnostics& diagnostics) {
+    return Generator(shader, diagnostics).run();
+}
+
+std::unique_ptr<Program> Generator::run() {
+    program_ = std::make_unique<Program>();
+    program_->kind = shader_.kind;
+    program_->name = shader_.name;
+    at_ = shader_.at;
+    try {
+        for (const auto& variable : shader_.globals) register_of(*variable);
+        add_parameters();
+        code_ = &program_->code;
+        copy_written_globals();
+        // A return from the middle of a shader leaves a scope around all of it.
+        const bool returns = contains_early_return(*shader_.body);
+        if (returns) open(Op::Scope, {}, {});
+        body_.in_scope = returns;
+        statement(*shader_.body);
+        if (returns) close(Op::EndScope);
+    } catch (const TooLarge&) {
+        return nullptr;
+    }
+    return std::move(program_);
+}
+
+/// Predefined variables that the renderer does not want changed: what follows works on copies.
+void Generator::copy_written_globals() {
+    for (const auto& variable : shader_.globals) {
+        if (!variable->copied) continue;
+        const RegisterId copy = add_register(Register::Kind::Local, variable->type, variable->name);
+        emit(Op::Move, {copy}, {register_of(*variable)});
+        by_name_[variable->name] = copy;
+    }
+}
+
+/// Defaults may name earlier parameters and call functions.
+void Generator::add_parameters() {
+    for (const auto& variable : shader_.parameters) {
+        ProgramParameter& parameter = program_->parameters.emplace_back();
+        parameter.name = variable->name;
+        parameter.type = variable->type;
+        parameter.storage = variable->storage == Storage::Varying ? Storage::Varying : Storage::Uniform;
+        parameter.output = variable->output;
+        parameter.at = variable->at;
+        parameter.id = add_register(Register::Kind::Parameter, variable->type, variable->name);
+        by_name_[variable->name] = parameter.id;
+        Code initial;
+        code_ = &initial;
+        if (variable->initial) initialise(parameter.id, *variable->initial);
+        program_->parameters.back().initial = std::move(initial);
+    }
+}
+
+RegisterId Generator::add_register(Register::Kind kind, Type type, std::string name) {
+    Register r;
+    r.kind = kind;
+    r.type = type;
+    r.name = std::move(name);
+    r.region = kind == Register::Kind::Global || kind == Register::Kind::Parameter ? 0 : region_;
+    program_->registers.push_back(std::move(r));
+    return static_cast<RegisterId>(program_->registers.size() - 1);
+}
+
+RegisterId Generator::constant(float value) {
+    if (value == value) {
+        if (const auto known = numbers_.find(value); known != numbers_.end()) return known->second;
+    }
+    const RegisterId id = add_register(Register::Kind::Constant, {Base::Float, 0});
+    program_->registers[id].values = {value};
+    if (value == value) numbers_[value] = id;
+    return id;
+}
+
+RegisterId Generator::constant_text(const std::string& text) {
+    const auto [known, is_new] = texts_.try_emplace(text, 0);
+    if (is_new) {
+        known->second = add_register(Register::Kind::Constant, {Base::String, 0});
+        program_->registers[known->second].texts = {text};
+    }
+    return known->second;
+}
+
+RegisterId Generator::global(std::string_view name, Base base) {
+    if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
+    const RegisterId id = add_register(Register::Kind::Global, {base, 0}, std::string(name));
+    program_->globals.push_back(id);
+    by_name_[std::string(name)] = id;
+    return id;
+}
+
+RegisterId Generator::register_of(const Variable& variable) {
+    switch (variable.kind) {
+        case Variable::Kind::Global:
+            return global(variable.name, variable.type.base);
+        case Variable::Kind::Parameter:
+            return by_name_.at(variable.name);
+        default: {
+            const auto [known, is_new] = locals_.try_emplace(&variable, 0);
+            if (is_new) known->second = add_register(Register::Kind::Local, variable.type, variable.name);
+            return known->second;
+        }
+    }
+}
+
+Instruction& Generator::emit(Op op, Ids outputs, const Ids& inputs, int32_t immediate) {
+    if (++instruction_count_ > kMaxInstructions) {
+        diagnostics_.error(
+            at_, fmt::format("shader \"{}\" is too large: its functions, written out where they are "
+                             "called, make more than {} instructions",
+                             shader_.name, kMaxInstructions));
+        throw TooLarge{};
+    }
+    Instruction& instruction = code_->emplace_back();
+    instruction.op = op;
+    instruction.outputs = static_cast<uint8_t>(outputs.size());
+    instruction.immediate = immediate;
+    instruction.region = region_;
+    instruction.at = at_;
+    instruction.operands = std::move(outputs);
+    instruction.operands.insert(instruction.operands.end(), inputs.begin(), inputs.end());
+    return instruction;
+}
+
+RegisterId Generator::compute(Op op, Base base, const Ids& inputs, std::optional<RegisterId> into) {
+    const RegisterId out = into ? *into : temporary(base);
+    emit(op, {out}, inputs);
+    return out;
+}
+
+void Generator::open(Op op, Ids outputs, const Ids& inputs) {
+    emit(op, std::move(outputs), inputs);
+    open_regions_.push_back(region_);
+    region_ = ++last_region_;
+}
+
+/// The other half is a region of its own, outside of which lanes that it switches off go on.
+void Generator::turn_to_else(RegisterId decision) {
+    region_ = open_regions_.back();
+    emit(Op::Else, {}, {decision});
+    region_ = ++last_region_;
+}
+
+void Generator::close(Op op) {
+    region_ = open_regions_.back();
+    open_regions_.pop_back();
+    emit(op, {}, {});
+}
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,297 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "shade/code/generator.h"
+
+namespace trapeze::rsl {
+namespace {
+
+constexpr int kMaxCallDepth = 200;
+
+/// Which arguments of a call the function sets; those past the letters are inputs.
+std::vector<bool> outputs_of(const Builtin& builtin, size_t arguments) {
+    std::vector<bool> outputs(arguments, false);
+    size_t at = 0;
+    for (const char letter : builtin.parameters) {
+        if (at >= arguments) break;
+        if (letter == '[') continue;
+        if (letter == '*' || letter == '.' || letter == '+') break;
+        outputs[at++] = letter == '?' || (letter >= 'A' && letter <= 'Z');
+    }
+    return outputs;
+}
+
+/// Arguments that stand before the named ones.
+size_t positional_count(const Builtin& builtin, size_t arguments) {
+    size_t count = 0;
+    for (const char letter : builtin.parameters)
+        if (letter != '[' && letter != '*' && letter != '.' && letter != '+') ++count;
+    return std::min(count, arguments);
+}
+
+bool is_map(Op op) {
+    return op == Op::Texture || op == Op::Environment || op == Op::Shadow || op == Op::Bump;
+}
+
+int axis_of_function(std::string_view name) {
+    const size_t at = name.starts_with("set") ? 3 : 0;
+    if (name.size() != at + 5 || !name.ends_with("comp")) return -1;
+    return name[at] >= 'x' && name[at] <= 'z' ? name[at] - 'x' : -1;
+}
+
+}  // namespace
+
+RegisterId Generator::call_value(const Expression& e, std::optional<RegisterId> into) {
+    if (e.function) return moved(function_value(e), e.type.base, into);
+    return builtin_value(e, into);
+}
+
+RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterId> into) {
+    if (const auto rewritten = rewritten_builtin(e, into)) return *rewritten;
+    const Builtin& builtin = *e.builtin;
+    const std::vector<bool> is_output = outputs_of(builtin, e.children.size());
+    Ids outputs, inputs;
+    // Messages and the like give whether they found anything, and keep the variable if not.
+    if (builtin.result != 'w') outputs.push_back(into ? *into : temporary(e.type.base));
+    for (size_t i = 0; i < e.children.size(); ++i) {
+        const Expression& argument = *e.children[i];
+        if (is_output[i])
+            outputs.push_back(output_place(argument, argument.type.base));
+        else
+            inputs.push_back(value(argument));
+    }
+    add_unnamed_inputs(builtin.op, inputs);
+    const int32_t number = builtin.op == Op::Random ? random_calls_++ : 0;
+    const RegisterId result = outputs.empty() ? constant(0) : outputs.front();
+    std::vector<RegisterId> written = outputs;
+    emit(builtin.op, std::move(outputs), inputs, number);
+    size_t at = builtin.result != 'w' ? 1 : 0;
+    for (size_t i = 0; i < e.children.size(); ++i)
+        if (is_output[i]) write_back(*e.children[i], written[at++]);
+    return result;
+}
+
+/// Predefined variables that a function reads without being given them.
+void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
+    if (op == Op::FaceForward && inputs.size() == 2) inputs.push_back(global("Ng", Base::Normal));
+    if (op == Op::Du || op == Op::Dv || op == Op::Deriv)
+        for (const char* parameter : {"u", "v"}) inputs.push_back(global(parameter, Base::Float));
+    if (op < Op::Ambient || op > Op::Phong) return;
+    inputs.insert(inputs.begin(), global("P", Base::Point));
+    global("N", Base::Normal);  // lights may ask for it
+}
+
+/// Functions that are other operations than their table's.
+std::optional<RegisterId> Generator::rewritten_builtin(const Expression& e, std::optional<RegisterId> into) {
+    const Builtin& builtin = *e.builtin;
+    switch (builtin.op) {
+        case Op::Min:
+        case Op::Max:
+        case Op::Concat:
+            if (e.children.size() > 2) return chain_value(e, into);
+            return {};
+        case Op::LogBase: {
+            const RegisterId a = compute(Op::Log, Base::Float, {value(*e.children[0])});
+            const RegisterId b = compute(Op::Log, Base::Float, {value(*e.children[1])});
+            return compute(Op::Divide, Base::Float, {a, b}, into);
+        }
+        case Op::Radians:
+        case Op::Degrees: {
+            const double degree = std::numbers::pi / 180;
+            const RegisterId factor =
+                constant(static_cast<float>(builtin.op == Op::Radians ? degree : 1 / degree));
+            return compute(Op::Multiply, Base::Float, {value(*e.children[0]), factor}, into);
+        }
+        case Op::TransformPointNamed:
+        case Op::TransformVectorNamed:
+        case Op::TransformNormalNamed:
+        case Op::TransformMatrixNamed:
+            return named_transform_value(e, into);
+        case Op::ConvertColor: {
+            Ids inputs;
+            if (e.children.size() == 2) inputs.push_back(constant_text("rgb"));
+            for (const ExpressionPtr& child : e.children) inputs.push_back(value(*child));
+            // ctransform(to, c) and ctransform(from, to, c).
+            return compute(Op::ConvertColor, Base::Color, inputs, into);
+        }
+        case Op::Component:
+            if (const int axis = axis_of_function(builtin.name); axis >= 0)
+                return compute(Op::Component, Base::Float,
+                               {value(*e.children[0]), constant(static_cast<float>(axis))}, into);
+            return {};
+        case Op::ArrayLength:
+            return number_of_elements(*e.children[0], into);
+        case Op::IsOutput:
+            return moved(constant(1), Base::Float, into);
+        case Op::Unavailable: {
+            for (const ExpressionPtr& child : e.children) value(*child);
+            // A ray that hits nothing comes very far.
+            const float nothing = builtin.name == "rayhittest" ? 1e30f : 0.0f;
+            return moved(e.type.base == Base::String ? constant_text("") : constant(nothing), e.type.base,
+                         into);
+        }
+        case Op::SetComponent:
+        case Op::SetMatrixElement:
+            return set_part(e);
+        default:
+            if (is_map(builtin.op)) return map_value(e, into);
+            return {};
+    }
+}
+
+/// setcomp(c, k, x), setxcomp(p, x), setcomp(m, row, column, x): the output is the first argument.
+RegisterId Generator::set_part(const Expression& e) {
+    const Expression& target = *e.children[0];
+    RegisterId place;
+    if (target.kind == Expression::Kind::Element)
+        place = value(target, temporary(target.type.base));
+    else
+        place = register_of(*target.variable);
+    Ids inputs;
+    const int axis = axis_of_function(e.builtin->name);
+    if (axis >= 0) inputs.push_back(constant(static_cast<float>(axis)));
+    for (size_t i = 1; i < e.children.size(); ++i) inputs.push_back(value(*e.children[i]));
+    emit(e.builtin->op, {place}, inputs);
+    write_back(target, place);
+    return place;
+}
+
+/// min(a, b, c, ...) as min(min(a, b), c) ...
+RegisterId Generator::chain_value(const Expression& e, std::optional<RegisterId> into) {
+    Ids inputs;
+    for (const ExpressionPtr& child : e.children) inputs.push_back(value(*child));
+    RegisterId result = inputs.front();
+    for (size_t i = 1; i < inputs.size(); ++i)
+        result = compute(e.builtin->op, e.type.base, {result, inputs[i]},
+                         i + 1 == inputs.size() ? into : std::nullopt);
+    return result;
+}
+
+RegisterId Generator::number_of_elements(const Expression& array, std::optional<RegisterId> into) {
+    const int length = program_->reg(value(array)).type.length;
+    return moved(constant(static_cast<float>(length)), Base::Float, into);
+}
+
+/// The matrix of transform([from,] to, ...), where `to` is a name or a matrix.
+RegisterId Generator::named_matrix(const Expression* from, const Expression& to) {
+    const RegisterId current = constant_text("current");
+    if (to.type.base != Base::Matrix)
+        return compute(Op::SpaceMatrix, Base::Matrix, {from ? value(*from) : current, value(to)});
+    const RegisterId matrix = value(to);
+    if (!from) return matrix;
+    const RegisterId first = compute(Op::SpaceMatrix, Base::Matrix, {value(*from), current});
+    return compute(Op::MatrixMultiply, Base::Matrix, {first, matrix});
+}
+
+/// transform(), and those of vectors, normals and matrices, from a space or to one.
+RegisterId Generator::named_transform_value(const Expression& e, std::optional<RegisterId> into) {
+    const size_t last = e.children.size() - 1;
+    const RegisterId matrix = named_matrix(last == 2 ? e.children[0].get() : nullptr, *e.children[last - 1]);
+    const RegisterId moving = value(*e.children[last]);
+    switch (e.builtin->op) {
+        case Op::TransformPointNamed:
+            return compute(Op::TransformPoint, e.type.base, {matrix, moving}, into);
+        case Op::TransformVectorNamed:
+            return compute(Op::TransformVector, e.type.base, {matrix, moving}, into);
+        case Op::TransformNormalNamed:
+            return compute(Op::TransformNormal, e.type.base, {matrix, moving}, into);
+        default:
+            return compute(Op::MatrixMultiply, e.type.base, {moving, matrix}, into);
+    }
+}
+
+/// Inputs are the name, the channel, the coordinates (s and t when the call names none), then names and
+/// values.
+RegisterId Generator::map_value(const Expression& e, std::optional<RegisterId> into) {
+    const Expression& name = *e.children[0];
+    Ids inputs;
+    const bool with_channel = name.kind == Expression::Kind::Element && !name.children[0]->type.is_array();
+    inputs.push_back(value(with_channel ? *name.children[0] : name));
+    inputs.push_back(with_channel ? value(*name.children[1]) : constant(0));
+    const size_t positional = positional_count(*e.builtin, e.children.size());
+    int32_t coordinates = 0;
+    for (size_t i = 1; i < positional; ++i, ++coordinates) inputs.push_back(value(*e.children[i]));
+    const Op op = e.builtin->op;
+    if ((op == Op::Texture && coordinates == 0) || (op == Op::Bump && coordinates == 3)) {
+        inputs.push_back(global("s", Base::Float));
+        inputs.push_back(global("t", Base::Float));
+        coordinates += 2;
+    }
+    for (size_t i = positional; i < e.children.size(); ++i) inputs.push_back(value(*e.children[i]));
+    const RegisterId out = into ? *into : temporary(e.type.base);
+    emit(e.builtin->op, {out}, inputs, coordinates);
+    return out;
+}
+
+RegisterId Generator::output_place(const Expression& argument, Base base) {
+    if (argument.kind == Expression::Kind::Variable) return register_of(*argument.variable);
+    const RegisterId place = add_register(Register::Kind::Local, {base, 0});
+    // What is not set must be kept.
+    if (argument.kind == Expression::Kind::Element) value(argument, place);
+    return place;
+}
+
+void Generator::write_back(const Expression& argument, RegisterId result) {
+    if (argument.kind != Expression::Kind::Element) return;
+    emit(Op::SetElement, {value(*argument.children[0])}, {value(*argument.children[1]), result});
+}
+
+/// Arguments are passed by reference, as RISpec says (section 16.1); a parameter that the function changes
+/// though it is no output is a copy.
+RegisterId Generator::function_value(const Expression& e) {
+    const Function& function = *e.function;
+    if (call_depth_ >= kMaxCallDepth) {
+        diagnostics_.error(e.at, fmt::format("functions are called {} deep", kMaxCallDepth));
+        throw TooLarge{};
+    }
+    std::vector<std::pair<const Variable*, RegisterId>> bound;
+    std::vector<std::pair<const Expression*, RegisterId>> elements;
+    for (size_t i = 0; i < function.parameters.size() && i < e.children.size(); ++i) {
+        const Variable& parameter = *function.parameters[i];
+        const Expression& argument = *e.children[i];
+        if (parameter.output) {
+            const RegisterId place = output_place(argument, parameter.type.base);
+            if (argument.kind == Expression::Kind::Element) elements.push_back({&argument, place});
+            bound.push_back({&parameter, place});
+        } else if (parameter.type.is_array()) {
+            bound.push_back({&parameter, value(argument)});
+        } else {
+            const RegisterId given = value(argument);
+            if (assigns(*function.body, parameter)) {
+                const RegisterId copy = add_register(Register::Kind::Local, parameter.type, parameter.name);
+                moved(given, parameter.type.base, copy);
+                bound.push_back({&parameter, copy});
+            } else {
+                bound.push_back({&parameter, given});
+            }
+        }
+    }
+    // A function inlined twice has new variables each time.
+    auto outer_locals = locals_;
+    for (const auto& [parameter, id] : bound) locals_[parameter] = id;
+    ++call_depth_;
+    const RegisterId result = inline_body(function, e.type.base);
+    --call_depth_;
+    locals_ = std::move(outer_locals);
+    for (const auto& [argument, place] : elements) write_back(*argument, place);
+    return result;
+}
+
+RegisterId Generator::inline_body(const Function& function, Base base) {
+    const Body outer = body_;
+    body_ = {};
+    if (base != Base::Void) body_.result = add_register(Register::Kind::Local, {base, 0});
+    body_.in_scope = contains_early_return(*function.body);
+    // What falls off the function's end has a value too.
+    if (body_.result && !ends_with_return(*function.body)) clear(*body_.result);
+    if (body_.in_scope) open(Op::Scope, {}, {});
+    statement(*function.body);
+    if (body_.in_scope) close(Op::EndScope);
+    const RegisterId result = body_.result ? *body_.result : constant(0);
+    body_ = outer;
+    return result;
+}
+
+}  // namespace trapeze::rsl

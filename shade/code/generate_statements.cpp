@@ -1,0 +1,259 @@
+#include <algorithm>
+
+#include "shade/code/generator.h"
+
+namespace trapeze::rsl {
+namespace {
+
+bool contains_return(const Statement& s) {
+    if (s.kind == Statement::Kind::Return) return true;
+    for (const StatementPtr& child : s.children)
+        if (contains_return(*child)) return true;
+    return false;
+}
+
+bool assigned_in(const Expression& e, const Variable& variable) {
+    const auto names = [&](const Expression& target) {
+        return target.kind == Expression::Kind::Variable && target.variable == &variable;
+    };
+    if (e.kind == Expression::Kind::Assignment && names(*e.children[0])) return true;
+    if (e.kind == Expression::Kind::Assignment && e.children[0]->kind == Expression::Kind::Element &&
+        names(*e.children[0]->children[0]))
+        return true;
+    // Any call may set what is passed to it: a copy too many does no harm.
+    if (e.kind == Expression::Kind::Call) {
+        const bool sets = e.builtin ? e.builtin->result == 'w' || e.builtin->op >= Op::TextureInfo : true;
+        if (sets)
+            for (const ExpressionPtr& child : e.children)
+                if (names(*child)) return true;
+    }
+    for (const ExpressionPtr& child : e.children)
+        if (assigned_in(*child, variable)) return true;
+    return false;
+}
+
+}  // namespace
+
+bool contains_early_return(const Statement& body) {
+    if (body.kind != Statement::Kind::Block)
+        return contains_return(body) && body.kind != Statement::Kind::Return;
+    for (size_t i = 0; i < body.children.size(); ++i) {
+        const Statement& child = *body.children[i];
+        const bool last = i + 1 == body.children.size();
+        if (last && child.kind == Statement::Kind::Block) return contains_early_return(child);
+        if (contains_return(child) && !(last && child.kind == Statement::Kind::Return)) return true;
+    }
+    return false;
+}
+
+bool ends_with_return(const Statement& body) {
+    if (body.kind == Statement::Kind::Return) return true;
+    return body.kind == Statement::Kind::Block && !body.children.empty() &&
+           ends_with_return(*body.children.back());
+}
+
+bool assigns(const Statement& s, const Variable& variable) {
+    for (const ExpressionPtr& e : s.expressions)
+        if (e && assigned_in(*e, variable)) return true;
+    for (const auto& declared : s.variables)
+        if (declared->initial && assigned_in(*declared->initial, variable)) return true;
+    for (const StatementPtr& child : s.children)
+        if (assigns(*child, variable)) return true;
+    return false;
+}
+
+void Generator::statement(const Statement& s) {
+    if (s.at.line) at_ = s.at;
+    switch (s.kind) {
+        case Statement::Kind::Block:
+            for (const StatementPtr& child : s.children) {
+                if (!s.open) declare_outliving(*child);
+                statement(*child);
+            }
+            break;
+        case Statement::Kind::Declare:
+            declare(s);
+            break;
+        case Statement::Kind::Evaluate:
+            value(*s.expressions[0]);
+            break;
+        case Statement::Kind::If:
+            if_statement(s);
+            break;
+        case Statement::Kind::While:
+        case Statement::Kind::For:
+            loop_statement(s);
+            break;
+        case Statement::Kind::Illuminance:
+        case Statement::Kind::Illuminate:
+        case Statement::Kind::Solar:
+            light_block(s);
+            break;
+        case Statement::Kind::Gather:
+            gather_statement(s);
+            break;
+        case Statement::Kind::Break:
+            emit(Op::Break, {}, {}, s.levels);
+            break;
+        case Statement::Kind::Continue:
+            emit(Op::Continue, {}, {}, s.levels);
+            break;
+        case Statement::Kind::Return:
+            return_statement(s);
+            break;
+        case Statement::Kind::Empty:
+            break;
+    }
+}
+
+/// A variable without an initial value starts as 0 wherever it is declared, so that a run never sees what
+/// another left behind; the optimiser drops the zero where it is overwritten.
+void Generator::declare(const Statement& s) {
+    for (const auto& variable : s.variables) {
+        if (!variable->outlives) locals_.erase(variable.get());
+        const RegisterId id = register_of(*variable);
+        if (!variable->initial)
+            clear(id);
+        else
+            initialise(id, *variable->initial);
+    }
+}
+
+/// Variables of a block that statements without braces declare somewhere within this one of its statements.
+void Generator::declare_outliving(const Statement& s) {
+    for (const auto& variable : s.variables) {
+        if (!variable->outlives) continue;
+        locals_.erase(variable.get());
+        clear(register_of(*variable));
+    }
+    if (s.kind == Statement::Kind::Block && !s.open) return;
+    for (const StatementPtr& child : s.children) declare_outliving(*child);
+}
+
+void Generator::clear(RegisterId id) {
+    const Type type = program_->reg(id).type;
+    if (type.is_array())
+        emit(Op::Clear, {id}, {});
+    else if (type.base == Base::String)
+        moved(constant_text(""), Base::String, id);
+    else
+        emit(Op::Move, {id}, {constant(0)});
+}
+
+/// One value serves all elements of an array.
+void Generator::initialise(RegisterId id, const Expression& initial) {
+    const Type type = program_->reg(id).type;
+    if (initial.kind == Expression::Kind::List) {
+        if (initial.children.size() < static_cast<size_t>(type.length)) clear(id);
+        return assign_list(initial, id);
+    }
+    if (!type.is_array() || initial.type.is_array()) {
+        value(initial, id);
+        return;
+    }
+    const RegisterId all = value(initial);
+    for (int i = 0; i < type.length; ++i) emit(Op::SetElement, {id}, {constant(static_cast<float>(i)), all});
+}
+
+RegisterId Generator::condition(const Expression& e) {
+    const RegisterId id = value(e);
+    return base_of(id) == Base::Bool ? id : compute(Op::ToBool, Base::Bool, {id});
+}
+
+void Generator::if_statement(const Statement& s) {
+    const RegisterId decision = condition(*s.expressions[0]);
+    open(Op::If, {}, {decision});
+    statement(*s.children[0]);
+    if (s.children.size() > 1) {
+        turn_to_else(decision);
+        statement(*s.children[1]);
+    }
+    close(Op::EndIf);
+}
+
+void Generator::loop_statement(const Statement& s) {
+    const bool counts = s.kind == Statement::Kind::For;
+    const Expression* initial = counts ? s.expressions[0].get() : nullptr;
+    const Expression* test = s.expressions[counts ? 1 : 0].get();
+    if (initial) value(*initial);
+    open(Op::Loop, {}, {});
+    if (test) emit(Op::LoopTest, {}, {condition(*test)});
+    statement(*s.children[0]);
+    emit(Op::LoopStep, {}, {});
+    if (counts)
+        for (size_t i = 2; i < s.expressions.size(); ++i)
+            if (s.expressions[i]) value(*s.expressions[i]);
+    close(Op::EndLoop);
+}
+
+void Generator::light_block(const Statement& s) {
+    Ids inputs, outputs = {global("L", Base::Vector)};
+    Op op = Op::Solar, end = Op::EndSolar;
+    if (s.kind == Statement::Kind::Illuminance) {
+        op = Op::Illuminance, end = Op::EndIlluminance;
+        global("N", Base::Normal);  // lights may ask for it
+        outputs.push_back(global("Cl", Base::Color));
+        if (s.expressions[0]->type.base != Base::String) inputs.push_back(constant_text(""));
+    } else {
+        program_->directional = true;
+        if (s.kind == Statement::Kind::Illuminate) {
+            op = Op::Illuminate, end = Op::EndIlluminate;
+        }
+    }
+    for (const ExpressionPtr& e : s.expressions) inputs.push_back(value(*e));
+    // Light from all sides comes from where the surface looks.
+    if (op == Op::Solar && inputs.empty()) inputs.push_back(global("Ns", Base::Normal));
+    if (op == Op::Illuminate) inputs.insert(inputs.begin(), global("Ps", Base::Point));
+    const size_t opening = code_->size();
+    open(op, outputs, inputs);
+    statement(*s.children[0]);
+    close(end);
+    if (op == Op::Illuminance) keep_inputs(opening);
+}
+
+/// A loop over lights asks for its inputs again in each turn: those that its body changes become copies.
+void Generator::keep_inputs(size_t opening) {
+    std::vector<RegisterId> written;
+    for (size_t i = opening + 1; i < code_->size(); ++i)
+        for (size_t k = 0; k < (*code_)[i].outputs; ++k) written.push_back((*code_)[i].operands[k]);
+    std::sort(written.begin(), written.end());
+    for (size_t k = 0; k < (*code_)[opening].input_count(); ++k) {
+        const RegisterId input = (*code_)[opening].input(k);
+        if (!std::binary_search(written.begin(), written.end(), input)) continue;
+        Instruction copy;
+        copy.op = Op::Move;
+        copy.outputs = 1;
+        copy.region = (*code_)[opening].region;
+        copy.operands = {temporary(base_of(input)), input};
+        copy.at = (*code_)[opening].at;
+        program_->registers[copy.output()].region = copy.region;
+        Instruction& block = (*code_)[opening];
+        block.operands[block.outputs + k] = copy.output();
+        code_->insert(code_->begin() + static_cast<std::ptrdiff_t>(opening), std::move(copy));
+        ++opening;
+    }
+}
+
+void Generator::gather_statement(const Statement& s) {
+    Ids inputs;
+    for (const ExpressionPtr& e : s.expressions) inputs.push_back(value(*e));
+    open(Op::Gather, {}, inputs);
+    statement(*s.children[0]);
+    region_ = open_regions_.back();
+    emit(Op::GatherElse, {}, {});
+    region_ = ++last_region_;
+    if (s.children.size() > 1) statement(*s.children[1]);
+    close(Op::EndGather);
+}
+
+void Generator::return_statement(const Statement& s) {
+    if (!s.expressions.empty() && s.expressions[0]) {
+        if (body_.result)
+            value(*s.expressions[0], *body_.result);
+        else
+            value(*s.expressions[0]);
+    }
+    if (body_.in_scope) emit(Op::Leave, {}, {});
+}
+
+}  // namespace trapeze::rsl

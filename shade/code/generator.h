@@ -1,0 +1,116 @@
+/// The state of code generation; the work is in generate_expressions.cpp, generate_calls.cpp and
+/// generate_statements.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include "shade/code/generate.h"
+#include "shade/rsl/analysis/builtins.h"
+
+namespace trapeze::rsl {
+
+/// Whether a body returns anywhere but at its end.
+bool contains_early_return(const Statement& body);
+/// Whether a body's last statement is a return.
+bool ends_with_return(const Statement& body);
+/// Whether a body may change a variable.
+bool assigns(const Statement& body, const Variable& variable);
+
+class Generator {
+  public:
+    Generator(const Shader& shader, Diagnostics& diagnostics) : shader_(shader), diagnostics_(diagnostics) {}
+    std::unique_ptr<Program> run();
+
+  private:
+    using Ids = std::vector<RegisterId>;
+    /// Thrown once an error has been reported that makes going on useless.
+    struct TooLarge {};
+
+    // Registers.
+    RegisterId add_register(Register::Kind kind, Type type, std::string name = {});
+    RegisterId temporary(Base base) { return add_register(Register::Kind::Temporary, {base, 0}); }
+    RegisterId constant(float value);
+    RegisterId constant_text(const std::string& text);
+    RegisterId global(std::string_view name, Base base);
+    RegisterId register_of(const Variable& variable);
+    Base base_of(RegisterId id) const { return program_->reg(id).type.base; }
+
+    // Instructions.
+    Instruction& emit(Op op, Ids outputs, const Ids& inputs, int32_t immediate = 0);
+    /// Into `into`, or a new temporary.
+    RegisterId compute(Op op, Base base, const Ids& inputs, std::optional<RegisterId> into = {});
+    void open(Op op, Ids outputs, const Ids& inputs);
+    void turn_to_else(RegisterId decision);
+    void close(Op op);
+
+    // Expressions: the register that holds the value, which is `into` when given.
+    RegisterId value(const Expression& e, std::optional<RegisterId> into = {});
+    RegisterId number_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId binary_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId conditional_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId cast_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId assignment_value(const Expression& e);
+    RegisterId combined(Operator op, Base base, RegisterId a, RegisterId b, std::optional<RegisterId> into);
+    RegisterId moved(RegisterId from, Base base, std::optional<RegisterId> into);
+    void assign_list(const Expression& list, RegisterId array);
+
+    // Calls.
+    RegisterId call_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId builtin_value(const Expression& e, std::optional<RegisterId> into);
+    void add_unnamed_inputs(Op op, Ids& inputs);
+    std::optional<RegisterId> rewritten_builtin(const Expression& e, std::optional<RegisterId> into);
+    RegisterId set_part(const Expression& e);
+    RegisterId chain_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId number_of_elements(const Expression& array, std::optional<RegisterId> into);
+    RegisterId named_matrix(const Expression* from, const Expression& to);
+    RegisterId named_transform_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId map_value(const Expression& e, std::optional<RegisterId> into);
+    RegisterId function_value(const Expression& e);
+    RegisterId inline_body(const Function& function, Base result);
+    /// A place for an output argument, and what must be done to it afterwards if it is an array's element.
+    RegisterId output_place(const Expression& argument, Base base);
+    void write_back(const Expression& argument, RegisterId value);
+
+    // Statements.
+    void statement(const Statement& s);
+    void declare(const Statement& s);
+    void declare_outliving(const Statement& s);
+    void clear(RegisterId id);
+    void initialise(RegisterId id, const Expression& initial);
+    void if_statement(const Statement& s);
+    void loop_statement(const Statement& s);
+    void light_block(const Statement& s);
+    void keep_inputs(size_t opening);
+    void gather_statement(const Statement& s);
+    void return_statement(const Statement& s);
+    RegisterId condition(const Expression& e);
+    void add_parameters();
+    void copy_written_globals();
+
+    const Shader& shader_;
+    Diagnostics& diagnostics_;
+    std::unique_ptr<Program> program_;
+    Code* code_ = nullptr;  ///< where instructions go
+    size_t instruction_count_ = 0;
+    SourceLocation at_;
+    uint32_t region_ = 0, last_region_ = 0;
+    std::vector<uint32_t> open_regions_;
+    std::unordered_map<const Variable*, RegisterId> locals_;
+    std::map<std::string, RegisterId, std::less<>> by_name_;  ///< globals and parameters
+    std::map<float, RegisterId> numbers_;
+    std::map<std::string, RegisterId> texts_;
+    int call_depth_ = 0;
+    int32_t random_calls_ = 0;
+    /// Of the function (or shader) whose body is being generated.
+    struct Body {
+        std::optional<RegisterId> result;
+        bool in_scope = false;  ///< a return jumps
+    };
+    Body body_;
+};
+
+}  // namespace trapeze::rsl

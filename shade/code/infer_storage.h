@@ -1,0 +1,20 @@
+/// Which registers hold a value for each vertex and which hold one for all, and what has to be done under a
+/// mask.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "shade/code/program.h"
+
+namespace trapeze::rsl {
+
+/// Sets Register::varying, Instruction::varying and Instruction::masked. What the source declares is kept for
+/// parameters alone: a local variable is uniform when all that it is given is uniform, wherever lanes do not
+/// go separate ways. `varies` says of a parameter whether it is given a value for each vertex.
+void infer_storage(Program& program, const std::function<bool(const ProgramParameter&)>& varies);
+
+/// Predefined variables that have one value for a grid.
+bool is_uniform_global(std::string_view name);
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,26 @@
+/// Improves a program without changing what it computes, bit for bit.
+#pragma once
+
+#include "shade/code/program.h"
+
+namespace trapeze::rsl {
+
+struct OptimiseOptions {
+    bool fold = true;   ///< constants, copies and common subexpressions
+    bool hoist = true;  ///< what does not change in a loop
+    bool prune = true;  ///< what nobody reads
+};
+
+void optimise(Program& program, const OptimiseOptions& options = {});
+
+// Its passes.
+
+/// Folds constants with the machine's own kernels, follows copies, reuses common subexpressions, and drops
+/// the dead half of an If whose condition is constant.
+void fold_code(Program& program, Code& code);
+/// Moves what a loop computes again and again in front of it.
+void hoist_code(Program& program, Code& code);
+/// Removes instructions that set nothing but what is never read, and blocks without contents.
+void prune_code(Program& program);
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,85 @@
+/// A shader as three-address code: what code generation makes of the tree, the optimiser improves and the
+/// grid machine runs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "shade/operations/op.h"
+#include "shade/rsl/syntax/type.h"
+
+namespace trapeze::rsl {
+
+using RegisterId = uint32_t;
+
+struct Register {
+    enum class Kind : uint8_t {
+        Constant,
+        Parameter,
+        Global,  ///< a predefined variable
+        Local,
+        Temporary,  ///< written by one instruction, and read in its block or deeper ones
+    };
+    Kind kind = Kind::Temporary;
+    Type type;
+    bool varying = false;            ///< set by infer_storage()
+    uint32_t region = 0;             ///< where it lives: see Instruction::region
+    std::string name;                ///< as in the source; empty for constants and temporaries
+    std::vector<float> values;       ///< of a Constant
+    std::vector<std::string> texts;  ///< of a Constant of strings
+};
+
+struct Instruction {
+    Op op = Op::Move;
+    uint8_t outputs = 0;
+    /// Lanes that do not run must keep what they have: the output outlives the region of the program in which
+    /// lanes were switched off. Set by infer_storage().
+    bool masked = false;
+    bool varying = false;              ///< of a block's opening: lanes take different ways; of any other:
+                                       ///< it is to be done for each lane
+    int32_t immediate = 0;             ///< as op.h says
+    uint32_t region = 0;               ///< number of the innermost block around it; 0: none
+    std::vector<RegisterId> operands;  ///< outputs first
+    SourceLocation at;
+
+    RegisterId output(size_t i = 0) const { return operands[i]; }
+    size_t input_count() const { return operands.size() - outputs; }
+    RegisterId input(size_t i) const { return operands[outputs + i]; }
+};
+
+using Code = std::vector<Instruction>;
+
+struct ProgramParameter {
+    std::string name;
+    Type type;
+    Storage storage = Storage::Uniform;
+    bool output = false;
+    RegisterId id = 0;
+    Code initial;  ///< computes the default into the register
+    SourceLocation at;
+};
+
+struct Program {
+    ShaderKind kind = ShaderKind::Surface;
+    std::string name;
+    std::vector<Register> registers;
+    std::vector<ProgramParameter> parameters;
+    Code code;
+    bool directional = false;  ///< a light with illuminate or solar; without, it is ambient
+
+    const Register& reg(RegisterId id) const { return registers[id]; }
+    /// A predefined variable's register, if the program names it.
+    const RegisterId* find_global(std::string_view global) const {
+        for (size_t i = 0; i < globals.size(); ++i)
+            if (registers[globals[i]].name == global) return &globals[i];
+        return nullptr;
+    }
+    std::vector<RegisterId> globals;
+};
+
+/// Text of a program, an instruction a line, for people.
+std::string listing(const Program& program);
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,139 @@
+#include "shade/maps/linear_image_input.h"
+
+#include <Imath/half.h>
+
+#include <cmath>
+#include <limits>
+
+namespace trapeze {
+namespace {
+
+constexpr std::string_view kDecoded = " (decoded from sRGB)";
+
+/// IEC 61966-2-1.
+float linear_from_srgb(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+template <class Stored>
+std::vector<float> decoding_table() {
+    constexpr size_t kLargest = std::numeric_limits<Stored>::max();
+    std::vector<float> table(kLargest + 1);
+    for (size_t i = 0; i <= kLargest; ++i)
+        table[i] = linear_from_srgb(static_cast<float>(i) / static_cast<float>(kLargest));
+    return table;
+}
+
+bool is_whole(const OIIO::ImageSpec& spec) {
+    return (spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16) &&
+           spec.channelformats.empty();
+}
+
+}  // namespace
+
+bool is_srgb_encoded(const OIIO::ImageSpec& spec, Transfer transfer) {
+    if (transfer == Transfer::Linear || !is_whole(spec)) return false;
+    if (transfer == Transfer::Srgb) return true;
+    const int colors = spec.nchannels - (spec.alpha_channel >= 0 ? 1 : 0);
+    return spec.format == OIIO::TypeDesc::UINT8 && colors >= 3 &&
+           OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace", "sRGB"), "sRGB");
+}
+
+std::string LinearImageInput::decoded_name(const std::string& file) {
+    return file + std::string(kDecoded);
+}
+
+bool LinearImageInput::open(const std::string& name, OIIO::ImageSpec& new_spec) {
+    return open(name, new_spec, {});
+}
+
+bool LinearImageInput::open(const std::string& name, OIIO::ImageSpec& new_spec,
+                            const OIIO::ImageSpec& config) {
+    OIIO::ImageSpec stored = config;
+    stored.attribute("oiio:UnassociatedAlpha", 1);  // multiplied by alpha after it is decoded, not before
+    const bool decoded = name.ends_with(kDecoded);
+    inner_ = OIIO::ImageInput::open(decoded ? name.substr(0, name.size() - kDecoded.size()) : name, &stored);
+    if (!inner_) {
+        errorfmt("{}", OIIO::geterror());
+        return false;
+    }
+    take_spec();
+    new_spec = m_spec;
+    return true;
+}
+
+void LinearImageInput::take_spec() {
+    m_spec = inner_->spec();
+    stored_ = m_spec.format;
+    decodes_ = is_whole(m_spec);
+    if (!decodes_) return;
+    multiplies_ = m_spec.alpha_channel >= 0 && m_spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
+    m_spec.erase_attribute("oiio:UnassociatedAlpha");
+    m_spec.set_format(stored_ == OIIO::TypeDesc::UINT8 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+    m_spec.attribute("oiio:ColorSpace", "Linear");
+}
+
+bool LinearImageInput::close() {
+    const bool good = !inner_ || inner_->close();
+    inner_.reset();
+    return good;
+}
+
+bool LinearImageInput::seek_subimage(int subimage, int miplevel) {
+    if (!inner_ || !inner_->seek_subimage(subimage, miplevel)) return false;
+    take_spec();
+    return true;
+}
+
+bool LinearImageInput::failed() {
+    errorfmt("{}", inner_->geterror());
+    return false;
+}
+
+template <class Stored>
+void LinearImageInput::deliver(const std::vector<unsigned char>& pixels, void* data) const {
+    static const std::vector<float> kTable = decoding_table<Stored>();
+    using Value = std::conditional_t<sizeof(Stored) == 1, Imath::half, float>;
+    const auto* in = reinterpret_cast<const Stored*>(pixels.data());
+    auto* out = static_cast<Value*>(data);
+    const int channels = m_spec.nchannels, alpha_channel = m_spec.alpha_channel;
+    const size_t count = pixels.size() / sizeof(Stored) / static_cast<size_t>(channels);
+    for (size_t i = 0; i < count; ++i, in += channels, out += channels) {
+        const float alpha = alpha_channel < 0 ? 1.0f
+                                              : static_cast<float>(in[alpha_channel]) /
+                                                    static_cast<float>(std::numeric_limits<Stored>::max());
+        for (int c = 0; c < channels; ++c)
+            out[c] = Value(c == alpha_channel ? alpha : kTable[in[c]] * (multiplies_ ? alpha : 1.0f));
+    }
+}
+
+/// `read_native` reads so many pixels from the wrapped file.
+template <class Read>
+bool LinearImageInput::read(size_t pixels, void* data, Read&& read_native) {
+    if (!decodes_) return read_native(data) || failed();
+    std::vector<unsigned char> stored(pixels * m_spec.nchannels * stored_.size());
+    if (!read_native(stored.data())) return failed();
+    if (stored_ == OIIO::TypeDesc::UINT8)
+        deliver<uint8_t>(stored, data);
+    else
+        deliver<uint16_t>(stored, data);
+    return true;
+}
+
+bool LinearImageInput::read_native_scanline(int subimage, int miplevel, int y, int z, void* data) {
+    if (!inner_) return false;
+    lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel)) return failed();
+    return read(static_cast<size_t>(m_spec.width), data,
+                [&](void* to) { return inner_->read_native_scanline(subimage, miplevel, y, z, to); });
+}
+
+bool LinearImageInput::read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) {
+    if (!inner_) return false;
+    lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel)) return failed();
+    return read(static_cast<size_t>(m_spec.tile_pixels()), data,
+                [&](void* to) { return inner_->read_native_tile(subimage, miplevel, x, y, z, to); });
+}
+
+}  // namespace trapeze

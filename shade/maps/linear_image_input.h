@@ -1,0 +1,52 @@
+/// An image reader for texture caches that wraps OpenImageIO's own readers and hands pixels of 8 and 16 bits
+/// that are encoded by the sRGB curve on as linear halves and floats, so that mip levels are made, and
+/// lookups filtered, in linear light. Alpha is not encoded; colours that are not multiplied by it are, in
+/// linear light.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/scene/transfer.h"
+
+namespace trapeze {
+
+/// Whether pixels of such a file are taken to be encoded by the sRGB curve. Auto: 8 bits and three colours or
+/// more, unless the file's metadata names another space.
+bool is_srgb_encoded(const OIIO::ImageSpec& spec, Transfer transfer);
+
+class LinearImageInput : public OIIO::ImageInput {
+  public:
+    /// What a cache knows the decoded pixels of a file by, beside those as they are.
+    static std::string decoded_name(const std::string& file);
+
+    /// As OpenImageIO's caches want it. Opens files by their own or by their decoded names.
+    static OIIO::ImageInput* create() { return new LinearImageInput; }
+
+    const char* format_name() const override { return "linear"; }
+    bool open(const std::string& name, OIIO::ImageSpec& new_spec) override;
+    bool open(const std::string& name, OIIO::ImageSpec& new_spec, const OIIO::ImageSpec& config) override;
+    bool close() override;
+    int current_subimage() const override { return inner_ ? inner_->current_subimage() : 0; }
+    int current_miplevel() const override { return inner_ ? inner_->current_miplevel() : 0; }
+    bool seek_subimage(int subimage, int miplevel) override;
+    bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
+    bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
+
+  private:
+    void take_spec();
+    /// Of pixels as they are read from the wrapped file.
+    template <class Stored>
+    void deliver(const std::vector<unsigned char>& pixels, void* data) const;
+    template <class Read>
+    bool read(size_t pixels, void* data, Read&& read_native);
+    bool failed();
+
+    std::unique_ptr<OIIO::ImageInput> inner_;
+    OIIO::TypeDesc stored_;  ///< of the file's numbers
+    bool decodes_ = false, multiplies_ = false;
+};
+
+}  // namespace trapeze

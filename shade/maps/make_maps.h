@@ -1,0 +1,53 @@
+/// From pictures to the files that shaders look up: RISpec 3.2's MakeTexture, MakeLatLongEnvironment,
+/// MakeCubeFaceEnvironment and MakeShadow (section 7), and MakeBump of version 3.1.
+///
+/// They never throw. Files appear whole or not at all: written beside the target, then renamed. Names are
+/// used as they are.
+///
+/// What is made are OpenImageIO's textures: tiled, with smaller and smaller pictures in linear light.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "core/scene/transfer.h"
+
+namespace trapeze {
+
+/// Why nothing was made; empty when it was.
+struct MapProblem {
+    std::string text;
+    bool is_of_output = false;  ///< the map's file cannot be written; else it is the pictures
+
+    bool operator==(std::string_view other) const { return text == other; }
+};
+
+struct MapMaking {
+    std::string swrap = "periodic", twrap = "periodic";  ///< or "clamp", "black", "mirror"
+    /// RISpec's or OpenImageIO's name of what the smaller pictures are filtered with; each has its own width,
+    /// for RISpec's widths there is no use.
+    std::string filter = "box";
+    Transfer transfer = Transfer::Linear;  ///< of the pictures' numbers; maps are floats in linear light
+};
+
+MapProblem make_texture_map(const std::string& picture, const std::string& texture, const MapMaking& making);
+
+/// The same of heights, which are numbers for Transfer::Auto.
+MapProblem make_bump_map(const std::string& picture, const std::string& texture, const MapMaking& making);
+
+/// Of a picture by longitude and latitude, as textures.h has it.
+MapProblem make_lat_long_environment(const std::string& picture, const std::string& texture,
+                                     const MapMaking& making);
+
+/// Of six views along +x, -x, +y, -y, +z, -z, each `fov` degrees wide and high (at least 90). As RISpec has
+/// them, seen in the left-handed camera space: up is +y but for +y, where it is -z, and -y, where it is +z;
+/// to the right are -z, +z, +x, +x, +x, -x. The map that is made is one by longitude and latitude.
+MapProblem make_cube_face_environment(const std::array<std::string, 6>& pictures, const std::string& texture,
+                                      float fov, const MapMaking& making);
+
+/// Of a depth picture that has its camera's matrices, as Display "zfile" writes it. The target may be the
+/// picture itself.
+MapProblem make_shadow_map(const std::string& picture, const std::string& shadow);
+
+}  // namespace trapeze

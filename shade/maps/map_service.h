@@ -1,0 +1,30 @@
+/// The shading language's texture(), environment(), shadow(), bump() and textureinfo() over a render's
+/// Textures.
+#pragma once
+
+#include "core/scene/scene.h"
+#include "shade/maps/textures.h"
+#include "shade/vm/context.h"
+
+namespace trapeze {
+
+/// One for each thread and grid; all it refers to must outlive it.
+class MapService : public vm::Maps {
+  public:
+    MapService(Textures& textures, const Scene& scene) : textures_(textures), scene_(scene) {}
+
+    void look_up(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
+
+  private:
+    const Textures::Picture* picture_of(vm::Run& run, const vm::Step& step, bool of_color);
+    void texture(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
+    void environment(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
+    void shadow(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
+    void bump(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
+    void texture_info(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands);
+
+    Textures& textures_;
+    const Scene& scene_;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,201 @@
+#include "shade/materials/bound_shader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/scene/scene.h"
+
+namespace trapeze {
+namespace {
+
+using rsl::Base;
+
+bool suits(ValueType given, Base wanted) {
+    switch (given) {
+        case ValueType::Float:
+        case ValueType::Integer:
+            return wanted == Base::Float;
+        case ValueType::String:
+            return wanted == Base::String;
+        case ValueType::Color:
+            return wanted == Base::Color;
+        case ValueType::Point:
+        case ValueType::Vector:
+        case ValueType::Normal:
+            return wanted == Base::Point || wanted == Base::Vector || wanted == Base::Normal;
+        case ValueType::Matrix:
+            return wanted == Base::Matrix;
+        case ValueType::HPoint:
+            return false;
+    }
+    return false;
+}
+
+/// A value that nobody declared is a string, or an array of floats: the shader says what they are.
+bool looks_like(const Parameter& given, size_t floats) {
+    return given.declaration.type == ValueType::Float && given.declaration.array_length > 1 && floats > 1 &&
+           given.floats.size() == floats;
+}
+
+std::string_view type_name(Base base) {
+    static constexpr std::string_view kNames[] = {"void",   "bool",   "float",  "color", "point",
+                                                  "vector", "normal", "matrix", "string"};
+    return kNames[static_cast<size_t>(base)];
+}
+
+/// From shader to camera space.
+void to_camera(float* values, Base base, const M44f& camera_from_shader) {
+    const V3f v(values[0], values[1], values[2]);
+    V3f out = v;
+    if (base == Base::Point)
+        camera_from_shader.multVecMatrix(v, out);
+    else if (base == Base::Vector)
+        camera_from_shader.multDirMatrix(v, out);
+    else if (base == Base::Normal)
+        camera_from_shader.inverse().transposed().multDirMatrix(v, out);
+    for (int k = 0; k < 3; ++k) values[k] = out[k];
+}
+
+}  // namespace
+
+BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const ShaderInstance& instance,
+                         const vm::Spaces& spaces, Diagnostics* diagnostics)
+    : executable_(std::move(executable)), instance_(instance) {
+    const rsl::Program& program = executable_->program();
+    values_.resize(program.parameters.size());
+    // Defaults may name parameters before them, and so all are set one after the other in a frame.
+    vm::Machine machine;
+    vm::Frame& frame = machine.frame(executable_);
+    frame.start(kLanes);
+    vm::Context context;
+    context.spaces = &spaces;
+    context.diagnostics = diagnostics;
+    for (size_t i = 0; i < values_.size(); ++i) {
+        const rsl::ProgramParameter& parameter = program.parameters[i];
+        Value& value = values_[i];
+        const size_t elements = static_cast<size_t>(std::max(parameter.type.length, 1));
+        const size_t width = static_cast<size_t>(rsl::width_of(parameter.type.base));
+        if (take_from_instance(parameter, value, diagnostics)) {
+            for (size_t e = 0; e < elements; ++e) {
+                if (width)
+                    frame.set_uniform(parameter.id, value.floats.data() + e * width, e);
+                else
+                    frame.text(parameter.id, e) = value.texts[e];
+            }
+            continue;
+        }
+        if (executable_->has_run_default(i)) {
+            run_defaults_.push_back(i);
+            value.floats.assign(elements * width, 0.0f);
+            value.texts.resize(width ? 0 : elements);
+            continue;
+        }
+        machine.run_initial(frame, i, context);
+        for (size_t e = 0; e < elements; ++e) {
+            if (!width) value.texts.push_back(frame.text(parameter.id, e));
+            const vm::Operand& operand = frame.operand(parameter.id);
+            for (size_t k = 0; k < width; ++k)
+                value.floats.push_back(operand.data[e * operand.element_stride + k * operand.stride]);
+        }
+    }
+}
+
+bool BoundShader::take_from_instance(const rsl::ProgramParameter& parameter, Value& value,
+                                     Diagnostics* diagnostics) const {
+    const Parameter* given = instance_.parameters.find(parameter.name);
+    if (!given) return false;
+    const size_t elements = static_cast<size_t>(std::max(parameter.type.length, 1));
+    const Base base = parameter.type.base;
+    const size_t width = static_cast<size_t>(rsl::width_of(base));
+    const size_t count = width ? given->floats.size() / std::max<size_t>(width, 1) : given->strings.size();
+    const bool is_suitable = suits(given->declaration.type, base) || looks_like(*given, elements * width);
+    if (!is_suitable || count < elements) {
+        if (diagnostics)
+            diagnostics->warning(
+                instance_.location,
+                fmt::format("shader \"{}\" declares \"{}\" as {}{}; the value given is another, and "
+                            "the default holds",
+                            instance_.name, parameter.name, type_name(base),
+                            elements > 1 ? fmt::format("[{}]", elements) : ""),
+                fmt::format("shader-parameter-type {} {}", instance_.name, parameter.name));
+        return false;
+    }
+    if (!width) {
+        value.texts.assign(given->strings.begin(),
+                           given->strings.begin() + static_cast<std::ptrdiff_t>(elements));
+        return true;
+    }
+    value.floats.assign(given->floats.begin(),
+                        given->floats.begin() + static_cast<std::ptrdiff_t>(elements * width));
+    for (size_t e = 0; e < elements && width == 3; ++e)
+        to_camera(value.floats.data() + e * 3, base, instance_.camera_from_shader);
+    return true;
+}
+
+const GridVariable* suitable_variable(const ShadingGrid& grid, std::string_view name, rsl::Type type) {
+    const GridVariable* variable = grid.find(name);
+    if (!variable || !suits(variable->declaration.type, type.base)) return nullptr;
+    const int elements = std::max(type.length, 1);
+    if (type.base == Base::String) return variable->strings.empty() ? nullptr : variable;
+    const size_t planes = static_cast<size_t>(elements * rsl::width_of(type.base));
+    if (variable->planes.size() != planes) return nullptr;
+    for (const std::vector<float>& plane : variable->planes)
+        if (plane.empty()) return nullptr;
+    return variable;
+}
+
+void BoundShader::set_parameters(vm::Frame& frame, std::span<const ShadingGrid* const> grids) const {
+    for (size_t i = 0; i < values_.size(); ++i) {
+        const rsl::ProgramParameter& parameter = program().parameters[i];
+        const Value& value = values_[i];
+        const rsl::RegisterId id = parameter.id;
+        const size_t width = static_cast<size_t>(rsl::width_of(parameter.type.base));
+        const GridVariable* variable =
+            grids.empty() ? nullptr : suitable_variable(*grids.front(), parameter.name, parameter.type);
+        if (!width) {
+            for (size_t e = 0; e < value.texts.size(); ++e)
+                frame.text(id, e) =
+                    variable && e < variable->strings.size() ? variable->strings[e] : value.texts[e];
+            continue;
+        }
+        if (!variable) {
+            for (size_t e = 0; e * width < value.floats.size(); ++e)
+                frame.set_uniform(id, value.floats.data() + e * width, e);
+            continue;
+        }
+        const vm::Operand& out = frame.operand(id);
+        const bool varying = out.lane_mask != 0;
+        const size_t plane = varying ? frame.lanes() : kLanes;
+        for (size_t p = 0; p < variable->planes.size(); ++p) {
+            float* to = out.data + p * plane;
+            if (!varying) {
+                std::fill_n(to, plane, variable->planes[p].front());
+                continue;
+            }
+            size_t at = 0;
+            for (const ShadingGrid* grid : grids) {
+                const GridVariable* own = suitable_variable(*grid, parameter.name, parameter.type);
+                const size_t count = grid->vertex_count();
+                if (!own || own->uniform || own->planes[p].size() < count)
+                    std::fill_n(to + at, count, own ? own->planes[p].front() : value.floats[p]);
+                else
+                    std::copy_n(own->planes[p].begin(), count, to + at);
+                at += count;
+            }
+            std::fill(to + at, to + plane, at ? to[at - 1] : 0.0f);
+        }
+    }
+}
+
+void BoundShader::set_run_defaults(vm::Machine& machine, vm::Frame& frame, const vm::Context& context,
+                                   std::span<const ShadingGrid* const> grids) const {
+    for (const size_t i : run_defaults_) {
+        const rsl::ProgramParameter& parameter = program().parameters[i];
+        // Grids that share a run all have the variable, or none has.
+        if (grids.empty() || !suitable_variable(*grids.front(), parameter.name, parameter.type))
+            machine.run_initial(frame, i, context);
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,57 @@
+/// A shader with the parameter values of one instance of it in a scene.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene/shading_grid.h"
+#include "shade/vm/executable.h"
+#include "shade/vm/machine.h"
+
+namespace trapeze {
+
+struct ShaderInstance;
+
+class BoundShader {
+  public:
+    /// Values of the instance that do not fit a parameter's type are reported (diagnostics may be null) and
+    /// the default holds. Points, vectors, normals and matrices of the instance are in shader space. The
+    /// instance must outlive this.
+    BoundShader(std::shared_ptr<const vm::Executable> executable, const ShaderInstance& instance,
+                const vm::Spaces& spaces, Diagnostics* diagnostics);
+
+    /// Sets the parameters in a frame that has been started. A primitive variable of a parameter's name and
+    /// type replaces it (RISpec 3.2, section 5).
+    void set_parameters(vm::Frame& frame, std::span<const ShadingGrid* const> grids) const;
+
+    /// Computes the defaults that follow from the point (Executable::has_run_default) of parameters that
+    /// nothing else gives, once the frame has its parameters and predefined variables.
+    void set_run_defaults(vm::Machine& machine, vm::Frame& frame, const vm::Context& context,
+                          std::span<const ShadingGrid* const> grids) const;
+
+    const std::shared_ptr<const vm::Executable>& executable() const { return executable_; }
+    const rsl::Program& program() const { return executable_->program(); }
+    const ShaderInstance& instance() const { return instance_; }
+
+    struct Value {
+        std::vector<float> floats;  ///< all elements
+        std::vector<std::string> texts;
+    };
+    /// Of program().parameters, as long as no primitive variable replaces them; points in camera space.
+    const std::vector<Value>& values() const { return values_; }
+
+  private:
+    bool take_from_instance(const rsl::ProgramParameter& parameter, Value& value,
+                            Diagnostics* diagnostics) const;
+
+    std::shared_ptr<const vm::Executable> executable_;
+    const ShaderInstance& instance_;
+    std::vector<Value> values_;         ///< of program().parameters
+    std::vector<size_t> run_defaults_;  ///< parameters that wait for the run: their values are 0
+};
+
+/// The values of a primitive variable that suit a shader's type; null when there are none.
+const GridVariable* suitable_variable(const ShadingGrid& grid, std::string_view name, rsl::Type type);
+
+}  // namespace trapeze

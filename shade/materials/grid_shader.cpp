@@ -1,0 +1,188 @@
+#include "shade/materials/grid_shader.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "shade/materials/polygon_parameters.h"
+
+namespace trapeze {
+namespace {
+
+using vm::Operand;
+
+/// Writes a grid's values behind those of the grids before it.
+class Loader {
+  public:
+    Loader(vm::Frame& frame, std::span<const ShadingGrid* const> grids) : frame_(frame), grids_(grids) {}
+
+    template <class PlaneOf>
+    void load(const Operand& out, int components, const PlaneOf& plane_of) const {
+        for (int k = 0; k < components; ++k) {
+            float* to = out.data + static_cast<size_t>(k) * out.stride;
+            size_t at = 0;
+            for (const ShadingGrid* grid : grids_) {
+                const std::vector<float>& from = plane_of(*grid, k);
+                const size_t count = grid->vertex_count(), given = std::min(from.size(), count);
+                std::copy_n(from.begin(), given, to + at);
+                std::fill_n(to + at + given, count - given, given ? from[given - 1] : 0.0f);
+                at += count;
+            }
+            std::fill(to + at, to + frame_.lanes(), at ? to[at - 1] : 0.0f);
+        }
+    }
+
+    void load(const Operand& out, Triples ShadingGrid::*triples) const {
+        load(out, 3, [&](const ShadingGrid& grid, int k) -> const std::vector<float>& {
+            return (grid.*triples).c[k];
+        });
+    }
+    void load(const Operand& out, std::vector<float> ShadingGrid::*plane) const {
+        load(out, 1, [&](const ShadingGrid& grid, int) -> const std::vector<float>& { return grid.*plane; });
+    }
+    void load_P(const Operand& out) const {
+        load(out, 3,
+             [](const ShadingGrid& grid, int k) -> const std::vector<float>& { return grid.P.front().c[k]; });
+    }
+
+    void copy(const Operand& out, const float* plane) const { std::copy_n(plane, frame_.lanes(), out.data); }
+
+  private:
+    vm::Frame& frame_;
+    std::span<const ShadingGrid* const> grids_;
+};
+
+void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& value,
+                  const RenderContext& context, vm::Footprints& footprints, bool shaded) {
+    const Operand& out = frame.operand(value.id);
+    const Options& options = context.scene->options;
+    using vm::Predefined;
+    switch (value.variable) {
+        case Predefined::P:
+        case Predefined::Ps:
+            return loader.load_P(out);
+        case Predefined::I: {
+            // From the eye to P; along the view when the projection is orthographic.
+            if (context.camera.perspective) return loader.load_P(out);
+            const float along[3] = {0, 0, 1};
+            return frame.set_uniform(value.id, along);
+        }
+        case Predefined::N:
+            return loader.load(out, &ShadingGrid::N);
+        case Predefined::Ng:
+            return loader.load(out, &ShadingGrid::Ng);
+        case Predefined::dPdu:
+            return loader.load(out, &ShadingGrid::dPdu);
+        case Predefined::dPdv:
+            return loader.load(out, &ShadingGrid::dPdv);
+        case Predefined::Cs:
+            return loader.load(out, &ShadingGrid::Cs);
+        case Predefined::Os:
+            return loader.load(out, &ShadingGrid::Os);
+        case Predefined::Ci: {
+            // Black where nothing has shaded yet: what a shader leaves alone, or adds to, shows nothing of
+            // its own.
+            if (shaded) return loader.load(out, &ShadingGrid::Ci);
+            const float black[3] = {};
+            return frame.set_uniform(value.id, black);
+        }
+        case Predefined::Oi:
+            return loader.load(out, shaded ? &ShadingGrid::Oi : &ShadingGrid::Os);
+        case Predefined::u:
+            return loader.load(out, &ShadingGrid::u);
+        case Predefined::v:
+            return loader.load(out, &ShadingGrid::v);
+        case Predefined::s:
+            return loader.load(out, &ShadingGrid::s);
+        case Predefined::t:
+            return loader.load(out, &ShadingGrid::t);
+        case Predefined::du:
+            return loader.copy(out, footprints.get().du);
+        case Predefined::dv:
+            return loader.copy(out, footprints.get().dv);
+        case Predefined::ncomps: {
+            const float three = 3;
+            return frame.set_uniform(value.id, &three);
+        }
+        case Predefined::time:
+            return frame.set_uniform(value.id, &options.shutter_open);
+        case Predefined::dtime: {
+            const float open = options.shutter_close - options.shutter_open;
+            return frame.set_uniform(value.id, &open);
+        }
+        case Predefined::Ns:
+        case Predefined::Other: {  // E, L, Cl, dPdtime...
+            const float zeros[16] = {};
+            if (rsl::width_of(frame.reg(value.id).type.base) > 0) frame.set_uniform(value.id, zeros);
+        }
+    }
+}
+
+/// Follows from the bits of a position.
+uint64_t place_seed(const V3f& P) {
+    uint64_t seed = 0;
+    for (int k = 0; k < 3; ++k) seed = seed * 0x9e3779b97f4a7c15u + std::bit_cast<uint32_t>(P[k]);
+    return seed;
+}
+
+}  // namespace
+
+vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared) {
+    vm::Points points;
+    for (const ShadingGrid* grid : grids) {
+        const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
+        for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
+            const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->ordinal;
+            points.spans.push_back({points.vertices, grid->shape, grid->reverse_orientation, seed,
+                                    steps_of_face(*grid, first / in_piece)});
+            points.vertices += in_piece;
+        }
+    }
+    points.lanes = padded_size(points.vertices);
+    return points;
+}
+
+void set_variables(vm::Frame& frame, std::span<const ShadingGrid* const> grids, const RenderContext& context,
+                   vm::Footprints& footprints, bool shaded, bool all) {
+    const Loader loader(frame, grids);
+    for (const vm::StartValue& value : frame.executable().start_values())
+        if (all || value.needed) set_variable(loader, frame, value, context, footprints, shaded);
+}
+
+Plane3 variable_planes(const vm::Frame& frame, std::string_view name) {
+    const rsl::RegisterId* id = frame.program().find_global(name);
+    if (!id) return {};
+    const Operand& operand = frame.operand(*id);
+    const size_t lanes = frame.lanes();
+    return {{operand.data, lanes},
+            {operand.data + operand.stride, lanes},
+            {operand.data + 2 * operand.stride, lanes}};
+}
+
+bool writes_variable(const rsl::Program& program, std::string_view name) {
+    const rsl::RegisterId* id = program.find_global(name);
+    if (!id) return false;
+    for (const rsl::Instruction& instruction : program.code)
+        for (size_t k = 0; k < instruction.outputs; ++k)
+            if (instruction.operands[k] == *id) return true;
+    return false;
+}
+
+void take_colors(const vm::Frame& frame, std::span<ShadingGrid* const> grids) {
+    for (const auto& [name, triples] :
+         {std::pair{"Ci", &ShadingGrid::Ci}, std::pair{"Oi", &ShadingGrid::Oi}}) {
+        const Plane3 planes = variable_planes(frame, name);
+        if (planes.size() == 0) continue;
+        size_t at = 0;
+        for (ShadingGrid* grid : grids) {
+            const size_t count = grid->vertex_count();
+            for (int k = 0; k < 3; ++k)
+                (grid->*triples)
+                    .c[k]
+                    .assign(planes[k].begin() + static_cast<std::ptrdiff_t>(at),
+                            planes[k].begin() + static_cast<std::ptrdiff_t>(at + count));
+            at += count;
+        }
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,119 @@
+#include "shade/materials/layers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "core/scene/scene.h"
+#include "shade/rsl/analysis/globals.h"
+#include "shade/vm/run_defaults.h"
+
+namespace trapeze {
+namespace {
+
+using Layers = std::vector<const BoundShader*>;
+
+size_t find_layer(const Layers& layers, const std::string& name) {
+    const auto found =
+        std::ranges::find_if(layers, [&](const BoundShader* s) { return s->instance().layer == name; });
+    return static_cast<size_t>(found - layers.begin());
+}
+
+const rsl::ProgramParameter* find_parameter(const rsl::Program& program, const std::string& name) {
+    const auto found = std::ranges::find(program.parameters, name, &rsl::ProgramParameter::name);
+    return found == program.parameters.end() ? nullptr : &*found;
+}
+
+/// A number, triple or matrix; texts do not travel between layers.
+bool same_kind(const rsl::Type& a, const rsl::Type& b) {
+    const int width = rsl::width_of(a.base);
+    return width > 0 && width == rsl::width_of(b.base) && a.length == b.length;
+}
+
+/// A parameter's or predefined variable's register; null when the program names no such variable.
+const rsl::RegisterId* find_variable(const rsl::Program& program, const std::string& name) {
+    const rsl::ProgramParameter* parameter = find_parameter(program, name);
+    return parameter ? &parameter->id : program.find_global(name);
+}
+
+/// What is wrong with a connection; else nothing, and the connection, unless it goes to a predefined variable
+/// that the shader does not look at.
+std::string resolve(const LayerConnection& wanted, const Layers& layers,
+                    std::optional<LayeredShader::Connection>& resolved) {
+    LayeredShader::Connection out;
+    out.from = find_layer(layers, wanted.from_layer), out.to = find_layer(layers, wanted.to_layer);
+    if (out.from == layers.size()) return fmt::format("there is no layer \"{}\"", wanted.from_layer);
+    if (out.to == layers.size()) return fmt::format("there is no layer \"{}\"", wanted.to_layer);
+    if (out.from >= out.to)
+        return fmt::format("layer \"{}\" does not run before \"{}\"", wanted.from_layer, wanted.to_layer);
+    const rsl::Program &from = layers[out.from]->program(), &to = layers[out.to]->program();
+    const rsl::RegisterId *source = find_variable(from, wanted.from_variable),
+                          *target = find_variable(to, wanted.to_variable);
+    if (!target && rsl::find_global(to.kind, wanted.to_variable)) return {};
+    if (!target) return fmt::format("shader \"{}\" has no variable \"{}\"", to.name, wanted.to_variable);
+    if (!source) return fmt::format("shader \"{}\" has no variable \"{}\"", from.name, wanted.from_variable);
+    out.source = *source, out.target = *target;
+    if (!same_kind(from.reg(out.source).type, to.reg(out.target).type))
+        return fmt::format("\"{}\" and \"{}\" are of different types", wanted.from_variable,
+                           wanted.to_variable);
+    resolved = out;
+    return {};
+}
+
+bool asks_object_space(const rsl::Program& program) {
+    return vm::may_ask_object_space(program, program.code) ||
+           std::ranges::any_of(program.parameters, [&](const rsl::ProgramParameter& parameter) {
+               return vm::may_ask_object_space(program, parameter.initial);
+           });
+}
+
+}  // namespace
+
+bool LayeredShader::asks_object_space() const {
+    return std::ranges::any_of(
+        layers, [](const BoundShader* layer) { return trapeze::asks_object_space(layer->program()); });
+}
+
+void LayeredShader::connect(size_t to, std::span<vm::Frame* const> frames) const {
+    for (const Connection& c : connections) {
+        if (c.to != to) continue;
+        const vm::Frame& source_frame = *frames[c.from];
+        const vm::Operand &from = source_frame.operand(c.source), &target = frames[to]->operand(c.target);
+        const rsl::Type type = source_frame.reg(c.source).type;
+        const size_t lanes = target.lane_mask ? frames[to]->lanes() : kLanes;
+        const size_t width = static_cast<size_t>(rsl::width_of(type.base));
+        for (size_t p = 0; p < width * static_cast<size_t>(std::max(type.length, 1)); ++p) {
+            const auto plane = [&](const vm::Operand& operand) {
+                return operand.data + p / width * operand.element_stride + p % width * operand.stride;
+            };
+            if (from.lane_mask && target.lane_mask)
+                std::copy_n(plane(from), lanes, plane(target));
+            else
+                std::fill_n(plane(target), lanes, *plane(from));
+        }
+    }
+}
+
+std::vector<std::string> connected_parameters(const ShaderInstance& instance, const std::string& layer) {
+    std::vector<std::string> names;
+    for (const LayerConnection& connection : instance.connections)
+        if (connection.to_layer == layer) names.push_back(connection.to_variable);
+    return names;
+}
+
+LayeredShader make_layered(const ShaderInstance& instance, Layers layers, Diagnostics* diagnostics) {
+    LayeredShader made;
+    made.layers = std::move(layers);
+    for (const LayerConnection& wanted : instance.connections) {
+        std::optional<LayeredShader::Connection> connection;
+        const std::string wrong = resolve(wanted, made.layers, connection);
+        if (connection) made.connections.push_back(*connection);
+        if (!wrong.empty() && diagnostics)
+            diagnostics->warning(instance.location, "ConnectShaderLayers: " + wrong,
+                                 "connect-layers " + wrong);
+    }
+    return made;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,157 @@
+#include "shade/materials/material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shade/materials/grid_parts.h"
+#include "shade/materials/grid_shader.h"
+#include "shade/materials/stand_in_light.h"
+#include "shade/materials/unknown_parameters.h"
+
+namespace trapeze {
+namespace {
+
+/// The primitive's variables that differ from vertex to vertex.
+std::set<std::string> varying_variables(const Primitive& primitive) {
+    std::set<std::string> names;
+    if (primitive.shape_keys.empty()) return names;
+    for (const Parameter& variable : primitive.shape().variables.values) {
+        const StorageClass storage = variable.declaration.storage;
+        if (storage != StorageClass::Constant && storage != StorageClass::Uniform)
+            names.insert(variable.name);
+    }
+    return names;
+}
+
+}  // namespace
+
+Materials::Materials(const RenderContext& context, const Access& access)
+    : context_(context),
+      diagnostics_(context.diagnostics),
+      library_(context.scene->options, context.diagnostics, access) {
+    default_instance_.name = "defaultsurface";
+    std::map<std::pair<const Attributes*, Names>, uint32_t> known;
+    of_primitive_.reserve(context.scene->primitives.size());
+    for (const Primitive& primitive : context.scene->primitives) {
+        Names varying = varying_variables(primitive);
+        const auto [at, is_new] = known.try_emplace({primitive.attributes.get(), varying}, 0);
+        if (is_new) {
+            add(*primitive.attributes, varying);
+            at->second = static_cast<uint32_t>(materials_.size() - 1);
+        }
+        of_primitive_.push_back(at->second);
+    }
+}
+
+void Materials::add(const Attributes& attributes, const Names& varying) {
+    Material& material = materials_.emplace_back();
+    material.attributes = &attributes;
+    material.surface = surface(attributes.surface.get(), varying);
+    if (attributes.displacement) {
+        material.displacement = layered(*attributes.displacement, rsl::ShaderKind::Displacement, varying);
+        if (!material.displacement)
+            report_missing("Displacement", *attributes.displacement, "nothing is displaced");
+    }
+    if (attributes.atmosphere) {
+        material.atmosphere = layered(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
+        if (!material.atmosphere) report_missing("Atmosphere", *attributes.atmosphere, "there is none");
+    }
+    const bool sets_P = std::ranges::any_of(material.surface->layers, [](const BoundShader* layer) {
+        return writes_variable(layer->program(), "P");
+    });
+    // Without a bound it has P for itself, which many use as just another point.
+    material.surface_moves = sets_P && attributes.displacement_bound > 0;
+    material.surface_only_sets_P = sets_P && !material.surface_moves && !material.displacement;
+    for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
+        material.asks_object_space |= shader && shader->asks_object_space();
+    for (const auto& instance : attributes.lights)
+        if (const Lamp* shining = lamp(*instance)) material.lights.push_back(shining);
+    material.shades_vertices_apart = shades_vertices_apart(material);
+}
+
+/// Null when there is no such shader, or it has errors. An earlier layer that there is not is reported.
+const LayeredShader* Materials::layered(const ShaderInstance& instance, rsl::ShaderKind kind,
+                                        const Names& varying) {
+    const auto [at, is_new] = shaders_.try_emplace({&instance, varying});
+    if (!is_new) return at->second.layers.empty() ? nullptr : &at->second;
+    std::vector<const BoundShader*> layers;
+    for (const auto& earlier : instance.earlier_layers) {
+        if (const BoundShader* layer =
+                bound(*earlier, kind, varying, connected_parameters(instance, earlier->layer)))
+            layers.push_back(layer);
+        else
+            report_missing("ShaderLayer", *earlier, "the layer is left out");
+    }
+    const BoundShader* last = bound(instance, kind, varying, connected_parameters(instance, instance.layer));
+    if (!last) return nullptr;
+    layers.push_back(last);
+    at->second = make_layered(instance, std::move(layers), diagnostics_);
+    return &at->second;
+}
+
+const BoundShader* Materials::bound(const ShaderInstance& instance, rsl::ShaderKind kind, Names varying,
+                                    std::span<const std::string> connected) {
+    varying.insert(connected.begin(), connected.end());
+    auto executable = library_.find(instance.name, kind, varying, instance.location);
+    if (!executable) return nullptr;
+    if (diagnostics_) report_unknown_parameters(instance, executable->program(), *diagnostics_);
+    const SceneSpaces spaces(*context_.scene, context_.camera, &instance, nullptr);
+    return &layers_.emplace_back(std::move(executable), instance, spaces, diagnostics_);
+}
+
+const LayeredShader* Materials::surface(const ShaderInstance* instance, const Names& varying) {
+    if (!instance) instance = &default_instance_;
+    if (const LayeredShader* found = layered(*instance, rsl::ShaderKind::Surface, varying)) return found;
+    report_missing("Surface", *instance, "defaultsurface is used");
+    return layered(default_instance_, rsl::ShaderKind::Surface, varying);
+}
+
+const Lamp* Materials::lamp(const LightInstance& instance) {
+    const auto [at, is_new] = lamps_.try_emplace(&instance);
+    if (!is_new) return at->second.get();
+    const ShaderInstance* shader = &instance.shader;
+    auto executable = library_.find(shader->name, rsl::ShaderKind::Light, {}, shader->location);
+    if (!executable) {
+        shader = &stand_ins_.emplace_back(stand_in_light(instance.shader));
+        report_missing("LightSource", instance.shader, shader->name + " is used");
+        executable = library_.find(shader->name, rsl::ShaderKind::Light, {}, shader->location);
+        if (!executable) return nullptr;
+    } else if (diagnostics_) {
+        report_unknown_parameters(*shader, executable->program(), *diagnostics_);
+    }
+    auto made = std::make_unique<Lamp>();
+    made->spaces = std::make_unique<SceneSpaces>(*context_.scene, context_.camera, shader, nullptr);
+    made->shader = std::make_unique<BoundShader>(std::move(executable), *shader, *made->spaces, diagnostics_);
+    made->position = shader->camera_from_shader.translation();
+    made->asks_surface = std::ranges::any_of(made->shader->program().code, [](const rsl::Instruction& i) {
+        return i.op == rsl::Op::SurfaceMessage;
+    });
+    at->second = std::move(made);
+    return at->second.get();
+}
+
+std::vector<const BoundShader*> Materials::shaders() const {
+    std::vector<const BoundShader*> all;
+    for (const BoundShader& layer : layers_) all.push_back(&layer);
+    std::set<const Lamp*> seen;
+    for (const Material& material : materials_)
+        for (const Lamp* lamp : material.lights)
+            if (seen.insert(lamp).second) all.push_back(lamp->shader.get());
+    return all;
+}
+
+void Materials::report_missing(std::string_view request, const ShaderInstance& instance,
+                               std::string_view instead) {
+    if (!diagnostics_) return;
+    const std::string kind = fmt::format("missing-shader {} {}", request, instance.name);
+    if (library_.has_said_why_not(instance.name))
+        diagnostics_->note(instance.location, fmt::format("{} \"{}\": {}", request, instance.name, instead),
+                           kind);
+    else
+        diagnostics_->error(instance.location,
+                            fmt::format("{}: there is no shader \"{}\"; {}", request, instance.name, instead),
+                            kind);
+}
+
+}  // namespace trapeze

@@ -1,0 +1,40 @@
+#include "shade/materials/unknown_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shade/rsl/analysis/suggestions.h"
+
+namespace trapeze {
+namespace {
+
+/// One line of a name that a file gives.
+std::string shown(std::string name) {
+    constexpr size_t kLongest = 100;
+    if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+    return name;
+}
+
+}  // namespace
+
+void report_unknown_parameters(const ShaderInstance& instance, const rsl::Program& program,
+                               Diagnostics& diagnostics) {
+    for (const Parameter& given : instance.parameters.values) {
+        rsl::Suggestion suggestion(given.name);
+        bool is_known = false;
+        for (const rsl::ProgramParameter& parameter : program.parameters) {
+            is_known = is_known || parameter.name == given.name;
+            suggestion.consider(parameter.name);
+        }
+        if (is_known) continue;
+        diagnostics.warning(instance.location,
+                            fmt::format("shader \"{}\" has no parameter \"{}\"{}", shown(instance.name),
+                                        shown(given.name), suggestion.text()),
+                            fmt::format("shader-parameter-unknown {} {}", instance.name, given.name));
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,344 @@
+#include "shade/rsl/analysis/analyser.h"
+
+#include <utility>
+
+#include "shade/rsl/analysis/analysis.h"
+#include "shade/rsl/analysis/globals.h"
+#include "shade/rsl/analysis/storage.h"
+#include "shade/rsl/analysis/suggestions.h"
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/syntax/clone.h"
+#include "shade/rsl/syntax/parser.h"
+
+namespace trapeze::rsl {
+namespace {
+
+constexpr size_t kMostOverloads = 32;  // written functions of one name
+
+std::string in_quotes(std::string_view name) {
+    return "\"" + std::string(name.substr(0, 80)) + "\"";
+}
+
+void replace_variable(Expression& e, const Variable* old, Variable* now) {
+    if (e.variable == old) e.variable = now;
+    for (const ExpressionPtr& child : e.children) replace_variable(*child, old, now);
+}
+
+void replace_variable(Statement& s, const Variable* old, Variable* now) {
+    for (const ExpressionPtr& e : s.expressions)
+        if (e) replace_variable(*e, old, now);
+    for (const auto& variable : s.variables)
+        if (variable->initial) replace_variable(*variable->initial, old, now);
+    for (const StatementPtr& child : s.children) replace_variable(*child, old, now);
+}
+
+}  // namespace
+
+void analyse(TranslationUnit& unit, Messages& messages) {
+    Analyser(unit, messages).run();
+}
+
+void Analyser::run() {
+    for (const auto& function : unit_.functions) {
+        if (!function->inside.empty()) continue;
+        std::vector<const Function*>& same_name = file_functions_[function->name];
+        same_name.push_back(function.get());
+        if (same_name.size() > kMostOverloads)
+            return error(function->at, "too many functions are called " + in_quotes(function->name));
+    }
+    std::set<std::string_view> names;
+    for (const auto& shader : unit_.shaders) {
+        if (messages_.full()) return;
+        if (!names.insert(shader->name).second)
+            error(shader->at, "there are two shaders " + in_quotes(shader->name) + " in this file");
+        analyse_shader(*shader);
+    }
+    unit_.functions = std::move(kept_);
+}
+
+// ---- Shaders and functions
+
+void Analyser::analyse_shader(Shader& shader) {
+    shader_ = &shader;
+    file_instances_.clear();
+    instances_.clear();
+    instance_of_copy_.clear();
+    globals_.clear();
+    warned_.clear();
+    unavailable_.clear();
+    scopes_.clear();
+    frames_.clear();
+    frames_.emplace_back();
+    scopes_.emplace_back();
+    for (const auto& parameter : shader.parameters) {
+        check_array(*parameter);
+        if (parameter->external) error(parameter->at, "a shader's parameter cannot be extern");
+        if (parameter->storage == Storage::Unspecified) parameter->storage = Storage::Uniform;
+        initial_value(*parameter);
+        declare(*parameter);
+    }
+    statement(shader.body);
+    if (frame().operations > kMostInlined)
+        error(shader.at, "this shader is too large once its functions are put in place of their calls");
+    if (frame().array_floats > kMostArrayFloatsTogether)
+        error(shader.at, "the arrays of this shader are too large together");
+    std::vector<Function*> functions;
+    for (Instance& instance : instances_)
+        if (instance.complete) functions.push_back(instance.function.get());
+    if (!messages_.failed()) infer_storage(shader, functions, messages_);
+    for (Instance& instance : instances_) kept_.push_back(std::move(instance.function));
+}
+
+/// A copy of the function for this shader, analysed; null after an error that concerns the call.
+Analyser::Instance* Analyser::instance_of(const Function& original, bool nested, SourceLocation at) {
+    if (depth_ + frame().depth + height_ > kDeepestInlined) {
+        error(at, "functions that call functions nest too deeply here");
+        return nullptr;
+    }
+    if (copied_ > kMostInlined) {
+        error(at, "this file is too large: too many shaders have too many functions");
+        return nullptr;
+    }
+    Instance& instance = instances_.emplace_back();
+    instance.original = &original;
+    instance.function = clone(original);
+    instance_of_copy_[instance.function.get()] = &instance;
+    if (nested) {
+        std::vector<Instance*>& same_name = scopes_.back().functions[original.name];
+        same_name.push_back(&instance);
+        if (same_name.size() > kMostOverloads) {
+            error(original.at, "too many functions are called " + in_quotes(original.name));
+            return nullptr;
+        }
+    } else {
+        file_instances_[&original] = &instance;
+    }
+    // What is analysed now has to wait.
+    auto choices = std::move(choices_);
+    const Expression* channel = std::exchange(channel_, nullptr);
+    const int height = std::exchange(height_, 0);
+    const int entered = frame().depth + height;
+    depth_ += entered;
+    choices_.clear();
+
+    Frame& inner = frames_.emplace_back();
+    inner.instance = &instance;
+    inner.nested = nested;
+    inner.first_scope = scopes_.size();
+    analyse_body(*instance.function);
+    finish_instance(instance);
+    scopes_.resize(inner.first_scope);
+    frames_.pop_back();
+
+    depth_ -= entered;
+    choices_ = std::move(choices);
+    channel_ = channel;
+    height_ = height;
+    return &instance;
+}
+
+void Analyser::analyse_body(Function& function) {
+    scopes_.emplace_back();
+    for (const auto& parameter : function.parameters) {
+        if (parameter->external) error(parameter->at, "a function's parameter cannot be extern");
+        if (parameter->initial) {
+            messages_.warning(parameter->at, "default values of functions' parameters are ignored");
+            parameter->initial.reset();
+        }
+        if (parameter->type.length > 0) check_array(*parameter);
+        declare(*parameter);
+    }
+    statement(function.body);
+    if (function.result.base != Base::Void && !frame().returns)
+        messages_.warning(function.at,
+                          "function " + in_quotes(function.name) + " never returns a value: it is 0");
+}
+
+void Analyser::finish_instance(Instance& instance) {
+    copy_written_parameters(*instance.function);
+    copied_ += frame().own_operations;
+    instance.operations = std::min<uint64_t>(frame().operations, uint64_t{kMostInlined} * 2);
+    instance.array_floats = std::min<uint64_t>(frame().array_floats, uint64_t{kMostArrayFloatsTogether} * 2);
+    instance.depth = frame().deepest;
+    instance.complete = true;
+}
+
+/// Parameters stand for the caller's variables, and only those that are output may change them. What a
+/// function does to others happens to a local of the same name.
+void Analyser::copy_written_parameters(Function& function) {
+    for (const auto& parameter : function.parameters) {
+        if (!frame().written_parameters.contains(parameter.get())) continue;
+        auto local = std::make_unique<Variable>();
+        local->name = parameter->name;
+        local->type = parameter->type;
+        local->storage = parameter->storage;
+        local->at = parameter->at;
+        replace_variable(*function.body, parameter.get(), local.get());
+        for (const Instance& other : instances_)
+            if (other.complete && other.function->inside == function.name)
+                replace_variable(*other.function->body, parameter.get(), local.get());
+        local->initial = std::make_unique<Expression>();
+        local->initial->kind = Expression::Kind::Variable;
+        local->initial->text = parameter->name;
+        local->initial->at = parameter->at;
+        local->initial->type = parameter->type;
+        local->initial->variable = parameter.get();
+        auto declaration = std::make_unique<Statement>();
+        declaration->kind = Statement::Kind::Declare;
+        declaration->at = parameter->at;
+        declaration->variables.push_back(std::move(local));
+        function.body->children.insert(function.body->children.begin(), std::move(declaration));
+    }
+}
+
+// ---- Variables
+
+void Analyser::declare(Variable& variable) {
+    Variable*& known = scopes_.back().variables[variable.name];
+    if (known && variable.kind == Variable::Kind::Local && known->kind == Variable::Kind::Local)
+        messages_.warning(variable.at,
+                          in_quotes(variable.name) + " is declared twice: this one hides the other");
+    else if (known)
+        error(variable.at, in_quotes(variable.name) + " is declared twice");
+    known = &variable;
+}
+
+void Analyser::check_array(Variable& variable) {
+    if (!variable.type.is_array()) return;
+    if (variable.type.length == Type::kUnsized) {
+        const bool listed = variable.initial && variable.initial->kind == Expression::Kind::List;
+        if (listed && !variable.initial->children.empty() &&
+            variable.initial->children.size() <= static_cast<size_t>(kLongestArray)) {
+            variable.type.length = static_cast<int>(variable.initial->children.size());
+        } else {
+            error(variable.at, "array " + in_quotes(variable.name) + " needs a length");
+            variable.type.length = 1;
+        }
+    }
+    const uint64_t floats = static_cast<uint64_t>(variable.type.length) *
+                            static_cast<uint64_t>(std::max(width_of(variable.type.base), 1));
+    if (floats > kMostArrayFloats)
+        error(variable.at, "array " + in_quotes(variable.name) + " is too large: " + std::to_string(floats) +
+                               " floats, at most " + std::to_string(kMostArrayFloats));
+    else if (variable.kind != Variable::Kind::FunctionParameter)
+        frame().array_floats += floats;
+}
+
+void Analyser::initial_value(Variable& variable) {
+    if (!variable.initial) return;
+    if (variable.external) {
+        error(variable.at, "an extern variable has its value from outside");
+    } else if (variable.type.is_array()) {
+        value_of_array(variable);
+    } else if (variable.initial->kind == Expression::Kind::List) {
+        error(variable.initial->at, in_quotes(variable.name) + " is no array, and has one value");
+    } else {
+        value(variable.initial, variable.type.base);
+    }
+}
+
+/// A list, another array, or one value for all elements.
+void Analyser::value_of_array(Variable& variable) {
+    if (variable.initial->kind != Expression::Kind::List) {
+        const Expression& from = *variable.initial;
+        const bool is_array = from.kind == Expression::Kind::Variable && find_variable(from.text) &&
+                              find_variable(from.text)->type.is_array();
+        value(variable.initial, is_array ? Base::Void : variable.type.base);
+        const Type given = variable.initial->type;
+        if (is_array && (given.base != variable.type.base ||
+                         (given.length != variable.type.length && given.length != Type::kUnsized)))
+            error(variable.initial->at, in_quotes(variable.name) + " is a " + print(variable.type) +
+                                            ", its initial value a " + print(given));
+        return;
+    }
+    std::vector<ExpressionPtr>& values = variable.initial->children;
+    if (values.size() > static_cast<size_t>(variable.type.length))
+        error(values[static_cast<size_t>(variable.type.length)]->at,
+              std::to_string(values.size()) + " values for the " + std::to_string(variable.type.length) +
+                  " elements of " + in_quotes(variable.name));
+    for (ExpressionPtr& e : values) value(e, variable.type.base);
+    variable.initial->type = variable.type;
+}
+
+/// Makes a name of outside known in this scope; false, after a report, when there is none.
+bool Analyser::bind_external(const Variable& variable) {
+    Variable* found =
+        frames_.size() == 1 ? find_variable(variable.name) : find_outside(variable.name, frames_.size() - 1);
+    if (!found) found = global(variable.name);
+    if (!found) {
+        Suggestion suggestion(variable.name);
+        for (const GlobalVariable& row : global_variables(shader_->kind)) suggestion.consider(row.name);
+        for (const auto& parameter : shader_->parameters) suggestion.consider(parameter->name);
+        error(variable.at, "there is no variable " + in_quotes(variable.name) + " outside, in " +
+                               std::string(name_of(shader_->kind)) + " shader " + in_quotes(shader_->name) +
+                               suggestion.text());
+        return false;
+    }
+    const bool same_kind = same_family(found->type.base, variable.type.base) &&
+                           found->type.is_array() == variable.type.is_array();
+    if (!same_kind)
+        error(variable.at, "extern " + in_quotes(variable.name) + " is a " + print(found->type) +
+                               " outside, not a " + print(variable.type));
+    scopes_.back().variables[found->name] = found;
+    return true;
+}
+
+Variable* Analyser::find_variable(std::string_view name) {
+    for (size_t i = scopes_.size(); i-- > frame().first_scope;) {
+        const auto entry = scopes_[i].variables.find(name);
+        if (entry != scopes_[i].variables.end()) return entry->second;
+    }
+    return nullptr;
+}
+
+/// Of a nested function, what encloses it; of another, the shader's parameters and outermost variables.
+Variable* Analyser::find_outside(std::string_view name, size_t number) {
+    const Frame& inner = frames_[number];
+    if (number == 0) return nullptr;
+    const size_t first = inner.nested ? frames_[number - 1].first_scope : 0;
+    const size_t last = inner.nested ? inner.first_scope : std::min<size_t>(2, inner.first_scope);
+    for (size_t i = last; i-- > first;) {
+        const auto entry = scopes_[i].variables.find(name);
+        if (entry != scopes_[i].variables.end()) return entry->second;
+    }
+    return inner.nested ? find_outside(name, number - 1) : nullptr;
+}
+
+/// The renderer's variable of that name, made when it is first named; null when there is none.
+Variable* Analyser::global(std::string_view name) {
+    const auto entry = globals_.find(name);
+    if (entry != globals_.end()) return entry->second;
+    const GlobalVariable* row = find_global(shader_->kind, name);
+    if (!row) return nullptr;
+    auto variable = std::make_unique<Variable>();
+    variable->name = row->name;
+    variable->type.base = row->base;
+    variable->storage = row->storage;
+    variable->kind = Variable::Kind::Global;
+    variable->output = row->writable;
+    globals_[variable->name] = variable.get();
+    shader_->globals.push_back(std::move(variable));
+    return shader_->globals.back().get();
+}
+
+void Analyser::unknown_variable(const Expression& e) {
+    if (frames_.size() > 1 && find_outside(e.text, frames_.size() - 1)) {
+        error(e.at,
+              in_quotes(e.text) + " is a variable of the shader: functions name those as \"extern\" first");
+        return;
+    }
+    Suggestion suggestion(e.text);
+    for (size_t i = scopes_.size(); i-- > frame().first_scope;)
+        for (const auto& [name, variable] : scopes_[i].variables) suggestion.consider(name);
+    for (const GlobalVariable& row : global_variables(shader_->kind)) suggestion.consider(row.name);
+    std::string where;
+    if (suggestion.text().empty())
+        for (const ShaderKind kind : {ShaderKind::Surface, ShaderKind::Displacement, ShaderKind::Light,
+                                      ShaderKind::Volume, ShaderKind::Imager})
+            if (where.empty() && find_global(kind, e.text))
+                where = "; " + std::string(name_of(kind)) + " shaders have one, this is a " +
+                        std::string(name_of(shader_->kind)) + " shader";
+    error(e.at, "there is no variable " + in_quotes(e.text) + where + suggestion.text());
+}
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,238 @@
+#include <algorithm>
+
+#include "shade/rsl/analysis/analyser.h"
+#include "shade/rsl/analysis/globals.h"
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/syntax/parser.h"
+
+namespace trapeze::rsl {
+
+void Analyser::value(ExpressionPtr& e, Base wanted) {
+    choices_.clear();
+    height_ = e->height;
+    frame().deepest = std::max(frame().deepest, frame().depth + e->height);
+    examine(*e);
+    settle(e, wanted);
+    choices_.clear();
+    height_ = 0;
+}
+
+/// A statement within another one. What one without braces declares is known behind it, as other compilers
+/// have it, unless the name already means something there.
+void Analyser::scoped(StatementPtr& s) {
+    if (s->kind == Statement::Kind::Declare) declare_again(s);
+    const bool declares =
+        s->kind == Statement::Kind::Declare && std::ranges::none_of(s->variables, [&](const auto& v) {
+            return v->external || find_variable(v->name) || find_global(shader_->kind, v->name);
+        });
+    if (declares)
+        for (const auto& variable : s->variables) variable->outlives = true;
+    const bool own_scope =
+        s->kind == Statement::Kind::Block || (s->kind == Statement::Kind::Declare && !declares);
+    if (own_scope) scopes_.emplace_back();
+    statement(s);
+    if (own_scope) scopes_.pop_back();
+}
+
+/// The other branch's declaration of a variable that lives on becomes an assignment to it.
+void Analyser::declare_again(StatementPtr& s) {
+    if (s->variables.size() != 1 || !s->variables.front()->initial) return;
+    Variable& again = *s->variables.front();
+    const Variable* known = find_variable(again.name);
+    if (!known || !known->outlives || known->type != again.type || again.type.is_array()) return;
+    auto place = std::make_unique<Expression>();
+    place->kind = Expression::Kind::Variable;
+    place->text = again.name;
+    place->at = again.at;
+    auto assignment = std::make_unique<Expression>();
+    assignment->kind = Expression::Kind::Assignment;
+    assignment->at = again.at;
+    assignment->height = static_cast<uint16_t>(again.initial->height + 1);
+    assignment->children.push_back(std::move(place));
+    assignment->children.push_back(std::move(again.initial));
+    s->kind = Statement::Kind::Evaluate;
+    s->variables.clear();
+    s->expressions.push_back(std::move(assignment));
+}
+
+void Analyser::statement(StatementPtr& s) {
+    if (messages_.full()) return;
+    ++frame().operations;
+    ++frame().own_operations;
+    ++frame().depth;
+    switch (s->kind) {
+        case Statement::Kind::Block:
+            block(*s);
+            break;
+        case Statement::Kind::Declare:
+            declaration(*s);
+            break;
+        case Statement::Kind::Evaluate:
+            value(s->expressions[0], Base::Void);
+            break;
+        case Statement::Kind::If:
+            value(s->expressions[0], Base::Bool);
+            for (StatementPtr& child : s->children) scoped(child);
+            break;
+        case Statement::Kind::While:
+        case Statement::Kind::For:
+            loop(*s);
+            break;
+        case Statement::Kind::Illuminance:
+        case Statement::Kind::Illuminate:
+        case Statement::Kind::Solar:
+            light_loop(*s);
+            break;
+        case Statement::Kind::Gather:
+            gather(*s);
+            break;
+        case Statement::Kind::Break:
+        case Statement::Kind::Continue:
+            jump(*s);
+            break;
+        case Statement::Kind::Return:
+            return_statement(*s);
+            break;
+        case Statement::Kind::Empty:
+            if (s->defines)
+                if (const Instance* instance = instance_of(*s->defines, true, s->at))
+                    s->defines = instance->function.get();
+            break;
+    }
+    --frame().depth;
+}
+
+void Analyser::block(Statement& s) {
+    if (!s.open) scopes_.emplace_back();
+    for (StatementPtr& child : s.children) statement(child);
+    if (!s.open) scopes_.pop_back();
+}
+
+void Analyser::declaration(Statement& s) {
+    std::vector<std::unique_ptr<Variable>> kept;
+    for (auto& variable : s.variables) {
+        if (variable->external) {
+            if (variable->initial) error(variable->at, "an extern variable has its value from outside");
+            if (bind_external(*variable)) continue;
+        }
+        if (variable->output) error(variable->at, "only parameters are output");
+        check_array(*variable);
+        initial_value(*variable);  // before the name is known: it may mean one of outside
+        declare(*variable);
+        kept.push_back(std::move(variable));
+    }
+    s.variables = std::move(kept);
+}
+
+void Analyser::loop(Statement& s) {
+    for (size_t i = 0; i < s.expressions.size(); ++i) {
+        const bool is_condition = s.kind == Statement::Kind::While || i == 1;
+        if (s.expressions[i]) value(s.expressions[i], is_condition ? Base::Bool : Base::Void);
+    }
+    ++frame().loops;
+    scoped(s.children[0]);
+    --frame().loops;
+}
+
+/// "name", value, ... behind the arguments of a loop over lights or of a light's block.
+void Analyser::ignore_options(Statement& s, const std::string& word) {
+    const size_t given = s.expressions.size();
+    for (size_t i = s.kind == Statement::Kind::Solar ? 0 : 1; i < given; ++i) {
+        if (s.expressions[i]->kind != Expression::Kind::Text || (given - i) % 2 != 0) continue;
+        messages_.warning(s.expressions[i]->at, "optional arguments of " + word + " are ignored");
+        s.expressions.resize(i);
+        return;
+    }
+}
+
+/// illuminance([category,] P [, axis, angle]), illuminate(P [, axis, angle]), solar([axis, angle]).
+void Analyser::light_loop(Statement& s) {
+    const bool illuminance = s.kind == Statement::Kind::Illuminance;
+    const std::string word = illuminance                             ? "illuminance"
+                             : s.kind == Statement::Kind::Illuminate ? "illuminate"
+                                                                     : "solar";
+    const ShaderKind kind = shader_->kind;
+    const bool in_place =
+        illuminance ? kind == ShaderKind::Surface || kind == ShaderKind::Volume : kind == ShaderKind::Light;
+    if (!in_place)
+        error(s.at, word + " belongs into " + (illuminance ? "surface and volume" : "light") + " shaders");
+
+    ignore_options(s, word);
+    std::vector<Base> wanted;
+    const size_t given = s.expressions.size();
+    if (illuminance && given > 0) {
+        // The category is known by being a string.
+        choices_.clear();
+        const Choices first = examine(*s.expressions[0]);
+        choices_.clear();
+        if (first.cost_to(Base::String) < Choices::kNever && !first.is_unknown())
+            wanted.push_back(Base::String);
+    }
+    if (s.kind != Statement::Kind::Solar) wanted.push_back(Base::Point);
+    if (given > wanted.size()) {
+        wanted.push_back(Base::Vector);
+        wanted.push_back(Base::Float);
+    }
+    if (given != wanted.size()) {
+        error(s.at, word + " takes " +
+                        (illuminance                             ? "([category,] P [, axis, angle])"
+                         : s.kind == Statement::Kind::Illuminate ? "(P [, axis, angle])"
+                                                                 : "([axis, angle])"));
+    } else {
+        for (size_t i = 0; i < given; ++i) value(s.expressions[i], wanted[i]);
+    }
+    global("L");
+    global(illuminance ? "Cl" : "Ps");
+    frame().loops += illuminance ? 1 : 0;
+    scoped(s.children[0]);
+    frame().loops -= illuminance ? 1 : 0;
+}
+
+/// gather(category, P, direction, angle, samples, name, value, ...): what a name with a colon asks for is
+/// written to its value.
+void Analyser::gather(Statement& s) {
+    static constexpr Base kWanted[] = {Base::String, Base::Point, Base::Vector, Base::Float, Base::Float};
+    const size_t given = s.expressions.size();
+    if (given < 5 || (given - 5) % 2 != 0)
+        error(s.at, "gather takes (category, P, direction, angle, samples, \"name\", value, ...)");
+    for (size_t i = 0; i < given; ++i) {
+        const bool is_name = i >= 5 && (i - 5) % 2 == 0;
+        value(s.expressions[i], i < 5 ? kWanted[i] : is_name ? Base::String : Base::Void);
+        if (i < 5 || is_name) continue;
+        const Expression& name = *s.expressions[i - 1];
+        const bool output = name.kind == Expression::Kind::Text && name.text.find(':') != std::string::npos &&
+                            !name.text.starts_with("send:");
+        if (!output) continue;
+        if (is_place(*s.expressions[i]))
+            check_written(*s.expressions[i]);
+        else
+            error(s.expressions[i]->at, "gather writes \"" + name.text + "\" to a variable");
+    }
+    ++frame().loops;
+    for (StatementPtr& child : s.children) scoped(child);
+    --frame().loops;
+}
+
+void Analyser::jump(const Statement& s) {
+    const std::string word = s.kind == Statement::Kind::Break ? "break" : "continue";
+    if (frame().loops == 0)
+        error(s.at, word + " stands outside of loops");
+    else if (s.levels > frame().loops)
+        error(s.at, word + " " + std::to_string(s.levels) + " stands in only " +
+                        std::to_string(frame().loops) + (frame().loops == 1 ? " loop" : " loops"));
+}
+
+void Analyser::return_statement(Statement& s) {
+    const Base result = frame().instance ? frame().instance->function->result.base : Base::Void;
+    frame().returns = frame().returns || !s.expressions.empty();
+    if (s.expressions.empty()) {
+        if (result != Base::Void) error(s.at, "a " + std::string(name_of(result)) + " is to be returned");
+        return;
+    }
+    if (result != Base::Void) return value(s.expressions[0], result);
+    value(s.expressions[0], Base::Void);
+    error(s.at,
+          frame().instance ? "this function returns nothing: its type is void" : "a shader returns no value");
+}
+
+}  // namespace trapeze::rsl

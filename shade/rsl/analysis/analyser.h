@@ -1,0 +1,148 @@
+/// The analysis' state, shared by its parts: analyse.cpp has shaders, functions and names,
+/// analyse_statements.cpp statements, possible_types.cpp the types that expressions can have, choose_types.cpp those that
+/// they get, calls.cpp the choice of overloads.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "shade/rsl/analysis/conversions.h"
+#include "shade/rsl/analysis/signature.h"
+#include "shade/rsl/syntax/ast.h"
+#include "shade/rsl/syntax/messages.h"
+
+namespace trapeze::rsl {
+
+class Analyser {
+  public:
+    Analyser(TranslationUnit& unit, Messages& messages) : unit_(unit), messages_(messages) {}
+    void run();
+
+  private:
+    /// A function as one shader uses it.
+    struct Instance {
+        std::unique_ptr<Function> function;
+        const Function* original = nullptr;
+        bool complete = false;
+        uint64_t operations = 0, array_floats = 0;  ///< with those of the functions it calls
+        int depth = 0;                              ///< of its tree, likewise
+    };
+    struct Scope {
+        std::unordered_map<std::string_view, Variable*> variables;
+        std::unordered_map<std::string_view, std::vector<Instance*>> functions;
+    };
+    /// A shader or a function whose body is analysed.
+    struct Frame {
+        Instance* instance = nullptr;  ///< null: the shader
+        bool nested = false;           ///< a function defined within the frame below
+        size_t first_scope = 0;
+        int loops = 0;
+        bool returns = false;
+        int depth = 0;                              ///< of the statement that is analysed
+        uint64_t operations = 0, array_floats = 0;  ///< with those of called functions
+        uint64_t own_operations = 0;
+        int deepest = 0;
+        std::set<Variable*> written_parameters;  ///< not output, and assigned to
+    };
+
+    // Shaders, functions and names.
+    void analyse_shader(Shader& shader);
+    void analyse_body(Function& function);
+    Instance* instance_of(const Function& original, bool nested, SourceLocation at);
+    void finish_instance(Instance& instance);
+    void copy_written_parameters(Function& function);
+    void declare(Variable& variable);
+    bool bind_external(const Variable& variable);
+    void check_array(Variable& variable);
+    void initial_value(Variable& variable);
+    Variable* find_variable(std::string_view name);
+    Variable* find_outside(std::string_view name, size_t frame);
+    Variable* global(std::string_view name);
+    void unknown_variable(const Expression& e);
+    Frame& frame() { return frames_.back(); }
+
+    // Statements.
+    void statement(StatementPtr& s);
+    void scoped(StatementPtr& s);
+    void block(Statement& s);
+    void declaration(Statement& s);
+    void declare_again(StatementPtr& s);
+    void light_loop(Statement& s);
+    void ignore_options(Statement& s, const std::string& word);
+    void gather(Statement& s);
+    void jump(const Statement& s);
+    void return_statement(Statement& s);
+    void loop(Statement& s);
+    /// An expression that stands by itself; of a type if that is not Void.
+    void value(ExpressionPtr& e, Base wanted);
+    void value_of_array(Variable& variable);
+
+    // What an expression can be.
+    Choices examine(Expression& e);
+    Choices examine_within(Expression& e);
+    Choices examine_once(Expression& e);
+    Choices examine_variable(Expression& e);
+    Choices examine_element(Expression& e);
+    Choices examine_binary(Expression& e);
+    Choices examine_conditional(Expression& e);
+    Choices examine_cast(Expression& e);
+    Choices examine_assignment(Expression& e);
+    Choices examine_component_assignment(Expression& e);
+    Choices examine_array_assignment(Expression& e);
+    Choices examine_tuple(Expression& e);
+    Choices examine_call(Expression& e);
+    Choices choices_of(const Expression& e) const;
+    bool is_component(const Expression& e) const;
+    bool is_place(const Expression& e) const;
+    void check_index(const Expression& element);
+
+    // What it becomes.
+    void settle(ExpressionPtr& e, Base wanted);
+    void settle_as(Expression& e, Base base);
+    void settle_binary(Expression& e, Base base);
+    void settle_cast(Expression& e);
+    void settle_assignment(Expression& e);
+    void settle_array_assignment(Expression& e);
+    void settle_call(Expression& e, Base base);
+    void settle_argument(Expression& call, size_t i, const Signature& signature);
+    void convert(ExpressionPtr& e, Base to);
+    void check_written(const Expression& place);
+
+    // Calls.
+    std::vector<Signature> candidates(const Expression& call);
+    int cost_of(const Signature& signature, const Expression& call) const;
+    int cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const;
+    bool lacks_knots(const Expression& call);
+    void explain(std::vector<Signature> all, const Expression& call);
+    void unknown_function(const Expression& call);
+    void enter_function(Expression& call, const Function& original);
+    void use_globals(const Expression& call);
+
+    void error(SourceLocation at, std::string text) { messages_.error(at, std::move(text)); }
+
+    TranslationUnit& unit_;
+    Messages& messages_;
+    std::unordered_map<std::string_view, std::vector<const Function*>> file_functions_;
+    std::vector<std::unique_ptr<Function>> kept_;  ///< instances of shaders that are done
+    uint64_t copied_ = 0;                          ///< operations in all instances
+
+    // Of the shader that is analysed.
+    Shader* shader_ = nullptr;
+    std::map<const Function*, Instance*> file_instances_;
+    std::deque<Instance> instances_;
+    std::unordered_map<const Function*, Instance*> instance_of_copy_;
+    std::map<std::string, Variable*, std::less<>> globals_;
+    std::deque<Scope> scopes_;
+    std::deque<Frame> frames_;
+    std::set<const Variable*> warned_;
+    std::set<std::string_view> unavailable_;  ///< functions that were warned of
+    int depth_ = 0;                           ///< of all frames together
+
+    std::unordered_map<const Expression*, Choices> choices_;  ///< of the expression that is analysed
+    const Expression* channel_ = nullptr;                     ///< may be a string with an index
+    int height_ = 0;                                          ///< of the expression that is analysed
+};
+
+}  // namespace trapeze::rsl

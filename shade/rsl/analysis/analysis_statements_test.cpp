@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include "shade/rsl/analysis/analysis_harness.h"
+#include "shade/rsl/analysis/globals.h"
+
+namespace trapeze::rsl {
+namespace {
+
+TEST(Analysis, LocalsShadowAndEnd) {
+    EXPECT_EQ(in_surface("float s = s * 2; { float s = s; } Ci = s;"), "");
+    EXPECT_EQ(in_surface("{ float q = 1; } Ci = q;"), "error 1:89: there is no variable \"q\"\n");
+    EXPECT_EQ(in_surface("float q; color q; q = color (1, 2, 3);"),
+              "warning 1:82: \"q\" is declared twice: this one hides the other\n");
+    EXPECT_EQ(said("surface t(float q = 1; color q = 1) {}"), "error 1:30: \"q\" is declared twice\n");
+}
+
+TEST(Analysis, CallsThatComeBackAreFound) {
+    EXPECT_EQ(said("float f(float x) { return f(x - 1); } surface t() { Ci = f(1); }"),
+              "error 1:27: function \"f\" calls itself, directly or through others\n");
+    EXPECT_EQ(
+        said(
+            "float g(float x) { return f(x); } float f(float x) { return g(x); } surface t() { Ci = f(1); }"),
+        "error 1:27: function \"f\" calls itself, directly or through others\n");
+    EXPECT_EQ(said("surface t() { float f(float x) { return f(x); } Ci = f(1); }"),
+              "error 1:41: function \"f\" calls itself, directly or through others\n");
+}
+
+TEST(Analysis, FunctionsOfTheSourceComeFirst) {
+    EXPECT_EQ(said("float noise(string s) { return 1; } float abs(float x) { return x; }\n"
+                   "surface t() { float a = noise(\"x\") + noise(P) + abs(2); Ci = a; }"),
+              "");
+    EXPECT_EQ(
+        said("f(float x) { return x; } g(float x) { printf(\"%f\", x); } surface t() { Ci = f(1); g(2); }"),
+        "");
+    EXPECT_EQ(said("void f() { return 1; } float g() { return; } float h() { } surface t() { f(); g(); h(); "
+                   "return 2; }"),
+              "error 1:12: this function returns nothing: its type is void\n"
+              "error 1:36: a float is to be returned\n"
+              "warning 1:30: function \"g\" never returns a value: it is 0\n"
+              "warning 1:52: function \"h\" never returns a value: it is 0\n"
+              "error 1:89: a shader returns no value\n");
+}
+
+TEST(Analysis, JumpsNeedLoops) {
+    EXPECT_EQ(in_surface("break;"), "error 1:67: break stands outside of loops\n");
+    EXPECT_EQ(in_surface("while (Kd > 1) { for (;;) { break 2; continue 3; } }"),
+              "error 1:104: continue 3 stands in only 2 loops\n");
+    EXPECT_EQ(in_surface("illuminance(P) { break; }"), "");
+    EXPECT_EQ(in_surface("gather(\"illuminance\", P, N, 0, 1) { break; } else { continue; }"), "");
+    EXPECT_EQ(said("void f() { break; } surface t() { while (1) f(); }"),
+              "error 1:12: break stands outside of loops\n");
+}
+
+TEST(Analysis, LightStatementsAreChecked) {
+    EXPECT_EQ(in_surface("illuminance(\"key\", P, N, PI / 2) { Ci += Cl * normalize(L) . N; }"), "");
+    EXPECT_EQ(in_surface("illuminance(P, N) ;"),
+              "error 1:67: illuminance takes ([category,] P [, axis, angle])\n");
+    EXPECT_EQ(in_surface("solar() ;"), "error 1:67: solar belongs into light shaders\n");
+    EXPECT_EQ(said("light t() { illuminate(P, N, 1) Cl = 1; solar() Cl = 2; solar((0, 0, 1), 0) Cl = 3; }"),
+              "");
+    Heard heard;
+    const auto unit = compiled("surface t() { illuminance(P, N, 1) Ci = 1; }", heard);
+    ASSERT_TRUE(unit);
+    std::string names;
+    for (const auto& variable : unit->shaders[0]->globals) names += variable->name + " ";
+    EXPECT_EQ(names, "P N L Cl Ci ");
+    EXPECT_EQ(
+        in_surface(
+            "color c; float d; gather(\"illuminance\", P, N, .1, 4, \"surface:Ci\", c, \"ray:length\", d)"
+            " Ci += c; else Ci += 1;"),
+        "");
+    EXPECT_EQ(in_surface("gather(\"x\", P, N, .1, 4, \"surface:Ci\", Cs * 2) ;"),
+              "error 1:109: gather writes \"surface:Ci\" to a variable\n");
+}
+
+TEST(Analysis, ArraysAreBounded) {
+    EXPECT_EQ(in_surface("float a[3] = {1, 2, 3}; Ci = a[2];"), "");
+    EXPECT_EQ(in_surface("float a[3]; Ci = a[3] + a[-1];"),
+              "error 1:86: this array has 3 elements, 0 to 2\n"
+              "error 1:93: this array has 3 elements, 0 to 2\n");
+    EXPECT_EQ(in_surface("float a[2] = {1, 2, 3};"), "error 1:87: 3 values for the 2 elements of \"a\"\n");
+    EXPECT_EQ(in_surface("float a[];"), "error 1:73: array \"a\" needs a length\n");
+    EXPECT_EQ(in_surface("float a[] = {1, 2}; Ci = a[1];"), "");
+    EXPECT_EQ(in_surface("matrix a[65536];"),
+              "error 1:74: array \"a\" is too large: 1048576 floats, at most 65536\n");
+    EXPECT_EQ(in_surface("float a[65536]; float b[65536]; float c[65536]; float d[65536]; float e[65536];"),
+              "error 1:9: the arrays of this shader are too large together\n");
+    EXPECT_EQ(
+        said(
+            "float sum(float a[]) { return a[0] + a[1]; } surface t() { float b[2] = {1, 2}; Ci = sum(b); }"),
+        "");
+}
+
+TEST(Analysis, UniformVariablesBecomeVarying) {
+    Heard heard;
+    const auto unit = compiled("surface t() { uniform float a = s; uniform float b = 1; a = 2; }", heard);
+    ASSERT_TRUE(unit);
+    EXPECT_EQ(heard.all(), "warning 1:29: \"a\" is uniform and gets a varying value: it becomes varying\n");
+    const auto& body = unit->shaders[0]->body->children;
+    EXPECT_EQ(body[0]->variables[0]->storage, Storage::Varying);
+    EXPECT_EQ(body[1]->variables[0]->storage, Storage::Uniform);
+    // Through others, against the order of the source, and through functions.
+    EXPECT_EQ(in_surface("uniform float a = 0; uniform float b = 0; b = a; a = s;"),
+              "warning 1:116: \"a\" is uniform and gets a varying value: it becomes varying\n"
+              "warning 1:109: \"b\" is uniform and gets a varying value: it becomes varying\n");
+    EXPECT_EQ(said("float f(float x) { return x * 2; } surface t() { uniform float a = f(s); }"),
+              "warning 1:64: \"a\" is uniform and gets a varying value: it becomes varying\n");
+    EXPECT_EQ(said("float f(float x) { return x * 2; } surface t() { uniform float a = f(1); }"), "");
+    EXPECT_EQ(said("float f(uniform float x) { return x * 2; } surface t() { Ci = f(s); }"),
+              "warning 1:65: \"x\" is uniform and gets a varying value: it becomes varying\n");
+}
+
+TEST(Analysis, UniformVariablesPartWithControl) {
+    const auto storage = [](const std::string& body) {
+        Heard heard;
+        const auto unit = compiled("surface t() { uniform float a = 0; " + body + " }", heard);
+        EXPECT_TRUE(unit) << heard.all();
+        EXPECT_EQ(heard.all(), "") << body;
+        return unit ? unit->shaders[0]->body->children[0]->variables[0]->storage : Storage::Unspecified;
+    };
+    EXPECT_EQ(storage("if (a > 1) a = 2;"), Storage::Uniform);
+    EXPECT_EQ(storage("if (s > 1) a = 2;"), Storage::Varying);
+    EXPECT_EQ(storage("for (a = 0; a < 3; a += 1) { Ci += a; }"), Storage::Uniform);
+    EXPECT_EQ(storage("for (a = 0; a < 3; a += 1) { if (s > a) break; }"), Storage::Varying);
+    EXPECT_EQ(storage("if (s > 1) { uniform float b = 1; b = 2; Ci = b; }"), Storage::Uniform);
+    EXPECT_EQ(storage("illuminance(P) { a = 1; }"), Storage::Varying);
+    EXPECT_EQ(storage("if (s > 1) return; a = 1;"), Storage::Uniform);  // nobody sees it where it is gone
+    EXPECT_EQ(storage("lightsource(\"x\", a);"), Storage::Uniform);
+}
+
+TEST(Analysis, WrittenParametersAreCopied) {
+    Heard heard;
+    const auto unit = compiled("float f(float x) { x += 1; return x; } surface t() { Ci = f(s); }", heard);
+    ASSERT_TRUE(unit) << heard.all();
+    EXPECT_EQ(heard.all(),
+              "warning 1:20: parameter \"x\" is assigned to, and is not output: the caller sees no change\n");
+    const Function& f = *unit->functions[0];
+    const Variable* local = f.body->children[0]->variables[0].get();
+    EXPECT_EQ(local->initial->variable, f.parameters[0].get());
+    EXPECT_EQ(f.body->children[1]->expressions[0]->children[0]->variable, local);
+    EXPECT_EQ(f.body->children[2]->expressions[0]->variable, local);
+}
+
+TEST(Analysis, WorkIsBounded) {
+    // Each calls the next twice: 2^40 operations in place.
+    std::string text;
+    for (int i = 0; i < 40; ++i)
+        text += "float f" + std::to_string(i) + "(float x) { return f" + std::to_string(i + 1) + "(x) + f" +
+                std::to_string(i + 1) + "(x); }\n";
+    text += "float f40(float x) { return x; }\n";
+    EXPECT_NE(said(text + "surface t() { Ci = f0(1); }").find("too large once its functions"),
+              std::string::npos);
+    // A chain of calls.
+    text.clear();
+    for (int i = 0; i < 20000; ++i)
+        text += "float f" + std::to_string(i) + "(float x) { return f" + std::to_string(i + 1) + "(x); }\n";
+    text += "float f20000(float x) { return x; }\n";
+    EXPECT_NE(said(text + "surface t() { Ci = f0(1); }").find("nest too deeply"), std::string::npos);
+    // Many shaders with copies of a large function.
+    text = "float f(float x) { return x";
+    for (int i = 0; i < 300; ++i) text += " + x";
+    text += "; }\n";
+    for (int i = 0; i < 20000; ++i) text += "surface s" + std::to_string(i) + "() { Ci = f(1); }\n";
+    EXPECT_NE(said(text).find("this file is too large"), std::string::npos);
+    // Uniform variables that learn of each other slowly.
+    text = "surface t() { uniform float a0 = 0";
+    for (int i = 1; i < 3000; ++i) text += ", a" + std::to_string(i) + " = 0";
+    for (int i = 0; i < 2999; ++i) text += "; a" + std::to_string(i) + " = a" + std::to_string(i + 1);
+    Heard heard;
+    const auto unit = compiled(text + "; a2999 = s; }", heard);
+    ASSERT_TRUE(unit);
+    EXPECT_EQ(unit->shaders[0]->body->children[0]->variables[0]->storage, Storage::Varying);
+}
+
+}  // namespace
+}  // namespace trapeze::rsl

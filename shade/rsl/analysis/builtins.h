@@ -1,0 +1,31 @@
+/// The built-in functions of the shading language with all their overloads (RISpec 3.2, section 15, and what
+/// later shaders use).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "shade/operations/op.h"
+#include "shade/rsl/syntax/type.h"
+
+namespace trapeze::rsl {
+
+/// One overload. Types are letters: f float, c color, p point, v vector, n normal, m matrix, s string, w
+/// nothing; capitals are output parameters. In `parameters` also: "[" after a letter: an array of it of any
+/// length; "#" an array of any type; "*" at the end: named optional arguments follow, a string and a value
+/// each; "+" after a letter, at the end: more of that type may follow; "." at the end: any number of anything
+/// (printf, format); "?" any type, as output.
+struct Builtin {
+    std::string_view name;
+    char result;
+    std::string_view parameters;
+    Op op;
+    bool last_resort = false;  ///< beyond the specification: taken only where no other overload fits
+};
+
+std::span<const Builtin> builtins();
+
+/// Those of a name, in the order of preference; empty for an unknown name.
+std::span<const Builtin> builtins_named(std::string_view name);
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,258 @@
+/// Which function a call means.
+#include <algorithm>
+
+#include "shade/rsl/analysis/analyser.h"
+#include "shade/rsl/analysis/globals.h"
+#include "shade/rsl/analysis/suggestions.h"
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/syntax/parser.h"
+
+namespace trapeze::rsl {
+namespace {
+
+constexpr size_t kMostCandidatesShown = 8;
+
+// Of later renderers; known to be missing here.
+constexpr std::string_view kNotSupported[] = {"blinn", "cosinelight_rate", "getlights", "hair", "push",
+                                              "pop"};
+
+bool is_map(const Builtin& builtin) {
+    return builtin.op == Op::Texture || builtin.op == Op::Environment || builtin.op == Op::Shadow ||
+           builtin.op == Op::Bump || builtin.op == Op::TextureInfo;
+}
+
+/// The parameter that argument i stands for; null behind them, where more may follow.
+const Signature::Parameter* parameter_at(const Signature& signature, size_t i) {
+    if (i < signature.parameters.size()) return &signature.parameters[i];
+    return signature.more ? &signature.parameters.back() : nullptr;
+}
+
+bool count_fits(const Signature& signature, size_t given) {
+    const size_t fixed = signature.parameters.size();
+    if (given == fixed || (given > fixed && (signature.more || signature.anything))) return true;
+    return signature.pairs && given > fixed && (given - fixed) % 2 == 0;
+}
+
+bool is_pair_name(const Signature& signature, size_t i) {
+    return signature.pairs && i >= signature.parameters.size() && (i - signature.parameters.size()) % 2 == 0;
+}
+
+}  // namespace
+
+/// All functions that the name may mean, those of the source first.
+std::vector<Signature> Analyser::candidates(const Expression& call) {
+    std::vector<Signature> all;
+    for (size_t number = frames_.size();;) {  // nested ones, from the inside out
+        const Frame& at = frames_[--number];
+        const size_t last = number + 1 < frames_.size() ? frames_[number + 1].first_scope : scopes_.size();
+        for (size_t i = last; i-- > at.first_scope;)
+            if (const auto entry = scopes_[i].functions.find(call.text); entry != scopes_[i].functions.end())
+                for (const Instance* instance : entry->second)
+                    all.push_back(signature_of(*instance->function));
+        if (number == 0 || !at.nested) break;
+    }
+    const auto entry = file_functions_.find(call.text);
+    if (entry != file_functions_.end())
+        for (const Function* function : entry->second) all.push_back(signature_of(*function));
+    for (const Builtin& builtin : builtins_named(call.text)) all.push_back(signature_of(builtin));
+    return all;
+}
+
+int Analyser::cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const {
+    const Choices choices = choices_of(argument);
+    if (choices.is_unknown()) return 0;
+    if (parameter.output && !is_place(argument)) return Choices::kNever;
+    if (parameter.any) return 0;
+    if (parameter.any_array) return argument.type.is_array() ? 0 : Choices::kNever;
+    if (parameter.type.is_array() != argument.type.is_array()) return Choices::kNever;
+    if (parameter.type.is_array()) {
+        const bool fits =
+            parameter.type.base == argument.type.base &&
+            (parameter.type.length == Type::kUnsized || argument.type.length == Type::kUnsized ||
+             parameter.type.length == argument.type.length);
+        return fits ? 0 : Choices::kNever;
+    }
+    if (parameter.output && !same_family(parameter.type.base, argument.type.base)) return Choices::kNever;
+    return choices.cost_to(parameter.type.base);
+}
+
+/// Of all its arguments; kNever when the call does not fit.
+int Analyser::cost_of(const Signature& signature, const Expression& call) const {
+    if (!count_fits(signature, call.children.size())) return Choices::kNever;
+    int cost = signature.builtin && signature.builtin->last_resort ? kLastResort : 0;
+    for (size_t i = 0; i < call.children.size(); ++i) {
+        const Expression& argument = *call.children[i];
+        int one = 0;
+        if (const Signature::Parameter* parameter = parameter_at(signature, i))
+            one = cost_of_argument(*parameter, argument);
+        else if (is_pair_name(signature, i))
+            one = argument.type.is_array() ? Choices::kNever : choices_of(argument).cost_to(Base::String);
+        if (one >= Choices::kNever) return Choices::kNever;
+        cost += one;
+    }
+    return std::min(cost, Choices::kNever - 1);
+}
+
+Choices Analyser::examine_call(Expression& e) {
+    const std::vector<Signature> all = candidates(e);
+    // A texture's name may have a channel.
+    const bool map = !all.empty() && all.back().builtin && is_map(*all.back().builtin);
+    bool unknown = false;
+    for (size_t i = 0; i < e.children.size(); ++i) {
+        if (map && i == 0) channel_ = e.children[0].get();
+        unknown = examine_once(*e.children[i]).is_unknown() || unknown;
+    }
+    if (all.empty()) {
+        unknown_function(e);
+        return Choices::unknown();
+    }
+    // The functions of the source hide built-in ones that fit as well.
+    Choices choices;
+    bool found = false;
+    for (const Signature& signature : all) {
+        const int cost = cost_of(signature, e);
+        if (cost >= Choices::kNever || (signature.builtin && found)) continue;
+        found = found || !signature.builtin;
+        choices.offer(signature.result.base, cost);
+    }
+    if (!choices.none()) return choices;
+    if (!unknown) explain(all, e);
+    return Choices::unknown();
+}
+
+/// Whether a spline has too few knots, which is said.
+bool Analyser::lacks_knots(const Expression& call) {
+    constexpr size_t kFewest = 4;  // one cubic segment
+    if (call.children.empty()) return false;
+    const Expression& last = *call.children.back();
+    const bool named = choices_of(*call.children.front()).has(Base::String);
+    const size_t before = named ? 2 : 1, given = call.children.size();
+    size_t knots = given > before ? given - before : 0;
+    if (last.type.is_array()) knots = last.type.length > 0 ? static_cast<size_t>(last.type.length) : kFewest;
+    if (knots >= kFewest) return false;
+    error(call.at, "a spline has at least four knots, not " + std::to_string(knots));
+    return true;
+}
+
+/// Says what is wrong with the one function that a call can mean, or lists all of the specification.
+void Analyser::explain(std::vector<Signature> all, const Expression& call) {
+    std::erase_if(all, [](const Signature& s) { return s.builtin && s.builtin->last_resort; });
+    if (all.back().builtin && all.back().builtin->op == Op::Spline && lacks_knots(call)) return;
+    const auto fits = [&](const Signature& s) { return count_fits(s, call.children.size()); };
+    const auto fitting = std::count_if(all.begin(), all.end(), fits);
+    if (fitting == 1) {
+        const Signature& signature = *std::find_if(all.begin(), all.end(), fits);
+        for (size_t i = 0; i < call.children.size(); ++i) {
+            const Expression& argument = *call.children[i];
+            const Signature::Parameter* parameter = parameter_at(signature, i);
+            if (!parameter || cost_of_argument(*parameter, argument) < Choices::kNever) continue;
+            const std::string which = "argument " + std::to_string(i + 1) + " of " + call.text + " ";
+            const std::string is =
+                argument.type.is_array() ? print(argument.type) : choices_of(argument).text();
+            if (parameter->output && !is_place(argument))
+                error(argument.at, which + "is written to, and must be a variable");
+            else
+                error(argument.at, which + "is a " + is + ", a " + print(parameter->type) + " is wanted");
+            messages_.note(argument.at, print(signature));
+            return;
+        }
+    }
+    std::string given;
+    for (const ExpressionPtr& argument : call.children)
+        given += (given.empty() ? "" : ", ") +
+                 (argument->type.is_array() ? print(argument->type) : choices_of(*argument).text());
+    error(call.at, "no " + call.text + " takes (" + given + ")");
+    for (size_t i = 0; i < std::min(all.size(), kMostCandidatesShown); ++i)
+        messages_.note(call.at, "there is " + print(all[i]));
+    if (all.size() > kMostCandidatesShown)
+        messages_.note(call.at, "and " + std::to_string(all.size() - kMostCandidatesShown) + " more");
+}
+
+void Analyser::unknown_function(const Expression& call) {
+    const std::string name = "\"" + call.text.substr(0, 80) + "\"";
+    if (std::find(std::begin(kNotSupported), std::end(kNotSupported), call.text) != std::end(kNotSupported)) {
+        error(call.at, "function " + name + " of later renderers is not supported");
+        return;
+    }
+    Suggestion suggestion(call.text);
+    for (const auto& [candidate, functions] : file_functions_) suggestion.consider(candidate);
+    for (const Builtin& builtin : builtins()) suggestion.consider(builtin.name);
+    error(call.at, "there is no function " + name + suggestion.text());
+}
+
+void Analyser::settle_call(Expression& e, Base base) {
+    const std::vector<Signature> all = candidates(e);
+    const Signature* best = nullptr;
+    int least = Choices::kNever;
+    for (const Signature& signature : all) {
+        if (signature.result.base != base || (signature.builtin && best && !best->builtin)) continue;
+        const int cost = cost_of(signature, e);
+        if (cost < least) best = &signature, least = cost;
+    }
+    if (!best) return;  // reported
+    e.builtin = best->builtin;
+    if (e.builtin && e.builtin->op == Op::Spline) lacks_knots(e);
+    for (size_t i = 0; i < e.children.size(); ++i) settle_argument(e, i, *best);
+    if (best->function)
+        enter_function(e, *best->function);
+    else
+        use_globals(e);
+    if (e.builtin && e.builtin->op == Op::Unavailable && unavailable_.insert(e.builtin->name).second)
+        messages_.warning(e.at,
+                          "function \"" + e.text + "\" of later renderers is not there, and does nothing");
+}
+
+void Analyser::settle_argument(Expression& call, size_t i, const Signature& signature) {
+    ExpressionPtr& argument = call.children[i];
+    const Signature::Parameter* parameter = parameter_at(signature, i);
+    if (!parameter) return settle(argument, is_pair_name(signature, i) ? Base::String : Base::Void);
+    if (parameter->output) {
+        check_written(*argument);
+        if (argument->kind == Expression::Kind::Element) settle(argument, argument->type.base);
+    } else if (!parameter->type.is_array() && !parameter->any_array) {
+        settle(argument, parameter->type.base);
+    }
+}
+
+/// Finds or makes this shader's copy of a written function.
+void Analyser::enter_function(Expression& call, const Function& function) {
+    const auto nested = instance_of_copy_.find(&function);
+    const auto known = file_instances_.find(&function);
+    Instance* instance = nested != instance_of_copy_.end() ? nested->second
+                         : known != file_instances_.end()  ? known->second
+                                                           : instance_of(function, false, call.at);
+    if (!instance) return;
+    if (!instance->complete) {
+        error(call.at, "function \"" + call.text + "\" calls itself, directly or through others");
+        return;
+    }
+    call.function = instance->function.get();
+    frame().operations += instance->operations;
+    frame().array_floats += instance->array_floats;
+    frame().deepest = std::max(frame().deepest, frame().depth + call.height + instance->depth);
+    if (frame().deepest > kDeepestInlined)
+        error(call.at, "functions that call functions nest too deeply here");
+}
+
+/// Variables of the renderer that the source does not name, and that the function reads.
+void Analyser::use_globals(const Expression& call) {
+    const size_t given = call.children.size();
+    switch (call.builtin->op) {
+        case Op::FaceForward:
+            if (given == 2) global("Ng");
+            break;
+        case Op::Diffuse:
+        case Op::Specular:
+        case Op::Phong:
+            global("P");
+            break;
+        case Op::Texture:
+            if (given == 1 || (given > 1 && call.children[1]->type.base == Base::String))
+                global("s"), global("t");
+            break;
+        default:
+            break;
+    }
+}
+
+}  // namespace trapeze::rsl

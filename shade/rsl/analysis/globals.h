@@ -1,0 +1,24 @@
+/// The variables that the renderer gives to shaders (RISpec 3.2, tables 12.1 to 12.5).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "shade/rsl/syntax/type.h"
+
+namespace trapeze::rsl {
+
+struct GlobalVariable {
+    std::string_view name;
+    Base base;
+    Storage storage;
+    bool writable;
+};
+
+/// Those of one kind of shader, in the tables' order.
+std::span<const GlobalVariable> global_variables(ShaderKind kind);
+
+/// Null for a name that the renderer does not give to shaders of that kind.
+const GlobalVariable* find_global(ShaderKind kind, std::string_view name);
+
+}  // namespace trapeze::rsl

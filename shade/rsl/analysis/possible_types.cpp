@@ -1,0 +1,360 @@
+/// The types that expressions can have, from the leaves up.
+#include <cmath>
+
+#include "shade/rsl/analysis/analyser.h"
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/syntax/clone.h"
+#include "shade/rsl/syntax/parser.h"
+
+namespace trapeze::rsl {
+namespace {
+
+constexpr float kPi = 3.14159265358979323846f;  // RISpec 3.2, section 12: PI is predefined
+
+bool is_string(const Expression& e, const Choices& choices) {
+    return !e.type.is_array() && !choices.is_unknown() && choices.has(Base::String);
+}
+
+}  // namespace
+
+Choices Analyser::choices_of(const Expression& e) const {
+    const auto entry = choices_.find(&e);
+    return entry == choices_.end() ? Choices::unknown() : entry->second;
+}
+
+Choices Analyser::examine(Expression& e) {
+    ++frame().operations;
+    ++frame().own_operations;
+    const Choices choices = examine_within(e);
+    choices_.insert_or_assign(&e, choices);
+    return choices;
+}
+
+/// Of an expression that may have been examined before it became an argument.
+Choices Analyser::examine_once(Expression& e) {
+    const auto known = choices_.find(&e);
+    return known != choices_.end() ? known->second : examine(e);
+}
+
+Choices Analyser::examine_within(Expression& e) {
+    switch (e.kind) {
+        case Expression::Kind::Number:
+            return Choices(Base::Float);
+        case Expression::Kind::Text:
+            return Choices(Base::String);
+        case Expression::Kind::Variable:
+            return examine_variable(e);
+        case Expression::Kind::Element:
+            return examine_element(e);
+        case Expression::Kind::Unary: {
+            const Choices operand = examine(*e.children[0]);
+            Choices choices;
+            if (operand.is_unknown()) return operand;
+            if (e.op == Operator::Not) {
+                choices.offer(Base::Bool, operand.cost_to(Base::Bool));
+            } else {
+                for (const Base base : kAllBases)
+                    if (is_triple(base) || base == Base::Matrix) choices.offer(base, operand.cost(base));
+                choices.offer(Base::Float, operand.cost_to(Base::Float));
+            }
+            if (!choices.none()) return choices;
+            error(e.at, "\"" + std::string(text_of(e.op)) + "\" does not go with a " + operand.text());
+            return Choices::unknown();
+        }
+        case Expression::Kind::Binary:
+            return examine_binary(e);
+        case Expression::Kind::Conditional:
+            return examine_conditional(e);
+        case Expression::Kind::Triple:
+        case Expression::Kind::Sixteen:
+        case Expression::Kind::List:
+            return examine_tuple(e);
+        case Expression::Kind::Cast:
+            return examine_cast(e);
+        case Expression::Kind::Call:
+            return examine_call(e);
+        case Expression::Kind::Assignment:
+            return examine_assignment(e);
+    }
+    return Choices::unknown();
+}
+
+Choices Analyser::examine_variable(Expression& e) {
+    e.variable = find_variable(e.text);
+    if (!e.variable && e.text == "PI") {
+        e.kind = Expression::Kind::Number;
+        e.number = kPi;
+        return Choices(Base::Float);
+    }
+    // Functions ought to name the renderer's variables as extern; that was not always checked.
+    if (!e.variable) e.variable = global(e.text);
+    if (!e.variable && frame().nested) e.variable = find_outside(e.text, frames_.size() - 1);
+    if (!e.variable) {
+        unknown_variable(e);
+        return Choices::unknown();
+    }
+    e.type = e.variable->type;
+    return e.type.is_array() ? Choices() : Choices(e.type.base);
+}
+
+/// True for v[k] of a triple and m[i][j] of a matrix, which are other words for comp.
+bool Analyser::is_component(const Expression& e) const {
+    const Expression& of = *e.children[0];
+    if (of.type.is_array()) return false;
+    const auto single = [&](Base base) { return !choices_of(of).is_unknown() && choices_of(of).has(base); };
+    return of.kind != Expression::Kind::Triple &&
+           (single(Base::Color) || single(Base::Point) || single(Base::Vector) || single(Base::Normal));
+}
+
+Choices Analyser::examine_element(Expression& e) {
+    Expression& of = *e.children[0];
+    if (of.kind == Expression::Kind::Element && of.children[0]->kind == Expression::Kind::Variable) {
+        const Choices matrix = examine(*of.children[0]);
+        if (!of.children[0]->type.is_array() && !matrix.is_unknown() && matrix.has(Base::Matrix)) {
+            e.kind = Expression::Kind::Call;
+            e.text = "comp";
+            ExpressionPtr inner = std::move(e.children[0]);
+            ExpressionPtr column = std::move(e.children[1]);
+            e.children = std::move(inner->children);
+            e.children.push_back(std::move(column));
+            return examine_call(e);
+        }
+    }
+    const Choices choices = examine(of);
+    if (choices.is_unknown()) return choices;
+    if (is_component(e)) {
+        e.kind = Expression::Kind::Call;
+        e.text = "comp";
+        return examine_call(e);
+    }
+    const Choices index = examine(*e.children[1]);
+    if (!index.is_unknown() && index.cost_to(Base::Float) >= Choices::kNever)
+        error(e.children[1]->at, "an index is a float, not a " + index.text());
+    if (is_string(of, choices) && channel_ == &e) {  // texture("name"[2], ...)
+        e.type.base = Base::String;
+        return Choices(Base::String);
+    }
+    if (!of.type.is_array()) {
+        error(e.at, "a " + choices.text() + " has no elements");
+        return Choices::unknown();
+    }
+    e.type = {of.type.base, 0};
+    check_index(e);
+    return Choices(of.type.base);
+}
+
+void Analyser::check_index(const Expression& element) {
+    const int length = element.children[0]->type.length;
+    const Expression* index = element.children[1].get();
+    const bool negative = index->kind == Expression::Kind::Unary && index->op == Operator::Negate;
+    if (negative) index = index->children[0].get();
+    if (index->kind != Expression::Kind::Number || length <= 0) return;
+    const double value = std::floor(negative ? -static_cast<double>(index->number) : index->number);
+    if (value >= 0 && value < length) return;
+    error(element.children[1]->at,
+          "this array has " + std::to_string(length) + " elements, 0 to " + std::to_string(length - 1));
+}
+
+/// Reports a whole array where one value is wanted.
+static bool is_whole_array(const Expression& e, Messages& messages) {
+    if (!e.type.is_array()) return false;
+    messages.error(e.at, "this is an array; one of its elements is wanted here");
+    return true;
+}
+
+Choices Analyser::examine_binary(Expression& e) {
+    const Choices left = examine(*e.children[0]), right = examine(*e.children[1]);
+    const bool arrays =
+        is_whole_array(*e.children[0], messages_) || is_whole_array(*e.children[1], messages_);
+    if (arrays || left.is_unknown() || right.is_unknown()) return Choices::unknown();
+    Choices choices;
+    for (const Base a : kAllBases)
+        for (const Base b : kAllBases)
+            if (left.has(a) && right.has(b))
+                if (const auto planned = plan(e.op, a, b))
+                    choices.offer(planned->result, left.cost(a) + right.cost(b) + planned->cost);
+    if (!choices.none()) return choices;
+    error(e.at, "\"" + std::string(text_of(e.op)) + "\" does not go with a " + left.text() + " and a " +
+                    right.text());
+    return Choices::unknown();
+}
+
+Choices Analyser::examine_conditional(Expression& e) {
+    const Choices condition = examine(*e.children[0]);
+    const Choices yes = examine(*e.children[1]), no = examine(*e.children[2]);
+    for (const ExpressionPtr& child : e.children)
+        if (is_whole_array(*child, messages_)) return Choices::unknown();
+    if (condition.cost_to(Base::Bool) >= Choices::kNever)
+        error(e.children[0]->at, "a condition is wanted here, not a " + condition.text());
+    if (yes.is_unknown()) return no;
+    if (no.is_unknown()) return yes;
+    Choices choices;
+    for (const Base base : kAllBases)
+        if (yes.has(base) || no.has(base)) {
+            const int cost = yes.cost_to(base) + no.cost_to(base);
+            if (cost < Choices::kNever) choices.offer(base, cost);
+        }
+    if (!choices.none()) return choices;
+    error(e.at, "one value of \"?\" is a " + yes.text() + ", the other a " + no.text());
+    return Choices::unknown();
+}
+
+Choices Analyser::examine_tuple(Expression& e) {
+    if (e.kind == Expression::Kind::List) {
+        error(e.at, "values in braces stand only where an array is declared");
+        return Choices::unknown();
+    }
+    for (const ExpressionPtr& child : e.children) {
+        const Choices part = examine(*child);
+        if (!is_whole_array(*child, messages_) && part.cost_to(Base::Float) >= Choices::kNever)
+            error(child->at, "a float is wanted here, not a " + part.text());
+    }
+    if (e.kind == Expression::Kind::Sixteen) return Choices(Base::Matrix);
+    Choices choices;
+    for (const Base base : kAllBases)
+        if (is_triple(base)) choices.offer(base, 0);
+    return choices;
+}
+
+Choices Analyser::examine_cast(Expression& e) {
+    const Choices operand = examine(*e.children[0]);
+    const Base base = e.type.base;
+    if (is_whole_array(*e.children[0], messages_) || operand.is_unknown()) return Choices(base);
+    bool possible = operand.cost_to(base) < Choices::kNever;
+    // Told to, a colour may become a vector and so on.
+    for (const Base from : kAllBases)
+        possible = possible || (is_triple(base) && is_triple(from) && operand.has(from));
+    if (!possible)
+        error(e.at, "a " + operand.text() + " cannot become a " + std::string(name_of(base)) +
+                        (base == Base::Float ? " (xcomp, ycomp, zcomp and comp take one component)" : ""));
+    return Choices(base);
+}
+
+bool Analyser::is_place(const Expression& e) const {
+    return e.kind == Expression::Kind::Variable ||
+           (e.kind == Expression::Kind::Element && e.children[0]->kind == Expression::Kind::Variable);
+}
+
+/// v[k] = x, which has been read as comp(v, k), as setcomp(v, k, x); v[k] += x with comp(v, k) + x.
+Choices Analyser::examine_component_assignment(Expression& e) {
+    if (!is_place(*e.children[0]->children[0])) {
+        error(e.children[0]->at, "this cannot be assigned to");
+        return Choices::unknown();
+    }
+    ExpressionPtr& given = e.children[1];
+    if (e.op != Operator::None) {
+        auto combined = std::make_unique<Expression>();
+        combined->kind = Expression::Kind::Binary;
+        combined->op = e.op;
+        combined->at = e.at;
+        combined->height = e.height;
+        combined->children.push_back(clone(e.children[0]));
+        combined->children.push_back(std::move(given));
+        given = std::move(combined);
+        e.op = Operator::None;
+    }
+    ExpressionPtr component = std::move(e.children[0]);
+    ExpressionPtr value = std::move(given);
+    e.kind = Expression::Kind::Call;
+    e.text = "setcomp";
+    e.children = std::move(component->children);
+    e.children.push_back(std::move(value));
+    return examine_call(e);
+}
+
+/// a = b or a = {1, 2, 3}.
+Choices Analyser::examine_array_assignment(Expression& e) {
+    const Expression &left = *e.children[0], &right = *e.children[1];
+    if (right.kind == Expression::Kind::List) {
+        for (const ExpressionPtr& child : right.children) examine(*child);
+        if (left.type.length > 0 && right.children.size() > static_cast<size_t>(left.type.length))
+            error(right.at, std::to_string(right.children.size()) + " values for the " +
+                                std::to_string(left.type.length) + " elements of an array");
+    } else if (examine(*e.children[1]).is_unknown()) {
+        return Choices::unknown();
+    }
+    const bool fits = right.kind == Expression::Kind::List ||
+                      (right.type.is_array() && right.type.base == left.type.base &&
+                       (right.type.length == left.type.length || right.type.length == Type::kUnsized ||
+                        left.type.length == Type::kUnsized));
+    if (!fits || e.op != Operator::None || left.kind != Expression::Kind::Variable) {
+        error(e.at, "an array is assigned an array of its type and length, or values in braces");
+        return Choices::unknown();
+    }
+    check_written(left);
+    e.type = left.type;
+    return {};
+}
+
+Choices Analyser::examine_assignment(Expression& e) {
+    const Choices place = examine(*e.children[0]);
+    const Expression& left = *e.children[0];
+    if (left.kind == Expression::Kind::Call && left.text == "comp") return examine_component_assignment(e);
+    if (left.type.is_array()) return examine_array_assignment(e);
+    const Choices given = examine(*e.children[1]);
+    if (is_whole_array(*e.children[1], messages_) || place.is_unknown()) return Choices::unknown();
+    if (!is_place(left)) {
+        error(left.at, "this cannot be assigned to");
+        return Choices::unknown();
+    }
+    check_written(left);
+    e.type = left.type;
+    const Base base = left.type.base;
+    if (given.is_unknown()) return Choices(base);
+    int cost = Choices::kNever;
+    if (e.op == Operator::None) cost = given.cost_to(base);
+    for (const Base from : kAllBases)
+        if (e.op != Operator::None && given.has(from))
+            if (const auto planned = plan(e.op, base, from))
+                if (planned->left == base && conversion_cost(planned->result, base))
+                    cost = std::min(cost, given.cost(from) + planned->cost);
+    // A colour that is assigned to a vector, or the reverse, is warned of in settle().
+    const bool as_it_is = e.op == Operator::None && given.foreign_triple_for(base);
+    if (cost < Choices::kNever || as_it_is) return Choices(base);
+    error(e.at, "a " + given.text() + " cannot be " +
+                    (e.op == Operator::None ? "assigned to"
+                                            : "combined by \"" + std::string(text_of(e.op)) + "=\" with") +
+                    " a " + std::string(name_of(base)));
+    return Choices::unknown();
+}
+
+/// Whether a variable may be written to, directly or as an output argument.
+void Analyser::check_written(const Expression& place) {
+    const Expression& e = place.kind == Expression::Kind::Element ? *place.children[0] : place;
+    Variable* variable = e.variable;
+    if (!variable) return;
+    const std::string name = "\"" + variable->name + "\"";
+    switch (variable->kind) {
+        case Variable::Kind::Global:
+            if (!variable->output && warned_.insert(variable).second)
+                messages_.warning(place.at, name + " is not to be assigned to in " +
+                                                std::string(name_of(shader_->kind)) +
+                                                " shaders: only this one sees the change");
+            variable->copied = variable->copied || !variable->output;
+            break;
+        case Variable::Kind::Parameter:
+            if (!variable->output && warned_.insert(variable).second)
+                messages_.warning(place.at, "parameter " + name + " is assigned to, and is not output");
+            break;
+        case Variable::Kind::FunctionParameter: {
+            if (variable->output) break;
+            if (variable->type.is_array()) {
+                error(place.at, "array " + name + " cannot be assigned to: it is no output parameter");
+                break;
+            }
+            for (Frame& frame : frames_)
+                if (frame.instance)
+                    for (const auto& parameter : frame.instance->function->parameters)
+                        if (parameter.get() == variable) frame.written_parameters.insert(variable);
+            if (warned_.insert(variable).second)
+                messages_.warning(place.at, "parameter " + name +
+                                                " is assigned to, and is not output: the "
+                                                "caller sees no change");
+            break;
+        }
+        case Variable::Kind::Local:
+            break;
+    }
+}
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,80 @@
+#include "shade/rsl/analysis/signature.h"
+
+#include "shade/rsl/front_end.h"
+
+namespace trapeze::rsl {
+namespace {
+
+Base base_of(char letter) {
+    switch (letter | 32) {
+        case 'f':
+            return Base::Float;
+        case 'c':
+            return Base::Color;
+        case 'p':
+            return Base::Point;
+        case 'v':
+            return Base::Vector;
+        case 'n':
+            return Base::Normal;
+        case 'm':
+            return Base::Matrix;
+        case 's':
+            return Base::String;
+        default:
+            return Base::Void;
+    }
+}
+
+}  // namespace
+
+Signature signature_of(const Builtin& builtin) {
+    Signature signature;
+    signature.name = builtin.name;
+    signature.result.base = base_of(builtin.result);
+    signature.builtin = &builtin;
+    for (const char c : builtin.parameters) {
+        if (c == '[')
+            signature.parameters.back().type.length = Type::kUnsized;
+        else if (c == '*')
+            signature.pairs = true;
+        else if (c == '+')
+            signature.more = true;
+        else if (c == '.')
+            signature.anything = true;
+        else if (c == '?')
+            signature.parameters.push_back({{}, true, true, false});
+        else if (c == '#')
+            signature.parameters.push_back({{}, false, false, true});
+        else
+            signature.parameters.push_back({{base_of(c), 0}, c < 'a', false, false});
+    }
+    return signature;
+}
+
+Signature signature_of(const Function& function) {
+    Signature signature;
+    signature.name = function.name;
+    signature.result = function.result;
+    signature.function = &function;
+    for (const auto& parameter : function.parameters)
+        signature.parameters.push_back({parameter->type, parameter->output, false, false});
+    return signature;
+}
+
+std::string print(const Signature& signature) {
+    std::string text = print(signature.result) + " " + std::string(signature.name) + "(";
+    const char* separator = "";
+    for (const Signature::Parameter& parameter : signature.parameters) {
+        text += std::string(separator) + (parameter.output ? "output " : "") +
+                (parameter.any         ? "any type"
+                 : parameter.any_array ? "any array"
+                                       : print(parameter.type));
+        separator = ", ";
+    }
+    if (signature.more || signature.anything) text += std::string(separator) + "...";
+    if (signature.pairs) text += std::string(separator) + "\"name\", value, ...";
+    return text + ")";
+}
+
+}  // namespace trapeze::rsl

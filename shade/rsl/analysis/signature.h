@@ -1,0 +1,34 @@
+/// What a call may look like, for built-in and for written functions alike.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shade/rsl/analysis/builtins.h"
+#include "shade/rsl/syntax/ast.h"
+
+namespace trapeze::rsl {
+
+struct Signature {
+    struct Parameter {
+        Type type;
+        bool output = false;
+        bool any = false;        ///< of any type
+        bool any_array = false;  ///< an array of any type
+    };
+    std::string_view name;
+    Type result;
+    std::vector<Parameter> parameters;
+    bool more = false;      ///< further arguments are like the last
+    bool pairs = false;     ///< pairs of a string and any value follow
+    bool anything = false;  ///< any values follow
+    const Builtin* builtin = nullptr;
+    const Function* function = nullptr;
+};
+
+Signature signature_of(const Builtin& builtin);
+Signature signature_of(const Function& function);
+/// "float pow(float, float)".
+std::string print(const Signature& signature);
+
+}  // namespace trapeze::rsl

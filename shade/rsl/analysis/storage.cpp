@@ -1,0 +1,276 @@
+#include "shade/rsl/analysis/storage.h"
+
+#include <unordered_map>
+#include <unordered_set>
+
+#include "shade/rsl/analysis/builtins.h"
+#include "shade/rsl/analysis/signature.h"
+
+namespace trapeze::rsl {
+namespace {
+
+constexpr int kMostPasses = 10;  // then all that may be varying is
+
+bool is_message(Op op) {
+    switch (op) {
+        case Op::LightMessage:
+        case Op::SurfaceMessage:
+        case Op::DisplacementMessage:
+        case Op::AtmosphereMessage:
+        case Op::IncidentMessage:
+        case Op::OppositeMessage:
+        case Op::AttributeMessage:
+        case Op::OptionMessage:
+        case Op::RendererInfo:
+        case Op::TextureInfo:
+        case Op::RayInfo:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// Gives other values at other vertices whatever its arguments are.
+bool is_varying(const Expression& call) {
+    switch (call.builtin->op) {
+        case Op::Ambient:
+        case Op::Diffuse:
+        case Op::Specular:
+        case Op::Phong:
+            return true;
+        case Op::Texture:  // at s and t
+            return call.children.size() == 1 || call.children[1]->type.base == Base::String;
+        default:
+            return false;
+    }
+}
+
+class Inference {
+  public:
+    Inference(Shader& shader, const std::vector<Function*>& functions, Messages& messages)
+        : shader_(shader), functions_(functions), messages_(messages) {}
+
+    void run() {
+        for (int pass = 0; pass < kMostPasses; ++pass) {
+            changed_ = false;
+            pass_over_all();
+            if (!changed_) return;
+        }
+        // Very long chains of assignments: whatever is assigned to is varying.
+        all_varying_ = true;
+        for (int pass = 0; pass < 2; ++pass) pass_over_all();
+    }
+
+  private:
+    struct Facts {
+        bool result_varying = false;
+        bool called_apart = false;  ///< where not all vertices take part
+    };
+
+    void pass_over_all() {
+        function_ = nullptr;
+        depth_.clear();
+        for (const auto& parameter : shader_.parameters) declare(*parameter, 0);
+        enter_body(*shader_.body);
+        for (const Function* function : functions_) {
+            function_ = function;
+            depth_.clear();
+            for (const auto& parameter : function->parameters) depth_[parameter.get()] = 0;
+            enter_body(*function->body);
+        }
+    }
+
+    void enter_body(Statement& body) {
+        exits_apart_.clear();
+        statement(body, find_exits(body).apart ? 1 : 0);
+    }
+
+    // ---- Where control parts
+
+    struct Exits {
+        bool any = false;    ///< there is a break, continue or return
+        bool apart = false;  ///< one that only some vertices take
+    };
+
+    Exits find_exits(const Statement& s) {
+        Exits exits;
+        const bool jump = s.kind == Statement::Kind::Break || s.kind == Statement::Kind::Continue ||
+                          s.kind == Statement::Kind::Return;
+        exits.any = jump;
+        for (const StatementPtr& child : s.children) {
+            const Exits inner = find_exits(*child);
+            exits.any = exits.any || inner.any;
+            exits.apart = exits.apart || inner.apart;
+        }
+        if (exits.any && !jump && parts(s)) exits.apart = true;
+        if (exits.apart) exits_apart_.insert(&s);
+        return exits;
+    }
+
+    /// Whether only some vertices may do what is inside.
+    bool parts(const Statement& s) const {
+        switch (s.kind) {
+            case Statement::Kind::If:
+            case Statement::Kind::While:
+                return varying(*s.expressions[0]);
+            case Statement::Kind::For:
+                return s.expressions[1] && varying(*s.expressions[1]);
+            case Statement::Kind::Illuminance:
+            case Statement::Kind::Illuminate:
+            case Statement::Kind::Solar:
+            case Statement::Kind::Gather:
+                return true;
+            default:
+                return false;
+        }
+    }
+
+    /// `apart`: in how many places control has parted on the way here.
+    void statement(Statement& s, int apart) {
+        const bool loop = s.kind == Statement::Kind::While || s.kind == Statement::Kind::For;
+        const bool inside = parts(s) || (loop && exits_apart_.contains(&s));
+        const int within = apart + (inside ? 1 : 0);
+        for (size_t i = 0; i < s.expressions.size(); ++i) {
+            const bool each_turn = loop && !(s.kind == Statement::Kind::For && i == 0);
+            if (s.expressions[i]) expression(*s.expressions[i], each_turn ? within : apart);
+        }
+        for (const auto& variable : s.variables) declare(*variable, apart);
+        if (s.kind == Statement::Kind::Gather) gather_outputs(s, within);
+        if (s.kind == Statement::Kind::Return && function_ && !s.expressions.empty())
+            note(facts_[function_].result_varying, apart > 0 || varying(*s.expressions[0]));
+        for (const StatementPtr& child : s.children) statement(*child, within);
+    }
+
+    void gather_outputs(const Statement& s, int apart) {
+        for (size_t i = 6; i < s.expressions.size(); i += 2)
+            if (s.expressions[i - 1]->text.find(':') != std::string::npos)
+                assign(*s.expressions[i], true, apart, false);
+    }
+
+    void declare(Variable& variable, int apart) {
+        depth_[&variable] = variable.outlives ? 0 : apart;
+        if (!variable.initial) return;
+        if (variable.outlives && apart > 0) make_varying(variable, variable.at, false);
+        expression(*variable.initial, apart);
+        if (varying(*variable.initial)) make_varying(variable, variable.at, true);
+        if (all_varying_) make_varying(variable, variable.at, false);
+    }
+
+    // ---- Values
+
+    bool varying(const Expression& e) const {
+        if (e.type.base == Base::String) return false;
+        switch (e.kind) {
+            case Expression::Kind::Number:
+            case Expression::Kind::Text:
+                return false;
+            case Expression::Kind::Variable:
+                return e.variable && varying(*e.variable);
+            case Expression::Kind::Call:
+                if (e.builtin && is_varying(e)) return true;
+                if (e.builtin && is_message(e.builtin->op)) return false;
+                if (e.function) {
+                    const auto facts = facts_.find(e.function);
+                    return all_varying_ || (facts != facts_.end() && facts->second.result_varying);
+                }
+                [[fallthrough]];
+            default:
+                for (const ExpressionPtr& child : e.children)
+                    if (varying(*child)) return true;
+                return false;
+        }
+    }
+
+    bool varying(const Variable& variable) const {
+        if (variable.type.base == Base::String) return false;
+        if (variable.storage != Storage::Unspecified) return variable.storage == Storage::Varying;
+        if (variable.kind != Variable::Kind::FunctionParameter) return true;
+        return all_varying_ || variable.output || varying_parameters_.contains(&variable);
+    }
+
+    void expression(const Expression& e, int apart) {
+        for (const ExpressionPtr& child : e.children) expression(*child, apart);
+        if (e.kind == Expression::Kind::Assignment)
+            assign(*e.children[0], varying(*e.children[1]), apart, true);
+        else if (e.kind == Expression::Kind::Call && e.function)
+            call(e, apart);
+        else if (e.kind == Expression::Kind::Call && e.builtin)
+            builtin_outputs(e, apart);
+    }
+
+    void builtin_outputs(const Expression& e, int apart) {
+        const Signature signature = signature_of(*e.builtin);
+        bool given_varying = false;
+        for (size_t i = 0; i < e.children.size(); ++i)
+            if (i >= signature.parameters.size() || !signature.parameters[i].output)
+                given_varying = given_varying || varying(*e.children[i]);
+        if (is_message(e.builtin->op)) given_varying = false;
+        for (size_t i = 0; i < std::min(e.children.size(), signature.parameters.size()); ++i)
+            if (signature.parameters[i].output) assign(*e.children[i], given_varying, apart, true);
+    }
+
+    void call(const Expression& e, int apart) {
+        const bool outer_apart = function_ && facts_[function_].called_apart;
+        note(facts_[e.function].called_apart, apart > 0 || outer_apart);
+        for (size_t i = 0; i < e.children.size() && i < e.function->parameters.size(); ++i) {
+            Variable& parameter = *e.function->parameters[i];
+            const Expression& argument = *e.children[i];
+            if (varying(argument) || all_varying_)
+                make_varying(parameter, argument.at, !parameter.output && !all_varying_);
+            if (parameter.output) assign(argument, varying(parameter), apart, false);
+        }
+    }
+
+    /// A value, varying or not, goes to a variable or an element of one.
+    void assign(const Expression& place, bool value_varies, int apart, bool warn) {
+        const bool element = place.kind == Expression::Kind::Element;
+        Variable* variable = element ? place.children[0]->variable : place.variable;
+        if (!variable) return;
+        const auto declared = depth_.find(variable);
+        // Those of outside a function stand before all places where it is called.
+        const bool parted = declared != depth_.end()
+                                ? apart > declared->second
+                                : apart > 0 || (function_ && facts_[function_].called_apart);
+        const bool index_varies = element && varying(*place.children[1]);
+        if (all_varying_) warn = false;
+        if (value_varies || index_varies) return make_varying(*variable, place.at, warn);
+        if (parted || all_varying_) make_varying(*variable, place.at, false);
+    }
+
+    void make_varying(Variable& variable, SourceLocation at, bool warn) {
+        if (variable.type.base == Base::String || varying(variable)) return;
+        changed_ = true;
+        if (variable.storage == Storage::Unspecified) {
+            varying_parameters_.insert(&variable);
+            return;
+        }
+        if (warn)
+            messages_.warning(
+                at, "\"" + variable.name + "\" is uniform and gets a varying value: it becomes varying");
+        variable.storage = Storage::Varying;
+    }
+
+    void note(bool& fact, bool value) {
+        if (fact || !value) return;
+        fact = true;
+        changed_ = true;
+    }
+
+    Shader& shader_;
+    const std::vector<Function*>& functions_;
+    Messages& messages_;
+    const Function* function_ = nullptr;  // whose body is looked at; null: the shader's
+    std::unordered_map<const Function*, Facts> facts_;
+    std::unordered_map<const Variable*, int> depth_;
+    std::unordered_set<const Variable*> varying_parameters_;
+    std::unordered_set<const Statement*> exits_apart_;
+    bool changed_ = false, all_varying_ = false;
+};
+
+}  // namespace
+
+void infer_storage(Shader& shader, const std::vector<Function*>& functions, Messages& messages) {
+    Inference(shader, functions, messages).run();
+}
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,15 @@
+/// Which variables have one value and which one at each vertex.
+#pragma once
+
+#include <vector>
+
+#include "shade/rsl/syntax/ast.h"
+#include "shade/rsl/syntax/messages.h"
+
+namespace trapeze::rsl {
+
+/// Uniform variables that get varying values become varying; where the source assigns such a value, there is
+/// a warning. `functions` are all that the shader calls.
+void infer_storage(Shader& shader, const std::vector<Function*>& functions, Messages& messages);
+
+}  // namespace trapeze::rsl

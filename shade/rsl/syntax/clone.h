@@ -1,0 +1,14 @@
+/// Copies of functions as the parser made them.
+#pragma once
+
+#include <memory>
+
+#include "shade/rsl/syntax/ast.h"
+
+namespace trapeze::rsl {
+
+/// Copies without what the analysis sets; nested functions stay those of the original.
+ExpressionPtr clone(const ExpressionPtr& e);
+std::unique_ptr<Function> clone(const Function& function);
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,49 @@
+/// Text to tokens, one at a time, comments left out.
+#pragma once
+
+#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/token.h"
+
+namespace trapeze::rsl {
+
+class Lexer {
+  public:
+    /// `source`: as registered with Diagnostics. `text` must outlive the tokens.
+    Lexer(const SourceText& text, uint32_t source, Messages& messages);
+
+    /// The next token; after the last, NewLine and then End for ever.
+    Token next();
+
+    /// From the next line on, lines belong to `source` and are numbered from `line`.
+    void renumber(uint32_t source, uint32_t line);
+    uint32_t line() const { return line_; }
+    /// Lines from the text's beginning, whatever renumber() says.
+    uint32_t physical_line() const { return physical_line_; }
+
+  private:
+    char peek(size_t ahead = 0) const {
+        return position_ + ahead < text_.size() ? text_[position_ + ahead] : '\0';
+    }
+    void advance();
+    void skip_blanks(Token& token);
+    bool skip_comment();
+    void scan_number();
+    void scan_name();
+    bool scan_string();
+    void scan_mark();
+
+    std::string_view text_;
+    const std::vector<size_t>& joints_;
+    Messages& messages_;
+    size_t position_ = 0, next_joint_ = 0;
+    uint32_t source_, line_ = 1, column_ = 1, physical_line_ = 1;
+    bool line_start_ = true;
+};
+
+/// The one token that the whole of `text` is, if it is one.
+bool is_one_token(std::string_view text, Token::Kind& kind);
+
+bool is_name_start(char c);
+bool is_name_part(char c);
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,97 @@
+/// The preprocessor's macros: their table, and their expansion within bounds.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/token.h"
+
+namespace trapeze::rsl {
+
+struct Macro {
+    enum class Kind : uint8_t { Object, Function, File, Line };
+    Kind kind = Kind::Object;
+    bool variadic = false;  ///< the last parameter takes all further arguments
+    std::vector<std::string_view> parameters;
+    std::vector<Token> body;
+    SourceLocation at;
+    int disabled = 0;  ///< how many expansions of it are being read
+};
+
+class Macros {
+  public:
+    /// Null for what is no macro. Shared, since a directive among a macro's arguments may remove it.
+    std::shared_ptr<Macro> find(std::string_view name) const;
+    bool contains(std::string_view name) const { return table_.contains(name); }
+    /// The name's text must outlive the table. True when it had another meaning.
+    bool define(std::string_view name, Macro macro);
+    void remove(std::string_view name) { table_.erase(name); }
+
+  private:
+    std::unordered_map<std::string_view, std::shared_ptr<Macro>> table_;
+};
+
+/// How much expansion has cost in one compilation. Beyond its bounds everything ends.
+struct ExpansionBudget {
+    static constexpr size_t kMostTokens = size_t{1} << 21;     ///< written by all expansions together
+    static constexpr size_t kMostMadeBytes = size_t{1} << 25;  ///< by # and ##
+    static constexpr int kDeepestArguments = 64;               ///< macros in arguments of macros in...
+    static constexpr size_t kDeepestExpansions = 1000;         ///< macros in texts of macros in...
+
+    size_t tokens = 0, made_bytes = 0;
+    int argument_depth = 0;
+    bool exceeded = false;
+};
+
+/// Replaces macros in the tokens that a function gives, until End.
+class Expander {
+  public:
+    using Read = std::function<Token()>;
+    Expander(Read read, Macros& macros, ExpansionBudget& budget, std::deque<std::string>& made,
+             Messages& messages)
+        : read_(std::move(read)), macros_(macros), budget_(budget), made_(made), messages_(messages) {}
+    ~Expander();
+    Expander(const Expander&) = delete;
+    Expander& operator=(const Expander&) = delete;
+
+    /// The next token after expansion; End at the end, or when the budget is used up.
+    Token next();
+
+  private:
+    struct Context {
+        std::vector<Token> tokens;
+        size_t position = 0;
+        std::shared_ptr<Macro> macro;
+    };
+    using Arguments = std::vector<std::vector<Token>>;
+
+    Token pull();
+    bool next_is_open_parenthesis();
+    void leave_context();
+    void expand(const Token& name, const std::shared_ptr<Macro>& macro);
+    bool collect_arguments(const Token& name, const Macro& macro, Arguments& arguments);
+    std::vector<Token> substitute(const Token& name, const Macro& macro, const Arguments& arguments);
+    std::vector<Token> expanded(const std::vector<Token>& argument);
+    Token stringized(const std::vector<Token>& argument, const Token& name);
+    Token pasted(const Token& left, const Token& right, const Token& name);
+    std::string_view keep(std::string text);
+    void exceed(SourceLocation at, const char* what);
+
+    Read read_;
+    Macros& macros_;
+    ExpansionBudget& budget_;
+    std::deque<std::string>& made_;
+    Messages& messages_;
+    std::vector<Context> contexts_;
+    std::vector<Token> put_back_;  ///< read to see whether a parenthesis follows
+};
+
+/// All of a list, expanded.
+std::vector<Token> expand_all(const std::vector<Token>& tokens, Macros& macros, ExpansionBudget& budget,
+                              std::deque<std::string>& made, Messages& messages);
+
+}  // namespace trapeze::rsl

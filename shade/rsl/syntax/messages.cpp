@@ -1,0 +1,27 @@
+#include "shade/rsl/syntax/messages.h"
+
+namespace trapeze::rsl {
+
+void Messages::error(SourceLocation at, std::string text) {
+    const bool same_place = errors_ > 0 && at.line > 0 && at.source == last_error_.source &&
+                            at.line == last_error_.line && at.column == last_error_.column;
+    last_shown_ = !same_place && !full();
+    if (!last_shown_) return;
+    last_error_ = at;
+    if (++errors_ <= kMostErrors) {
+        diagnostics_.error(at, std::move(text));
+    } else {
+        diagnostics_.note(at, "more than " + std::to_string(kMostErrors) + " errors; the rest is not shown");
+        last_shown_ = false;
+    }
+}
+
+void Messages::warning(SourceLocation at, std::string text) {
+    if (++warnings_ <= kMostWarnings) diagnostics_.warning(at, std::move(text));
+}
+
+void Messages::note(SourceLocation at, std::string text) {
+    if (last_shown_) diagnostics_.note(at, std::move(text));
+}
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,204 @@
+#include "shade/rsl/syntax/parser.h"
+
+namespace trapeze::rsl {
+namespace {
+
+StatementPtr make(Statement::Kind kind, const Token& token) {
+    auto statement = std::make_unique<Statement>();
+    statement->kind = kind;
+    statement->at = token.at;
+    return statement;
+}
+
+}  // namespace
+
+StatementPtr Parser::block() {
+    StatementPtr block = make(Statement::Kind::Block, now());
+    const Nesting nesting(*this);
+    expect("{", "before a block");
+    while (!at("}") && !at_end() && !messages_.full()) {
+        try {
+            block->children.push_back(statement());
+        } catch (const Lost&) {
+            skip_statement();
+        }
+    }
+    expect("}", "after a block");
+    return block;
+}
+
+StatementPtr Parser::statement() {
+    const Nesting nesting(*this);
+    return statement_within();
+}
+
+StatementPtr Parser::statement_within() {
+    if (at("{")) return block();
+    if (at(";")) return make(Statement::Kind::Empty, take());
+    if (now().kind == Token::Kind::Name) {
+        refuse_rsl2();
+        if (at("if")) return if_statement();
+        if (at("while")) return while_statement();
+        if (at("for")) return for_statement();
+        if (at("illuminance")) return light_statement(Statement::Kind::Illuminance);
+        if (at("illuminate")) return light_statement(Statement::Kind::Illuminate);
+        if (at("solar")) return light_statement(Statement::Kind::Solar);
+        if (at("gather")) return light_statement(Statement::Kind::Gather);
+        if (at("break")) return loop_control(Statement::Kind::Break);
+        if (at("continue")) return loop_control(Statement::Kind::Continue);
+        if (at("return")) return return_statement();
+        if (at("else")) fail(now(), "\"else\" without \"if\"");
+        if (at_function()) return nested_function();
+        if (at_declaration()) return declaration();
+    }
+    return evaluation();
+}
+
+/// An expression, or several with commas between them.
+StatementPtr Parser::evaluation() {
+    const Token& first = now();
+    StatementPtr statement, several;
+    do {
+        if (statement && !several) several = make(Statement::Kind::Block, first);
+        if (several) several->open = true;
+        if (statement) several->children.push_back(std::move(statement));
+        statement = make(Statement::Kind::Evaluate, now());
+        statement->expressions.push_back(expression());
+    } while (accept(","));
+    expect(";", "after a statement");
+    if (!several) return statement;
+    several->children.push_back(std::move(statement));
+    return several;
+}
+
+/// "float f(float x) {": not the cast of a call.
+bool Parser::at_function() const {
+    size_t name = next_;
+    while (tokens_[name].is("uniform") || tokens_[name].is("varying")) ++name;
+    const bool is_void = tokens_[name].is("void");
+    if (!is_void && base_named(tokens_[name].text) == Base::Void) return false;
+    ++name;
+    if (tokens_[name].kind != Token::Kind::Name || is_reserved(tokens_[name].text) ||
+        !tokens_[name + 1].is("("))
+        return false;
+    return is_void || tokens_[behind_parentheses(name + 1)].is("{");
+}
+
+bool Parser::at_declaration() const {
+    if (at_any({"extern", "output", "uniform", "varying"})) return true;
+    if (base_named(now().text) == Base::Void) return false;
+    const size_t name = ahead(1).kind == Token::Kind::Text ? 2 : 1;
+    if (ahead(name).kind != Token::Kind::Name || base_named(ahead(name).text) != Base::Void) return false;
+    // "float x" is a declaration whatever follows; "float f(x)" is not.
+    return !ahead(name + 1).is("(");
+}
+
+StatementPtr Parser::nested_function() {
+    StatementPtr statement = make(Statement::Kind::Empty, now());
+    const size_t before = unit_->functions.size();
+    const size_t start = next_;
+    const Token& first = tokens_[start];
+    function(inside_);
+    if (unit_->functions.size() > before) statement->defines = unit_->functions.back().get();
+    statement->at = first.at;
+    return statement;
+}
+
+StatementPtr Parser::declaration() {
+    StatementPtr statement = make(Statement::Kind::Declare, now());
+    Specifier specified = specifier();
+    do {
+        if (at_specifier()) specified = specifier();
+        statement->variables.push_back(declarator(specified, Variable::Kind::Local));
+    } while (accept(","));
+    expect(";", "after a declaration");
+    return statement;
+}
+
+ExpressionPtr Parser::parenthesised_condition(std::string_view where) {
+    expect("(", where);
+    ExpressionPtr condition = expression();
+    expect(")", "after the condition");
+    return condition;
+}
+
+StatementPtr Parser::if_statement() {
+    StatementPtr statement = make(Statement::Kind::If, take());
+    statement->expressions.push_back(parenthesised_condition("after \"if\""));
+    statement->children.push_back(this->statement());
+    if (accept("else")) statement->children.push_back(this->statement());
+    return statement;
+}
+
+StatementPtr Parser::while_statement() {
+    StatementPtr statement = make(Statement::Kind::While, take());
+    statement->expressions.push_back(parenthesised_condition("after \"while\""));
+    statement->children.push_back(this->statement());
+    return statement;
+}
+
+/// A declaration in the head, or several expressions before the first ;, go into a block around the loop.
+StatementPtr Parser::for_statement() {
+    StatementPtr loop = make(Statement::Kind::For, take());
+    StatementPtr around;
+    expect("(", "after \"for\"");
+    if (now().kind == Token::Kind::Name && at_declaration()) {
+        around = make(Statement::Kind::Block, tokens_[next_ - 1]);
+        around->children.push_back(declaration());
+        loop->expressions.push_back(nullptr);
+    } else {
+        loop->expressions.push_back(at(";") ? nullptr : expression());
+        while (accept(",")) {
+            if (!around) around = make(Statement::Kind::Block, tokens_[next_ - 1]);
+            around->open = true;
+            StatementPtr before = make(Statement::Kind::Evaluate, now());
+            before->expressions.push_back(std::move(loop->expressions[0]));
+            around->children.push_back(std::move(before));
+            loop->expressions[0] = expression();
+        }
+        expect(";", "in the head of \"for\"");
+    }
+    loop->expressions.push_back(at(";") ? nullptr : expression());
+    expect(";", "in the head of \"for\"");
+    loop->expressions.push_back(at(")") ? nullptr : expression());
+    while (accept(",")) loop->expressions.push_back(expression());
+    expect(")", "after the head of \"for\"");
+    loop->children.push_back(statement());
+    if (!around) return loop;
+    around->children.push_back(std::move(loop));
+    return around;
+}
+
+StatementPtr Parser::light_statement(Statement::Kind kind) {
+    const Token& word = take();
+    StatementPtr statement = make(kind, word);
+    if (!at("(")) fail_expecting("\"(\" after \"" + std::string(word.text) + "\"");
+    statement->expressions = arguments();
+    statement->children.push_back(this->statement());
+    if (kind == Statement::Kind::Gather && accept("else")) statement->children.push_back(this->statement());
+    return statement;
+}
+
+StatementPtr Parser::loop_control(Statement::Kind kind) {
+    const Token& word = take();
+    StatementPtr statement = make(kind, word);
+    if (now().kind == Token::Kind::Number) {
+        const float levels = now().number;
+        if (levels < 1 || levels > kDeepestNesting || levels != static_cast<float>(static_cast<int>(levels)))
+            fail(now(), "\"" + std::string(word.text) + "\" wants a number of loops, from 1");
+        statement->levels = static_cast<int>(levels);
+        take();
+    }
+    expect(";", "after \"" + std::string(word.text) + "\"");
+    return statement;
+}
+
+StatementPtr Parser::return_statement() {
+    StatementPtr statement = make(Statement::Kind::Return, take());
+    if (!at(";")) statement->expressions.push_back(expression());
+    returns_value_ = returns_value_ || !statement->expressions.empty();
+    expect(";", "after \"return\"");
+    return statement;
+}
+
+}  // namespace trapeze::rsl

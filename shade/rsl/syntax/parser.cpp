@@ -1,0 +1,340 @@
+#include "shade/rsl/syntax/parser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace trapeze::rsl {
+namespace {
+
+std::optional<ShaderKind> shader_kind_named(std::string_view name) {
+    for (int kind = 0; kind <= static_cast<int>(ShaderKind::Imager); ++kind)
+        if (name_of(static_cast<ShaderKind>(kind)) == name) return static_cast<ShaderKind>(kind);
+    return {};
+}
+
+std::string shown(const Token& token) {
+    if (token.kind == Token::Kind::End) return "the end of the file";
+    if (token.kind == Token::Kind::Text) return "a string";
+    return "\"" + std::string(token.text.substr(0, 60)) + (token.text.size() > 60 ? "...\"" : "\"");
+}
+
+}  // namespace
+
+std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Messages& messages) {
+    return Parser(stream.tokens, messages).unit();
+}
+
+Parser::Parser(const std::vector<Token>& tokens, Messages& messages) : tokens_(tokens), messages_(messages) {}
+
+std::unique_ptr<TranslationUnit> Parser::unit() {
+    try {
+        while (!at_end() && !messages_.full()) {
+            try {
+                if (accept(";")) continue;
+                refuse_rsl2();
+                definition();
+            } catch (const Lost&) {
+                skip_definition();
+            }
+        }
+    } catch (const Hopeless&) {
+        // Reported.
+    }
+    return std::move(unit_);
+}
+
+// ---- Tokens
+
+const Token& Parser::take() {
+    const Token& token = now();
+    if (next_ + 1 < tokens_.size()) ++next_;
+    return token;
+}
+
+bool Parser::at_any(std::initializer_list<std::string_view> texts) const {
+    return std::any_of(texts.begin(), texts.end(), [&](std::string_view text) { return at(text); });
+}
+
+bool Parser::accept(std::string_view text) {
+    if (!at(text)) return false;
+    take();
+    return true;
+}
+
+void Parser::fail(const Token& token, std::string text) {
+    messages_.error(token.at, std::move(text));
+    throw Lost();
+}
+
+void Parser::fail_expecting(std::string_view what) {
+    fail(now(), "expected " + std::string(what) + ", not " + shown(now()));
+}
+
+void Parser::expect(std::string_view text, std::string_view where) {
+    if (accept(text)) return;
+    const std::string wanted = "\"" + std::string(text) + "\" " + std::string(where);
+    // What is missing at a line's end is shown there, not at the next line's beginning.
+    if (next_ > 0 && (at_end() || now().at.line != tokens_[next_ - 1].at.line) && text != "{") {
+        const Token& last = tokens_[next_ - 1];
+        Token behind = last;
+        if (last.kind != Token::Kind::Text) behind.at.column += static_cast<uint32_t>(last.text.size());
+        fail(behind, "expected " + wanted);
+    }
+    fail_expecting(wanted);
+}
+
+std::string Parser::new_name(std::string_view what) {
+    if (now().kind != Token::Kind::Name) fail_expecting(what);
+    if (is_reserved(now().text)) fail(now(), shown(now()) + " is a word of the language and no name");
+    return std::string(take().text);
+}
+
+/// The index behind the parenthesis that closes the one at `open`; that of the end when none does.
+size_t Parser::behind_parentheses(size_t open) const {
+    int depth = 0;
+    for (size_t i = open; i < tokens_.size(); ++i) {
+        if (tokens_[i].kind == Token::Kind::Mark && tokens_[i].text.size() == 1) {
+            const char c = tokens_[i].text[0];
+            depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+            if (c == '{' || c == '}') break;
+        }
+        if (depth == 0) return i + 1;
+    }
+    return tokens_.size() - 1;
+}
+
+/// Behind the next ; or block, before the next } of outside.
+void Parser::skip_statement() {
+    for (int depth = 0; !at_end(); take()) {
+        if (depth == 0 && accept(";")) return;
+        if (at("{")) ++depth;
+        if (!at("}")) continue;
+        if (depth == 0) return;
+        if (--depth == 0) {
+            take();
+            return;
+        }
+    }
+}
+
+/// Behind the definition that is being read.
+void Parser::skip_definition() {
+    for (int depth = 0; !at_end(); take()) {
+        // Where a shader begins, whatever was wrong before has an end.
+        const bool begins = now().line_start && shader_kind_named(now().text) &&
+                            ahead(1).kind == Token::Kind::Name && ahead(2).is("(");
+        if (begins) return;
+        if (at("{")) ++depth;
+        if (at("}") && --depth <= 0) {
+            take();
+            return;
+        }
+    }
+}
+
+/// What RenderMan's second shading language adds is said to be missing once.
+void Parser::refuse_rsl2() {
+    const bool class_ =
+        at("class") && ahead(1).kind == Token::Kind::Name && (ahead(2).is("(") || ahead(2).is("{"));
+    const bool struct_ = at("struct") && ahead(1).kind == Token::Kind::Name && ahead(2).is("{");
+    const bool plugin = at("plugin") && ahead(1).kind == Token::Kind::Text;
+    const bool public_ = (at("public") || at("method") || at("constant") || at("private")) &&
+                         ahead(1).kind == Token::Kind::Name && !ahead(1).is("=") && !ahead(2).is(".");
+    const bool handle = at("shader") && ahead(1).kind == Token::Kind::Name;
+    const bool member = at("->") || at("::");
+    if (!class_ && !struct_ && !plugin && !public_ && !handle && !member) return;
+    messages_.error(now().at, shown(now()) +
+                                  " belongs to RSL 2 (structs, classes, co-shaders, plugins), "
+                                  "which is not supported: shaders are written in RSL 1 here");
+    throw Hopeless();
+}
+
+// ---- Definitions
+
+void Parser::definition() {
+    if (shader_kind_named(now().text) && ahead(1).kind == Token::Kind::Name && ahead(2).is("("))
+        return shader();
+    if (at("transformation") && ahead(1).kind == Token::Kind::Name)
+        fail(now(), "transformation shaders are not supported (no renderer ever had them)");
+    const size_t before = next_;
+    while (at_any({"uniform", "varying", "extern", "output"})) take();
+    const size_t name = next_ + (base_named(now().text) != Base::Void || at("void") ? 1 : 0);
+    next_ = before;
+    if (tokens_[name].kind == Token::Kind::Name && name + 1 < tokens_.size() && tokens_[name + 1].is("("))
+        return function("");
+    if (name > before && tokens_[name].kind == Token::Kind::Name)
+        fail(tokens_[name], "variables are declared in shaders and functions, not outside them");
+    fail_expecting("a shader or a function");
+}
+
+void Parser::shader() {
+    auto shader = std::make_unique<Shader>();
+    shader->kind = *shader_kind_named(take().text);
+    shader->at = now().at;
+    shader->name = new_name("the shader's name");
+    expect("(", "before the parameters");
+    shader->parameters = formals(Variable::Kind::Parameter);
+    expect(")", "after the parameters");
+    if (!at("{")) fail_expecting("\"{\" before the shader's body");
+    inside_ = shader->name;
+    shader->body = block();
+    inside_.clear();
+    unit_->shaders.push_back(std::move(shader));
+}
+
+/// [type] name ( parameters ) { ... }; a type left out means that nothing is returned, or a float where a
+/// value is.
+void Parser::function(std::string inside) {
+    auto function = std::make_unique<Function>();
+    while (at_any({"uniform", "varying", "extern", "output"})) take();
+    const bool typed = base_named(now().text) != Base::Void || at("void");
+    function->typed = typed;
+    if (typed) function->result.base = base_named(take().text);
+    function->at = now().at;
+    function->name = new_name("the function's name");
+    function->inside = std::move(inside);
+    expect("(", "before the parameters");
+    function->parameters = formals(Variable::Kind::FunctionParameter);
+    expect(")", "after the parameters");
+    if (accept(";")) return;  // a prototype says nothing new
+    if (!at("{")) fail_expecting("\"{\" before the function's body");
+    const std::string outer = std::exchange(inside_, function->name);
+    const bool outer_returns = std::exchange(returns_value_, false);
+    function->body = block();
+    if (!typed && returns_value_) function->result.base = Base::Float;
+    inside_ = outer;
+    returns_value_ = outer_returns;
+    unit_->functions.push_back(std::move(function));
+}
+
+std::vector<std::unique_ptr<Variable>> Parser::formals(Variable::Kind kind) {
+    std::vector<std::unique_ptr<Variable>> variables;
+    if (at("void") && ahead(1).is(")")) take();
+    Specifier now_specified;
+    bool specified = false;
+    while (!at(")") && !at_end()) {
+        if (accept(";")) {
+            specified = false;
+            continue;
+        }
+        if (accept(",")) continue;
+        refuse_rsl2();
+        if (at_specifier()) {
+            now_specified = specifier();
+            specified = true;
+        } else if (!specified) {
+            fail_expecting("a parameter's type");
+        }
+        variables.push_back(declarator(now_specified, kind));
+        if (!at_any({",", ";", ")"})) fail_expecting("\";\" or \")\" after a parameter");
+    }
+    return variables;
+}
+
+bool Parser::at_specifier() const {
+    return now().kind == Token::Kind::Name &&
+           (at_any({"output", "extern", "uniform", "varying"}) || base_named(now().text) != Base::Void);
+}
+
+Parser::Specifier Parser::specifier() {
+    Specifier specifier;
+    while (true) {
+        if (accept("output")) {
+            specifier.output = true;
+        } else if (accept("extern")) {
+            specifier.external = true;
+        } else if (accept("uniform")) {
+            specifier.storage = Storage::Uniform;
+        } else if (accept("varying")) {
+            specifier.storage = Storage::Varying;
+        } else {
+            break;
+        }
+    }
+    specifier.base = base_named(now().text);
+    if (now().kind != Token::Kind::Name || specifier.base == Base::Void) {
+        refuse_rsl2();
+        fail_expecting("a type");
+    }
+    take();
+    // RISpec 3.1 let the type name a space; it never changed what the variable holds.
+    if (now().kind == Token::Kind::Text && ahead(1).kind == Token::Kind::Name) take();
+    return specifier;
+}
+
+std::unique_ptr<Variable> Parser::declarator(const Specifier& specifier, Variable::Kind kind) {
+    auto variable = std::make_unique<Variable>();
+    variable->at = now().at;
+    variable->name = new_name("a variable's name");
+    variable->kind = kind;
+    variable->type.base = specifier.base;
+    variable->storage = specifier.storage;
+    variable->output = specifier.output;
+    variable->external = specifier.external;
+    if (accept("[")) variable->type.length = array_length();
+    if (accept("=")) variable->initial = initial_value();
+    return variable;
+}
+
+/// Behind "[": a constant expression, or nothing.
+int Parser::array_length() {
+    if (accept("]")) return Type::kUnsized;
+    const Token& first = now();
+    const ExpressionPtr length = conditional();
+    double value = 0;
+    if (!constant_value(*length, value) || value != std::floor(value))
+        fail(first, "an array's length is a constant whole number");
+    if (value < 1 || value > kLongestArray)
+        fail(first, "an array has 1 to " + std::to_string(kLongestArray) + " elements");
+    expect("]", "after the array's length");
+    return static_cast<int>(value);
+}
+
+bool Parser::constant_value(const Expression& e, double& value) {
+    double left = 0, right = 0;
+    if (e.kind == Expression::Kind::Number) {
+        value = e.number;
+        return true;
+    }
+    if (e.kind == Expression::Kind::Unary && e.op == Operator::Negate) {
+        if (!constant_value(*e.children[0], left)) return false;
+        value = -left;
+        return true;
+    }
+    if (e.kind != Expression::Kind::Binary || !constant_value(*e.children[0], left) ||
+        !constant_value(*e.children[1], right))
+        return false;
+    switch (e.op) {
+        case Operator::Add:
+            value = left + right;
+            return true;
+        case Operator::Subtract:
+            value = left - right;
+            return true;
+        case Operator::Multiply:
+            value = left * right;
+            return true;
+        case Operator::Divide:
+            value = right != 0 ? left / right : 0;
+            return right != 0;
+        default:
+            return false;
+    }
+}
+
+ExpressionPtr Parser::initial_value() {
+    if (!at("{")) return expression();
+    auto list = std::make_unique<Expression>();
+    list->kind = Expression::Kind::List;
+    list->at = take().at;
+    while (!at("}") && !at_end()) {
+        list->children.push_back(expression());
+        if (!accept(",")) break;
+    }
+    expect("}", "after the array's values");
+    return finished(std::move(list));
+}
+
+}  // namespace trapeze::rsl

@@ -1,0 +1,130 @@
+/// Tokens to tree, by recursive descent (RISpec 3.2, appendix B, and what real shaders use beyond it).
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "shade/rsl/syntax/ast.h"
+#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/token.h"
+
+namespace trapeze::rsl {
+
+/// After an error goes on behind the next ; or }, and reports what else is wrong. Of use only when
+/// messages.failed() is false.
+std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Messages& messages);
+
+/// The parser's state. parser.cpp has definitions, parse_statements.cpp and parse_expressions.cpp the rest.
+class Parser {
+  public:
+    Parser(const std::vector<Token>& tokens, Messages& messages);
+    std::unique_ptr<TranslationUnit> unit();
+
+  private:
+    /// Thrown after an error is reported, caught where parsing can go on; never leaves the parser.
+    struct Lost {};
+    /// Thrown where nothing that follows can be understood.
+    struct Hopeless {};
+    /// What stands before a variable's name.
+    struct Specifier {
+        Base base = Base::Void;
+        Storage storage = Storage::Unspecified;
+        bool output = false, external = false;
+    };
+    class Nesting;
+
+    // Tokens.
+    const Token& now() const { return tokens_[next_]; }
+    const Token& ahead(size_t n) const { return tokens_[std::min(next_ + n, tokens_.size() - 1)]; }
+    bool at(std::string_view text) const { return now().is(text); }
+    bool at_any(std::initializer_list<std::string_view> texts) const;
+    bool at_end() const { return now().kind == Token::Kind::End; }
+    const Token& take();
+    bool accept(std::string_view text);
+    void expect(std::string_view text, std::string_view where);
+    std::string new_name(std::string_view what);
+    size_t behind_parentheses(size_t open) const;
+    [[noreturn]] void fail(const Token& token, std::string text);
+    [[noreturn]] void fail_expecting(std::string_view what);
+    void skip_statement();
+    void skip_definition();
+    void refuse_rsl2();
+
+    // Definitions: parser.cpp.
+    void definition();
+    void shader();
+    void function(std::string inside);
+    std::vector<std::unique_ptr<Variable>> formals(Variable::Kind kind);
+    bool at_specifier() const;
+    Specifier specifier();
+    std::unique_ptr<Variable> declarator(const Specifier& specifier, Variable::Kind kind);
+    int array_length();
+    ExpressionPtr initial_value();
+    static bool constant_value(const Expression& e, double& value);
+
+    // Statements.
+    StatementPtr statement();
+    StatementPtr statement_within();
+    StatementPtr block();
+    StatementPtr evaluation();
+    StatementPtr declaration();
+    StatementPtr nested_function();
+    bool at_declaration() const;
+    bool at_function() const;
+    StatementPtr if_statement();
+    StatementPtr while_statement();
+    StatementPtr for_statement();
+    StatementPtr light_statement(Statement::Kind kind);
+    StatementPtr loop_control(Statement::Kind kind);
+    StatementPtr return_statement();
+    ExpressionPtr parenthesised_condition(std::string_view where);
+
+    // Expressions.
+    ExpressionPtr expression();
+    ExpressionPtr conditional();
+    ExpressionPtr binary(int lowest);
+    ExpressionPtr unary();
+    ExpressionPtr cast();
+    ExpressionPtr postfix();
+    ExpressionPtr primary();
+    ExpressionPtr parentheses();
+    std::vector<ExpressionPtr> arguments();
+    ExpressionPtr finished(ExpressionPtr e);
+
+    const std::vector<Token>& tokens_;
+    Messages& messages_;
+    std::unique_ptr<TranslationUnit> unit_ = std::make_unique<TranslationUnit>();
+    std::string inside_;          // the shader or function whose body is read
+    bool returns_value_ = false;  // it has a "return" with a value
+    size_t next_ = 0;
+    int nesting_ = 0;
+};
+
+/// Counts how deep parsing nests while it lives.
+class Parser::Nesting {
+  public:
+    explicit Nesting(Parser& parser) : parser_(parser) {
+        if (++parser_.nesting_ <= kDeepestNesting) return;
+        parser_.messages_.error(parser_.now().at, "this nests too deeply");
+        --parser_.nesting_;
+        throw Hopeless();
+    }
+    ~Nesting() { --parser_.nesting_; }
+    Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
+
+  private:
+    Parser& parser_;
+};
+
+/// Void for what names no type.
+Base base_named(std::string_view name);
+/// As the language calls it; "float".
+std::string_view name_of(Base base);
+std::string_view name_of(ShaderKind kind);
+/// Words that cannot name variables or functions.
+bool is_reserved(std::string_view name);
+
+}  // namespace trapeze::rsl

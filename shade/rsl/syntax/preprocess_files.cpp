@@ -1,0 +1,369 @@
+#include "shade/rsl/syntax/preprocess_files.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "shade/rsl/syntax/condition.h"
+
+namespace trapeze::rsl {
+namespace {
+
+constexpr size_t kMostRenumberings = 100000;
+constexpr size_t kMostFoldersBeside = 1000;
+
+std::string shown(std::string_view text) {
+    return "\"" + std::string(text.substr(0, 80)) + (text.size() > 80 ? "...\"" : "\"");
+}
+
+/// A string's value, for file names: \" and \\ alone are escapes.
+std::string file_name_of(std::string_view text) {
+    std::string name;
+    for (size_t i = 1; i + 1 < text.size(); ++i) {
+        if (text[i] == '\\' && (text[i + 1] == '\\' || text[i + 1] == '"') && i + 2 < text.size()) ++i;
+        name += text[i];
+    }
+    return name;
+}
+
+}  // namespace
+
+FileReader::FileReader(const CompileOptions& options, Macros& macros, ExpansionBudget& budget,
+                       TokenStream& stream, Messages& messages)
+    : options_(options), macros_(macros), budget_(budget), stream_(stream), messages_(messages) {}
+
+void FileReader::enter(const std::string& name, const std::string& path, std::string text,
+                       SourceLocation from) {
+    const SourceText& source = stream_.sources.emplace_back(joined_lines(std::move(text)));
+    const uint32_t number = messages_.diagnostics().add_source(name, from, source.as_written);
+    files_.push_back({path, name, from, source.as_written, Lexer(source, number, messages_)});
+}
+
+void FileReader::define_from_outside(const std::string& name, const std::string& value) {
+    enter("<command line>", "", "#define " + name + " " + value + "\n", {});
+    while (next().kind != Token::Kind::End) {}
+}
+
+bool FileReader::counts() const {
+    return files_.back().conditionals.empty() || files_.back().conditionals.back().counts;
+}
+
+Token FileReader::next() {
+    while (!files_.empty()) {
+        if (stopped_ || messages_.full()) {
+            files_.clear();
+            break;
+        }
+        Token token = files_.back().lexer.next();
+        if (token.kind == Token::Kind::End)
+            leave();
+        else if (token.line_start && token.is("#"))
+            obey(token);
+        else if (token.kind != Token::Kind::NewLine && counts())
+            return token;
+    }
+    return {};
+}
+
+void FileReader::leave() {
+    for (const Conditional& open : files_.back().conditionals)
+        messages_.error(open.at, "this condition has no #endif");
+    files_.pop_back();
+}
+
+FileReader::Line FileReader::rest_of_line() {
+    Line line;
+    for (Token token = files_.back().lexer.next();
+         token.kind != Token::Kind::NewLine && token.kind != Token::Kind::End;
+         token = files_.back().lexer.next())
+        line.push_back(token);
+    return line;
+}
+
+FileReader::Line FileReader::expanded(const Line& line) {
+    return expand_all(line, macros_, budget_, stream_.made, messages_);
+}
+
+void FileReader::obey(const Token& hash) {
+    Line line = rest_of_line();
+    if (line.empty()) return;
+    const Token word = line.front();
+    line.erase(line.begin());
+    if (obey_conditional(word.text, word, line) || !counts()) return;
+    if (word.is("define")) {
+        define(word, line);
+    } else if (word.is("undef")) {
+        undefine(word, line);
+    } else if (word.is("include")) {
+        include(word, line);
+    } else if (word.is("line")) {
+        this->line(word, line);
+    } else if (word.kind == Token::Kind::Number) {  // as cpp writes it
+        line.insert(line.begin(), word);
+        this->line(word, line);
+    } else if (word.is("error") || word.is("warning")) {
+        say(word, line, word.is("error"));
+    } else if (word.is("pragma")) {
+        if (!line.empty() && line[0].is("once")) once_.insert(files_.back().path);
+    } else if (!word.is("ident")) {
+        messages_.warning(hash.at,
+                          "unknown directive #" + std::string(word.text.substr(0, 80)) + " (ignored)");
+    }
+}
+
+/// True when the directive is one of conditions, all of which are read in lines that do not count as well.
+bool FileReader::obey_conditional(std::string_view name, const Token& at, const Line& line) {
+    std::vector<Conditional>& open = files_.back().conditionals;
+    const bool starts = name == "if" || name == "ifdef" || name == "ifndef";
+    if (starts) {
+        if (open.size() >= kDeepestNesting) {
+            messages_.error(at.at, "conditions nest too deeply");
+            stopped_ = true;
+            return true;
+        }
+        const bool outer = counts();
+        const bool is =
+            outer && (name == "if" ? condition(at, line) : name_is_defined(at, line) == (name == "ifdef"));
+        open.push_back({at.at, outer, is, is});
+        return true;
+    }
+    if (name != "elif" && name != "else" && name != "endif") return false;
+    if (open.empty()) {
+        messages_.error(at.at, "#" + std::string(name) + " without #if");
+        return true;
+    }
+    Conditional& top = open.back();
+    if (name == "endif") {
+        open.pop_back();
+    } else if (top.had_else) {
+        messages_.error(at.at, "#" + std::string(name) + " after #else");
+    } else {
+        top.had_else = name == "else";
+        top.counts = top.outer_counts && !top.taken && (name == "else" || condition(at, line));
+        top.taken = top.taken || top.counts;
+    }
+    return true;
+}
+
+bool FileReader::condition(const Token& at, const Line& line) {
+    Line without_defined;
+    for (size_t i = 0; i < line.size(); ++i) {
+        without_defined.push_back(line[i]);
+        if (!line[i].is("defined")) continue;
+        const bool open = i + 1 < line.size() && line[i + 1].is("(");
+        const size_t name = i + (open ? 2 : 1);
+        const bool complete = name < line.size() && line[name].kind == Token::Kind::Name &&
+                              (!open || (name + 1 < line.size() && line[name + 1].is(")")));
+        if (!complete) {
+            messages_.error(line[i].at, "\"defined\" wants a name");
+            return false;
+        }
+        Token& value = without_defined.back();
+        value.kind = Token::Kind::Number;
+        value.text = macros_.contains(line[name].text) ? "1" : "0";
+        i = name + (open ? 1 : 0);
+    }
+    return evaluate_condition(expanded(without_defined), at.at, messages_);
+}
+
+bool FileReader::name_is_defined(const Token& at, const Line& line) {
+    if (line.empty() || line[0].kind != Token::Kind::Name) {
+        messages_.error(at.at, "#" + std::string(at.text) + " wants a name");
+        return false;
+    }
+    return macros_.contains(line[0].text);
+}
+
+/// Of "( a, b, ... )", from the token after the parenthesis; leaves `i` behind the closing one.
+bool FileReader::read_parameters(const Line& line, size_t& i, Macro& macro) {
+    if (i < line.size() && line[i].is(")")) {
+        ++i;
+        return true;
+    }
+    while (i < line.size()) {
+        if (line[i].is("...")) {
+            macro.variadic = true;
+            macro.parameters.push_back("__VA_ARGS__");
+        } else if (line[i].kind == Token::Kind::Name) {
+            macro.parameters.push_back(line[i].text);
+            if (i + 1 < line.size() && line[i + 1].is("...")) macro.variadic = true, ++i;
+        } else {
+            return false;
+        }
+        if (macro.parameters.size() > 256 || ++i == line.size()) return false;
+        if (line[i].is(")")) {
+            ++i;
+            return true;
+        }
+        if (macro.variadic || !line[i].is(",")) return false;
+        ++i;
+    }
+    return false;
+}
+
+void FileReader::define(const Token& at, const Line& line) {
+    if (line.empty() || line[0].kind != Token::Kind::Name || line[0].is("defined")) {
+        messages_.error(at.at, "#define wants a name");
+        return;
+    }
+    Macro macro;
+    macro.at = line[0].at;
+    size_t i = 1;
+    if (i < line.size() && line[i].is("(") && !line[i].space_before) {
+        macro.kind = Macro::Kind::Function;
+        if (!read_parameters(line, ++i, macro)) {
+            messages_.error(line[std::min(i, line.size() - 1)].at,
+                            "the parameters of macro " + shown(line[0].text) + " are names between ( , )");
+            return;
+        }
+    }
+    macro.body.assign(line.begin() + static_cast<std::ptrdiff_t>(i), line.end());
+    const bool ends_badly =
+        !macro.body.empty() && (macro.body.front().is("##") || macro.body.back().is("##"));
+    if (ends_badly) {
+        messages_.error(line[0].at, "## stands between two words, in macro " + shown(line[0].text));
+        return;
+    }
+    if (macros_.define(line[0].text, std::move(macro)))
+        messages_.warning(line[0].at, "macro " + shown(line[0].text) + " is defined anew, differently");
+}
+
+void FileReader::undefine(const Token& at, const Line& line) {
+    if (line.empty() || line[0].kind != Token::Kind::Name)
+        messages_.error(at.at, "#undef wants a name");
+    else
+        macros_.remove(line[0].text);
+}
+
+void FileReader::say(const Token& at, const Line& line, bool error) {
+    std::string text;
+    for (const Token& token : line) {
+        if (!text.empty() && token.space_before) text += ' ';
+        text += token.text;
+        if (text.size() > 500) break;
+    }
+    if (line.size() == 1 && line[0].kind == Token::Kind::Text) text = file_name_of(line[0].text);
+    if (text.empty()) text = "#" + std::string(at.text);
+    if (error)
+        messages_.error(at.at, text);
+    else
+        messages_.warning(at.at, text);
+}
+
+void FileReader::include(const Token& at, const Line& line_as_written) {
+    Line line = line_as_written;
+    if (!line.empty() && line[0].kind == Token::Kind::Name) line = expanded(line);
+    std::string name;
+    const bool quoted = !line.empty() && line[0].kind == Token::Kind::Text;
+    if (quoted) {
+        name = file_name_of(line[0].text);
+    } else if (!line.empty() && line[0].is("<")) {
+        size_t i = 1;
+        for (; i < line.size() && !line[i].is(">"); ++i)
+            name += (i > 1 && line[i].space_before ? " " : "") + std::string(line[i].text);
+        if (i == line.size()) name.clear();
+    }
+    if (name.empty()) {
+        messages_.error(at.at, "#include wants \"file\" or <file>");
+        return;
+    }
+    if (files_.size() >= kDeepestInclude || ++includes_ > kMostIncludes) {
+        messages_.error(at.at, files_.size() >= kDeepestInclude ? "files include each other too deeply"
+                                                                : "too many files are included");
+        stopped_ = includes_ > kMostIncludes;
+        return;
+    }
+    for (const std::string& path : places_of(name, quoted))
+        if (is_included(path, at)) return;
+    const std::string bare = std::filesystem::path(name).filename().string();
+    if (options_.carried_file)
+        if (const std::string_view text = options_.carried_file(bare); !text.empty()) {
+            enter(bare, bare, std::string(text), at.at);
+            return;
+        }
+    for (const std::string& path : places_beside(bare)) {
+        if (!is_included(path, at)) continue;
+        if (!stopped_)
+            messages_.warning(at.at, "file " + shown(name) + " is in none of the folders to search; " +
+                                         shown(path) + " is read");
+        return;
+    }
+    messages_.error(at.at, "file " + shown(name) + " is not found" +
+                               (options_.include_folders.empty() ? "" : " in any of the folders to search"));
+}
+
+/// Reads a file in the place of its #include; false if it is not there.
+bool FileReader::is_included(const std::string& path, const Token& at) {
+    if (once_.contains(path)) return true;
+    std::optional<std::string> text =
+        options_.read_file ? options_.read_file(path) : read_file_from_disk(path, kMostBytes);
+    if (!text) return false;
+    bytes_ += text->size();
+    if (bytes_ > kMostBytes) {
+        messages_.error(at.at, "the included files are too large together");
+        stopped_ = true;
+    } else {
+        enter(path, path, std::move(*text), at.at);
+    }
+    return true;
+}
+
+/// Where a file that is included may be, in the order to look. Collections of shaders keep their headers
+/// above the folders of the kinds, or in one of their own, and leave it to the compiler's command line to say
+/// so.
+std::vector<std::string> FileReader::places_of(const std::string& name, bool quoted) const {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(files_.back().path).parent_path();
+    std::vector<std::string> places;
+    if (fs::path(name).is_absolute()) return {name};
+    if (quoted) places.push_back((folder / name).string());
+    for (const std::string& searched : options_.include_folders)
+        places.push_back((fs::path(searched) / name).string());
+    if (!quoted) places.push_back((folder / name).string());
+    for (const char* above : {"", "..", "../.."})
+        for (const char* headers : {"", "include", "headers"})
+            if (*above || *headers) places.push_back((folder / above / headers / name).string());
+    return places;
+}
+
+/// In other folders of the collection: those in the file's own and those beside it, by name.
+std::vector<std::string> FileReader::places_beside(const std::string& name) const {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(files_.back().path).parent_path();
+    std::vector<std::string> places;
+    for (const char* above : {".", ".."}) {
+        std::vector<std::string> found;
+        std::error_code failed;
+        for (fs::directory_iterator entry(folder / above, failed), end;
+             !failed && entry != end && found.size() < kMostFoldersBeside; entry.increment(failed)) {
+            std::error_code unknown;
+            if (entry->is_directory(unknown)) found.push_back((entry->path() / name).string());
+        }
+        std::sort(found.begin(), found.end());
+        places.insert(places.end(), found.begin(), found.end());
+    }
+    return places;
+}
+
+/// #line 10 "file", and # 10 "file" 1 as cpp writes it.
+void FileReader::line(const Token& at, const Line& line_as_written) {
+    const Line line = expanded(line_as_written);
+    uint32_t number = 0;
+    if (!line.empty() && line[0].kind == Token::Kind::Number) {
+        const std::string_view text = line[0].text;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error != std::errc() || end != text.data() + text.size()) number = 0;
+        if (text == "0") number = 1;
+    }
+    if (number == 0 || number > 1u << 30) {
+        messages_.error(at.at, "#line wants a line number");
+        return;
+    }
+    if (++renumberings_ > kMostRenumberings) return;
+    File& file = files_.back();
+    if (line.size() > 1 && line[1].kind == Token::Kind::Text) file.name = file_name_of(line[1].text);
+    const int64_t shift = static_cast<int64_t>(number) - file.lexer.physical_line();
+    file.lexer.renumber(messages_.diagnostics().add_source(file.name, file.from, file.text, shift), number);
+}
+
+}  // namespace trapeze::rsl

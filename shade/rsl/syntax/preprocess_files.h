@@ -1,0 +1,75 @@
+/// The files that a preprocessor reads, and their directives.
+#pragma once
+
+#include <unordered_set>
+
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/syntax/lexer.h"
+#include "shade/rsl/syntax/macros.h"
+
+namespace trapeze::rsl {
+
+/// Tokens of a file and its includes before macros are expanded; directives are obeyed on the way.
+class FileReader {
+  public:
+    static constexpr size_t kDeepestInclude = 32;
+    static constexpr size_t kMostIncludes = 5000;
+    static constexpr size_t kMostBytes = size_t{64} << 20;
+
+    FileReader(const CompileOptions& options, Macros& macros, ExpansionBudget& budget, TokenStream& stream,
+               Messages& messages);
+
+    /// Begins a file; `from` is where it is included.
+    void enter(const std::string& name, const std::string& path, std::string text, SourceLocation from);
+    /// What -D says: `name` may have parameters.
+    void define_from_outside(const std::string& name, const std::string& value);
+    /// The next token outside directives and of lines that count; End after the last file.
+    Token next();
+
+  private:
+    /// An #if that is open.
+    struct Conditional {
+        SourceLocation at;
+        bool outer_counts, counts, taken, had_else = false;
+    };
+    struct File {
+        std::string path;  ///< where it was found, for includes beside it
+        std::string name;  ///< as messages and #line call it
+        SourceLocation from;
+        std::shared_ptr<const std::string> text;
+        Lexer lexer;
+        std::vector<Conditional> conditionals = {};
+    };
+    using Line = std::vector<Token>;
+
+    bool counts() const;
+    void leave();
+    Line rest_of_line();
+    Line expanded(const Line& line);
+
+    void obey(const Token& hash);
+    bool obey_conditional(std::string_view name, const Token& at, const Line& line);
+    bool condition(const Token& at, const Line& line);
+    bool name_is_defined(const Token& at, const Line& line);
+    void define(const Token& at, const Line& line);
+    bool read_parameters(const Line& line, size_t& i, Macro& macro);
+    void undefine(const Token& at, const Line& line);
+    void include(const Token& at, const Line& line);
+    bool is_included(const std::string& path, const Token& at);
+    std::vector<std::string> places_of(const std::string& name, bool quoted) const;
+    std::vector<std::string> places_beside(const std::string& name) const;
+    void line(const Token& at, const Line& line);
+    void say(const Token& at, const Line& line, bool error);
+
+    const CompileOptions& options_;
+    Macros& macros_;
+    ExpansionBudget& budget_;
+    TokenStream& stream_;
+    Messages& messages_;
+    std::vector<File> files_;
+    std::unordered_set<std::string> once_;  ///< files with #pragma once
+    size_t bytes_ = 0, includes_ = 0, renumberings_ = 0;
+    bool stopped_ = false;
+};
+
+}  // namespace trapeze::rsl

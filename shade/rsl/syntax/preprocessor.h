@@ -1,0 +1,15 @@
+/// Macros, conditions and #include, within bounds that no file from a stranger can break. (See
+/// docs/decisions/0010-preprocessor.md for why it is our own.)
+#pragma once
+
+#include "shade/rsl/front_end.h"
+#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/token.h"
+
+namespace trapeze::rsl {
+
+/// A file and all that it includes, as tokens. Each stands where it was written, those of macros where the
+/// macro was used. What is wrong is reported.
+TokenStream preprocess(const Source& source, const CompileOptions& options, Messages& messages);
+
+}  // namespace trapeze::rsl

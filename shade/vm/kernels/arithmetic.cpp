@@ -1,0 +1,207 @@
+/// Cheap operations by component.
+#include "shade/vm/kernels/families.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/vm/kernels/arithmetic.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "shade/vm/kernels/operands-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze::vm::HWY_NAMESPACE {
+namespace {
+
+using rsl::Op;
+
+HWY_INLINE V add(V a, V b) {
+    return hn::Add(a, b);
+}
+HWY_INLINE V subtract(V a, V b) {
+    return hn::Sub(a, b);
+}
+HWY_INLINE V multiply(V a, V b) {
+    return hn::Mul(a, b);
+}
+HWY_INLINE V divide(V a, V b) {
+    return hn::Div(a, b);
+}
+HWY_INLINE V negate(V a) {
+    return hn::Neg(a);
+}
+HWY_INLINE V square_root(V x) {
+    return hn::Sqrt(positive(x));
+}
+HWY_INLINE V inverse_square_root(V x) {
+    return hn::Div(set(1), hn::Sqrt(at_least(x, set(kLeastNormal))));
+}
+HWY_INLINE V absolute(V x) {
+    return hn::Abs(x);
+}
+HWY_INLINE V sign(V x) {
+    const V zero = hn::Zero(D());
+    return hn::Sub(hn::IfThenElseZero(hn::Gt(x, zero), set(1)), hn::IfThenElseZero(hn::Lt(x, zero), set(1)));
+}
+HWY_INLINE V ceil_of(V x) {
+    return hn::CopySign(hn::Ceil(x), x);
+}
+/// Halves go up.
+HWY_INLINE V round_of(V x) {
+    const V low = floor_of(x);
+    return hn::Add(low, hn::IfThenElseZero(hn::Ge(hn::Sub(x, low), set(0.5f)), set(1)));
+}
+/// In [0, b), or (b, 0] for negative b, also where a / b rounds to a whole number; 0 for b = 0.
+HWY_INLINE V mod(V a, V b) {
+    const V zero = hn::Zero(D());
+    const V rest = hn::Sub(a, hn::Mul(b, floor_of(hn::Div(a, b))));
+    const M past = hn::Lt(hn::Mul(hn::CopySign(set(1), b), rest), zero);
+    const V inside = hn::Add(rest, hn::IfThenElseZero(past, b));
+    return hn::IfThenZeroElse(hn::Or(hn::Eq(b, zero), hn::Eq(inside, b)), inside);
+}
+HWY_INLINE V least(V a, V b) {
+    return at_most(a, b);
+}
+HWY_INLINE V most(V a, V b) {
+    return at_least(a, b);
+}
+HWY_INLINE V step_at(V edge, V x) {
+    return hn::IfThenZeroElse(hn::Lt(x, edge), set(1));
+}
+/// The lower bound is looked at first, where bounds are the wrong way round (RISpec 3.2, section 15.1).
+HWY_INLINE V clamp(V x, V low, V high) {
+    return hn::IfThenElse(hn::Ge(x, low), at_most(x, high), low);
+}
+HWY_INLINE V mix(V a, V b, V t) {
+    return hn::Add(hn::Mul(a, hn::Sub(set(1), t)), hn::Mul(b, t));
+}
+HWY_INLINE V smooth_step(V low, V high, V x) {
+    const V t = at_most(positive(hn::Div(hn::Sub(x, low), hn::Sub(high, low))), set(1));
+    const V smooth = hn::Mul(hn::Mul(t, t), hn::Sub(set(3), hn::Add(t, t)));
+    return hn::IfThenElse(hn::Lt(low, high), smooth, step_at(low, x));
+}
+
+/// out = function(... function(first, second) ..., last).
+template <auto function, int width>
+void fold(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        V result[width];
+        for (int k = 0; k < width; ++k) result[k] = Input(o[1]).get(i, k);
+        for (const Operand& other : o.subspan(2))
+            for (int k = 0; k < width; ++k) result[k] = function(result[k], Input(other).get(i, k));
+        for (int k = 0; k < width; ++k) out.put(result[k], i, k);
+    }
+}
+
+template <auto function>
+Kernel fold_kernel(std::span<const int> widths) {
+    if (widths.size() == 3) return component_kernel<function>(widths);
+    if (widths.size() < 2) return nullptr;
+    return widths[0] == 1 ? fold<function, 1> : widths[0] == 3 ? fold<function, 3> : nullptr;
+}
+
+template <int width>
+void select(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    const Input mask(o[1]), a(o[2]), b(o[3]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const M chosen = mask.mask(i);
+        V result[width];
+        for (int k = 0; k < width; ++k) result[k] = hn::IfThenElse(chosen, a.get(i, k), b.get(i, k));
+        for (int k = 0; k < width; ++k) out.put(result[k], i, k);
+    }
+}
+
+void scaled_identity(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    const Input in(o[1]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V value = in.get(i);
+        for (int k = 0; k < 16; ++k) out.put(k % 5 == 0 ? value : hn::Zero(D()), i, k);
+    }
+}
+
+Kernel find_move(std::span<const int> widths) {
+    if (are(widths, {16, 1})) return scaled_identity;
+    if (are(widths, {16, 16})) return by_component<same, 16>;
+    return component_kernel<same>(widths);
+}
+
+Kernel find_select(std::span<const int> widths) {
+    if (widths.size() != 4) return nullptr;
+    return widths[0] == 1 ? select<1> : widths[0] == 3 ? select<3> : widths[0] == 16 ? select<16> : nullptr;
+}
+
+/// Sums of matrices, too.
+template <auto function>
+Kernel sum_kernel(std::span<const int> widths) {
+    if (!widths.empty() && std::count(widths.begin(), widths.end(), 16) == std::ssize(widths) &&
+        widths.size() == inputs_of(function).size() + 1)
+        return by_component<function, 16>;
+    return component_kernel<function>(widths);
+}
+
+Kernel find_arithmetic(Op op, std::span<const int> widths) {
+    switch (op) {
+        case Op::Move:
+            return find_move(widths);
+        case Op::Select:
+            return find_select(widths);
+        case Op::Add:
+            return sum_kernel<static_cast<V (*)(V, V)>(add)>(widths);
+        case Op::Subtract:
+            return sum_kernel<static_cast<V (*)(V, V)>(subtract)>(widths);
+        case Op::Negate:
+            return sum_kernel<negate>(widths);
+        case Op::Multiply:
+            return component_kernel<multiply>(widths);
+        case Op::Divide:
+            return component_kernel<divide>(widths);
+        case Op::Sqrt:
+            return component_kernel<square_root>(widths);
+        case Op::InverseSqrt:
+            return component_kernel<inverse_square_root>(widths);
+        case Op::Abs:
+            return component_kernel<absolute>(widths);
+        case Op::Sign:
+            return component_kernel<sign>(widths);
+        case Op::Floor:
+            return component_kernel<floor_of>(widths);
+        case Op::Ceil:
+            return component_kernel<ceil_of>(widths);
+        case Op::Round:
+            return component_kernel<round_of>(widths);
+        case Op::Mod:
+            return component_kernel<mod>(widths);
+        case Op::Min:
+            return fold_kernel<least>(widths);
+        case Op::Max:
+            return fold_kernel<most>(widths);
+        case Op::Step:
+            return component_kernel<step_at>(widths);
+        case Op::Clamp:
+            return component_kernel<clamp>(widths);
+        case Op::Mix:
+            return component_kernel<mix>(widths);
+        case Op::SmoothStep:
+            return component_kernel<smooth_step>(widths);
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace
+}  // namespace trapeze::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze::vm {
+
+HWY_EXPORT(find_arithmetic);
+
+Kernel find_arithmetic(rsl::Op op, std::span<const int> widths) {
+    return HWY_DYNAMIC_DISPATCH(find_arithmetic)(op, widths);
+}
+
+}  // namespace trapeze::vm
+#endif

@@ -1,0 +1,166 @@
+/// Noise and periodic noise, cell noise and random numbers.
+#include "shade/vm/kernels/families.h"
+#include "shade/vm/kernels/random.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/vm/kernels/noise.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "shade/vm/kernels/noise-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze::vm::HWY_NAMESPACE {
+namespace {
+
+using rsl::Op;
+
+/// One coordinate of a point that may be given as floats, a triple, or a triple and a float.
+struct Coordinate {
+    HWY_INLINE V get(size_t i) const { return Input(*operand).get(i, component); }
+
+    const Operand* operand = nullptr;
+    int component = 0;
+};
+
+/// From one operand on: floats make up one or two dimensions, a triple the first three of more.
+template <int dimensions>
+std::array<Coordinate, dimensions> coordinates(Operands o) {
+    std::array<Coordinate, dimensions> result;
+    for (int k = 0; k < dimensions; ++k)
+        result[k] = dimensions < 3 ? Coordinate{&o[k], 0}
+                    : k < 3        ? Coordinate{&o[0], k}
+                                   : Coordinate{&o[1], 0};
+    return result;
+}
+
+constexpr size_t operand_count(int dimensions) {
+    return dimensions == 2 || dimensions == 4 ? 2 : 1;
+}
+
+template <bool periodic, int dimensions, int width>
+void noise_kernel(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    const auto point = coordinates<dimensions>(o.subspan(1));
+    const auto periods = coordinates<dimensions>(o.subspan(periodic ? 1 + operand_count(dimensions) : 1));
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        NoiseAxis axes[dimensions];
+        for (int k = 0; k < dimensions; ++k) {
+            V period = set(1);
+            if constexpr (periodic) period = at_least(hn::Floor(clamp_to_lattice(periods[k].get(i))), period);
+            axes[k] = noise_axis<periodic>(point[k].get(i), period, kAxisFactors[k]);
+        }
+        V values[width];
+        gradient_noise(axes, values);
+        for (int k = 0; k < width; ++k) out.put(values[k], i, k);
+    }
+}
+
+/// Constant in each cell, uniform in [0, 1). Coordinates are clamped to what 32 bits hold; NaN is the last.
+template <int dimensions, int width>
+void cell_noise(size_t lanes, Operands o) {
+    const DU du;
+    const Output out(o[0]);
+    const auto point = coordinates<dimensions>(o.subspan(1));
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        VU h = hn::Set(du, 0x3c6ef372u);  // other cells than noise's lattice
+        for (int k = 0; k < dimensions; ++k) {
+            const V x = at_least(at_most(point[k].get(i), set(2147483520)), set(-2147483520));
+            const VU cell = hn::BitCast(du, hn::ConvertTo(DI(), hn::Floor(x)));
+            h = hn::Xor(h, hn::Mul(cell, hn::Set(du, kAxisFactors[k])));
+        }
+        for (int k = 0; k < width; ++k) out.put(unit_float(mix_bits(h, kComponentFactors[k])), i, k);
+    }
+}
+
+void fill_random(size_t lanes, int width, const Operand& lane_seeds, uint32_t call, const Operand& result) {
+    const DU du;
+    const Output out(result);
+    const Input seeds(lane_seeds);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const VU lane = hn::BitCast(du, seeds.get(i));
+        for (int k = 0; k < width; ++k) {
+            const uint32_t word = (call * 3 + static_cast<uint32_t>(k)) * 0x9e3779b1u + 0x7f4a7c15u;
+            // Two rounds more, since seeds and calls are small neighbouring numbers.
+            const VU h = mix_bits(hn::Xor(mix_bits(lane), hn::Set(du, word)));
+            out.put(unit_float(h), i, k);
+        }
+    }
+}
+
+/// 1 to 4 for inputs of these widths, which may hold periods, too; 0 for others.
+int dimensions_of(std::span<const int> inputs) {
+    if (are(inputs, {1})) return 1;
+    if (are(inputs, {1, 1})) return 2;
+    if (are(inputs, {3})) return 3;
+    return are(inputs, {3, 1}) ? 4 : 0;
+}
+
+template <bool periodic, int width>
+Kernel find_noise(int dimensions) {
+    switch (dimensions) {
+        case 1:
+            return noise_kernel<periodic, 1, width>;
+        case 2:
+            return noise_kernel<periodic, 2, width>;
+        case 3:
+            return noise_kernel<periodic, 3, width>;
+        case 4:
+            return noise_kernel<periodic, 4, width>;
+        default:
+            return nullptr;
+    }
+}
+
+template <int width>
+Kernel find_cell_noise(int dimensions) {
+    switch (dimensions) {
+        case 1:
+            return cell_noise<1, width>;
+        case 2:
+            return cell_noise<2, width>;
+        case 3:
+            return cell_noise<3, width>;
+        case 4:
+            return cell_noise<4, width>;
+        default:
+            return nullptr;
+    }
+}
+
+template <int width>
+Kernel find_of_width(Op op, std::span<const int> inputs) {
+    if (op == Op::Noise) return find_noise<false, width>(dimensions_of(inputs));
+    if (op == Op::CellNoise) return find_cell_noise<width>(dimensions_of(inputs));
+    if (op != Op::PeriodicNoise || inputs.size() % 2 != 0) return nullptr;
+    const auto point = inputs.first(inputs.size() / 2), period = inputs.last(inputs.size() / 2);
+    if (!std::equal(point.begin(), point.end(), period.begin())) return nullptr;
+    return find_noise<true, width>(dimensions_of(point));
+}
+
+Kernel find_noises(Op op, std::span<const int> widths) {
+    if (widths.size() < 2) return nullptr;
+    if (widths[0] == 1) return find_of_width<1>(op, widths.subspan(1));
+    return widths[0] == 3 ? find_of_width<3>(op, widths.subspan(1)) : nullptr;
+}
+
+}  // namespace
+}  // namespace trapeze::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze::vm {
+
+HWY_EXPORT(find_noises);
+HWY_EXPORT(fill_random);
+
+Kernel find_noises(rsl::Op op, std::span<const int> widths) {
+    return HWY_DYNAMIC_DISPATCH(find_noises)(op, widths);
+}
+
+void random_numbers(size_t lanes, int width, const Operand& lane_seeds, uint32_t call, const Operand& out) {
+    HWY_DYNAMIC_DISPATCH(fill_random)(lanes, width, lane_seeds, call, out);
+}
+
+}  // namespace trapeze::vm
+#endif

@@ -1,0 +1,184 @@
+/// Components of triples, elements of matrices and arrays: putting together and taking apart.
+#include "shade/vm/kernels/families.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/vm/kernels/parts.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "shade/vm/kernels/operands-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze::vm::HWY_NAMESPACE {
+namespace {
+
+using rsl::Op;
+
+/// x rounded down, 0 to count - 1; 0 for NaN.
+HWY_INLINE VI index_below(V x, int count) {
+    return hn::ConvertTo(DI(), at_most(positive(x), set(static_cast<float>(count - 1))));
+}
+
+/// Offsets of these lanes in planes `distance` floats apart.
+HWY_INLINE VI offsets(VI index, size_t distance) {
+    const DI di;
+    return hn::Add(hn::Mul(index, hn::Set(di, static_cast<int32_t>(distance))), hn::Iota(di, 0));
+}
+
+template <int width>
+void assemble(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        V parts[width];
+        for (int k = 0; k < width; ++k) parts[k] = Input(o[static_cast<size_t>(k) + 1]).get(i);
+        for (int k = 0; k < width; ++k) out.put(parts[k], i, k);
+    }
+}
+
+void component(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    const Input v(o[1]), index(o[2]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const V k = index.get(i);
+        const V upper = hn::IfThenElse(hn::Lt(k, set(2)), v.get(i, 1), v.get(i, 2));
+        out.put(hn::IfThenElse(hn::Not(hn::Ge(k, set(1))), v.get(i, 0), upper), i);
+    }
+}
+
+void set_component(size_t lanes, Operands o) {
+    const Output v(o[0]);
+    const Input index(o[1]), in(o[2]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const VI k = index_below(index.get(i), 3);
+        const V x = in.get(i);
+        for (int j = 0; j < 3; ++j)
+            v.put(hn::IfThenElse(hn::RebindMask(D(), hn::Eq(k, hn::Set(DI(), j))), x, v.get(i, j)), i, j);
+    }
+}
+
+HWY_INLINE VI matrix_index(V row, V column) {
+    return hn::Add(hn::ShiftLeft<2>(index_below(row, 4)), index_below(column, 4));
+}
+
+void matrix_element(size_t lanes, Operands o) {
+    const Output out(o[0]);
+    const Input m(o[1]), row(o[2]), column(o[3]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const VI at = offsets(matrix_index(row.get(i), column.get(i)), m.stride);
+        out.put(hn::GatherIndex(D(), m.data + (i & m.lane_mask), at), i);
+    }
+}
+
+void set_matrix_element(size_t lanes, Operands o) {
+    const Output m(o[0]);
+    const Input row(o[1]), column(o[2]), x(o[3]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const VI at = offsets(matrix_index(row.get(i), column.get(i)), m.stride);
+        hn::ScatterIndex(x.get(i), D(), m.data + i, at);
+    }
+}
+
+/// An array whose elements are taken, or set, at an index that is uniform.
+Operand element_at(const Operand& array, float index) {
+    const float last = static_cast<float>(std::max(array.length, 1) - 1);
+    Operand element = array;
+    element.data += static_cast<size_t>(index > 0 ? std::min(index, last) : 0) * array.element_stride;
+    return element;
+}
+
+template <int width>
+void element(size_t lanes, Operands o) {
+    if (o[2].lane_mask == 0)
+        return by_component<same, width>(lanes, std::array{o[0], element_at(o[1], o[2].data[0])});
+    const Output out(o[0]);
+    const Input array(o[1]), index(o[2]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const VI at = offsets(index_below(index.get(i), std::max(o[1].length, 1)), o[1].element_stride);
+        V values[width];
+        for (size_t k = 0; k < width; ++k)
+            values[k] = hn::GatherIndex(D(), array.data + (i & array.lane_mask) + k * array.stride, at);
+        for (int k = 0; k < width; ++k) out.put(values[k], i, k);
+    }
+}
+
+template <int width>
+void set_element(size_t lanes, Operands o) {
+    if (o[1].lane_mask == 0)
+        return by_component<same, width>(lanes, std::array{element_at(o[0], o[1].data[0]), o[2]});
+    const Output array(o[0]);
+    const Input index(o[1]), in(o[2]);
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        const VI at = offsets(index_below(index.get(i), std::max(o[0].length, 1)), o[0].element_stride);
+        for (int k = 0; k < width; ++k)
+            hn::ScatterIndex(in.get(i, k), D(), array.data + i + static_cast<size_t>(k) * array.stride, at);
+    }
+}
+
+template <int width>
+void clear(size_t lanes, Operands o) {
+    for (int e = 0; e < o[0].length; ++e)
+        for (size_t k = 0; k < width; ++k)
+            std::fill_n(o[0].data + static_cast<size_t>(e) * o[0].element_stride + k * o[0].stride, lanes,
+                        0.0f);
+}
+
+Kernel find_clear(std::span<const int> widths) {
+    if (are(widths, {1})) return clear<1>;
+    if (are(widths, {3})) return clear<3>;
+    return are(widths, {16}) ? clear<16> : nullptr;
+}
+
+Kernel find_element(std::span<const int> widths) {
+    if (are(widths, {1, 1, 1})) return element<1>;
+    if (are(widths, {3, 3, 1})) return element<3>;
+    return are(widths, {16, 16, 1}) ? element<16> : nullptr;
+}
+
+Kernel find_set_element(std::span<const int> widths) {
+    if (widths.size() != 3) return nullptr;
+    return widths[0] == 1    ? set_element<1>
+           : widths[0] == 3  ? set_element<3>
+           : widths[0] == 16 ? set_element<16>
+                             : nullptr;
+}
+
+Kernel find_parts(Op op, std::span<const int> widths) {
+    switch (op) {
+        case Op::Triple:
+            return are(widths, {3, 1, 1, 1}) ? assemble<3> : nullptr;
+        case Op::Sixteen:
+            return widths.size() == 17 && widths[0] == 16 ? assemble<16> : nullptr;
+        case Op::Component:
+            return are(widths, {1, 3, 1}) ? component : nullptr;
+        case Op::SetComponent:
+            return are(widths, {3, 1, 1}) ? set_component : nullptr;
+        case Op::MatrixElement:
+            return are(widths, {1, 16, 1, 1}) ? matrix_element : nullptr;
+        case Op::SetMatrixElement:
+            return are(widths, {16, 1, 1, 1}) ? set_matrix_element : nullptr;
+        case Op::Element:
+            return find_element(widths);
+        case Op::SetElement:
+            return find_set_element(widths);
+        case Op::Clear:
+            return find_clear(widths);
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace
+}  // namespace trapeze::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze::vm {
+
+HWY_EXPORT(find_parts);
+
+Kernel find_parts(rsl::Op op, std::span<const int> widths) {
+    return HWY_DYNAMIC_DISPATCH(find_parts)(op, widths);
+}
+
+}  // namespace trapeze::vm
+#endif

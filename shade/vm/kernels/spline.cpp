@@ -1,0 +1,172 @@
+#include "shade/vm/kernels/spline.h"
+
+#include "shade/vm/kernels/families.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shade/vm/kernels/spline.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "shade/vm/kernels/operands-inl.h"
+
+#ifndef TRAPEZE_SHADE_VM_SPLINE_ONCE_
+#define TRAPEZE_SHADE_VM_SPLINE_ONCE_
+namespace trapeze::vm {
+
+/// From one segment's knots to the next, and the powers of the place in it, cubes first, to the weights of
+/// four knots: the basis matrices of RiBasis.
+struct SplineRule {
+    int step;
+    float matrix[4][4];
+};
+
+inline constexpr float k16 = 1.0f / 6, k23 = 2.0f / 3;
+inline constexpr SplineRule kSplineRules[] = {
+    {1, {{-0.5f, 1.5f, -1.5f, 0.5f}, {1, -2.5f, 2, -0.5f}, {-0.5f, 0, 0.5f, 0}, {0, 1, 0, 0}}},
+    {3, {{-1, 3, -3, 1}, {3, -6, 3, 0}, {-3, 3, 0, 0}, {1, 0, 0, 0}}},
+    {1, {{-k16, 0.5f, -0.5f, k16}, {0.5f, -1, 0.5f, 0}, {-0.5f, 0, 0.5f, 0}, {k16, k23, k16, 0}}},
+    {2, {{2, 1, -2, 1}, {-3, -2, 3, -1}, {0, 1, 0, 0}, {1, 0, 0, 0}}},
+    {1, {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, -1, 1, 0}, {0, 1, 0, 0}}},
+    {1, {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 0}}},
+};
+
+}  // namespace trapeze::vm
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace trapeze::vm::HWY_NAMESPACE {
+namespace {
+
+/// Arrays whose segments are more are gathered from; else, all segments are tried in turn.
+constexpr int kFewSegments = 12;
+
+/// The knots as they stand among the operands.
+struct Knots {
+    explicit Knots(Operands o)
+        : operands(o.subspan(2)), array(operands.size() == 1 && operands[0].length > 0) {}
+    int count() const { return array ? operands[0].length : static_cast<int>(operands.size()); }
+    HWY_INLINE V get(size_t i, int knot, int k) const {
+        const Operand& o = operands[array ? 0 : static_cast<size_t>(knot)];
+        return hn::Load(D(), o.data + (array ? static_cast<size_t>(knot) * o.element_stride : 0) +
+                                 static_cast<size_t>(k) * o.stride + (i & o.lane_mask));
+    }
+
+    Operands operands;
+    bool array;
+};
+
+/// Four knots of each lane's segment.
+HWY_INLINE void pick_in_turn(const Knots& knots, int step, int segments, V segment, size_t i, int k,
+                             V (&out)[4]) {
+    for (int j = 0; j < 4; ++j) out[j] = knots.get(i, j, k);
+    for (int s = 1; s < segments; ++s) {
+        const M reached = hn::Ge(segment, set(static_cast<float>(s)));
+        for (int j = 0; j < 4; ++j) out[j] = hn::IfThenElse(reached, knots.get(i, s * step + j, k), out[j]);
+    }
+}
+
+HWY_INLINE void gather(const Operand& array, int step, V segment, size_t i, int k, V (&out)[4]) {
+    const DI di;
+    const size_t distance = array.element_stride;
+    const VI first = hn::Mul(hn::ConvertTo(di, segment), hn::Set(di, static_cast<int32_t>(distance) * step));
+    const float* data = array.data + static_cast<size_t>(k) * array.stride + (i & array.lane_mask);
+    for (size_t j = 0; j < 4; ++j)
+        out[j] = hn::GatherIndex(D(), data + j * distance, hn::Add(first, hn::Iota(di, 0)));
+}
+
+HWY_NOINLINE void run_spline(const SplineRule& rule, int width, size_t lanes, Operands o) {
+    const Output out(o[0]);
+    const Input value(o[1]);
+    const Knots knots(o);
+    const int segments = (knots.count() - 4) / rule.step + 1;
+    for (size_t i = 0; i < lanes; i += lane_count()) {
+        if (knots.count() < 4) {
+            for (int k = 0; k < width; ++k) out.put(hn::Zero(D()), i, k);
+            continue;
+        }
+        const V t = hn::Mul(at_most(positive(value.get(i)), set(1)), set(static_cast<float>(segments)));
+        const V segment = at_most(hn::Floor(t), set(static_cast<float>(segments - 1)));
+        const V f = hn::Sub(t, segment);
+        V weights[4];
+        for (int j = 0; j < 4; ++j)
+            weights[j] = step(step(step(set(rule.matrix[0][j]), f, rule.matrix[1][j]), f, rule.matrix[2][j]),
+                              f, rule.matrix[3][j]);
+        V results[3];
+        for (int k = 0; k < width; ++k) {
+            V near[4];
+            if (knots.array && segments > kFewSegments)
+                gather(o[2], rule.step, segment, i, k, near);
+            else
+                pick_in_turn(knots, rule.step, segments, segment, i, k, near);
+            results[k] = hn::Mul(weights[0], near[0]);
+            for (int j = 1; j < 4; ++j) results[k] = hn::Add(results[k], hn::Mul(weights[j], near[j]));
+        }
+        for (int k = 0; k < width; ++k) out.put(results[k], i, k);
+    }
+}
+
+template <SplineBasis basis, int width>
+void spline(size_t lanes, Operands o) {
+    run_spline(kSplineRules[static_cast<size_t>(basis)], width, lanes, o);
+}
+
+template <int width>
+Kernel find_of_width(SplineBasis basis) {
+    switch (basis) {
+        case SplineBasis::CatmullRom:
+            return spline<SplineBasis::CatmullRom, width>;
+        case SplineBasis::Bezier:
+            return spline<SplineBasis::Bezier, width>;
+        case SplineBasis::BSpline:
+            return spline<SplineBasis::BSpline, width>;
+        case SplineBasis::Hermite:
+            return spline<SplineBasis::Hermite, width>;
+        case SplineBasis::Linear:
+            return spline<SplineBasis::Linear, width>;
+        case SplineBasis::Constant:
+            return spline<SplineBasis::Constant, width>;
+    }
+    return nullptr;
+}
+
+Kernel find_spline(SplineBasis basis, int width) {
+    return width == 1 ? find_of_width<1>(basis) : width == 3 ? find_of_width<3>(basis) : nullptr;
+}
+
+}  // namespace
+}  // namespace trapeze::vm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace trapeze::vm {
+
+HWY_EXPORT(find_spline);
+
+std::optional<SplineBasis> spline_basis(std::string_view name) {
+    constexpr std::pair<std::string_view, SplineBasis> kNames[] = {
+        {"catmull-rom", SplineBasis::CatmullRom}, {"catmullrom", SplineBasis::CatmullRom},
+        {"bezier", SplineBasis::Bezier},          {"bspline", SplineBasis::BSpline},
+        {"b-spline", SplineBasis::BSpline},       {"hermite", SplineBasis::Hermite},
+        {"linear", SplineBasis::Linear},          {"constant", SplineBasis::Constant},
+    };
+    for (const auto& [known, basis] : kNames)
+        if (known == name) return basis;
+    return std::nullopt;
+}
+
+int used_knots(SplineBasis basis, int count) {
+    const int step = kSplineRules[static_cast<size_t>(basis)].step;
+    return count < 4 ? 0 : 4 + (count - 4) / step * step;
+}
+
+Kernel find_spline_kernel(SplineBasis basis, int width) {
+    return HWY_DYNAMIC_DISPATCH(find_spline)(basis, width);
+}
+
+Kernel find_splines(rsl::Op op, std::span<const int> widths) {
+    if (op != rsl::Op::Spline || widths.size() < 3) return nullptr;
+    return find_spline_kernel(SplineBasis::CatmullRom, widths[0]);
+}
+
+}  // namespace trapeze::vm
+#endif

@@ -1,0 +1,76 @@
+/// How long lines across a surface count when it is diced. A piece counts as long as it is on the picture:
+/// foreshortened (Attribute "dice" "rasterorient" 1, PRMan's default), or as if it were seen square on (0).
+///
+/// Foreshortening is not trusted where what is seen edge-on now may be seen from its side as well: pieces
+/// that turn to the viewer while the shutter is open or to other places of the lens count as long as they are
+/// there, and curved ones are diced so finely that silhouettes are smooth. None of this takes more than a
+/// quarter of the length seen square on, which is also what displaced surfaces (who knows where to), curves
+/// and points count with at the least, and what leads out of the view: long pieces that pass under the eye
+/// would be in the way of rays all over the picture.
+#pragma once
+
+#include <span>
+
+#include "core/scene/camera.h"
+#include "tessellate/measure/screen_metric.h"
+#include "tessellate/topology/placed_surface.h"
+
+namespace trapeze {
+
+struct EdgeRate {
+    float pixels_per_segment = 1;
+    int max_depth = 14;
+    int max_intervals = 4096;  ///< then the rest is 16 segments for each interval
+    bool binary = false;       ///< numbers of segments are powers of two (Attribute "dice" "binary")
+};
+
+/// Whether pieces of these lengths, uniform in the parameter, want a split: too many segments, or too uneven
+/// to be uniform in the parameter, or too deep. Otherwise *segments is how many they want.
+struct RateEstimate {
+    float sum = 0, longest = 0;
+    int pieces = 0;
+    bool deep = false;  ///< one end is so much farther from the eye that a box around it is seen far too large
+
+    void add(float length) {
+        sum += length, ++pieces;
+        if (length > longest) longest = length;
+    }
+    float segments(float pixels_per_segment) const { return sum / pixels_per_segment; }
+    bool wants_split(float pixels_per_segment) const;
+    int clamped_segments(const EdgeRate& rate) const;  ///< 1..16
+};
+
+class LineMeasure {
+  public:
+    static constexpr int kMostPieces = 8, kMostKeys = 3;
+
+    LineMeasure(const ScreenMetric& metric, const Camera& camera, const PlacedSurface& surface,
+                bool displaced, float pixels_per_segment);
+
+    /// Of a line's points at the first key: no piece counts less than it may at the least.
+    RateEstimate of(std::span<const V3f> P) const;
+
+    /// Whether a line of this estimate may want fewer segments: by foreshortened().
+    bool may_want_less(const RateEstimate& estimate) const {
+        return keys_ > 0 && (estimate.segments(rate_) > 1 || estimate.wants_split(rate_));
+    }
+    /// At which foreshortened() wants the points.
+    int keys() const { return keys_; }
+    /// P[key * points + i]; at least four pieces, so that no bend of a cubic curve is missed. `beside`:
+    /// points of the surface beside them, across the line, as many.
+    RateEstimate foreshortened(std::span<const V3f> P, std::span<const V3f> beside) const;
+
+  private:
+    float lens_angle(const V3f& p) const;
+    float slant(const V3f& p, const V3f& along, const V3f& across) const;
+
+    const ScreenMetric& metric_;
+    float least_;     ///< of a piece's length seen square on
+    int keys_;        ///< 0: never less than that
+    float flatness_;  ///< pixels by which a curve may pass its segment
+    float rate_;
+    float lens_radius_;  ///< perspective: of the lens; orthographic: of that over the distance in focus
+    bool perspective_;
+};
+
+}  // namespace trapeze

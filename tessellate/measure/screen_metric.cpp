@@ -1,0 +1,60 @@
+#include "tessellate/measure/screen_metric.h"
+
+#include <cmath>
+
+namespace trapeze {
+namespace {
+
+/// The parameter of the segment's point nearest to the origin.
+template <class V>
+float nearest_to_origin(const V& p, const V& d) {
+    const float dd = d.dot(d);
+    return dd > 0 ? std::clamp(-p.dot(d) / dd, 0.0f, 1.0f) : 0.0f;
+}
+
+}  // namespace
+
+ScreenMetric::ScreenMetric(const Camera& camera)
+    : perspective_(camera.perspective),
+      pixels_x_(std::abs(1 / camera.plane_scale_x)),
+      pixels_y_(std::abs(1 / camera.plane_scale_y)),
+      pixels_(std::max(pixels_x_, pixels_y_)) {
+    // The whole image, not the crop: a crop shows the same micropolygons.
+    const float x0 = camera.plane_offset_x, y0 = camera.plane_offset_y;
+    const float x1 = x0 + camera.plane_scale_x * static_cast<float>(camera.width);
+    const float y1 = y0 + camera.plane_scale_y * static_cast<float>(camera.height);
+    const float x = std::max(std::abs(x0), std::abs(x1)), y = std::max(std::abs(y0), std::abs(y1));
+    view_cosine_ = 1 / std::sqrt(1 + x * x + y * y);
+    center_ = {(x0 + x1) / 2, (y0 + y1) / 2};
+    radius_ = std::hypot(x1 - x0, y1 - y0) / 2;
+}
+
+PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
+    const V3f d = q - p;
+    const float least = view_cosine_ * view_cosine_;
+    const bool in_view = p.z > 0 && q.z > 0 && p.z * p.z >= least * p.dot(p) && q.z * q.z >= least * q.dot(q);
+    if (in_view) {
+        const float p_scale = 1 / p.z, q_scale = 1 / q.z;
+        const float x = (q.x * q_scale - p.x * p_scale) * pixels_x_;
+        const float y = (q.y * q_scale - p.y * p_scale) * pixels_y_;
+        return {std::sqrt(x * x + y * y), std::sqrt(d.dot(d)) * pixels_ * 2 / (p.z + q.z)};
+    }
+    const float angle = std::atan2(p.cross(q).length(), p.dot(q));
+    const float nearest = (p + d * nearest_to_origin(p, d)).length();
+    // A bound for pieces through the eye itself, whose splitting the depth limit ends.
+    const float distance = std::max(nearest, d.length() / 64);
+    const float square_on = distance > 0 ? d.length() / distance : 0.0f;
+    const float scale = pixels_ / view_cosine_;
+    return {angle / view_cosine_ * scale, square_on * scale, false};
+}
+
+PixelLength ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {
+    const V3f d = q - p;
+    const V2f from_center = V2f(p.x, p.y) - center_, across(d.x, d.y);
+    const float outside = (from_center + across * nearest_to_origin(from_center, across)).length();
+    const float x = d.x * pixels_x_, y = d.y * pixels_y_;
+    const float scale = outside > radius_ ? radius_ / outside : 1;
+    return {std::sqrt(x * x + y * y) * scale, std::sqrt(d.dot(d)) * pixels_ * scale};
+}
+
+}  // namespace trapeze

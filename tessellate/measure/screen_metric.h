@@ -1,0 +1,47 @@
+/// How many pixels long a piece of a surface is. Projection needs no point in front of the eye: outside the
+/// view, lengths are angles seen from the eye, so that nothing near the eye plane grows beyond bounds and no
+/// eye splits are needed.
+#pragma once
+
+#include <algorithm>
+
+#include "core/math.h"
+#include "core/scene/camera.h"
+
+namespace trapeze {
+
+/// In pixels: as it is seen, and as it would be if it were seen square on.
+struct PixelLength {
+    float seen = 0, square_on = 0;
+    bool in_view = true;  ///< or beside the picture, where `seen` is an angle
+};
+
+/// The least foreshortening of what may turn to the viewer: while the shutter is open, or by displacement.
+inline constexpr float kLeastForeshortening = 0.25f;
+
+class ScreenMetric {
+  public:
+    explicit ScreenMetric(const Camera& camera);
+
+    /// Of the piece from p to q, camera space.
+    PixelLength of(const V3f& p, const V3f& q) const {
+        return perspective_ ? perspective_length(p, q) : orthographic_length(p, q);
+    }
+    /// As it is seen, but not less than the least foreshortening leaves of it.
+    float length(const V3f& p, const V3f& q) const {
+        const PixelLength length = of(p, q);
+        return std::max(length.seen, kLeastForeshortening * length.square_on);
+    }
+
+  private:
+    PixelLength perspective_length(const V3f& p, const V3f& q) const;
+    PixelLength orthographic_length(const V3f& p, const V3f& q) const;
+
+    bool perspective_;
+    float pixels_x_, pixels_y_, pixels_;  ///< per unit of the image plane
+    float view_cosine_;                   ///< of the angle to the image's farthest corner
+    V2f center_{0, 0};                    ///< of the window, orthographic
+    float radius_ = 1;                    ///< of a circle around the window, orthographic
+};
+
+}  // namespace trapeze

@@ -1,0 +1,43 @@
+#include "tessellate/surfaces/camera_facing.h"
+
+#include <cmath>
+
+#include "tessellate/topology/placed_surface.h"
+
+namespace trapeze {
+namespace {
+
+V3f unit_or_zero(const V3f& v) {
+    const float length = v.length();
+    return length > 0 && std::isfinite(length) ? v / length : V3f(0, 0, 0);
+}
+
+}  // namespace
+
+CameraFacing::CameraFacing(const M44f& camera_from_object, const Camera* camera)
+    : camera_from_object_(camera_from_object),
+      object_from_camera_(M44f(M44d(camera_from_object).inverse())),
+      perspective_(!camera || camera->perspective) {
+    const double determinant = M44d(camera_from_object).determinant();
+    outside_ = determinant < 0 ? -1.0f : 1.0f;
+    scale_ = static_cast<float>(std::cbrt(std::abs(determinant)));
+    u_axis_ = to_object({scale_, 0, 0});
+    v_axis_ = to_object({0, -outside_ * scale_, 0});
+}
+
+V3f CameraFacing::to_object(const V3f& camera_vector) const {
+    return transform_vector(object_from_camera_, camera_vector);
+}
+
+V3f CameraFacing::across(const V3f& point, const V3f& tangent) const {
+    const V3f ray = perspective_ ? transform_point(camera_from_object_, point) : V3f(0, 0, 1);
+    const V3f along = transform_vector(camera_from_object_, tangent);
+    V3f side = ray.cross(along) * outside_;
+    constexpr float kParallel = 1e-5f;  // below, the direction is mostly rounding
+    if (!(side.dot(side) > kParallel * kParallel * ray.dot(ray) * along.dot(along)))
+        side = unit_or_zero(ray).cross(std::abs(ray.x) < std::abs(ray.z) ? V3f(1, 0, 0) : V3f(0, 1, 0));
+    const V3f unit = unit_or_zero(to_object(side));
+    return unit == V3f(0, 0, 0) ? V3f(1, 0, 0) : unit;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,208 @@
+#include "tessellate/surfaces/face_evaluation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "tessellate/surfaces/between.h"
+
+namespace trapeze {
+namespace {
+
+constexpr size_t kLanes = 16;
+using Lanes = std::array<float, kLanes>;
+
+struct Block {
+    Lanes u, v;
+    size_t first, count;
+};
+
+/// Calls f for blocks of kLanes points; the last one is padded with the last point.
+template <class F>
+void for_blocks(std::span<const V2f> uv, F&& f) {
+    Block block;
+    for (block.first = 0; block.first < uv.size(); block.first += kLanes) {
+        block.count = std::min(kLanes, uv.size() - block.first);
+        for (size_t l = 0; l < kLanes; ++l) {
+            const V2f& at = uv[block.first + std::min(l, block.count - 1)];
+            block.u[l] = at.x, block.v[l] = at.y;
+        }
+        f(block);
+    }
+}
+
+void store(const Block& block, const Lanes& values, int component, const ValueSink& sink) {
+    for (size_t l = 0; l < block.count; ++l) sink.at(block.first + l, component) = values[l];
+}
+
+/// Weights of the uniform cubic B-spline's four control points, and their derivatives.
+struct CubicWeights {
+    Lanes w[4], d[4];
+
+    explicit CubicWeights(const Lanes& t) {
+        constexpr float sixth = 1.0f / 6;
+        for (size_t l = 0; l < kLanes; ++l) {
+            const float x = t[l], y = 1 - x, xx = x * x, yy = y * y;
+            w[0][l] = sixth * (yy * y);
+            w[1][l] = sixth * (4 - 3 * (xx * (1 + y)));
+            w[2][l] = sixth * (4 - 3 * (yy * (1 + x)));
+            w[3][l] = sixth * (xx * x);
+            d[0][l] = -0.5f * yy;
+            d[1][l] = x * (1.5f * x - 2);
+            d[2][l] = y * (2 - 1.5f * y);
+            d[3][l] = 0.5f * xx;
+        }
+    }
+};
+
+inline void combine(const Lanes (&w)[4], const Lanes (&c)[4], Lanes& sum) {
+    for (size_t l = 0; l < kLanes; ++l)
+        sum[l] = (w[0][l] * c[0][l] + w[1][l] * c[1][l]) + (w[2][l] * c[2][l] + w[3][l] * c[3][l]);
+}
+
+inline void combine(const Lanes (&w)[4], const float* c, int stride, Lanes& sum) {
+    const float c0 = c[0], c1 = c[stride], c2 = c[2 * stride], c3 = c[3 * stride];
+    for (size_t l = 0; l < kLanes; ++l)
+        sum[l] = (w[0][l] * c0 + w[1][l] * c1) + (w[2][l] * c2 + w[3][l] * c3);
+}
+
+/// Cubic Bezier control points of the part [a, b] of a uniform B-spline segment, by its blossom: the B-spline
+/// point i is the blossom at three successive knots out of -2 .. 3. In place if wanted.
+void bezier_of_part(const float* spline, int stride, float a, float b, float* bezier) {
+    const std::array<float, 4> controls = {spline[0], spline[stride], spline[2 * stride], spline[3 * stride]};
+    for (int k = 0; k < 4; ++k) {
+        std::array<float, 3> t;
+        for (int i = 0; i < 3; ++i) t[i] = i < k ? b : a;
+        std::array<float, 4> p = controls;
+        for (int level = 1; level <= 3; ++level)
+            for (int i = 0; i + level < 4; ++i) {
+                // Knots i - 2 + level .. i + 1 bound the span of this step.
+                const float low = static_cast<float>(i - 3 + level), high = static_cast<float>(i + 1);
+                const float x = (t[level - 1] - low) / (high - low);
+                p[i] = (1 - x) * p[i] + x * p[i + 1];
+            }
+        bezier[k * stride] = p[0];
+    }
+}
+
+}  // namespace
+
+void piece_corners(const FacePiece& piece, const float* values, int size, float* corners) {
+    if (!piece.cut) {
+        std::copy_n(values, 4 * size, corners);
+        return;
+    }
+    const float* here = values + piece.piece * size;
+    const float* next = values + piece.next() * size;
+    const float* previous = values + piece.previous() * size;
+    for (int k = 0; k < size; ++k) {
+        float sum = 0;
+        for (int i = 0; i < piece.size; ++i) sum += values[i * size + k];
+        corners[k] = here[k];
+        corners[size + k] = 0.5f * (here[k] + next[k]);
+        corners[2 * size + k] = sum / static_cast<float>(piece.size);
+        corners[3 * size + k] = 0.5f * (here[k] + previous[k]);
+    }
+}
+
+void evaluate_bilinear(const float* corners, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
+                       ValueSink dv) {
+    for_blocks(uv, [&](const Block& b) {
+        for (int k = 0; k < size; ++k) {
+            const float c0 = corners[k], c1 = corners[size + k], c2 = corners[2 * size + k],
+                        c3 = corners[3 * size + k];
+            Lanes sum;
+            for (size_t l = 0; l < kLanes; ++l)
+                sum[l] = (1 - b.v[l]) * ((1 - b.u[l]) * c0 + b.u[l] * c1) +
+                         b.v[l] * ((1 - b.u[l]) * c3 + b.u[l] * c2);
+            if (value) store(b, sum, k, value);
+            if (!du) continue;
+            for (size_t l = 0; l < kLanes; ++l) sum[l] = (1 - b.v[l]) * (c1 - c0) + b.v[l] * (c2 - c3);
+            store(b, sum, k, du);
+            for (size_t l = 0; l < kLanes; ++l) sum[l] = (1 - b.u[l]) * (c3 - c0) + b.u[l] * (c2 - c1);
+            store(b, sum, k, dv);
+        }
+    });
+}
+
+void evaluate_linear_piece(const FacePiece& piece, const float* values, int size, std::span<const V2f> uv,
+                           ValueSink value, ValueSink du, ValueSink dv) {
+    std::array<float, 4 * 16> few;
+    std::vector<float> many;
+    float* corners = few.data();
+    if (size > 16) {
+        many.resize(4 * size);
+        corners = many.data();
+    }
+    piece_corners(piece, values, size, corners);
+    evaluate_bilinear(corners, size, uv, value, du, dv);
+}
+
+void values_on_piece(const FacePiece& piece, const float* corners, std::span<const V2f> uv,
+                     std::span<float> values) {
+    float c[4];  // going round
+    piece_corners(piece, corners, 1, c);
+    for (size_t i = 0; i < uv.size(); ++i)
+        values[i] = between_corners(c[0], c[1], c[3], c[2], uv[i].x, uv[i].y);
+}
+
+void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
+                      ValueSink dv) {
+    for_blocks(uv, [&](const Block& b) {
+        const CubicWeights u(b.u), v(b.v);
+        for (int k = 0; k < size; ++k) {
+            Lanes row[4], sum;
+            for (int j = 0; j < 4; ++j) combine(u.w, controls + j * 4 * size + k, size, row[j]);
+            combine(v.w, row, sum);
+            if (value) store(b, sum, k, value);
+            if (!du) continue;
+            combine(v.d, row, sum);
+            store(b, sum, k, dv);
+            for (int j = 0; j < 4; ++j) combine(u.d, controls + j * 4 * size + k, size, row[j]);
+            combine(v.w, row, sum);
+            store(b, sum, k, du);
+        }
+    });
+}
+
+Box3f grown_by_rounding(Box3f box) {
+    if (box.isEmpty()) return box;
+    for (int k = 0; k < 3; ++k) {
+        const float margin = 4e-6f * std::max(std::abs(box.min[k]), std::abs(box.max[k]));
+        box.min[k] -= margin, box.max[k] += margin;
+    }
+    return box;
+}
+
+Box3f bilinear_bound(const float* corners, V2f lo, V2f hi) {
+    const V2f uv[4] = {lo, {hi.x, lo.y}, hi, {lo.x, hi.y}};
+    V3f points[4];
+    evaluate_bilinear(corners, 3, uv, sink_of(points), {}, {});
+    Box3f box;
+    for (const V3f& p : points) box.extendBy(p);
+    // Rounding is relative to the whole face.
+    Box3f whole = box;
+    for (int i = 0; i < 4; ++i) whole.extendBy(V3f(corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]));
+    const Box3f grown = grown_by_rounding(whole);
+    return {box.min - (whole.min - grown.min), box.max + (grown.max - whole.max)};
+}
+
+Box3f bspline_bound(const float* controls, V2f lo, V2f hi) {
+    std::array<float, 48> part;
+    Box3f whole;
+    for (int i = 0; i < 16; ++i)
+        whole.extendBy(V3f(controls[3 * i], controls[3 * i + 1], controls[3 * i + 2]));
+    for (int j = 0; j < 4; ++j)
+        for (int k = 0; k < 3; ++k)
+            bezier_of_part(controls + j * 12 + k, 3, lo.x, hi.x, part.data() + j * 12 + k);
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 3; ++k)
+            bezier_of_part(part.data() + i * 3 + k, 12, lo.y, hi.y, part.data() + i * 3 + k);
+    Box3f box;
+    for (int i = 0; i < 16; ++i) box.extendBy(V3f(part[3 * i], part[3 * i + 1], part[3 * i + 2]));
+    const Box3f grown = grown_by_rounding(whole);
+    return {box.min - (whole.min - grown.min), box.max + (grown.max - whole.max)};
+}
+
+}  // namespace trapeze

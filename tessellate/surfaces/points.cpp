@@ -1,0 +1,288 @@
+/// Points (RISpec 5.5): disks parallel to the picture, of a diameter in object space; a face each. Where a
+/// disk is about as small as a micropolygon it is a square of the same area, and few-sided disks are as large
+/// as the circles they stand for. The "type" that RenderMans added makes them spheres to shading, or pictures
+/// (rectangles) that face the camera.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tessellate/surfaces/camera_facing.h"
+#include "tessellate/surfaces/surface_variables.h"
+#include "tessellate/topology/placed_surface.h"
+
+namespace trapeze {
+namespace {
+
+constexpr float kHalfTurn = std::numbers::pi_v<float>;
+/// Half the side of the square that is as large as a circle of radius 1.
+const float kSquare = std::sqrt(kHalfTurn) / 2;
+
+/// A point of the disk of radius 1, with its derivatives by u and v.
+struct DiskPoint {
+    V2f at, by_u, by_v;
+};
+
+/// The unit square onto the disk: squares about its middle become circles, and areas keep their proportions
+/// [Shirley and Chiu 1997].
+DiskPoint disk_point(V2f uv) {
+    const float a = 2 * uv.x - 1, b = 2 * uv.y - 1;
+    constexpr float kQuarter = kHalfTurn / 4;
+    const bool sideways = std::abs(a) >= std::abs(b);
+    const float r = sideways ? a : b, other = sideways ? b : a;
+    const float angle = r != 0 ? kQuarter * other / r : 0.0f;
+    const float c = std::cos(angle), s = std::sin(angle);
+    // In the sector about the u axis; the one about the v axis has u and v exchanged.
+    const V2f at(r * c, r * s), by_r = V2f(c + angle * s, s - angle * c) * 2.0f;
+    const V2f by_other = V2f(-s, c) * (2 * kQuarter);
+    const auto exchanged = [](V2f v) { return V2f(v.y, v.x); };
+    if (sideways) return {at, by_r, by_other};
+    return {exchanged(at), exchanged(by_other), exchanged(by_r)};
+}
+
+/// How much larger than its circle a polygon's circle is, when both are to have the same area.
+float polygon_factor(int corners) {
+    const float turn = 2 * kHalfTurn / static_cast<float>(corners);
+    return std::sqrt(turn / std::sin(turn));
+}
+
+/// A float for each point or one for all.
+class PointFloats {
+  public:
+    PointFloats() = default;
+    PointFloats(const Parameter* parameter, float otherwise) : otherwise_(otherwise) {
+        if (!parameter) return;
+        values_ = parameter->floats.data();
+        one_ = parameter->declaration.storage == StorageClass::Constant ||
+               parameter->declaration.storage == StorageClass::Uniform;
+    }
+    float operator[](int point) const { return values_ ? values_[one_ ? 0 : point] : otherwise_; }
+
+  private:
+    const float* values_ = nullptr;
+    bool one_ = false;
+    float otherwise_ = 0;
+};
+
+/// Values that each point has at one shape key.
+struct PointValues {
+    const float* P = nullptr;
+    PointFloats width;
+    PointFloats angle, aspect;  ///< of pictures: degrees, counterclockwise; width / height
+
+    V3f place(int point) const { return {P[3 * point], P[3 * point + 1], P[3 * point + 2]}; }
+};
+
+enum class PointType { Disk, Sphere, Picture };
+
+class PointsSurface : public Surface {
+  public:
+    PointsSurface(const Primitive& primitive, const Camera* camera, PointType type,
+                  std::vector<PointValues> keys);
+
+    int face_count() const override { return static_cast<int>(factors_.size()); }
+    uint32_t edge_count() const override { return 4 * static_cast<uint32_t>(factors_.size()); }
+    uint32_t vertex_count() const override { return 4 * static_cast<uint32_t>(factors_.size()); }
+    std::array<SurfaceSide, 4> sides(int face) const override {
+        const uint32_t first = 4 * static_cast<uint32_t>(face);
+        return {SurfaceSide{first}, SurfaceSide{first + 1}, SurfaceSide{first + 2}, SurfaceSide{first + 3}};
+    }
+    EdgeLine edge(uint32_t edge) const override;
+    SurfacePoint vertex(uint32_t vertex) const override {
+        return {static_cast<int>(vertex / 4), kCorners[vertex % 4]};
+    }
+    bool has_motion_keys() const override { return true; }
+    bool is_hole(int face) const override;
+
+    void evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch, std::span<V3f> P,
+                  std::span<V3f> dPdu, std::span<V3f> dPdv) const override;
+    bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
+                            ShadingGrid& grid) const override;
+    Box3f bound(int face, V2f lo, V2f hi, int key) const override;
+
+  private:
+    static constexpr V2f kCorners[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+
+    struct Disk {
+        V3f centre{0, 0, 0};
+        V3f x{0, 0, 0}, y{0, 0, 0};  ///< to the corners of what is drawn; of a rectangle, to its sides
+        bool rectangle = false;
+
+        V2f at(V2f uv) const { return rectangle ? uv * 2.0f - V2f(1, 1) : disk_point(uv).at; }
+    };
+    Disk disk(int point, int key) const;
+    void set_sphere_normals(const Disk& disk, std::span<const V2f> uv, ShadingGrid& grid) const;
+    float factor(int point, const Camera* camera) const;
+
+    const Primitive& primitive_;
+    PointType type_;
+    const std::vector<PointValues> keys_;  ///< by shape key
+    std::vector<CameraFacing> facing_;     ///< by motion key
+    std::vector<float> factors_;           ///< drawn radius / radius; 0: a square
+};
+
+PointsSurface::PointsSurface(const Primitive& primitive, const Camera* camera, PointType type,
+                             std::vector<PointValues> keys)
+    : primitive_(primitive), type_(type), keys_(std::move(keys)) {
+    for (const M44f& m : matrices_at_keys(primitive, primitive.key_count())) facing_.emplace_back(m, camera);
+    factors_.resize(std::get<Points>(primitive.shape().topology).count);
+    for (size_t i = 0; i < factors_.size(); ++i) factors_[i] = factor(static_cast<int>(i), camera);
+}
+
+/// From the size on the screen at the first key, in micropolygons.
+float PointsSurface::factor(int point, const Camera* camera) const {
+    if (!camera || type_ == PointType::Picture) return 1;
+    const float z = transform_point(facing_[0].camera_from_object(), keys_[0].place(point)).z;
+    if (camera->perspective && !(z > 0)) return 1;
+    const V2f scale = camera->pixels_per_length(z);
+    const float pixels = keys_[0].width[point] * facing_[0].scale() * std::max(scale.x, scale.y);
+    const float size = std::abs(pixels) / std::sqrt(std::max(primitive_.attributes->shading_rate, 1e-4f));
+    if (size * kSquare <= 1) return 0;
+    // A side of the disk is diced by the length of four chords; its number of segments and the area must fit.
+    const float chords = size * 4 * std::sin(kHalfTurn / 16);
+    constexpr int kMostSides = 8;
+    constexpr float kFits = 0.012f;
+    if (chords > kMostSides) return 1;
+    float best = 0, best_error = kFits;  // else a square of more than one micropolygon
+    for (int side = 1; side <= kMostSides; ++side) {
+        const float wanted = polygon_factor(4 * side), sides = static_cast<float>(side);
+        const float factor = std::clamp(wanted, 1.002f * (sides - 1) / chords, 0.998f * sides / chords);
+        const float error = std::abs(factor / wanted - 1);
+        if (error < best_error) best = factor, best_error = error;
+    }
+    return best;
+}
+
+EdgeLine PointsSurface::edge(uint32_t edge) const {
+    constexpr uint32_t kFrom[4] = {0, 1, 3, 0}, kTo[4] = {1, 2, 2, 3};
+    const uint32_t side = edge % 4, first = edge - side;
+    EdgeLine line;
+    line.face = static_cast<int>(edge / 4);
+    line.from = kCorners[kFrom[side]], line.to = kCorners[kTo[side]];
+    line.start = {false, first + kFrom[side], 0}, line.finish = {false, first + kTo[side], 0};
+    return line;
+}
+
+/// Disks in the eye's own plane or behind it are not seen; nothing else would end their splitting.
+bool PointsSurface::is_hole(int face) const {
+    constexpr float kRounding = 1e-6f;
+    if (primitive_.attributes->displacement_bound > 0) return false;
+    for (size_t key = 0; key < facing_.size(); ++key) {
+        const Disk d = disk(face, static_cast<int>(key));
+        const V3f at = transform_point(facing_[key].camera_from_object(), d.centre);
+        if (at.z > kRounding * (at.length() + (d.x + d.y).length() * facing_[key].scale())) return false;
+    }
+    return true;
+}
+
+PointsSurface::Disk PointsSurface::disk(int point, int key) const {
+    const ShapeMix mix = shape_mix(primitive_, key, primitive_.key_count());
+    Disk disk;
+    disk.centre = keys_[mix.first].place(point);
+    float diameter = keys_[mix.first].width[point];
+    if (mix.to_next != 0) {
+        const PointValues& next = keys_[mix.first + 1];
+        disk.centre += (next.place(point) - disk.centre) * mix.to_next;
+        diameter += (next.width[point] - diameter) * mix.to_next;
+    }
+    const V3f u = facing_[key].u_axis() * (diameter / 2), v = facing_[key].v_axis() * (diameter / 2);
+    if (type_ == PointType::Picture) {
+        const float angle = keys_[mix.first].angle[point] * kHalfTurn / 180,
+                    aspect = keys_[mix.first].aspect[point];
+        // v runs down, as a texture's t does.
+        disk.x = u * std::cos(angle) - v * std::sin(angle);
+        disk.y = (v * std::cos(angle) + u * std::sin(angle)) * (aspect > 0 ? 1 / aspect : 0.0f);
+        disk.rectangle = true;
+        return disk;
+    }
+    disk.rectangle = factors_[point] == 0;
+    const float factor = disk.rectangle ? kSquare : factors_[point];
+    disk.x = u * factor, disk.y = v * factor;
+    return disk;
+}
+
+void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch*, std::span<V3f> P,
+                             std::span<V3f> dPdu, std::span<V3f> dPdv) const {
+    const Disk d = disk(face, key);
+    for (size_t i = 0; i < uv.size(); ++i) {
+        DiskPoint p{d.at(uv[i]), {2, 0}, {0, 2}};
+        if (!d.rectangle) p = disk_point(uv[i]);
+        P[i] = d.centre + d.x * p.at.x + d.y * p.at.y;
+        if (!dPdu.empty()) dPdu[i] = d.x * p.by_u.x + d.y * p.by_u.y;
+        if (!dPdv.empty()) dPdv[i] = d.x * p.by_v.x + d.y * p.by_v.y;
+    }
+}
+
+/// One value for each point, whatever the class.
+class ValuesOfPoint : public VariableSource {
+  public:
+    explicit ValuesOfPoint(int point) : point_(point) {}
+    void component(const Parameter& parameter, int component, std::span<float> values) const override {
+        const size_t stride = parameter.declaration.floats_per_item();
+        std::fill(values.begin(), values.end(), parameter.floats[point_ * stride + component]);
+    }
+    size_t uniform_index(const Parameter&) const override { return 0; }
+
+  private:
+    int point_;
+};
+
+bool PointsSurface::evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch*,
+                                       ShadingGrid& grid) const {
+    for (size_t i = 0; i < uv.size(); ++i) grid.u[i] = uv[i].x, grid.v[i] = uv[i].y;
+    set_texture_coordinates(*primitive_.attributes, grid);
+    if (set_variables(primitive_.shape().variables, ValuesOfPoint(face), grid)) return true;
+    if (type_ != PointType::Sphere) return false;
+    set_sphere_normals(disk(face, 0), uv, grid);
+    return true;
+}
+
+/// As the half of a sphere that faces the camera has them.
+void PointsSurface::set_sphere_normals(const Disk& disk, std::span<const V2f> uv, ShadingGrid& grid) const {
+    const V3f x = facing_[0].u_axis().normalized(), y = facing_[0].v_axis().normalized(), z = x.cross(y);
+    for (size_t i = 0; i < uv.size(); ++i) {
+        const V2f at = disk.at(uv[i]);
+        const V3f N = x * at.x + y * at.y + z * std::sqrt(std::max(1 - at.dot(at), 0.0f));
+        grid.N.set(i, N);
+    }
+}
+
+Box3f PointsSurface::bound(int face, V2f, V2f, int key) const {
+    const Disk d = disk(face, key);
+    V3f half;
+    for (int k = 0; k < 3; ++k) half[k] = std::abs(d.x[k]) + std::abs(d.y[k]);
+    return {d.centre - half, d.centre + half};
+}
+
+/// The names of PRMan's and of other renderers'.
+PointType type_of_points(const Primitive& primitive, Diagnostics& diagnostics) {
+    const Parameter* type = primitive.shape().variables.find("type");
+    if (!type || type->strings.empty()) return PointType::Disk;
+    const std::string& name = type->strings[0];
+    if (name == "patch" || name == "sprite") return PointType::Picture;
+    if (name == "blobby" || name == "sphere") return PointType::Sphere;
+    if (name != "particle" && name != "disk" && name != "point")
+        diagnostics.warning(primitive.location,
+                            "Points: type \"" + name +
+                                "\" is not known; disks (known: particle, disk, blobby, sphere, patch)",
+                            "points-type");
+    return PointType::Disk;
+}
+
+}  // namespace
+
+std::unique_ptr<Surface> make_points_surface(const Primitive& primitive, const Camera* camera,
+                                             Diagnostics& diagnostics) {
+    std::vector<PointValues> keys;
+    for (const auto& shape : primitive.shape_keys) {
+        const ParameterList& list = shape->variables;
+        const Parameter* width = list.find("width");
+        if (!width) width = list.find("constantwidth");
+        keys.push_back({list.find("P")->floats.data(), PointFloats(width, 1),
+                        PointFloats(list.find("patchangle"), 0),
+                        PointFloats(list.find("patchaspectratio"), 1)});
+    }
+    return std::make_unique<PointsSurface>(primitive, camera, type_of_points(primitive, diagnostics),
+                                           std::move(keys));
+}
+
+}  // namespace trapeze

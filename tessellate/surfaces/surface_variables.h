@@ -1,0 +1,32 @@
+/// Primitive variables onto grids: which names go to which of the grid's own arrays, and memory that is
+/// reused from grid to grid.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/scene/scene.h"
+#include "core/scene/shading_grid.h"
+
+namespace trapeze {
+
+/// Values of one component of a variable at the grid's vertices, in the variable's own space.
+class VariableSource {
+  public:
+    virtual ~VariableSource() = default;
+    virtual void component(const Parameter& parameter, int component, std::span<float> values) const = 0;
+    /// For what has one value over a face: which one.
+    virtual size_t uniform_index(const Parameter& parameter) const = 0;
+};
+
+/// Sets st, Cs, Os, N and the other variables of a parameter list; positions are left out. Returns whether
+/// there is an N.
+bool set_variables(const ParameterList& parameters, const VariableSource& source, ShadingGrid& grid);
+
+/// s and t where no variable sets them: the attributes' texture coordinates, bilinear in the grid's u and v.
+void set_texture_coordinates(const Attributes& attributes, ShadingGrid& grid);
+
+/// grid.variables[index] with the right planes, of which those of an earlier grid are reused.
+GridVariable& variable_slot(ShadingGrid& grid, size_t index, const Parameter& parameter, bool uniform);
+
+}  // namespace trapeze

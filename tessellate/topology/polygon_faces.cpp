@@ -1,0 +1,143 @@
+#include "tessellate/topology/polygon_faces.h"
+
+#include <cmath>
+
+#include "tessellate/topology/triangulate.h"
+
+namespace trapeze {
+namespace {
+
+/// How far a quad's corners may lie from their plane, as a fraction of its size, and how straight its angles
+/// may be (the sine), to be one bilinear face.
+constexpr double kFlatness = 1e-4, kLeastSine = 1e-2;
+
+class FaceMaker {
+  public:
+    FaceMaker(const PolygonMesh& mesh, std::span<const float> positions)
+        : mesh_(mesh), positions_(positions) {}
+
+    PolygonFaces run();
+    PolygonFaces whole();
+
+  private:
+    void polygon(int number, std::span<const int> loop_sizes);
+    V3d position(int corner) const {
+        const float* p = positions_.data() + 3 * static_cast<size_t>(mesh_.vertices[corner]);
+        return {p[0], p[1], p[2]};
+    }
+    void gather(std::span<const int> loop_sizes);
+    V3d area_normal() const;
+    bool is_flat_and_convex(const V3d& normal) const;
+    void add(int polygon, std::span<const int> corners);
+
+    const PolygonMesh& mesh_;
+    std::span<const float> positions_;
+    PolygonFaces faces_;
+    int first_corner_ = 0;  ///< of the polygon at hand
+    // The polygon at hand, without corners that repeat the one before:
+    std::vector<int> corners_, loops_;
+};
+
+PolygonFaces FaceMaker::run() {
+    size_t loop = 0;
+    for (size_t i = 0; i < mesh_.loops_per_polygon.size(); ++i) {
+        polygon(static_cast<int>(i),
+                std::span(mesh_.vertices_per_loop).subspan(loop, mesh_.loops_per_polygon[i]));
+        loop += mesh_.loops_per_polygon[i];
+    }
+    return std::move(faces_);
+}
+
+PolygonFaces FaceMaker::whole() {
+    for (size_t i = 0; i < mesh_.vertices_per_loop.size(); ++i) {
+        gather(std::span(mesh_.vertices_per_loop).subspan(i, 1));
+        if (loops_[0] >= 3) add(static_cast<int>(i), corners_);
+    }
+    return std::move(faces_);
+}
+
+void FaceMaker::gather(std::span<const int> loop_sizes) {
+    corners_.clear(), loops_.clear();
+    for (int size : loop_sizes) {
+        const size_t begin = corners_.size();
+        for (int i = 0; i < size; ++i) {
+            const int vertex = mesh_.vertices[first_corner_ + i];
+            if (corners_.size() == begin || mesh_.vertices[corners_.back()] != vertex)
+                corners_.push_back(first_corner_ + i);
+        }
+        while (corners_.size() > begin + 1 &&
+               mesh_.vertices[corners_.back()] == mesh_.vertices[corners_[begin]])
+            corners_.pop_back();
+        loops_.push_back(static_cast<int>(corners_.size() - begin));
+        first_corner_ += size;
+    }
+}
+
+/// Of the outline, by Newell's method: as long as twice its area.
+V3d FaceMaker::area_normal() const {
+    const V3d origin = position(corners_[0]);
+    V3d sum(0, 0, 0);
+    for (int i = 1; i + 1 < loops_[0]; ++i)
+        sum += (position(corners_[i]) - origin).cross(position(corners_[i + 1]) - origin);
+    return sum;
+}
+
+bool FaceMaker::is_flat_and_convex(const V3d& normal) const {
+    const double length = normal.length();
+    if (!(length > 0)) return false;
+    V3d p[4];
+    for (int i = 0; i < 4; ++i) p[i] = position(corners_[i]);
+    const double size = std::max((p[2] - p[0]).length(), (p[3] - p[1]).length());
+    for (int i = 0; i < 4; ++i) {
+        const V3d in = p[i] - p[(i + 3) & 3], out = p[(i + 1) & 3] - p[i];
+        if (!(in.cross(out).dot(normal) > kLeastSine * in.length() * out.length() * length)) return false;
+        if (!(std::abs(in.dot(normal)) <= kFlatness * size * length)) return false;
+    }
+    return true;
+}
+
+void FaceMaker::add(int polygon, std::span<const int> corners) {
+    for (size_t i = 0; i < corners.size(); ++i)
+        for (size_t j = 0; j < i; ++j)
+            if (mesh_.vertices[corners[i]] == mesh_.vertices[corners[j]]) return;
+    faces_.sizes.push_back(static_cast<int>(corners.size()));
+    faces_.polygons.push_back(polygon);
+    for (int corner : corners) {
+        faces_.corners.push_back(corner);
+        faces_.vertices.push_back(mesh_.vertices[corner]);
+    }
+}
+
+void FaceMaker::polygon(int number, std::span<const int> loop_sizes) {
+    gather(loop_sizes);
+    if (loops_.empty() || loops_[0] < 3) return;
+    if (loops_.size() == 1 && loops_[0] == 3) return add(number, corners_);
+    const V3d normal = area_normal();
+    if (loops_.size() == 1 && loops_[0] == 4 && is_flat_and_convex(normal)) return add(number, corners_);
+    // Along the axis nearest to the normal: coordinates stay as they are, exact.
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+        if (std::abs(normal[k]) > std::abs(normal[axis])) axis = k;
+    std::vector<V2d> points;
+    points.reserve(corners_.size());
+    for (int corner : corners_) {
+        const V3d p = position(corner);
+        points.emplace_back(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+    }
+    for (const std::array<int, 3>& t : triangulate(points, loops_)) {
+        const int corners[3] = {corners_[t[0]], corners_[t[1]], corners_[t[2]]};
+        add(number, corners);
+    }
+}
+
+}  // namespace
+
+PolygonFaces make_polygon_faces(const PolygonMesh& mesh, std::span<const float> positions) {
+    return FaceMaker(mesh, positions).run();
+}
+
+PolygonFaces make_whole_faces(const PolygonMesh& mesh) {
+    return FaceMaker(mesh, {}).whole();
+}
+
+}  // namespace trapeze

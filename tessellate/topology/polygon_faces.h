@@ -1,0 +1,26 @@
+/// Polygons as faces of three and four corners, the pieces that are diced.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+#include "core/scene/shapes.h"
+
+namespace trapeze {
+
+struct PolygonFaces {
+    std::vector<int> sizes;     ///< 3 or 4 corners
+    std::vector<int> vertices;  ///< of all faces' corners
+    std::vector<int> corners;   ///< where each comes from among the polygons' corners: facevarying's number
+    std::vector<int> polygons;  ///< by face
+};
+
+/// Convex planar quads stay whole, all else becomes triangles, which run the way of their polygon and name
+/// its vertices only. Faces that would name a vertex twice are left out. `positions`: three floats a vertex.
+PolygonFaces make_polygon_faces(const PolygonMesh& mesh, std::span<const float> positions);
+
+/// The same of polygons of three and four corners without holes, where quads stay whole, flat or not.
+PolygonFaces make_whole_faces(const PolygonMesh& mesh);
+
+}  // namespace trapeze
