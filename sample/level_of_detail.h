@@ -1,5 +1,5 @@
-/// What samples see of levels of detail in transition (core/scene/level_of_detail.h): hits on levels that are not
-/// theirs are taken out of finished lists, alike for all methods.
+/// What samples see of levels of detail in transition (core/scene/level_of_detail.h): hits on levels that are
+/// not theirs are taken out of finished lists, alike for all methods.
 #pragma once
 
 #include <memory>

@@ -71,8 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                       RoundTrip{"auto", "png", 8, true}, RoundTrip{"auto", "png", 16, false},
                       RoundTrip{"auto", "tif", 8, true}, RoundTrip{"auto", "tif", 16, false}),
     [](const auto& row) {
-        return std::string(row.param.transfer) + "_" + row.param.extension +
-               std::to_string(row.param.bits);
+        return std::string(row.param.transfer) + "_" + row.param.extension + std::to_string(row.param.bits);
     });
 
 TEST(Transfer, TheCommandLineComesBeforeTheScene) {

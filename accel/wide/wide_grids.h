@@ -17,9 +17,9 @@ struct GridExtent {
     float largest_micropolygon;  ///< the extent of the largest along any axis
 };
 
-/// Fills in a grid's record (all but first_pair, which is set, and leaf) and what it has at its keys. `scale` and `base`:
-/// bounds grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an absolute_max
-/// of infinity, and boxes that mean nothing.
+/// Fills in a grid's record (all but first_pair, which is set, and leaf) and what it has at its keys. `scale`
+/// and `base`: bounds grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an
+/// absolute_max of infinity, and boxes that mean nothing.
 void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint8_t* keys,
                 GridExtent& extent);
 

@@ -6,9 +6,9 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include "composite/displays/write_displays.h"
 #include "composite/film/raster_harness.h"
 #include "core/files/temporary_folder_harness.h"
-#include "composite/displays/write_displays.h"
 
 namespace trapeze {
 namespace {

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "composite/displays/write_displays.h"
 #include "composite/film/raster_harness.h"
 #include "core/files/temporary_folder_harness.h"
-#include "composite/displays/write_displays.h"
 #include "core/scene/transfer.h"
 
 namespace trapeze {

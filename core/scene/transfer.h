@@ -11,7 +11,8 @@
 namespace trapeze {
 
 /// Linear: numbers are proportional to light, as RISpec has it. Srgb: colours are encoded by the sRGB curve.
-/// Auto: they are in 8 bits, unless Exposure has a gamma or a file to read says otherwise; 16 bits are linear.
+/// Auto: they are in 8 bits, unless Exposure has a gamma or a file to read says otherwise; 16 bits are
+/// linear.
 enum class Transfer : uint8_t { Linear, Srgb, Auto };
 
 /// "linear", "srgb" or "auto", in letters of any case.

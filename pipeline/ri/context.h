@@ -46,8 +46,8 @@ class Context {
     CountingState counting;
     Spaces spaces;
     std::vector<std::string> archive_folders;  ///< Option "searchpath" "archive"
-    uintptr_t lights = 0, objects = 0;  ///< so many handles have been given
-    bool may_run_programs = false;      ///< the program itself asked for RiProcRunProgram
+    uintptr_t lights = 0, objects = 0;         ///< so many handles have been given
+    bool may_run_programs = false;             ///< the program itself asked for RiProcRunProgram
 
   private:
     struct OpenBlock {

@@ -312,9 +312,9 @@ RtVoid RiMotionBegin(RtInt n, ...);
 RtVoid RiMotionBeginV(RtInt n, RtFloat times[]);
 RtVoid RiMotionEnd(void);
 
-/* Maps and archives (RISpec 7). The callback is called within RiReadArchive, for each comment of the archive in
-   their order: with RI_COMMENT or RI_STRUCTURE, the format "%s", and the text (an RtString) behind "#" or "##". The
-   archive itself is read when the frame is rendered. */
+/* Maps and archives (RISpec 7). The callback is called within RiReadArchive, for each comment of the archive
+   in their order: with RI_COMMENT or RI_STRUCTURE, the format "%s", and the text (an RtString) behind "#" or
+   "##". The archive itself is read when the frame is rendered. */
 RtVoid RiMakeTexture(RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,
                      RtFloat swidth, RtFloat twidth, ...);
 RtVoid RiMakeTextureV(RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,

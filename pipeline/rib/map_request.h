@@ -21,7 +21,7 @@ struct MapRequest {
     float fov = 90;                        ///< degrees, of CubeFaceEnvironment
     Transfer transfer = Transfer::Linear;  ///< of the pictures' numbers, by Option "color" "transfer"
     std::optional<Transfer> colorspace;    ///< the same, as the request itself says
-    std::vector<std::string> folders;      ///< where pictures are looked for that are not where their name says
+    std::vector<std::string> folders;  ///< where pictures are looked for that are not where their name says
     SourceLocation location;
 };
 

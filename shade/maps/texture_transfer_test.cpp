@@ -61,7 +61,9 @@ TEST_F(TextureTransferTest, LookupsOfFloatsReadNumbersOfThemselves) {
     even("mask.png", 3, TypeDesc::UINT8);
     EXPECT_NEAR(seen("float texture(\"mask.png\"[1], 0.3, 0.6)", "auto"), kStored, 1e-3f);
     EXPECT_NEAR(seen("float texture(\"mask.png\"[1], 0.3, 0.6)", "srgb"), kDecoded, 1e-3f);
-    EXPECT_NEAR(seen("color texture(\"mask.png\", 0.3, 0.6) * 0 + float texture(\"mask.png\", 0.3, 0.6)", "auto"), kStored, 1e-3f)
+    EXPECT_NEAR(
+        seen("color texture(\"mask.png\", 0.3, 0.6) * 0 + float texture(\"mask.png\", 0.3, 0.6)", "auto"),
+        kStored, 1e-3f)
         << "both kinds of one file";
 }
 
@@ -80,7 +82,8 @@ TEST_F(TextureTransferTest, TheCallsOwnWordCounts) {
 
 TEST_F(TextureTransferTest, UnknownWordsAreSaidOnce) {
     even("a.png", 3, TypeDesc::UINT8);
-    EXPECT_NEAR(seen("color texture(\"a.png\", 0.3, 0.6, \"colorspace\", \"gamma\")", "srgb"), kDecoded, 1e-3f);
+    EXPECT_NEAR(seen("color texture(\"a.png\", 0.3, 0.6, \"colorspace\", \"gamma\")", "srgb"), kDecoded,
+                1e-3f);
     ASSERT_EQ(reported_.size(), 1u);
     EXPECT_EQ(reported_[0].severity, Severity::Warning);
     EXPECT_THAT(reported_[0].text, testing::HasSubstr("\"gamma\" is not known"));
@@ -101,7 +104,8 @@ TEST_F(TextureTransferTest, FilteringIsInTheLightThatIsRead) {
     write("checker.png", ImageSpec(64, 64, 3, TypeDesc::UINT8),
           [](int x, int y, int) { return (x + y) % 2 ? kStored : 0.0f; });
     const auto wide = [](const char* name) {
-        return std::string("color texture(\"checker.png\", 0.5, 0.5, \"blur\", 0.5, \"wrap\", \"periodic\", \"colorspace\", \"") +
+        return std::string(
+                   "color texture(\"checker.png\", 0.5, 0.5, \"blur\", 0.5, \"wrap\", \"periodic\", \"colorspace\", \"") +
                name + "\")";
     };
     EXPECT_NEAR(seen(wide("srgb"), ""), kDecoded / 2, 5e-3f);

@@ -8,8 +8,8 @@
 namespace trapeze {
 namespace {
 
-/// What a surface shader of these statements gives, at one point of a plane that faces the eye, lit by a distant
-/// light from the eye; no message must come.
+/// What a surface shader of these statements gives, at one point of a plane that faces the eye, lit by a
+/// distant light from the eye; no message must come.
 V3f result_of(const std::string& headers, const std::string& statements, const std::string& parameters = "") {
     TestScene scene;
     const ShaderFolder folder;
@@ -18,7 +18,8 @@ V3f result_of(const std::string& headers, const std::string& statements, const s
     scene.scene.options.search_paths["shader"] = {folder.path()};
     scene.attributes->displacement_bound = 1;  // for those that set P
     scene.surface("tried");
-    scene.light("distantlight", {number("intensity", 1), point("from", V3f(0, 0, 0)), point("to", V3f(0, 0, 1))});
+    scene.light("distantlight",
+                {number("intensity", 1), point("from", V3f(0, 0, 0)), point("to", V3f(0, 0, 1))});
     const ShadingGrid grid = scene.shaded();
     for (const Diagnostic& d : scene.reported) ADD_FAILURE() << to_string(d);
     return grid.Ci.at(0);
@@ -100,12 +101,12 @@ TEST(StandardHeaders, LocalIlluminationHasItsLimits) {
     EXPECT_NEAR(clay.x, clay.y, 1e-5f);
     EXPECT_GT(clay.z, 1.1f);
     // A highlight turned by a right angle is one with its roughnesses exchanged; its middle is 1 / (4 a b).
-    const V3f brushed =
-        result_of("#include \"locillum.h\"",
-                  "normal Nf = normal(0, 0, -1), tilted = normalize(normal(0.1, 0.2, -1)); vector V = vector(0, 0, -1);"
-                  "a = comp(LocIllumWardAnisotropic(tilted, V, vector(1, 0, 0), 0.4, 0.2), 0);"
-                  "b = comp(LocIllumWardAnisotropic(tilted, V, vector(0, 1, 0), 0.2, 0.4), 0);"
-                  "c = comp(LocIllumWardAnisotropic(Nf, V, vector(1, 0, 0), 0.5, 0.25), 0);");
+    const V3f brushed = result_of(
+        "#include \"locillum.h\"",
+        "normal Nf = normal(0, 0, -1), tilted = normalize(normal(0.1, 0.2, -1)); vector V = vector(0, 0, -1);"
+        "a = comp(LocIllumWardAnisotropic(tilted, V, vector(1, 0, 0), 0.4, 0.2), 0);"
+        "b = comp(LocIllumWardAnisotropic(tilted, V, vector(0, 1, 0), 0.2, 0.4), 0);"
+        "c = comp(LocIllumWardAnisotropic(Nf, V, vector(1, 0, 0), 0.5, 0.25), 0);");
     EXPECT_GT(brushed.x, 0.1f);
     EXPECT_NEAR(brushed.x, brushed.y, 2e-2f * brushed.x);
     EXPECT_NEAR(brushed.z, 2, 1e-3f);
@@ -141,14 +142,14 @@ TEST(StandardHeaders, MaterialsAreSumsOfTheirParts) {
     EXPECT_NEAR(shiny.x, 0, 1e-5f);
     EXPECT_NEAR(shiny.y, 0, 1e-5f);
     EXPECT_NEAR(shiny.z, 0.96f, 5e-3f);  // the rest, ((1.5 - 1) / (1.5 + 1))^2, is mirrored
-    const V3f other = result_of(
-        header,
-        std::string(kFacing) +
-            "a = comp(MaterialRoughMetal(Nf, 1, 0, 0, 1, 0.1), 0) - comp(specular(Nf, V, 0.1), 0);"
-            "b = comp(MaterialBrushedMetal(Nf, 1, 0, 0, 1, vector(1, 0, 0), 0.5, 0.5), 0);"
-            "c = comp(MaterialCeramic(Nf, 1, 0, 0, 1, 1, 1), 0) +"
-            "    comp(MaterialGlass(Nf, 1, 0, 0, 0, 0.1, 1, 0, 1, 0, 1.5, 1, 0, 1, ENVPARAMS), 0);",
-        environment);
+    const V3f other =
+        result_of(header,
+                  std::string(kFacing) +
+                      "a = comp(MaterialRoughMetal(Nf, 1, 0, 0, 1, 0.1), 0) - comp(specular(Nf, V, 0.1), 0);"
+                      "b = comp(MaterialBrushedMetal(Nf, 1, 0, 0, 1, vector(1, 0, 0), 0.5, 0.5), 0);"
+                      "c = comp(MaterialCeramic(Nf, 1, 0, 0, 1, 1, 1), 0) +"
+                      "    comp(MaterialGlass(Nf, 1, 0, 0, 0, 0.1, 1, 0, 1, 0, 1.5, 1, 0, 1, ENVPARAMS), 0);",
+                  environment);
     EXPECT_NEAR(other.x, 0, 1e-5f);
     EXPECT_GT(other.y, 0.5f);
     EXPECT_NEAR(other.z, 1, 1e-5f);
@@ -157,14 +158,18 @@ TEST(StandardHeaders, MaterialsAreSumsOfTheirParts) {
 TEST(StandardHeaders, ProjectionsCoverTheTexture) {
     const std::string header = "#include \"project.h\"";
     const std::string unit = "float m[16] = {1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1}; float ds, dt;";
-    expect_near(result_of(header, unit + "spherical_projection(point(0, -2, 0), a, b, ds, dt);"), V3f(0.75f, 0.5f, 0));
-    const V3f round = result_of(header, unit + "spherical_projection(point(1, 0, 1), a, b, ds, dt);"
-                                               "float x; cylindrical_projection(point(1, 0, 5), x, c, ds, dt);");
+    expect_near(result_of(header, unit + "spherical_projection(point(0, -2, 0), a, b, ds, dt);"),
+                V3f(0.75f, 0.5f, 0));
+    const V3f round = result_of(header, unit +
+                                            "spherical_projection(point(1, 0, 1), a, b, ds, dt);"
+                                            "float x; cylindrical_projection(point(1, 0, 5), x, c, ds, dt);");
     expect_near(round, V3f(0.5f, 0.25f, 5));
     const V3f flat = result_of(
-        header, unit + "point at = point(3, 4, 2);"
-                       "ProjectTo2D(\"perspective\", at, \"current\", array_to_mx(m), a, b, ds, dt);"
-                       "float x; m[13] = 10; ProjectTo2D(\"planar\", at, \"current\", array_to_mx(m), x, c, ds, dt);");
+        header,
+        unit +
+            "point at = point(3, 4, 2);"
+            "ProjectTo2D(\"perspective\", at, \"current\", array_to_mx(m), a, b, ds, dt);"
+            "float x; m[13] = 10; ProjectTo2D(\"planar\", at, \"current\", array_to_mx(m), x, c, ds, dt);");
     expect_near(flat, V3f(1.5f, 2, 14));
     expect_near(result_of(header, unit + "ProjectTo2D(\"st\", P, \"current\", array_to_mx(m), a, b, ds, dt);"
                                          "a -= s; b -= t;"),
@@ -179,10 +184,11 @@ TEST(StandardHeaders, DisplaceMovesAndBends) {
 }
 
 TEST(StandardHeaders, ShadersDeclareWhereTheyComputeTheirPattern) {
-    expect_near(result_of("#include \"pshad.h\"",
-                          "GET_PSHAD; a = distance(Pshad, 2 * transform(\"shader\", P)); if (dPshad > 0) b = 1;",
-                          "PSHAD_PARAMS(\"shader\", 2)"),
-                V3f(0, 1, 0));
+    expect_near(
+        result_of("#include \"pshad.h\"",
+                  "GET_PSHAD; a = distance(Pshad, 2 * transform(\"shader\", P)); if (dPshad > 0) b = 1;",
+                  "PSHAD_PARAMS(\"shader\", 2)"),
+        V3f(0, 1, 0));
     expect_near(result_of("#define USE_PREF 1\n#include \"pshad.h\"",
                           "GET_PSHAD; a = distance(Pshad, transform(\"shader\", P)); if (dPshad > 0) b = 1;",
                           "DEFAULT_PSHAD_PARAMS"),
@@ -203,20 +209,21 @@ TEST(StandardHeaders, WoodLiesBetweenItsLimits) {
 }
 
 TEST(StandardHeaders, ManifoldsAreFiltered) {
-    expect_near(result_of("#include \"pxslUtil.h\"\n#include \"pxslRayUtil.h\"\n#include \"pxslRemap.h\"",
-                          "point q = point(0.3, 0.4, 0.5); vector wide = 10;"
-                          "a = pxslFilteredFNoise(q, wide, vector(0, 0, 10)); b = pxslBimix(1, 2, 3, 4, 0, 1);"
-                          "c = pxslGainF(0.2, 0.5);"),
-                V3f(0.5f, 1, 0.2f));
+    expect_near(
+        result_of("#include \"pxslUtil.h\"\n#include \"pxslRayUtil.h\"\n#include \"pxslRemap.h\"",
+                  "point q = point(0.3, 0.4, 0.5); vector wide = 10;"
+                  "a = pxslFilteredFNoise(q, wide, vector(0, 0, 10)); b = pxslBimix(1, 2, 3, 4, 0, 1);"
+                  "c = pxslGainF(0.2, 0.5);"),
+        V3f(0.5f, 1, 0.2f));
 }
 
 /// Every header alone, twice and with all the others: whatever order shaders take them in.
 TEST(StandardHeaders, EachStandsAloneAndBesideTheOthers) {
     std::string all;
-    for (const char* name : {"antialiasing.h", "displace.h", "filterwidth.h", "locillum.h", "material.h",
-                             "materials.h", "noises.h", "oak.h", "patterns.h", "project.h", "pshad.h",
-                             "pxslRayUtil.h", "pxslRemap.h", "pxslUtil.h", "rayserver.h", "raysphere.h",
-                             "reflections.h", "textures.h", "voronoi.h", "wood.h"}) {
+    for (const char* name : {"antialiasing.h", "displace.h",    "filterwidth.h", "locillum.h", "material.h",
+                             "materials.h",    "noises.h",      "oak.h",         "patterns.h", "project.h",
+                             "pshad.h",        "pxslRayUtil.h", "pxslRemap.h",   "pxslUtil.h", "rayserver.h",
+                             "raysphere.h",    "reflections.h", "textures.h",    "voronoi.h",  "wood.h"}) {
         const std::string line = "#include \"" + std::string(name) + "\"\n";
         EXPECT_EQ(result_of(line + line, "a = 1;"), V3f(1, 0, 0)) << name;
         all = line + all;

@@ -13,9 +13,9 @@ std::string_view standard_shader(std::string_view name);
 /// In alphabetical order.
 std::vector<std::string_view> standard_shader_names();
 
-/// The text of a file that shaders include by custom and that seldom comes with them (noises.h, material.h, project.h,
-/// rmannotes.sl and others), written anew here with the functions and macros that go by their names. Empty when there
-/// is none.
+/// The text of a file that shaders include by custom and that seldom comes with them (noises.h, material.h,
+/// project.h, rmannotes.sl and others), written anew here with the functions and macros that go by their
+/// names. Empty when there is none.
 std::string_view standard_header(std::string_view name);
 
 /// In alphabetical order.

@@ -29,7 +29,8 @@ struct EdgeRate {
 struct RateEstimate {
     float sum = 0, longest = 0;
     int pieces = 0;
-    bool deep = false;  ///< one end is so much farther from the eye that a box around it is seen far too large
+    bool deep =
+        false;  ///< one end is so much farther from the eye that a box around it is seen far too large
 
     void add(float length) {
         sum += length, ++pieces;

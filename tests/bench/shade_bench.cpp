@@ -111,7 +111,8 @@ void shade(benchmark::State& state, const char* surface, const char* light, int 
     scene.options.search_paths["shader"] = scene.options.search_paths["texture"] = {shaders_of_the_bench()};
     RenderContext context;
     context.scene = &scene;
-    context.camera.plane_scale_x = 1 / 80.0f, context.camera.plane_scale_y = -1 / 80.0f;  // pixels of micropolygons
+    context.camera.plane_scale_x = 1 / 80.0f,
+    context.camera.plane_scale_y = -1 / 80.0f;  // pixels of micropolygons
     const Shading shading(context);
     const ShadingGrid undisplaced = bent_grid(scene, side);
     ShadingGrid grid = undisplaced;

@@ -26,8 +26,8 @@ std::span<const char* const> rispec_requests();
 /// Built-in functions that compile, with what limits them.
 std::span<const RequestNote> function_notes();
 
-/// A header for shaders that the program carries: the functions and macros in it, and what others' of this name have
-/// beyond that.
+/// A header for shaders that the program carries: the functions and macros in it, and what others' of this
+/// name have beyond that.
 struct HeaderNote {
     const char* name;
     const char* has;

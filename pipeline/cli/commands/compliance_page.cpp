@@ -114,7 +114,8 @@ void add_wrong_header_notes(std::vector<std::string>& wrong) {
         const std::string_view text = standard_header(note.name);
         std::istringstream names(note.has);
         for (std::string name; std::getline(names >> std::ws, name, ',');)
-            if (text.find(name) == std::string_view::npos) wrong.push_back(std::string(note.name) + ": " + name);
+            if (text.find(name) == std::string_view::npos)
+                wrong.push_back(std::string(note.name) + ": " + name);
     }
 }
 

@@ -1,6 +1,6 @@
 /// The analysis' state, shared by its parts: analyse.cpp has shaders, functions and names,
-/// analyse_statements.cpp statements, possible_types.cpp the types that expressions can have, choose_types.cpp those that
-/// they get, calls.cpp the choice of overloads.
+/// analyse_statements.cpp statements, possible_types.cpp the types that expressions can have,
+/// choose_types.cpp those that they get, calls.cpp the choice of overloads.
 #pragma once
 
 #include <deque>
