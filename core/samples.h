@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scene/camera.h"
+#include "core/pixel_rect.h"
+#include "core/rays.h"
 
 namespace trapeze {
 

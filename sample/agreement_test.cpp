@@ -216,7 +216,7 @@ std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_n
     const auto sampler = choose_sampler(method_name, pattern_name, &error);
     EXPECT_TRUE(sampler) << error;
     const auto pattern = sampler->make_pattern(scene.frame.context);
-    const auto visibility = sampler->prepare(scene.frame.context, scene.maker.grids(), *pattern);
+    const auto visibility = sampler->prepare(scene.frame.context, scene.maker.grids());
     const auto tiles = tiles_of({-2, -2, scene.frame.options.width + 2, scene.frame.options.height + 2});
     std::vector<HitBuffer> buffers(tiles.size());
     tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {

@@ -16,10 +16,9 @@ const std::vector<VisibilityMethod>& visibility_methods() {
     return methods;
 }
 
-std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const Grids& grids,
-                                             const SamplePattern& made_pattern) const {
+std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const Grids& grids) const {
     const VisibilityMethod& row = *find_named(visibility_methods(), method.name);
-    auto visibility = row.prepare({context, grids, made_pattern, method});
+    auto visibility = row.prepare({context, grids, method});
     return with_cuts(with_levels_of_detail(std::move(visibility), context, grids), context, grids);
 }
 

@@ -2,65 +2,21 @@
 /// all give the same hits, bit for bit.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "accel/paper/top_level.h"
-#include "accel/wide/bundle.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/samples.h"
 #include "core/scene/render_context.h"
 #include "core/stats.h"
-#include "sample/dualspace/dual_raster.h"
-#include "sample/interleave/uvt_raster.h"
-#include "sample/interval/interval_scratch.h"
 #include "sample/names/method_spec.h"
 #include "sample/patterns/sample_pattern.h"
+#include "sample/sample_scratch.h"
 
 namespace trapeze {
-
-/// What samples cost, for pictures of it: indexed by sample, set to zero by the caller.
-struct SampleHeat {
-    std::vector<uint32_t> tests;  ///< predicate tests
-    std::vector<uint32_t> nodes;  ///< nodes visited, or (rasterizers) boxes set up that reached the sample
-};
-
-class Visibility;
-
-/// An order of a tile's samples that may serve again.
-struct KnownOrder {
-    const void* owner = nullptr;  ///< who made it
-    std::array<int, 6> kind{};    ///< for what tiles, how sorted
-    std::vector<uint32_t> order;
-};
-
-/// What a thread needs while resolving; any method may use any of it. One per thread, reused.
-struct SampleScratch {
-    SampleHeat* heat = nullptr;               ///< when set, methods add what each sample cost
-    std::vector<uint32_t> order;              ///< samples in the order of tracing
-    std::vector<uint32_t> keys, sorted;       ///< of the sort that makes it
-    TopLevel tile_top, group_top;             ///< what of a tree the tile, and a group of its rays, may meet
-    std::vector<Hit> nearest;                 ///< sample -> nearest opaque hit
-    std::vector<Hit> hits;                    ///< in the order of finding
-    std::vector<uint32_t> hit_sample;         ///< whose each of these is
-    std::vector<uint32_t> first, count;       ///< sample -> its range in hits
-    std::vector<float> ox, oy, ux, uy, time;  ///< rays in planes, padded to whole vectors
-    std::vector<uint32_t> raster_grids;       ///< that a rasterizer's tile may see
-    std::vector<uint32_t> found;              ///< lanes that the predicate answered yes for
-    std::vector<float> found_depth;
-    std::vector<uint32_t> starts, pixel_first;  ///< of the order of bundles
-    std::vector<KnownOrder> bundle_orders;      ///< in which bundles take samples; at most a few
-    std::unique_ptr<RayBundle> bundle;          ///< made when first needed
-    BundleScratchPointer bundle_scratch;
-    std::vector<uint32_t> ray_tests, ray_nodes;  ///< what the rays of a bundle cost
-    IntervalScratch interval;
-    UvtScratch uvt;
-    DualScratch dual;
-};
 
 /// A method with what it has prepared for some grids. Keeps references to the context and the grids.
 class Visibility {
@@ -78,12 +34,12 @@ class Visibility {
     virtual int tile_side() const { return kTileSide; }
 };
 
-/// What a method is prepared with; all of it outlives what is prepared.
+/// What a method is prepared with; all of it outlives what is prepared. Which pattern samples come from
+/// follows from honours(): a method that builds on one makes its own, which is equal.
 struct VisibilityInput {
     const RenderContext& context;
     const Grids& grids;
-    const SamplePattern& pattern;  ///< one that the method honours
-    const MethodSpec& spec;        ///< parse_method's
+    const MethodSpec& spec;  ///< parse_method's
 };
 
 /// How a method works, for comparisons: contests are between ray tracers and rasterizers, and a Reference
@@ -113,8 +69,8 @@ struct Sampler {
     std::unique_ptr<SamplePattern> make_pattern(const RenderContext& context) const {
         return make_sample_pattern(context, pattern);
     }
-    std::unique_ptr<Visibility> prepare(const RenderContext& context, const Grids& grids,
-                                        const SamplePattern& made_pattern) const;
+    /// For samples of make_pattern()'s with the same context.
+    std::unique_ptr<Visibility> prepare(const RenderContext& context, const Grids& grids) const;
     /// The method as a user would name it, without options at their default.
     std::string name() const;
 };

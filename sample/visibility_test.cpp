@@ -32,7 +32,7 @@ class EveryMethod : public ::testing::TestWithParam<std::string_view> {
         std::string error;
         const auto sampler = choose_sampler(GetParam(), "", &error);
         const auto pattern = sampler->make_pattern(frame.context);
-        const auto visibility = sampler->prepare(frame.context, grids, *pattern);
+        const auto visibility = sampler->prepare(frame.context, grids);
         SampleTile samples;
         pattern->make_tile({0, 0, 16, 16}, samples);
         HitBuffer hits;
@@ -63,7 +63,7 @@ size_t nodes_of_parallel_rays(float z) {
     std::string error;
     const auto sampler = choose_sampler("raytrace", "", &error);
     const auto pattern = sampler->make_pattern(frame.context);
-    const auto visibility = sampler->prepare(frame.context, maker.grids(), *pattern);
+    const auto visibility = sampler->prepare(frame.context, maker.grids());
     SampleTile samples;
     pattern->make_tile({16, 16, 32, 32}, samples);
     HitBuffer hits;
@@ -219,7 +219,7 @@ TEST(PaperRayTraced, HeatIsWhatSamplesCost) {
         std::string error;
         const auto sampler = choose_sampler(method, "", &error);
         const auto pattern = sampler->make_pattern(frame.context);
-        const auto visibility = sampler->prepare(frame.context, maker.grids(), *pattern);
+        const auto visibility = sampler->prepare(frame.context, maker.grids());
         SampleTile samples;
         pattern->make_tile({0, 0, 16, 16}, samples);
         SampleHeat heat{std::vector<uint32_t>(samples.size()), std::vector<uint32_t>(samples.size())};

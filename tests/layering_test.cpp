@@ -1,5 +1,6 @@
-/// The include rule of the rooms, read from the sources themselves: stages never include each other, what
-/// they exchange is a type in core; each heavy library is confined to one room.
+/// The include rules of the rooms and of the wings in them, read from the sources themselves: stages never
+/// include each other, what they exchange is a type in core; wings of a room include each other one way only;
+/// each heavy library is confined to one room.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -22,6 +24,68 @@ const std::map<std::string, Names> kMayInclude = {
     {"sample", {"sample", "accel", "core"}},
     {"composite", {"composite", "core"}},
     {"pipeline", {"pipeline", "composite", "sample", "accel", "shade", "tessellate", "core"}},
+};
+
+/// Which other folders of its room a folder may include. Those that are not here include none of them. It has
+/// no cycles, and docs/architecture.md draws it.
+const std::map<std::string, Names> kWings = {
+    {"accel/paper", {"accel", "accel/builders"}},
+    {"accel/wide", {"accel", "accel/builders"}},
+    {"composite/displays", {"composite"}},
+    {"composite/film", {"composite"}},
+    {"core/files", {"core"}},
+    {"core/scene", {"core"}},
+    {"pipeline/cli", {"pipeline/cli/commands", "pipeline/cli/support", "pipeline/ri"}},
+    {"pipeline/cli/commands",
+     {"pipeline/cli/support", "pipeline/compare", "pipeline/compare/report", "pipeline/frame", "pipeline/rib",
+      "pipeline/rib/reader", "pipeline/rib/state", "pipeline/rib/syntax", "pipeline/rib/write",
+      "pipeline/study", "pipeline/study/report"}},
+    {"pipeline/cli/support",
+     {"pipeline/compare", "pipeline/frame", "pipeline/rib", "pipeline/rib/programs", "pipeline/rib/state",
+      "pipeline/study", "pipeline/study/scenes"}},
+    {"pipeline/compare", {"pipeline/frame"}},
+    {"pipeline/compare/report", {"pipeline/compare", "pipeline/frame"}},
+    {"pipeline/frame", {"pipeline/rib"}},
+    {"pipeline/ri",
+     {"pipeline/frame", "pipeline/rib", "pipeline/rib/state", "pipeline/rib/syntax", "pipeline/rib/write"}},
+    {"pipeline/rib/programs", {"pipeline/rib/syntax"}},
+    {"pipeline/rib/reader",
+     {"pipeline/rib", "pipeline/rib/programs", "pipeline/rib/ris", "pipeline/rib/state",
+      "pipeline/rib/syntax"}},
+    {"pipeline/rib/requests",
+     {"pipeline/rib", "pipeline/rib/reader", "pipeline/rib/ris", "pipeline/rib/state"}},
+    {"pipeline/rib/ris", {"pipeline/rib/syntax"}},
+    {"pipeline/rib/state", {"pipeline/rib/ris", "pipeline/rib/syntax"}},
+    {"pipeline/rib/write", {"pipeline/rib", "pipeline/rib/syntax"}},
+    {"pipeline/study", {"pipeline/compare", "pipeline/rib", "pipeline/study/scenes"}},
+    {"pipeline/study/report",
+     {"pipeline/compare", "pipeline/compare/report", "pipeline/frame", "pipeline/study"}},
+    {"pipeline/study/scenes", {"pipeline/rib/write"}},
+    {"sample", {"sample/names", "sample/patterns"}},
+    {"sample/bruteforce", {"sample"}},
+    {"sample/dualspace", {"sample", "sample/rasterize"}},
+    {"sample/embree", {"sample", "sample/raytrace"}},
+    {"sample/interleave", {"sample", "sample/patterns", "sample/rasterize"}},
+    {"sample/interval", {"sample", "sample/patterns", "sample/rasterize"}},
+    {"sample/patterns", {"sample/names"}},
+    {"sample/rasterize", {"sample", "sample/patterns"}},
+    {"sample/raytrace", {"sample"}},
+    {"shade", {"shade/maps", "shade/materials", "shade/planes", "shade/vm"}},
+    {"shade/code", {"shade/operations", "shade/rsl/analysis", "shade/rsl/syntax", "shade/vm/kernels"}},
+    {"shade/maps", {"shade/planes", "shade/vm", "shade/vm/kernels"}},
+    {"shade/materials",
+     {"shade/code", "shade/operations", "shade/rsl", "shade/rsl/analysis", "shade/rsl/syntax",
+      "shade/shaders", "shade/vm", "shade/vm/kernels"}},
+    {"shade/rsl", {"shade/rsl/analysis", "shade/rsl/syntax"}},
+    {"shade/rsl/analysis", {"shade/operations", "shade/rsl/syntax"}},
+    {"shade/vm", {"shade/code", "shade/operations", "shade/planes", "shade/rsl/syntax", "shade/vm/kernels"}},
+    {"shade/vm/kernels", {"shade/operations", "shade/planes"}},
+    {"tessellate", {"tessellate/measure", "tessellate/topology"}},
+    {"tessellate/measure", {"tessellate/topology"}},
+    {"tessellate/surfaces", {"tessellate/topology"}},
+    {"tessellate/surfaces/blobby", {"tessellate/surfaces", "tessellate/topology"}},
+    {"tessellate/surfaces/nurbs", {"tessellate/surfaces", "tessellate/topology"}},
+    {"tessellate/surfaces/subdivision", {"tessellate/surfaces", "tessellate/topology"}},
 };
 
 /// Beginnings of library includes, and the rooms that may have them.
@@ -70,6 +134,57 @@ TEST(Layering, RoomsIncludeOnlyWhatTheyMay) {
                 EXPECT_TRUE(may.count(target)) << file << " includes " << included;
             });
     EXPECT_GT(includes, 100) << "the test reads no sources";
+}
+
+std::string folder_of(const std::string& path) {
+    return path.substr(0, path.rfind('/'));
+}
+
+/// A source's path from the repository's root.
+std::string from_root(const fs::path& file) {
+    return fs::relative(file, TRAPEZE_SOURCE_DIR).generic_string();
+}
+
+TEST(Layering, WingsIncludeOnlyWhatTheyMay) {
+    std::map<std::string, Names> used;
+    for (const auto& [room, unused] : kMayInclude)
+        for_each_include(room, [&, &in = room](const fs::path& file, const std::string& included) {
+            if (is_test(file) || !included.starts_with(in + "/")) return;
+            const std::string from = folder_of(from_root(file)), to = folder_of(included);
+            if (from == to) return;
+            used[from].insert(to);
+            const auto row = kWings.find(from);
+            EXPECT_TRUE(row != kWings.end() && row->second.count(to)) << file << " includes " << included;
+        });
+    for (const auto& [wing, others] : kWings)
+        EXPECT_EQ(others, used[wing]) << wing << " includes no longer all that the table lets it";
+}
+
+/// Whether `to` can be reached from `from` along the table.
+bool reaches(const std::string& from, const std::string& to) {
+    const auto row = kWings.find(from);
+    if (row == kWings.end()) return false;
+    for (const std::string& next : row->second)
+        if (next == to || reaches(next, to)) return true;
+    return false;
+}
+
+TEST(Layering, WingsIncludeEachOtherOneWay) {
+    for (const auto& [wing, others] : kWings)
+        for (const std::string& other : others)
+            ASSERT_FALSE(reaches(other, wing)) << wing << " and " << other;
+}
+
+TEST(Layering, TheDrawingIsTheTable) {
+    std::ifstream page(fs::path(TRAPEZE_SOURCE_DIR) / "docs/architecture.md");
+    std::map<std::string, Names> drawn;
+    for (std::string line; std::getline(page, line);) {
+        const size_t arrow = line.find(" -> ");
+        if (arrow == std::string::npos || line.find('/') == std::string::npos) continue;
+        std::istringstream others(line.substr(arrow + 4));
+        for (std::string other; others >> other;) drawn[line.substr(0, arrow)].insert(other);
+    }
+    EXPECT_EQ(drawn, kWings);
 }
 
 TEST(Layering, LibrariesStayInTheirRooms) {

@@ -68,7 +68,7 @@ struct BallScene {
         const auto sampler = choose_sampler(method, "stratified", &error);
         EXPECT_TRUE(sampler) << error;
         const auto pattern = sampler->make_pattern(context);
-        const auto visibility = sampler->prepare(context, grids, *pattern);
+        const auto visibility = sampler->prepare(context, grids);
         pattern->make_tile(pixels, samples);
         HitBuffer found;
         SampleScratch scratch;

@@ -7,10 +7,6 @@
 
 namespace trapeze {
 
-PixelRect intersection(const PixelRect& a, const PixelRect& b) {
-    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 AxisRay Camera::ray(float raster_x, float raster_y, float lens_u, float lens_v, float time01) const {
     const float x = raster_x * plane_scale_x + plane_offset_x;
     const float y = raster_y * plane_scale_y + plane_offset_y;

@@ -3,23 +3,12 @@
 #pragma once
 
 #include "core/math.h"
+#include "core/pixel_rect.h"
 #include "core/rays.h"
 
 namespace trapeze {
 
 struct Options;
-
-/// An inclusive-exclusive rectangle of pixels.
-struct PixelRect {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-
-    int width() const { return x1 > x0 ? x1 - x0 : 0; }
-    int height() const { return y1 > y0 ? y1 - y0 : 0; }
-    bool empty() const { return x1 <= x0 || y1 <= y0; }
-    bool operator==(const PixelRect&) const = default;
-};
-
-PixelRect intersection(const PixelRect& a, const PixelRect& b);
 
 struct Camera {
     bool perspective = true;

@@ -48,7 +48,7 @@ class RateRun {
         MethodResult& result = results_[method];
         const SamplePattern& pattern = *patterns_[result.pattern];
         Stopwatch watch;
-        const auto visibility = result.sampler.prepare(context_, frame_.grids, pattern);
+        const auto visibility = result.sampler.prepare(context_, frame_.grids);
         const double prepared = watch.lap();
         result.build = visibility->build_stats();
         result.build_seconds.push_back(prepared - result.build.setup_seconds);

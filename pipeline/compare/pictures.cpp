@@ -15,7 +15,7 @@ std::optional<MethodPicture> resolve(const SharedFrame& frame, const RenderConte
                                      const Sampler& sampler, const std::function<void(double)>& on_progress,
                                      bool with_heat) {
     const auto pattern = sampler.make_pattern(context);
-    const auto visibility = sampler.prepare(context, frame.grids, *pattern);
+    const auto visibility = sampler.prepare(context, frame.grids);
     if (context.is_cancelled()) return {};
     HeatMap heat(with_heat ? frame.pixels : PixelRect{});
     Film film(context);

@@ -71,7 +71,7 @@ void sample_region(const FrameParts& frame, const Region& region, const Grids& g
                    double end, Film& film) {
     Stopwatch watch;
     frame.begin("build");
-    const std::unique_ptr<Visibility> visibility = frame.sampler.prepare(frame.context, grids, frame.pattern);
+    const std::unique_ptr<Visibility> visibility = frame.sampler.prepare(frame.context, grids);
     const BuildStats build = visibility->build_stats();
     FrameStats& stats = frame.stats;
     stats.seconds.build += watch.lap();

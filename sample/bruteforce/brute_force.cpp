@@ -12,16 +12,24 @@
 namespace trapeze {
 namespace {
 
-void fill_planes(const SampleTile& samples, SampleScratch& scratch) {
-    const size_t n = samples.size(), padded = n + kRayPadding;
-    for (auto* plane : {&scratch.ox, &scratch.oy, &scratch.ux, &scratch.uy, &scratch.time})
-        plane->assign(padded, 0.0f);
-    for (size_t i = 0; i < n; ++i) {
-        const AxisRay& ray = samples.rays[i];
-        scratch.ox[i] = ray.ox, scratch.oy[i] = ray.oy, scratch.ux[i] = ray.ux, scratch.uy[i] = ray.uy;
-        scratch.time[i] = ray.time;
+/// A tile's rays, and those of one micropolygon's hits.
+struct BruteForceScratch {
+    std::vector<float> ox, oy, ux, uy, time;  ///< rays in planes, padded to whole vectors
+    std::vector<uint32_t> found;              ///< samples that the predicate answered yes for
+    std::vector<float> found_depth;           ///< along each of them
+
+    void load(const SampleTile& samples) {
+        const size_t n = samples.size(), padded = n + kRayPadding;
+        for (auto* plane : {&ox, &oy, &ux, &uy, &time}) plane->assign(padded, 0.0f);
+        for (size_t i = 0; i < n; ++i) {
+            const AxisRay& ray = samples.rays[i];
+            ox[i] = ray.ox, oy[i] = ray.oy, ux[i] = ray.ux, uy[i] = ray.uy, time[i] = ray.time;
+        }
+        found.resize(n);
+        found_depth.resize(n);
     }
-}
+    RayPlanes planes() const { return {ox.data(), oy.data(), ux.data(), uy.data(), time.data()}; }
+};
 
 class BruteForce final : public Visibility {
   public:
@@ -36,12 +44,10 @@ class BruteForce final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        fill_planes(samples, scratch);
+        scratch.own.of<BruteForceScratch>().load(samples);
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
         scratch.hits.clear();
         scratch.hit_sample.clear();
-        scratch.found.resize(samples.size());
-        scratch.found_depth.resize(samples.size());
         for (size_t i = 0; i < boxes_.size(); ++i)
             if (!pixels_within(boxes_[i], samples.pixels).empty()) test_grid(i, samples, scratch, stats);
         stats.rays += samples.size();
@@ -71,15 +77,15 @@ class BruteForce final : public Visibility {
     void test_micropolygon(const MovingQuad& quad, const MicropolygonId& id, bool opaque,
                            const PixelRect& pixels, const SampleTile& samples, SampleScratch& scratch,
                            SampleStats& stats) const {
-        const RayPlanes rays{scratch.ox.data(), scratch.oy.data(), scratch.ux.data(), scratch.uy.data(),
-                             scratch.time.data()};
+        BruteForceScratch& own = scratch.own.of<BruteForceScratch>();
+        const RayPlanes rays = own.planes();
         const size_t count = static_cast<size_t>(pixels.width()) * samples.samples_per_pixel;
         for (int py = pixels.y0; py < pixels.y1; ++py) {
             const size_t found = find_hits(rays, samples.first_of_pixel(pixels.x0, py), count, quad,
-                                           scratch.found.data(), scratch.found_depth.data());
+                                           own.found.data(), own.found_depth.data());
             stats.predicate_tests += count, stats.predicate_hits += found;
             for (size_t i = 0; i < found; ++i)
-                keep(scratch.found[i], {scratch.found_depth[i], id.packed()}, opaque, scratch);
+                keep(own.found[i], {own.found_depth[i], id.packed()}, opaque, scratch);
         }
     }
 

@@ -30,8 +30,8 @@ class DualMesh {
           pixels_(raster.samples.pixels),
           bound_(bound),
           safe_(bound.boundable ? bound.z_safe : std::numeric_limits<float>::infinity()),
-          vertices_(raster.scratch.dual.vertices),
-          mesh_(raster.scratch.dual.mesh) {}
+          vertices_(raster.own.vertices),
+          mesh_(raster.own.mesh) {}
 
     /// Sets positions and boxes in the scratch for a part of a motion segment; false where no micropolygon
     /// may be seen in the tile.

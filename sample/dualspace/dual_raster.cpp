@@ -27,7 +27,7 @@ class GridDual {
           grid_(grid),
           bound_(grid.bounds[grid.index]),
           segments_(segment_count(grid.grid.key_count)),
-          scratch_(raster.scratch.dual),
+          scratch_(raster.own),
           vertices_(scratch_.vertices),
           masks_(scratch_.masks),
           width_(raster.samples.pixels.width()),

@@ -60,6 +60,7 @@ struct DualRaster {
     int parts;        ///< of the shutter, at least, that are bounded apart; a power of two
     bool all_opaque;  ///< else hits are also listed, as buffer_of_loose_hits() takes them
     SampleScratch& scratch;
+    DualScratch& own;
 };
 
 /// Runs on the best instruction set at hand.

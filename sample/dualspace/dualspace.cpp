@@ -24,11 +24,11 @@ class DualSpace final : public Rasterizer {
         if (grids.empty()) return;
         const Camera& c = camera();
         const PixelRect& pixels = samples.pixels;
-        DualScratch& dual = scratch.dual;
+        DualScratch& dual = scratch.own.of<DualScratch>();
         dual.masks.build(samples, c.has_lens());
         dual.columns.set_pixels(pixels.x0, pixels.width(), c.plane_scale_x, c.plane_offset_x);
         dual.rows.set_pixels(pixels.y0, pixels.height(), c.plane_scale_y, c.plane_offset_y);
-        DualRaster dual_raster{c, samples, parts_, all_opaque(), scratch};
+        DualRaster dual_raster{c, samples, parts_, all_opaque(), scratch, dual};
         for (const uint32_t index : grids)
             raster_grid_dual(dual_raster, {grid(index), index, bounds()}, stats);
     }

@@ -26,7 +26,7 @@ void resolve(const TestFrame& frame, const Grids& grids, std::string_view method
     const auto sampler = choose_sampler(method, "stratified", &error);
     ASSERT_TRUE(sampler) << error;
     const auto pattern = sampler->make_pattern(frame.context);
-    const auto visibility = sampler->prepare(frame.context, grids, *pattern);
+    const auto visibility = sampler->prepare(frame.context, grids);
     pattern->make_tile(pixels, result.samples);
     result.stats = {};
     visibility->resolve(result.samples, result.hits, result.scratch, result.stats);

@@ -92,7 +92,7 @@ class EmbreeTraced final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        const auto order = order_.of(samples, scratch);
+        const auto order = order_.of(samples, scratch.own.of<TileOrderScratch>());
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
         scratch.hits.clear();
         scratch.hit_sample.clear();

@@ -41,7 +41,7 @@ Resolved resolve(std::string_view name, const TestFrame& frame, const Grids& gri
     const auto sampler = choose_sampler(name, "", &error);
     EXPECT_TRUE(sampler) << error;
     const auto pattern = sampler->make_pattern(frame.context);
-    const auto visibility = sampler->prepare(frame.context, grids, *pattern);
+    const auto visibility = sampler->prepare(frame.context, grids);
     SampleTile samples;
     pattern->make_tile({0, 0, frame.options.width, frame.options.height}, samples);
     Resolved resolved;

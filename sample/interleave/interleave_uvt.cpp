@@ -18,19 +18,20 @@ class InterleaveUvt final : public Rasterizer {
   public:
     InterleaveUvt(const VisibilityInput& input)
         : Rasterizer(input, kUvtTileSide),
-          pattern_(dynamic_cast<const InterleavedPattern&>(input.pattern)),
+          pattern_(input.context, input.spec.number("k")),
           tuples_(pattern_, input.context.camera) {}
 
   private:
     void raster(const SampleTile& samples, const std::vector<uint32_t>& grids, SampleScratch& scratch,
                 SampleStats& stats) const override {
-        scratch.uvt.tile.build(samples.pixels, pattern_, camera());
-        UvtRaster uvt{camera(), pattern_, tuples_, samples.pixels, all_opaque(), cull(), scratch};
+        UvtScratch& own = scratch.own.of<UvtScratch>();
+        own.tile.build(samples.pixels, pattern_, camera());
+        UvtRaster uvt{camera(), pattern_, tuples_, samples.pixels, all_opaque(), cull(), scratch, own};
         for (const uint32_t index : grids) raster_grid_uvt(uvt, {grid(index), index, bounds()}, stats);
-        scratch.uvt.tile.copy_nearest(scratch.nearest);
+        own.tile.copy_nearest(scratch.nearest);
     }
 
-    const InterleavedPattern& pattern_;
+    InterleavedPattern pattern_;
     UvtTuples tuples_;
 };
 

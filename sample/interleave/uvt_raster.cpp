@@ -22,7 +22,7 @@ class GridRaster {
     GridRaster(UvtRaster& raster, const BoundedGrid& grid, SampleStats& stats)
         : raster_(raster),
           grid_(grid),
-          scratch_(raster.scratch.uvt),
+          scratch_(raster.own),
           tile_(scratch_.tile),
           rows_(scratch_.rows),
           mesh_(raster.camera, grid.bounds[grid.index], scratch_),

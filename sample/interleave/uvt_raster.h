@@ -65,6 +65,7 @@ struct UvtRaster {
     bool all_opaque = true;  ///< else hits are also listed, as buffer_of_loose_hits() takes them
     bool cull = false;       ///< skip what lies behind the nearest opaque hits
     SampleScratch& scratch;
+    UvtScratch& own;
 };
 
 /// Runs on the best instruction set at hand.

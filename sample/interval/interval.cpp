@@ -10,7 +10,9 @@
 /// No occlusion culling, as in the paper; cull=on goes through grids front to back and leaves out what lies
 /// behind the hits found. What is still and seen through a pinhole has one box for all slots.
 #include <algorithm>
+#include <optional>
 
+#include "sample/interval/interval_scratch.h"
 #include "sample/interval/slot_plan.h"
 #include "sample/interval/slot_raster.h"
 #include "sample/rasterize/rasterizer.h"
@@ -34,11 +36,11 @@ class Interval final : public Rasterizer {
   public:
     Interval(const VisibilityInput& input) : Rasterizer(input, kIntervalTileSide) {
         if (input.spec["pairing"] == "fixed") {
-            const auto& pattern = dynamic_cast<const IntervalPattern&>(input.pattern);
+            const IntervalPattern pattern(input.context);
             still_plan_ = still_plan(pattern.sample_count());
             plan_ = fixed_plan(pattern);
         } else {
-            shuffled_ = &dynamic_cast<const StratifiedPattern&>(input.pattern);
+            shuffled_.emplace(input.context);
             still_plan_ = still_plan(shuffled_->sample_count());
             plan_ = shuffled_plan(*shuffled_, std::min(kShuffledTimeSlots, shuffled_->sample_count()));
         }
@@ -47,28 +49,31 @@ class Interval final : public Rasterizer {
   private:
     void raster(const SampleTile& samples, const std::vector<uint32_t>& grids, SampleScratch& scratch,
                 SampleStats& stats) const override {
-        std::vector<uint32_t>&still = scratch.interval.still, &blurred = scratch.interval.blurred;
+        IntervalScratch& own = scratch.own.of<IntervalScratch>();
+        std::vector<uint32_t>&still = own.still, &blurred = own.blurred;
         still.clear();
         blurred.clear();
         for (const uint32_t index : grids) {
             const bool blurs = camera().has_lens() || (context().motion && grid(index).moves());
             (blurs ? blurred : still).push_back(index);
         }
-        resolve_still(samples, scratch, stats);
-        resolve_blurred(samples, scratch, stats);
+        resolve_still(samples, own, scratch, stats);
+        resolve_blurred(samples, own, scratch, stats);
     }
 
-    void resolve_still(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats) const {
-        if (scratch.interval.still.empty()) return;
+    void resolve_still(const SampleTile& samples, IntervalScratch& own, SampleScratch& scratch,
+                       SampleStats& stats) const {
+        if (own.still.empty()) return;
         // A block has the samples of one pixel, or of as few as fill it.
         const int cell_shift = samples.samples_per_pixel > 4 ? 0 : samples.samples_per_pixel > 1 ? 1 : 2;
-        scratch.interval.slots.build(samples, still_plan_.table({}), cell_shift, false);
-        raster_slots(samples, still_plan_, scratch.interval.still, false, scratch, stats);
+        own.slots.build(samples, still_plan_.table({}), cell_shift, false);
+        raster_slots(samples, still_plan_, own.still, false, own, scratch, stats);
     }
 
-    void resolve_blurred(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats) const {
-        if (scratch.interval.blurred.empty()) return;
-        std::vector<uint32_t>& keys = scratch.interval.key_of_pixel;
+    void resolve_blurred(const SampleTile& samples, IntervalScratch& own, SampleScratch& scratch,
+                         SampleStats& stats) const {
+        if (own.blurred.empty()) return;
+        std::vector<uint32_t>& keys = own.key_of_pixel;
         keys.clear();
         const bool shifted = shuffled_ && shuffled_->has_time_shifts();
         if (shifted)
@@ -76,27 +81,27 @@ class Interval final : public Rasterizer {
                 for (int x = samples.pixels.x0; x < samples.pixels.x1; ++x)
                     keys.push_back(shuffled_->time_shift(x, y));
         const int cell_shift = shifted ? kSparseCellShift : kSlotCellShift;
-        scratch.interval.slots.build(samples, plan_.table(keys), cell_shift, shifted);
-        raster_slots(samples, plan_, scratch.interval.blurred, shifted, scratch, stats);
+        own.slots.build(samples, plan_.table(keys), cell_shift, shifted);
+        raster_slots(samples, plan_, own.blurred, shifted, own, scratch, stats);
     }
 
     void raster_slots(const SampleTile& samples, const SlotPlan& plan, const std::vector<uint32_t>& grids,
-                      bool sparse, SampleScratch& scratch, SampleStats& stats) const {
-        SampleSlots& slots = scratch.interval.slots;
+                      bool sparse, IntervalScratch& own, SampleScratch& scratch, SampleStats& stats) const {
+        SampleSlots& slots = own.slots;
         SlotRaster slot_raster{camera(), slots,  samples.pixels.x0, samples.pixels.y0, all_opaque(), cull(),
                                sparse,   scratch};
         for (size_t slot = 0; slot < plan.slots.size(); ++slot) {
             if (slots.is_empty(slot)) continue;
             for (const uint32_t index : grids)
-                raster_grid_in_slot(slot_raster, samples.pixels, index, plan.slots[slot], slot, stats);
+                raster_grid_in_slot(slot_raster, own, samples.pixels, index, plan.slots[slot], slot, stats);
         }
         slots.merge_into(scratch.nearest);
     }
 
-    void raster_grid_in_slot(SlotRaster& raster, const PixelRect& tile, uint32_t index, const Slot& at,
-                             size_t slot, SampleStats& stats) const {
+    void raster_grid_in_slot(SlotRaster& raster, IntervalScratch& own, const PixelRect& tile, uint32_t index,
+                             const Slot& at, size_t slot, SampleStats& stats) const {
         const Grid& seen = grid(index);
-        std::vector<SegmentPart>& parts = raster.scratch.interval.parts;
+        std::vector<SegmentPart>& parts = own.parts;
         parts.clear();
         segment_parts(at.time, seen.key_count, parts);
         const SlotBound bound = bounds().slot_bound(index, parts, at.lens);
@@ -104,10 +109,10 @@ class Interval final : public Rasterizer {
         if (pixels.empty()) return;
         pixels.x0 -= tile.x0, pixels.x1 -= tile.x0, pixels.y0 -= tile.y0, pixels.y1 -= tile.y0;
         raster_grid(raster, {seen, index, bounds()[index], slot, parts, at.lens, pixels, bound.z_min},
-                    raster.scratch.interval.grid, stats);
+                    own.grid, stats);
     }
 
-    const StratifiedPattern* shuffled_ = nullptr;  ///< pairing=shuffled
+    std::optional<StratifiedPattern> shuffled_;  ///< pairing=shuffled
     SlotPlan still_plan_, plan_;
 };
 

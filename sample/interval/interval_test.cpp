@@ -52,8 +52,7 @@ Resolved resolve(const TestFrame& frame, const Grids& grids, std::string_view me
     resolved.heat.nodes.assign(samples.size(), 0);
     SampleScratch scratch;
     scratch.heat = &resolved.heat;
-    sampler->prepare(frame.context, grids, *pattern)
-        ->resolve(samples, resolved.hits, scratch, resolved.stats);
+    sampler->prepare(frame.context, grids)->resolve(samples, resolved.hits, scratch, resolved.stats);
     return resolved;
 }
 

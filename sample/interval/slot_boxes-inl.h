@@ -17,6 +17,7 @@
 #include <limits>
 
 #include "core/hit_micropolygon-inl.h"
+#include "sample/interval/interval_scratch.h"
 #include "sample/interval/slot_raster.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -17,7 +17,7 @@ Rasterizer::Rasterizer(const VisibilityInput& input, int tile_side)
 
 void Rasterizer::resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const {
-    std::vector<uint32_t>& grids = scratch.raster_grids;
+    std::vector<uint32_t>& grids = scratch.own.of<RasterizerScratch>().grids;
     bins_.find(samples.pixels, grids);
     if (cull_)
         std::stable_sort(grids.begin(), grids.end(),

@@ -8,6 +8,11 @@
 
 namespace trapeze {
 
+/// What a thread needs for any rasterizer.
+struct RasterizerScratch {
+    std::vector<uint32_t> grids;  ///< that the tile may see
+};
+
 class Rasterizer : public Visibility {
   public:
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,

@@ -53,7 +53,7 @@ TEST(TileOrder, IsAPermutationRememberedWhileItServes) {
     SampleTile tile;
     tile.pixels = {16, 16, 32, 32}, tile.samples_per_pixel = 4;
     tile.resize(16 * 16 * 4);
-    SampleScratch scratch;
+    TileOrderScratch scratch;
     const auto first = still.of(tile, scratch);
     std::vector<uint32_t> sorted(first.begin(), first.end());
     std::sort(sorted.begin(), sorted.end());
@@ -65,9 +65,9 @@ TEST(TileOrder, IsAPermutationRememberedWhileItServes) {
     EXPECT_EQ(still.of(tile, scratch).data(), made);
     tile.pixels = {0, 0, 8, 16}, tile.resize(8 * 16 * 4);
     EXPECT_EQ(still.of(tile, scratch).size(), tile.size());
-    EXPECT_EQ(scratch.bundle_orders.size(), 2u);
+    EXPECT_EQ(scratch.known.size(), 2u);
     other.of(tile, scratch);
-    EXPECT_EQ(scratch.bundle_orders.size(), 1u) << "another method's orders are of no use";
+    EXPECT_EQ(scratch.known.size(), 1u) << "another method's orders are of no use";
 }
 
 }  // namespace

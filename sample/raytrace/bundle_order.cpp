@@ -103,7 +103,7 @@ void z_order_of_pixels(const SampleTile& samples, std::vector<uint32_t>& first) 
 }
 
 /// Pixel by pixel; a pixel's samples one after another.
-void order_by_pixels(const SampleTile& samples, SampleScratch& scratch, std::vector<uint32_t>& result) {
+void order_by_pixels(const SampleTile& samples, BundleOrderScratch& scratch, std::vector<uint32_t>& result) {
     z_order_of_pixels(samples, scratch.pixel_first);
     result.resize(samples.size());
     uint32_t* next = result.data();
@@ -168,7 +168,7 @@ BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, bool moti
 }
 
 void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
-                   SampleScratch& scratch, std::vector<uint32_t>& result) {
+                   BundleOrderScratch& scratch, std::vector<uint32_t>& result) {
     const int width = samples.pixels.width(), height = samples.pixels.height();
     const auto per_pixel = static_cast<uint32_t>(samples.samples_per_pixel);
     const int lens_bits = defocus ? order.lens_bits : 0, time_bits = motion ? order.time_bits : 0;

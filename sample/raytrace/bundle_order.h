@@ -1,9 +1,11 @@
 /// The order in which rays go into bundles.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/samples.h"
 #include "sample/raytrace/blur_map.h"
-#include "sample/visibility.h"
 
 namespace trapeze {
 
@@ -20,9 +22,16 @@ struct BundleOrder {
 /// The order in which the fewest grids and blocks are met in vain, by a model of what groups of rays cover.
 BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, bool motion, bool defocus);
 
+/// What a thread needs for the sort of a tile's samples.
+struct BundleOrderScratch {
+    std::vector<uint32_t> keys;         ///< by sample
+    std::vector<uint32_t> starts;       ///< by key: the place of its next sample
+    std::vector<uint32_t> pixel_first;  ///< the first sample of each pixel, along a Z-order curve
+};
+
 /// Sets `result`, indices of samples: block by block of pixels; within by cell of the lens, then by time,
 /// then by pixel along a Z-order curve. Without motion or a lens what tells them apart is left out.
 void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
-                   SampleScratch& scratch, std::vector<uint32_t>& result);
+                   BundleOrderScratch& scratch, std::vector<uint32_t>& result);
 
 }  // namespace trapeze

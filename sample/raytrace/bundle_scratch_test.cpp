@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sample/frame_harness.h"
-#include "sample/visibility.h"
+#include "sample/raytrace/wide_raytrace.h"
 
 namespace trapeze {
 namespace {
@@ -27,7 +27,7 @@ SampleStats resolve(const TestFrame& frame, const Grids& grids, SampleScratch& s
     std::string error;
     const auto sampler = choose_sampler("raytrace", "", &error);
     const auto pattern = sampler->make_pattern(frame.context);
-    const auto visibility = sampler->prepare(frame.context, grids, *pattern);
+    const auto visibility = sampler->prepare(frame.context, grids);
     SampleTile samples;
     pattern->make_tile({0, 0, 16, 16}, samples);
     SampleStats stats;
@@ -46,15 +46,13 @@ TEST(BundleScratch, WhatIsLeftInItChangesNothing) {
                     return V3f(0.2f * i - 1 + 0.1f * k + t, 0.2f * j - 1 - 0.2f * k, 4 + k - 0.3f * i);
                 });
             SampleScratch clean;
-            clean.bundle_scratch = make_bundle_scratch();
-            poison(clean.bundle_scratch->active, 0);
+            poison(clean.own.of<WideScratch>().tracing->active, 0);
             HitBuffer clean_hits;
             const SampleStats wanted = resolve(frame, maker.grids(), clean, clean_hits);
             for (const float value :
                  {kInfinite, -kInfinite, std::numeric_limits<float>::quiet_NaN(), 1e38f}) {
                 SampleScratch scratch;
-                scratch.bundle_scratch = make_bundle_scratch();
-                poison(scratch.bundle_scratch->active, value);
+                poison(scratch.own.of<WideScratch>().tracing->active, value);
                 HitBuffer hits;
                 const SampleStats stats = resolve(frame, maker.grids(), scratch, hits);
                 EXPECT_EQ(hits, clean_hits) << value;

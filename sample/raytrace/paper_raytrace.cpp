@@ -4,6 +4,7 @@
 
 #include "accel/paper/micropolygon_tree.h"
 #include "accel/paper/paper_tree.h"
+#include "accel/paper/top_level.h"
 #include "sample/hit_lists.h"
 #include "sample/raytrace/ray_order.h"
 
@@ -24,6 +25,12 @@ PaperTreeOptions tree_options(const MethodSpec& spec) {
     return options;
 }
 
+/// What a thread needs for rays through the paper's tree.
+struct PaperScratch {
+    RayOrder rays;
+    TopLevel tile_top, group_top;  ///< what of the tree the tile, and a group of its rays, may meet
+};
+
 /// `Tree` is PaperTree or MicropolygonTree.
 template <class Tree>
 class PaperRayTraced final : public Visibility {
@@ -38,7 +45,7 @@ class PaperRayTraced final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        order_rays(samples, sort_by_time_, sort_by_direction_, scratch);
+        order_rays(samples, sort_by_time_, sort_by_direction_, scratch.own.of<PaperScratch>().rays);
         SampleStats counted;  // on the stack, so that counting stays in registers
         if (all_opaque_)
             resolve_closest(samples, hits, scratch, counted);
@@ -55,7 +62,8 @@ class PaperRayTraced final : public Visibility {
     template <class TraceOne>
     void trace_in_order(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats,
                         TraceOne&& trace_one) const {
-        const std::span<const uint32_t> order = scratch.order;
+        PaperScratch& own = scratch.own.of<PaperScratch>();
+        const std::span<const uint32_t> order = own.rays.order;
         if (order.empty()) return;
         const auto trace_group = [&](std::span<const uint32_t> group, const TopLevel& part) {
             for (const uint32_t sample : group) {
@@ -72,12 +80,11 @@ class PaperRayTraced final : public Visibility {
             trace_group(order, tree_.top());
             return;
         }
-        tree_.top().within(Beam(samples.rays, order, range_), scratch.tile_top, &stats.nodes_visited);
+        tree_.top().within(Beam(samples.rays, order, range_), own.tile_top, &stats.nodes_visited);
         for (size_t first = 0; first < order.size(); first += kGroupSize) {
             const auto group = order.subspan(first, std::min(kGroupSize, order.size() - first));
-            scratch.tile_top.within(Beam(samples.rays, group, range_), scratch.group_top,
-                                    &stats.nodes_visited);
-            trace_group(group, scratch.group_top);
+            own.tile_top.within(Beam(samples.rays, group, range_), own.group_top, &stats.nodes_visited);
+            trace_group(group, own.group_top);
         }
     }
 

@@ -49,35 +49,35 @@ struct Quantiser {
     }
 };
 
-/// Stable counting sort of scratch.order by scratch.keys (by sample).
-void sort_by_keys(SampleScratch& scratch) {
+/// Stable counting sort of result.order by result.keys (by sample).
+void sort_by_keys(RayOrder& result) {
     std::array<uint32_t, (1 << 3 * kBits) + 1> start{};
-    for (const uint32_t key : scratch.keys) ++start[key + 1];
+    for (const uint32_t key : result.keys) ++start[key + 1];
     for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-    scratch.sorted.resize(scratch.order.size());
-    for (const uint32_t sample : scratch.order) scratch.sorted[start[scratch.keys[sample]]++] = sample;
-    scratch.order.swap(scratch.sorted);
+    result.sorted.resize(result.order.size());
+    for (const uint32_t sample : result.order) result.sorted[start[result.keys[sample]]++] = sample;
+    result.order.swap(result.sorted);
 }
 
 }  // namespace
 
-void order_rays(const SampleTile& samples, bool motion, bool defocus, SampleScratch& scratch) {
-    z_order(samples, scratch.order);
+void order_rays(const SampleTile& samples, bool motion, bool defocus, RayOrder& result) {
+    z_order(samples, result.order);
     if ((!motion && !defocus) || samples.size() == 0) return;
     // The stable sorts one after another are one by the joined key, the last sort's most significant.
-    scratch.keys.assign(samples.size(), 0);
+    result.keys.assign(samples.size(), 0);
     if (motion)
         for (size_t i = 0; i < samples.size(); ++i)
-            scratch.keys[i] = std::min(static_cast<uint32_t>(samples.time[i] * kLevels), kLevels - 1);
+            result.keys[i] = std::min(static_cast<uint32_t>(samples.time[i] * kLevels), kLevels - 1);
     if (defocus) {
         const Quantiser x(samples, [](const AxisRay& ray) { return ray.ux; });
         const Quantiser y(samples, [](const AxisRay& ray) { return ray.uy; });
         for (size_t i = 0; i < samples.size(); ++i) {
             const AxisRay& ray = samples.rays[i];
-            scratch.keys[i] |= (y(ray.uy) << kBits | x(ray.ux)) << kBits;
+            result.keys[i] |= (y(ray.uy) << kBits | x(ray.ux)) << kBits;
         }
     }
-    sort_by_keys(scratch);
+    sort_by_keys(result);
 }
 
 }  // namespace trapeze

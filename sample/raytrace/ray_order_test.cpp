@@ -33,32 +33,32 @@ TEST(RayOrder, IsAPermutationForAnyTileAndEffects) {
                                             PixelRect{0, 0, 1, 1}, PixelRect{5, 5, 22, 7}}) {
                 const TestFrame frame(64, 64, 3, motion, defocus);
                 const SampleTile tile = tile_of(frame, pixels);
-                SampleScratch scratch;
-                order_rays(tile, motion, defocus, scratch);
-                EXPECT_TRUE(is_permutation_of_all(scratch.order, tile.size()));
+                RayOrder result;
+                order_rays(tile, motion, defocus, result);
+                EXPECT_TRUE(is_permutation_of_all(result.order, tile.size()));
             }
 }
 
 TEST(RayOrder, OfNoPixelsIsEmpty) {
-    SampleScratch scratch;
-    scratch.order = {1, 2};
-    order_rays(SampleTile{}, true, true, scratch);
-    EXPECT_TRUE(scratch.order.empty());
+    RayOrder result;
+    result.order = {1, 2};
+    order_rays(SampleTile{}, true, true, result);
+    EXPECT_TRUE(result.order.empty());
 }
 
 TEST(RayOrder, PixelsFollowTheZCurve) {
     const TestFrame frame(64, 64, 1, false, false);
     const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
-    SampleScratch scratch;
-    order_rays(tile, false, false, scratch);
-    const std::vector<uint32_t> first(scratch.order.begin(), scratch.order.begin() + 8);
+    RayOrder result;
+    order_rays(tile, false, false, result);
+    const std::vector<uint32_t> first(result.order.begin(), result.order.begin() + 8);
     EXPECT_EQ(first, (std::vector<uint32_t>{0, 1, 16, 17, 2, 3, 18, 19}));
 }
 
 TEST(RayOrder, TimeComesBeforeThePixelAndIsStable) {
     const TestFrame frame(64, 64, 3, true, false);
     const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
-    SampleScratch still, moving;
+    RayOrder still, moving;
     order_rays(tile, false, false, still);
     order_rays(tile, true, false, moving);
     std::vector<uint32_t> expected = still.order;
@@ -71,7 +71,7 @@ TEST(RayOrder, TimeComesBeforeThePixelAndIsStable) {
 TEST(RayOrder, DirectionComesBeforeTime) {
     const TestFrame frame(64, 64, 4, true, true);
     const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
-    SampleScratch by_time, by_both;
+    RayOrder by_time, by_both;
     order_rays(tile, true, false, by_time);
     order_rays(tile, true, true, by_both);
     const auto [low, high] = std::minmax_element(

@@ -2,13 +2,28 @@
 /// it serves again.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "sample/raytrace/blur_map.h"
 #include "sample/raytrace/bundle_order.h"
 
 namespace trapeze {
+
+/// An order of a tile's samples that may serve again.
+struct KnownOrder {
+    const void* owner = nullptr;  ///< who made it
+    std::array<int, 6> kind{};    ///< for what tiles, how sorted
+    std::vector<uint32_t> order;
+};
+
+/// What a thread needs while it puts samples in order.
+struct TileOrderScratch {
+    std::vector<KnownOrder> known;  ///< at most a few
+    BundleOrderScratch sort;
+};
 
 class TileOrder {
   public:
@@ -16,7 +31,7 @@ class TileOrder {
     TileOrder(const Camera& camera, const Grids& grids, bool motion);
 
     /// Indices of samples; valid until the next call with the same scratch.
-    std::span<const uint32_t> of(const SampleTile& samples, SampleScratch& scratch) const;
+    std::span<const uint32_t> of(const SampleTile& samples, TileOrderScratch& scratch) const;
 
   private:
     bool motion_, lens_;

@@ -40,9 +40,8 @@ class WideRayTraced final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        if (!scratch.bundle) scratch.bundle = std::make_unique<RayBundle>();
-        if (!scratch.bundle_scratch) scratch.bundle_scratch = make_bundle_scratch();
-        const std::span<const uint32_t> all = order_.of(samples, scratch);
+        WideScratch& own = scratch.own.of<WideScratch>();
+        const std::span<const uint32_t> all = order_.of(samples, scratch.own.of<TileOrderScratch>());
         // Where every grid is opaque the hits need no list: they are written to their places.
         std::vector<Hit>& nearest = all_opaque_ ? hits.hits : scratch.nearest;
         nearest.resize(samples.size());
@@ -54,9 +53,9 @@ class WideRayTraced final : public Visibility {
         };
         size_t misses = 0;
         for (size_t first = 0; first < all.size(); first += RayBundle::kRays) {
-            scratch.bundle->coming_rays = samples.rays.data();
-            scratch.bundle->coming = bundle_at(first + RayBundle::kRays);
-            misses += resolve_bundle(samples, bundle_at(first), nearest, scratch, stats);
+            own.bundle.coming_rays = samples.rays.data();
+            own.bundle.coming = bundle_at(first + RayBundle::kRays);
+            misses += resolve_bundle(samples, bundle_at(first), nearest, own, scratch, stats);
         }
         if (all_opaque_)
             close_gaps(misses, hits);
@@ -69,16 +68,18 @@ class WideRayTraced final : public Visibility {
   private:
     /// How many of the rays hit nothing opaque.
     size_t resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order,
-                          std::vector<Hit>& nearest, SampleScratch& scratch, SampleStats& stats) const {
-        RayBundle& rays = *scratch.bundle;
+                          std::vector<Hit>& nearest, WideScratch& own, SampleScratch& scratch,
+                          SampleStats& stats) const {
+        RayBundle& rays = own.bundle;
         // Rays start in one point only where they all pass a pinhole.
         const bool origins = lens_ || !camera_.perspective;
         fill_bundle(samples.rays, order, origins, motion_, rays);
-        count_costs_from(rays, scratch);
+        rays.tests = rays.nodes = nullptr;
+        if (scratch.heat) count_costs(own);
         // Parallel rays meet nowhere: their intervals are as wide everywhere.
         const float meet_at = lens_ ? camera_.focal_distance : HUGE_VALF;
-        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, meet_at, rays,
-                     *scratch.bundle_scratch, stats);
+        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, meet_at, rays, *own.tracing,
+                     stats);
         size_t misses = 0;
         for (size_t i = 0; i < order.size(); ++i) {
             const bool missed = rays.id[i] == RayBundle::kNone;
@@ -93,12 +94,10 @@ class WideRayTraced final : public Visibility {
         return misses;
     }
 
-    static void count_costs_from(RayBundle& rays, SampleScratch& scratch) {
-        rays.tests = rays.nodes = nullptr;
-        if (!scratch.heat) return;
-        scratch.ray_tests.assign(RayBundle::kRoom, 0);
-        scratch.ray_nodes.assign(RayBundle::kRoom, 0);
-        rays.tests = scratch.ray_tests.data(), rays.nodes = scratch.ray_nodes.data();
+    static void count_costs(WideScratch& own) {
+        own.tests.assign(RayBundle::kRoom, 0);
+        own.nodes.assign(RayBundle::kRoom, 0);
+        own.bundle.tests = own.tests.data(), own.bundle.nodes = own.nodes.data();
     }
     static void add_costs(const RayBundle& rays, std::span<const uint32_t> order, SampleScratch& scratch) {
         if (!scratch.heat) return;

@@ -93,7 +93,7 @@ struct Competitor {
 /// The samples of a method, in tiles of its size.
 void make_tiles(const SamplingScene& scene, const std::vector<PixelRect>& areas, Competitor& c) {
     c.pattern = c.sampler.make_pattern(scene.frame.context);
-    const int side = c.sampler.prepare(scene.frame.context, scene.maker.grids(), *c.pattern)->tile_side();
+    const int side = c.sampler.prepare(scene.frame.context, scene.maker.grids())->tile_side();
     for (const PixelRect& area : areas)
         for (int y = area.y0; y < area.y1; y += side)
             for (int x = area.x0; x < area.x1; x += side)
@@ -104,7 +104,7 @@ void make_tiles(const SamplingScene& scene, const std::vector<PixelRect>& areas,
 /// One turn of a method: prepare, resolve all tiles. With the threads of the calling arena.
 void take_turn_here(const SamplingScene& scene, Competitor& c) {
     const double begin = now();
-    const auto visibility = c.sampler.prepare(scene.frame.context, scene.maker.grids(), *c.pattern);
+    const auto visibility = c.sampler.prepare(scene.frame.context, scene.maker.grids());
     const double built = now();
     tbb::enumerable_thread_specific<Thread> threads;
     std::atomic<size_t> hits{0};

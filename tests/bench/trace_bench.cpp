@@ -79,7 +79,7 @@ void build(benchmark::State& state, const char* method_name) {
     BuildStats stats;
     for (auto _ : state) {
         const auto start = std::chrono::steady_clock::now();
-        const auto method = sampler->prepare(scene.frame.context, scene.maker.grids(), pattern);
+        const auto method = sampler->prepare(scene.frame.context, scene.maker.grids());
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
         stats = method->build_stats();
         state.SetIterationTime(taken.count() - stats.setup_seconds);
@@ -98,7 +98,7 @@ void trace(benchmark::State& state, const char* method_name) {
     std::string error;
     const auto sampler = choose_sampler(method_name, "", &error);
     if (!sampler) return state.SkipWithError(error.c_str());
-    const auto method = sampler->prepare(scene.frame.context, scene.maker.grids(), pattern);
+    const auto method = sampler->prepare(scene.frame.context, scene.maker.grids());
     const auto all = testing::tiles_of({0, 0, 1280, 720});
     std::vector<SampleTile> tiles;
     for (size_t i = 0; i < all.size(); i += 37) pattern.make_tile(all[i], tiles.emplace_back());

@@ -6,9 +6,9 @@
 #include "shade/rsl/analysis/globals.h"
 #include "shade/rsl/analysis/storage.h"
 #include "shade/rsl/analysis/suggestions.h"
-#include "shade/rsl/front_end.h"
 #include "shade/rsl/syntax/clone.h"
 #include "shade/rsl/syntax/parser.h"
+#include "shade/rsl/syntax/printer.h"
 
 namespace trapeze::rsl {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "shade/rsl/analysis/analyser.h"
 #include "shade/rsl/analysis/globals.h"
-#include "shade/rsl/front_end.h"
 #include "shade/rsl/syntax/parser.h"
+#include "shade/rsl/syntax/printer.h"
 
 namespace trapeze::rsl {
 

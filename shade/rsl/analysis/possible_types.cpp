@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "shade/rsl/analysis/analyser.h"
-#include "shade/rsl/front_end.h"
 #include "shade/rsl/syntax/clone.h"
 #include "shade/rsl/syntax/parser.h"
+#include "shade/rsl/syntax/printer.h"
 
 namespace trapeze::rsl {
 namespace {

@@ -1,6 +1,6 @@
 #include "shade/rsl/analysis/signature.h"
 
-#include "shade/rsl/front_end.h"
+#include "shade/rsl/syntax/printer.h"
 
 namespace trapeze::rsl {
 namespace {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "shade/rsl/syntax/ast.h"
 #include "shade/rsl/syntax/condition.h"
 
 namespace trapeze::rsl {

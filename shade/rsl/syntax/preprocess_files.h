@@ -3,9 +3,9 @@
 
 #include <unordered_set>
 
-#include "shade/rsl/front_end.h"
 #include "shade/rsl/syntax/lexer.h"
 #include "shade/rsl/syntax/macros.h"
+#include "shade/rsl/syntax/source.h"
 
 namespace trapeze::rsl {
 

@@ -2,8 +2,8 @@
 /// docs/decisions/0010-preprocessor.md for why it is our own.)
 #pragma once
 
-#include "shade/rsl/front_end.h"
 #include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/source.h"
 #include "shade/rsl/syntax/token.h"
 
 namespace trapeze::rsl {

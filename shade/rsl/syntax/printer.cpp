@@ -1,8 +1,8 @@
 #include <charconv>
 #include <cstdio>
 
-#include "shade/rsl/front_end.h"
 #include "shade/rsl/syntax/parser.h"
+#include "shade/rsl/syntax/printer.h"
 
 namespace trapeze::rsl {
 namespace {

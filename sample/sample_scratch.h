@@ -1,0 +1,49 @@
+/// A thread's working memory while it resolves tiles.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/hit_buffer.h"
+
+namespace trapeze {
+
+/// What samples cost, for pictures of it: indexed by sample, set to zero by the caller.
+struct SampleHeat {
+    std::vector<uint32_t> tests;  ///< predicate tests
+    std::vector<uint32_t> nodes;  ///< nodes visited, or (rasterizers) boxes set up that reached the sample
+};
+
+/// One object of each type that somebody asked for, made when first asked for. So every method owns its
+/// working memory, and who calls methods need not know of it.
+class OwnScratch {
+  public:
+    template <class T>
+    T& of() {
+        for (const auto& [type, object] : objects_)
+            if (type == &kTypeOf<T>) return *static_cast<T*>(object.get());
+        objects_.emplace_back(&kTypeOf<T>, std::make_shared<T>());
+        return *static_cast<T*>(objects_.back().second.get());
+    }
+
+  private:
+    template <class T>
+    static constexpr char kTypeOf = 0;  ///< its address stands for the type
+
+    std::vector<std::pair<const void*, std::shared_ptr<void>>> objects_;
+};
+
+/// One a thread, used again from tile to tile, by whatever methods and for whatever grids. The lists are what
+/// hit_lists.h makes hit buffers from.
+struct SampleScratch {
+    SampleHeat* heat = nullptr;          ///< when set, methods add what each sample cost
+    std::vector<Hit> nearest;            ///< sample -> nearest opaque hit
+    std::vector<Hit> hits;               ///< in the order of finding
+    std::vector<uint32_t> hit_sample;    ///< whose each of these is
+    std::vector<uint32_t> first, count;  ///< sample -> its range in hits
+    OwnScratch own;                      ///< of methods
+};
+
+}  // namespace trapeze
