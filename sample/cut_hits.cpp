@@ -4,10 +4,6 @@
 
 namespace trapeze {
 
-bool may_be_cut(const Scene& scene, const Primitive& primitive) {
-    return primitive.solid >= 0 || !scene.clipping_planes.empty();
-}
-
 SolidState::SolidState(const std::vector<Solid>& solids)
     : solids_(solids),
       child_count_(solids.size()),

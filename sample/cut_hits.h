@@ -10,10 +10,6 @@
 
 namespace trapeze {
 
-/// Whether hits of the primitive may be cut away, so that what is behind them must be found too: its grids
-/// are then packed as not opaque, and to be hit from both sides.
-bool may_be_cut(const Scene& scene, const Primitive& primitive);
-
 /// Which leaves of the trees of solids hold the point that travels along a ray, and so which roots do.
 class SolidState {
   public:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/scene/scene.h"
 #include "sample/cut_hits.h"
 #include "tessellate/dicing_harness.h"
 

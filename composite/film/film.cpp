@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "composite/film/pixel_depth.h"
 #include "composite/film/resolve_layers.h"
+#include "composite/film/tile_sums.h"
 
 namespace trapeze {
 namespace {
@@ -16,11 +18,7 @@ PixelRect grown(const PixelRect& r, int x, int y) {
     return {r.x0 - x, r.y0 - y, r.x1 + x, r.y1 + y};
 }
 
-std::string depth_filter_name(const Options& options) {
-    return options.hider_parameters.string_or("depthfilter", "min");
-}
-
-/// The same with a warning where the name is not known.
+/// depth_filter() with a warning where the name is not known.
 DepthFilter depth_filter_of(const RenderContext& context) {
     const DepthFilter filter = depth_filter(context.scene->options);
     const std::string name = depth_filter_name(context.scene->options);
@@ -35,84 +33,27 @@ bool wants_ids(const Options& options) {
                        [](const Display& display) { return display.mode == "id"; });
 }
 
-/// The depths of a pixel's samples, in their order.
-class PixelDepth {
-  public:
-    explicit PixelDepth(DepthFilter filter) : filter_(filter) {}
-
-    void add(float depth) {
-        if (depth >= kInfinity) return;
-        if (count_ == 0)
-            value_ = depth;
-        else if (filter_ == DepthFilter::Min || filter_ == DepthFilter::Midpoint)
-            value_ = std::min(value_, depth);
-        else if (filter_ == DepthFilter::Max)
-            value_ = std::max(value_, depth);
-        else
-            value_ += depth;
-        ++count_;
-    }
-    float value() const {
-        if (count_ == 0) return kInfinity;
-        return filter_ == DepthFilter::Average ? value_ / static_cast<float>(count_) : value_;
-    }
-
-  private:
-    DepthFilter filter_;
-    float value_ = 0;
-    int count_ = 0;
-};
-
-/// What the sample nearest a pixel's centre sees; the first of equals.
-class CentrePrimitive {
-  public:
-    CentrePrimitive(int px, int py) : x_(static_cast<float>(px) + 0.5f), y_(static_cast<float>(py) + 0.5f) {}
-
-    void add(float x, float y, uint32_t primitive) {
-        const float dx = x - x_, dy = y - y_, distance = dx * dx + dy * dy;
-        if (distance < nearest_) nearest_ = distance, primitive_ = primitive;
-    }
-    uint32_t value() const { return primitive_; }
-
-  private:
-    float x_, y_;
-    float nearest_ = kInfinity;
-    uint32_t primitive_ = kNoPrimitive;
-};
-
 }  // namespace
 
-DepthFilter depth_filter(const Options& options) {
-    const std::string name = depth_filter_name(options);
-    if (name == "max") return DepthFilter::Max;
-    if (name == "average") return DepthFilter::Average;
-    return name == "midpoint" ? DepthFilter::Midpoint : DepthFilter::Min;
-}
-
-/// A tile's own sums, over its pixels and all that its samples may reach.
-struct Film::Sums {
+/// What of some samples lies in one of the film's tiles.
+struct FilmPart {
     PixelRect pixels;
-    std::vector<float> weights;  ///< one a pixel
-    std::vector<float> rgba;     ///< four a pixel; empty when no sample hits anything
-    std::vector<float> aovs;     ///< channels of output variables, `aov_channels` a pixel; empty with rgba
+    const SampleTile& samples;
+    const HitBuffer& hits;
+    const Grids& grids;
 
-    Sums(const PixelRect& tile, const FilterKernel& kernel, bool colored, int aov_channels)
-        : pixels(kernel.footprint(tile)) {
-        const size_t count = static_cast<size_t>(pixels.width()) * pixels.height();
-        weights.resize(count);
-        if (!colored) return;
-        rgba.resize(4 * count);
-        aovs.resize(static_cast<size_t>(aov_channels) * count);
+    size_t first_of(int px, int py) const { return samples.first_of_pixel(px, py); }
+    bool hits_anything() const {
+        if (hits.hits.empty() || hits.size() != samples.size()) return false;
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            if (hits.first[first_of(pixels.x1, y)] > hits.first[first_of(pixels.x0, y)]) return true;
+        return false;
     }
-    size_t index(int x, int y) const {
-        return static_cast<size_t>(y - pixels.y0) * pixels.width() + static_cast<size_t>(x - pixels.x0);
-    }
-    size_t bytes() const { return sizeof(float) * (weights.size() + rgba.size() + aovs.size()); }
 };
 
 struct Film::Tile {
     /// Set by the thread that adds the tile, before it lowers the neighbours' `missing`.
-    std::unique_ptr<Sums> sums;
+    std::unique_ptr<TileSums> sums;
     /// Tiles that this one's pixels wait for. At 0 they are developed, or none of them is in the crop.
     std::atomic<int> missing{0};
     /// Tiles whose pixels still need `sums`.
@@ -157,10 +98,14 @@ Film::Film(const RenderContext& context, bool record_ids)
 
 Film::~Film() = default;
 
-PixelRect Film::tile_pixels(int tile) const {
+PixelRect Film::tile_square(int tile) const {
     const int x = (first_tile_x_ + tile % tiles_x_) * kTileSide,
               y = (first_tile_y_ + tile / tiles_x_) * kTileSide;
-    return intersection({x, y, x + kTileSide, y + kTileSide}, sampled_);
+    return {x, y, x + kTileSide, y + kTileSide};
+}
+
+PixelRect Film::tile_pixels(int tile) const {
+    return intersection(tile_square(tile), sampled_);
 }
 
 bool Film::reaches(int from, int to) const {
@@ -178,17 +123,23 @@ void Film::for_each_neighbour(int tile, Visit&& visit) const {
 }
 
 void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) {
-    if (samples.pixels.empty()) return;
-    const int column = tile_of(samples.pixels.x0) - first_tile_x_,
-              row = tile_of(samples.pixels.y0) - first_tile_y_;
+    const PixelRect& pixels = samples.pixels;
+    if (pixels.empty()) return;
+    for (int row = tile_of(pixels.y0); row <= tile_of(pixels.y1 - 1); ++row)
+        for (int column = tile_of(pixels.x0); column <= tile_of(pixels.x1 - 1); ++column)
+            add_tile(column - first_tile_x_, row - first_tile_y_, samples, hits, grids);
+}
+
+void Film::add_tile(int column, int row, const SampleTile& samples, const HitBuffer& hits,
+                    const Grids& grids) {
     if (column < 0 || column >= tiles_x_ || row < 0 || row >= tiles_y_) return;
     const int index = row * tiles_x_ + column;
     Tile& tile = tiles_[index];
     if (tile.added.exchange(true)) return;
-    const bool colored = !hits.hits.empty() && hits.size() == samples.size();
-    auto sums = std::make_unique<Sums>(samples.pixels, kernel_, colored, aovs_.channel_count);
-    accumulate(samples, hits, grids, *sums);
-    if (!sums->aovs.empty()) accumulate_aovs(samples, hits, grids, *sums);
+    const FilmPart part{intersection(tile_square(index), samples.pixels), samples, hits, grids};
+    auto sums = std::make_unique<TileSums>(part.pixels, kernel_, part.hits_anything(), aovs_.channel_count);
+    accumulate(part, *sums);
+    if (sums->channels(Sum::Aov) > 0) accumulate_aovs(part, *sums);
     if (tile.readers.load(std::memory_order_relaxed) > 0) {
         waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
         tile.sums = std::move(sums);
@@ -200,40 +151,42 @@ void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& gr
 }
 
 /// The usual filters' sizes are compiled in.
-void Film::accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums) {
+void Film::accumulate(const FilmPart& part, TileSums& sums) {
     const int taps = kernel_.taps_x() == kernel_.taps_y() ? kernel_.taps_x() : 0;
-    if (taps == 1) return accumulate_taps<1>(samples, hits, grids, sums);
-    if (taps == 2) return accumulate_taps<2>(samples, hits, grids, sums);
-    if (taps == 3) return accumulate_taps<3>(samples, hits, grids, sums);
-    if (taps == 4) return accumulate_taps<4>(samples, hits, grids, sums);
-    accumulate_taps<0>(samples, hits, grids, sums);
+    if (taps == 1) return accumulate_taps<1>(part, sums);
+    if (taps == 2) return accumulate_taps<2>(part, sums);
+    if (taps == 3) return accumulate_taps<3>(part, sums);
+    if (taps == 4) return accumulate_taps<4>(part, sums);
+    accumulate_taps<0>(part, sums);
 }
 
 template <int kTaps>
-void Film::accumulate_taps(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums) {
+void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
+    constexpr float kOne = 1;
+    const SampleTile& samples = part.samples;
     std::vector<float> weights(kernel_.tap_count());
     const bool midpoint = depth_filter_ == DepthFilter::Midpoint;
-    const bool colored = !sums.rgba.empty(), ids = !image_.id.empty();
-    const auto row = static_cast<size_t>(samples.pixels.width()) * samples.samples_per_pixel;
+    const bool colored = sums.channels(Sum::Color) > 0, ids = !image_.id.empty();
     HitLayers layers;
-    size_t sample = 0;
-    for (int py = samples.pixels.y0; py < samples.pixels.y1; ++py) {
-        if (colored) layers.interpolate(samples, hits, sample, std::min(sample + row, samples.size()), grids);
-        for (int px = samples.pixels.x0; px < samples.pixels.x1; ++px) {
-            const size_t end =
-                std::min(samples.size(), sample + static_cast<size_t>(samples.samples_per_pixel));
+    for (int py = part.pixels.y0; py < part.pixels.y1; ++py) {
+        if (colored)
+            layers.interpolate(samples, part.hits, part.first_of(part.pixels.x0, py),
+                               part.first_of(part.pixels.x1, py), part.grids);
+        for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
             PixelDepth depth(depth_filter_);
             CentrePrimitive primitive(px, py);
-            for (; sample < end; ++sample) {
-                const auto seen = colored ? hits.of(sample) : std::span<const Hit>();
+            for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
+                const auto seen = colored ? part.hits.of(sample) : std::span<const Hit>();
                 const float x = samples.x[sample], y = samples.y[sample];
+                const FilterTaps taps = kernel_.weigh<kTaps>(x, y, px, py, weights.data());
+                sums.add<kTaps, 1>(Sum::Weight, taps, weights.data(), &kOne);
                 if (seen.empty()) {
-                    add_sample<kTaps>(x, y, px, py, nullptr, weights.data(), sums);
                     if (ids) primitive.add(x, y, kNoPrimitive);
                     continue;
                 }
-                const SampleColor color = resolve_layers(seen, layers, hits.first[sample], grids, midpoint);
-                add_sample<kTaps>(x, y, px, py, color.rgba, weights.data(), sums);
+                const SampleColor color =
+                    resolve_layers(seen, layers, part.hits.first[sample], part.grids, midpoint);
+                sums.add<kTaps, 4>(Sum::Color, taps, weights.data(), color.rgba);
                 depth.add(color.depth);
                 if (ids) primitive.add(x, y, color.primitive);
             }
@@ -242,41 +195,20 @@ void Film::accumulate_taps(const SampleTile& samples, const HitBuffer& hits, con
     }
 }
 
-template <int kTaps>
-void Film::add_sample(float x, float y, int px, int py, const float* rgba, float* weights, Sums& sums) const {
-    const int nx = kTaps ? kTaps : kernel_.taps_x(), ny = kTaps ? kTaps : kernel_.taps_y();
-    const FilterTaps taps = kernel_.weigh<kTaps>(x, y, px, py, weights);
-    size_t row = sums.index(taps.x0, taps.y0);
-    for (int j = 0; j < ny; ++j, row += sums.pixels.width(), weights += nx) {
-        for (int i = 0; i < nx; ++i) sums.weights[row + i] += weights[i];
-        if (!rgba) continue;
-        for (int i = 0; i < nx; ++i)
-            for (int c = 0; c < 4; ++c) sums.rgba[4 * (row + i) + c] += weights[i] * rgba[c];
-    }
-}
-
-void Film::accumulate_aovs(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
-                           Sums& sums) const {
-    const auto channels = static_cast<size_t>(aovs_.channel_count);
-    std::vector<float> weights(kernel_.tap_count()), values(channels);
-    const int nx = kernel_.taps_x(), ny = kernel_.taps_y();
-    size_t sample = 0;
-    for (int py = samples.pixels.y0; py < samples.pixels.y1; ++py)
-        for (int px = samples.pixels.x0; px < samples.pixels.x1; ++px) {
-            const size_t end =
-                std::min(samples.size(), sample + static_cast<size_t>(samples.samples_per_pixel));
-            for (; sample < end; ++sample) {
-                const auto seen = hits.of(sample);
+/// In a pass of its own, so that pictures without output variables pay nothing.
+void Film::accumulate_aovs(const FilmPart& part, TileSums& sums) const {
+    const SampleTile& samples = part.samples;
+    std::vector<float> weights(kernel_.tap_count()), values(sums.channels(Sum::Aov));
+    for (int py = part.pixels.y0; py < part.pixels.y1; ++py)
+        for (int px = part.pixels.x0; px < part.pixels.x1; ++px)
+            for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
+                const auto seen = part.hits.of(sample);
                 if (seen.empty()) continue;
-                resolve_aovs(samples.rays[sample], seen, grids, aovs_, values.data());
+                resolve_aovs(samples.rays[sample], seen, part.grids, aovs_, values.data());
                 const FilterTaps taps =
                     kernel_.weigh(samples.x[sample], samples.y[sample], px, py, weights.data());
-                for (int tap = 0; tap < nx * ny; ++tap) {
-                    float* sum = &sums.aovs[channels * sums.index(taps.x0 + tap % nx, taps.y0 + tap / nx)];
-                    for (size_t c = 0; c < channels; ++c) sum[c] += weights[tap] * values[c];
-                }
+                sums.add<0, 0>(Sum::Aov, taps, weights.data(), values.data());
             }
-        }
 }
 
 /// Depth and id are of the samples within the pixel alone, which all lie in one tile.
@@ -302,54 +234,47 @@ void Film::release(int tile) {
     tiles_[tile].sums.reset();
 }
 
-void Film::develop(int tile) {
-    const PixelRect pixels = intersection(tile_pixels(tile), image_.window);
-    const size_t count = static_cast<size_t>(pixels.width()) * pixels.height();
-    std::vector<float> weights(count), colors(4 * count);
+/// Adds what the tiles around a tile, itself included, have in its pixels; in the order of tiles.
+/// `first_of(x, y)` is where a pixel's channels go.
+template <class FirstOf>
+void Film::gather(int tile, Sum sum, const PixelRect& pixels, const FirstOf& first_of) const {
     for_each_neighbour(tile, [&](int from) {
-        const Sums* sums = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
-        if (!sums) return;
-        const PixelRect shared = intersection(sums->pixels, pixels);
+        const TileSums* sums = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
+        const size_t channels = sums ? sums->channels(sum) : 0;
+        if (channels == 0) return;
+        const PixelRect shared = intersection(sums->pixels(), pixels);
         for (int y = shared.y0; y < shared.y1; ++y)
             for (int x = shared.x0; x < shared.x1; ++x) {
-                const size_t at = static_cast<size_t>(y - pixels.y0) * pixels.width() + (x - pixels.x0);
-                const size_t source = sums->index(x, y);
-                weights[at] += sums->weights[source];
-                if (sums->rgba.empty()) continue;
-                for (int c = 0; c < 4; ++c) colors[4 * at + c] += sums->rgba[4 * source + c];
+                const float* const source = sums->pixel(sum, x, y);
+                float* const target = first_of(x, y);
+                for (size_t c = 0; c < channels; ++c) target[c] += source[c];
             }
     });
-    size_t at = 0;
-    for (int y = pixels.y0; y < pixels.y1; ++y)
-        for (int x = pixels.x0; x < pixels.x1; ++x, ++at) {
-            if (weights[at] == 0) continue;
-            float* rgba = &image_.rgba[4 * image_.index(x, y)];
-            for (int c = 0; c < 4; ++c) rgba[c] = colors[4 * at + c] / weights[at];
-            expose(rgba);
-        }
-    if (!aovs_.empty()) develop_aovs(tile, weights);
 }
 
-/// `weights` are the sums of the weights of the tile's pixels, those that develop() divides colours by.
-void Film::develop_aovs(int tile, const std::vector<float>& weights) {
+/// From sums to pixels: each sum by that of the weights, 0 where that is 0.
+void Film::develop(int tile) {
     const PixelRect pixels = intersection(tile_pixels(tile), image_.window);
+    const auto width = static_cast<size_t>(pixels.width());
+    std::vector<float> weights(width * static_cast<size_t>(pixels.height()));
+    const auto weight = [&](int x, int y) {
+        return &weights[static_cast<size_t>(y - pixels.y0) * width + static_cast<size_t>(x - pixels.x0)];
+    };
     const auto channels = static_cast<size_t>(aovs_.channel_count);
-    for_each_neighbour(tile, [&](int from) {
-        const Sums* sums = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
-        if (!sums || sums->aovs.empty()) return;
-        const PixelRect shared = intersection(sums->pixels, pixels);
-        for (int y = shared.y0; y < shared.y1; ++y)
-            for (int x = shared.x0; x < shared.x1; ++x) {
-                const float* source = &sums->aovs[channels * sums->index(x, y)];
-                float* sum = &image_.aovs[channels * image_.index(x, y)];
-                for (size_t c = 0; c < channels; ++c) sum[c] += source[c];
-            }
-    });
-    size_t at = 0;
+    const auto color = [&](int x, int y) { return &image_.rgba[4 * image_.index(x, y)]; };
+    const auto aov = [&](int x, int y) { return image_.aovs.data() + channels * image_.index(x, y); };
+    gather(tile, Sum::Weight, pixels, weight);
+    gather(tile, Sum::Color, pixels, color);
+    gather(tile, Sum::Aov, pixels, aov);
     for (int y = pixels.y0; y < pixels.y1; ++y)
-        for (int x = pixels.x0; x < pixels.x1; ++x, ++at) {
-            float* values = &image_.aovs[channels * image_.index(x, y)];
-            for (size_t c = 0; c < channels; ++c) values[c] = weights[at] == 0 ? 0 : values[c] / weights[at];
+        for (int x = pixels.x0; x < pixels.x1; ++x) {
+            const float sum = *weight(x, y);
+            const auto divide = [sum](float* values, size_t count) {
+                for (size_t c = 0; c < count; ++c) values[c] = sum == 0 ? 0 : values[c] / sum;
+            };
+            divide(color(x, y), 4);
+            if (sum != 0) expose(color(x, y));
+            divide(aov(x, y), channels);
         }
 }
 

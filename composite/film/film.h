@@ -19,16 +19,14 @@
 #include "core/hit_buffer.h"
 #include "core/samples.h"
 #include "core/scene/aov.h"
+#include "core/scene/depth_filter.h"
 #include "core/scene/render_context.h"
 
 namespace trapeze {
 
-/// Hider "depthfilter": what the depths of a pixel's samples make.
-enum class DepthFilter { Min, Max, Average, Midpoint };
-
-/// As Hider "depthfilter" says; Min for a name that is not known. Midpoint wants a sample's hits beyond the
-/// first opaque one.
-DepthFilter depth_filter(const Options& options);
+struct FilmPart;
+class TileSums;
+enum class Sum : uint8_t;
 
 class Film {
   public:
@@ -39,9 +37,9 @@ class Film {
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
 
-    /// Adds what the samples of a tile see: a tile of kTileSide pixels anchored at multiples of kTileSide, or
-    /// that part of it that lies within sampled_pixels(). Thread-safe; each tile once (a second time it is
-    /// ignored).
+    /// Adds what samples see: of a rectangle whose sides lie at multiples of kTileSide or at those of
+    /// sampled_pixels(). How the picture is cut into such rectangles changes no bit of it. Thread-safe; each
+    /// square of kTileSide once (a second time it is ignored).
     void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids);
 
     /// The picture. Pixels that still wait for tiles are made of those that came. Call once, after the last
@@ -52,28 +50,28 @@ class Film {
     size_t waiting_bytes() const { return waiting_bytes_.load(std::memory_order_relaxed); }
 
   private:
-    struct Sums;
     struct Tile;
 
+    /// A tile's pixels, and those of them whose samples count.
+    PixelRect tile_square(int tile) const;
     PixelRect tile_pixels(int tile) const;
+    void add_tile(int column, int row, const SampleTile& samples, const HitBuffer& hits, const Grids& grids);
     /// Calls visit(tile) for the tiles around a tile, itself included, in the order of tiles.
     template <class Visit>
     void for_each_neighbour(int tile, Visit&& visit) const;
     /// Whether samples of a tile reach pixels (of the crop) of another.
     bool reaches(int from, int to) const;
 
-    void accumulate(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums);
+    void accumulate(const FilmPart& part, TileSums& sums);
     /// kTaps is FilterKernel::weigh()'s.
     template <int kTaps>
-    void accumulate_taps(const SampleTile& samples, const HitBuffer& hits, const Grids& grids, Sums& sums);
-    template <int kTaps>
-    void add_sample(float x, float y, int px, int py, const float* rgba, float* weights, Sums& sums) const;
-    void accumulate_aovs(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
-                         Sums& sums) const;
+    void accumulate_taps(const FilmPart& part, TileSums& sums);
+    void accumulate_aovs(const FilmPart& part, TileSums& sums) const;
     void record_pixel(int px, int py, float depth, uint32_t primitive);
     void settle(int tile);
     void develop(int tile);
-    void develop_aovs(int tile, const std::vector<float>& weights);
+    template <class FirstOf>
+    void gather(int tile, Sum sum, const PixelRect& pixels, const FirstOf& first_of) const;
     void release(int tile);
     void expose(float* rgba) const;
 

@@ -162,4 +162,10 @@ struct Scene {
     std::map<std::string, M44f> camera_from_named;  ///< CoordinateSystem, at shutter open
 };
 
+/// Whether solids or clipping planes may cut hits of the primitive away, so that what is behind them must be
+/// found too.
+inline bool may_be_cut(const Scene& scene, const Primitive& primitive) {
+    return primitive.solid >= 0 || !scene.clipping_planes.empty();
+}
+
 }  // namespace trapeze

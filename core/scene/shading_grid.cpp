@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/depth_filter.h"
+#include "core/scene/level_of_detail.h"
 #include "core/scene/scene.h"
 
 namespace trapeze {
@@ -55,11 +57,23 @@ bool all_opaque(const Triples& opacity, size_t count) {
     return true;
 }
 
+bool faces_the_eye(const Shape& shape) {
+    if (std::holds_alternative<Points>(shape.topology)) return true;
+    return std::holds_alternative<Curves>(shape.topology) && !shape.variables.find("N");
+}
+
 }  // namespace
 
 Facing facing_for_sides(int sides, bool reverse_orientation) {
     if (sides != 1) return Facing::Both;
     return reverse_orientation ? Facing::PositiveOnly : Facing::NegativeOnly;
+}
+
+PackOptions pack_options(const Scene& scene, const Primitive& primitive) {
+    const bool cut = may_be_cut(scene, primitive);
+    return {cut || !seen_numbers(*primitive.attributes).are_all() ||
+                depth_filter(scene.options) == DepthFilter::Midpoint,
+            cut || faces_the_eye(primitive.shape())};
 }
 
 Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite,

@@ -14,6 +14,7 @@
 namespace trapeze {
 
 struct Primitive;
+struct Scene;
 
 /// Three planes of floats: points, vectors, normals or colours.
 struct Triples {
@@ -97,6 +98,11 @@ struct PackOptions {
     bool keep_hits_behind = false;  ///< the grid does not count as opaque, whatever Oi
     bool both_sides = false;        ///< hit from both, whatever Sides
 };
+
+/// What a scene asks of a primitive's grids. Hits behind are kept where samples may not see what they hit: it
+/// may be cut away, or be another level of detail than theirs; and where they want the second layer's depth,
+/// too. What may be cut away shows its inside; points, and curves without normals, have no back.
+PackOptions pack_options(const Scene& scene, const Primitive& primitive);
 
 /// Packs a shaded grid: positions into tiles, Ci and Oi into halves, output variables into floats. Values
 /// that are not finite become 0 (colours and output variables) or the nearest finite vertex's position;

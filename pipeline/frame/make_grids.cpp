@@ -9,10 +9,7 @@
 #include <deque>
 #include <optional>
 
-#include "composite/film/film.h"
-#include "core/scene/level_of_detail.h"
 #include "pipeline/frame/stopwatch.h"
-#include "sample/cut_hits.h"
 #include "shade/materials/grid_parts.h"
 
 namespace trapeze {
@@ -35,22 +32,9 @@ constexpr size_t kGrain = 4;
 /// divided, so that there are so many tasks for each thread.
 constexpr size_t kFewForAThread = 16, kPartsForAThread = 2;
 
-/// Points, and curves without normals, have no back.
-bool faces_the_eye(const Shape& shape) {
-    if (std::holds_alternative<Points>(shape.topology)) return true;
-    return std::holds_alternative<Curves>(shape.topology) && !shape.variables.find("N");
-}
-
-PackOptions packing(const Scene& scene, const Primitive& primitive) {
-    const bool cut = may_be_cut(scene, primitive);
-    return {cut || !seen_numbers(*primitive.attributes).are_all() ||
-                depth_filter(scene.options) == DepthFilter::Midpoint,
-            cut || faces_the_eye(primitive.shape())};
-}
-
 void pack(const Scene& scene, const ShadingGrid& grid, GridMaker& maker) {
     int64_t not_finite = 0;
-    maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, packing(scene, *grid.primitive)));
+    maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, pack_options(scene, *grid.primitive)));
     maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
 }
 
@@ -150,7 +134,6 @@ void make_few(const RenderContext& context, const Region& region, const Tessella
 
 }  // namespace
 
-/// Dices and shades a region's subpatches.
 Grids make_grids(const RenderContext& context, const Region& region, const Tessellation& tessellation,
                  const Shading& shading, FrameStats& stats, Progress& progress) {
     Stopwatch wall;

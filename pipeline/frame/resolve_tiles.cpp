@@ -11,51 +11,13 @@ namespace {
 
 /// What a thread needs to resolve tiles.
 struct TileResolver {
-    SampleTile samples, part_samples;
-    HitBuffer hits, part_hits;
+    SampleTile samples;
+    HitBuffer hits;
     SampleScratch scratch;
     SampleHeat heat;
     SampleStats stats;
     double trace_seconds = 0, composite_seconds = 0;
 };
-
-/// The samples of some of a tile's pixels and what they see.
-void take_part(const SampleTile& samples, const HitBuffer& hits, const PixelRect& pixels, SampleTile& part,
-               HitBuffer& part_hits) {
-    const size_t row = static_cast<size_t>(pixels.width()) * samples.samples_per_pixel;
-    part.pixels = pixels;
-    part.samples_per_pixel = samples.samples_per_pixel;
-    part.resize(row * pixels.height());
-    part_hits.hits.clear();
-    part_hits.first.assign(1, 0);
-    for (int y = pixels.y0; y < pixels.y1; ++y) {
-        const size_t from = samples.first_of_pixel(pixels.x0, y), to = part.first_of_pixel(pixels.x0, y);
-        const auto copy = [&](const auto& source, auto& target) {
-            std::copy_n(source.begin() + static_cast<std::ptrdiff_t>(from), row,
-                        target.begin() + static_cast<std::ptrdiff_t>(to));
-        };
-        copy(samples.x, part.x), copy(samples.y, part.y), copy(samples.time, part.time);
-        copy(samples.lens_u, part.lens_u), copy(samples.lens_v, part.lens_v);
-        copy(samples.rays, part.rays);
-        for (size_t s = from; s < from + row; ++s) {
-            const auto found = hits.of(s);
-            part_hits.hits.insert(part_hits.hits.end(), found.begin(), found.end());
-            part_hits.first.push_back(static_cast<uint32_t>(part_hits.hits.size()));
-        }
-    }
-}
-
-/// The film takes tiles of kTileSide, so that its sums do not depend on the method.
-void add_to_film(TileResolver& resolver, const Grids& grids, int tile_side, Film& film) {
-    if (tile_side == kTileSide) {
-        film.add(resolver.samples, resolver.hits, grids);
-        return;
-    }
-    for (const PixelRect& pixels : tiles_of(resolver.samples.pixels)) {
-        take_part(resolver.samples, resolver.hits, pixels, resolver.part_samples, resolver.part_hits);
-        film.add(resolver.part_samples, resolver.part_hits, grids);
-    }
-}
 
 void clear_heat(TileResolver& resolver) {
     resolver.heat.tests.assign(resolver.samples.size(), 0);
@@ -97,7 +59,7 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
         visibility.resolve(resolver.samples, resolver.hits, resolver.scratch, resolver.stats);
         resolver.trace_seconds += watch.lap();
         if (heat) take_heat(resolver, *heat);
-        add_to_film(resolver, grids, visibility.tile_side(), film);
+        film.add(resolver.samples, resolver.hits, grids);
         resolver.composite_seconds += watch.lap();
         on_step();
     };

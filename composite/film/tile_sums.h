@@ -1,0 +1,64 @@
+/// A tile's own sums, over its pixels and all others that its samples may reach.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "composite/film/filters.h"
+#include "core/scene/camera.h"
+
+namespace trapeze {
+
+/// What is summed, each with its channels: filter weights (1), premultiplied colour and alpha (4), output
+/// variables (as many as the frame has). The picture is colours, and variables, divided by weights.
+enum class Sum : uint8_t { Weight, Color, Aov };
+inline constexpr std::array kSums{Sum::Weight, Sum::Color, Sum::Aov};
+
+class TileSums {
+  public:
+    /// `colored`: some sample hits something; else colours and variables are not even there.
+    TileSums(const PixelRect& tile, const FilterKernel& kernel, bool colored, int aov_channels)
+        : pixels_(kernel.footprint(tile)), taps_x_(kernel.taps_x()), taps_y_(kernel.taps_y()) {
+        channels_ = {1, colored ? 4 : 0, colored ? aov_channels : 0};
+        const size_t count = static_cast<size_t>(pixels_.width()) * pixels_.height();
+        for (const Sum sum : kSums) values_[at(sum)].resize(count * channels(sum));
+    }
+
+    const PixelRect& pixels() const { return pixels_; }
+    /// 0: not there.
+    size_t channels(Sum sum) const { return static_cast<size_t>(channels_[at(sum)]); }
+    const float* pixel(Sum sum, int x, int y) const {
+        return values_[at(sum)].data() + channels(sum) * index(x, y);
+    }
+
+    /// Adds a sample's values, of as many channels as the sum has, to the pixels of its taps by their
+    /// weights. kTaps (taps along either axis) and kChannels: where the caller's compiler knows them, else 0.
+    template <int kTaps, int kChannels>
+    void add(Sum sum, const FilterTaps& taps, const float* weights, const float* values) {
+        const int nx = kTaps ? kTaps : taps_x_, ny = kTaps ? kTaps : taps_y_;
+        const size_t n = kChannels ? kChannels : channels(sum);
+        float* row = values_[at(sum)].data() + n * index(taps.x0, taps.y0);
+        for (int j = 0; j < ny; ++j, row += n * pixels_.width(), weights += nx)
+            for (int i = 0; i < nx; ++i)
+                for (size_t c = 0; c < n; ++c) row[n * i + c] += weights[i] * values[c];
+    }
+
+    size_t bytes() const {
+        size_t floats = 0;
+        for (const auto& values : values_) floats += values.size();
+        return floats * sizeof(float);
+    }
+
+  private:
+    static size_t at(Sum sum) { return static_cast<size_t>(sum); }
+    size_t index(int x, int y) const {
+        return static_cast<size_t>(y - pixels_.y0) * pixels_.width() + static_cast<size_t>(x - pixels_.x0);
+    }
+
+    PixelRect pixels_;
+    int taps_x_, taps_y_;
+    std::array<int, kSums.size()> channels_{};
+    std::array<std::vector<float>, kSums.size()> values_;  ///< row by row; a pixel's channels together
+};
+
+}  // namespace trapeze
