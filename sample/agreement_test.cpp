@@ -84,12 +84,19 @@ void add_shards(GridMaker& maker, int count, int keys, uint32_t seed, float z_fr
     }
 }
 
-std::vector<TestScene> make_scenes() {
-    std::vector<TestScene> scenes;
-    scenes.reserve(32);
-    const auto scene = [&](const char* name, bool motion, bool defocus) -> TestScene& {
-        return scenes.emplace_back(TestScene{name, TestFrame(40, 24, 3, motion, defocus), {}});
-    };
+/// Adds an empty scene of a name to a list that has room.
+class AddScene {
+  public:
+    explicit AddScene(std::vector<TestScene>& scenes) : scenes_(scenes) {}
+    TestScene& operator()(const char* name, bool motion, bool defocus) const {
+        return scenes_.emplace_back(TestScene{name, TestFrame(40, 24, 3, motion, defocus), {}});
+    }
+
+  private:
+    std::vector<TestScene>& scenes_;
+};
+
+void add_kinds_of_blur(const AddScene& scene) {
     add_sheets(scene("static", false, false).maker, 30, 1, 1);
     add_sheets(scene("motion", true, false).maker, 30, 2, 2);
     add_sheets(scene("defocus", false, true).maker, 30, 1, 3);
@@ -107,6 +114,9 @@ std::vector<TestScene> make_scenes() {
         int seed = 10;
         for (const int keys : {1, 2, 3, 5, 9, 65}) add_sheets(maker, 6, keys, seed++);
     }
+}
+
+void add_thin_things(const AddScene& scene) {
     {
         GridMaker& maker = scene("hair", true, true).maker;
         Noise noise{std::mt19937(20)};
@@ -141,6 +151,9 @@ std::vector<TestScene> make_scenes() {
         }
         add_sheets(slivers.maker, 3, 1, 34);
     }
+}
+
+void add_degenerate_things(const AddScene& scene) {
     {
         TestScene& behind = scene("behind the lens", true, true);
         behind.must_hit = false;
@@ -156,6 +169,9 @@ std::vector<TestScene> make_scenes() {
                 return V3f(static_cast<float>(i) * 4 - 32, -1, static_cast<float>(j + 16 * part) * 0.5f - 20);
             });
     }
+}
+
+void add_looks_and_cameras(const AddScene& scene) {
     {
         GridMaker& maker = scene("transparent layers", true, true).maker;
         maker.opaque = false;
@@ -206,6 +222,16 @@ std::vector<TestScene> make_scenes() {
                   [](int i, int j, float) { return V3f(1e16f * (i - 0.5f), 1e16f * (j - 0.5f), 100); });
         add_sheets(maker, 10, 2, 33);
     }
+}
+
+std::vector<TestScene> make_scenes() {
+    std::vector<TestScene> scenes;
+    scenes.reserve(32);  // scenes stay where they are: their contexts are referred to
+    const AddScene scene(scenes);
+    add_kinds_of_blur(scene);
+    add_thin_things(scene);
+    add_degenerate_things(scene);
+    add_looks_and_cameras(scene);
     return scenes;
 }
 

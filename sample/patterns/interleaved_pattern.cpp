@@ -60,12 +60,7 @@ std::vector<uint32_t> pairing(const std::vector<uint32_t>& base, int nx, int ny,
 }  // namespace
 
 InterleavedPattern::InterleavedPattern(const RenderContext& context, int side)
-    : camera_(context.camera),
-      side_(side),
-      nx_(std::max(1, context.samples_x)),
-      ny_(std::max(1, context.samples_y)),
-      seed_(context.seed),
-      motion_(context.motion) {
+    : SamplePattern(context), side_(side) {
     make_tuples();
 }
 
@@ -115,9 +110,7 @@ float InterleavedPattern::coordinate(int pixel, float fraction) {
 }
 
 void InterleavedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
-    tile.pixels = pixels;
-    tile.samples_per_pixel = sample_count();
-    tile.resize(static_cast<size_t>(pixels.width()) * pixels.height() * tile.samples_per_pixel);
+    begin_tile(pixels, tile);
     for (int ty = floor_divided(pixels.y0, side_); ty * side_ < pixels.y1; ++ty)
         for (int tx = floor_divided(pixels.x0, side_); tx * side_ < pixels.x1; ++tx) {
             const Groups groups = groups_of_tile(tx, ty);

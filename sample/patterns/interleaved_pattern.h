@@ -35,7 +35,6 @@ class InterleavedPattern final : public SamplePattern {
 
     int side() const { return side_; }
     int group_count() const { return side_ * side_; }
-    int sample_count() const { return nx_ * ny_; }  ///< of a pixel, and so of a group
     int tuple_count() const { return group_count() * sample_count(); }
 
     /// Sample s of a pixel that has group g is tuple g * sample_count() + s.
@@ -51,10 +50,7 @@ class InterleavedPattern final : public SamplePattern {
     void make_tuples();
     void make_pixel(int px, int py, int group, SampleTile& tile) const;
 
-    Camera camera_;
-    int side_, nx_, ny_;
-    uint32_t seed_;
-    bool motion_;
+    int side_;
     std::vector<SampleTuple> tuples_;
 };
 

@@ -25,18 +25,12 @@ void shuffle(std::vector<uint32_t>& order, uint32_t pixel_hash) {
 }  // namespace
 
 IntervalPattern::IntervalPattern(const RenderContext& context)
-    : camera_(context.camera),
-      nx_(std::max(1, context.samples_x)),
-      ny_(std::max(1, context.samples_y)),
-      seed_(context.seed),
-      motion_(context.motion),
+    : SamplePattern(context),
       lens_of_(
           hashed_permutation(static_cast<size_t>(sample_count()), hash(context.seed, dimension::kLensU))) {}
 
 void IntervalPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
-    tile.pixels = pixels;
-    tile.samples_per_pixel = sample_count();
-    tile.resize(static_cast<size_t>(pixels.width()) * pixels.height() * tile.samples_per_pixel);
+    begin_tile(pixels, tile);
     std::vector<uint32_t> subpixels(static_cast<size_t>(sample_count()));
     for (int py = pixels.y0; py < pixels.y1; ++py)
         for (int px = pixels.x0; px < pixels.x1; ++px)

@@ -16,7 +16,6 @@ class IntervalPattern final : public SamplePattern {
     /// subpixel region that differs from pixel to pixel.
     void make_tile(const PixelRect& pixels, SampleTile& tile) const override;
 
-    int sample_count() const { return nx_ * ny_; }
     /// Where sample `sample` of all pixels looks.
     TimeSpan time_bounds(int sample) const;
     LensBox lens_bounds(int sample) const;
@@ -24,10 +23,6 @@ class IntervalPattern final : public SamplePattern {
   private:
     void make_pixel(int px, int py, std::vector<uint32_t>& subpixels, size_t first, SampleTile& tile) const;
 
-    Camera camera_;
-    int nx_, ny_;
-    uint32_t seed_;
-    bool motion_;
     std::vector<uint32_t> lens_of_;  ///< sample, which is its time region -> lens region
 };
 

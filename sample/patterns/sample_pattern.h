@@ -2,6 +2,7 @@
 /// visibility method; every method has a natural one, and a method may honour only some.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,28 @@ class SamplePattern {
 
     /// All samples of a rectangle of pixels. What a pixel gets depends on the pixel alone.
     virtual void make_tile(const PixelRect& pixels, SampleTile& tile) const = 0;
+
+    int sample_count() const { return nx_ * ny_; }  ///< of a pixel
+
+  protected:
+    explicit SamplePattern(const RenderContext& context)
+        : camera_(context.camera),
+          nx_(std::max(1, context.samples_x)),
+          ny_(std::max(1, context.samples_y)),
+          seed_(context.seed),
+          motion_(context.motion) {}
+
+    /// An empty tile of these pixels, with room for their samples.
+    void begin_tile(const PixelRect& pixels, SampleTile& tile) const {
+        tile.pixels = pixels;
+        tile.samples_per_pixel = sample_count();
+        tile.resize(static_cast<size_t>(pixels.width()) * pixels.height() * tile.samples_per_pixel);
+    }
+
+    Camera camera_;
+    int nx_, ny_;  ///< regions of a pixel, a sample each
+    uint32_t seed_;
+    bool motion_;
 };
 
 /// A row of the table of patterns.

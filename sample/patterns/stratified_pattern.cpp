@@ -29,11 +29,7 @@ std::vector<uint32_t> time_permutation(const std::vector<uint32_t>& lens_of, int
 }  // namespace
 
 StratifiedPattern::StratifiedPattern(const RenderContext& context)
-    : camera_(context.camera),
-      nx_(std::max(1, context.samples_x)),
-      ny_(std::max(1, context.samples_y)),
-      seed_(context.seed),
-      motion_(context.motion),
+    : SamplePattern(context),
       lens_of_(lens_permutation(nx_, ny_, context.seed)),
       time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)),
       regions_(nx_, ny_, camera_.has_lens(), motion_, lens_of_, time_of_) {
@@ -64,9 +60,7 @@ LensBox StratifiedPattern::lens_bounds(int sample) const {
 }
 
 void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {
-    tile.pixels = pixels;
-    tile.samples_per_pixel = nx_ * ny_;
-    tile.resize(static_cast<size_t>(pixels.width()) * pixels.height() * tile.samples_per_pixel);
+    begin_tile(pixels, tile);
     RunPixels run;
     RunSamples made;
     const auto longest = static_cast<int>(regions_.pixels);

@@ -17,7 +17,6 @@ class StratifiedPattern final : public SamplePattern {
 
     void make_tile(const PixelRect& pixels, SampleTile& tile) const override;
 
-    int sample_count() const { return nx_ * ny_; }
     /// How far a pixel's times are moved along, in regions: what its neighbours do not share.
     uint32_t time_shift(int px, int py) const;
     /// Else it is 0 everywhere, or does not matter.
@@ -35,10 +34,6 @@ class StratifiedPattern final : public SamplePattern {
     uint32_t time_shift_of(uint32_t pixel_hash) const;
     void make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made, SampleTile& tile) const;
 
-    Camera camera_;
-    int nx_, ny_;
-    uint32_t seed_;
-    bool motion_;
     std::vector<uint32_t> lens_of_;  ///< subpixel region -> lens region, the same in all pixels
     std::vector<uint32_t> time_of_;  ///< subpixel region -> time region, before the pixel's shift
     RunRegions regions_;
