@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/make_grids.h"
-#include "pipeline/frame/stopwatch.h"
 #include "sample/visibility.h"
 
 namespace trapeze {
@@ -43,32 +43,27 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     frame.pixels = sampled_pixels(frame.context.camera, frame.scene->options);
     if (!picture_fits(frame.context, settings)) return {};
 
-    Stopwatch watch;
+    FrameRecorder recorder(settings.on_progress, settings.on_stage);
     Shading shading(frame.context, *settings.access);
-    watch.lap();
-    const Tessellation tessellation(frame.context, shading.depth_heights(),
-                                    std::numeric_limits<size_t>::max(), shading.displacing_surfaces());
-    frame.stats.tessellate = tessellation.stats();
-    frame.stats.tessellate.grids = frame.stats.tessellate.micropolygons = 0;  // counted as they are made
-    frame.stats.seconds.tessellate = watch.lap();
+    const Tessellation tessellation = recorder.timed(&StageSeconds::tessellate, [&] {
+        return Tessellation(frame.context, shading.depth_heights(), std::numeric_limits<size_t>::max(),
+                            shading.displacing_surfaces());
+    });
+    recorder.bounded(tessellation.stats());
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
     const auto region = whole_region(frame, tessellation, budget);
     if (!region) return {};
 
-    Progress progress(settings.on_progress);
-    progress.begin_part(0, 1, region->subpatches.size());
-    const FrameStats before = frame.stats;
+    recorder.progress().begin_part(0, 1, region->subpatches.size());
     do {
-        frame.stats = before;
-        frame.grids = make_grids(frame.context, *region, tessellation, shading, frame.stats, progress);
+        recorder.restart();
+        frame.grids =
+            make_grids(frame.context, *region, tessellation, shading, recorder.stats(), recorder.progress());
     } while (!frame.context.is_cancelled() && shading.found_endless_loops());
     if (frame.context.is_cancelled()) return {};
     shading.report_displacement_bounds();
+    frame.stats = recorder.finish(frame.context);
     frame.stats.grid_bytes = frame.grids.bytes();
-    frame.stats.threads = tbb::this_task_arena::max_concurrency();
-    frame.stats.width = frame.context.camera.width, frame.stats.height = frame.context.camera.height;
-    frame.stats.frame = frame.scene->options.frame;
-    frame.stats.simd_target = simd_target_name();
     return frame;
 }
 

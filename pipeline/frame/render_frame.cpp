@@ -2,18 +2,17 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
+#include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/make_grids.h"
-#include "pipeline/frame/progress.h"
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/resolve_tiles.h"
-#include "pipeline/frame/stopwatch.h"
 #include "sample/visibility.h"
 #include "shade/imager.h"
 #include "shade/shading.h"
@@ -29,15 +28,12 @@ size_t machine_memory() {
     return static_cast<size_t>(pages) * static_cast<size_t>(page_bytes);
 }
 
-/// The part of a region's progress that is dicing and shading.
-constexpr double kMakingGrids = 0.2;
-
-void check_memory(const RenderContext& context, const Region& region, size_t used, size_t budget) {
+void check_memory(const RenderContext& context, const PixelRect& pixels, size_t used, size_t budget) {
     if (used <= budget) return;
     const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
     context.diagnostics->warning({},
-                                 "a region of " + std::to_string(region.pixels.width()) + "x" +
-                                     std::to_string(region.pixels.height()) + " pixels takes " + mib(used) +
+                                 "a region of " + std::to_string(pixels.width()) + "x" +
+                                     std::to_string(pixels.height()) + " pixels takes " + mib(used) +
                                      " for grids and tree, more than the budget of " + mib(budget),
                                  "memory-budget");
 }
@@ -51,41 +47,54 @@ void run_imager(const Imager& imager, Image& image) {
 }
 
 /// What a frame's regions share.
-struct FrameParts {
+struct Frame {
     const RenderContext& context;
+    const Tessellation& tessellation;
+    Shading& shading;
     const Sampler& sampler;
     const SamplePattern& pattern;
     size_t memory_budget;  ///< bytes, of a region's grids and tree
-    FrameStats& stats;
-    Progress& progress;
-    const std::function<void(std::string_view)>& on_stage;
-
-    void begin(std::string_view stage) const {
-        if (on_stage) on_stage(stage);
-    }
 };
 
-/// Builds what the method needs of a region's grids, and adds what their samples see to the film. Of the
-/// frame's progress these are the steps from `begin` to `end`.
-void sample_region(const FrameParts& frame, const Region& region, const Grids& grids, double begin,
-                   double end, Film& film) {
-    Stopwatch watch;
-    frame.begin("build");
-    const std::unique_ptr<Visibility> visibility = frame.sampler.prepare(frame.context, grids);
+/// Adds what samples see of the grids of their region to the film.
+void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& grids, FrameRecorder& recorder,
+                   Film& film) {
+    recorder.begin_build();
+    const std::unique_ptr<Visibility> visibility =
+        recorder.timed(&StageSeconds::build, [&] { return frame.sampler.prepare(frame.context, grids); });
     const BuildStats build = visibility->build_stats();
-    FrameStats& stats = frame.stats;
-    stats.seconds.build += watch.lap();
-    stats.build += build;
-    const size_t bytes = grids.bytes() + build.tree_bytes;
-    stats.grid_bytes = std::max<uint64_t>(stats.grid_bytes, grids.bytes());
-    stats.tree_bytes = std::max<uint64_t>(stats.tree_bytes, build.tree_bytes);
-    stats.peak_region_bytes = std::max<uint64_t>(stats.peak_region_bytes, bytes);
-    check_memory(frame.context, region, bytes, frame.memory_budget);
+    recorder.built(grids.bytes(), build);
+    check_memory(frame.context, pixels, grids.bytes() + build.tree_bytes, frame.memory_budget);
 
-    frame.begin("trace");
-    frame.progress.begin_part(begin, end, tiles_of(region.pixels, visibility->tile_side()).size());
-    resolve_tiles(frame.context, region.pixels, grids, *visibility, frame.pattern, film, stats,
-                  [&frame] { frame.progress.step(); });
+    recorder.begin_tiles(tiles_of(pixels, visibility->tile_side()).size());
+    resolve_tiles(frame.context, pixels, grids, *visibility, frame.pattern, film, recorder.stats(),
+                  [&recorder] { recorder.progress().step(); });
+}
+
+/// Dices, shades and samples region after region. False when cancelled, or when a shader was found to be
+/// endless: its loops end early from now on, so that regions before this one would be of another shader.
+bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRecorder& recorder,
+                 Film& film) {
+    for (size_t r = 0; r < regions.size() && !frame.context.is_cancelled(); ++r) {
+        const Region& region = regions[r];
+        recorder.begin_grids(r, regions.size(), region.subpatches.size());
+        const Grids grids = make_grids(frame.context, region, frame.tessellation, frame.shading,
+                                       recorder.stats(), recorder.progress());
+        if (frame.shading.found_endless_loops()) return false;
+        if (!frame.context.is_cancelled()) sample_region(frame, region.pixels, grids, recorder, film);
+    }
+    return !frame.context.is_cancelled();
+}
+
+/// The film with all regions in it; null when cancelled.
+std::unique_ptr<Film> film_of_regions(const Frame& frame, const std::vector<Region>& regions,
+                                      FrameRecorder& recorder) {
+    while (!frame.context.is_cancelled()) {
+        auto film = std::make_unique<Film>(frame.context);
+        if (add_regions(frame, regions, recorder, *film)) return film;
+        recorder.restart();
+    }
+    return {};
 }
 
 }  // namespace
@@ -131,70 +140,41 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
 
 std::optional<FrameResult> render_frame(const RenderContext& context, const RenderSettings& settings) {
     std::string wrong;
-    const auto sampler = choose_sampler(settings.sampler, settings.pattern, &wrong);
+    const std::optional<Sampler> sampler = choose_sampler(settings.sampler, settings.pattern, &wrong);
     if (!sampler) {
         context.diagnostics->error({}, wrong);
         return {};
     }
     if (!picture_fits(context, settings)) return {};
-    Stopwatch total, watch;
-    Progress progress(settings.on_progress);
-    FrameResult result;
-    FrameStats& stats = result.stats;
+    FrameRecorder recorder(settings.on_progress, settings.on_stage);
 
     Shading shading(context, *settings.access);
-    watch.lap();
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
-    const Tessellation tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
-    stats.tessellate = tessellation.stats();
-    stats.tessellate.grids = stats.tessellate.micropolygons = 0;  // counted as they are made
-    stats.seconds.tessellate = watch.lap();
+    const Tessellation tessellation = recorder.timed(&StageSeconds::tessellate, [&] {
+        return Tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
+    });
+    recorder.bounded(tessellation.stats());
     const Imager imager(context, *settings.access);
-    const auto pattern = sampler->make_pattern(context);
+    const std::unique_ptr<SamplePattern> pattern = sampler->make_pattern(context);
+    const Options& options = context.scene->options;
+    const std::vector<Region> regions =
+        split_into_regions(sampled_pixels(context.camera, options), tessellation.subpatches(),
+                           {budget, settings.regions_at_least, aov_layout(options).channel_count});
 
-    const std::vector<Region> regions = split_into_regions(
-        sampled_pixels(context.camera, context.scene->options), tessellation.subpatches(),
-        {budget, settings.regions_at_least, aov_layout(context.scene->options).channel_count});
-    const FrameParts parts{context, *sampler, *pattern, budget, stats, progress, settings.on_stage};
-    std::optional<Film> film;
-    const FrameStats before = stats;
-    // Again from the start, when a shader is found to be endless: its limits are others then.
-    const auto begin_film = [&] { stats = before, film.emplace(context); };
-    begin_film();
-    size_t r = 0;
-    while (r < regions.size() && !context.is_cancelled()) {
-        const Region& region = regions[r];
-        const double begin = static_cast<double>(r) / regions.size(),
-                     end = static_cast<double>(r + 1) / regions.size();
-        parts.begin("shade");
-        progress.begin_part(begin, begin + kMakingGrids * (end - begin), region.subpatches.size());
-        const Grids grids = make_grids(context, region, tessellation, shading, stats, progress);
-        if (shading.found_endless_loops()) {
-            begin_film();
-            r = 0;
-            continue;
-        }
-
-        if (context.is_cancelled()) break;
-        sample_region(parts, region, grids, begin + kMakingGrids * (end - begin), end, *film);
-        ++r;
-    }
-    if (context.is_cancelled()) return {};
+    const std::unique_ptr<Film> film =
+        film_of_regions({context, tessellation, shading, *sampler, *pattern, budget}, regions, recorder);
+    if (!film) return {};
     shading.report_displacement_bounds();
 
-    watch.lap();
-    parts.begin("composite");
-    result.image = film->finish();
-    run_imager(imager, result.image);
-    stats.seconds.composite += watch.lap();
-    stats.samples = stats.sample.rays;
-    stats.regions = static_cast<int>(regions.size());
-    stats.threads = tbb::this_task_arena::max_concurrency();
-    stats.width = context.camera.width, stats.height = context.camera.height;
-    stats.frame = context.scene->options.frame;
-    stats.sampler = sampler->name();
-    stats.simd_target = simd_target_name();
-    stats.seconds.total = total.lap();
+    FrameResult result;
+    recorder.begin_composite();
+    recorder.timed(&StageSeconds::composite, [&] {
+        result.image = film->finish();
+        run_imager(imager, result.image);
+    });
+    result.stats = recorder.finish(context);
+    result.stats.regions = static_cast<int>(regions.size());
+    result.stats.sampler = sampler->name();
     return result;
 }
 
