@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/files/file_text_harness.h"
 #include "tessellate/leak_harness.h"
 #include "tessellate/mesh_harness.h"
 
@@ -37,13 +38,11 @@ std::vector<T> numbers_after(const std::string& rib, const std::string& mark, in
 }
 
 Cage spot_cage() {
-    std::ifstream file(TRAPEZE_SOURCE_DIR "/scenes/gallery/spot_mesh.rib");
-    std::stringstream text;
-    text << file.rdbuf();
+    const std::string text = testing::file_text(TRAPEZE_SOURCE_DIR "/scenes/gallery/spot_mesh.rib");
     Cage cage;
-    cage.sizes = numbers_after<int>(text.str(), "SubdivisionMesh", 0);
-    cage.vertices = numbers_after<int>(text.str(), "SubdivisionMesh", 1);
-    cage.P = numbers_after<float>(text.str(), "\"P\"", 0);
+    cage.sizes = numbers_after<int>(text, "SubdivisionMesh", 0);
+    cage.vertices = numbers_after<int>(text, "SubdivisionMesh", 1);
+    cage.P = numbers_after<float>(text, "\"P\"", 0);
     return cage;
 }
 

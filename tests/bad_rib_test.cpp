@@ -104,7 +104,7 @@ TEST(MadeRib, DamagedGzipIsReadAsFarAsItGoes) {
 
 TEST(MadeRib, EveryPrefixOfAFileEndsWithoutHarm) {
     const std::string whole =
-        text_of(kFolder / "absurd_sizes.rib") + text_of(kFolder / "motion_mismatch.rib");
+        file_text(kFolder / "absurd_sizes.rib") + file_text(kFolder / "motion_mismatch.rib");
     size_t primitives = 0;
     for (size_t length = 0; length < whole.size(); length += 7)
         messages_for(whole.substr(0, length), &primitives);

@@ -32,10 +32,10 @@ TEST(CInterface, AProgramInCRendersAndWritesRib) {
                         "/docs/examples/lamp.c' -o lamp $(PKG_CONFIG_PATH='" TRAPEZE_BUILD_DIR
                         "' pkg-config --cflags --libs trapeze)"),
               0)
-        << text_of(folder / ".stderr");
+        << file_text(folder / ".stderr");
 
-    ASSERT_EQ(run_shell(folder, "./lamp"), 0) << text_of(folder / ".stderr");
-    EXPECT_EQ(text_of(folder / ".stderr"), "");
+    ASSERT_EQ(run_shell(folder, "./lamp"), 0) << file_text(folder / ".stderr");
+    EXPECT_EQ(file_text(folder / ".stderr"), "");
     const std::vector<float> rendered = pixels_of((folder / "lamp.exr").string());
     ASSERT_EQ(rendered.size(), 160u * 120 * 4);
     // The shade's red corner, the table, and nothing above them: a picture of something.
@@ -44,7 +44,7 @@ TEST(CInterface, AProgramInCRendersAndWritesRib) {
     EXPECT_EQ(rendered[3], 0) << "the first pixel's alpha";
 
     for (const std::string name : {"lamp.rib", "lamp.rib.gz"}) {
-        ASSERT_EQ(run_shell(folder, "./lamp " + name), 0) << text_of(folder / ".stderr");
+        ASSERT_EQ(run_shell(folder, "./lamp " + name), 0) << file_text(folder / ".stderr");
         const Outcome outcome = run_program(folder, "render " + name + " -o again.exr");
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_EQ(pixels_of((folder / "again.exr").string()), rendered) << name;

@@ -118,8 +118,8 @@ TEST(Cat, ArchivesMayStay) {
     cat(folder / "scene.rib", {rib::RibEncoding::Ascii, false, true}, folder / "kept.rib");
     cat(folder / "scene.rib", {}, folder / "read.rib");
     const std::string head = "##RenderMan RIB-Structure 1.1\nWorldBegin\n";
-    EXPECT_EQ(testing::text_of(folder / "kept.rib"), head + "  ReadArchive \"ball.rib\"\nWorldEnd\n");
-    EXPECT_EQ(testing::text_of(folder / "read.rib"), head + "  Sphere 1 -1 1 360\nWorldEnd\n");
+    EXPECT_EQ(testing::file_text(folder / "kept.rib"), head + "  ReadArchive \"ball.rib\"\nWorldEnd\n");
+    EXPECT_EQ(testing::file_text(folder / "read.rib"), head + "  Sphere 1 -1 1 360\nWorldEnd\n");
 }
 
 TEST(Cat, TheProgramWritesWholeFilesOrStandardOutput) {

@@ -16,7 +16,7 @@ TEST(CommandLine, CompareShowsTheTableAndTheVerdictAndWritesTheFigures) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("tests/sample"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("For this scene take "), std::string::npos) << outcome.out;
-    const auto json = nlohmann::json::parse(text_of(folder / "c.json"));
+    const auto json = nlohmann::json::parse(file_text(folder / "c.json"));
     ASSERT_EQ(json["results"].size(), 4u);
     EXPECT_EQ(json["results"][3]["method"], "interval");
     EXPECT_EQ(json["results"][3]["build_seconds_by_round"].size(), 2u);
@@ -26,7 +26,7 @@ TEST(CommandLine, CompareShowsTheTableAndTheVerdictAndWritesTheFigures) {
     for (const char* file :
          {"reference_4x4.exr", "raytrace_1x1.exr", "interval_2x2.exr", "raytrace_2x2_tests.exr"})
         EXPECT_TRUE(fs::exists(folder / "made/here" / file)) << file;
-    EXPECT_TRUE(text_of(folder / "r.html").ends_with("</html>\n"));
+    EXPECT_TRUE(file_text(folder / "r.html").ends_with("</html>\n"));
     EXPECT_FALSE(fs::exists(folder / "sphere.exr")) << "the scene's own Display is not written";
 }
 
@@ -78,10 +78,10 @@ TEST(CommandLine, AStudySaysWhatHeldAndWritesItsFigures) {
     const Outcome outcome = run_program(folder, "study fig9 --quick --report r.html --json r.json");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("checks held"), std::string::npos) << outcome.out;
-    const auto json = nlohmann::json::parse(text_of(folder / "r.json"));
+    const auto json = nlohmann::json::parse(file_text(folder / "r.json"));
     EXPECT_GT(json["scenes"][0]["micropolygons"], 100000);
     EXPECT_EQ(json["checks"].size(), 3u);
-    EXPECT_NE(text_of(folder / "r.html").find("<svg"), std::string::npos);
+    EXPECT_NE(file_text(folder / "r.html").find("<svg"), std::string::npos);
     EXPECT_EQ(run_program(folder, "study table3").exit_code, 2);
     EXPECT_EQ(run_program(folder, "study fig9 --quick --json no/such/folder/r.json").exit_code, 6);
     EXPECT_EQ(run_program(folder, "study fig9 --quick --memory 1K").exit_code, 7);

@@ -90,7 +90,7 @@ TEST(OutputFiles, OfAnotherFormatAreNotAskedWhatTheFirstWas) {
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.err, "");
     ASSERT_EQ(run_program(folder, "render a.rib -o x.exr").exit_code, 0);
-    EXPECT_NE(text_of(folder / "x.exr").find("Somebody"), std::string::npos);
+    EXPECT_NE(file_text(folder / "x.exr").find("Somebody"), std::string::npos);
 }
 
 TEST(OutputFiles, OfTwoDisplaysAreBesideEachOther) {
@@ -110,7 +110,7 @@ TEST(OutputFiles, AreInTheStatistics) {
     WorkFolder folder;
     folder.write("a.rib", world(std::string(kShot) + "\nDisplay \"+z.exr\" \"openexr\" \"z\""));
     ASSERT_EQ(run_program(folder, "render a.rib --stats s.json").exit_code, 0);
-    const auto stats = nlohmann::json::parse(text_of(folder / "s.json"));
+    const auto stats = nlohmann::json::parse(file_text(folder / "s.json"));
     ASSERT_EQ(stats.at("outputs").size(), 2u);
     EXPECT_EQ(stats["outputs"][0].at("path"), "shot.exr");
     EXPECT_EQ(stats["outputs"][1].at("path"), "z.exr");
@@ -125,8 +125,8 @@ TEST(OutputFiles, AreSaidOnATerminalAlone) {
                                     "' && script -qec \"'" TRAPEZE_PROGRAM
                                     "' render a.rib --progress none\" said >/dev/null 2>&1 </dev/null";
     ASSERT_EQ(std::system(in_terminal.c_str()), 0) << "script of util-linux is needed";
-    EXPECT_NE(text_of(folder / "said").find("wrote shot.exr, 8x8, "), std::string::npos)
-        << text_of(folder / "said");
+    EXPECT_NE(file_text(folder / "said").find("wrote shot.exr, 8x8, "), std::string::npos)
+        << file_text(folder / "said");
 }
 
 /// Each is named, with what is done instead.
@@ -172,7 +172,7 @@ TEST(OutputFiles, MapsAreInTheStatistics) {
     folder.write("a.rib",
                  world(kShot) + "MakeTexture \"shot.exr\" \"shot.tex\" \"black\" \"black\" \"box\" 1 1\n");
     ASSERT_EQ(run_program(folder, "render a.rib --stats s.json").exit_code, 0);
-    const auto maps = nlohmann::json::parse(text_of(folder / "s.json")).at("maps");
+    const auto maps = nlohmann::json::parse(file_text(folder / "s.json")).at("maps");
     ASSERT_EQ(maps.size(), 1u);
     EXPECT_EQ(maps[0].at("path"), "shot.tex");
     EXPECT_EQ(maps[0].at("bytes"), fs::file_size(folder / "shot.tex"));
@@ -186,7 +186,7 @@ TEST(OutputFiles, MapsAloneAreEnough) {
     folder.write("b.rib", "MakeTexture \"shot.exr\" \"shot.tex\" \"black\" \"black\" \"box\" 1 1\n");
     const Outcome outcome = run_program(folder, "render b.rib --stats s.json");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(nlohmann::json::parse(text_of(folder / "s.json")).at("maps").size(), 1u);
+    EXPECT_EQ(nlohmann::json::parse(file_text(folder / "s.json")).at("maps").size(), 1u);
     folder.write("b.rib", "MakeTexture \"none.exr\" \"shot.tex\" \"black\" \"black\" \"box\" 1 1\n");
     EXPECT_EQ(run_program(folder, "render b.rib").exit_code, 4);
 }
@@ -200,7 +200,7 @@ TEST(Statistics, ElsewhereWriteOverTheirLikesAlone) {
     const Outcome refused = run_program(folder, run);
     EXPECT_EQ(refused.exit_code, 6);
     EXPECT_NE(refused.err.find("is no report of a run"), std::string::npos) << refused.err;
-    EXPECT_EQ(text_of(elsewhere / "notes.txt"), "mine");
+    EXPECT_EQ(file_text(elsewhere / "notes.txt"), "mine");
     fs::remove(file);
     for (const bool is_there : {false, true}) {
         const Outcome outcome = run_program(folder, run);
@@ -228,7 +228,7 @@ TEST(OutputFiles, AreTheSameBytesOnASetDate) {
                                 "' && SOURCE_DATE_EPOCH=1700000000 '" TRAPEZE_PROGRAM "' render a.rib";
         ASSERT_EQ(std::system(run.c_str()), 0);
         for (const int i : {0, 1}) {
-            const std::string bytes = text_of(folder / (i ? "b.png" : "shot.exr"));
+            const std::string bytes = file_text(folder / (i ? "b.png" : "shot.exr"));
             if (again) {
                 EXPECT_EQ(bytes, first[i]) << i;
             }

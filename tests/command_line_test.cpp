@@ -98,7 +98,7 @@ TEST(CommandLine, StatisticsHaveThePromisedKeys) {
     WorkFolder folder;
     folder.write("a.rib", kSphere);
     ASSERT_EQ(run_program(folder, "render a.rib --stats s.json").exit_code, 0);
-    const auto stats = nlohmann::json::parse(text_of(folder / "s.json"));
+    const auto stats = nlohmann::json::parse(file_text(folder / "s.json"));
     for (const char* stage : {"read", "tessellate", "shade", "build", "trace", "composite", "total"})
         EXPECT_TRUE(stats["stages"][stage]["seconds"].is_number()) << stage;
     for (const char* key : {"grids", "micropolygons", "samples", "rays_per_second", "predicate_tests",
@@ -185,7 +185,7 @@ TEST(CommandLine, TheInstructionSetCanBeLimited) {
             continue;
         }
         ++usable;
-        targets.insert(nlohmann::json::parse(text_of(folder / "s.json"))["simd_target"].get<std::string>());
+        targets.insert(nlohmann::json::parse(file_text(folder / "s.json"))["simd_target"].get<std::string>());
     }
     EXPECT_GT(usable, 0);
     EXPECT_EQ(targets.size(), static_cast<size_t>(usable)) << "the limit limits nothing";

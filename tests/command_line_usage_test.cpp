@@ -55,7 +55,7 @@ TEST(CommandLine, StatisticsSayWhatWasReadAndWritten) {
                  "Format 32 32 1 Display \"a.exr\" \"file\" \"rgba\" Display \"+b.tif\" \"tiff\" \"rgb\"\n"
                  "Translate 0 0 5 WorldBegin ReadArchive \"ball.rib\" WorldEnd\n");
     ASSERT_EQ(run_program(folder, "render a.rib --stats s.json").exit_code, 1);
-    const json stats = json::parse(text_of(folder / "s.json"));
+    const json stats = json::parse(file_text(folder / "s.json"));
     EXPECT_EQ(stats["command"], json::array({"render", "a.rib", "--stats", "s.json"}));
     EXPECT_FALSE(stats["version"].get<std::string>().empty());
     EXPECT_FALSE(stats["revision"].get<std::string>().empty());
@@ -130,10 +130,10 @@ TEST(CommandLine, InputsAreNotWrittenOver) {
     fs::create_symlink("a.rib", folder / "same.rib");
     for (const char* wrong : {"-o a.rib", "-o ./a.rib", "-o same.rib", "--stats a.rib", "-o s --stats s"}) {
         EXPECT_EQ(run_program(folder, std::string("render a.rib ") + wrong).exit_code, 2) << wrong;
-        EXPECT_EQ(text_of(folder / "a.rib"), kSphere) << wrong;
+        EXPECT_EQ(file_text(folder / "a.rib"), kSphere) << wrong;
     }
     EXPECT_EQ(run_program(folder, "cat a.rib -o a.rib").exit_code, 0) << "which has been read by then";
-    EXPECT_NE(text_of(folder / "a.rib").find("Sphere"), std::string::npos);
+    EXPECT_NE(file_text(folder / "a.rib").find("Sphere"), std::string::npos);
 }
 
 TEST(CommandLine, OutputsThatCannotBeWrittenAreSaidAtOnce) {
@@ -166,10 +166,10 @@ TEST(CommandLine, NamesMayHaveSpacesAndAnyLetters) {
             .exit_code,
         0);
     EXPECT_TRUE(fs::exists(folder / "x \u6f22.exr"));
-    EXPECT_EQ(json::parse(text_of(folder / "\u00e9 s.json"))["outputs"][0]["path"], "x \u6f22.exr");
+    EXPECT_EQ(json::parse(file_text(folder / "\u00e9 s.json"))["outputs"][0]["path"], "x \u6f22.exr");
     folder.write("\xff.rib", kSphere);  // not UTF-8
     EXPECT_EQ(run_program(folder, "render \xff.rib --stats s.json --progress json").exit_code, 0);
-    EXPECT_TRUE(json::accept(text_of(folder / "s.json")));
+    EXPECT_TRUE(json::accept(file_text(folder / "s.json")));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ TEST(Compliance, ThePageIsWhatTheProgramWrites) {
     const std::string source = TRAPEZE_SOURCE_DIR;
     const Outcome outcome = run_program(folder, "compliance --scenes " + source + "/scenes");
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_EQ(outcome.out, text_of(source + "/COMPLIANCE.md"))
+    EXPECT_EQ(outcome.out, file_text(source + "/COMPLIANCE.md"))
         << "write it anew: build/bin/trapeze compliance > COMPLIANCE.md";
 }
 
@@ -23,7 +23,7 @@ TEST(Compliance, NotesAreOfWhatThereIs) {
 /// Whatever RISpec defines and the program carries out has a scene. Environments made from panoramas alone
 /// have none: shade/maps/make_maps_test.cpp shows them.
 TEST(Compliance, EverySupportedRequestOfRISpecIsShown) {
-    const std::string page = text_of(TRAPEZE_SOURCE_DIR "/COMPLIANCE.md");
+    const std::string page = file_text(TRAPEZE_SOURCE_DIR "/COMPLIANCE.md");
     const size_t begin = page.find("## Requests of RISpec 3.2"), end = page.find("## Requests of later");
     ASSERT_NE(begin, std::string::npos);
     for (size_t at = begin; (at = page.find("\n| ", at + 1)) < end;) {

@@ -89,7 +89,7 @@ TEST(HostileRib, NumbersThatAreNoneAreSaidWhereverTheyStand) {
     const char* const kNumbers[] = {"nan", "-inf", "1e39", "infinity"};
     size_t count = 0;
     for (const fs::path& path : tiny_scenes()) {
-        const std::string text = text_of(path);
+        const std::string text = file_text(path);
         if (skips(text)) continue;
         for (const Place& place : numbers_in(text)) {
             std::string changed = text;

@@ -50,12 +50,12 @@ TEST(Interruption, EndsTheProgramsOfScenes) {
                                     "' && timeout --preserve-status -s TERM 1 '" TRAPEZE_PROGRAM "' " + name +
                                     " --allow-programs a.rib >.stdout 2>.stderr";
         EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 143);
-        const std::string pid = text_of(folder / "pid");
+        const std::string pid = file_text(folder / "pid");
         ASSERT_FALSE(pid.empty());
         // Whoever inherits it may take a moment to notice its end.
         bool runs = true;
         for (int i = 0; i < 200 && runs; ++i) {
-            const std::string state = text_of("/proc/" + pid.substr(0, pid.find('\n')) + "/stat");
+            const std::string state = file_text("/proc/" + pid.substr(0, pid.find('\n')) + "/stat");
             runs = !state.empty() && state.find(") Z ") == std::string::npos;
             if (runs) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }

@@ -43,7 +43,8 @@ Measured measured(const WorkFolder& folder, const std::string& arguments) {
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!good) return result;
     result.mebibytes = static_cast<double>(values[0]) / 1024;
-    result.outcome = {static_cast<int>(values[1]), text_of(folder / ".stdout"), text_of(folder / ".stderr")};
+    result.outcome = {static_cast<int>(values[1]), file_text(folder / ".stdout"),
+                      file_text(folder / ".stderr")};
     return result;
 }
 

@@ -91,7 +91,7 @@ TEST_F(ProceduralLibrary, ThatFailsIsSaidAndTheRestIsRendered) {
 
 /// The example of the documentation, a level deep: what it calls comes back to its own function.
 TEST_F(ProceduralLibrary, MayCallItself) {
-    compile("branches", text_of(TRAPEZE_SOURCE_DIR "/docs/examples/branches.c"));
+    compile("branches", file_text(TRAPEZE_SOURCE_DIR "/docs/examples/branches.c"));
     const Outcome outcome = render(ask("branches", "2 0.7"), "--allow-programs --stats a.json -q");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const std::string branches = "Cylinder .06 0 1 360 ";

@@ -11,14 +11,9 @@
 #include <sstream>
 #include <string>
 
-namespace trapeze::testing {
+#include "core/files/file_text_harness.h"
 
-inline std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
+namespace trapeze::testing {
 
 /// A temporary folder that goes away with the test.
 class WorkFolder {
@@ -56,8 +51,8 @@ inline Outcome run_program(const WorkFolder& folder, const std::string& argument
         "cd '" + folder.path().string() + "' && export XDG_CONFIG_HOME='" + folder.path().string() +
         "/.config' && '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " + arguments;
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".stdout"),
-            text_of(folder / ".stderr")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(folder / ".stdout"),
+            file_text(folder / ".stderr")};
 }
 
 }  // namespace trapeze::testing

@@ -133,7 +133,7 @@ TEST_F(Safe, FoldersAboveAndBesideAreNotLookedThrough) {
                                     "/job/scenes' && '" TRAPEZE_PROGRAM "' render b.rib -t 1 " + options +
                                     " >/dev/null 2>.stderr";
         static_cast<void>(!std::system(command.c_str()));
-        return text_of(work_ / "job/scenes/.stderr");
+        return file_text(work_ / "job/scenes/.stderr");
     };
     EXPECT_EQ(count_of(run(""), "LeakedSecret"), 3u);
     EXPECT_FALSE(contains(run("--safe"), "LeakedSecret")) << run("--safe");
@@ -247,8 +247,8 @@ TEST_F(Safe, PicturesAreWrittenInside) {
         << run.err;
     EXPECT_EQ(run.exit_code, 6);
     EXPECT_EQ(files_in(outside_), "old.exr ");
-    EXPECT_EQ(text_of(outside_ / "old.exr"), "old");
-    EXPECT_EQ(text_of(work_ / "notes.txt"), "mine");
+    EXPECT_EQ(file_text(outside_ / "old.exr"), "old");
+    EXPECT_EQ(file_text(work_ / "notes.txt"), "mine");
     EXPECT_TRUE(fs::exists(work_ / "good/new.exr"));
     EXPECT_TRUE(fs::exists(work_ / "here.exr"));
 }
@@ -276,7 +276,7 @@ TEST_F(Safe, MapsAreMadeInside) {
         << run.err;
     EXPECT_TRUE(contains(run.err, "cannot make \"stolen.tex\"")) << run.err;
     EXPECT_EQ(files_in(outside_), "out.exr ");
-    EXPECT_EQ(text_of(work_ / "notes.tex"), "mine");
+    EXPECT_EQ(file_text(work_ / "notes.tex"), "mine");
     EXPECT_FALSE(fs::exists(work_ / "stolen.tex"));
     EXPECT_TRUE(fs::exists(work_ / "good.tex"));
 }
@@ -357,7 +357,7 @@ TEST(Outside, FilesThatAreNoPicturesStay) {
     const Outcome refused = display("notes.txt");
     EXPECT_EQ(refused.exit_code, 6) << refused.err;
     EXPECT_TRUE(contains(refused.err, "the file that is there is not a picture")) << refused.err;
-    EXPECT_EQ(text_of(outside / "notes.txt"), "mine");
+    EXPECT_EQ(file_text(outside / "notes.txt"), "mine");
     for (int i = 0; i < 2; ++i) {
         const Outcome written = display("new.exr");
         EXPECT_EQ(written.exit_code, 0) << written.err;
@@ -367,7 +367,7 @@ TEST(Outside, FilesThatAreNoPicturesStay) {
     const Outcome ordered = run_program(work, "render a.rib -t 1 -o " + (outside / "notes.txt").string());
     EXPECT_EQ(ordered.exit_code, 0) << ordered.err;
     EXPECT_FALSE(contains(ordered.err, "lies outside")) << ordered.err;
-    EXPECT_NE(text_of(outside / "notes.txt"), "mine");
+    EXPECT_NE(file_text(outside / "notes.txt"), "mine");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "composite/displays/write_displays.h"
 #include "composite/film/raster_harness.h"
+#include "core/files/file_text_harness.h"
 #include "core/files/temporary_folder_harness.h"
 #include "core/scene/transfer.h"
 
@@ -59,9 +60,7 @@ Written write_quarter(const Wished& wished) {
     EXPECT_TRUE(in->read_image(0, 0, 0, -1, OIIO::TypeDesc::UINT16, pixels.data()));
     written.level = wished.one > 255 ? pixels[0] : pixels[0] / 257;
     written.description = in->spec().get_string_attribute("ImageDescription");
-    std::ostringstream bytes;
-    bytes << std::ifstream(display.name, std::ios::binary).rdbuf();
-    written.bytes = bytes.str();
+    written.bytes = testing::file_text(display.name);
     return written;
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/files/file_text_harness.h"
 #include "core/files/temporary_folder_harness.h"
 
 namespace trapeze {
@@ -13,11 +14,6 @@ namespace {
 using testing::FileSizeLimit;
 using testing::TemporaryFolder;
 using Names = std::vector<std::string>;
-
-std::string contents(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return (std::ostringstream() << file.rdbuf()).str();
-}
 
 void put(const std::string& path, const std::string& text) {
     std::ofstream(path) << text;
@@ -32,10 +28,10 @@ TEST(OutputFile, AppearsAtCommitAndNotBefore) {
     EXPECT_TRUE(file.seek(0));
     EXPECT_TRUE(file.write("my", 2));
     EXPECT_EQ(file.position(), 2u);
-    EXPECT_EQ(contents(folder.file("x.exr")), "old");
+    EXPECT_EQ(testing::file_text(folder.file("x.exr")), "old");
     EXPECT_EQ(folder.names().size(), 2u);
     EXPECT_TRUE(file.commit()) << file.error();
-    EXPECT_EQ(contents(folder.file("x.exr")), "myworld");
+    EXPECT_EQ(testing::file_text(folder.file("x.exr")), "myworld");
     EXPECT_EQ(folder.names(), Names{"x.exr"});
 }
 
@@ -88,7 +84,7 @@ TEST(OutputFile, WritesThroughALink) {
         ASSERT_TRUE(file.open()) << file.error();
         EXPECT_TRUE(file.write(text.data(), text.size()) && file.commit()) << file.error();
         EXPECT_TRUE(std::filesystem::is_symlink(folder.file("x.exr")));
-        EXPECT_EQ(contents(folder.file("real/x.exr")), text);
+        EXPECT_EQ(testing::file_text(folder.file("real/x.exr")), text);
     }
 }
 
@@ -114,7 +110,7 @@ TEST(OutputFile, AFullDiskIsAnError) {
         EXPECT_FALSE(file.error().empty());
     }
     EXPECT_EQ(folder.names(), Names{"x.exr"});
-    EXPECT_EQ(contents(folder.file("x.exr")), "old");
+    EXPECT_EQ(testing::file_text(folder.file("x.exr")), "old");
 }
 
 }  // namespace

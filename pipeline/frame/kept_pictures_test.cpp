@@ -1,4 +1,5 @@
 #include "pipeline/frame/kept_pictures.h"
+#include "core/files/file_text_harness.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -26,11 +27,7 @@ class KeptPicturesTest : public ::testing::Test {
         std::ofstream(path(name)) << frame;
         kept_.wrote(path(name), frame);
     }
-    std::string text(const std::string& name) const {
-        std::ostringstream text;
-        text << std::ifstream(path(name)).rdbuf();
-        return text.str();
-    }
+    std::string text(const std::string& name) const { return testing::file_text(path(name)); }
     size_t files() const {
         return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
     }

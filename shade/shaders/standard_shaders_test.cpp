@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "core/files/file_text_harness.h"
 #include "shade/code/generate.h"
 #include "shade/rsl/front_end.h"
 
@@ -87,16 +88,15 @@ TEST(StandardShaders, AllAreThereByKindAndParameters) {
 TEST(StandardShaders, TheListIsWholeAndSorted) {
     std::vector<std::string> expected;
     for (const Expected& shader : kExpected) expected.emplace_back(shader.name);
-    EXPECT_THAT(standard_shader_names(), testing::UnorderedElementsAreArray(expected));
+    EXPECT_THAT(standard_shader_names(), ::testing::UnorderedElementsAreArray(expected));
     EXPECT_TRUE(std::ranges::is_sorted(standard_shader_names()));
 }
 
 TEST(StandardShaders, TextsAreTheFilesUnchanged) {
     for (const std::string_view name : standard_shader_names()) {
-        std::ifstream file(std::string(TRAPEZE_SOURCE_DIR "/shade/shaders/") + std::string(name) + ".sl");
-        std::ostringstream text;
-        text << file.rdbuf();
-        EXPECT_EQ(standard_shader(name), text.str()) << name;
+        const std::string path =
+            std::string(TRAPEZE_SOURCE_DIR "/shade/shaders/") + std::string(name) + ".sl";
+        EXPECT_EQ(standard_shader(name), testing::file_text(path)) << name;
     }
 }
 
