@@ -1,5 +1,6 @@
-/// Rectangles of micropolygons of one grid: the nodes of the implicit in-grid trees, and how a ray meets the
-/// micropolygons of a leaf.
+/// Rectangles of micropolygons of one grid: the nodes of the implicit in-grid trees [Hou10 sec. 3.3], and how
+/// a ray meets the micropolygons of a leaf. All tests here are the scalar predicate, core/hit_micropolygon.h:
+/// what they find is the reference for every other tree and for the forms in vectors.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,8 @@
 
 namespace trapeze {
 
+/// Micropolygons (u .. u + nu - 1, v .. v + nv - 1) of a grid. It has (nu + 1) x (nv + 1) vertices; those on
+/// its border belong to its neighbours too.
 struct GridBlock {
     uint8_t u = 0, v = 0;    ///< first micropolygon
     uint8_t nu = 1, nv = 1;  ///< how many
@@ -18,14 +21,16 @@ struct GridBlock {
     int count() const { return nu * nv; }
 };
 
-/// The largest number of micropolygons below which parametric midpoint splits may be made to end.
+/// The largest leaf_below that options may ask for: a leaf has fewer micropolygons than this.
 inline constexpr int kMostSplitFrom = 32;
 
-/// The halves of a block at the midpoint of its longer parametric axis.
+/// The two halves of a block at the midpoint of its longer parametric axis; of an odd side `high` gets one
+/// column or row more. Equal sides are split along u.
 struct BlockHalves {
     GridBlock low, high;
 };
 
+/// Depends on nothing but the shape, so that the topology of a grid's tree need not be stored.
 constexpr BlockHalves halves(const GridBlock& b) {
     if (b.nu >= b.nv) {
         const auto n = static_cast<uint8_t>(b.nu / 2);
@@ -36,7 +41,9 @@ constexpr BlockHalves halves(const GridBlock& b) {
     return {{b.u, b.v, b.nu, n}, {b.u, static_cast<uint8_t>(b.v + n), b.nu, static_cast<uint8_t>(b.nv - n)}};
 }
 
-/// A one-sided micropolygon shows its other sign to a ray that runs against the axis.
+/// The facing as a ray sees it whose direction along its axis has this sign. Facing is defined by the sign of
+/// the projected area for depths that grow with the axis; a ray that runs against the axis sees the other
+/// side.
 inline Facing facing_along(Facing facing, float sign) {
     if (sign > 0 || facing == Facing::Both) return facing;
     return facing == Facing::PositiveOnly ? Facing::NegativeOnly : Facing::PositiveOnly;
@@ -44,15 +51,19 @@ inline Facing facing_along(Facing facing, float sign) {
 
 namespace grid_block_detail {
 
-/// The vertices of a leaf block at the ray's time, in its turned axes, by Grid::vertex()'s arithmetic.
+/// Vertices of a leaf block at the ray's time, row by row, u fastest, in the ray's turned axes. Moved by
+/// Grid::vertex()'s arithmetic, because the predicate's answer must not depend on who moves the vertices.
 struct Vertices {
     static constexpr int kMaxVertices =
         2 * kMostSplitFrom;  ///< of n x 1 micropolygons, the most for their number
     float x[kMaxVertices], y[kMaxVertices], z[kMaxVertices];
 };
 
+/// Fills in the (nu + 1) x (nv + 1) vertices of a block. Neighbours share most of them: moving each vertex
+/// once instead of four times is why blocks are tested as a whole. kMoves: grid.moves().
 template <bool kMoves>
 inline void gather(const Grid& grid, const GridBlock& block, const TraceRay& ray, Vertices& out) {
+    // Three planes of positions, then (6 planes a segment) three of what a segment adds to them.
     const MotionSegment s = kMoves ? segment_at(ray.axis.time, grid.key_count) : MotionSegment{};
     const size_t plane_size = grid.shape.plane_size();
     const float* first = grid.plane(s.index, 0);
@@ -74,7 +85,8 @@ inline void gather(const Grid& grid, const GridBlock& block, const TraceRay& ray
         }
 }
 
-/// Tests a ray against one micropolygon and shows the policy what it hits.
+/// Tests a ray against one micropolygon and shows the policy what it hits within [t_min, t_max], ends
+/// included. `quad` and `facing` are in the ray's turned axes.
 template <class Policy>
 inline void test_quad(const Grid& grid, const MicropolygonId& id, const Quad& quad, Facing facing,
                       TraceRay& ray, Policy& policy, SampleStats& stats) {
@@ -87,7 +99,8 @@ inline void test_quad(const Grid& grid, const MicropolygonId& id, const Quad& qu
 
 }  // namespace grid_block_detail
 
-/// Tests a ray against one micropolygon, without what neighbours share.
+/// Tests a ray against one micropolygon on its own, as a leaf that is a list of micropolygons must: nothing
+/// is shared with neighbours, whose vertices test_block() moves only once.
 template <class Policy>
 inline void test_micropolygon(const Grid& grid, const MicropolygonId& id, TraceRay& ray, Policy& policy,
                               SampleStats& stats) {
@@ -96,7 +109,8 @@ inline void test_micropolygon(const Grid& grid, const MicropolygonId& id, TraceR
     grid_block_detail::test_quad(grid, id, quad, facing_along(grid.facing, ray.sign), ray, policy, stats);
 }
 
-/// Tests a ray against every micropolygon of a leaf block and shows the policy what it hits.
+/// Tests a ray against every micropolygon of a leaf block (fewer than kMostSplitFrom) and shows the policy
+/// what it hits. Counts a predicate test for each, whether its neighbours' vertices are shared or not.
 template <class Policy>
 inline void test_block(const Grid& grid, uint32_t grid_index, const GridBlock& block, TraceRay& ray,
                        Policy& policy, SampleStats& stats) {

@@ -1,5 +1,6 @@
 /// Hit policies: what a ray keeps of the micropolygons that it hits. `consider` sees every hit in the ray's
-/// range and pulls the range in.
+/// range, in whatever order the tree finds them, and pulls the range in. What a policy holds in the end does
+/// not depend on that order: equal depths are settled by id, and t_max is inclusive.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +12,10 @@
 
 namespace trapeze {
 
+/// Behind every hit in the order of in_front().
 inline constexpr Hit kNoHit{std::numeric_limits<float>::infinity(), MicropolygonId::kNone};
 
-/// The nearest hit; of equal depths the one of the smaller id.
+/// The nearest hit, opaque or not; of equal depths the one of the smaller id.
 struct ClosestHit {
     Hit best = kNoHit;
 
@@ -25,7 +27,8 @@ struct ClosestHit {
     }
 };
 
-/// Whether there is a hit at all.
+/// Whether there is a hit at all, for RayQuery::any(). The range becomes empty at the first hit, which ends
+/// the traversal.
 struct AnyHit {
     bool found = false;
 
@@ -35,7 +38,8 @@ struct AnyHit {
     }
 };
 
-/// All hits as far as the first opaque one, which is included.
+/// All hits as far as the first opaque one, which is included: what a camera sample's colour needs. One
+/// policy a ray; rays may share the vector.
 struct HitsUntilOpaque {
     std::vector<Hit>& hits;  ///< in no order until finish()
     Hit first_opaque = kNoHit;
@@ -45,7 +49,8 @@ struct HitsUntilOpaque {
         hits.push_back(hit);
         if (opaque) first_opaque = hit, ray.t_max = hit.depth;
     }
-    /// Sorts the hits of this ray, which begin at `first`, and drops what the opaque one hides.
+    /// Sorts the hits of this ray, which begin at hits[first], from front to back, and drops those found
+    /// before the nearest opaque one was known.
     void finish(size_t first) {
         const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(first);
         hits.erase(

@@ -9,20 +9,24 @@
 
 namespace trapeze {
 
-/// A node to visit. `depth` is a lower bound of the depth of every hit inside.
+/// A node to visit. `depth` is a lower bound of the depths of all hits inside, along the ray's axis; `node`
+/// is a name that only the tree understands.
 struct Visit {
     float depth = 0;
     uint32_t node = 0;
 };
 
-/// What a step leads to: the first `count` of two children, the far one first. Made without branches, which
-/// nobody could predict.
+/// What a step leads to: the first `count` of two children, the far one first, because the loop's stack takes
+/// the last one pushed. Made without branches: which child is nearer, and whether it is met, cannot be
+/// predicted.
 struct Visits {
     std::array<Visit, 2> visit;
     uint32_t count = 0;
 
+    /// The second place is filled too: the loop copies both and then counts.
     static Visits one(const Visit& v, bool met) { return {{v, v}, met ? 1u : 0u}; }
     static Visits two(const std::array<Visit, 2>& v, bool met_first, bool met_second) {
+        // Children of equal depth keep their order, so that a traversal is the same on all machines.
         const bool swap = !met_first || (met_second && v[0].depth < v[1].depth);
         const uint32_t first = swap ? 1 : 0;
         return {{v[first], v[1 - first]},
@@ -30,7 +34,9 @@ struct Visits {
     }
 };
 
-/// kStackSize: visits that can wait at once; a guarantee of the builder.
+/// What a structure offers to traverse(). enter() gives the root or nothing, step() the children of an inner
+/// node that the ray may hit, leaf() what is in a leaf. kStackSize: visits that can wait at once, at most;
+/// the builder guarantees it.
 template <class Tree, class Ray>
 concept RayTree = requires(const Tree& tree, const Ray& ray, const Visit& visit) {
     { Tree::kStackSize } -> std::convertible_to<int>;

@@ -10,6 +10,7 @@
 
 namespace trapeze::testing {
 
+/// Pseudo-random numbers, the same in every run.
 struct Noise {
     std::mt19937 engine{9};
     float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
@@ -18,6 +19,8 @@ struct Noise {
     }
 };
 
+/// Adds bent sheets of up to 16 x 16 micropolygons that cut through each other, each on an accelerated way of
+/// its own, so that poses between keys differ from a straight line from open to close.
 inline void add_sheets(GridMaker& maker, int count, int keys, Noise& noise) {
     for (int n = 0; n < count; ++n) {
         const V3f origin = noise.point(4), along_u = noise.point(2), along_v = noise.point(2),
@@ -33,7 +36,7 @@ inline void add_sheets(GridMaker& maker, int count, int keys, Noise& noise) {
     }
 }
 
-/// The truth, for rays in any direction.
+/// The truth, for rays in any direction: the nearest hit by testing every micropolygon, without any bound.
 inline Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange range) {
     const TurnedRay turned = axis_ray(ray);
     Hit best = kNoHit;

@@ -1,5 +1,6 @@
-/// Rays in the frames of oriented boxes, and slab tests there. Loops run over four lanes, the three axes and
-/// one that is never decisive, so that compilers make a vector operation of each.
+/// Rays in the frames of oriented boxes, and slab tests there: the interval of depths in which a ray is
+/// between each pair of planes, cut with each other. Loops run over four lanes, the three axes and one that
+/// is never decisive, so that compilers make a vector operation of each.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,8 @@
 
 namespace trapeze {
 
-/// A Frame by columns: coordinate k of a point is sum over i of column[i][k] * point[i].
+/// A Frame by columns, as four lanes want it: coordinate k of a point is sum over i of column[i][k] *
+/// point[i]. Lane 3 is 0.
 struct alignas(16) FrameColumns {
     float column[3][4] = {};
 
@@ -21,26 +23,29 @@ struct alignas(16) FrameColumns {
     }
 };
 
-/// A box at one key; lane 3 is set so that every ray passes it.
+/// A box in some frame at one motion key. Lane 3 is [-1, 1] about an origin of 0, which every ray passes.
 struct alignas(16) KeyBox {
     float low[4] = {0, 0, 0, -1}, high[4] = {0, 0, 0, 1};
 };
 
-/// Directions nearer to a slab's plane than this are taken as this: products stay finite, and what it moves a
-/// ray is far below its rounding.
+/// The least component of a direction across a slab: nearer ones are taken as this. Products stay finite
+/// where 1 / 0 would make a NaN of 0 * infinity, and what it moves a ray is far below its rounding.
 inline constexpr float kLeastDirection = 1e-18f;
 
+/// A ray as slab tests read it: origin and one over its direction in a frame's axes. The direction is scaled
+/// so that slab depths are depths of the TraceRay.
 struct alignas(16) FrameRay {
     float origin[4], inverse_direction[4];
 
     FrameRay() = default;
 
-    /// In the axes of space.
+    /// For boxes along the axes of space, of which no rotation is needed.
     explicit FrameRay(const TraceRay& ray) {
         for (int k = 0; k < 3; ++k)
             origin[k] = ray.origin[k], inverse_direction[k] = inverse(ray.direction[k]);
         origin[3] = 0, inverse_direction[3] = inverse(0);
     }
+    /// For oriented boxes. Rounds by less than TraceRay::rounding() allows for.
     FrameRay(const FrameColumns& frame, const TraceRay& ray) {
         const auto& c = frame.column;
         for (int k = 0; k < 4; ++k)
@@ -56,19 +61,24 @@ struct alignas(16) FrameRay {
     static float inverse(float d) { return 1.0f / (std::abs(d) < kLeastDirection ? kLeastDirection : d); }
 };
 
-/// Depths between which a ray is inside a box; empty when near > far. A NaN makes no bound.
+/// Depths between which a ray is inside a box; empty when near > far. A NaN makes no bound: such a box is
+/// met.
 struct DepthInterval {
     float near, far;
 
     /// Whether hits within the ray's range may be inside; *depth becomes a lower bound of theirs. Hits may
-    /// be `slack` outside of the interval (see PaperTree).
+    /// be `slack` outside of the interval: the predicate's depth lies within the micropolygon's own range of
+    /// depths, but not always within an oriented box about it (docs/decisions/0004-boxes-and-depths.md).
     bool meets(const TraceRay& ray, float slack, float& depth) const {
+        // Negated comparisons let NaN in; & instead of && leaves no branch that would be predicted wrongly.
         depth = near - slack;
         return !(near > far) & !(far + slack < ray.t_min) & !(depth > ray.t_max);
     }
 };
 
-/// The box between two keys at a local time, grown by `rounding`.
+/// Depths in a moving box: `from` and `to` are its boxes at two keys, in the ray's frame, local_time in [0,
+/// 1] the way between them. The box is grown by `rounding` on all sides, by moving near and far instead of
+/// its planes.
 inline DepthInterval clip(const FrameRay& ray, const KeyBox& from, const KeyBox& to, float local_time,
                           float rounding) {
     float near[4], far[4];
