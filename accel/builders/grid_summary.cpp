@@ -9,7 +9,9 @@
 namespace trapeze {
 namespace {
 
-/// The grid's plane of a component at one of its keys, tile by tile; `at_end` adds the segment's motion.
+/// Where positions X Y Z of a grid at one of its keys are, in tiles (see core/grid.h). Only segments are
+/// stored: a key's pose is its segment's start, and the last key's is the last segment's start plus its
+/// motion.
 struct KeyPlanes {
     const float* start[3];
     const float* delta[3];  ///< null: the key is a segment's first
@@ -26,10 +28,12 @@ KeyPlanes planes_at(const Grid& grid, int key) {
     return planes;
 }
 
+/// Running maxima over keys, in the frame of the vertices given.
 struct Extremes {
     float absolute_max = 0, quad_extent = 0;
 };
 
+/// Takes in one pose of a grid: its largest |coordinate| and its widest micropolygon along any one axis.
 void extend_extremes(const GridShape& shape, const FramedVertices& p, Extremes& extremes) {
     const int row = shape.vertices_u();
     for (int k = 0; k < 3; ++k) {
@@ -46,7 +50,8 @@ void extend_extremes(const GridShape& shape, const FramedVertices& p, Extremes& 
     }
 }
 
-/// A grid one micropolygon wide and long is a curve's ribbon.
+/// Whether a grid is a curve's ribbon: one micropolygon across and four or more along it. Its normal means
+/// little, for it may be turned to face the camera; its direction is what groups of hair have in common.
 bool is_curve(const GridShape& shape) {
     return std::min(shape.nu, shape.nv) == 1 && std::max(shape.nu, shape.nv) >= 4;
 }
@@ -85,6 +90,7 @@ GridSummary summarise(const Grid& grid) {
         vertices_in_frame(grid, key, Frame{}, p);
         extend_extremes(shape, p, extremes);
     }
+    // Written so that a NaN makes the grid unboundable.
     const bool boundable = extremes.absolute_max <= kBoundableCoordinate;
     summary.absolute_max = boundable ? extremes.absolute_max : std::numeric_limits<float>::infinity();
     summary.quad_extent = extremes.quad_extent;
@@ -92,7 +98,9 @@ GridSummary summarise(const Grid& grid) {
     for (int j = 0; j <= shape.nv; ++j)
         for (int i = 0; i <= shape.nu; ++i) summary.box.extendBy(grid.vertex(i, j, 0.5f));
 
-    // Sums of edges along u and v: interior vertices cancel.
+    // The paper's averaged edges [Hou10 sec. 3.3].
+    // Sums of edges along u and v at mid-shutter: interior vertices cancel, so that border vertices are
+    // enough.
     V3d along_u(0), along_v(0);
     for (int j = 0; j <= shape.nv; ++j)
         along_u += V3d(grid.vertex(shape.nu, j, 0.5f)) - V3d(grid.vertex(0, j, 0.5f));

@@ -1,4 +1,5 @@
-/// What top-level builders know of a grid: its place at mid-shutter, its orientation, its weight.
+/// What top-level builders know of a grid (its place at mid-shutter, its orientation, its weight), and the
+/// bounds of a grid's vertices in any frame.
 #pragma once
 
 #include <vector>
@@ -9,9 +10,12 @@
 
 namespace trapeze {
 
-/// Coordinates beyond this may overflow in the predicate's products: such grids are in every bound.
+/// Coordinates beyond this may overflow in the predicate's products: such grids cannot be culled safely and
+/// are in every bound. Far below kLargestCoordinate, which grids are refused beyond.
 inline constexpr float kBoundableCoordinate = 1e15f;
 
+/// One grid for builders. Mid-shutter (time 0.5) stands for the whole motion in all choices of topology
+/// [Hou10 sec. 3.3]; what must be conservative holds at all keys.
 struct GridSummary {
     Box3f box;               ///< camera space, axis-aligned, at mid-shutter
     uint32_t weight = 0;     ///< micropolygons: the SAH's cost of the grid
@@ -23,25 +27,30 @@ struct GridSummary {
     V3f centroid() const { return box.min * 0.5f + box.max * 0.5f; }
 };
 
+/// Reads all vertices of a grid at all of its keys; frames of grids that are not boundable are the axes.
 GridSummary summarise(const Grid& grid);
 
-/// Of all grids, with the frames that a tree's bounds have: all axis-aligned unless it is oriented.
+/// Summaries of all grids, in their order, with the frames that a tree's bounds have: those of the grids, or
+/// the axes of space unless the tree is oriented.
 std::vector<GridSummary> framed_summaries(const Grids& grids, const PaperTreeOptions& options);
 
-/// A grid's bound in any frame, at its own keys. What has no bound is a point: its rounding makes it
-/// infinite.
+/// Bound of a whole grid in any frame: a box at each of the grid's own keys, grown for rounding.
+/// `absolute_max` is the summary's. A grid without a bound gets a point for each key: the traversal grows
+/// boxes by TraceRay::rounding(absolute_max), which is infinite.
 HyperTrapezoid bound_in_frame(const Grid& grid, float absolute_max, const Frame& frame);
 
-/// A vertex at one of the grid's own keys.
+/// Position of vertex (i, j) at one of the grid's own keys, in camera space.
 V3f vertex_of_key(const Grid& grid, int key, int i, int j);
 
 /// Grows a box of coordinates in a frame for the rounding of a rotation and of a lerp in time.
+/// `absolute_max`: the largest coordinate in space of what was rotated.
 Box3f grown_for_frame(const Box3f& box, float absolute_max);
 
 /// Coordinates in a frame of all vertices at one of the grid's own keys; row by row, u fastest.
 struct FramedVertices {
     float c[3][kMaxGridVertices];
 };
+/// The rotation is three products and two sums in a fixed order; grown_for_frame() covers what they round.
 void vertices_in_frame(const Grid& grid, int key, const Frame& frame, FramedVertices& out);
 
 }  // namespace trapeze

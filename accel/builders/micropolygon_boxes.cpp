@@ -38,6 +38,8 @@ void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summ
             const uint32_t id = first[g] + static_cast<uint32_t>(i);
             ids[id] = {static_cast<uint32_t>(g), static_cast<uint8_t>(i % grid.shape.nu),
                        static_cast<uint8_t>(i / grid.shape.nu)};
+            // A huge box would make all costs of the SAH infinite; such grids are bounded by their rounding
+            // anyhow.
             if (!std::isfinite(summaries[g].absolute_max)) items[id].box = Box3f(V3f(0), V3f(0));
         }
     });

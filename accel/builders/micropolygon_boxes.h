@@ -1,4 +1,5 @@
-/// Single micropolygons as what the SAH divides.
+/// Single micropolygons as what the SAH divides: for the tree without parametric splits, and for measuring
+/// how good those splits are.
 #pragma once
 
 #include <vector>
@@ -9,11 +10,14 @@
 
 namespace trapeze {
 
-/// The boxes in a frame, at a time, of a grid's micropolygons, row by row into nu * nv items, whose ids count
-/// from `first_id`.
+/// Writes the boxes of a grid's micropolygons in a frame, at a time of [0, 1], row by row (u fastest) into nu
+/// * nv items of weight 1, whose ids count from `first_id`.
 void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t first_id, SahItem* items);
 
-/// All micropolygons in order, and their axis-aligned boxes at mid-shutter. What has no bound is a point.
+/// All micropolygons, in the order of grids and then of rows, and their axis-aligned boxes at mid-shutter:
+/// items[i] is ids[i] until the SAH sorts the items, and items keep i as their id. A micropolygon of a grid
+/// without a bound is a point at the origin. There are at most 2^31 micropolygons: links of the topology
+/// count them in 31 bits.
 void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summaries,
                         std::vector<MicropolygonId>& ids, std::vector<SahItem>& items);
 

@@ -8,16 +8,17 @@
 namespace trapeze {
 namespace {
 
+/// Bits a dimension: five of them fit 64 bits.
 constexpr int kBits = 12;
 
-/// NaN and what lies outside [0, 1] go to the ends.
+/// Takes [0, 1] to 0 .. 2^kBits - 1. NaN and what lies outside go to the ends, so that every item has a code.
 uint32_t quantised(float value) {
     constexpr float kSteps = 1 << kBits;
     const float scaled = value * kSteps;
     return scaled > 0 ? static_cast<uint32_t>(std::min(scaled, kSteps - 1)) : 0u;
 }
 
-/// Inverse of the concentric map of the square [-1,1]^2 to the disk [Shirley97].
+/// Inverse of the concentric map of the square [-1,1]^2 to the disk [Shirley97]; it keeps relative area.
 V2f square_from_disk(const V2f& p) {
     const float r = std::sqrt(p.x * p.x + p.y * p.y);
     if (r == 0) return {0, 0};
@@ -33,6 +34,7 @@ V2f square_from_disk(const V2f& p) {
 }  // namespace
 
 V2f square_from_direction(const V3f& unit) {
+    // An orientation has no sign: the hemisphere of z >= 0 stands for all.
     const V3f up = unit.z < 0 ? -unit : unit;
     // Equal area: a hemisphere's cap of height 1 - z goes to the disk of radius sqrt(1 - z).
     const float planar = std::sqrt(up.x * up.x + up.y * up.y);
@@ -49,6 +51,7 @@ uint64_t orientation_morton_code(const V3f& direction, const V3f& centroid, cons
         dimension[2 + k] =
             quantised((centroid[k] - centroids.min[k]) / (centroids.max[k] - centroids.min[k]));
     uint64_t code = 0;
+    // From the most significant bit on, one bit of each dimension in turn.
     for (int bit = kBits - 1; bit >= 0; --bit)
         for (const uint32_t d : dimension) code = code << 1 | (d >> bit & 1);
     return code;
@@ -66,6 +69,7 @@ void sort_by_orientation(std::span<SahItem> items, const std::function<V3f(uint3
     for (const SahItem& item : items)
         coded.push_back({orientation_morton_code(direction(item.id), item.centroid(), centroids), item});
     std::sort(coded.begin(), coded.end(), [](const Coded& a, const Coded& b) {
+        // Ids differ, so the order is total and does not depend on where the sort begins.
         return std::pair(a.code, a.item.id) < std::pair(b.code, b.item.id);
     });
     for (size_t i = 0; i < items.size(); ++i) items[i] = coded[i].item;

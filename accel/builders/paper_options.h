@@ -17,6 +17,7 @@ struct PaperTreeOptions {
     bool orient_split = true;
     /// A node above grids takes the better orientation of its children's; else it is axis-aligned.
     bool orient_propagation = true;
+    /// The paper's own leaves have fewer than 8 micropolygons; at most kMostSplitFrom.
     int leaf = 8;  ///< splits end at fewer micropolygons than this
 
     bool oriented() const { return bounds == Bounds::Oriented; }

@@ -10,11 +10,13 @@
 namespace trapeze {
 namespace {
 
+/// Bins along each axis, hence 31 planes to split at.
 constexpr int kBins = 32;
 constexpr size_t kParallelFrom = 1024;            ///< items below which a subtree is one task
 constexpr size_t kParallelBinningFrom = 1 << 16;  ///< items from which one node's bins are filled in parallel
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
+/// Some items together: their box, the tests they stand for, their number.
 struct Bin {
     Box3f box;
     uint64_t weight = 0;
@@ -25,10 +27,12 @@ struct Bin {
         weight += o.weight, count += o.count;
     }
     void add(const SahItem& item) { add(Bin{item.box, item.weight, 1}); }
+    /// The SAH's term for one side: half its area times its tests. 0 where there is nothing.
     double cost() const { return half_area(box) * static_cast<double>(weight); }
 };
 
-/// All of some items, and their centroids.
+/// What a node's choice of a split needs of its items: their sum, and the box of their centroids, which bins
+/// divide.
 struct Extent {
     Bin all;
     Box3f centroids;
@@ -43,7 +47,7 @@ struct Extent {
     }
 };
 
-/// Bins of centroids along the axes.
+/// The rule that gives an item its bin along each axis: kBins equal parts of the centroids' box.
 struct Binning {
     V3f from, scale;  ///< scale 0: an axis without extent
 
@@ -57,6 +61,7 @@ struct Binning {
     }
 };
 
+/// Sums of items by bin, for all three axes in one pass over the items.
 struct Bins {
     const Binning* binning;
     std::array<std::array<Bin, kBins>, 3> of_axis;
@@ -71,7 +76,8 @@ struct Bins {
     }
 };
 
-/// The sum of items, the same in whatever order it is made.
+/// The sum of items. The same in whatever order threads make it: boxes join exactly, weights and counts are
+/// integers.
 template <class Sum>
 Sum sum_of(std::span<const SahItem> part, const Sum& zero) {
     const auto add = [&](size_t first, size_t last, Sum sum) {
@@ -88,12 +94,15 @@ Sum sum_of(std::span<const SahItem> part, const Sum& zero) {
         });
 }
 
+/// A place to divide a node, and what the two sides cost in tests times half area; infinite: none found.
 struct Split {
     double cost = kInfinite;
     int axis = 0;
     size_t place = 0;  ///< the first bin, or item of the axis's order, of the upper side
 };
 
+/// The cheapest of kBins - 1 planes along each axis that leaves something on both sides; the first one of
+/// equals. Two sweeps over the bins: costs of all upper sides from above, then lower sides from below.
 Split best_of_bins(const Bins& bins, const Extent& extent) {
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
@@ -116,7 +125,8 @@ Split best_of_bins(const Bins& bins, const Extent& extent) {
     return best;
 }
 
-/// Items of a small part in the order of their centroids along an axis.
+/// Items of a small part in the order of their centroids along an axis; equal ones keep the order that they
+/// came in, so that the order is total. At most kMostSwept, so that nothing is allocated.
 class AxisOrder {
   public:
     AxisOrder(std::span<const SahItem> part, int axis) : part_(part) {
@@ -129,6 +139,8 @@ class AxisOrder {
     }
     const SahItem& operator[](size_t i) const { return part_[place_[i].item]; }
 
+    /// Tries a split between each two neighbours, where bins try only at planes. node_cost: of visiting the
+    /// node.
     void consider(int axis, double node_cost, Split& best) const {
         std::array<double, SahOptions::kMostSwept> cost_above;
         Bin above;
@@ -155,6 +167,7 @@ class AxisOrder {
     std::array<Place, SahOptions::kMostSwept> place_;
 };
 
+/// Builds the tree over items, which it sorts in place: a subtree is a range of them.
 class Builder {
   public:
     Builder(std::vector<SahItem>& items, const SahOptions& options) : items_(items), options_(options) {
@@ -189,13 +202,16 @@ class Builder {
                     [this, depth](size_t from, size_t to) { return build_sah(from, to, depth + 1); });
     }
 
-    /// The subtree of sorted items, halved again and again.
+    /// The subtree of items in the fallback's order, halved in the middle until leaves are small. At most 32
+    /// levels.
     TopLink build_medians(size_t first, size_t last) {
         if (last - first < options_.leaf_below) return TopLink::leaf(static_cast<uint32_t>(first));
         return join(first, first + (last - first) / 2, last,
                     [this](size_t from, size_t to) { return build_medians(from, to); });
     }
 
+    /// The node over items [first, last) that is divided at `middle`; both halves are built by build(first,
+    /// last), as tasks where there are enough items.
     template <class Build>
     TopLink join(size_t first, size_t middle, size_t last, Build&& build) {
         std::array<TopLink, 2>& node = split_at_[middle - 1];
@@ -208,10 +224,12 @@ class Builder {
         return TopLink::inner(static_cast<uint32_t>(middle - 1));
     }
 
-    /// Parts the items by the best split; the size of the lower part, 0 for none.
+    /// Parts the items in place by the best split; the size of the lower part, 0 where no split is good
+    /// enough.
     size_t split(std::span<SahItem> part) const {
         return part.size() <= options_.sweep_up_to ? split_by_sweep(part) : split_by_bins(part);
     }
+    /// A split is good when it costs less than testing all items of the node, unless any split will do.
     bool is_good(const Split& best, const Bin& all) const {
         return options_.split_anyway ? best.cost < kInfinite : best.cost < all.cost();
     }
@@ -221,6 +239,7 @@ class Builder {
         const Binning binning(extent.centroids);
         const Split best = best_of_bins(sum_of(part, Bins{&binning, {}}), extent);
         if (!is_good(best, extent.all)) return 0;
+        // Stable: the order of items, hence of leaves, is the same on every machine.
         const auto middle = std::stable_partition(part.begin(), part.end(), [&](const SahItem& item) {
             return static_cast<size_t>(binning.bin_of(item, best.axis)) < best.place;
         });
@@ -235,6 +254,7 @@ class Builder {
             if (extent.centroids.max[axis] > extent.centroids.min[axis])
                 AxisOrder(part, axis).consider(axis, half_area(extent.all.box) * kTraversalCost, best);
         if (!is_good(best, extent.all)) return 0;
+        // The order reads the part that is to be written.
         std::vector<SahItem> sorted;
         sorted.reserve(part.size());
         const AxisOrder order(part, best.axis);
@@ -243,7 +263,8 @@ class Builder {
         return best.place;
     }
 
-    /// Numbers the nodes below a link, inner ones in preorder and leaves from left to right.
+    /// Gives the nodes below a link their final numbers, inner ones in preorder and leaves from left to
+    /// right; adds each leaf's first item to leaf_first.
     TopLink number(TopLink built, SahTopology& result) const {
         if (built.is_leaf()) {
             result.leaf_first.push_back(built.index());
@@ -260,6 +281,8 @@ class Builder {
 
     std::vector<SahItem>& items_;
     const SahOptions& options_;
+    /// The children of every inner node, at the first item of its upper side less one: one place for each gap
+    /// between two items, so that threads write to places of their own.
     std::vector<std::array<TopLink, 2>> split_at_;
 };
 

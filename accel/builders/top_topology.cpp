@@ -12,11 +12,14 @@ TopTopology build_top_topology(std::span<const GridSummary> grids, bool orient_s
 
     SahOptions options;
     options.split_anyway = !orient_split;
+    // With one direction for all, the codes are an order of space alone: for the few parts that have no
+    // split.
     options.fallback_order = [&](std::span<SahItem> part) {
         sort_by_orientation(
             part, [&](uint32_t grid) { return orient_split ? grids[grid].main_direction : V3f(0, 0, 1); });
     };
     TopTopology topology = build_sah_topology(items, options).tree;
+    // Leaves hold one grid each: their number gives way to the grid's.
     const auto name_by_grid = [&](TopLink& link) {
         if (link.is_leaf()) link = TopLink::leaf(items[link.index()].id);
     };
