@@ -6,20 +6,25 @@
 namespace trapeze {
 namespace {
 
+/// A range of floats; empty when min > max.
 struct Interval {
     float min, max;
 };
 
-/// Cuts `depths`, none of them negative, to those at which origin + depth * slope may lie in [low, high].
+/// Cuts `depths`, none of them negative, to those at which origin + depth * slope may lie in [low, high] for
+/// some origin and slope of their intervals. What no depth allows leaves depths.max at -1 or below
+/// depths.min.
 void cut(Interval& depths, const Interval& origin, const Interval& slope, float low, float high) {
     // The lowest place of the bundle is below `high`, the highest one above `low`.
     const float below = high - origin.min, above = origin.max - low;
+    // origin.min + depth * slope.min <= high
     if (slope.min > 0)
         depths.max = std::min(depths.max, below / slope.min);
     else if (slope.min < 0)
         depths.min = std::max(depths.min, below / slope.min);
     else if (below < 0)
         depths.max = -1;
+    // origin.max + depth * slope.max >= low
     if (slope.max < 0)
         depths.max = std::min(depths.max, -above / slope.max);
     else if (slope.max > 0)
@@ -28,6 +33,7 @@ void cut(Interval& depths, const Interval& origin, const Interval& slope, float 
         depths.max = -1;
 }
 
+/// The interval of factor * [min, max]; a negative factor turns it over.
 Interval product(float factor, float min, float max) {
     return factor < 0 ? Interval{factor * max, factor * min} : Interval{factor * min, factor * max};
 }
@@ -51,6 +57,7 @@ Beam::Beam(std::span<const AxisRay> rays, std::span<const uint32_t> indices, Dep
 }
 
 bool Beam::meets(const FrameColumns& frame, const KeyBox& box, float absolute_max, float slack) const {
+    // As TraceRay::rounding(), for the steepest ray that starts farthest out: it holds for all of them.
     const float steepest = std::max(std::abs(slope_min.x), std::abs(slope_max.x)) +
                            std::max(std::abs(slope_min.y), std::abs(slope_max.y));
     const float farthest = std::max(std::abs(origin_min.x), std::abs(origin_max.x)) +
@@ -67,6 +74,7 @@ bool Beam::meets(const FrameColumns& frame, const KeyBox& box, float absolute_ma
         const Interval oy = product(c[1][k], origin_min.y, origin_max.y);
         const Interval ux = product(c[0][k], slope_min.x, slope_max.x);
         const Interval uy = product(c[1][k], slope_min.y, slope_max.y);
+        // Origins are at z = 0, and directions have z = 1: only slopes get the frame's third column.
         const Interval origin{ox.min + oy.min, ox.max + oy.max};
         const Interval slope{ux.min + uy.min + c[2][k], ux.max + uy.max + c[2][k]};
         const float low = box.low[k] - rounding, high = box.high[k] + rounding;

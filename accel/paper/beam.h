@@ -1,4 +1,5 @@
-/// A bundle of camera rays, as intervals of what their rays hold.
+/// A bundle of camera rays, as intervals of what their rays hold: for finding what no ray of them can meet,
+/// once for all of them (docs/decisions/0005-bundles-in-the-reference.md).
 #pragma once
 
 #include <span>
@@ -8,7 +9,8 @@
 
 namespace trapeze {
 
-/// Conservative: what no ray of the bundle can hit is often found out, what one can hit is never given up.
+/// The bounds of some camera rays. Conservative: what no ray of the bundle can hit is often found out, what
+/// one can hit is never given up.
 struct Beam {
     V2f origin_min, origin_max, slope_min, slope_max;  ///< x and y; origins are at z = 0
     float time_min = 0, time_max = 0;
@@ -17,8 +19,9 @@ struct Beam {
     /// The beam of the rays at some indices, of which there is at least one.
     Beam(std::span<const AxisRay> rays, std::span<const uint32_t> indices, DepthRange depths);
 
-    /// Whether a ray may pass a box of a frame, grown by its rounding, at a depth in the range grown by
-    /// `slack`. `absolute_max`: the largest coordinate of what the box holds.
+    /// Whether some ray may pass a box (coordinates of `frame`, for the beam's whole time), grown by its
+    /// rounding, at a depth in the range grown by `slack` on both ends. `absolute_max`: the largest
+    /// coordinate in space of what the box holds.
     bool meets(const FrameColumns& frame, const KeyBox& box, float absolute_max, float slack) const;
 };
 

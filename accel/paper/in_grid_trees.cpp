@@ -9,7 +9,9 @@
 namespace trapeze {
 namespace {
 
-/// Bounds of all nodes of one grid's tree in some poses.
+/// Bounds of all nodes of one grid's tree over the poses that are added: one pose for a key's boxes, all of
+/// them for whole-motion bounds. Coordinates are those of the vertices given; nothing is grown for rounding
+/// here.
 class PoseBounds {
   public:
     PoseBounds(const ParametricSplits& splits, int vertices_u) : splits_(splits), row_(vertices_u) {}
@@ -23,6 +25,7 @@ class PoseBounds {
     const std::array<Box3f, 2>& pair(uint32_t inner) const { return pairs_[inner]; }
 
   private:
+    /// The box of a block in the last pose; adds the boxes below inner node number `inner` to their pairs.
     Box3f bound(const GridBlock& block, uint32_t inner) {
         if (splits_.is_leaf(block)) return leaf_bound(block);
         const BlockHalves parts = halves(block);
@@ -47,11 +50,14 @@ class PoseBounds {
     const ParametricSplits& splits_;
     int row_;
     const FramedVertices* vertices_ = nullptr;
+    /// Low and high child of each inner node; a grid has at most 255 (16 x 16, single micropolygons as
+    /// leaves).
     std::array<std::array<Box3f, 2>, 256> pairs_;
 };
 
-/// The number of quanta at or below (above) a coordinate within the reference box. What rounds here is within
-/// the growth of the reference box, whose first and last quantum the true box does not reach.
+/// Quanta from `low` at or below (above) a coordinate, and one further, for the rounding of the traversal.
+/// What rounds here is within the growth of the reference box, whose first and last quantum the true box does
+/// not reach.
 uint16_t quantum_below(float value, float low, float step) {
     const double quanta = std::floor((static_cast<double>(value) - low) / step) - 1;
     return static_cast<uint16_t>(std::clamp(quanta, 0.0, double{InGridTrees::kQuantumCount}));
@@ -86,6 +92,7 @@ InGridTrees::InGridTrees(std::span<const Grid> grids, std::span<const GridSummar
       entries_(grids.size()) {
     uint32_t records = 0, references = 0;
     for (size_t i = 0; i < grids.size(); ++i) {
+        // Sizes follow from shapes, so that all places are known before any grid is bounded.
         const uint32_t inner = splits_.inner_nodes({0, 0, grids[i].shape.nu, grids[i].shape.nv});
         entries_[i] = {FrameColumns(summaries[i].frame), summaries[i].absolute_max, summaries[i].quad_extent,
                        records, references};
@@ -124,6 +131,7 @@ void InGridTrees::build_grid(const Grid& grid, const GridSummary& summary, const
         Reference& reference = references_[entry.first_reference + key];
         for (int k = 0; k < 3; ++k) {
             reference.low[k] = outer.min[k];
+            // Four quanta are left over, so that codes rounded outwards, one further than needed, still fit.
             reference.step[k] = (outer.max[k] - outer.min[k]) * (1.0f / (kQuantumCount - 4));
         }
         for (uint32_t node = 0; node < inner; ++node) {
@@ -147,6 +155,8 @@ InGridTree::InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid
       root_(pack({0, 0, grid.shape.nu, grid.shape.nv}, 0)) {
     const InGridTrees::Entry& entry = trees.entries_[grid_index];
     const MotionSegment segment = segment_at(ray.axis.time, key_count_);
+    // The first record of the key before the ray's time; the next key's lies kRecordSize behind it in each
+    // node.
     records_ = trees.records_.data() +
                size_t{entry.first_record + static_cast<uint32_t>(segment.index)} * InGridTrees::kRecordSize;
     const float rounding = ray.rounding(entry.absolute_max);
@@ -167,6 +177,7 @@ InGridTree::InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid
 }
 
 Visits InGridTree::step(const Visit& at, const TraceRay& ray) const {
+    // A visit's name holds its block and its number (see pack()): nothing is looked up.
     const uint32_t inner = at.node >> 16;
     const uint16_t* from = records_ + size_t{inner} * key_count_ * InGridTrees::kRecordSize;
     const uint16_t* to = key_count_ > 1 ? from + InGridTrees::kRecordSize : from;
@@ -185,6 +196,7 @@ Visits InGridTree::step(const Visit& at, const TraceRay& ray) const {
             far[child] = f < far[child] ? f : far[child];
         }
     }
+    // Children are numbered in preorder: the low one next, the high one after all inner nodes of the low one.
     const BlockHalves parts = halves(leaf(at.node));
     const uint32_t low_inner = inner + 1, high_inner = low_inner + splits_.inner_nodes(parts.low);
     std::array<Visit, 2> children{Visit{0, pack(parts.low, low_inner)},

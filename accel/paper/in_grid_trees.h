@@ -27,7 +27,7 @@ class ParametricSplits {
     explicit ParametricSplits(int leaf_below);
 
     bool is_leaf(const GridBlock& block) const { return block.count() < leaf_below_; }
-    /// Inner nodes of the tree of a block; 0 for a leaf.
+    /// Inner nodes of the tree of a block, from a table by shape; 0 for a leaf.
     uint32_t inner_nodes(const GridBlock& block) const { return inner_nodes_[block.nu * kSides + block.nv]; }
 
   private:
@@ -36,15 +36,20 @@ class ParametricSplits {
     std::array<uint8_t, kSides * kSides> inner_nodes_{};
 };
 
+/// The trees of all grids of a frame (or region), in four arrays. Grids without a bound have records of
+/// zeros, which their infinite rounding makes infinite boxes.
 class InGridTrees {
   public:
     static constexpr int kRecordSize = 12;         ///< numbers of a key's record
     static constexpr float kQuantumCount = 65535;  ///< steps across the grid's box
 
-    /// Boxes of the grids' trees, and per grid its bound at the keys of its boxes into `bounds`.
+    /// Builds the trees, in parallel over grids, and writes each grid's whole bound, at the keys of its
+    /// boxes, to `bounds`, of which there are then as many as grids. `summaries`: of the grids, in their
+    /// order.
     InGridTrees(std::span<const Grid> grids, std::span<const GridSummary> summaries,
                 const PaperTreeOptions& options, std::vector<HyperTrapezoid>& bounds);
 
+    /// Memory held, for BuildStats.
     size_t bytes() const {
         return entries_.capacity() * sizeof(Entry) + references_.capacity() * sizeof(Reference) +
                records_.capacity() * sizeof(uint16_t);
@@ -54,10 +59,12 @@ class InGridTrees {
   private:
     friend class InGridTree;
 
-    /// The grid's box at a key: its low corner and the length of a quantum.
+    /// A grid's box at a key, which quanta count from: its low corner and the length of a quantum, in the
+    /// grid's frame, lane 3 unused.
     struct alignas(16) Reference {
         float low[4] = {}, step[4] = {};
     };
+    /// One grid: the frame that all of its nodes share, and where its records are.
     struct Entry {
         FrameColumns frame;
         float absolute_max = 0, quad_extent = 0;
@@ -65,8 +72,9 @@ class InGridTrees {
         uint32_t first_reference = 0;  ///< in references_
     };
 
-    /// Keys of a grid's boxes.
+    /// Keys at which a grid has boxes: its own motion keys, or one for bounds of the whole motion.
     int box_keys(const Grid& grid) const { return whole_motion_ ? 1 : grid.key_count; }
+    /// Fills in the records and references of one grid, whose places are in `entry`.
     void build_grid(const Grid& grid, const GridSummary& summary, const Entry& entry, HyperTrapezoid& bound);
 
     ParametricSplits splits_;
@@ -77,7 +85,8 @@ class InGridTrees {
     size_t inner_nodes_ = 0;
 };
 
-/// One grid's tree, prepared for one ray: transformed into the grid's frame once. A RayTree.
+/// One grid's tree, prepared for one ray: the ray is transformed into the grid's frame once, and quanta turn
+/// into depths by one multiplication and addition each. A RayTree whose leaves are blocks.
 class InGridTree {
   public:
     static constexpr int kStackSize = 12;  ///< 16 x 16 is halved seven times when leaves are smallest
@@ -98,6 +107,8 @@ class InGridTree {
     Visits step(const Visit& at, const TraceRay& ray) const;
 
   private:
+    /// The name of a node: 4 bits each of u, v, nu - 1, nv - 1, then its number among inner nodes (of leaves,
+    /// the number that an inner node there would have).
     static uint32_t pack(const GridBlock& b, uint32_t inner) {
         return b.u | uint32_t{b.v} << 4 | uint32_t{b.nu - 1u} << 8 | uint32_t{b.nv - 1u} << 12 | inner << 16;
     }
@@ -107,6 +118,8 @@ class InGridTree {
     int key_count_;
     uint32_t root_;
     float slack_;
+    /// The depth of a plane along axis k is quantum * from_scale_ + next key's quantum * to_scale_ + base_;
+    /// pad_ is the rounding as a depth.
     alignas(16) float base_[4], from_scale_[4], to_scale_[4], pad_[4];
 };
 

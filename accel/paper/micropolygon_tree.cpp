@@ -12,14 +12,16 @@
 namespace trapeze {
 namespace {
 
-/// Parts of up to this many micropolygons are split at the best of all places.
+/// Parts of up to this many micropolygons are split at the best of all places, larger ones at the best plane
+/// of a few.
 constexpr size_t kSweepUpTo = 64;
 
 /// Nodes of up to this many leaves are bounded from the vertices. With 8, rays visit twice the nodes where
 /// things fly past each other.
 constexpr size_t kBoundFromVerticesUpTo = 32;
 
-/// The bound in a frame of some micropolygons of one grid at the grid's keys, or at all times.
+/// Bound in a frame of some micropolygons of one grid, from their vertices: a box at each of the grid's keys,
+/// or one box for all times.
 HyperTrapezoid bound_in(const Frame& frame, const Grid& grid, std::span<const MicropolygonId> part,
                         float absolute_max, bool whole_motion) {
     HyperTrapezoid bound{frame, {}};
@@ -42,7 +44,7 @@ HyperTrapezoid bound_in(const Frame& frame, const Grid& grid, std::span<const Mi
     return bound;
 }
 
-/// Calls of_grid(micropolygons) for each run of one grid's.
+/// Calls of_grid(span) for each run of micropolygons of one grid in a list sorted by grid.
 template <class OfGrid>
 void for_each_grid(std::span<const MicropolygonId> list, OfGrid&& of_grid) {
     for (size_t first = 0, last; first < list.size(); first = last) {
@@ -87,11 +89,13 @@ void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
             return options.orient_split ? summaries[ids[id].grid].main_direction : V3f(0, 0, 1);
         });
     };
+    // From here on leaves are ranges of micropolygons_, in the order that the SAH gave the items.
     SahTopology topology = build_sah_topology(items, sah);
     leaf_first_ = std::move(topology.leaf_first);
     micropolygons_.resize(items.size());
     tbb::parallel_for(size_t{0}, items.size(), [&](size_t i) { micropolygons_[i] = ids[items[i].id]; });
     const size_t leaf_count = leaf_first_.size() - 1;
+    // In a leaf by id: those of one grid come together, as bounding them wants.
     tbb::parallel_for(size_t{0}, leaf_count, [&](size_t i) {
         std::sort(micropolygons_.begin() + leaf_first_[i], micropolygons_.begin() + leaf_first_[i + 1],
                   [](const MicropolygonId& a, const MicropolygonId& b) { return a.packed() < b.packed(); });
@@ -130,6 +134,7 @@ NodeBound MicropolygonTree::leaf_bound(uint32_t index, const std::vector<GridSum
     const std::span<const MicropolygonId> list = leaf(index);
     NodeBound smallest;
     double least_area = std::numeric_limits<double>::infinity();
+    // Candidates for the leaf's orientation: the frames of its grids, then that of its own edges.
     const auto consider = [&](const Frame& frame) {
         HyperTrapezoid bound = leaf_bound_in(frame, index, summaries, options);
         const double area = bound.expected_half_area();

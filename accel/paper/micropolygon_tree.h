@@ -17,12 +17,15 @@
 
 namespace trapeze {
 
+/// Leaves are lists of at most options.leaf - 1 micropolygons of any grids. Finds what testing everything
+/// finds, bit for bit.
 class MicropolygonTree {
   public:
     /// Keeps a reference to the grids.
     explicit MicropolygonTree(const Grids& grids, const PaperTreeOptions& options = {});
 
-    /// As PaperTree's.
+    /// Shows the policy the hits of a ray, near ones first as far as bounds tell; `part`: see
+    /// PaperTree::trace().
     template <class Policy>
     void trace(TraceRay& ray, Policy& policy, SampleStats& stats) const {
         trace(top_, ray, policy, stats);
@@ -34,14 +37,18 @@ class MicropolygonTree {
     BuildStats stats() const { return stats_; }
 
   private:
+    /// Sorts micropolygons into leaves and bounds the nodes above them.
     void build_topology(const std::vector<GridSummary>& summaries, const PaperTreeOptions& options);
+    /// The micropolygons of a leaf, by id.
     std::span<const MicropolygonId> leaf(uint32_t index) const {
         return std::span(micropolygons_)
             .subspan(leaf_first_[index], leaf_first_[index + 1] - leaf_first_[index]);
     }
+    /// Bound of a leaf in a given frame, at as many keys as its grids have at most.
     HyperTrapezoid leaf_bound_in(const Frame& frame, uint32_t index,
                                  const std::vector<GridSummary>& summaries,
                                  const PaperTreeOptions& options) const;
+    /// Bound of a leaf in that orientation which makes its expected area least.
     NodeBound leaf_bound(uint32_t index, const std::vector<GridSummary>& summaries,
                          const PaperTreeOptions& options) const;
 

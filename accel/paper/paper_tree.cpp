@@ -16,6 +16,8 @@ PaperTree::PaperTree(const Grids& grids, const PaperTreeOptions& options,
                      const std::vector<GridSummary>& summaries)
     : grids_(grids), in_grid_(grids.grids, summaries, options, grid_bounds_) {
     const size_t count = grids.grids.size();
+    // A leaf of the top level is a grid: its own bound was made with its tree, others are made from its
+    // vertices.
     const LeafBounds bounds{
         [&](uint32_t grid) {
             return NodeBound{grid_bounds_[grid], summaries[grid].absolute_max, summaries[grid].quad_extent};

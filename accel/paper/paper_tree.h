@@ -24,19 +24,23 @@
 
 namespace trapeze {
 
+/// The reference among trees: the paper's method, one ray at a time. Answers for rays in any direction.
 class PaperTree final : public RayQuery {
   public:
-    /// Keeps a reference to the grids.
+    /// Builds the tree in parallel. Keeps a reference to the grids, which must not change while the tree is
+    /// in use.
     explicit PaperTree(const Grids& grids, const PaperTreeOptions& options = {})
         : PaperTree(grids, options, framed_summaries(grids, options)) {}
 
-    /// Shows the policy the hits of a ray, near ones first as far as bounds tell.
+    /// Shows the policy (accel/hit_policies.h) the hits of a ray, near ones first as far as bounds tell.
+    /// Counts nodes, leaves and tests into `stats`. Safe from many threads at once.
     template <class Policy>
     void trace(TraceRay& ray, Policy& policy, SampleStats& stats) const {
         trace(top_, ray, policy, stats);
     }
 
-    /// The same through a part of the levels above grids that holds all that the ray may meet.
+    /// Traces through a part of the levels above grids (TopLevel::within()) that holds all that the ray may
+    /// meet.
     template <class Policy>
     void trace(const TopLevel& part, TraceRay& ray, Policy& policy, SampleStats& stats) const;
 

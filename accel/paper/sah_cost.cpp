@@ -18,12 +18,14 @@ struct Subtree {
         box.extendBy(b.box);
         return {box, half_area(box) * kTraversalCost + a.cost + b.cost};
     }
+    /// The cost for a random line that meets the box: the chance to meet a node is its area over the box's.
     double relative() const {
         const double area = half_area(box);
         return area > 0 ? cost / area : 0;
     }
 };
 
+/// The cost of a block's tree by midpoint splits. `items`: the grid's micropolygons row by row, nu a row.
 Subtree parametric_tree(const std::vector<SahItem>& items, int nu, const ParametricSplits& splits,
                         const GridBlock& block) {
     if (!splits.is_leaf(block)) {
@@ -37,6 +39,7 @@ Subtree parametric_tree(const std::vector<SahItem>& items, int nu, const Paramet
     return Subtree::leaf(box, block.count());
 }
 
+/// The cost of a tree that the SAH built; `items` are in the order of its leaves.
 Subtree greedy_tree(const std::vector<SahItem>& items, const SahTopology& topology, TopLink link) {
     if (!link.is_leaf()) {
         const auto& [low, high] = topology.tree.inner[link.index()];

@@ -5,8 +5,8 @@
 
 namespace trapeze {
 
-/// What a random line that meets the grid's box is expected to cost: nodes by the ratio of their area to the
-/// box's, an inner one as much as the test of a micropolygon.
+/// Expected costs for a random line that meets the grid's box: nodes by the ratio of their area to the
+/// box's, a leaf as many tests as it has micropolygons, an inner node as much as one test.
 struct SahCosts {
     double parametric;  ///< midpoint splits, as in InGridTrees
     double greedy;      ///< at each node the best of all splits along the axes of the grid's orientation
@@ -15,8 +15,8 @@ struct SahCosts {
     double relative_difference() const { return greedy > 0 ? parametric / greedy - 1 : 0; }
 };
 
-/// Of a grid at mid-shutter, boxes in its orientation, both with leaves of fewer than `leaf_below`
-/// micropolygons. Both are 0 when the grid's box has no area.
+/// Both costs of a grid at mid-shutter, boxes in its orientation and not grown, with leaves of fewer than
+/// `leaf_below` micropolygons. Both are 0 when the grid's box has no area.
 SahCosts sah_costs(const Grid& grid, int leaf_below = 8);
 
 }  // namespace trapeze

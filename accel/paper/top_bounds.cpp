@@ -11,9 +11,11 @@ namespace {
 constexpr int kParallelDepth = 7;  ///< levels whose subtrees are bounded in parallel
 
 /// Nodes of up to this many leaves are bounded from the leaves' bounds, turned once; larger ones from their
-/// children's.
+/// children's: beside their size, what a turned box grows by is little.
 constexpr size_t kFromLeavesUpTo = 1024;
 
+/// The pass itself. Bounds of leaves are kept from left to right, so that a node's leaves are a range of
+/// them.
 class Bounding {
   public:
     Bounding(const TopTopology& topology, const PaperTreeOptions& options, const LeafBounds& leaf_bounds,
@@ -24,17 +26,20 @@ class Bounding {
           top_(top),
           leaves_(topology.inner.size() + 1) {}
 
-    /// Leaves from left to right. Inner nodes are in preorder, so that a subtree's are those from its root's
-    /// on; it has a leaf more than inner nodes.
+    /// The subtree below a link, with its leaves counted from left to right. Inner nodes are in preorder, so
+    /// that a subtree's are those from its root's on; it has a leaf more than inner nodes.
     struct Part {
         TopLink link;
         size_t first_leaf, leaf_count;
     };
     Part all() const { return {topology_.root, 0, leaves_.size()}; }
 
+    /// Bounds a subtree, writes the nodes below its root, and gives the bound of the root itself, which its
+    /// parent (or bound_top_level()) writes: a node is stored as its parent sees it.
     NodeBound bound(const Part& part, int depth) {
         if (part.link.is_leaf()) {
             NodeBound leaf = leaf_bounds_.own(part.link.index());
+            // The top level has as many keys as any grid: a leaf of fewer gets boxes in between.
             leaf.box = leaf.box.in(leaf.box.frame, top_.key_count);
             leaves_[part.first_leaf] = {part.link.index(), leaf.box};
             return leaf;
@@ -54,6 +59,7 @@ class Bounding {
                 std::max(child[0].quad_extent, child[1].quad_extent)};
     }
 
+    /// Stores a bound as node `index`.
     void set_node(size_t index, TopLink link, const NodeBound& bound) const {
         top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link};
         if (top_.oriented) top_.frames[index] = FrameColumns(bound.box.frame);
@@ -67,6 +73,7 @@ class Bounding {
     }
 
   private:
+    /// One side of an inner node; how many leaves are below it follows from the numbers of the nodes.
     Part child_of(const Part& part, int side) const {
         const auto& [low, high] = topology_.inner[part.link.index()];
         size_t low_leaves = part.leaf_count - 1;  // when the high one is a leaf
@@ -75,8 +82,8 @@ class Bounding {
         return {high, part.first_leaf + low_leaves, part.leaf_count - low_leaves};
     }
 
-    /// Without propagation axis-aligned; else in the orientation of that child which makes it smaller, the
-    /// first one's of equals.
+    /// The bound of two children together: axis-aligned without propagation, else in the orientation of that
+    /// child which makes it smaller, the first one's of equals.
     HyperTrapezoid union_of(const Part& part, const HyperTrapezoid& a, const HyperTrapezoid& b) const {
         if (!options_.orient_propagation) return union_in(Frame{}, part, a, b);
         HyperTrapezoid in_a = union_in(a.frame, part, a, b);
@@ -84,6 +91,8 @@ class Bounding {
         HyperTrapezoid in_b = union_in(b.frame, part, a, b);
         return in_b.expected_half_area() < in_a.expected_half_area() ? in_b : in_a;
     }
+    /// That bound in a given frame: from the children where they have it (or are large), else from the leaves
+    /// or what is in them, each turned once (docs/decisions/0008-boxes-are-turned-once.md).
     HyperTrapezoid union_in(const Frame& frame, const Part& part, const HyperTrapezoid& a,
                             const HyperTrapezoid& b) const {
         HyperTrapezoid both{frame, std::vector<Box3f>(static_cast<size_t>(top_.key_count))};

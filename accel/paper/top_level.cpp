@@ -6,7 +6,8 @@
 namespace trapeze {
 namespace {
 
-/// A box that holds all boxes of a node in a span of time.
+/// A box that holds a node's box at every time from time_min to time_max. Planes move linearly between keys,
+/// so that the two ends and the keys between them are enough. `keys`: key_count of them.
 KeyBox box_during(const KeyBox* keys, int key_count, float time_min, float time_max) {
     if (key_count == 1) return keys[0];
     KeyBox box;
@@ -26,7 +27,8 @@ KeyBox box_during(const KeyBox* keys, int key_count, float time_min, float time_
     return box;
 }
 
-/// Copies what a beam may meet of a tree.
+/// Copies what a beam may meet of a tree. The beam's one test of a node spares each of its rays the nodes
+/// that none of them can meet.
 class Pruning {
   public:
     Pruning(const TopLevel& from, const Beam& beam, TopLevel& to) : from_(from), beam_(beam), to_(to) {}
@@ -37,6 +39,8 @@ class Pruning {
         TopLink link;
     };
 
+    /// Decides about a node and all below it. Nodes are written children first, in pairs, as TopLevel has
+    /// them; a node itself is written by whoever calls.
     std::optional<Kept> visit(size_t index) {
         ++looked_at;
         const TopLevel::Node& node = from_.nodes[index];
@@ -45,6 +49,7 @@ class Pruning {
         if (node.link.is_leaf()) return Kept{index, node.link};
         const size_t first = 2 * size_t{node.link.index()};
         const std::optional<Kept> low = visit(first), high = visit(first + 1);
+        // One child or none: it takes the node's place.
         if (!low || !high) return low ? low : high;
         const auto inner = static_cast<uint32_t>(to_.nodes.size() / 2);
         copy(*low);
@@ -78,11 +83,12 @@ void TopLevel::within(const Beam& beam, TopLevel& part, uint64_t* looked_at) con
     part.boxes.clear();
     if (nodes.empty()) return;
     Pruning pruning(*this, beam, part);
+    // The root goes last, as in any TopLevel; its own bound is not tested again.
     if (const auto root = pruning.visit(nodes.size() - 1)) pruning.copy(*root);
     *looked_at += pruning.looked_at;
 }
 
-/// Whether the ray may hit something in a node; the visit is set in any case.
+/// Whether the ray may hit something in a node; the visit is set in any case, so that nothing branches on it.
 inline bool TopLevelView::meet(size_t index, const TraceRay& ray, Visit& visit) const {
     const TopLevel::Node& node = tree_.nodes[index];
     const KeyBox* from = tree_.boxes_of(index) + segment_.index;

@@ -12,6 +12,8 @@
 
 namespace trapeze {
 
+/// Nodes, and their boxes at all keys, in arrays beside each other. A plain value: a beam's part of it is
+/// another TopLevel, traversed in the same way.
 struct TopLevel {
     /// A node as its parent sees it, with key_count boxes.
     struct alignas(16) Node {
@@ -25,8 +27,10 @@ struct TopLevel {
     std::vector<Node>
         nodes;  ///< children of inner node i at 2 i and 2 i + 1; the root last; none without grids
     std::vector<FrameColumns> frames;  ///< of the nodes; none unless oriented
+    /// key_count boxes a node, in its frame.
     std::vector<KeyBox> boxes;
 
+    /// What a node's boxes are coordinates of.
     const FrameColumns& frame_of(size_t node) const { return oriented ? frames[node] : kAxes; }
     const KeyBox* boxes_of(size_t node) const { return boxes.data() + node * key_count; }
     size_t bytes() const {
@@ -39,10 +43,12 @@ struct TopLevel {
     void within(const Beam& beam, TopLevel& part, uint64_t* looked_at) const;
 
   private:
+    /// The axes of space, the frame of all nodes of an axis-aligned tree.
     inline static const FrameColumns kAxes{Frame{}};
 };
 
-/// A TopLevel prepared for one ray. A RayTree whose leaves are indices of grids.
+/// A TopLevel prepared for one ray: its motion segment is found once, and, where all boxes are axis-aligned,
+/// its directions are inverted once. A RayTree whose leaves are indices of grids.
 class TopLevelView {
   public:
     static constexpr int kStackSize = kTopDepthLimit + 2;
