@@ -23,9 +23,11 @@ using VF = hn::Vec<F32>;
 using VI = hn::Vec<I32>;
 using MF = hn::Mask<F32>;
 
-/// Directions nearer to a slab's plane than this are taken as this.
+/// The least component of a direction across a slab, as in accel/slabs.h: nearer ones are taken as this.
 inline constexpr float kLeastDirection = 1e-18f;
 
+/// One over v by an approximation and one Newton step instead of a division. Only for bounds, never for the
+/// predicate.
 HWY_INLINE VF reciprocal(VF v) {
     const F32 d;
     const VF least = hn::Set(d, kLeastDirection);
@@ -34,31 +36,38 @@ HWY_INLINE VF reciprocal(VF v) {
     return hn::Mul(guess, hn::NegMulAdd(v, guess, hn::Set(d, 2.0f)));
 }
 
-/// A block's vertices in a plane: those of a tile and, where `right` and `down` say, the first column and
-/// row of the tiles behind it. At the grid's end, where there is no such tile, they repeat the last ones.
+/// Where a block's 5 x 5 vertices lie in a plane of positions: those of a tile and, where `right` and `down`
+/// say, the first column and row of the tiles behind it. At the grid's end, where there is no such tile, they
+/// repeat the last ones.
 struct BlockView {
     const float* tile;  ///< of the plane x
     size_t plane;       ///< floats to the planes y, z, dx, dy, dz
     int right, down;    ///< offsets of the fifth column and row
     int rows;           ///< of micropolygons
 
+    /// Floats from `tile` to vertex (i, j) of the block, 0 <= i, j <= 4.
     int offset(int i, int j) const { return (j < 4 ? j * 4 : down) + (i < 4 ? i : right); }
 };
 
-/// Lanes of rays; oz is 0. `local` is the time within the grid's motion segment.
+/// Lanes of camera rays: origins (ox, oy, 0), directions (ux, uy, 1). `local` is the time within the grid's
+/// motion segment, in [0, 1].
 struct RayLanes {
     VF ox, oy, ux, uy, local;
 };
 
-/// A vertex along the rays to their plane.
+/// A vertex moved along the rays to their plane z = 0: the predicate's a and b, and |b|, which all edges at
+/// the vertex need.
 struct Offset {
     VF a, b, abs_b;
 };
 
+/// Whether the edge from p to q counts, in the sign bit; the same from q to p, bit for bit.
 HWY_INLINE VF edge_bits(const Offset& p, const Offset& q) {
     return predicate_lanes::crossing(p.a, p.b, p.abs_b, q.a, q.b, q.abs_b);
 }
 
+/// Vertex (i, j) of a block at the rays' times, moved along them by the predicate's arithmetic. kMoves: the
+/// grid moves, kLens: origins are not all 0.
 template <bool kMoves, bool kLens>
 HWY_INLINE Offset vertex_offset(const BlockView& block, int i, int j, const RayLanes& r) {
     const F32 d;
@@ -75,12 +84,16 @@ HWY_INLINE Offset vertex_offset(const BlockView& block, int i, int j, const RayL
     return {a, b, hn::Abs(b)};
 }
 
-/// What rays hit in a block, in sign bits.
+/// What rays hit in a block, one answer a lane in the sign bits; the other bits mean nothing.
 struct BlockBits {
     VF any, several;                  ///< one micropolygon at least; two at least
     VF column0, column1, row0, row1;  ///< bits of u and v in the block; meaningful for exactly one
 };
 
+/// Decides all micropolygons of a block for lanes of rays: each vertex is moved once and each edge decided
+/// once for all micropolygons that share it. kColumns: 4, or 1 for the block of a ribbon. Columns past a
+/// grid's end have no area: their two sides are the same edge, which cancels. Facing and depth are not looked
+/// at.
 template <bool kMoves, bool kLens, int kColumns>
 HWY_INLINE BlockBits block_bits(const BlockView& block, const RayLanes& r) {
     const VF zero = hn::Zero(F32());
@@ -107,6 +120,8 @@ HWY_INLINE BlockBits block_bits(const BlockView& block, const RayLanes& r) {
 #pragma GCC unroll 4
         for (int i = 0; i < kColumns; ++i)
             hit[i] = hn::Xor(hn::Xor3(bottom[i], top[i], side[i]), side[i + 1]);
+        // `several`: two in this row, or one here and one in an earlier row. The bits of u and v are joined
+        // by or, which tells the place where there is only one.
         VF row = hit[0];
         if constexpr (kColumns == 4) {
             const VF low = hn::Or(hit[0], hit[1]), high = hn::Or(hit[2], hit[3]);
@@ -128,7 +143,8 @@ HWY_INLINE BlockBits block_bits(const BlockView& block, const RayLanes& r) {
     return bits;
 }
 
-/// The micropolygon's u and v in the block, of lanes that hit exactly one.
+/// The micropolygon's u and v in the block, 0 .. 3, of lanes that hit exactly one; other lanes get some place
+/// within the block.
 HWY_INLINE void decode(const BlockBits& bits, VI& u, VI& v) {
     const I32 di;
     const hn::RebindToUnsigned<F32> du;
@@ -137,7 +153,8 @@ HWY_INLINE void decode(const BlockBits& bits, VI& u, VI& v) {
     v = hn::BitCast(di, hn::Or(top(bits.row0), hn::ShiftLeft<1>(top(bits.row1))));
 }
 
-/// Looks up a block's vertices for lanes of micropolygons (u, v): corner 00, 10, 01, 11 of each.
+/// Looks up a block's vertices for lanes of micropolygons (u, v): corner 00, 10, 01, 11 of each, in get()'s
+/// corners[0 .. 3], from any of the planes x, y, z, dx, dy, dz.
 class CornerLookup {
   public:
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
@@ -175,6 +192,8 @@ class CornerLookup {
     }
 
   private:
+    /// Of micropolygon v * 4 + u: the places of corners 10, 01 and 11 in two registers; 16 and more are the
+    /// second one's.
     alignas(64) static constexpr int32_t kCorners[3][16] = {
         {1, 2, 3, 16, 5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19},
         {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 22, 23},
@@ -205,7 +224,8 @@ class CornerLookup {
 #endif
 };
 
-/// Micropolygons (u, v) of the block, each lane its own, along the rays.
+/// Micropolygons (u, v) of the block, each lane its own, moved along the rays: what depth_inside() and
+/// inside() read.
 template <bool kMoves, bool kLens>
 HWY_INLINE QuadLanes<VF> quads_at(const BlockView& block, const RayLanes& r, VI u, VI v) {
     const F32 d;

@@ -22,8 +22,8 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The points p with |axis . p - center| <= half, center and half linear in the segment's local time. Axes
-/// are of about unit length.
+/// The space between two parallel planes: points p of camera space with |axis . p - center| <= half, center
+/// and half linear in the segment's local time. Axes are of about unit length (their largest component is 1).
 struct BlockSlab {
     float axis[3];
     float center, half, center_delta, half_delta;
@@ -43,6 +43,7 @@ HWY_INLINE bool scale_to_one(float* v) {
     return true;
 }
 
+/// a x b, to `to`; in floats, for an axis that is a little off bounds as well as any other.
 HWY_INLINE void cross(const float* a, const float* b, float* to) {
     to[0] = a[1] * b[2] - a[2] * b[1];
     to[1] = a[2] * b[0] - a[0] * b[2];
@@ -69,7 +70,8 @@ struct BlockVertices {
 #endif
         }
     }
-    /// To where they are at the segment's end.
+    /// Moves the vertices, which are at the segment's start, to its end. `delta`: the planes DX DY DZ, loaded
+    /// alike.
     HWY_INLINE void add(const BlockVertices& delta) {
         const F32 d;
         for (int k = 0; k < 3; ++k)
@@ -79,7 +81,7 @@ struct BlockVertices {
                           behind[k] + i);
             }
     }
-    /// What they span along an axis.
+    /// The range of all vertices along an axis, as its middle and half its width.
     HWY_INLINE void span(const float* axis, float& center, float& half_width) const {
         const F32 d;
         const VF x = hn::Set(d, axis[0]), y = hn::Set(d, axis[1]), z = hn::Set(d, axis[2]);
@@ -96,7 +98,8 @@ struct BlockVertices {
     }
 };
 
-/// The axes: the block's normal, and across the mean of its edges along u and along v.
+/// Finds the axes at the segment's start: the block's normal, and in its plane the normals of the mean edges
+/// along u and along v. False where the block has no area that floats can tell.
 HWY_INLINE bool slab_axes(const BlockView& block, BlockSlabs& slabs) {
     float u[3], v[3];
     for (size_t k = 0; k < 3; ++k) {
@@ -114,8 +117,9 @@ HWY_INLINE bool slab_axes(const BlockView& block, BlockSlabs& slabs) {
     return scale_to_one(slabs.side[0].axis) && scale_to_one(slabs.side[1].axis);
 }
 
-/// False where the block has no planes worth the name. `grow`: what rounds away between a vertex and the
-/// test of a ray, WideTree's for vertices and rays like these.
+/// Finds a block's slabs; false where it has no planes worth the name. `grow`: what rounds away between a
+/// vertex and the test of a ray, WideTree's for vertices and rays like these. Linear in time between slabs
+/// about the segment's ends, which holds vertices at all times, because they move linearly.
 template <bool kMoves>
 HWY_INLINE bool slabs_of(const BlockView& block, float grow, BlockSlabs& slabs) {
     if (!slab_axes(block, slabs)) return false;
@@ -141,8 +145,8 @@ HWY_INLINE bool slabs_of(const BlockView& block, float grow, BlockSlabs& slabs) 
     return true;
 }
 
-/// Rays that miss the block for certain: from where a ray enters to where it leaves the slab across the
-/// block, it is beside one of the slabs along it. Comparisons with NaN leave a ray in.
+/// Lanes of rays that miss the block for certain: from where a ray enters to where it leaves the slab across
+/// the block, it is beside one of the slabs along it. Comparisons with NaN leave a ray in.
 template <bool kMoves, bool kLens>
 HWY_INLINE MF misses(const BlockSlabs& slabs, const RayLanes& r) {
     const F32 d;
@@ -164,6 +168,8 @@ HWY_INLINE MF misses(const BlockSlabs& slabs, const RayLanes& r) {
         if constexpr (kMoves) value = hn::MulAdd(r.local, hn::Set(d, s.half_delta), value);
         return value;
     };
+    // In the slab across, the depth is within `reach` of `depth`; on that way the ray moves by slope * reach
+    // along an axis in the plane.
     const VF inverse = reciprocal(along(slabs.thick));
     const VF depth = hn::Mul(distance(slabs.thick), inverse),
              reach = hn::Abs(hn::Mul(half_of(slabs.thick), inverse));

@@ -1,4 +1,6 @@
-/// The rays listed for a block (BlockRays) against its micropolygons. Compiled once a target.
+/// The rays listed for a block (BlockRays) against its micropolygons: first all at once by signs of edges,
+/// then the depth of those rays that hit one; rays that hit several, seldom, one by one. Compiled once a
+/// target.
 #if defined(TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
 #undef TRAPEZE_ACCEL_BLOCK_TESTS_INL_H_
@@ -21,7 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Fewer rays than this are tested one by one, lanes being micropolygons.
 inline constexpr size_t kFewInBlock = 3;
 
-/// Keeps the hits of lanes of rays, block rays from `first` on.
+/// Keeps the hits of a vector of block rays, those from `first` on, that are within the depths that count.
+/// `hit`: lanes that hit micropolygon (u, v) of the block at `depth`.
 inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI u, VI v, VF depth) {
     const F32 d;
     const I32 di;
@@ -40,8 +43,8 @@ inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI 
     }
 }
 
-/// One ray, at a time local to the block's segment, against all micropolygons of a block: lanes are
-/// micropolygons. Whether something nearer was found.
+/// Tests one ray, at a time local to the block's segment, against all micropolygons of a block: lanes are
+/// micropolygons. Whether a nearer opaque hit was found.
 template <bool kMoves, bool kLens>
 bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local) {
     const F32 d;
@@ -59,6 +62,7 @@ bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local)
         MF hit = inside(d, q);
         if (hn::AllFalse(d, hit)) continue;
         hit = hn::And(hit, depth_inside(d, q, block.facing, depth));
+        // Places past the grid's end repeat vertices: they are no micropolygons.
         hit = hn::And(hit, hn::RebindMask(d, hn::And(hn::Lt(u, hn::Set(di, block.columns)),
                                                      hn::Lt(v, hn::Set(di, block.view.rows)))));
         hit = hn::And(
@@ -76,6 +80,7 @@ bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local)
     return nearer;
 }
 
+/// Counts what `rays` rays cost that meet a block: a leaf each, and its micropolygons.
 inline void count_block_tests(BundleState& t, const Block& block, size_t rays) {
     t.stats.leaves_visited += rays;
     t.stats.predicate_tests += rays * static_cast<uint64_t>(block.view.rows * block.columns);
@@ -84,7 +89,7 @@ inline void count_tests_of(BundleState& t, const Block& block, uint32_t ray) {
     t.rays.tests[ray] += static_cast<uint32_t>(block.view.rows * block.columns);
 }
 
-/// The rays listed for a block.
+/// Tests the first `count` of the rays listed for a block and keeps what they hit.
 template <bool kMoves, bool kLens>
 void test_block_rays(BundleState& t, const Block& block, size_t count) {
     const F32 d;
@@ -106,6 +111,7 @@ void test_block_rays(BundleState& t, const Block& block, size_t count) {
         if constexpr (kLens) r.ox = hn::Load(d, from.ox + i), r.oy = hn::Load(d, from.oy + i);
         r.ux = hn::Load(d, from.ux + i), r.uy = hn::Load(d, from.uy + i);
         if constexpr (kMoves) r.local = hn::Load(d, from.local + i);
+        // Lanes past `count` hold whatever an earlier list left, and `valid` takes their answers away.
         const BlockBits bits = block.columns == 1 ? block_bits<kMoves, kLens, 1>(block.view, r)
                                                   : block_bits<kMoves, kLens, 4>(block.view, r);
         const MF valid = hn::FirstN(d, left);

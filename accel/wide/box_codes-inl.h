@@ -1,4 +1,6 @@
-/// From the codes of a grid's boxes to their planes (see box_codes.h). Compiled once a target.
+/// From the codes of a grid's boxes to their planes (see box_codes.h), in vectors. A target may fuse where
+/// the scalar form does not: planes may differ from it by kCodeRounding, which boxes are grown by. Compiled
+/// once a target.
 #if defined(TRAPEZE_ACCEL_BOX_CODES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_BOX_CODES_INL_H_
 #undef TRAPEZE_ACCEL_BOX_CODES_INL_H_
@@ -17,7 +19,8 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The planes of row k at a key, for `boxes` boxes and those that a whole vector has besides.
+/// Decodes one row of BoxPlanes at a key, for `boxes` boxes and those that a whole vector has besides (their
+/// codes are read past the row: keys_ is readable 64 bytes past its end).
 HWY_INLINE void decode_row(const uint8_t* codes, const CodeScale& scale, size_t boxes, float* out) {
     const hn::CappedTag<float, BoxPlanes::kMost> d;
     const hn::Rebind<int32_t, decltype(d)> di;
@@ -73,8 +76,8 @@ HWY_INLINE void read_moving_frame(const WideTree& tree, const WideGrid& grid, in
 #endif
 }
 
-/// The boxes of a grid in a segment of its motion, of which the frame has been read; at its start alone
-/// unless kMoves.
+/// Decodes the boxes of a grid in a segment of its motion, of which the frame has been read: rows 0 to 5 at
+/// the segment's start and, if kMoves, rows 6 to 11 how far they move.
 template <bool kMoves>
 HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int segment,
                              const SegmentFrame& frame, BoxPlanes& out) {
@@ -92,6 +95,7 @@ HWY_INLINE void decode_boxes(const WideTree& tree, const WideGrid& grid, int seg
         }
     }
     if constexpr (kMoves)
+        // Rows 6 to 11 hold planes at the end so far. What places past the last box give means nothing.
         for (size_t i = 0; i < 6 * BoxPlanes::kMost; i += hn::Lanes(d))
             hn::Store(hn::Sub(hn::Load(d, out.row(6) + i), hn::Load(d, out.row(0) + i)), d, out.row(6) + i);
 }

@@ -19,12 +19,12 @@ struct BoxPlanes {
     const float* row(size_t k) const { return values + k * kMost; }
 };
 
-/// A grid's box at a key.
+/// A grid's box at one of its keys, in its frame or in camera space.
 struct KeyBounds {
     float low[3], high[3];
 };
 
-/// From codes to planes along an axis.
+/// Turns codes 0 .. 255 into planes along an axis, evenly from one end of a range to the other.
 struct CodeScale {
     float low = 0, step = 0;
 
@@ -33,11 +33,15 @@ struct CodeScale {
     float plane(int code) const { return low + step * static_cast<float>(code); }
 };
 
-/// Of the largest coordinate, what may come between two ways to compute CodeScale::plane(), fused and not:
-/// two roundings of 2^-24, of numbers up to 3.5 and 1.8 times as large (a grid's box in its frame).
+/// What may come between two ways to compute CodeScale::plane(), fused and not, as part of the largest
+/// coordinate: two roundings of 2^-24, of numbers up to 3.5 and 1.8 times as large (a grid's box in its
+/// frame).
 inline constexpr float kCodeRounding = 0x1p-21f;
 
-/// Codes of the last plane not above `at`, and of the first not below, which the scale has.
+/// The code of the last plane not above `at`, and that of the first not below, among the 256 of a scale. `at`
+/// lies within its range by kCodeRounding; else, and for NaN, the code of an end. per_step: 1 / scale.step.
+/// The guess is checked by computing the plane, so that the result is conservative whatever the division
+/// rounds.
 inline uint8_t code_below(const CodeScale& scale, float per_step, float at) {
     const float steps = (at - scale.low) * per_step;
     const int code = steps > 0 ? static_cast<int>(std::min(steps, 255.0f)) : 0;
@@ -49,7 +53,8 @@ inline uint8_t code_above(const CodeScale& scale, float per_step, float at) {
     return static_cast<uint8_t>(std::min(code + (scale.plane(code) < at), 255));
 }
 
-/// A grid's box over all keys, and the codes of its box at a key: low x, y, z, high x, y, z.
+/// Writes and reads a grid's box at a key as six codes, low x, y, z, high x, y, z, between the planes of the
+/// grid's box over all keys.
 class KeyBoundsScale {
   public:
     explicit KeyBoundsScale(const KeyBounds& whole) {
@@ -61,7 +66,7 @@ class KeyBoundsScale {
             at.low[k] = axis_[k].plane(codes[k]), at.high[k] = axis_[k].plane(codes[3 + k]);
         return at;
     }
-    /// Of bounds within the whole by kCodeRounding.
+    /// Codes of bounds, rounded outwards. They must lie within the whole by kCodeRounding.
     void write(const KeyBounds& bounds, uint8_t* codes) const {
         for (int k = 0; k < 3; ++k) {
             const float per_step = 1 / axis_[k].step;

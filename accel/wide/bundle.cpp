@@ -1,3 +1,5 @@
+/// The way of a bundle through a tree, stage by stage (the stages are in the -inl.h files), and the copying
+/// of rays into bundles. Compiled once a target; the best one that the machine has is chosen at each call.
 #include "accel/wide/bundle.h"
 
 #include <algorithm>
@@ -17,6 +19,7 @@
 #define TRAPEZE_ACCEL_BUNDLE_ONCE
 namespace trapeze::bundle_detail {
 
+/// The arguments of trace_bundle(), which dispatch hands on as one.
 struct TraceInput {
     const WideTree& tree;
     DepthRange range;
@@ -61,6 +64,7 @@ class BundleTrace {
              in.range.min - in.tree.max_slack(),
              (in.rays.count + kLanes - 1) / kLanes} {}
 
+    /// Grids come from front to back, nearly, so that most of them lie behind what all rays have hit already.
     void run() {
         begin();
         for (const uint32_t grid : t_.tree.unbounded_grids()) test_unbounded(grid);
@@ -71,6 +75,7 @@ class BundleTrace {
         order_candidates(t_);
         for (size_t i = 0; i < candidates.size(); ++i) {
             const Candidate candidate = candidate_of(candidates[i]);
+            // Not `break`: candidates are in order only up to a step.
             if (candidate.depth > t_.farthest_depth) continue;
             prefetch_grids(i);
             prefetch_coming();
@@ -81,13 +86,13 @@ class BundleTrace {
     }
 
   private:
-    /// The first and the last byte: what is within two lines.
+    /// Fetches the lines of the first and the last byte: enough for what lies within two lines.
     static void prefetch(const void* at, size_t bytes) {
         __builtin_prefetch(at);
         __builtin_prefetch(static_cast<const char*>(at) + bytes - 1);
     }
 
-    /// For candidates that come after one.
+    /// Fetches records and bounds of candidates that come some places after this one.
     void prefetch_grids(size_t candidate) const {
         const auto& all = t_.scratch.candidates;
         if (candidate + kPrefetchAhead < all.size())
@@ -111,7 +116,8 @@ class BundleTrace {
         coming = coming.subspan(count);
     }
 
-    /// Nothing is hit yet; packets' intervals. Lanes past the end repeat the last ray and never count.
+    /// Sets all rays to having hit nothing, and the packets' intervals. Lanes past the end repeat the last
+    /// ray, so that intervals are right, and never count.
     void begin() {
         const F32 d;
         const hn::RebindToUnsigned<F32> du;
@@ -127,6 +133,8 @@ class BundleTrace {
             hn::Store(hn::Set(d, t_.range.max), d, t_.rays.depth + i);
             hn::Store(hn::Set(du, RayBundle::kNone), du, t_.rays.id + i);
             const VF ox = hn::Load(d, t_.rays.ox + i), oy = hn::Load(d, t_.rays.oy + i);
+            // d = u + o / f: where the ray is at the focal distance, divided by it
+            // (accel/wide/ray_intervals-inl.h).
             const VF dx = hn::MulAdd(ox, focal, hn::Load(d, t_.rays.ux + i));
             const VF dy = hn::MulAdd(oy, focal, hn::Load(d, t_.rays.uy + i));
             set_interval(RayIntervals::kDxMin, p, dx);
@@ -151,11 +159,13 @@ class BundleTrace {
         }
     }
 
+    /// Lower and upper bound of a packet's lanes, to rows `row` and `row + 1`.
     void set_interval(int row, size_t packet, VF v) {
         t_.scratch.intervals.row[row][packet] = least(v);
         t_.scratch.intervals.row[row + 1][packet] = largest(v);
     }
 
+    /// One candidate: in every motion segment in which some ray looks.
     void visit_grid(const Candidate& candidate) {
         const WideGrid& grid = t_.tree.grid(candidate.grid);
         if constexpr (kHasSharpPackets && !kLens && !kMotion) {
@@ -174,6 +184,8 @@ class BundleTrace {
         }
     }
 
+    /// A grid in one segment of its motion: its active rays, then what they meet in it. kMoves: the grid
+    /// moves (others in the tree may move where this one does not).
     template <bool kMoves>
     void visit_segment(const Candidate& candidate, const WideGrid& grid, int segment) {
         const MovingBox box = t_.tree.segment_box(grid, segment);
@@ -182,7 +194,7 @@ class BundleTrace {
         if (t_.scratch.waiting_count >= BundleScratch::kMostWaiting) test_waiting<kMotion, kLens>(t_);
     }
 
-    /// A grid that no box can hold, by the scalar predicate.
+    /// Tests all rays against a grid that no box can hold, by the scalar predicate.
     void test_unbounded(uint32_t index) {
         const Grid& grid = t_.tree.grids().grids[index];
         for (size_t i = 0; i < t_.rays.count; ++i) {
@@ -205,6 +217,7 @@ class BundleTrace {
     BundleState t_;
 };
 
+/// What dispatch calls, for one of four combinations known at compile time.
 void trace(const TraceInput& in, bool motion, bool lens) {
     if (motion) {
         if (lens)
@@ -219,7 +232,7 @@ void trace(const TraceInput& in, bool motion, bool lens) {
     }
 }
 
-/// Components of rays as they lie in memory, to planes; those not wanted become 0.
+/// Copies components of rays as they lie in memory to planes; those not wanted become 0.
 template <bool kLens, bool kMotion>
 class RayGatherer {
   public:
@@ -236,7 +249,7 @@ class RayGatherer {
 
   private:
 #if HWY_TARGET != HWY_SCALAR
-    /// By shuffles of whole rays: gather instructions take several times as long.
+    /// Four rays at a time by shuffles of whole rays: gather instructions take several times as long.
     HWY_INLINE void four(size_t i) const {
         static_assert(offsetof(AxisRay, ux) == 12 && offsetof(AxisRay, uy) == 16 && sizeof(AxisRay) == 24);
         const hn::FixedTag<float, 4> d;

@@ -1,4 +1,5 @@
-/// Bundles of camera rays that go through a WideTree together.
+/// Bundles of camera rays that go through a WideTree together (docs/decisions/0006-wide-tree.md): up to 1024
+/// of them, in packets of as many rays as a vector has lanes.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,13 @@
 
 namespace trapeze {
 
-/// Rays (origins at z = 0), in an order in which neighbours look alike, and what they see.
+/// Rays of samples (camera space, origins at z = 0, time in [0, 1]) in an order in which neighbours look
+/// alike, and what they see. The order changes times, never hits.
 struct RayBundle {
     static constexpr size_t kRays = 1024;
     static constexpr size_t kRoom = kRays + 16;  ///< whole vectors can be read
 
-    /// What a ray that has hit nothing has.
+    /// The id of a ray that has hit nothing.
     static constexpr uint32_t kNone = ~uint32_t{0};
 
     size_t count = 0;
@@ -37,11 +39,12 @@ struct RayBundle {
     const AxisRay* coming_rays = nullptr;
     std::span<const uint32_t> coming;
 
-    /// When set, what each ray costs is added.
+    /// Arrays of one number a ray, or null: the tests and the nodes that each ray costs are added to them.
     uint32_t *tests = nullptr, *nodes = nullptr;
 };
 
-/// What tracing needs besides; one per thread, reused.
+/// The working memory of tracing, one per thread and reused (accel/wide/bundle_scratch.h, which only the
+/// tree's own files see).
 struct BundleScratch;
 struct DeleteBundleScratch {
     void operator()(BundleScratch* scratch) const;
@@ -49,15 +52,16 @@ struct DeleteBundleScratch {
 using BundleScratchPointer = std::unique_ptr<BundleScratch, DeleteBundleScratch>;
 BundleScratchPointer make_bundle_scratch();
 
-/// Takes rays[order[0]], rays[order[1]] and so on into the bundle; at most RayBundle::kRays. Without `lens`
-/// or `motion` origins or times are not read.
+/// Copies rays[order[0]], rays[order[1]] and so on into the bundle; at most RayBundle::kRays. Without `lens`
+/// origins are not read and become 0, without `motion` times.
 void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, bool lens, bool motion,
                  RayBundle& bundle);
 
-/// Sets what the rays see within some depths. The bounds of the rays are taken as intervals in
-/// (x, y) at depth z = d * z + o * (1 - z / focal_distance): rays of one lens that meet at the focal distance
-/// have intervals as narrow as can be; any others are right, too. Without `lens` all origins are 0. The rays
-/// are within the tree's reach.
+/// Traces a bundle: sets depth, id and layers of its rays to what they see within a range of camera-space
+/// depths, the same hits bit for bit as by testing everything. The bounds of the rays are taken as intervals
+/// in (x, y) at depth z = d * z + o * (1 - z / focal_distance): rays of one lens that meet at the focal
+/// distance have intervals as narrow as can be; any others are right, too. Without `lens` all origins are 0.
+/// The rays must be within the tree's reach (RayReach), by which its boxes are grown.
 void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal_distance, RayBundle& rays,
                   BundleScratch& scratch, SampleStats& stats);
 

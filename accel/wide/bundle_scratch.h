@@ -1,4 +1,5 @@
-/// The working memory of bundle tracing: about 120 KB a thread.
+/// The working memory of bundle tracing: about 120 KB a thread. What one stage lists the next one reads:
+/// candidates (grids), met packets, active rays (of one grid), block rays (of one block).
 #pragma once
 
 #include <bit>
@@ -9,7 +10,7 @@
 
 namespace trapeze {
 
-/// Rays that may meet a grid, one after another: what the tests of its blocks read.
+/// Rays that may meet a grid, one after another without gaps: what the tests of its boxes and blocks read.
 struct ActiveRays {
     static constexpr size_t kRoom = RayBundle::kRoom + 16;
 
@@ -21,7 +22,7 @@ struct ActiveRays {
     alignas(64) uint32_t ray[kRoom];
 };
 
-/// Those of them that may meet a box of blocks.
+/// Active rays that may meet one block, without gaps, as the predicate reads them.
 struct BlockRays {
     alignas(64) float ox[ActiveRays::kRoom], oy[ActiveRays::kRoom], ux[ActiveRays::kRoom],
         uy[ActiveRays::kRoom], local[ActiveRays::kRoom];
@@ -38,7 +39,7 @@ struct RayIntervals {
     alignas(64) float row[kRows][kRoom];
 };
 
-/// A ray that a block waits for.
+/// A ray that waits for its block's vertices to come from memory (see let_wait()).
 struct WaitingRay {
     uint32_t ray, grid;
     float local;  ///< time in the segment
@@ -47,7 +48,7 @@ struct WaitingRay {
     uint8_t u, v;  ///< the block
 };
 
-/// Packets that may meet a grid, and which of their lanes do.
+/// Packets that may meet a grid, and which of their lanes do, a bit a lane.
 struct MetPackets {
     uint32_t packet[RayIntervals::kRoom + 16],
         lanes[RayIntervals::kRoom + 16];  ///< whole vectors are written
@@ -59,12 +60,14 @@ struct Candidate {
     uint32_t grid, groups;
 };
 
-/// A candidate in bits that have the order of depths: depth, grid, a bit a group.
+/// Packs a candidate into bits that have the order of depths: depth, grid (24 bits), a bit a group (8). A
+/// float's bits have the order of integers once negative ones are inverted and the sign bit of others is set.
 inline uint64_t candidate_of(float depth, uint32_t grid, uint32_t groups) {
     const auto bits = std::bit_cast<uint32_t>(depth);
     const uint32_t ordered = bits & 0x80000000u ? ~bits : bits | 0x80000000u;
     return uint64_t{ordered} << 32 | grid << 8 | groups;
 }
+/// The inverse of that packing; depths come back bit for bit.
 inline Candidate candidate_of(uint64_t bits) {
     const auto ordered = static_cast<uint32_t>(bits >> 32), rest = static_cast<uint32_t>(bits);
     return {std::bit_cast<float>(ordered & 0x80000000u ? ordered & 0x7fffffffu : ~ordered), rest >> 8,
@@ -72,6 +75,7 @@ inline Candidate candidate_of(uint64_t bits) {
 }
 static_assert(WideTree::kMaxGrids <= size_t{1} << 24, "a grid's number and a byte in 32 bits");
 
+/// One thread's working memory for all stages. No value in it outlives a call of trace_bundle().
 struct BundleScratch {
     RayIntervals intervals;
     alignas(64) float farthest[RayIntervals::kRoom];  ///< per packet, the depth to which some ray still looks
@@ -92,7 +96,8 @@ struct BundleScratch {
     static constexpr size_t kMetStride = ActiveRays::kRoom;  ///< a byte a ray at worst
     alignas(64) uint8_t met[16 * kMetStride + 64];  ///< per box, a bit for each active ray that meets it
     BlockRays block;
-    /// A segment of a grid adds fewer than three rays for each of its 16 blocks.
+    /// Rays wait until there are kMostWaiting; a segment of a grid then still adds fewer than three rays for
+    /// each of its 16 blocks.
     static constexpr size_t kMostWaiting = 32, kWaitingRoom = kMostWaiting + 32;
     size_t waiting_count = 0;
     WaitingRay waiting[kWaitingRoom];

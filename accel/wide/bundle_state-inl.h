@@ -1,5 +1,5 @@
-/// What all stages of a bundle's tracing share: its state, hits kept, blocks as hits name them. Compiled once
-/// a target.
+/// What all stages of a bundle's tracing share: its state, hits kept, blocks as hits name them. A packet is a
+/// vector of consecutive rays, a group a few packets. Compiled once a target.
 #if defined(TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_
 #undef TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_
@@ -28,6 +28,7 @@ constexpr size_t kMaskBytes = (kLanes + 7) / 8;
 constexpr uint32_t kLanesOfByte = kLanes < 8 ? kLanes : 8;  ///< of a mask as it is stored
 constexpr size_t kMetStride = BundleScratch::kMetStride;
 
+/// A mask as bits of an integer, lane 0 the lowest; targets have at most 16 lanes.
 HWY_INLINE uint32_t mask_bits(MF mask) {
     uint8_t bytes[8] = {};
     hn::StoreMaskBits(F32(), mask, bytes);
@@ -46,7 +47,7 @@ HWY_INLINE float least(VF v) {
     return hn::GetLane(hn::MinOfLanes(F32(), v));
 }
 
-/// One bundle on its way through a tree.
+/// One bundle on its way through a tree: what is asked, and how far its rays still look.
 struct BundleState {
     const WideTree& tree;
     DepthRange range;
@@ -56,7 +57,7 @@ struct BundleState {
     SampleStats& stats;
     float nearest_depth;  ///< no box before this depth matters
     size_t packets;
-    /// Of a group: whole vectors of them.
+    /// Packets of a group: whole vectors of them, as kGroups groups at most divide the packets.
     size_t group_packets =
         (packets + kLanes * BundleScratch::kGroups - 1) / (kLanes * BundleScratch::kGroups) * kLanes;
     float first_time = 0, last_time = 0;
@@ -64,7 +65,9 @@ struct BundleState {
 
     size_t groups() const { return (packets + group_packets - 1) / group_packets; }
 
-    /// visit(first) for each vector of packets of some groups.
+    /// Calls visit(first) for each vector of kLanes packets of some groups (a bit a group); the last vector
+    /// may reach past the last packet, where intervals are repeated and nothing looks farther than minus
+    /// infinity.
     template <class Visit>
     HWY_INLINE void for_packets(uint32_t some, const Visit& visit) const {
         for (; some != 0; some &= some - 1) {
@@ -74,9 +77,11 @@ struct BundleState {
         }
     }
 
+    /// Sets farthest[packet] to how far the farthest-looking of its rays looks: when hits have come nearer.
     void refresh_packet(size_t packet) {
         scratch.farthest[packet] = largest(hn::Load(F32(), rays.depth + packet * kLanes));
     }
+    /// Sets farthest_depth from all packets.
     void refresh_farthest() {
         const F32 d;
         VF farthest = hn::Load(d, scratch.farthest);
@@ -85,7 +90,8 @@ struct BundleState {
         farthest_depth = largest(farthest);
     }
 
-    /// Whether it is the nearest opaque hit now.
+    /// Takes in a hit of a ray, within the depths that count: as its nearest, if opaque and in front of the
+    /// one known (equal depths by id), or as a layer. Whether it is the nearest opaque hit now.
     HWY_INLINE bool keep_hit(uint32_t ray, float depth, uint32_t id, bool opaque) {
         ++stats.predicate_hits;
         float& nearest = rays.depth[ray];
@@ -100,11 +106,12 @@ struct BundleState {
     }
 };
 
+/// Adds to the costs of a packet's rays, the first of which is number `first`.
 inline void count_packet(uint32_t* counts, size_t first, uint32_t count) {
     for (size_t i = 0; i < kLanes; ++i) counts[first + i] += count;
 }
 
-/// A block and what its hits are called.
+/// A block of up to 4 x 4 micropolygons of a grid in one motion segment, and what its hits are called.
 struct Block {
     BlockView view;
     int columns;
@@ -114,6 +121,7 @@ struct Block {
     float slack;
 };
 
+/// Block (u, v), in blocks, of grid number `index`.
 inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
     const int tiles_u = grid.tiles_u(), tiles_v = grid.tiles_v();
     const size_t plane_size = grid.plane_size();
@@ -127,6 +135,7 @@ inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t 
     block.columns = std::min(4, grid.nu - 4 * u);
     block.facing = static_cast<Facing>(grid.facing);
     block.opaque = grid.opaque != 0;
+    // MicropolygonId::packed() of micropolygon (4 u, 4 v).
     block.id = index << 8 | static_cast<uint32_t>(v) << 6 | static_cast<uint32_t>(u) << 2;
     block.slack = grid.slack;
     return block;

@@ -23,7 +23,7 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Sets the intervals of groups from those of their packets.
+/// Sets the intervals of groups to hold those of their packets. Rows come in pairs, low then high.
 template <bool kMotion, bool kLens>
 void join_packets(BundleState& t) {
     const F32 d;
@@ -45,7 +45,8 @@ void join_packets(BundleState& t) {
     }
 }
 
-/// Lanes of a node's children, as many as there are lanes, from `first` on.
+/// Boxes of a node's children from number `first` on, one a lane, at time 0, and how far their planes move
+/// over the shutter. Lanes without a child have boxes that nothing meets.
 template <bool kMotion>
 struct ChildLanes {
     VF low[3], high[3], low_delta[3], high_delta[3];
@@ -64,7 +65,7 @@ struct ChildLanes {
     }
 
   private:
-    /// From bfloat16.
+    /// Widens bfloat16 to floats: their bits are the upper half.
     static HWY_INLINE VF floats(const uint16_t* at) {
         const F32 d;
         const hn::Rebind<uint16_t, F32> d16;
@@ -73,13 +74,14 @@ struct ChildLanes {
     }
 };
 
-/// The groups, of some, that meet children of a node.
+/// Which of a node's children (as many as there are lanes) which groups may meet.
 struct ChildrenMet {
     uint32_t any = 0;                            ///< a bit a child
     uint32_t by[BundleScratch::kGroups];         ///< the same for each group
     HWY_ALIGN float depth[WideNode::kChildren];  ///< least one of each child's box
 };
 
+/// Tests groups (a bit a group) against a node's children by intervals.
 template <bool kMotion, bool kLens>
 HWY_INLINE void meet_children(BundleState& t, const ChildLanes<kMotion>& child, uint32_t groups,
                               ChildrenMet& met) {
@@ -101,12 +103,15 @@ HWY_INLINE void meet_children(BundleState& t, const ChildLanes<kMotion>& child, 
         }
         met.by[g] = mask_bits(meets<kLens>(d, q, low, high, nearest, focal));
         met.any |= met.by[g];
+        // A hit lies within its micropolygon's range of z, hence within the box's: low z is a bound that
+        // needs no slack.
         depth = hn::Min(depth, low[2]);
     }
     hn::Store(depth, d, met.depth);
 }
 
-/// The grids that groups of the bundle may meet, each with a lower bound of its depths.
+/// Lists the grids that groups of the bundle may meet in scratch.candidates, each with a lower bound of its
+/// depths; in no order. A node is stepped through once for all groups that meet it.
 template <bool kMotion, bool kLens>
 void collect_candidates(BundleState& t) {
     auto& stack = t.scratch.stack;
@@ -123,6 +128,7 @@ void collect_candidates(BundleState& t) {
             meet_children<kMotion, kLens>(t, ChildLanes<kMotion>(t.tree, at.node, i), at.groups, met);
             for (; met.any != 0; met.any &= met.any - 1) {
                 const int lane = std::countr_zero(met.any);
+                // From a bit a child for each group to a bit a group for this child.
                 uint32_t groups = 0;
                 for (uint32_t left = at.groups; left != 0; left &= left - 1) {
                     const int g = std::countr_zero(left);
@@ -138,14 +144,16 @@ void collect_candidates(BundleState& t) {
     }
 }
 
-/// Puts candidates into the order of their depths, nearly: in 256 steps between the least and the most, in
-/// equal parts of a binary order of magnitude. What a ray meets a little too late costs less than comparisons
-/// that cannot be predicted do.
+/// Puts candidates into the order of their depths, nearly, by one counting sort: in 256 steps between the
+/// least and the most, in equal parts of a binary order of magnitude. What a ray meets a little too late
+/// costs less than comparisons that cannot be predicted do. Candidates of one step keep the order that the
+/// tree gave them.
 inline void order_candidates(BundleState& t) {
     constexpr int kStepBits = 8;
     std::vector<uint64_t>& all = t.scratch.candidates;
     std::vector<uint64_t>& ordered = t.scratch.ordered;
     if (all.size() < 2) return;
+    // Compares depths, which are the upper bits.
     const auto [first, last] = std::minmax_element(all.begin(), all.end());
     const uint64_t least = *first >> 32, range = (*last >> 32) - least;
     const int shift = std::max(0, static_cast<int>(std::bit_width(range)) - kStepBits);

@@ -9,7 +9,7 @@
 
 namespace trapeze {
 
-/// For every mask of 8 lanes: the lanes that are set, in order.
+/// For every mask of 8 lanes: the lanes that are set, in order; then zeros.
 inline constexpr auto kLanesOfMask = [] {
     std::array<std::array<uint8_t, 8>, 256> table{};
     for (size_t mask = 0; mask < table.size(); ++mask) {
@@ -48,8 +48,8 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Of one mask, for any number of vectors. Whole vectors are written; what is behind the lanes of the mask
-/// means nothing.
+/// A mask made ready once for compacting any number of vectors. Whole vectors are written; what is behind the
+/// lanes of the mask means nothing, so that lists need room for a vector past their end.
 class CompactLanes {
   public:
     using VU = hn::Vec<hn::RebindToUnsigned<F32>>;

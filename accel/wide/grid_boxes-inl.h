@@ -1,4 +1,5 @@
-/// Active rays in a grid: the boxes that they meet, the rays of each block. Compiled once a target.
+/// The tests within a grid: which boxes of blocks its active rays meet, then for each block the rays that may
+/// hit it. Compiled once a target.
 #if defined(TRAPEZE_ACCEL_GRID_BOXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_GRID_BOXES_INL_H_
 #undef TRAPEZE_ACCEL_GRID_BOXES_INL_H_
@@ -22,14 +23,15 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Finding a block's slabs pays for so many rays.
+/// Finding a block's slabs pays for so many rays or more.
 inline constexpr size_t kFewForSlabs = 12;
 
 /// So many rays or fewer, and a byte of them at most, meet a grid's boxes one by one, lanes being boxes.
 inline constexpr size_t kFewInGrid = std::min<size_t>(kLanes / 2, 8);
 
-/// Those of a vector of rays. kAlike: along each axis all look to the same side, so that it is known
-/// which plane of a box comes first.
+/// Tests a vector of active rays, those from `i` on, against one box after another, and writes a mask for
+/// each box, kMetStride bytes apart from `met` on. kAlike: along each axis all look to the same side
+/// (sides[k]: against it), so that it is known which plane of a box comes first.
 template <bool kMoves, bool kLens, bool kAlike>
 void meet_boxes_of(BundleState& t, size_t i, const float* planes, int boxes, const int* sides, uint8_t* met) {
     const F32 d;
@@ -79,7 +81,7 @@ void pad_active(ActiveRays& active) {
     }
 }
 
-/// Of a row of meet_boxes(), whose unused bits are 0.
+/// Whether any bit of a row of meet_boxes() is set, and how many are. Unused bits of a row are 0.
 inline bool has_bits(const uint8_t* row, size_t bytes) {
     uint64_t all = 0, word;
     size_t i = 0;
@@ -98,7 +100,7 @@ inline size_t count_bits(const uint8_t* row, size_t bytes) {
     return count;
 }
 
-/// Vectors of rays against one box after another.
+/// Tests all active rays, in vectors, against one box after another; a bit for each box that any ray meets.
 template <bool kMoves, bool kLens>
 uint32_t meet_boxes_in_turn(BundleState& t, const float* planes, int boxes) {
     const F32 d;
@@ -111,6 +113,8 @@ uint32_t meet_boxes_in_turn(BundleState& t, const float* planes, int boxes) {
         for (int k = 0; k < 3; ++k) {
             const VF inverse = hn::Load(d, active.inverse[k] + i);
             const uint32_t backward = mask_bits(predicate_lanes::negative(d, inverse)) & valid;
+            // A ray that looks along an axis crosses the low plane first, one that looks against it the high
+            // plane.
             sides[k] = backward != 0;
             alike = alike && (backward == 0 || backward == valid);
         }
@@ -127,7 +131,8 @@ uint32_t meet_boxes_in_turn(BundleState& t, const float* planes, int boxes) {
     return any;
 }
 
-/// The same for at most kFewInGrid rays, each against vectors of boxes.
+/// What meet_boxes_in_turn() does, for at most kFewInGrid rays: each against vectors of boxes, because
+/// vectors of so few rays would be nearly empty.
 template <bool kMoves, bool kLens>
 uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
     const F32 d;
@@ -165,8 +170,8 @@ uint32_t meet_boxes_each(BundleState& t, const float* planes, int boxes) {
     return any;
 }
 
-/// Which active rays meet which boxes: a bit for each ray in a row for each box. A bit for each box that any
-/// ray meets.
+/// Finds which active rays meet which boxes of a grid in a segment: in scratch.met a row for each box, a bit
+/// for each ray. Gives a bit for each box that any ray meets.
 template <bool kMoves, bool kLens>
 uint32_t meet_boxes(BundleState& t, const WideGrid& grid, int segment, int boxes) {
     decode_boxes<kMoves>(t.tree, grid, segment, t.scratch.frame, t.scratch.boxes);
@@ -177,7 +182,8 @@ uint32_t meet_boxes(BundleState& t, const WideGrid& grid, int segment, int boxes
                                : meet_boxes_in_turn<kMoves, kLens>(t, planes, boxes);
 }
 
-/// The same where the only box is the grid's own, which active rays are known to meet.
+/// What meet_boxes() does where the only box is the grid's own, which active rays are known to meet: sets all
+/// bits.
 inline uint32_t meet_only_box(BundleState& t) {
     constexpr uint8_t kAll = (1u << kLanesOfByte) - 1;
     const size_t count = t.scratch.active.count, whole = count / kLanesOfByte;
@@ -187,8 +193,8 @@ inline uint32_t meet_only_box(BundleState& t) {
     return 1;
 }
 
-/// Of `candidates` active rays, whose bits are set in the row of a block's box, lists those that do not pass
-/// the block by; how many.
+/// Lists, of `candidates` active rays whose bits are set in the row of a block's box, those that do not pass
+/// the block by, in scratch.block; how many. `rounding`: what the block's bounds grow by.
 template <bool kMoves, bool kLens>
 size_t collect_block(BundleState& t, const Block& block, const uint8_t* met, size_t candidates,
                      float rounding) {
@@ -224,6 +230,7 @@ size_t collect_block(BundleState& t, const Block& block, const uint8_t* met, siz
     return count;
 }
 
+/// The largest |coordinate| of a box at any of its times.
 inline float absolute_max(const MovingBox& box) {
     float most = 0;
     for (int k = 0; k < 3; ++k)
@@ -257,7 +264,7 @@ void let_wait(BundleState& t, const WaitingRay& common, const Block& block, cons
         }
 }
 
-/// Tests rays that wait, but for those that have come to see something nearer.
+/// Tests all rays that wait, but for those that have come to see something nearer meanwhile; then none waits.
 template <bool kMotion, bool kLens>
 void test_waiting(BundleState& t) {
     size_t nearer = 0;
@@ -282,7 +289,8 @@ void test_waiting(BundleState& t) {
     if (nearer != 0) t.refresh_farthest();
 }
 
-/// The boxes of a grid that active rays meet, none before the candidate's depth, and the blocks in them.
+/// Tests the active rays of a grid in a segment. `whole`: its box in camera space. Blocks that few rays may
+/// meet let them wait; the packets of tested rays then look less far, if the grid is opaque.
 template <bool kMoves, bool kLens>
 void test_active(BundleState& t, const Candidate& candidate, const MovingBox& whole, const WideGrid& grid,
                  int segment) {

@@ -1,4 +1,6 @@
-/// The rays of a bundle that may meet a grid (ActiveRays). Compiled once a target.
+/// The rays of a bundle that may meet a grid (ActiveRays), found in three steps, each for what the one before
+/// left: packets by intervals against the axis-aligned box, rays against that box, rays against the oriented
+/// box. Compiled once a target.
 #if defined(TRAPEZE_ACCEL_GRID_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_GRID_RAYS_INL_H_
 #undef TRAPEZE_ACCEL_GRID_RAYS_INL_H_
@@ -21,7 +23,8 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// segment_at() in lanes: whether a time is in a segment, and where.
+/// segment_at() in lanes, bit for bit: whether a time is in a segment, and where. Every time is in one
+/// segment alone.
 HWY_INLINE MF in_segment(VF time, int key_count, int segment, VF& local) {
     const F32 d;
     const I32 di;
@@ -31,7 +34,8 @@ HWY_INLINE MF in_segment(VF time, int key_count, int segment, VF& local) {
     return hn::RebindMask(d, hn::Eq(index, hn::Set(di, segment)));
 }
 
-/// From times of the shutter to local ones; false where none is in the segment.
+/// Turns an interval of times of the shutter into one of times local to a segment, cut to [0, 1]; false where
+/// none is in the segment.
 HWY_INLINE MF to_segment(int key_count, int segment, Interval& time) {
     const F32 d;
     const VF scale = hn::Set(d, static_cast<float>(key_count - 1)),
@@ -43,8 +47,8 @@ HWY_INLINE MF to_segment(int key_count, int segment, Interval& time) {
     return hn::And(hn::Le(low, hn::Set(d, 1.0f + 0x1p-12f)), hn::Ge(high, hn::Set(d, -0x1p-12f)));
 }
 
-/// Those rays that pass through a grid's axis-aligned box no farther than their limits: a third of the work
-/// that the oriented box is, and of a packet that is wider than a grid most often no ray is left.
+/// Lanes of rays that pass through a grid's axis-aligned box no farther than their limits: a third of the
+/// work that the oriented box is, and of a packet that is wider than a grid most often no ray is left.
 template <bool kMoves, bool kLens>
 HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) {
     const F32 d;
@@ -53,6 +57,8 @@ HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) 
         return kMoves ? hn::MulAdd(r.local, hn::Set(d, delta[k]), value) : value;
     };
     const VF z0 = plane(box.low, box.low_delta, 2), z1 = hn::Min(plane(box.high, box.high_delta, 2), limit);
+    // Between the depths of entry and exit in z a ray spans an interval of x (y), which has to meet the
+    // box's.
     const auto passes = [&](VF o, VF u, int k) HWY_ATTR {
         const VF from = kLens ? hn::MulAdd(u, z0, o) : hn::Mul(u, z0),
                  to = kLens ? hn::MulAdd(u, z1, o) : hn::Mul(u, z1);
@@ -62,7 +68,7 @@ HWY_INLINE MF in_aligned_box(const MovingBox& box, const RayLanes& r, VF limit) 
     return hn::And(hn::Le(z0, z1), hn::And(passes(r.ox, r.ux, 0), passes(r.oy, r.uy, 1)));
 }
 
-/// They are needed once all packets of the bundle have been looked at.
+/// Fetches the codes of a grid's boxes, which are needed once all packets of the bundle have been looked at.
 template <bool kMoves>
 HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int segment) {
     constexpr size_t kLine = 64;
@@ -72,7 +78,7 @@ HWY_INLINE void prefetch_boxes(const BundleState& t, const WideGrid& grid, int s
     __builtin_prefetch(keys + bytes - 1);
 }
 
-/// The rays of a packet, and whether they look in a segment, at times local to it.
+/// Loads the rays of a packet; lanes that look in a segment, at times local to it (r.local).
 template <bool kMoves, bool kLens>
 HWY_INLINE MF rays_in_segment(const BundleState& t, const WideGrid& grid, int segment, size_t packet,
                               RayLanes& r) {
@@ -88,14 +94,15 @@ HWY_INLINE MF rays_in_segment(const BundleState& t, const WideGrid& grid, int se
     return hn::FirstN(d, kLanes);
 }
 
-/// How far the rays of a packet look, with what depths may differ by.
+/// How far the rays of a packet look: to their nearest hit, and the grid's slack beyond, by which a hit may
+/// lie before the depth where an oriented box is entered.
 HWY_INLINE VF limit_of(const BundleState& t, const WideGrid& grid, size_t packet) {
     const F32 d;
     return hn::Add(hn::Load(d, t.rays.depth + packet * kLanes), hn::Set(d, grid.slack));
 }
 
-/// Of `count` packets keeps those with rays that meet the grid's axis-aligned box; how many. Without a
-/// branch: about every second packet has none, which cannot be predicted.
+/// Keeps those of `count` met packets that have rays which meet the grid's axis-aligned box; how many.
+/// Without a branch: about every second packet has none, which cannot be predicted.
 template <bool kMoves, bool kLens>
 HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const MovingBox& box, int segment,
                                size_t count) {
@@ -113,7 +120,8 @@ HWY_INLINE size_t keep_aligned(BundleState& t, const WideGrid& grid, const Movin
     return kept;
 }
 
-/// Lists those rays of a packet that meet the grid's oriented box, of those that meet the other.
+/// Adds those rays of a packet to the active ones that meet the grid's oriented box; `lanes` meet the other.
+/// Keeps what the rays are in the grid's frame, for its boxes are in that frame, too.
 template <bool kMoves, bool kLens>
 HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t packet, uint32_t lanes,
                                int segment, float depth) {
@@ -157,8 +165,8 @@ HWY_INLINE void collect_packet(BundleState& t, const WideGrid& grid, uint32_t pa
     t.scratch.touched[t.scratch.touched_count++] = packet;
 }
 
-/// Packets whose intervals meet the grid's axis-aligned box, then those of their rays that meet its
-/// oriented one (and, of a moving grid, look in the segment).
+/// Lists the active rays of a grid in a segment, from the packets of the candidate's groups. `box`: the
+/// grid's in camera space during the segment.
 template <bool kMoves, bool kLens>
 void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, int segment,
                     const Candidate& candidate) {
@@ -183,6 +191,7 @@ void collect_active(BundleState& t, const MovingBox& box, const WideGrid& grid, 
                 high[k] = highest(high[k], hn::Set(d, box.high_delta[k]), q.time);
             }
         }
+        // Packets all of whose rays have hit something nearer are out.
         looks = hn::And(looks, hn::Ge(hn::Load(d, t.scratch.farthest + p), low[2]));
         const MF met = hn::And(
             looks, meets<kLens>(d, q, low, high, hn::Set(d, t.nearest_depth), hn::Set(d, t.inverse_focal)));

@@ -1,5 +1,5 @@
-/// Interval arithmetic over bundles of camera rays [Reshetov05; Boulos06]: lanes are boxes for one bundle, or
-/// packets of rays for one box. Compiled once a target.
+/// Interval arithmetic over bundles of camera rays (Reshetov et al. 2005; Boulos et al. 2006): lanes are
+/// boxes for one bundle, or packets of rays for one box. Compiled once a target.
 ///
 /// A ray is at x = ox + ux * z = d * z + o * (1 - z / f) with d = ux + ox / f and o = ox: for rays through
 /// one lens d is where they meet the focal distance f, so that both intervals are small.
@@ -19,11 +19,13 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Lanes of intervals, both ends included.
 struct Interval {
     hn::Vec<hn::ScalableTag<float>> low, high;
 };
 
-/// value(row) gives lanes of a RayIntervals::Row.
+/// What a bundle's or packets' rays hold, as intervals. Made from lanes value(row) of the RayIntervals::Row
+/// named.
 struct IntervalLanes {
     Interval dx, dy, ox, oy, time;
 
@@ -41,7 +43,8 @@ struct IntervalLanes {
     }
 };
 
-/// What a plane of a moving box spans during an interval of time: its low one, then its high one.
+/// What a plane of a moving box spans during an interval of time, the low one downwards, the high one
+/// upwards: it moves linearly, so that the ends of the interval are enough.
 template <class V>
 HWY_INLINE V lowest(V low, V delta, const Interval& time) {
     return hn::Min(hn::MulAdd(time.low, delta, low), hn::MulAdd(time.high, delta, low));
@@ -51,14 +54,16 @@ HWY_INLINE V highest(V high, V delta, const Interval& time) {
     return hn::Max(hn::MulAdd(time.low, delta, high), hn::MulAdd(time.high, delta, high));
 }
 
-/// The interval of products with a number of either sign.
+/// The interval of an interval's products with a number of either sign.
 template <class V>
 HWY_INLINE Interval times(const Interval& i, V factor) {
     const V a = hn::Mul(i.low, factor), b = hn::Mul(i.high, factor);
     return {hn::Min(a, b), hn::Max(a, b)};
 }
 
-/// Where some ray may pass between low and high of one axis on its way from depth z0 to z1; k = 1 - z / f.
+/// Lanes where some ray may be between low and high of one axis on its way from depth z0 to z1; k = 1 - z / f
+/// at these. A ray is linear in depth, so that what rays span on the way lies between what they span at its
+/// ends.
 template <bool kLens, class D, class V>
 HWY_INLINE hn::Mask<D> passes(D, const Interval& d, const Interval& o, V z0, V z1, V k0, V k1, V low,
                               V high) {
@@ -71,7 +76,8 @@ HWY_INLINE hn::Mask<D> passes(D, const Interval& d, const Interval& o, V z0, V z
     return hn::And(hn::Le(hn::Min(from.low, to.low), high), hn::Ge(hn::Max(from.high, to.high), low));
 }
 
-/// Where some ray may pass through a box, whose planes are low and high x, y, z, no nearer than `nearest`.
+/// Lanes where some ray may pass through a box, whose planes are low and high x, y, z, no nearer than
+/// `nearest`. Conservative, and grown by nothing: boxes have been grown when they were built.
 template <bool kLens, class D, class V>
 HWY_INLINE hn::Mask<D> meets(D d, const IntervalLanes& q, const V* low, const V* high, V nearest,
                              V inverse_focal) {

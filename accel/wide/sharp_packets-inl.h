@@ -26,13 +26,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr bool kHasSharpPackets = true;
 
-/// The slopes of a packet's rays.
+/// The intervals of a packet's slopes. All of its rays start at the origin of camera space.
 struct PacketSlopes {
     float ux_low, ux_high, uy_low, uy_high;
 };
 
-/// The boxes of a grid (at most 16, one a lane) that some ray of a packet may meet: the middle ray against
-/// boxes grown by how far others are from it anywhere in the grid's range of depths.
+/// The boxes of a grid (at most 16, one a lane) that some ray of a packet may meet between the depths z_low
+/// and z_high and no farther than `farthest`, as bits: the middle ray against boxes grown by how far others
+/// are from it anywhere in the grid's range of depths.
 HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const FrameAxes& axes, const float* planes,
                               const PacketSlopes& slopes, float z_low, float z_high, float farthest) {
     const F32 d;
@@ -45,6 +46,8 @@ HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const FrameAxes& axes, const
     VF near = hn::Set(d, z_low), far = hn::Set(d, std::min(z_high, farthest + grid.slack));
     for (size_t k = 0; k < 3; ++k) {
         const float* axis = axes.axis[k];
+        // At depth z a ray of the packet lies within (dx, dy) * z of the middle ray; this is that along the
+        // frame's axis k.
         const VF grow = hn::Set(d, reach * (std::abs(axis[0]) * dx + std::abs(axis[1]) * dy));
         const float along = axis[0] * ux + axis[1] * uy + axis[2];
         const VF inverse = hn::Set(d, 1.0f / (std::abs(along) < kLeastDirection ? kLeastDirection : along));
@@ -55,8 +58,9 @@ HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const FrameAxes& axes, const
     return static_cast<uint32_t>(hn::And(hn::Le(near, far), hn::FirstN(d, boxes)).raw);
 }
 
-/// The micropolygons of a block that some ray of a packet may hit. Exact in floats: the predicate's roundings
-/// are monotone in the slope.
+/// The micropolygons of a block that some ray of a packet may hit, as bits v * 4 + u: those whose corners,
+/// moved along all slopes of the packet, lie about the ray in a and in b. Exact in floats, with nothing
+/// grown: the predicate's roundings are monotone in the slope.
 HWY_INLINE uint32_t micropolygons_met(const BlockView& block, const PacketSlopes& slopes) {
     const F32 d;
     const CornerLookup lookup(block);
@@ -97,6 +101,7 @@ HWY_INLINE QuadLanes<VF> quad_from_origin(const BlockView& block, int u, int v, 
     return quad_lanes(zero, zero, zero, ux, uy, vertex);
 }
 
+/// Keeps hits on a grid that is not opaque; `first`: the number of the ray in lane 0.
 inline void add_layers(BundleState& t, size_t first, MF hit, VF depth, uint32_t id) {
     HWY_ALIGN float depths[kLanes];
     hn::Store(depth, F32(), depths);
@@ -107,7 +112,8 @@ inline void add_layers(BundleState& t, size_t first, MF hit, VF depth, uint32_t 
     }
 }
 
-/// A packet against the micropolygons of a block that it may hit; whether something nearer was found.
+/// Tests a packet against the micropolygons of a block that it may hit; whether a nearer opaque hit was
+/// found.
 inline bool test_packet(BundleState& t, const Block& block, size_t packet, const PacketSlopes& slopes) {
     const F32 d;
     const hn::RebindToUnsigned<F32> du;
@@ -130,6 +136,7 @@ inline bool test_packet(BundleState& t, const Block& block, size_t packet, const
         const VF nearest = hn::Load(d, t.rays.depth + i);
         const auto ids = hn::Load(du, t.rays.id + i),
                    id = hn::Set(du, block.id + static_cast<uint32_t>(v << 4 | u));
+        // As BundleState::keep_hit(), in lanes.
         const MF kept =
             hn::And(hit, hn::Or(hn::Lt(depth, nearest),
                                 hn::And(hn::Eq(depth, nearest), hn::RebindMask(d, hn::Lt(id, ids)))));
@@ -146,7 +153,8 @@ inline bool test_packet(BundleState& t, const Block& block, size_t packet, const
     return nearer;
 }
 
-/// Whether the packet's farthest depth may have become nearer; the grid's boxes are decoded.
+/// Tests a packet against the boxes of grid number `index`, which are decoded, and the blocks in those it
+/// meets. `box`: the grid's in camera space. Whether the packet's farthest depth may have become nearer.
 inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, const FrameAxes& axes,
                          const MovingBox& box, size_t packet) {
     const auto& row = t.scratch.intervals.row;
@@ -172,7 +180,8 @@ inline bool visit_packet(BundleState& t, uint32_t index, const WideGrid& grid, c
     return nearer;
 }
 
-/// Packets whose intervals meet the grid's axis-aligned box, one by one as they lie.
+/// Tests all packets of the candidate's groups whose intervals meet the grid's axis-aligned box, one by one
+/// as they lie. The grid's boxes are decoded when the first packet has come.
 inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGrid& grid) {
     const F32 d;
     const MovingBox box = t.tree.grid_box(grid);

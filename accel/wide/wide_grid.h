@@ -13,6 +13,7 @@ struct MovingBox {
     float low[3], high[3], low_delta[3], high_delta[3];
 };
 
+/// The box that moves from one key's bounds to another's while time goes from 0 to 1.
 inline MovingBox between(const KeyBounds& from, const KeyBounds& to) {
     MovingBox box;
     for (int k = 0; k < 3; ++k) {
@@ -30,6 +31,8 @@ struct FrameAxes {
     /// what PackedAxes round away, by three axes.
     static constexpr float kLoss = 2e-4f;
 };
+/// The same axes in 16 bits a component, in steps of 1 / kOne. Bounds are made with the axes as unpacked, so
+/// that what packing rounds away loosens no bound; it makes the frame a little less than orthogonal.
 struct PackedAxes {
     static constexpr float kOne = 32767;
     int16_t code[3][3];
@@ -42,7 +45,7 @@ struct PackedAxes {
     }
 };
 
-/// The record of a grid. What it has at its keys lies apart:
+/// The record of a grid. What it has at its keys lies apart, in bytes:
 ///
 ///   the grid's bounds in its frame, over all keys; where it has segments, those in camera space besides;
 ///   for each key, where it moves, the same as codes between those, low x, y, z, high x, y, z;
@@ -59,6 +62,7 @@ struct WideGrid {
     uint8_t facing : 4, opaque : 4;
 
     bool moves() const { return key_count > 1; }
+    /// Tiles as in GridShape: of vertices, so that one tile more may follow the last block.
     int tiles_u() const { return (nu + 4) / 4; }
     int tiles_v() const { return (nv + 4) / 4; }
     size_t plane_size() const { return static_cast<size_t>(tiles_u() * tiles_v()) * 16; }
@@ -72,7 +76,8 @@ struct WideGrid {
     /// fast, as wheels do, is nearly everywhere during the shutter, and somewhere in each segment.
     bool has_segments() const { return key_count > 2; }
 
-    /// All even.
+    /// Sizes in bytes of the header, of a key's bounds, of a key with its boxes, of all. All even, so that
+    /// first_pair can count pairs.
     size_t header_bytes() const { return (has_segments() ? 2 : 1) * sizeof(KeyBounds); }
     size_t bounds_bytes() const { return has_segments() ? 12 : moves() ? 6 : 0; }
     size_t key_bytes() const { return bounds_bytes() + static_cast<size_t>(box_count()) * 6; }
@@ -83,16 +88,16 @@ struct WideGrid {
 
 static_assert(sizeof(WideGrid) == 48, "hair has one for every 16 micropolygons");
 
-/// Reads what a grid has at its keys.
+/// Reads what a grid has at its keys. The bytes need no alignment.
 class GridKeys {
   public:
     GridKeys(const WideGrid& grid, const uint8_t* bytes) : grid_(grid), bytes_(bytes) {}
 
     /// Rows of codes of its boxes.
     const uint8_t* box_codes(int key) const { return of_key(key) + grid_.bounds_bytes(); }
-    /// In the grid's frame: what box_codes() are between.
+    /// The grid's bounds at a key in its frame: what box_codes() are between.
     KeyBounds framed(int key) const { return grid_.moves() ? decoded(0, of_key(key)) : header(0); }
-    /// In camera space, of a grid that has_segments().
+    /// The grid's bounds at a key in camera space; only of a grid that has_segments().
     KeyBounds aligned(int key) const { return decoded(1, of_key(key) + 6); }
 
     /// Where what it has at a key begins.
@@ -101,6 +106,7 @@ class GridKeys {
     }
 
   private:
+    /// Bounds over all keys: 0 in the frame, 1 in camera space.
     KeyBounds header(size_t which) const {
         KeyBounds bounds;
         std::memcpy(&bounds, bytes_ + which * sizeof(bounds), sizeof(bounds));

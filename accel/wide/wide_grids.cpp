@@ -43,6 +43,8 @@ struct TiledCoordinates {
     HWY_ALIGN float c[6][kMaxTiles * 16];
 };
 
+/// Writes a key's vertices in camera space and in the frame of `axis`, and what they span. Whole planes are
+/// read: places past the last row and column repeat vertices (core/grid.h), which changes no bound.
 HWY_INLINE void place_vertices(const Grid& grid, int key, const float (*axis)[3], TiledCoordinates& out,
                                KeyBox6& box) {
     const hn::ScalableTag<float> d;
@@ -73,7 +75,8 @@ HWY_INLINE void place_vertices(const Grid& grid, int key, const float (*axis)[3]
     }
 }
 
-/// Bounds of 4 x 4 micropolygons: their tile's vertices and the first row and column of the tiles behind.
+/// Bounds of all blocks of 4 x 4 micropolygons, in the frame, not grown: of their tile's vertices and the
+/// first row and column of the tiles behind.
 HWY_INLINE void bound_blocks(const GridShape& shape, const TiledCoordinates& at, BlockBoxes& boxes) {
     const hn::CappedTag<float, 4> d4;
     using V = hn::Vec<decltype(d4)>;
@@ -111,6 +114,7 @@ HWY_INLINE void bound_blocks(const GridShape& shape, const TiledCoordinates& at,
     }
 }
 
+/// Bounds of a grid at each of its keys: of the whole into wholes[key], of its blocks into blocks[key].
 void bound_keys(const Grid& grid, const float (*axis)[3], KeyBox6* wholes, BlockBoxes* blocks) {
     TiledCoordinates coordinates;
     for (int key = 0; key < grid.key_count; ++key) {
@@ -132,8 +136,8 @@ using wide_grids_detail::KeyBox6;
 
 HWY_EXPORT(bound_keys);
 
-/// From sums of edges along u and v at mid-shutter, to which interior vertices do not contribute
-/// [Hou10 sec. 3.3]; every fourth row and column tells enough.
+/// The frame of a grid, from sums of edges along u and v at mid-shutter, to which interior vertices do not
+/// contribute [Hou10 sec. 3.3]; every fourth row and column tells enough.
 Frame frame_of_grid(const Grid& grid) {
     const GridShape& shape = grid.shape;
     V3f along_u(0), along_v(0);
@@ -145,6 +149,7 @@ Frame frame_of_grid(const Grid& grid) {
     return frame_of(V3d(along_u) / (rows * shape.nu), V3d(along_v) / (columns * shape.nv));
 }
 
+/// Axes in 16 bits a component; those of space where some are no numbers.
 PackedAxes packed(Frame frame) {
     for (int k = 0; k < 3; ++k)
         if (!std::isfinite(frame.axis[k].x + frame.axis[k].y + frame.axis[k].z)) frame = {};
@@ -156,7 +161,9 @@ PackedAxes packed(Frame frame) {
     return axes;
 }
 
-/// The least line through the shutter above (sign 1) or below (sign -1) the values at all keys.
+/// The line over the shutter below all keys' low (or above all keys' high) values of coordinate k: the line
+/// from the first key to the last, moved out as far as some key lies beyond it. `ends`: its values at open
+/// and close.
 void line_around(const KeyBox6* wholes, int key_count, bool low, int k, float ends[2]) {
     const auto at = [&](int key) { return low ? wholes[key].low[k] : wholes[key].high[k]; };
     const float first = at(0), last = at(key_count - 1);
@@ -170,7 +177,7 @@ void line_around(const KeyBox6* wholes, int key_count, bool low, int k, float en
     ends[1] = low ? last - beyond : last + beyond;
 }
 
-/// Joins the boxes of blocks that share one, in place.
+/// Joins the boxes of blocks that share one, in place: afterwards places 0 .. box_count() - 1 count.
 void join_blocks(const WideGrid& record, BlockBoxes& boxes) {
     const int per_box = record.blocks_per_box(), blocks = record.block_count();
     for (int k = 0; k < 3; ++k)
@@ -181,7 +188,7 @@ void join_blocks(const WideGrid& record, BlockBoxes& boxes) {
         }
 }
 
-/// Codes of the boxes at a key, grown.
+/// Writes the codes of a grid's boxes at a key, grown by `grow`, between the planes of `whole`.
 void write_codes(const WideGrid& record, const KeyBounds& whole, const BlockBoxes& boxes, float grow,
                  uint8_t* out) {
     const int count = record.box_count();
@@ -195,7 +202,7 @@ void write_codes(const WideGrid& record, const KeyBounds& whole, const BlockBoxe
     }
 }
 
-/// Of all keys, grown; from coordinate `first` on.
+/// Bounds over some keys, grown: in camera space (`first` 0) or in the frame (3).
 KeyBounds bounds_of_all(const KeyBox6* wholes, int key_count, int first, float grow) {
     KeyBounds all;
     for (int k = 0; k < 3; ++k) {
@@ -208,8 +215,9 @@ KeyBounds bounds_of_all(const KeyBox6* wholes, int key_count, int first, float g
     return all;
 }
 
-/// What a grid has at its keys, as WideGrid tells. `grow` as all bounds; what codes are between grows by
-/// `more` than what they are of.
+/// Writes what a grid has at its keys, as WideGrid tells. All bounds grow by `grow`; what codes are between
+/// grows by `more` than what they are of, once more for each level of codes, so that code_below() finds a
+/// plane.
 void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes* boxes, float grow,
                 float more, uint8_t* out) {
     const int keys = record.key_count;
@@ -254,6 +262,7 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uin
     record.opaque = grid.opaque;
 
     KeyBox6 wholes[kMaxKeyCount];
+    // Kept between calls, so that a grid allocates nothing.
     static thread_local std::vector<BlockBoxes> blocks;
     blocks.resize(grid.key_count);
     HWY_DYNAMIC_DISPATCH(bound_keys)(grid, axes.axis, wholes, blocks.data());
@@ -264,6 +273,7 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uin
             largest = std::max({largest, std::abs(wholes[key].low[k]), std::abs(wholes[key].high[k])});
     extent.absolute_max = largest <= kBoundableCoordinate ? largest : HUGE_VALF;
     const float grow = scale * largest + base;
+    // What decoding may differ by on another target (box_codes-inl.h): boxes grow by it, too.
     const float code_rounding = kCodeRounding * largest;
     for (int k = 0; k < 3; ++k) {
         float low[2], high[2];

@@ -5,7 +5,7 @@
 
 namespace trapeze {
 
-/// A box at both ends of the shutter, linear between.
+/// A box at shutter open and at shutter close, linear between.
 struct EndBoxes {
     KeyBounds at[2];
 };
@@ -17,9 +17,11 @@ struct GridExtent {
     float largest_micropolygon;  ///< the extent of the largest along any axis
 };
 
-/// Fills in a grid's record (all but first_pair, which is set, and leaf) and what it has at its keys. `scale`
-/// and `base`: bounds grow by scale * largest coordinate + base. A grid beyond kBoundableCoordinate gets an
-/// absolute_max of infinity, and boxes that mean nothing.
+/// Bounds one grid: fills in its record (all but first_pair, which is set, and leaf) and what it has at its
+/// keys, in WideGrid::keys_bytes() bytes at `keys`. `scale` and `base`: bounds grow by scale * largest
+/// coordinate + base, which must cover what rounds for rays within reach (WideTree::rounding()). A grid
+/// beyond kBoundableCoordinate gets an absolute_max of infinity, and boxes that mean nothing. Safe from many
+/// threads.
 void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint8_t* keys,
                 GridExtent& extent);
 

@@ -10,6 +10,7 @@
 namespace trapeze {
 namespace {
 
+/// Bins along each axis, hence 15 planes to split at.
 constexpr int kTopBins = 16;
 constexpr size_t kTaskFrom = 512;  ///< grids below which a subtree is one task
 /// Deeper subtrees are halved without looking: the depth of the tree stays bounded.
@@ -29,7 +30,7 @@ struct Box {
     }
 };
 
-/// A grid at mid-shutter.
+/// A grid at mid-shutter, as splits see it. Every grid weighs the same.
 struct Item {
     Box box;
     uint32_t grid;
@@ -38,12 +39,14 @@ struct Item {
     float place(int axis) const { return box.low[axis] + box.high[axis]; }
 };
 
+/// A node of the binary tree that is built first and then collapsed.
 struct BinaryNode {
     EndBoxes box;
     uint32_t child[2];  ///< links
     uint32_t count;     ///< grids below
 };
 
+/// The box about two, at both ends of the shutter.
 EndBoxes both(const EndBoxes& a, const EndBoxes& b) {
     EndBoxes out;
     for (int end = 0; end < 2; ++end)
@@ -54,7 +57,8 @@ EndBoxes both(const EndBoxes& a, const EndBoxes& b) {
     return out;
 }
 
-/// Bins of centroids along one axis.
+/// The rule that gives a grid its bin along one axis: kTopBins equal parts from `from` on (twice a
+/// coordinate).
 struct TopBinning {
     int axis = 0;
     float from = 0, scale = 0;
@@ -65,12 +69,14 @@ struct TopBinning {
     }
 };
 
+/// The cheapest split found so far; infinite: none.
 struct TopSplit {
     float cost = kEndless;
     TopBinning binning;
     int bin = 0;  ///< the first bin of the upper side
 };
 
+/// Builds a binary tree top down, halves as parallel tasks, then collapses it.
 class TopBuilder {
   public:
     TopBuilder(std::span<const GridExtent> extents, std::span<const uint32_t> grids) : extents_(extents) {
@@ -100,7 +106,8 @@ class TopBuilder {
         return link & kGridLink ? extents_[link & ~kGridLink].box : nodes_[link].box;
     }
 
-    /// The binary tree of some grids; a subtree of n grids has n - 1 nodes, numbered from `first`.
+    /// Builds the binary tree of some grids and gives its link; a subtree of n grids has n - 1 nodes,
+    /// numbered from `first`: places are known before subtrees are built, whoever builds first.
     uint32_t binary(std::span<Item> part, uint32_t first, int depth) {
         if (part.size() == 1) return part[0].grid | kGridLink;
         const size_t middle = part_in_two(part, depth);
@@ -119,7 +126,8 @@ class TopBuilder {
         return first;
     }
 
-    /// Moves the lower part to the front and tells its size, which is neither 0 nor all.
+    /// Parts grids by the best split, moved to where nodes are full: moves the lower part to the front and
+    /// tells its size, which is neither 0 nor all.
     static size_t part_in_two(std::span<Item> part, int depth) {
         const TopSplit split = depth < kSahDepthLimit ? best_split(part) : TopSplit{};
         if (split.cost == kEndless) return filling(part.size(), part.size() / 2);
@@ -130,6 +138,7 @@ class TopBuilder {
         const auto before = [axis = split.binning.axis](const Item& a, const Item& b) {
             return std::pair(a.place(axis), a.grid) < std::pair(b.place(axis), b.grid);
         };
+        // Grids between the split and the full place change sides: those nearest to the other side.
         if (filled < middle) std::nth_element(part.begin(), filled, middle, before);
         if (filled > middle) std::nth_element(middle, filled, part.end(), before);
         return static_cast<size_t>(filled - part.begin());
@@ -148,6 +157,7 @@ class TopBuilder {
         return away(low) <= away(high) ? low : high;
     }
 
+    /// The cheapest plane between bins of any axis; cost infinite where all centroids coincide.
     static TopSplit best_split(std::span<const Item> part) {
         float from[3] = {kEndless, kEndless, kEndless}, to[3] = {-kEndless, -kEndless, -kEndless};
         for (const Item& item : part)
@@ -160,6 +170,7 @@ class TopBuilder {
         return best;
     }
 
+    /// Tries all planes along one axis, in two sweeps over the bins.
     static void consider(std::span<const Item> part, const TopBinning& binning, TopSplit& best) {
         std::array<Box, kTopBins> bins;
         std::array<uint32_t, kTopBins> counts{};

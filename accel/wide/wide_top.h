@@ -1,5 +1,5 @@
-/// The levels of a WideTree above grids: a binned SAH over grids' centroids at mid-shutter, collapsed to
-/// nodes of 16 children.
+/// The levels of a WideTree above grids: a binned SAH [Wald07] over grids' centroids at mid-shutter,
+/// collapsed to nodes of 16 children, as many as AVX-512 has lanes.
 #pragma once
 
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace trapeze {
 
-/// A child of a wide node while it is built: a box and what it holds.
+/// A child of a wide node while it is built: a box and what it holds (kGridLink and a grid's number, or a
+/// node's).
 struct WideChild {
     EndBoxes box;
     uint32_t link;
@@ -21,7 +22,8 @@ struct WideChildren {
     int count = 0;
 };
 
-/// The tree over some grids, of which there is at least one. Deterministic, whatever the number of threads.
+/// Builds the tree over some grids, of which there is at least one; `grids` are indices in `extents`. Every
+/// grid is the child of one node. Deterministic, whatever the number of threads.
 std::vector<WideChildren> build_wide_top(std::span<const GridExtent> extents,
                                          std::span<const uint32_t> grids);
 

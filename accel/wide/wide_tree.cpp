@@ -130,11 +130,12 @@ DepthInterval slab_depths(const float* low, const float* high, const float* low_
     return inside;
 }
 
+/// One over a component of a direction, finite for all.
 float inverse_of(float direction) {
     return 1.0f / (std::abs(direction) < kLeastDirection ? kLeastDirection : direction);
 }
 
-/// Tests a ray against some micropolygons of a grid and shows the policy what it hits.
+/// Tests a ray in any direction against some micropolygons of a grid and shows the policy what it hits.
 template <class Policy>
 void test_micropolygons(const Grid& grid, uint32_t index, const GridBlock& block, TraceRay& ray,
                         Policy& policy) {
@@ -149,7 +150,7 @@ void test_micropolygons(const Grid& grid, uint32_t index, const GridBlock& block
         }
 }
 
-/// What a node of a moving scene has besides, in floats.
+/// A node's WideNodeMotion in floats; not set where nothing moves.
 struct NodeDeltas {
     float low[3][WideNode::kChildren], high[3][WideNode::kChildren];
 
@@ -162,7 +163,8 @@ struct NodeDeltas {
     }
 };
 
-/// One ray through the tree, nearest children first.
+/// One ray in any direction through the tree, nearest children first. Its reach may be any: boxes grow by the
+/// ray's own rounding (pad_) when they are tested.
 template <class Policy>
 class SingleRay {
   public:
@@ -185,6 +187,8 @@ class SingleRay {
         uint32_t link;
     };
 
+    /// A node's children that the ray may hit, from near to far; ends when the nearest hit is in front of the
+    /// rest.
     void visit(uint32_t index) {
         const WideNode& node = tree_.nodes()[index];
         const NodeDeltas motion(tree_, index);
@@ -210,6 +214,8 @@ class SingleRay {
         }
     }
 
+    /// The ray in the grid's frame against its boxes at the ray's time, one after another, then against all
+    /// micropolygons in those it meets.
     void visit_grid(uint32_t index) {
         const WideGrid& record = tree_.grid(index);
         const MotionSegment segment = segment_at(ray_.axis.time, record.key_count);

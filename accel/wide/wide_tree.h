@@ -28,13 +28,14 @@
 
 namespace trapeze {
 
-/// What the rays of bundles stay within; origins are at z = 0.
+/// What the rays of bundles stay within, in camera space; origins are at z = 0. Wider reach, larger boxes.
 struct RayReach {
     float slope = 2;   ///< |ux| + |uy|
     float origin = 0;  ///< |ox| + |oy|
 };
 
-/// Memory aligned to cache lines, readable 64 bytes past its end. Not initialised.
+/// Memory aligned to cache lines, readable 64 bytes past its end (vectors are loaded there). Not initialised;
+/// T is never constructed nor destroyed.
 template <class T>
 class AlignedArray {
   public:
@@ -57,16 +58,19 @@ class AlignedArray {
     size_t count_ = 0;
 };
 
-/// Child links of nodes: a grid, a node, or none.
+/// Child links of nodes: kGridLink and a grid's index, a node's number, or kNoLink.
 inline constexpr uint32_t kGridLink = uint32_t{1} << 31;
 inline constexpr uint32_t kNoLink = ~uint32_t{0};
 
+/// 16 children, their boxes plane by plane so that a vector holds a plane of all: axis-aligned in camera
+/// space, grown for rays within reach. Children that are there come first.
 struct alignas(64) WideNode {
     static constexpr int kChildren = 16;
     float low[3][kChildren], high[3][kChildren];  ///< at time 0; inverted where there is no child
     uint32_t child[kChildren];
 };
-/// What nodes of moving scenes have besides: how far planes move, rounded outward (accel/wide/bfloat16.h).
+/// What nodes of moving scenes have besides: how far planes move over the whole shutter, rounded outward to
+/// bfloat16 (accel/wide/bfloat16.h).
 struct alignas(64) WideNodeMotion {
     uint16_t low[3][WideNode::kChildren], high[3][WideNode::kChildren];
 };
@@ -74,12 +78,15 @@ struct alignas(64) WideNodeMotion {
 struct GridExtent;
 struct WideChildren;
 
+/// The tree. Answers bundles (accel/wide/bundle.h) and single rays in any direction; finds what testing
+/// everything finds, bit for bit.
 class WideTree final : public RayQuery {
   public:
     /// Grids beyond this many cannot be told apart in the tree's 32-bit micropolygon ids.
     static constexpr size_t kMaxGrids = size_t{1} << 24;
 
-    /// Keeps a reference to the grids, of which there are at most kMaxGrids.
+    /// Builds the tree, in parallel and alike for any number of threads. Keeps a reference to the grids, of
+    /// which there are at most kMaxGrids, and reads their vertices when it is traced.
     WideTree(const Grids& grids, const RayReach& reach);
 
     std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const override;
@@ -91,7 +98,7 @@ class WideTree final : public RayQuery {
     bool moves() const { return moves_; }
 
     /// What bounds of things within some coordinates have to grow by, so that no test of a ray within reach
-    /// loses a hit to rounding.
+    /// loses a hit to rounding. As TraceRay::rounding(), for the worst ray within reach.
     float rounding(float absolute_max) const { return rounding_scale_ * absolute_max + rounding_base_; }
 
     /// The extent along z of the largest micropolygon of all.
@@ -100,10 +107,10 @@ class WideTree final : public RayQuery {
     const WideNodeMotion* node_motions() const { return node_motions_.data(); }
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
-    /// What it has at its keys, as WideGrid tells.
+    /// A grid's bounds and codes of boxes at its keys, as WideGrid tells; read by GridKeys.
     const uint8_t* keys_of(const WideGrid& grid) const { return keys_.data() + 2 * size_t{grid.first_pair}; }
-    /// The boxes of a grid in a segment, which tracing decodes in vectors; at its start alone where it is
-    /// still.
+    /// Decodes the boxes of a grid in a segment, one at a time: the meaning of what tracing decodes in
+    /// vectors (box_codes-inl.h). Of a still grid rows 6 to 11 are not written.
     void decode(const WideGrid& grid, int segment, BoxPlanes& boxes) const;
     /// A grid's box in camera space over the whole shutter; not of unbounded ones.
     MovingBox grid_box(const WideGrid& grid) const {
@@ -117,12 +124,14 @@ class WideTree final : public RayQuery {
         }
         return box;
     }
-    /// The same in a segment.
+    /// A grid's box in camera space during one segment, times local to it; the whole shutter's where a grid
+    /// has only one segment.
     MovingBox segment_box(const WideGrid& grid, int segment) const {
         if (!grid.has_segments()) return grid_box(grid);
         const GridKeys keys(grid, keys_of(grid));
         return between(keys.aligned(segment), keys.aligned(segment + 1));
     }
+    /// A grid's frame and its box there in a segment; of a still grid the same at both ends.
     void read_frame(const WideGrid& grid, int segment, SegmentFrame& frame) const {
         const GridKeys keys(grid, keys_of(grid));
         frame.axes = grid.axes.unpacked();
@@ -134,7 +143,9 @@ class WideTree final : public RayQuery {
     const std::vector<uint32_t>& unbounded_grids() const { return unbounded_; }
 
   private:
+    /// First pass: wide_grids_ and keys_ (but for WideGrid::leaf), in parallel over grids.
     void bound_grids(std::vector<GridExtent>& extents);
+    /// Last pass: nodes in the form that is traced, and each grid's leaf.
     void write_nodes(const std::vector<WideChildren>& wide);
 
     const Grids& grids_;
