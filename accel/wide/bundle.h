@@ -43,8 +43,8 @@ struct RayBundle {
     uint32_t *tests = nullptr, *nodes = nullptr;
 };
 
-/// The working memory of tracing, one per thread and reused (accel/wide/bundle_scratch.h, which only the
-/// tree's own files see).
+/// The working memory of tracing, one per thread and reused. Only the tree's own files look inside
+/// (accel/wide/bundle_scratch.h).
 struct BundleScratch;
 struct DeleteBundleScratch {
     void operator()(BundleScratch* scratch) const;
