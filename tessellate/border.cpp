@@ -48,6 +48,7 @@ void border_positions(const PlacedSurface& surface, const VertexTable& vertices,
             continue;
         }
         const int face = points[i].at.face;
+        // The run of points on this face that begins here: one call of the surface for all of them.
         size_t n = 0;
         while (i + n < points.size() && !points[i + n].is_vertex && points[i + n].at.face == face) {
             uv[n] = points[i + n].at.uv;

@@ -1,16 +1,19 @@
-/// The shared points of subpatches' borders: what both neighbours take, wherever they stand.
+/// The shared points of subpatches' borders: what both neighbours take, wherever they stand, and where these
+/// are.
 #pragma once
 
 #include "tessellate/edges.h"
 
 namespace trapeze {
 
-/// Positions of a surface's vertices at all keys, each made once.
+/// Positions of a surface's vertices at all keys, in camera space, each made once.
 class VertexTable {
   public:
     VertexTable() = default;
+    /// Evaluates all vertices, in parallel.
     explicit VertexTable(const PlacedSurface& surface);
 
+    /// A vertex's key_count positions.
     std::span<const V3f> keys_of(uint32_t vertex) const {
         return {positions_.data() + static_cast<size_t>(vertex) * key_count_, key_count_};
     }
@@ -26,7 +29,8 @@ class VertexTable {
 /// The most border points that a subpatch has, corners counted twice.
 inline constexpr int kMaxBorderPoints = 4 * (kMaxGridSide + 1);
 
-/// P[point * key_count + key], at most kMaxBorderPoints points.
+/// Positions of shared points at all keys, to P[point * key_count + key], at most kMaxBorderPoints points.
+/// Runs of points on one face are evaluated together, which gives the same bits as one by one.
 void border_positions(const PlacedSurface& surface, const VertexTable& vertices,
                       std::span<const BorderPoint> points, EvaluationScratch& scratch, std::span<V3f> P);
 
@@ -42,7 +46,7 @@ struct BorderSide {
     int vertex_of_border(int i, int n) const { return (2 * i * count + n) / (2 * n); }
 };
 
-/// Of a side that lies in one interval of its edge.
+/// The vertices that a side takes of its edge. The side must lie in one interval of it.
 BorderSide border_side(const Edges& edges, const SurfaceSide& side);
 
 }  // namespace trapeze

@@ -7,6 +7,8 @@
 namespace trapeze {
 namespace {
 
+/// Calls transform(triple, index, planes) for each element of a variable and stores what it gives; arrays are
+/// several elements of `floats_per_element` planes each. A fourth float is left as it is.
 template <class F>
 void for_each_triple(GridVariable& variable, int floats_per_element, F&& transform) {
     for (size_t plane = 0; plane + floats_per_element <= variable.planes.size();
@@ -33,6 +35,8 @@ void to_camera_space(const M44f& camera_from_object, GridVariable& variable) {
                             [&](const V3f& v, size_t, Planes) { return transform_vector(m, v); });
             break;
         case ValueType::Normal: {
+            // The cofactors are the inverse transpose times the determinant; its amount comes out here, since
+            // normals of primitive variables need not be of unit length.
             const M44f normals = normal_matrix(m);
             const float x = m[0][0] * normals[0][0] + m[0][1] * normals[0][1] + m[0][2] * normals[0][2];
             const float scale =

@@ -10,6 +10,7 @@
 namespace trapeze {
 namespace {
 
+/// Makes one grid, step by step.
 class Dicer {
   public:
     Dicer(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
@@ -23,6 +24,8 @@ class Dicer {
           shape_(subpatch.shape),
           count_(shape_.vertex_count()) {}
 
+    /// Interior vertices are evaluated on the subpatch; border vertices then take the shared points'
+    /// positions, because the same point evaluated on two faces differs in its last bits.
     void run() {
         prepare_grid();
         find_border();
@@ -37,6 +40,8 @@ class Dicer {
     }
 
   private:
+    /// Sizes all of the grid's planes. P's of unused keys wait in the scratch, so that grids with fewer keys
+    /// in between cost no allocations.
     void prepare_grid() {
         grid_.shape = shape_;
         grid_.key_count = surface_.key_count();
@@ -59,6 +64,8 @@ class Dicer {
         grid_.Os.fill(count_, attributes_.opacity);
     }
 
+    /// Lists the shared points of the four sides and which border vertex takes which. A side with more
+    /// vertices than its edge repeats points: micropolygons there have sides of no length.
     void find_border() {
         for (int s = 0; s < 4; ++s) {
             BorderSide& side = sides_[s] = border_side(context_.edges, subpatch_.sides[s]);
@@ -83,6 +90,7 @@ class Dicer {
         return {border_.data(), static_cast<size_t>(border_count_)};
     }
 
+    /// The grid's number of vertex i of a side, counted from its low end.
     int border_vertex(int side, int i) const {
         switch (side) {
             case kBottom:
@@ -108,6 +116,7 @@ class Dicer {
                                                        along(subpatch_.lo.y, subpatch_.hi.y, j, shape_.nv)};
     }
 
+    /// Positions at all keys and derivatives at the first, at all vertices.
     void evaluate() {
         const size_t keys = grid_.P.size();
         scratch_.P.resize(count_ * keys);
@@ -126,6 +135,7 @@ class Dicer {
         return !point.is_vertex && point.at.face == subpatch_.face && point.at.uv == scratch_.uv[vertex];
     }
 
+    /// Puts border vertices where their shared points are, at all keys. Only the others are evaluated.
     void set_border_positions() {
         const size_t keys = grid_.P.size();
         std::array<BorderPoint, kMaxBorderPoints> wanted;
@@ -147,6 +157,7 @@ class Dicer {
         }
     }
 
+    /// Unit normals that point outside, and derivatives by the whole surface's parameters.
     void set_normals() {
         const float outside = attributes_.reverse_orientation ? -1.0f : 1.0f;
         scratch_.degenerate.clear();
@@ -184,6 +195,7 @@ class Dicer {
         }
     }
 
+    /// Primitive variables at the vertices, and shading normals where the primitive has its own.
     void set_variables() {
         const bool own_normals = surface_.surface().evaluate_variables(
             subpatch_.face, scratch_.uv, scratch_.evaluation.of(surface_.surface()), grid_);

@@ -1,4 +1,5 @@
-/// Makes a subpatch's grid.
+/// Makes a subpatch's grid: its vertices evenly over the subpatch, those on its border at the shared points
+/// of its edges (docs/decisions/0002-edges-decide-their-rate.md).
 #pragma once
 
 #include "tessellate/split.h"
@@ -6,7 +7,7 @@
 
 namespace trapeze {
 
-/// What dicing a primitive reads.
+/// What dicing a primitive reads: all of it outlives the call and is not changed.
 struct DiceContext {
     const PlacedSurface* surface = nullptr;
     Edges edges;
@@ -16,6 +17,8 @@ struct DiceContext {
     bool displaced = false;        ///< grids are to have borders by which they stay together
 };
 
+/// Memory for one grid at a time. P: key by key, a grid's vertices row by row; dPdu and dPdv at the first
+/// key, by the face's parameters. All camera space.
 struct DiceScratch::State {
     EvaluationScratch evaluation;
     std::vector<V2f> uv;
@@ -24,7 +27,9 @@ struct DiceScratch::State {
     std::vector<Triples> spare_keys;  ///< P of grids with more keys than the present one
 };
 
-/// The grid's shape, key_count and primitive are set here too; ordinal and primitive_index are the caller's.
+/// Dices a subpatch into `grid`, whose earlier contents are replaced and whose memory is reused. The grid's
+/// shape, key_count and primitive are set here too; ordinal and primitive_index are the caller's. Same bits
+/// whenever it is done and whoever does it.
 void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
                    DiceScratch::State& scratch);
 

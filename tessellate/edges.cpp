@@ -5,11 +5,12 @@
 namespace trapeze {
 namespace {
 
-/// Pieces measured first, and when there may be more than as many segments.
+/// Pieces of an interval that are measured first, and where these want more segments than that.
 constexpr int kCoarsePieces = 4, kFinePieces = 8;
 /// A face's parameter between a line and the one beside it.
 constexpr float kBeside = 1.0f / 16384;
 
+/// Cuts one edge into intervals, halving as long as the measure wants.
 class EdgeCutter {
   public:
     EdgeCutter(const PlacedSurface& surface, const EdgeLine& line, const LineMeasure& measure,
@@ -22,6 +23,7 @@ class EdgeCutter {
           out_(out),
           limit_(out.size() + rate.max_intervals) {}
 
+    /// Adds the intervals of a piece of the edge, in order.
     void cut(EdgeInterval interval) {
         const float rate = rate_.pixels_per_segment;
         RateEstimate estimate = estimate_of(interval);
@@ -38,6 +40,8 @@ class EdgeCutter {
     }
 
   private:
+    /// How many segments a piece of the edge wants: by its lengths, and where these might be less by
+    /// foreshortening, looked at more closely.
     RateEstimate estimate_of(const EdgeInterval& interval) {
         const float rate = rate_.pixels_per_segment;
         int pieces = kCoarsePieces;
@@ -53,7 +57,8 @@ class EdgeCutter {
         return measure_.foreshortened(P, points(interval, pieces, measure_.keys(), true));
     }
 
-    /// Of the line, or of one beside it on the same face.
+    /// Points of the line at its first `keys` keys, P[key * (pieces + 1) + i], or of one beside it on the
+    /// same face.
     std::span<const V3f> points(const EdgeInterval& interval, int pieces, int keys, bool beside = false) {
         std::array<V2f, kFinePieces + 1> uv;
         EdgeInterval pieces_of = interval;
@@ -119,6 +124,7 @@ const EdgeInterval* Edges::interval(uint32_t edge, float a, float b) const {
     const std::span<const EdgeInterval> all =
         edge < surface_edges ? of_surface->of(edge) : made->of(static_cast<uint32_t>(edge - surface_edges));
     if (a > b) std::swap(a, b);
+    // The last interval that begins at or before a.
     const auto after = std::upper_bound(all.begin(), all.end(), a,
                                         [](float p, const EdgeInterval& i) { return p < i.begin; });
     const EdgeInterval& holds_a = *(after == all.begin() ? after : after - 1);

@@ -12,7 +12,8 @@
 
 namespace trapeze {
 
-/// [begin, begin + 2^-depth] of an edge's parameter.
+/// A piece [begin, begin + 2^-depth] of an edge's parameter, cut into 1 to 16 equal segments. `begin` is a
+/// multiple of 2^-depth: exact in floats.
 struct EdgeInterval {
     float begin = 0;
     uint8_t depth = 0;
@@ -27,12 +28,14 @@ struct EdgeInterval {
     int snap(float parameter) const {
         return static_cast<int>((parameter - begin) / size() * static_cast<float>(segments) + 0.5f);
     }
+    /// The edge's parameter at vertex 0 .. segments.
     float parameter_of(int vertex) const {
         return begin + size() * (static_cast<float>(vertex) / static_cast<float>(segments));
     }
 };
 
-/// Where an edge's vertex is evaluated: a vertex of the surface, or a point of one face.
+/// Where an edge's vertex is evaluated: a vertex of the surface, or a point of one face. Whoever asks for a
+/// vertex of an edge gets the same one, hence the same bits of its position.
 struct BorderPoint {
     bool is_vertex = false;
     uint32_t vertex = 0;
@@ -41,7 +44,7 @@ struct BorderPoint {
     bool moved = false;  ///< not at the parameter asked for: snapped to a vertex
 };
 
-/// The intervals of many edges, numbered from 0.
+/// The intervals of many edges, numbered from 0. Those of one edge are sorted and cover [0, 1].
 class EdgeTessellations {
   public:
     size_t size() const { return records_.size(); }
@@ -49,8 +52,10 @@ class EdgeTessellations {
         const Record& r = records_[edge];
         return {intervals_.data() + r.first, r.count};
     }
+    /// Cuts one more edge, number size(). `rate`: the wished length of segments.
     void add(const PlacedSurface& surface, const EdgeLine& line, const LineMeasure& measure,
              const EdgeRate& rate, EvaluationScratch& scratch);
+    /// Adds other edges, numbered on.
     void append(const EdgeTessellations& other);
     /// Edge i becomes edge new_number[i].
     void renumber(std::span<const uint32_t> new_number);
@@ -73,14 +78,18 @@ struct Edges {
     const std::vector<EdgeLine>* made_lines = nullptr;
     const EdgeTessellations* made = nullptr;
 
+    /// Where an edge of either kind is evaluated.
     EdgeLine line(uint32_t edge) const;
     /// The interval that holds [a, b], or null when the edge is split within it.
     const EdgeInterval* interval(uint32_t edge, float a, float b) const;
+    /// The point of vertex `number` of an edge's interval; at the edge's own ends these decide.
     BorderPoint vertex(uint32_t edge, const EdgeInterval& interval, int number) const;
+    /// The point at an edge's end: a vertex of the surface, or the vertex of another edge nearest to where it
+    /// ends there.
     BorderPoint end(const EdgeEnd& end) const;
 };
 
-/// A point of an edge's line; ends exact.
+/// The face's parameters of vertex `number` of an interval; ends exact, so that neighbouring intervals agree.
 inline V2f line_uv(const EdgeLine& line, const EdgeInterval& interval, int number) {
     const V2f a = line.from + (line.to - line.from) * interval.begin;
     const V2f b = line.from + (line.to - line.from) * interval.end();

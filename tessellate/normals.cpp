@@ -6,6 +6,7 @@ namespace trapeze {
 
 namespace {
 
+/// Derivatives at a 1024th of the way from a point to the middle of its face.
 void nearby_derivatives(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
                         V3f* dPdv) {
     constexpr float kShare = 1.0f / 1024;

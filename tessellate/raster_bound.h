@@ -1,4 +1,5 @@
-/// Which pixels' samples may see what lies in boxes of camera space.
+/// Which pixels' samples may see what lies in boxes of camera space, through any point of the lens.
+/// Conservative: a pixel left out sees nothing of it; many that are in may see nothing either.
 #pragma once
 
 #include <span>
@@ -8,6 +9,7 @@
 
 namespace trapeze {
 
+/// Bounds for one camera and picture. Raster pixels, x right, y down.
 class RasterBound {
   public:
     /// picture: the pixels that are sampled at all; what lies outside is dropped.
@@ -17,14 +19,18 @@ class RasterBound {
         PixelRect rect;       ///< clamped to the picture; empty: nothing can be seen
         bool inside = false;  ///< the picture holds all of it, and so it does of any part
     };
-    /// boxes: at each motion key, between which points move linearly.
+    /// The pixels that may see what moves through boxes, one at each motion key, between which points move
+    /// linearly. An empty result: nothing is in the picture, or all is outside the clipping planes.
     Result of(std::span<const Box3f> boxes) const;
 
   private:
+    /// Raster bounds before they are rounded to pixels.
     struct Rect {
         float x0, y0, x1, y1;
     };
+    /// The box as a pinhole sees it; all of it must be in front of the eye.
     Rect projected(const Box3f& box) const;
+    /// Whether no ray of the picture comes through a box, which may cross the eye plane.
     bool missed_by_all_rays(const Box3f& box) const;
     bool missed_along(int axis, const Box3f& box) const;
 

@@ -9,6 +9,8 @@
 namespace trapeze {
 namespace {
 
+/// A piece has 2x2 vertices; its sides are at most half a face long, so that it fits into the face whichever
+/// way it lies, and not so small that differences round away.
 constexpr size_t kPieceVertices = 4;
 constexpr float kLeastStep = 1.0f / (1 << 14), kLargestStep = 0.5f;
 
@@ -17,6 +19,7 @@ struct SharedPoint {
     const BorderPoint* point = nullptr;
     int first_vertex = 0;  ///< of the border grids' vertices in a row, the one that is the point itself
 
+    /// What makes points the same, and the order of pieces: face by face.
     auto key() const {
         // Poles and other vertices are told by their number: edges may reach them on several faces.
         const V2f uv = point->is_vertex ? V2f(0, 0) : point->at.uv;
@@ -24,7 +27,7 @@ struct SharedPoint {
     }
 };
 
-/// The piece of 2x2 vertices around points of one face.
+/// Makes the pieces of 2x2 vertices of points on one face, as a grid of `pieces` grids.
 class PieceMaker {
   public:
     PieceMaker(const DiceContext& context, int face, DiceScratch::State& scratch)
@@ -58,6 +61,8 @@ class PieceMaker {
     /// A micropolygon's length in the face's parameter, where the surface runs along `derivative`.
     float step(const V3f& P, const V3f& derivative) const {
         constexpr float kProbe = 1.0f / 256;
+        // Pixels for a unit of the parameter; a probe, because the derivative alone has no length on the
+        // picture.
         const float pixels = context_.metric->length(P, P + derivative * kProbe) / kProbe;
         const float wanted = context_.pixels_per_segment / pixels;
         return pixels > 0 && wanted < kLargestStep ? std::max(wanted, kLeastStep) : kLargestStep;
@@ -72,6 +77,7 @@ class PieceMaker {
         surface_.positions_and_derivatives(face_, uv, 1, scratch_.evaluation, scratch_.P, scratch_.dPdu,
                                            scratch_.dPdv);
         uv.resize(n * kPieceVertices);
+        // From the last on: each point's parameters give way to four.
         for (size_t i = n; i-- > 0;) {
             const V2f at = uv[i];
             const float u = other_side(at.x, step(scratch_.P[i], scratch_.dPdu[i]));
@@ -83,6 +89,7 @@ class PieceMaker {
         }
     }
 
+    /// Positions, normals and derivatives at shutter open, as Dicer makes them for a grid.
     void evaluate(ShadingGrid& grid) {
         const size_t count = grid.vertex_count();
         scratch_.P.resize(count), scratch_.dPdu.resize(count), scratch_.dPdv.resize(count);
@@ -128,6 +135,7 @@ void make_shared_border(const DiceContext& context, std::span<const BorderPoint>
     const auto same = [](const SharedPoint& a, const SharedPoint& b) { return a.key() == b.key(); };
     const auto end = std::unique(all.begin(), all.begin() + points.size(), same);
 
+    // Sorted points of one face come together: a grid of pieces for each face.
     size_t faces = 0;
     int vertices = 0;
     for (auto first = all.begin(); first != end; ++faces) {

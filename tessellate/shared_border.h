@@ -9,7 +9,8 @@
 
 namespace trapeze {
 
-/// A border vertex of the grid and the shared point that it takes.
+/// A border vertex of the grid and the shared point that it takes. Several vertices may take one point, where
+/// the grid is finer than its edge.
 struct BorderVertex {
     int vertex = 0;  ///< of the grid
     int point = 0;   ///< of the subpatch's border points
@@ -25,7 +26,8 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
                             std::span<const BorderSide, 4> sides, std::span<const BorderPoint> points,
                             std::span<const BorderVertex> border, bool corners, std::span<V2f> uv);
 
-/// Sets grid.border and grid.shared_vertices, for all of the grid's border vertices.
+/// Sets grid.border and grid.shared_vertices, for all of the grid's border vertices: a piece for each
+/// different point of `points`, sorted by face, evaluated at shutter open like the grid itself.
 void make_shared_border(const DiceContext& context, std::span<const BorderPoint> points,
                         std::span<const BorderVertex> border, ShadingGrid& grid, DiceScratch::State& scratch);
 

@@ -11,7 +11,7 @@
 namespace trapeze {
 namespace {
 
-/// Points of a face, evaluated once.
+/// Points of a face at a shape key, evaluated once; object space.
 struct KnownPoints {
     int face, shape_key;
     std::vector<V2f> uv;
@@ -29,7 +29,7 @@ struct KnownPoints {
     }
 };
 
-/// Of a few of the points: grids of a face differ in these.
+/// A hash of a few of the points: grids of a face differ in these. are() compares all of them.
 size_t hash_of(int face, std::span<const V2f> uv, int shape_key, bool derivatives) {
     const V2f &first = uv.front(), &middle = uv[uv.size() / 2], &last = uv.back();
     uint64_t hash = static_cast<uint64_t>(face) << 32 | static_cast<uint64_t>(uv.size() << 8) |
@@ -43,6 +43,7 @@ size_t hash_of(int face, std::span<const V2f> uv, int shape_key, bool derivative
     return hash;
 }
 
+/// The surface that remembers. Shelves, each with its own lock, so that threads seldom wait for each other.
 class SharedGrids final : public TopologySurface<SharedGrids> {
   public:
     SharedGrids(std::shared_ptr<const Surface> surface, SharedGridBudget& budget)
@@ -107,7 +108,8 @@ class SharedGrids final : public TopologySurface<SharedGrids> {
         return nullptr;
     }
 
-    /// False, and the budget empty from then on, where they are more than are left.
+    /// Takes bytes from the budget. False where they are more than are left; the budget is empty from then
+    /// on, so that nobody tries again.
     bool take_bytes(size_t bytes) const {
         size_t left = budget_.bytes_left.load(std::memory_order_relaxed);
         while (left >= bytes)

@@ -17,11 +17,12 @@ struct SharedGridBudget {
     std::atomic<size_t> bytes_left{0};
 };
 
-/// The surface, remembering what it evaluates. May be used by many threads at once; the budget outlives it.
-/// Results are the surface's own, bit for bit.
+/// A surface that gives what another one does and remembers what it evaluates. May be used by many threads at
+/// once; the budget outlives it. Results are the other surface's own, bit for bit.
 std::unique_ptr<Surface> share_grids(std::shared_ptr<const Surface> surface, SharedGridBudget& budget);
 
-/// Whether the shape's points take so long to find that it pays.
+/// Whether the shape's points take so long to find that remembering them pays: subdivision surfaces and
+/// NURBS.
 bool pays_to_share(const Topology& topology);
 
 }  // namespace trapeze

@@ -6,7 +6,8 @@
 namespace trapeze {
 namespace {
 
-/// An edge that is one point, such as a sphere's pole.
+/// Whether a side's edge is one point, such as a sphere's pole: its parameters mean something though
+/// positions do not differ, and must not be moved together.
 bool is_point(const Edges& edges, const BorderSide& side) {
     const EdgeLine line = edges.line(side.edge);
     return !line.start.on_edge && !line.finish.on_edge && line.start.id == line.finish.id &&
@@ -33,6 +34,7 @@ void snap_border_parameters(const Edges& edges, const Subpatch& subpatch,
         if (pole[side] || on.begin == on.end || points[at.point].hops > 0) continue;
         const float parameter =
             sides[side].interval->parameter_of(sides[side].vertex(at.point - first_of_side));
+        // The side's share that lies at the shared point, taken over to the subpatch's own rectangle.
         const float share = (parameter - on.begin) / (on.end - on.begin);
         const int axis = side == kBottom || side == kTop ? 0 : 1;
         const float own = subpatch.lo[axis] + (subpatch.hi[axis] - subpatch.lo[axis]) * share;

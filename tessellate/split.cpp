@@ -8,9 +8,11 @@ namespace {
 
 /// Intervals of a made edge that take about as long as a part.
 constexpr size_t kIntervalsLikeAPart = 8;
-/// Samples of a rectangle along u and v: for small ones, else.
+/// Pieces of a rectangle along u and v between samples: at first, and where a small rectangle's do not tell
+/// enough.
 constexpr int kCoarse = 2, kFine = 4;
 
+/// A rectangle on its way; depth_u and depth_v: how often it was halved along each.
 struct Node {
     V2f lo{0, 0}, hi{1, 1};
     std::array<SurfaceSide, 4> sides;
@@ -20,7 +22,7 @@ struct Node {
 
 using LatticeLine = std::array<V3f, (kFine + 1) * LineMeasure::kMostKeys>;
 
-/// Positions of (pieces + 1)^2 points, at one key or all.
+/// Positions of (pieces + 1)^2 points spread evenly over a rectangle, at one key or all, in camera space.
 struct Lattice {
     int pieces = 0, keys = 0;
     std::span<const V3f> P;
@@ -37,7 +39,7 @@ struct Lattice {
     }
 };
 
-/// How many micropolygons a rectangle wants along a direction.
+/// How many micropolygons a rectangle wants along u or v: the most that any of its lattice's lines wants.
 struct Want {
     bool split = false;
     int segments = 1;
@@ -45,6 +47,7 @@ struct Want {
     bool less = false;  ///< perhaps, looked at more closely
 };
 
+/// Splits one face after another.
 class FaceSplitter {
   public:
     FaceSplitter(const SplitContext& context, Splits& out)
@@ -62,6 +65,9 @@ class FaceSplitter {
     }
 
   private:
+    /// Halves a rectangle again and again, along the direction that is longer in pixels, until sides lie
+    /// within intervals and the interior is small enough; emits what is left. What no sample sees is dropped
+    /// before it is split on.
     void split(Node node) {
         const std::array<Want, 2> want = wanted(node);
         const bool must_u = !in_interval(node.sides[kBottom]) || !in_interval(node.sides[kTop]);
@@ -89,6 +95,7 @@ class FaceSplitter {
         return edges_.interval(side.edge, side.begin, side.end) != nullptr;
     }
 
+    /// Evaluates a rectangle's lattice; it stays valid until the next call.
     Lattice sample(const Node& node, int pieces, int keys) {
         std::array<V2f, (kFine + 1) * (kFine + 1)> uv;
         const size_t n = static_cast<size_t>((pieces + 1) * (pieces + 1));
@@ -103,6 +110,8 @@ class FaceSplitter {
         return {pieces, keys, P};
     }
 
+    /// What a rectangle wants along u and v. The closer look, at all keys, costs more and is taken only where
+    /// foreshortening may make micropolygons fewer.
     std::array<Want, 2> wanted(const Node& node) {
         Lattice lattice = sample(node, kCoarse, 1);
         std::array<Want, 2> want = wanted(lattice);
@@ -136,6 +145,8 @@ class FaceSplitter {
         return want;
     }
 
+    /// The two halves of a rectangle, and the edge made between them, whose ends lie on the rectangle's
+    /// sides.
     std::array<Node, 2> halves(const Node& node, bool along_u, bool room) {
         const int axis = along_u ? 0 : 1;
         const SideName low = along_u ? kBottom : kLeft, high = along_u ? kTop : kRight;
@@ -172,6 +183,7 @@ class FaceSplitter {
         return static_cast<uint32_t>(number);
     }
 
+    /// Adds a subpatch, unless it cannot be seen: as fine as its finest side and its interior want.
     void emit(const Node& node, const std::array<Want, 2>& want) {
         const RasterBound::Result seen = bound(node);
         if (seen.rect.empty()) {
@@ -189,6 +201,7 @@ class FaceSplitter {
         out_.bounds.push_back(seen.rect);
     }
 
+    /// The pixels that may see a rectangle: a box at each key, grown by displacement and rounding.
     RasterBound::Result bound(const Node& node) {
         const int keys = surface_.key_count();
         boxes_.assign(keys, {});
@@ -206,8 +219,8 @@ class FaceSplitter {
         return context_.raster->of(boxes_);
     }
 
-    /// Of samples, grown by half their second differences: four times what a curve with that second
-    /// derivative departs from its chords.
+    /// Boxes of samples, for surfaces that know no bound, grown by half their second differences: four times
+    /// what a curve with that second derivative departs from its chords.
     void sampled_bound(const Node& node) {
         const Lattice lattice = sample(node, kFine, surface_.key_count());
         for (int key = 0; key < lattice.keys; ++key) {

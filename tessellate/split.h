@@ -9,7 +9,8 @@
 
 namespace trapeze {
 
-/// A rectangle of a face, to be diced as `shape`.
+/// A rectangle [lo, hi] of a face, to be diced as `shape`. `sides`: where each of its sides lies on its edge,
+/// which is one interval of that edge.
 struct Subpatch {
     int face = 0;
     GridShape shape;
@@ -29,7 +30,8 @@ struct SplitContext {
     size_t most_parts_of_face = size_t{1} << 20;  ///< about; then its interior is not split further
 };
 
-/// Subpatches, and the edges that were made between them, numbered from the surface's edge count on.
+/// What splitting gives: subpatches with the pixels that may see each, and the edges that were made between
+/// them, numbered from the surface's edge count on.
 struct Splits {
     std::vector<Subpatch> subpatches;
     std::vector<PixelRect> bounds;
@@ -39,9 +41,13 @@ struct Splits {
     bool limited = false;  ///< by most_parts_of_face
 
     size_t bytes() const;
+    /// Adds the splits of other faces; their made edges get the numbers after these. `surface_edges`: the
+    /// surface's edge count, below which numbers stay.
     void append(Splits&& other, uint32_t surface_edges);
 };
 
+/// Splits faces first_face .. end_face - 1 (holes are left out). Depends on nothing but the face, so that
+/// faces may be split in any tasks.
 Splits split_faces(const SplitContext& context, int first_face, int end_face);
 
 }  // namespace trapeze

@@ -1,3 +1,5 @@
+/// How a scene's primitives become lists of subpatches, within a budget of memory and the same for any number
+/// of threads.
 #include "tessellate/tessellate.h"
 #include "tessellate/measure/blur_factor.h"
 
@@ -22,7 +24,7 @@ namespace {
 constexpr int kFacesPerTask = 64, kEdgesPerTask = 512;
 /// Primitives that are split before their bytes are counted.
 constexpr size_t kPrimitivesAtOnce = 1024;
-/// That grids of instances in object space may take.
+/// Bytes that grids of instances in object space may take.
 constexpr size_t kSharedGridBytes = size_t{256} << 20;
 /// Shading rates below this (in pixels' area) are taken as this: a bound on absurd input.
 constexpr float kLeastShadingRate = 1e-4f;
@@ -49,6 +51,7 @@ struct TessellatedPrimitive {
                 pixels_per_segment, displaced};
     }
     size_t bytes() const { return vertices.bytes() + surface_edges.bytes() + splits.bytes(); }
+    /// Frees all; a primitive without subpatches stays in its place, so that indices hold.
     void leave_out() {
         placed.reset();
         vertices = {};
@@ -59,7 +62,8 @@ struct TessellatedPrimitive {
 
 namespace {
 
-/// The surface's edges, in tasks of those that are evaluated on the same faces.
+/// Cuts the surface's edges, in tasks of those that are evaluated on the same faces (surfaces keep the face
+/// evaluated last); the result is by number of the edge.
 EdgeTessellations tessellate_edges(const PlacedSurface& placed, const LineMeasure& measure,
                                    const EdgeRate& rate) {
     const Surface& surface = placed.surface();
@@ -84,7 +88,8 @@ EdgeTessellations tessellate_edges(const PlacedSurface& placed, const LineMeasur
     return edges;
 }
 
-/// Nothing when it takes more than `most_bytes`.
+/// Splits all faces of a surface, in parallel, and joins the lists in the order of faces. Nothing when they
+/// take more than `most_bytes`.
 std::optional<Splits> split_all(const SplitContext& context, const RenderContext& render, size_t most_bytes) {
     const Surface& surface = context.surface->surface();
     const int faces = surface.face_count();
@@ -130,6 +135,7 @@ class SurfaceCache {
     size_t size() const { return surfaces_.size(); }
 
   private:
+    /// What surfaces depend on; `primitive` only where they depend on the place, too.
     struct Key {
         std::vector<const Shape*> shapes;
         std::array<float, 8> texture_coordinates{};
@@ -194,6 +200,7 @@ size_t most_parts_of_face(const Options& options, const EdgeRate& rate) {
         std::clamp(kTimesThePicture * pixels / (grid_side * grid_side), kAtLeast, kAtMost));
 }
 
+/// Places, measures and splits one primitive. What cannot be diced is left out, with a diagnostic.
 void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
                           const ScreenMetric& metric, const RasterBound& raster, size_t most_bytes,
                           TessellatedPrimitive& out) {
@@ -248,8 +255,8 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     shrink(out.splits);
 }
 
-/// All of them, or those before the first with which the bytes are too many: the same ones however many
-/// threads there are.
+/// Tessellates all primitives, or those before the first with which the bytes are too many: the same ones
+/// however many threads there are, because bytes are counted in the primitives' order.
 void tessellate_all(const RenderContext& context, const ScreenMetric& metric, size_t most_bytes,
                     std::vector<TessellatedPrimitive>& primitives) {
     const Scene& scene = *context.scene;

@@ -1,6 +1,6 @@
-/// Bound, split, dice: the room's door. A Tessellation holds a scene's surfaces and the list of subpatches
-/// into which they were split, each of which dices to one grid. Splitting is done once a frame; dicing when a
-/// region needs the grid, with the same bits each time.
+/// Bound, split, dice [Cook87]: the room's door. A Tessellation holds a scene's surfaces and the list of
+/// subpatches into which they were split, each of which dices to one grid. Splitting is done once a frame;
+/// dicing when a region needs the grid, with the same bits each time.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace trapeze {
 
-/// What scheduling needs to know of a subpatch.
+/// What scheduling needs to know of a subpatch without dicing it.
 struct SubpatchInfo {
     PixelRect
         bound;  ///< raster pixels that its samples may see, grown by motion, lens and displacement bound; not
@@ -33,10 +33,13 @@ class DiceScratch {
     DiceScratch(DiceScratch&&) noexcept;
     DiceScratch& operator=(DiceScratch&&) noexcept;
     ~DiceScratch();
+    /// Defined in tessellate/dice.h, which only this room sees.
     struct State;
     std::unique_ptr<State> state;
 };
 
+/// A frame's primitives, split. Immutable once made: dicing reads it from many threads. The context's scene
+/// outlives it.
 class Tessellation {
   public:
     /// Whether a primitive of the scene, by its index, is displaced though it has no displacement shader.
@@ -44,19 +47,23 @@ class Tessellation {
 
     /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads. Without
     /// depth maps the surfaces that would look into some go without. What `most_bytes` do not hold is left
-    /// out, from the first primitive on with which it is too much, and that is an error.
+    /// out, from the first primitive on with which it is too much, and that is an error. Other bad primitives
+    /// are left out one by one, each with a diagnostic.
     explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {},
                           size_t most_bytes = std::numeric_limits<size_t>::max(),
                           const IsDisplaced& is_displaced = {});
     ~Tessellation();
 
-    /// In the order that defines Grid::ordinal.
+    /// Subpatches that may be seen, in the order that defines Grid::ordinal: primitive by primitive, face by
+    /// face.
     const std::vector<SubpatchInfo>& subpatches() const { return infos_; }
     const TessellateStats& stats() const { return stats_; }
+    /// Memory of the lists of subpatches, edges and vertices; surfaces themselves are not counted.
     size_t bytes() const;
 
-    /// Dices one subpatch: positions at all keys, normals, derivatives, variables; Ci and Oi are sized but
-    /// not set. Thread-safe with a scratch per thread.
+    /// Dices one subpatch, by its index in subpatches(): positions at all keys (camera space), normals,
+    /// derivatives, variables at shutter open; Ci and Oi are sized but not set. Thread-safe with a scratch
+    /// per thread.
     void dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch) const;
 
   private:
