@@ -6,9 +6,11 @@ namespace trapeze {
 namespace {
 
 constexpr int kMostFaces = 64;  ///< that are looked at
+/// Pixels of blur that double the shading rate.
 constexpr float kPixelsOfBlur = 16;
 
-/// Pixels a point is blurred over, each kind times its factor.
+/// Pixels that a point is blurred over: along its way through all keys, and across its circle of confusion at
+/// the first; each times its factor, the larger one counts. `keys`: its camera-space positions.
 float blur_of(std::span<const V3f> keys, const Attributes& attributes, const Camera& camera,
               const ScreenMetric& metric) {
     float moved = 0;

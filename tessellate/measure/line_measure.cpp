@@ -9,7 +9,8 @@
 namespace trapeze {
 namespace {
 
-/// Rotations, whose poses are many, may show any side meanwhile.
+/// Keys at which foreshortening may be trusted; 0: not at all. Rotations, whose keys are many, may show any
+/// side between them; displaced surfaces, curves and points lie otherwise than their lines tell.
 int keys_to_look_at(const PlacedSurface& surface, bool displaced) {
     const Attributes& attributes = *surface.primitive().attributes;
     const Topology& topology = surface.primitive().shape().topology;
@@ -31,6 +32,7 @@ float bend(const V3f& before, const V3f& at, const V3f& after) {
 /// pass far from them: trees over grids have axis-aligned boxes.
 constexpr float kDeepest = 1.25f;
 
+/// Whether a line in front of the eye leads so far into depth that it has to be split.
 bool is_deep(std::span<const V3f> P) {
     const float a = P.front().z, b = P.back().z;
     return a > 0 && b > 0 && std::max(a, b) > kDeepest * std::min(a, b);
@@ -104,6 +106,7 @@ RateEstimate LineMeasure::foreshortened(std::span<const V3f> P, std::span<const 
             const float counted =
                 length.in_view ? length.seen * slant(p[i], p[i + 1] - p[i], q[i] - p[i]) : at_most;
             if (key == 0) seen[i] = counted, most[i] = at_most;
+            // The most of all keys, and what the lens's rim sees of it.
             least[i] = std::max({least[i], counted, lens_angle(p[i]) * length.square_on});
         }
         // n segments of a curve that is h high over its chord leave it by h / n^2.

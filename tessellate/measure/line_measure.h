@@ -17,6 +17,7 @@
 
 namespace trapeze {
 
+/// How finely edges are cut: pixels a segment, and bounds on absurd input.
 struct EdgeRate {
     float pixels_per_segment = 1;
     int max_depth = 14;
@@ -24,14 +25,16 @@ struct EdgeRate {
     bool binary = false;       ///< numbers of segments are powers of two (Attribute "dice" "binary")
 };
 
-/// Whether pieces of these lengths, uniform in the parameter, want a split: too many segments, or too uneven
-/// to be uniform in the parameter, or too deep. Otherwise *segments is how many they want.
+/// Lengths of a line's pieces, in pixels and uniform in its parameter: how many segments they want, and
+/// whether the line has to be split first, for they are too many, or too uneven to be uniform in the
+/// parameter, or too deep.
 struct RateEstimate {
     float sum = 0, longest = 0;
     int pieces = 0;
     bool deep =
         false;  ///< one end is so much farther from the eye that a box around it is seen far too large
 
+    /// Takes in the next piece.
     void add(float length) {
         sum += length, ++pieces;
         if (length > longest) longest = length;
@@ -41,6 +44,7 @@ struct RateEstimate {
     int clamped_segments(const EdgeRate& rate) const;  ///< 1..16
 };
 
+/// The measure of one primitive's lines under one camera. Immutable: threads share it.
 class LineMeasure {
   public:
     static constexpr int kMostPieces = 8, kMostKeys = 3;
@@ -48,17 +52,19 @@ class LineMeasure {
     LineMeasure(const ScreenMetric& metric, const Camera& camera, const PlacedSurface& surface,
                 bool displaced, float pixels_per_segment);
 
-    /// Of a line's points at the first key: no piece counts less than it may at the least.
+    /// The estimate from a line's points at the first key, at most kMostPieces pieces: no piece counts less
+    /// than it may at the least, so that foreshortened() never wants more.
     RateEstimate of(std::span<const V3f> P) const;
 
     /// Whether a line of this estimate may want fewer segments: by foreshortened().
     bool may_want_less(const RateEstimate& estimate) const {
         return keys_ > 0 && (estimate.segments(rate_) > 1 || estimate.wants_split(rate_));
     }
-    /// At which foreshortened() wants the points.
+    /// The number of keys at which foreshortened() wants the points, from the first on.
     int keys() const { return keys_; }
-    /// P[key * points + i]; at least four pieces, so that no bend of a cubic curve is missed. `beside`:
-    /// points of the surface beside them, across the line, as many.
+    /// The estimate that trusts foreshortening, from P[key * points + i]; at least four pieces, so that no
+    /// bend of a cubic curve is missed. `beside`: points of the surface beside them, across the line, as
+    /// many.
     RateEstimate foreshortened(std::span<const V3f> P, std::span<const V3f> beside) const;
 
   private:

@@ -31,6 +31,7 @@ ScreenMetric::ScreenMetric(const Camera& camera)
 
 PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
     const V3f d = q - p;
+    // A point is in view when the cosine of its angle to the axis is at least the corner's.
     const float least = view_cosine_ * view_cosine_;
     const bool in_view = p.z > 0 && q.z > 0 && p.z * p.z >= least * p.dot(p) && q.z * q.z >= least * q.dot(q);
     if (in_view) {

@@ -10,7 +10,7 @@
 
 namespace trapeze {
 
-/// In pixels: as it is seen, and as it would be if it were seen square on.
+/// A length in pixels: as it is seen, and as it would be if it were seen square on at the same distance.
 struct PixelLength {
     float seen = 0, square_on = 0;
     bool in_view = true;  ///< or beside the picture, where `seen` is an angle
@@ -19,22 +19,25 @@ struct PixelLength {
 /// The least foreshortening of what may turn to the viewer: while the shutter is open, or by displacement.
 inline constexpr float kLeastForeshortening = 0.25f;
 
+/// Lengths under one camera. Of the whole picture: a crop window changes nothing.
 class ScreenMetric {
   public:
     explicit ScreenMetric(const Camera& camera);
 
-    /// Of the piece from p to q, camera space.
+    /// The length of the piece from p to q, camera space; finite wherever they are.
     PixelLength of(const V3f& p, const V3f& q) const {
         return perspective_ ? perspective_length(p, q) : orthographic_length(p, q);
     }
-    /// As it is seen, but not less than the least foreshortening leaves of it.
+    /// Pixels of the piece as it is seen, but not less than the least foreshortening leaves of it.
     float length(const V3f& p, const V3f& q) const {
         const PixelLength length = of(p, q);
         return std::max(length.seen, kLeastForeshortening * length.square_on);
     }
 
   private:
+    /// In view: raster distance. Else the angle at the eye, in pixels as large as at the picture's corner.
     PixelLength perspective_length(const V3f& p, const V3f& q) const;
+    /// Raster distance, shrunk outside the picture by how far outside it is.
     PixelLength orthographic_length(const V3f& p, const V3f& q) const;
 
     bool perspective_;

@@ -57,6 +57,7 @@ EdgeLine CurveTopology::edge(uint32_t edge) const {
         from = 2 * (faces() + end), to = from + 1;
     } else {
         line.face = static_cast<int>(edge / 3);
+        // 0: the side u = 0, 1: the side u = 1, 2: across the curve at v = 0.
         const uint32_t kind = edge % 3;
         const float u = static_cast<float>(kind);
         line.from = kind == 2 ? V2f(0, 0) : V2f(u, 0);

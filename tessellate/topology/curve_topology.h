@@ -13,6 +13,7 @@
 
 namespace trapeze {
 
+/// Faces, edges and vertices of all curves of a primitive.
 class CurveTopology {
   public:
     /// `curves` outlives the topology. `joins`: segments begin where those before them end.
@@ -25,7 +26,7 @@ class CurveTopology {
     EdgeLine edge(uint32_t edge) const;
     SurfacePoint vertex(uint32_t vertex) const;
 
-    /// Segments of one curve.
+    /// The segments that one face holds; faces of a curve hold equally many, to within one.
     struct Strip {
         int curve = 0;
         int first = 0, count = 1;  ///< segments
@@ -33,6 +34,7 @@ class CurveTopology {
     };
     Strip strip(int face) const;
     int vertices_of(int curve) const { return curves_.vertices_per_curve[curve]; }
+    /// The number of a curve's first value of class vertex; first_varying(): of class varying.
     int first_vertex(int curve) const { return first_vertex_[curve]; }
     int first_varying(int curve) const { return first_varying_[curve]; }
 
@@ -44,7 +46,7 @@ class CurveTopology {
     }
     /// The face that follows; an end, counted like a face, where none does.
     uint32_t joint_after(int face) const;
-    /// Whose end that is, counted from 0.
+    /// The face whose end that is; ends are counted from 0.
     int face_at_end(uint32_t end) const { return joins_ ? first_face_[end + 1] - 1 : static_cast<int>(end); }
 
     const Curves& curves_;

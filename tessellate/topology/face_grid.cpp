@@ -23,6 +23,7 @@ std::pair<int, int> FaceLines::face_at(int line, int faces) const {
 void FaceLines::tear(const std::vector<bool>& torn, bool wraps) {
     if (std::ranges::find(torn, true) == torn.end()) return;
     const int faces = static_cast<int>(torn.size());
+    // A torn line becomes two: one that ends the face before, one that begins the next face.
     owner_ = {{0, 0}};
     for (int face = 0; face < faces; ++face) {
         low_.push_back(static_cast<int>(owner_.size()) - 1);

@@ -13,8 +13,10 @@ namespace trapeze {
 /// torn.
 class FaceLines {
   public:
+    /// Lines along an axis of so many faces.
     int count(int faces, bool wraps) const;
     int low(int face) const { return low_.empty() ? face : low_[face]; }
+    /// The line at which a face ends; low(): at which it begins.
     int high(int face, int faces, bool wraps) const;
     /// A face at the line, and on which of its sides that is: 0 or 1.
     std::pair<int, int> face_at(int line, int faces) const;
@@ -27,8 +29,8 @@ class FaceLines {
     std::vector<std::pair<int, int>> owner_;  ///< by line
 };
 
-/// Face (i, j) is face j * columns + i. Edges along u come first: columns of them for each line of vertices,
-/// then those along v: rows of them for each line of vertices.
+/// Columns x rows of faces. Face (i, j) is face j * columns + i. Edges along u come first: columns of them
+/// for each line of vertices, then those along v: rows of them for each line of vertices.
 struct FaceGrid {
     int columns = 1, rows = 1;
     bool u_wraps = false, v_wraps = false;
@@ -42,6 +44,7 @@ struct FaceGrid {
     }
     uint32_t vertex_count() const { return static_cast<uint32_t>(vertex_columns() * vertex_rows()); }
 
+    /// What Surface asks for. Every edge runs the way of u or v, so that sides run along theirs.
     std::array<SurfaceSide, 4> sides(int face) const;
     EdgeLine edge(uint32_t edge) const;
     SurfacePoint vertex(uint32_t vertex) const;
@@ -61,7 +64,7 @@ struct FaceGrid {
     uint32_t edge_along_v(int line, int j) const {
         return static_cast<uint32_t>(columns * vertex_rows() + line * rows + j);
     }
-    /// On lines of vertices. A pole's line has one vertex, its first.
+    /// The vertex where two lines of vertices meet. A pole's line has one vertex, its first.
     uint32_t vertex_at(int u_line, int v_line) const;
 };
 

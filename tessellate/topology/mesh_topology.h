@@ -34,6 +34,7 @@ struct FacePiece {
     int previous() const { return piece == 0 ? size - 1 : piece - 1; }
 };
 
+/// Numbers of faces, edges and vertices, and how they join. Nothing of where they are.
 class MeshTopology {
   public:
     /// `vertices` outlives the topology. `evaluable[f]`: face f has a surface of its own, so that edges and
@@ -45,6 +46,7 @@ class MeshTopology {
     uint32_t edge_count() const { return spokes_begin() + static_cast<uint32_t>(first_spoke_.back()); }
     uint32_t vertex_count() const { return static_cast<uint32_t>(vertices_at_.size() + cut_faces_.size()); }
 
+    /// The part of a mesh face that face number `face` is.
     FacePiece piece(int face) const;
     std::array<SurfaceSide, 4> sides(int face) const;
     EdgeLine edge(uint32_t edge) const;
@@ -71,7 +73,9 @@ class MeshTopology {
 
     uint32_t spokes_begin() const { return static_cast<uint32_t>(edges_.size()); }
     bool is_cut(int mesh_face) const { return first_spoke_[mesh_face + 1] != first_spoke_[mesh_face]; }
+    /// The first face that is made of a mesh face; its pieces follow.
     int first_face(int mesh_face) const;
+    /// Side `side` of a mesh face, from corner `side` to the next.
     SurfaceSide mesh_side(int mesh_face, int side) const;
     uint32_t spoke(int mesh_face, int number) const {
         return spokes_begin() + static_cast<uint32_t>(first_spoke_[mesh_face] + number);

@@ -6,6 +6,7 @@
 namespace trapeze {
 namespace {
 
+/// Element by element: points then move on straight lines, as motion keys have it.
 M44f lerp(const M44f& a, const M44f& b, float t) {
     M44f m;
     for (int i = 0; i < 4; ++i)
@@ -13,12 +14,14 @@ M44f lerp(const M44f& a, const M44f& b, float t) {
     return m;
 }
 
+/// Whether any pose differs; a primitive may have several that are equal, bit for bit.
 bool really_moves(const Primitive& primitive) {
     const std::vector<M44f>& m = primitive.camera_from_object;
     return primitive.shape_keys.size() > 1 ||
            std::any_of(m.begin(), m.end(), [&](const M44f& other) { return other != m.front(); });
 }
 
+/// A box about a transformed box.
 Box3f transformed(const M44f& m, const Box3f& box) {
     const V3f center = transform_point(m, (box.min + box.max) * 0.5f);
     const V3f half = (box.max - box.min) * 0.5f;
@@ -136,6 +139,7 @@ void PlacedSurface::positions_and_derivatives(int face, std::span<const V2f> uv,
         const std::span<const V3f> b = object_points(mix.first + 1);
         for (size_t i = 0; i < n; ++i) out[i] = transform_point(m, a[i] + (b[i] - a[i]) * mix.to_next);
     }
+    // Derivatives are wanted at the first key alone.
     for (V3f& d : dPdu) d = transform_vector(camera_from_object_[0], d);
     for (V3f& d : dPdv) d = transform_vector(camera_from_object_[0], d);
 }

@@ -14,6 +14,7 @@ namespace trapeze {
 /// A thread's memory for one surface at a time; a few surfaces' scratches are kept.
 class EvaluationScratch {
   public:
+    /// The scratch for a surface; made where it is not among the last four.
     SurfaceScratch* of(const Surface& surface);
     std::span<V3f> points(size_t slot, size_t count);  ///< reused memory, 0 <= slot < kSlots
 
@@ -34,11 +35,12 @@ struct ShapeMix {
     int first = 0;
     float to_next = 0;  ///< 0: the first alone
 };
-/// Of motion key `key` of `key_count`, which is 1 or the primitive's number of keys.
+/// The shape keys of motion key `key` of `key_count`, which is 1 or the primitive's number of keys.
 ShapeMix shape_mix(const Primitive& primitive, int key, int key_count);
-/// The primitive's transform at each of so many motion keys.
+/// The primitive's transform, camera space from object space, at each of so many motion keys.
 std::vector<M44f> matrices_at_keys(const Primitive& primitive, int key_count);
 
+/// One primitive's surface in camera space. Refers to both, which outlive it; threads share it.
 class PlacedSurface {
   public:
     /// `moves`: whether the frame has more than one key at all.
@@ -53,7 +55,7 @@ class PlacedSurface {
     void positions(int face, std::span<const V2f> uv, int keys, EvaluationScratch& scratch,
                    std::span<V3f> P) const;
 
-    /// The same with derivatives by the face's u and v at key 0.
+    /// Positions, and derivatives by the face's u and v at key 0 (camera space too; empty: not wanted).
     void positions_and_derivatives(int face, std::span<const V2f> uv, int keys, EvaluationScratch& scratch,
                                    std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const;
 
@@ -68,8 +70,10 @@ class PlacedSurface {
     std::vector<M44f> camera_from_object_;
 };
 
-/// Row vectors: no division, the matrix is affine.
+/// Transforms a point, as a row vector: no division, the matrix is affine. In one order of operations, which
+/// all share.
 V3f transform_point(const M44f& m, const V3f& p);
+/// Transforms a direction: without the matrix' translation.
 V3f transform_vector(const M44f& m, const V3f& v);
 
 /// For normals: the cofactors of the upper 3x3 with the determinant's sign, that is the inverse transpose but

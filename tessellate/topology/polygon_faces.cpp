@@ -11,6 +11,7 @@ namespace {
 /// may be (the sine), to be one bilinear face.
 constexpr double kFlatness = 1e-4, kLeastSine = 1e-2;
 
+/// Goes through the polygons one by one.
 class FaceMaker {
   public:
     FaceMaker(const PolygonMesh& mesh, std::span<const float> positions)
@@ -25,9 +26,12 @@ class FaceMaker {
         const float* p = positions_.data() + 3 * static_cast<size_t>(mesh_.vertices[corner]);
         return {p[0], p[1], p[2]};
     }
+    /// Lists the corners of the polygon at hand, by loop, and moves on to the next polygon.
     void gather(std::span<const int> loop_sizes);
     V3d area_normal() const;
+    /// Whether the four corners at hand are one bilinear face.
     bool is_flat_and_convex(const V3d& normal) const;
+    /// Adds a face, unless it names a vertex twice: it would have a side without length.
     void add(int polygon, std::span<const int> corners);
 
     const PolygonMesh& mesh_;
@@ -73,7 +77,7 @@ void FaceMaker::gather(std::span<const int> loop_sizes) {
     }
 }
 
-/// Of the outline, by Newell's method: as long as twice its area.
+/// The normal of the outline, by Newell's method: as long as twice its area.
 V3d FaceMaker::area_normal() const {
     const V3d origin = position(corners_[0]);
     V3d sum(0, 0, 0);

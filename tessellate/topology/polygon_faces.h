@@ -9,6 +9,7 @@
 
 namespace trapeze {
 
+/// Faces of a mesh, one after the other.
 struct PolygonFaces {
     std::vector<int> sizes;     ///< 3 or 4 corners
     std::vector<int> vertices;  ///< of all faces' corners
@@ -20,7 +21,7 @@ struct PolygonFaces {
 /// its vertices only. Faces that would name a vertex twice are left out. `positions`: three floats a vertex.
 PolygonFaces make_polygon_faces(const PolygonMesh& mesh, std::span<const float> positions);
 
-/// The same of polygons of three and four corners without holes, where quads stay whole, flat or not.
+/// Polygons of three and four corners without holes as they are: quads stay whole, flat or not.
 PolygonFaces make_whole_faces(const PolygonMesh& mesh);
 
 }  // namespace trapeze

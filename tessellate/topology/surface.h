@@ -56,6 +56,7 @@ struct SurfaceScratch {
     virtual ~SurfaceScratch() = default;
 };
 
+/// A primitive's shape in object space. Immutable: threads share it, each with a scratch of its own.
 class Surface {
   public:
     virtual ~Surface() = default;
@@ -65,6 +66,7 @@ class Surface {
     virtual uint32_t vertex_count() const = 0;
     virtual bool is_hole(int /*face*/) const { return false; }  ///< has no geometry; its edges exist
 
+    /// How faces join; numbers run from 0 to the counts above.
     virtual std::array<SurfaceSide, 4> sides(int face) const = 0;
     virtual EdgeLine edge(uint32_t edge) const = 0;
     virtual SurfacePoint vertex(uint32_t vertex) const = 0;
@@ -72,8 +74,8 @@ class Surface {
     /// Null when none is needed. Never shared between threads.
     virtual std::unique_ptr<SurfaceScratch> make_scratch() const { return nullptr; }
 
-    /// Of surfaces that depend on where they are seen from: the keys that evaluate() and bound() are asked
-    /// for are the moving primitive's (Primitive::key_count), not those of its shape.
+    /// True of surfaces that depend on where they are seen from: the keys that evaluate() and bound() are
+    /// asked for are the moving primitive's (Primitive::key_count), not those of its shape.
     virtual bool has_motion_keys() const { return false; }
 
     /// Object-space positions and derivatives by the face's u and v at points of one face, for one of the
@@ -109,6 +111,7 @@ class Surface {
 std::unique_ptr<Surface> make_polygon_surface(const Primitive& primitive, Diagnostics& diagnostics);
 /// Polygons of three and four corners that stand for a curved surface: quads are bilinear, flat or not.
 std::unique_ptr<Surface> make_bilinear_surface(const Primitive& primitive, Diagnostics& diagnostics);
+/// Limit surfaces of meshes, by Catmull and Clark's scheme [Catmull78], by Loop's, or bilinear.
 std::unique_ptr<Surface> make_subdivision_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_quadric_surface(const Primitive& primitive, Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_patch_surface(const Primitive& primitive, Diagnostics& diagnostics);
@@ -118,14 +121,15 @@ struct SurfaceView {
     const Camera* camera = nullptr;
     const FindDepthHeight* depth_heights = nullptr;
 };
-/// Those whose shape depends on the view; without a camera the eye is at the origin, and pixels have no size.
+/// Surfaces whose shape depends on the view; without a camera the eye is at the origin, and pixels have no
+/// size.
 std::unique_ptr<Surface> make_curves_surface(const Primitive& primitive, const Camera* camera,
                                              Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_points_surface(const Primitive& primitive, const Camera* camera,
                                              Diagnostics& diagnostics);
 std::unique_ptr<Surface> make_blobby_surface(const Primitive& primitive, const SurfaceView& view,
                                              Diagnostics& diagnostics);
-/// By topology.
+/// The surface of a primitive, of the kind that its topology asks for.
 std::unique_ptr<Surface> make_surface(const Primitive& primitive, Diagnostics& diagnostics,
                                       const SurfaceView& view = {});
 /// Whether primitives of one shape in different places have different surfaces.

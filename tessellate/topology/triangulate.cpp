@@ -19,6 +19,7 @@ bool in_triangle(const V2d& a, const V2d& b, const V2d& c, const V2d& p) {
     return area2(a, b, p) >= 0 && area2(b, c, p) >= 0 && area2(c, a, p) >= 0;
 }
 
+/// In the open triangle.
 bool inside_triangle(const V2d& a, const V2d& b, const V2d& c, const V2d& p) {
     return area2(a, b, p) > 0 && area2(b, c, p) > 0 && area2(c, a, p) > 0;
 }
@@ -77,6 +78,8 @@ NodeGrid::NodeGrid(const std::vector<Node>& nodes, std::span<const V2d> points) 
 /// How much is asked of an ear, from the best on.
 enum class Ear : uint8_t { Clean, WithoutArea, Convex, Any };
 
+/// Joins loops into one ring of nodes, then cuts ears off it until nothing is left. The ring runs
+/// counterclockwise.
 class Triangulator {
   public:
     Triangulator(std::span<const V2d> points, std::span<const int> loop_sizes);
@@ -87,12 +90,17 @@ class Triangulator {
     double corner_area(int node) const {
         return area2(at(nodes_[node].previous), at(node), at(nodes_[node].next));
     }
+    /// Adds a loop's nodes as a ring that runs as wanted; its first node.
     int make_ring(int first_point, int size, bool counterclockwise);
     int bridge_end(int hole) const;
+    /// The ring's node to bridge to: the candidate, or of the nodes in the triangle before it the one at the
+    /// least angle to the ray, which nothing can hide.
     int nearest_in_sight(int hole, int candidate, double x) const;
     bool goes_inside(int node, const V2d& to) const;
     void join(int ring_node, int hole_node);
+    /// Whether a corner may be cut off, by what is asked of ears.
     bool is_ear(int node, Ear want, const NodeGrid& grid) const;
+    /// The best ear from a node on; some node in any case.
     int find_ear(int start, int size, const NodeGrid& grid) const;
 
     std::span<const V2d> points_;
@@ -102,6 +110,7 @@ class Triangulator {
     bool reversed_ = false;  ///< the outline was clockwise
 };
 
+/// Twice the signed area of a loop.
 double loop_area(std::span<const V2d> loop) {
     double sum = 0;
     for (size_t i = 1; i + 1 < loop.size(); ++i) sum += area2(loop[0], loop[i], loop[i + 1]);
