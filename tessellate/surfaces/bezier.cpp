@@ -19,6 +19,7 @@ Weights weights(int degree, float t) {
             {-3 * ss, 3 * (ss - 2 * st), 3 * (2 * st - tt), 3 * tt}};
 }
 
+/// sum += p * weight, for all four components.
 void add(Control& sum, const Control& p, float weight) {
     for (int k = 0; k < 4; ++k) sum[k] += p[k] * weight;
 }
@@ -46,6 +47,8 @@ Control blossom(const Control* p, int stride, int degree, const std::array<float
     return q[0];
 }
 
+/// Changes degree + 1 control points, a stride apart, into those of the part [lo, hi]: point i of a part is
+/// the blossom at lo (degree - i times) and hi (i times).
 void restrict_line(Control* p, int stride, int degree, float lo, float hi) {
     std::array<Control, 4> q;
     for (int i = 0; i <= degree; ++i) {

@@ -21,6 +21,7 @@ CameraFacing::CameraFacing(const M44f& camera_from_object, const Camera* camera)
     const double determinant = M44d(camera_from_object).determinant();
     outside_ = determinant < 0 ? -1.0f : 1.0f;
     scale_ = static_cast<float>(std::cbrt(std::abs(determinant)));
+    // Camera x and, unless mirrored, minus y: their cross product is -z, towards the eye.
     u_axis_ = to_object({scale_, 0, 0});
     v_axis_ = to_object({0, -outside_ * scale_, 0});
 }
@@ -36,6 +37,7 @@ V3f CameraFacing::across(const V3f& point, const V3f& tangent) const {
     constexpr float kParallel = 1e-5f;  // below, the direction is mostly rounding
     if (!(side.dot(side) > kParallel * kParallel * ray.dot(ray) * along.dot(along)))
         side = unit_or_zero(ray).cross(std::abs(ray.x) < std::abs(ray.z) ? V3f(1, 0, 0) : V3f(0, 1, 0));
+    // Where the way back to object space leaves nothing of it, some direction all the same.
     const V3f unit = unit_or_zero(to_object(side));
     return unit == V3f(0, 0, 0) ? V3f(1, 0, 0) : unit;
 }

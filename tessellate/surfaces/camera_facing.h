@@ -6,7 +6,7 @@
 
 namespace trapeze {
 
-/// At one motion key.
+/// The camera as a primitive's object space sees it, at one motion key.
 class CameraFacing {
   public:
     /// Without a camera: perspective from the origin.

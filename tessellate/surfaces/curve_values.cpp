@@ -43,6 +43,7 @@ CurvePieces::CurvePieces(const Curves& curves, const CurveTopology& topology)
 }
 
 Control CurvePieces::control(const CurveVariable& variable, int curve, int point) const {
+    // Control points of a periodic curve's last segments are its first again.
     const int wrapped = point % topology_.vertices_of(curve);
     const float* const from = variable.values + (topology_.first_vertex(curve) + wrapped) * variable.stride;
     Control value{};

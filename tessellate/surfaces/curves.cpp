@@ -12,7 +12,8 @@
 namespace trapeze {
 namespace {
 
-/// Of curves that join smoothly: as many pieces as a strip's edges are measured by.
+/// Segments a face of curves that join smoothly: as many as pieces that an edge is measured by first, so that
+/// none is missed.
 constexpr int kSmoothSegmentsPerFace = 4;
 /// A line's joint grows no wider than so many times its width.
 constexpr float kMitreLimit = 2;
@@ -31,6 +32,8 @@ V3f unit_or_zero(const V3f& v) {
     return length > 0 ? v / length : V3f(0, 0, 0);
 }
 
+/// Ribbons, evaluated at motion keys because they face the camera at each by themselves. P = centre + (u -
+/// 1/2) * span, where span is as long as the width.
 class CurvesSurface : public TopologySurface<CurvesSurface> {
   public:
     CurvesSurface(const Primitive& primitive, const Camera* camera, std::vector<RibbonVariables> keys);
@@ -61,10 +64,13 @@ class CurvesSurface : public TopologySurface<CurvesSurface> {
         V3f centre{0, 0, 0}, by_t{0, 0, 0}, span{0, 0, 0}, span_by_t{0, 0, 0};
     };
 
+    /// A variable along a segment at a motion key, between its shape keys.
     CurvePiece piece(CurveVariable RibbonVariables::*variable, int curve, int segment, int key) const;
+    /// A control point's place at a motion key.
     V3f control(int curve, int point, int key) const;
     Segment segment(int curve, int number, int key) const;
     V3f joint_span(const Segment& segment, int curve, int point, float t, int key) const;
+    /// The unit direction across the ribbon: across N where there is one, else across the ray that sees it.
     V3f direction(const Segment& segment, const V3f& at, const V3f& tangent, float t, int key) const;
     Across across(const Segment& segment, float t, int key) const;
 
@@ -108,6 +114,7 @@ CurvesSurface::Segment CurvesSurface::segment(int curve, int number, int key) co
     if (keys_.front().width)
         s.width = piece(&RibbonVariables::width, curve, number, key);
     else
+        // RISpec's default width.
         s.width.curve.p[0][0] = s.width.curve.p[1][0] = 1;
     if (keys_.front().N) s.N = piece(&RibbonVariables::N, curve, number, key);
     if (!curves_.cubic) {
@@ -117,7 +124,8 @@ CurvesSurface::Segment CurvesSurface::segment(int curve, int number, int key) co
     return s;
 }
 
-/// Lines meet in a mitre.
+/// What a ribbon of lines spans at a control point: lines meet in a mitre, wider by 1 / cos of half the bend.
+/// bend.
 V3f CurvesSurface::joint_span(const Segment& segment, int curve, int point, float t, int key) const {
     const int n = topology_.vertices_of(curve);
     const V3f at = control(curve, point, key);
@@ -126,6 +134,7 @@ V3f CurvesSurface::joint_span(const Segment& segment, int curve, int point, floa
     if (curves_.periodic || point + 1 < n) out = unit_or_zero(control(curve, point + 1, key) - at);
     V3f tangent = unit_or_zero(in + out);
     if (tangent == V3f(0, 0, 0)) tangent = out;
+    // An end has no neighbour on one side: its own line is the tangent, and the cosine 1.
     const float cosine = tangent.dot(out == V3f(0, 0, 0) ? in : out);
     const float mitre = cosine * kMitreLimit > 1 ? 1 / cosine : kMitreLimit;
     return direction(segment, at, tangent, t, key) * (segment.width.at(t)[0] * mitre);
@@ -228,7 +237,8 @@ bool CurvesSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfac
     return set_variables(primitive_.shape().variables, CurveComponents(*this, face, uv), grid);
 }
 
-/// The centre line's hull, grown by half the width.
+/// The box of the centre line's hull, grown by half the width, and for mitres by as much more as they may be
+/// longer.
 Box3f CurvesSurface::bound(int face, V2f lo, V2f hi, int key) const {
     const CurveTopology::Strip strip = topology_.strip(face);
     const float from = lo.y * static_cast<float>(strip.count), to = hi.y * static_cast<float>(strip.count);

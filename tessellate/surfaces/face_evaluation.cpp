@@ -10,9 +10,11 @@
 namespace trapeze {
 namespace {
 
+/// Points a block: enough for vectors of any machine. Loops over lanes are what compilers vectorise.
 constexpr size_t kLanes = 16;
 using Lanes = std::array<float, kLanes>;
 
+/// Parameters of up to kLanes points, `count` of which count, the first of them number `first`.
 struct Block {
     Lanes u, v;
     size_t first, count;
@@ -56,6 +58,8 @@ struct CubicWeights {
     }
 };
 
+/// The sums of four terms a lane, in one order of operations; the other form has the same values in all
+/// lanes.
 inline void combine(const Lanes (&w)[4], const Lanes (&c)[4], Lanes& sum) {
     for (size_t l = 0; l < kLanes; ++l)
         sum[l] = (w[0][l] * c[0][l] + w[1][l] * c[1][l]) + (w[2][l] * c[2][l] + w[3][l] * c[3][l]);
@@ -128,6 +132,7 @@ void evaluate_bilinear(const float* corners, int size, std::span<const V2f> uv, 
 
 void evaluate_linear_piece(const FacePiece& piece, const float* values, int size, std::span<const V2f> uv,
                            ValueSink value, ValueSink du, ValueSink dv) {
+    // Most values have few floats: no allocation for them.
     std::array<float, 4 * 16> few;
     std::vector<float> many;
     float* corners = few.data();

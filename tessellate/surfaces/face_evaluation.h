@@ -30,19 +30,21 @@ inline ValueSink sink_of(std::span<V3f> values) {
 /// is linear in between: `values` has `size` floats for each corner of the mesh face.
 void piece_corners(const FacePiece& piece, const float* values, int size, float* corners);
 
-/// Bilinear in four corners, going round, of `size` floats each. Both derivatives or none.
+/// Evaluates a face that is bilinear in four corners, going round, of `size` floats each. Both derivatives or
+/// none.
 void evaluate_bilinear(const float* corners, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                        ValueSink dv);
 
-/// The same for a piece of a mesh face, linear between the values at the face's corners.
+/// Evaluates a piece of a mesh face, linear between the values at the face's corners.
 void evaluate_linear_piece(const FacePiece& piece, const float* values, int size, std::span<const V2f> uv,
                            ValueSink value, ValueSink du, ValueSink dv);
 
-/// A variable on a piece of a mesh face, of one value for each of the face's corners.
+/// Evaluates a variable on a piece of a mesh face, of one value for each of the face's corners, by the
+/// arithmetic of between.h: equal corners give equal values.
 void values_on_piece(const FacePiece& piece, const float* corners, std::span<const V2f> uv,
                      std::span<float> values);
 
-/// A uniform bicubic B-spline patch with control points j * 4 + i, of `size` floats each.
+/// Evaluates a uniform bicubic B-spline patch with control points j * 4 + i, of `size` floats each.
 void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, ValueSink value, ValueSink du,
                       ValueSink dv);
 
@@ -50,7 +52,8 @@ void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, 
 Box3f bilinear_bound(const float* corners, V2f lo, V2f hi);
 Box3f bspline_bound(const float* controls, V2f lo, V2f hi);
 
-/// Grows a box by the rounding of sums of at most a hundred terms of its size.
+/// Grows a box by the rounding of sums of at most a hundred terms of its size (4e-6 of the largest coordinate
+/// along each axis). An empty box stays empty.
 Box3f grown_by_rounding(Box3f box);
 
 }  // namespace trapeze

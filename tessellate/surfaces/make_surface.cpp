@@ -1,3 +1,4 @@
+/// The one place that knows all kinds of surfaces.
 #include "tessellate/topology/surface.h"
 
 namespace trapeze {

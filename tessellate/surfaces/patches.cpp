@@ -17,6 +17,8 @@ struct PatchPoints {
     bool rational = false;
 };
 
+/// A patch mesh; threads share it. Control points stay in the primitive's arrays and are taken to Bezier form
+/// for every batch of points.
 class PatchSurface : public TopologySurface<PatchSurface> {
   public:
     PatchSurface(const Primitive& primitive, std::vector<PatchPoints> points);
@@ -34,13 +36,14 @@ class PatchSurface : public TopologySurface<PatchSurface> {
 
     /// One to four floats of each control point, starting at values, `stride` floats apart.
     BezierPatch net(int face, const float* values, int count, size_t stride) const;
-    /// One component of a variable.
+    /// One component of a variable at a face's control points, for BezierPatch::number_at().
     BezierPatch numbers(int face, const float* values, size_t stride) const;
-    /// In the mesh's own basis.
+    /// Control points in the mesh's own basis; indices wrap where the mesh does.
     BezierPatch controls(int face, const float* values, int count, size_t stride) const;
     const PatchMesh& mesh() const { return mesh_; }
 
   private:
+    /// A face's control points in Bezier form; w is the fourth component of rational ones.
     BezierPatch positions(int face, int shape_key) const;
     bool meets(int face, int next, bool along_u) const;
     void find_tears(bool along_u);
@@ -59,6 +62,7 @@ PatchSurface::PatchSurface(const Primitive& primitive, std::vector<PatchPoints> 
     faces_.columns = mesh_.patches_u(), faces_.rows = mesh_.patches_v();
     faces_.u_wraps = mesh_.u_wraps, faces_.v_wraps = mesh_.v_wraps;
     if (!mesh_.bicubic) return;
+    // Bilinear patches always share their borders; bicubic ones may not, by basis and step.
     u_bezier_ = bezier_from_basis(mesh_.u_basis);
     v_bezier_ = bezier_from_basis(mesh_.v_basis);
     find_tears(true);
@@ -201,6 +205,7 @@ bool PatchSurface::evaluate_variables(int face, std::span<const V2f> uv, Surface
     return set_variables(primitive_.shape().variables, PatchValues(*this, face, uv), grid);
 }
 
+/// The hull of the rectangle's own control points; rational ones too, as long as all weights are positive.
 Box3f PatchSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     const BezierPatch part = positions(face, shape_key).restricted(lo, hi);
     const bool rational = points_[shape_key].rational;

@@ -74,6 +74,8 @@ struct PointValues {
 
 enum class PointType { Disk, Sphere, Picture };
 
+/// Faces that share nothing: each has edges 4 f + side and vertices 4 f + corner of its own. Asked at motion
+/// keys, for disks face the camera at each by themselves.
 class PointsSurface : public Surface {
   public:
     PointsSurface(const Primitive& primitive, const Camera* camera, PointType type,
@@ -102,6 +104,7 @@ class PointsSurface : public Surface {
   private:
     static constexpr V2f kCorners[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
+    /// A point's disk or rectangle at one motion key, in object space.
     struct Disk {
         V3f centre{0, 0, 0};
         V3f x{0, 0, 0}, y{0, 0, 0};  ///< to the corners of what is drawn; of a rectangle, to its sides
@@ -128,7 +131,8 @@ PointsSurface::PointsSurface(const Primitive& primitive, const Camera* camera, P
     for (size_t i = 0; i < factors_.size(); ++i) factors_[i] = factor(static_cast<int>(i), camera);
 }
 
-/// From the size on the screen at the first key, in micropolygons.
+/// How much larger than its circle a point's disk is drawn, from the size on the screen at the first key, in
+/// micropolygons; 0: as a square. 1 where the size is not known.
 float PointsSurface::factor(int point, const Camera* camera) const {
     if (!camera || type_ == PointType::Picture) return 1;
     const float z = transform_point(facing_[0].camera_from_object(), keys_[0].place(point)).z;
@@ -136,6 +140,7 @@ float PointsSurface::factor(int point, const Camera* camera) const {
     const V2f scale = camera->pixels_per_length(z);
     const float pixels = keys_[0].width[point] * facing_[0].scale() * std::max(scale.x, scale.y);
     const float size = std::abs(pixels) / std::sqrt(std::max(primitive_.attributes->shading_rate, 1e-4f));
+    // At most a micropolygon wide: nobody sees corners.
     if (size * kSquare <= 1) return 0;
     // A side of the disk is diced by the length of four chords; its number of segments and the area must fit.
     const float chords = size * 4 * std::sin(kHalfTurn / 16);
@@ -143,6 +148,7 @@ float PointsSurface::factor(int point, const Camera* camera) const {
     constexpr float kFits = 0.012f;
     if (chords > kMostSides) return 1;
     float best = 0, best_error = kFits;  // else a square of more than one micropolygon
+    // A polygon of 4 * side corners that is diced into just so many and is as large as the circle.
     for (int side = 1; side <= kMostSides; ++side) {
         const float wanted = polygon_factor(4 * side), sides = static_cast<float>(side);
         const float factor = std::clamp(wanted, 1.002f * (sides - 1) / chords, 0.998f * sides / chords);
@@ -238,6 +244,7 @@ bool PointsSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfac
 
 /// As the half of a sphere that faces the camera has them.
 void PointsSurface::set_sphere_normals(const Disk& disk, std::span<const V2f> uv, ShadingGrid& grid) const {
+    // x and y lie in the picture's plane, z towards the eye.
     const V3f x = facing_[0].u_axis().normalized(), y = facing_[0].v_axis().normalized(), z = x.cross(y);
     for (size_t i = 0; i < uv.size(); ++i) {
         const V2f at = disk.at(uv[i]);
@@ -253,7 +260,8 @@ Box3f PointsSurface::bound(int face, V2f, V2f, int key) const {
     return {d.centre - half, d.centre + half};
 }
 
-/// The names of PRMan's and of other renderers'.
+/// The type that a primitive names, by PRMan's names and other renderers'; an unknown one is a warning and a
+/// disk.
 PointType type_of_points(const Primitive& primitive, Diagnostics& diagnostics) {
     const Parameter* type = primitive.shape().variables.find("type");
     if (!type || type->strings.empty()) return PointType::Disk;

@@ -21,6 +21,7 @@ bool has_normals(const ParameterList& variables) {
 /// What u and v of faces are: their own square's, for meshes that stand for a curved surface.
 enum class FaceParameters { PlaceInObject, OwnSquare };
 
+/// A polygon mesh cut into faces of three and four corners; a triangle's face is cut into three squares.
 class PolygonSurface : public TopologySurface<PolygonSurface> {
   public:
     PolygonSurface(const Primitive& primitive, PolygonFaces faces, FaceParameters parameters)
@@ -49,7 +50,10 @@ class PolygonSurface : public TopologySurface<PolygonSurface> {
 
     /// Positions at the corners of a mesh face.
     std::array<float, 12> corner_positions(const FacePiece& piece, int shape_key) const;
+    /// Object-space x and y of points of a face.
     void set_places(int face, std::span<const V2f> uv, std::span<float> x, std::span<float> y) const;
+    /// Whether derivatives by x and y mean anything: not on faces nearly parallel to the z axis
+    /// (core/polygon_lean.h).
     bool has_place_derivatives(int face) const;
     void differentiate_by_places(int face, V2f at, ShadingGrid& grid) const;
 
@@ -101,6 +105,7 @@ class PolygonSurface::Values : public VariableSource {
     size_t uniform_index(const Parameter& parameter) const override { return item(parameter, 0); }
 
   private:
+    /// Which of the parameter's values belongs to a corner of the face.
     size_t item(const Parameter& parameter, int corner) const {
         const int number = surface_.topology_.first_corner(piece_.mesh_face) + corner;
         switch (parameter.declaration.storage) {
@@ -152,6 +157,7 @@ void PolygonSurface::differentiate_by_places(int face, V2f at, ShadingGrid& grid
     V3f P, du, dv;
     evaluate_linear_piece(piece, corner_positions(piece, 0).data(), 3, {&at, 1}, sink_of({&P, 1}),
                           sink_of({&du, 1}), sink_of({&dv, 1}));
+    // Of the matrix from (u, v) of the face to (x, y).
     const double determinant = double{du.x} * dv.y - double{dv.x} * du.y;
     if (determinant == 0 || grid.dPdu.size() == 0) return;
     const V3d by_u(grid.dPdu.at(0)), by_v(grid.dPdv.at(0));
@@ -168,6 +174,7 @@ bool PolygonSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfa
         grid.u[i] = by_place ? grid.s[i] : uv[i].x;
         grid.v[i] = by_place ? grid.t[i] : uv[i].y;
     }
+    // Where derivatives by place mean nothing, those by the face's own square stay.
     if (by_place && has_place_derivatives(face)) differentiate_by_places(face, uv[0], grid);
     return set_variables(primitive_.shape().variables, Values(*this, face, uv), grid);
 }
@@ -186,6 +193,7 @@ bool is_consistent(const PolygonMesh& mesh) {
                        [&](int v) { return v >= 0 && v < mesh.vertex_count; });
 }
 
+/// Whether all shape keys have positions for all vertices and counts agree; else an error.
 bool is_valid(const Primitive& primitive, Diagnostics& diagnostics) {
     const PolygonMesh& mesh = std::get<PolygonMesh>(primitive.shape().topology);
     for (const auto& shape : primitive.shape_keys) {

@@ -18,6 +18,7 @@ float radians(float degrees) {
     return degrees * (kPi / 180);
 }
 
+/// An interval of numbers and its arithmetic, which holds all results but for rounding.
 struct Range {
     float lo = 0, hi = 0;
 
@@ -31,13 +32,14 @@ struct Range {
     }
 };
 
-/// Of the cosine over an interval of angles, a little wide for rounding.
+/// The range of the cosine over an interval of angles in radians, a little wide for rounding.
 Range cosine(Range angle) {
     constexpr float kSlack = 2e-6f;
     Range c = Range::of(std::cos(angle.lo), std::cos(angle.hi));
     const auto passes = [&](float phase) {
         return std::floor((angle.hi - phase) / (2 * kPi)) != std::floor((angle.lo - phase) / (2 * kPi));
     };
+    // An extremum lies within the interval.
     if (passes(0)) c.hi = 1;
     if (passes(kPi)) c.lo = -1;
     return {c.lo - kSlack, c.hi + kSlack};
@@ -53,6 +55,7 @@ struct ProfilePoint {
     float dx = 0, dy = 0, dz = 0;
 };
 
+/// A box about a part of the profile.
 struct ProfileRange {
     Range x, y, z;
 };
@@ -67,7 +70,9 @@ struct Profile {
     bool v_closes = false;
     float theta_max = 0;  ///< radians
 
+    /// The profile at v, 0..1; poles lie exactly on the axis.
     ProfilePoint at(float v) const;
+    /// Bounds of the profile over a range of v.
     ProfileRange over(Range v) const;
 };
 
@@ -80,6 +85,7 @@ Profile sphere_profile(const std::array<float, 7>& q) {
     p.a = q[0];
     const auto latitude = [&](float z) { return std::asin(std::clamp(z / q[0], -1.0f, 1.0f)); };
     p.from = latitude(q[1]), p.to = latitude(q[2]);
+    // zmin and zmax at or beyond the radius: the sphere is closed there.
     p.bottom_is_point = std::abs(q[1]) >= std::abs(q[0]);
     p.top_is_point = std::abs(q[2]) >= std::abs(q[0]);
     return p;
@@ -163,6 +169,8 @@ ProfileRange Profile::over(Range v) const {
     return {Range::of(lo.x, hi.x), Range::of(lo.y, hi.y), Range::of(lo.z, hi.z)};
 }
 
+/// A quadric as a grid of faces, each about a quarter turn wide. At shape keys of other arguments it has the
+/// same faces.
 class QuadricSurface : public TopologySurface<QuadricSurface> {
   public:
     explicit QuadricSurface(const Primitive& primitive);
@@ -203,6 +211,7 @@ class CornerValues : public VariableSource {
 };
 
 QuadricSurface::QuadricSurface(const Primitive& primitive) : primitive_(primitive) {
+    // The topology is that of all shape keys: what closes at all of them is closed.
     faces_.u_wraps = faces_.v_wraps = faces_.bottom_is_point = faces_.top_is_point = true;
     float theta = 0;
     for (const auto& shape : primitive.shape_keys) {
@@ -249,6 +258,8 @@ bool QuadricSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfa
     return set_variables(primitive_.shape().variables, CornerValues(grid), grid);
 }
 
+/// Interval arithmetic over the rectangle: not tight, but never too small except for rounding, which callers
+/// add.
 Box3f QuadricSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     const Profile& profile = profiles_[shape_key];
     const V2f a = faces_.surface_uv(face, lo), b = faces_.surface_uv(face, hi);

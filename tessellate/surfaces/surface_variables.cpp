@@ -16,6 +16,7 @@ bool is_uniform(const Parameter& parameter) {
     return parameter.is_string() || storage == StorageClass::Constant || storage == StorageClass::Uniform;
 }
 
+/// One component of a variable at all vertices, whether it varies or not.
 void fill(const Parameter& parameter, int component, const VariableSource& source, std::span<float> values) {
     if (!is_uniform(parameter)) return source.component(parameter, component, values);
     const size_t stride = parameter.declaration.floats_per_item();
@@ -33,6 +34,7 @@ Triples* own_triples(const Parameter& parameter, ShadingGrid& grid) {
     return nullptr;
 }
 
+/// Sets s and t from "st", "s" or "t"; false when the variable is none of these.
 bool set_own_floats(const Parameter& parameter, const VariableSource& source, ShadingGrid& grid) {
     const int floats = parameter.is_string() ? 0 : parameter.declaration.floats_per_item();
     if (parameter.name == "st" && floats == 2) {
@@ -64,6 +66,7 @@ bool set_variables(const ParameterList& parameters, const VariableSource& source
     size_t count = 0;
     bool has_normals = false;
     for (const Parameter& parameter : parameters.values) {
+        // Of two variables of one name the list's find() gives the one that counts.
         if (is_position(parameter.name) || parameters.find(parameter.name) != &parameter) continue;
         if (Triples* triples = own_triples(parameter, grid)) {
             for (int k = 0; k < 3; ++k) fill(parameter, k, source, triples->c[k]);

@@ -10,12 +10,14 @@
 
 namespace trapeze {
 
-/// Values of one component of a variable at the grid's vertices, in the variable's own space.
+/// What a kind of surface knows of its variables: values of one component at the grid's vertices, in the
+/// variable's own space. One for each grid.
 class VariableSource {
   public:
     virtual ~VariableSource() = default;
+    /// Sets component `component` of a value (of an array: counted through its items) at every vertex.
     virtual void component(const Parameter& parameter, int component, std::span<float> values) const = 0;
-    /// For what has one value over a face: which one.
+    /// Which of the parameter's values is the face's, for what has one value over a face.
     virtual size_t uniform_index(const Parameter& parameter) const = 0;
 };
 
@@ -26,7 +28,8 @@ bool set_variables(const ParameterList& parameters, const VariableSource& source
 /// s and t where no variable sets them: the attributes' texture coordinates, bilinear in the grid's u and v.
 void set_texture_coordinates(const Attributes& attributes, ShadingGrid& grid);
 
-/// grid.variables[index] with the right planes, of which those of an earlier grid are reused.
+/// Makes grid.variables[index] ready for a parameter: name, declaration and planes of the right size, of
+/// which those of an earlier grid are reused. Values are not set.
 GridVariable& variable_slot(ShadingGrid& grid, size_t index, const Parameter& parameter, bool uniform);
 
 }  // namespace trapeze

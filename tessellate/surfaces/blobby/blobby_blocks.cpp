@@ -9,6 +9,7 @@ namespace trapeze {
 namespace {
 
 constexpr int kSide = BlobbyBlock::kSide, kCorners = (kSide + 1) * (kSide + 1) * (kSide + 1);
+/// Bounds on absurd input: a field that wants more is made coarser (see blobby_mesh()).
 constexpr size_t kMostBlocks = 200'000;
 constexpr float kLeastCell = 1e-5f;  ///< of the diagonal of all leaves
 constexpr int kMostLevels = 20;
@@ -18,11 +19,14 @@ constexpr float kTolerance = 1.4f;
 /// rounding.
 constexpr float kMarginCells = 1.5f;
 
+/// Whether closed boxes meet; an empty one meets nothing.
 bool overlap(const Box3f& a, const Box3f& b) {
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
            a.min.z <= b.max.z && b.min.z <= a.max.z;
 }
 
+/// How large the smallest feature is that a leaf makes: its bump's diameter along its own axes, or what its
+/// box leaves of that.
 float smallest_extent(const BlobbyLeaf& leaf, const Box3f& support) {
     const V3f size = support.size();
     float least = std::min({size.x, size.y, size.z});
@@ -53,6 +57,7 @@ BlobbyBlocks::BlobbyBlocks(const BlobbyField& field, const CellSizes& cells, flo
     finest_ = std::max(finest, kLeastCell * diagonal * coarser);
     const float across = std::max({all.size().x, all.size().y, all.size().z});
     float margin = 0;
+    // The least root that holds all supports and a margin, so that nothing acts beyond it.
     for (; top_ < kMostLevels; ++top_) {
         margin = (kMarginCells + 1) * cell(top_);
         if (across + 2 * margin <= kSide * cell(top_)) break;
@@ -108,6 +113,7 @@ bool BlobbyBlocks::refine(int node, const GridIndex& at, const std::vector<int>&
     const Box3f close = box_of(at, level, kMarginCells * cell(level));
     std::vector<int> within, near;
     float feature = kInfinity;
+    // `within` are for the children, `near` for a block made here.
     for (const int leaf : candidates) {
         if (!overlap(supports_[leaf], around)) continue;
         within.push_back(leaf);
@@ -135,6 +141,7 @@ bool BlobbyBlocks::refine(int node, const GridIndex& at, const std::vector<int>&
     return true;
 }
 
+/// Descends from the root by the bits of the cell's indices.
 BlobbyBlocks::Found BlobbyBlocks::at(const GridIndex& cell) const {
     const int size = kSide << top_;
     const auto beyond = [&](int x) { return x < 0 || x >= size; };

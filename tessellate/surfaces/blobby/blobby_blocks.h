@@ -25,7 +25,7 @@ struct GridIndex {
     GridIndex operator*(int s) const { return {i * s, j * s, k * s}; }
 };
 
-/// Cells of 2^level of the finest.
+/// A leaf of the octree: kSide^3 cells, each as long as 2^level of the finest. `at`: its least corner.
 struct BlobbyBlock {
     static constexpr int kSide = 8, kSize = kSide * kSide * kSide;
 
@@ -38,9 +38,11 @@ struct BlobbyBlock {
 /// Instructions run over all points, and looked at before: some ten seconds' work.
 inline constexpr double kMostBlobbyOperations = 1e9;
 
+/// The octree of one field. find() makes it; then it is read from many threads.
 class BlobbyBlocks {
   public:
-    /// cells: in object space; `coarser` than they ask for.
+    /// `cells`: wanted sizes, in object space; cells are `coarser` times as large as they ask for. Both
+    /// arguments outlive the blocks.
     BlobbyBlocks(const BlobbyField& field, const CellSizes& cells, float coarser, double most_operations);
 
     /// False when there would be too many blocks, or too much to compute.
@@ -57,6 +59,7 @@ class BlobbyBlocks {
     /// do not reach a point add nothing.
     float value(const BlobbyBlock& block, const V3f& p, std::vector<FieldValue>& scratch) const;
 
+    /// Where a place of the grid is in object space; computed alike for all blocks that share it.
     V3f place(const GridIndex& p) const;
     float cell(int level) const { return finest_ * static_cast<float>(1 << level); }
 
@@ -65,9 +68,11 @@ class BlobbyBlocks {
         int first_child = -1, block = -1, level = 0;
     };
 
+    /// The largest cell that is fine enough in a box for features of an extent.
     float wanted(const Box3f& where, float feature) const;
     bool refine(int node, const GridIndex& at, const std::vector<int>& candidates,
                 const BlobbyProgram& program);
+    /// The program for some leaves, to which the grounds are added.
     BlobbyProgram reduced(const BlobbyProgram& program, std::vector<int>& leaves);
     Box3f box_of(const GridIndex& at, int level, float margin) const;
 

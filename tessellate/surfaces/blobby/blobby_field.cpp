@@ -10,6 +10,7 @@ namespace {
 
 using Kind = BlobbyInstruction::Kind;
 
+/// Sixteen floats of the request, row by row.
 M44f matrix_at(const std::vector<float>& floats, size_t at) {
     M44f m;
     for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = floats[at + i];
@@ -27,7 +28,8 @@ bool is_finite(const V3f& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// One with a matrix that cannot be inverted has no extent, nor one that reaches beyond all numbers.
+/// A leaf in its place. One with a matrix that cannot be inverted has no extent, nor one that reaches beyond
+/// all numbers.
 BlobbyLeaf placed(BlobbyLeaf leaf, const M44f& object_from_leaf) {
     leaf.object_from_leaf = object_from_leaf;
     leaf.ends = leaf.radius > 0 && invert(object_from_leaf, &leaf.leaf_from_object);
@@ -36,6 +38,7 @@ BlobbyLeaf placed(BlobbyLeaf leaf, const M44f& object_from_leaf) {
     return leaf;
 }
 
+/// The leaf of opcodes 1000 (constant), 1001 (ellipsoid) and 1002 (segment); others are 0 everywhere.
 BlobbyLeaf leaf_of(int code, const std::vector<float>& floats, size_t at) {
     BlobbyLeaf leaf;
     if (code == 1001) return placed(leaf, matrix_at(floats, at));
@@ -81,6 +84,8 @@ FieldValue scaled(const FieldValue& f, float s) {
     return {f.value * s, f.gradient * s};
 }
 
+/// What an operator makes of two values, with gradients by the rules of differentiation. A quotient by 0
+/// counts as 0.
 FieldValue combined(Kind kind, const FieldValue& a, const FieldValue& b) {
     switch (kind) {
         case Kind::Add:
@@ -112,6 +117,7 @@ FieldValue BlobbyLeaf::at(const V3f& p) const {
     const V3f offset = (local - begin - along * t) / radius;
     const float rest = 1 - offset.dot(offset);
     if (!(rest > 0)) return {};
+    // d/dp (1 - r^2)^3, along the offset from the segment; then by the inverse's transpose to object space.
     const V3f by_local = offset * (-6 * rest * rest / radius);
     const M44f& m = leaf_from_object;
     FieldValue f{rest * rest * rest, {0, 0, 0}};
@@ -173,6 +179,7 @@ BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
         out.instructions.push_back(in);
         return static_cast<int>(out.instructions.size()) - 1;
     };
+    // Constants become instructions only where something that is kept reads them, once each.
     std::vector<int> constant_number(instructions.size(), -1);
     const auto as_number = [&](int i) {
         if (number[i] >= 0) return number[i];
@@ -191,6 +198,7 @@ BlobbyProgram BlobbyProgram::reduced(std::span<const int> leaves) const {
         }
         const std::span<const int> from(operands.data() + in.first_operand, in.operand_count);
         if (std::ranges::all_of(from, [&](int k) { return number[k] < 0; })) {
+            // All operands are constant: so is the result.
             FieldValue value{constant[from[0]], {0, 0, 0}};
             for (size_t k = 1; k < from.size(); ++k)
                 value = combined(in.kind, value, {constant[from[k]], {0, 0, 0}});

@@ -15,7 +15,8 @@ namespace trapeze {
 /// A single ellipsoid is drawn at half its extent: (1 - 1/4)^3.
 inline constexpr float kBlobbyThreshold = 27.0f / 64;
 
-/// A bump round a segment of some space, or round the origin.
+/// A leaf of a Blobby: a bump round a segment of some space (a capsule there), or round the origin (an
+/// ellipsoid). begin, end and radius are in the leaf's space.
 struct BlobbyLeaf {
     bool ends = true;    ///< false: it is everywhere `constant`, or goes by the height above the ground
     float constant = 0;  ///< 0 for a repelling plane whose ground is not known
@@ -52,16 +53,19 @@ struct BlobbyInstruction {
     int first_operand = 0, operand_count = 0;  ///< in operands
 };
 
+/// What a request computes, as a list in which every instruction reads results of earlier ones.
 struct BlobbyProgram {
     std::vector<BlobbyInstruction> instructions;
     std::vector<int> operands;
 
-    /// The last instruction's result.
+    /// The last instruction's result at a point of object space. `results` is working memory, one for each
+    /// thread.
     FieldValue at(const V3f& p, std::span<const BlobbyLeaf> leaves, std::vector<FieldValue>& results) const;
     /// The program with the leaves that are not listed (ascending) at 0, without what has become constant.
     BlobbyProgram reduced(std::span<const int> leaves) const;
 };
 
+/// A whole Blobby at one shape key.
 struct BlobbyField {
     std::vector<BlobbyLeaf> leaves;  ///< in the order of the per-leaf variables
     BlobbyProgram program;
@@ -71,9 +75,10 @@ struct BlobbyField {
     std::vector<int> grounds;
 };
 
-/// By the name of a depth file; empty when there is none.
+/// Finds the ground by the name of a depth file; gives an empty function when there is none.
 using FindGround = std::function<GroundHeight(const std::string& name)>;
 
+/// Reads a request's code, whose counts and references were checked when the RIB file was read.
 BlobbyField blobby_field(const Blobby& blobby, const FindGround& find_ground = {});
 
 }  // namespace trapeze

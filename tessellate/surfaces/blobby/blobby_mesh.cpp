@@ -49,6 +49,8 @@ class BlockCorners {
     std::array<float, (BlobbyBlock::kSide + 1) * (BlobbyBlock::kSide + 1) * (BlobbyBlock::kSide + 1)> values_;
 };
 
+/// Makes the mesh of blocks: crossings block by block in parallel, then polygons in one order, then vertices
+/// moved onto the surface in parallel.
 class Net {
   public:
     Net(const BlobbyField& field, const BlobbyBlocks& blocks) : field_(field), blocks_(blocks) {}
@@ -56,11 +58,14 @@ class Net {
     BlobbyMesh mesh();
 
   private:
+    /// The crossings of which a block makes polygons, in the order of its edges.
     std::vector<Crossing> crossings(int block) const;
     bool cells_round(int block, const GridIndex& edge, int axis, std::array<CellName, 4>& cells) const;
+    /// Where the surface meets an edge of the grid between an inner and an outer corner.
     V3f meeting_point(const BlobbyBlock& block, const GridIndex& from, const GridIndex& to, float at_from,
                       float at_to, std::vector<FieldValue>& scratch) const;
     void add_polygons(const std::vector<std::vector<Crossing>>& crossings, BlobbyMesh& mesh) const;
+    /// Moves vertices onto the surface, by a cell at most, and gives them normals by the field's gradient.
     void settle(BlobbyMesh& mesh) const;
 
     const BlobbyField& field_;
@@ -73,6 +78,8 @@ class Net {
 bool Net::cells_round(int block, const GridIndex& edge, int axis, std::array<CellName, 4>& cells) const {
     const int level = blocks_.all()[block].level;
     const GridIndex b = kAxes[(axis + 1) % 3], c = kAxes[(axis + 2) % 3];
+    // The finest cells at the edge's begin, anticlockwise about the axis: each lies in one of the four
+    // blocks.
     const GridIndex finest[4] = {edge - b - c, edge - c, edge, edge - b};
     int first = -1;
     for (int n = 0; n < 4; ++n) {
@@ -191,6 +198,7 @@ BlobbyMesh Net::mesh() {
 
 V3f onto_surface(const BlobbyField& field, const BlobbyProgram& program, V3f p, float reach,
                  std::vector<FieldValue>& scratch) {
+    // Newton's steps along the gradient; one that does not come nearer is halved.
     constexpr int kSteps = 8, kHalvings = 6;
     const V3f from = p;
     FieldValue f = program.at(p, field.leaves, scratch);

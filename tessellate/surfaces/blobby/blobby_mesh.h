@@ -10,6 +10,7 @@
 
 namespace trapeze {
 
+/// A closed mesh in object space.
 struct BlobbyMesh {
     std::vector<V3f> points;
     std::vector<V3f> normals;   ///< away from what is inside, unit length
@@ -22,11 +23,13 @@ struct BlobbyMesh {
     float coarser = 1;  ///< than was asked for, to keep time and memory within bounds
 };
 
+/// Makes the mesh of a field; cells grow until blocks and operations are within bounds. Empty where the field
+/// has no surface. The same for any number of threads.
 BlobbyMesh blobby_mesh(const BlobbyField& field, const CellSizes& cells,
                        double most_operations = kMostBlobbyOperations);
 
-/// Moves a point along the gradient onto the surface; by no more than `reach`, and not where the field is
-/// flat.
+/// Moves a point along the gradient towards where the field is kBlobbyThreshold; by no more than `reach`, and
+/// not where the field is flat. Only nearer or not at all.
 V3f onto_surface(const BlobbyField& field, const BlobbyProgram& program, V3f p, float reach,
                  std::vector<FieldValue>& scratch);
 

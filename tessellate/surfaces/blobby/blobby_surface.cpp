@@ -21,6 +21,7 @@ constexpr float kCellsWithoutCamera = 64;
 /// What is nearer to the eye than this part of the Blobby's diagonal is made as if it were that far away.
 constexpr float kNearest = 0.01f;
 
+/// The mesh as a polygon surface, with the primitive that it is made for: polygons refer to it.
 class BlobbySurface : public TopologySurface<BlobbySurface> {
   public:
     BlobbySurface(Primitive mesh, Diagnostics& diagnostics)
@@ -142,9 +143,11 @@ Parameter triples(const char* name, ValueType type, const std::vector<V3f>& valu
     return parameter;
 }
 
-/// Of a variable at all points; larger arrays are left out.
+/// The most floats that a variable may have at all points; larger arrays are left out.
 constexpr size_t kMostValues = size_t{1} << 27;
 
+/// The mesh's variables: P, N, and the primitive's own, those of leaves as averages weighted by the leaves'
+/// fields.
 ParameterList mesh_variables(const BlobbyField& field, const BlobbyMesh& mesh, const ParameterList& given) {
     ParameterList list;
     for (const Parameter& variable : given.values) {
@@ -180,6 +183,8 @@ double most_operations(const Primitive& primitive, const Camera* camera) {
     return std::clamp(kOfAMicropolygon * micropolygons, kAtLeast, kMostBlobbyOperations);
 }
 
+/// The mesh's points at a later shape key: carried along by their leaves, then moved back onto the surface
+/// there.
 std::vector<V3f> moved_points(const BlobbyField& field, const BlobbyMesh& mesh, const BlobbyField& later) {
     std::vector<V3f> points(mesh.points.size());
     // Where it takes too long, points stay where the leaves carry them.
@@ -198,8 +203,8 @@ std::vector<V3f> moved_points(const BlobbyField& field, const BlobbyMesh& mesh, 
     return points;
 }
 
-/// At one of the shape's keys. Its grounds stand still in the world; a Blobby that moves over them by its
-/// transformation alone keeps the shape that it has as the shutter opens.
+/// The field at one of the shape's keys. Its grounds stand still in the world; a Blobby that moves over them
+/// by its transformation alone keeps the shape that it has as the shutter opens.
 BlobbyField field_at(const Primitive& primitive, size_t key, const FindDepthHeight* depth_heights) {
     const auto& blobby = std::get<Blobby>(primitive.shape_keys[key]->topology);
     if (!depth_heights) return blobby_field(blobby);

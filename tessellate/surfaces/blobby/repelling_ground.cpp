@@ -8,6 +8,7 @@
 namespace trapeze {
 namespace {
 
+/// The height that all points at or below the ground count as having; nearer the field would be infinite.
 constexpr float kLeastHeight = 1e-6f;
 
 float bump(float r) {

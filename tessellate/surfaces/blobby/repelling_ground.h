@@ -8,12 +8,14 @@
 
 namespace trapeze {
 
+/// A field's value at a point and its gradient by the point's object-space coordinates.
 struct FieldValue {
     float value = 0;
     V3f gradient{0, 0, 0};
 };
 
-/// Of the height z above the ground [Pixar, PRMan Application Note 31, "Blobby Implicit Surfaces"]:
+/// The field as a function of the height z above the ground [Pixar, PRMan Application Note 31, "Blobby
+/// Implicit Surfaces"]:
 ///
 ///     (bulge * bump(z / peak) - barrier / z) (1 - ease(z / reach)),   and 0 from `reach` on
 ///
@@ -29,9 +31,11 @@ struct Repulsion {
     float slope(float z) const;  ///< by z
 };
 
-/// Of an object-space point; kInfinity where there is no ground.
+/// The height of an object-space point above the ground; kInfinity where there is none.
 using GroundHeight = std::function<float(const V3f& p)>;
 
+/// A repulsion and the ground that it is from. Its gradient comes of differences of the height, one along
+/// each axis.
 struct RepellingGround {
     Repulsion repulsion;
     GroundHeight height;

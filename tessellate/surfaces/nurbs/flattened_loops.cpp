@@ -1,3 +1,4 @@
+/// Trim curves (NURBS in the patch's parameter plane) as polylines fine enough to be followed point by point.
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +10,12 @@ namespace {
 
 using Imath::V2d;
 
-/// How far a loop may be from its polyline, of the patch's range.
+/// How far a curve's middle may be from the line's, as part of the patch's range. Judged only from
+/// kLeastDepth halvings on, for the middle of an S lies on its line.
 constexpr double kTolerance = 5e-5;
 constexpr int kLeastDepth = 2, kMostDepth = 8;
 
+/// Adds the points of one curve, in the order of its parameter.
 class Flattener {
   public:
     Flattener(const NuPatch& patch, const TrimCurve& curve, std::vector<V2d>& out)
@@ -26,12 +29,14 @@ class Flattener {
     void run() {
         for (int span = 0; span < spans_.count(); ++span) {
             const V2d end = at(span, 1);
+            // Order 2: a span is a line, which needs no halving.
             cut(span, 0, at(span, 0), 1, end, curve_.order == 2 ? kMostDepth : 0);
             add(end);
         }
     }
 
   private:
+    /// The curve's point, u and v from 0 to 1 over the patch's range.
     V2d at(int span, float t) const {
         const BasisValues b = spans_.basis(span, t);
         double u = 0, v = 0, w = 0;
@@ -43,6 +48,7 @@ class Flattener {
         }
         return V2d((u / w - low_.x) / size_.x, (v / w - low_.y) / size_.y);
     }
+    /// Adds a point, unless it repeats the one before or is no number.
     void add(const V2d& p) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y)) return;
         if (out_.empty() || (out_.back() - p).length() > 1e-9) out_.push_back(p);

@@ -6,6 +6,7 @@ namespace trapeze {
 
 KnotSpans::KnotSpans(std::span<const float> knots, int order, float begin, float end)
     : knots_(knots.begin(), knots.end()), order_(order) {
+    // Knots order - 1 .. points bound the range where all basis functions add up to 1.
     const int points = static_cast<int>(knots.size()) - order;
     for (int i = order - 1; i < points; ++i) {
         const double from = std::max<double>(knots_[i], begin), to = std::min<double>(knots_[i + 1], end);
@@ -55,6 +56,7 @@ BasisValues KnotSpans::basis(int span, float t) const {
         b.value[d] = carried;
     }
     if (degree == 0) return b;
+    // By t, which runs over the span, and not by the spline's own parameter.
     const double scale = degree * length(span);
     for (int i = 0; i <= degree; ++i) {
         const auto share = [&](int j) {

@@ -11,12 +11,13 @@ namespace trapeze {
 inline constexpr int kLargestOrder = 32;
 
 /// The basis functions that are not 0 at a parameter, and their derivatives: those of control points
-/// first .. first + order - 1.
+/// first .. first + order - 1. The rest of the arrays is 0.
 struct BasisValues {
     int first = 0;
     std::array<double, kLargestOrder> value{}, slope{};
 };
 
+/// One direction of a NURBS, cut into its spans: the faces of a patch. Spans are counted from 0.
 class KnotSpans {
   public:
     /// The part begin..end of the knots' range; knots never fall, there are points + order of them.
@@ -38,7 +39,7 @@ class KnotSpans {
     /// beyond the range.
     double spans_before(double share) const;
 
-    /// Derivatives are by t.
+    /// The basis functions at t, 0..1, of a span; their derivatives are by t.
     BasisValues basis(int span, float t) const;
     /// The weight of control point first + i in Bezier control point j of [lo, hi] of a span:
     /// weights[j * order + i].

@@ -24,6 +24,7 @@ struct ControlPoints {
     const float* at(size_t point) const { return values + point * floats; }
 };
 
+/// A weighted sum of control points, x y z w, in double.
 struct Sum {
     double c[4] = {0, 0, 0, 0};
 
@@ -36,6 +37,7 @@ struct Sum {
     V3d xyz() const { return {c[0], c[1], c[2]}; }
 };
 
+/// A NURBS patch; threads share it. Control points stay in the primitive's arrays.
 class NuPatchSurface : public TopologySurface<NuPatchSurface> {
   public:
     NuPatchSurface(const Primitive& primitive, std::vector<ControlPoints> points);
@@ -55,8 +57,10 @@ class NuPatchSurface : public TopologySurface<NuPatchSurface> {
   private:
     friend class NuPatchValues;
 
+    /// The number of control point (i, j), i along u.
     size_t point(int i, int j) const { return static_cast<size_t>(j) * patch_.nu + i; }
     bool welds(bool along_u) const;
+    /// Sets between which spans the surface jumps.
     void find_tears(bool along_u);
     bool is_pole(bool along_u, bool at_end) const;
     int pole_side(int face, V2f uv) const;
@@ -83,7 +87,8 @@ NuPatchSurface::NuPatchSurface(const Primitive& primitive, std::vector<ControlPo
     find_poles();
 }
 
-/// Control points that bear on the patch's border at the begin or the end of a direction.
+/// The control points that bear on the patch's border at the begin or the end of a direction, and their
+/// weights there: one for knots that are clamped there, else up to order - 1.
 struct BorderWeights {
     int first = 0;
     std::vector<double> weights;
@@ -114,6 +119,7 @@ bool NuPatchSurface::welds(bool along_u) const {
     return true;
 }
 
+/// Where a control point lies, divided by its weight.
 V3f place_of(const ControlPoints& points, size_t point) {
     const float* const p = points.at(point);
     return V3f(p[0], p[1], p[2]) / (points.rational() ? p[3] : 1.0f);
@@ -155,6 +161,7 @@ bool NuPatchSurface::is_pole(bool along_u, bool at_end) const {
     return true;
 }
 
+/// Sets which borders are points, and where these are. A direction that closes on itself has no borders.
 void NuPatchSurface::find_poles() {
     if (!faces_.v_wraps)
         faces_.bottom_is_point = is_pole(false, false), faces_.top_is_point = is_pole(false, true);
@@ -188,6 +195,7 @@ void NuPatchSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, 
     const bool derivatives = !dPdu.empty() || !dPdv.empty();
     BasisValues bu, bv;
     for (size_t n = 0; n < uv.size(); ++n) {
+        // Rows of grids have one v and columns one u: functions are computed again only where they change.
         if (n == 0 || uv[n].x != uv[n - 1].x) bu = u_.basis(column, uv[n].x);
         if (n == 0 || uv[n].y != uv[n - 1].y) bv = v_.basis(row, uv[n].y);
         Sum value, by_u, by_v;
@@ -241,6 +249,7 @@ class NuPatchValues : public VariableSource {
     }
 
   private:
+    /// Class vertex: a component by the surface's own basis functions, without weights.
     void at_points(const float* first, size_t stride, std::span<float> values) const {
         for (size_t n = 0; n < values.size(); ++n) {
             const BasisValues bu = s_.u_.basis(column_, uv_[n].x), bv = s_.v_.basis(row_, uv_[n].y);
@@ -252,6 +261,7 @@ class NuPatchValues : public VariableSource {
             values[n] = static_cast<float>(sum);
         }
     }
+    /// The patch's segment that the face lies in, counted as RISpec does, empty knot intervals too.
     size_t segment() const {
         return static_cast<size_t>(s_.v_.segment(row_)) * s_.patch_.segments_u() + s_.u_.segment(column_);
     }
@@ -282,7 +292,8 @@ bool NuPatchSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfa
     return set_variables(primitive_.shape().variables, NuPatchValues(*this, face, uv), grid);
 }
 
-/// The hull of the rectangle's own Bezier control points.
+/// The hull of the rectangle's own Bezier control points; no bound for high orders and weights that are not
+/// positive.
 Box3f NuPatchSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     const int nu = patch_.u_order, nv = patch_.v_order;
     if (std::max(nu, nv) > kLargestHullOrder) return {};

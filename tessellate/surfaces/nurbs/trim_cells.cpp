@@ -20,6 +20,7 @@ struct CellPaths {
     std::vector<std::vector<int>> closed;  ///< loops that never leave the cell
 };
 
+/// The area of a polygon of point numbers, positive when it runs anticlockwise.
 double signed_area(const std::vector<V2d>& points, const std::vector<int>& polygon) {
     double sum = 0;
     for (size_t i = 0; i < polygon.size(); ++i) {
@@ -29,6 +30,7 @@ double signed_area(const std::vector<V2d>& points, const std::vector<int>& polyg
     return sum / 2;
 }
 
+/// Whether a point is inside, by the even-odd rule.
 bool is_within(const V2d& p, const std::vector<V2d>& points, const std::vector<int>& polygon) {
     bool within = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
@@ -39,6 +41,8 @@ bool is_within(const V2d& p, const std::vector<V2d>& points, const std::vector<i
     return within;
 }
 
+/// First all loops are added, which finds where they cross the grid's lines and what they do in each cell;
+/// then cells are cut one by one. Crossings are vertices of both cells at a line, so that pieces share them.
 class Cutter {
   public:
     Cutter(int nx, int ny, bool keep_outside)
@@ -56,19 +60,26 @@ class Cutter {
     }
     bool is_cell(int i, int j) const { return i >= 0 && j >= 0 && i < nx_ && j < ny_; }
     void cross(const V2d& p, const V2d& q, std::vector<std::pair<double, int>>& crossings);
+    /// The vertex at a corner of cells, made when it is first asked for.
     int corner(int i, int j);
+    /// Whether a corner of cells is on the side that is kept: by counting the crossings to its left on its
+    /// line.
     bool corner_kept(int i, int j) const;
+    /// Adds the faces of one cell; `paths` is null where no loop comes.
     void cut_cell(int i, int j, const CellPaths* paths);
     struct BorderNode {
         int vertex = 0;
         bool kept_after = false;  ///< the border from here to the next node
     };
+    /// A cell's corners and crossings, anticlockwise from its least corner.
     std::vector<BorderNode> border(int i, int j);
     void add_side(std::vector<BorderNode>& nodes, const Edge& edge, bool forwards, int from);
     std::vector<std::vector<int>> outlines(const std::vector<BorderNode>& nodes,
                                            const std::vector<Path>& paths) const;
+    /// Adds a piece of a cell, whole if it is convex and has few corners, else in triangles.
     void emit(int i, int j, const std::vector<int>& outline, const std::vector<std::vector<int>>& holes);
     bool is_convex(const std::vector<int>& polygon) const;
+    /// Adds a face, unless it has no area.
     void emit_face(int i, int j, std::vector<int> polygon);
 
     const int nx_, ny_;
@@ -76,12 +87,14 @@ class Cutter {
     TrimmedCells out_;
     std::vector<std::vector<double>>
         row_crossings_;  ///< by horizontal grid line: places along x, all of them
+    /// Vertices where loops cross an edge of a cell; sorted along it when all loops have been added.
     std::map<Edge, std::vector<int>> edge_crossings_;
     std::map<std::pair<int, int>, CellPaths> cells_;
     std::map<std::pair<int, int>, int> corners_;
 };
 
-/// No point may lie on a line of the grid: those that do are moved a little, outwards at the rim.
+/// A coordinate moved off the grid's lines, on none of which a point may lie: then every crossing is one of
+/// two different sides. Those near a line are moved a little, outwards at the rim.
 double off_lines(double x, int n) {
     constexpr double kNear = 1e-6, kMove = 1e-5, kRim = 1e-3;
     if (std::abs(x) < kMove) return -kRim;
@@ -107,6 +120,7 @@ void Cutter::cross(const V2d& p, const V2d& q, std::vector<std::pair<double, int
             const int other = axis == 0 ? ny_ : nx_;
             if (!(along >= 0 && along <= other)) continue;
             const int cell = std::min(static_cast<int>(along), other - 1);
+            // One vertex for both cells at the line.
             const int vertex = add_point(at);
             edge_crossings_[axis == 0 ? Edge{1, line, cell} : Edge{0, cell, line}].push_back(vertex);
             crossings.push_back({t, vertex});
@@ -142,6 +156,7 @@ void Cutter::add_loop(std::vector<V2d> loop) {
         if (is_cell(i, j) && path.size() >= 3) cells_[{i, j}].closed.push_back(path);
         return;
     }
+    // The loop began within a path: its end and its beginning are one.
     path.insert(path.end(), head.begin(), head.end() - 1);
     end_path(head.back());
 }
@@ -180,8 +195,8 @@ std::vector<Cutter::BorderNode> Cutter::border(int i, int j) {
     return nodes;
 }
 
-/// Along the kept border, then along the loop that ends it to where the kept border begins again. A run of
-/// border whose loop leads elsewhere is closed by a straight line.
+/// The outlines of what is kept of a cell: along the kept border, then along the loop that ends it to where
+/// the kept border begins again. A run of border whose loop leads elsewhere is closed by a straight line.
 std::vector<std::vector<int>> Cutter::outlines(const std::vector<BorderNode>& nodes,
                                                const std::vector<Path>& paths) const {
     const size_t n = nodes.size();
@@ -201,6 +216,7 @@ std::vector<std::vector<int>> Cutter::outlines(const std::vector<BorderNode>& no
         path_at[path.vertices.front()] = {&path, true};
         path_at[path.vertices.back()] = {&path, false};
     }
+    // Each kept run of border belongs to one outline; one after another is followed around.
     while (!run_starts.empty()) {
         const int first = run_starts.begin()->first;
         std::vector<int> outline;

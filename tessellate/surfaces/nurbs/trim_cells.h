@@ -10,6 +10,7 @@ namespace trapeze {
 
 using V2d = Imath::V2d;
 
+/// A mesh of polygons in the plane of cells.
 struct TrimmedCells {
     struct Cell {
         int i = 0, j = 0;
@@ -20,8 +21,9 @@ struct TrimmedCells {
     std::vector<Cell> cells;  ///< by face
 };
 
-/// The inside is what a ray leaves through loops an odd number of times [RISpec 5.2]. Where loops cross
-/// themselves or each other within a cell the border may run straight through it.
+/// Cuts nx x ny cells by loops (points in cells, each closed from its last point to its first) and keeps what
+/// is inside, or outside. The inside is what a ray leaves through loops an odd number of times [RISpec 5.2].
+/// Where loops cross themselves or each other within a cell the border may run straight through it.
 TrimmedCells trim_cells(std::vector<std::vector<V2d>> loops, int nx, int ny, bool keep_outside);
 
 }  // namespace trapeze

@@ -15,7 +15,8 @@ namespace {
 /// Cells across the patch along each direction, at least.
 constexpr int kCells = 24;
 
-/// The patch's parameter plane in cells.
+/// The patch's parameter plane in cells: each knot span, which is a face of the whole patch, has equally
+/// many, so that no piece lies on two faces.
 struct CellPlane {
     int columns = 1, rows = 1;        ///< knot spans
     int per_column = 1, per_row = 1;  ///< cells
@@ -23,6 +24,7 @@ struct CellPlane {
     int face_of(TrimmedCells::Cell cell) const { return cell.j / per_row * columns + cell.i / per_column; }
 };
 
+/// The pieces of cells as faces; every point of them is evaluated on the whole patch.
 class TrimmedPatch : public TopologySurface<TrimmedPatch> {
   public:
     TrimmedPatch(std::unique_ptr<Surface> whole, TrimmedCells cells, const CellPlane& plane)
@@ -79,6 +81,7 @@ class TrimmedPatch : public TopologySurface<TrimmedPatch> {
         }
         if (uv.empty()) return result;
         evaluate_linear_piece(piece, &corners.front().x, 2, uv, {&result.front().x, 2, 1}, {}, {});
+        // Points at the rim lie a little outside (off_lines() in trim_cells.cpp).
         for (V2f& p : result) p = {std::clamp(p.x, 0.0f, 1.0f), std::clamp(p.y, 0.0f, 1.0f)};
         return result;
     }

@@ -28,6 +28,7 @@ class SubFaceChart {
     }
 
   private:
+    /// Where a piece's own corner lies in the library's parameters.
     static V2f corner(const Parameterization& parameters, int piece) {
         const float origin[2] = {0, 0};
         float st[2];
@@ -61,10 +62,13 @@ class TriangleChart {
     V2f corners_[4];
 };
 
+/// Whole quads: the library's parameters are ours.
 struct WholeChart {
     ChartPoint at(V2f uv) const { return {{uv.x, uv.y}, {1, 0}, {0, 1}}; }
 };
 
+/// Evaluates a batch with the library, point by point, and turns its derivatives into those by the piece's u
+/// and v.
 template <class Chart>
 void evaluate_in(const Chart& chart, const OpenSubdiv::Bfr::Surface<float>& surface, const float* points,
                  int size, int stride, std::span<const V2f> uv, const ValueSink& value, const ValueSink& du,
@@ -86,7 +90,8 @@ void evaluate_in(const Chart& chart, const OpenSubdiv::Bfr::Surface<float>& surf
     }
 }
 
-/// Points beyond a boundary, by which the B-spline ends there: 2 p1 - p2, rows before columns.
+/// Sets the points beyond a boundary, by which the B-spline ends there: 2 p1 - p2, rows before columns, so
+/// that corners come of both.
 void extrapolate(float* controls, int size, const bool (&boundary)[4]) {
     const auto line = [&](int first, int step, int inward) {
         for (int i = 0; i < 4; ++i)
@@ -123,6 +128,7 @@ void LimitPatch::classify(std::span<const int> corners) {
     if (!surface_.IsValid() || surface_.IsLinear()) return set_linear(corners);
     form_ = Form::Library;
     if (!surface_.IsRegular() || surface_.GetParameterization().GetType() != Parameterization::QUAD) return;
+    // A regular quad has 16 control points; irregular ones have to go through the library.
     form_ = Form::Bspline;
     surface_.GetControlPointIndices(controls_.data());
     // Bfr keeps to itself which points lie beyond a boundary. They have no weight at the corners, where those
@@ -160,6 +166,7 @@ void LimitPatch::evaluate(const std::vector<float>& points, int size, const Face
                           std::span<const V2f> uv, ValueSink value, ValueSink du, ValueSink dv) const {
     if (form_ == Form::Bspline) return evaluate_bspline(points.data(), size, uv, value, du, dv);
     if (form_ == Form::Linear) return evaluate_linear_piece(piece, points.data(), size, uv, value, du, dv);
+    // Many floats in parts; a part's points are `size` floats apart all the same.
     for (int first = 0; first < size; first += kMostFloats) {
         const auto part = [&](ValueSink sink) {
             if (sink) sink.data += first * sink.component_stride;

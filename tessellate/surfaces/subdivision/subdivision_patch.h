@@ -14,6 +14,8 @@
 
 namespace trapeze {
 
+/// Which points shape one face and how they are combined; not the points themselves, so that one patch serves
+/// all shape keys and all variables of class vertex.
 class LimitPatch {
   public:
     using Factory = OpenSubdiv::Bfr::SurfaceFactory;
@@ -33,13 +35,15 @@ class LimitPatch {
     /// The points that evaluation wants, out of the mesh's or channel's values of `size` floats each.
     void gather(const float* values, int size, std::vector<float>& points) const;
 
-    /// u and v of the piece's unit square.
+    /// Evaluates gathered points of `size` floats each; uv, and what derivatives are by, are of the piece's
+    /// unit square.
     void evaluate(const std::vector<float>& points, int size, const FacePiece& piece, std::span<const V2f> uv,
                   ValueSink value, ValueSink du, ValueSink dv) const;
 
   private:
     enum class Form { Linear, Bspline, Library };
 
+    /// Chooses the form from what the library has set up.
     void classify(std::span<const int> corners);
     void evaluate_library(const float* points, int size, int stride, const FacePiece& piece,
                           std::span<const V2f> uv, ValueSink value, ValueSink du, ValueSink dv) const;

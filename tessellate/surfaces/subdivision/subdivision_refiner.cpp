@@ -16,7 +16,7 @@ using SdcOptions = OpenSubdiv::Sdc::Options;
 /// Beyond these a face's limit surface takes more than 100 MB: Bfr's weights grow with their square.
 constexpr int kMostCorners = 256, kMostFaces = 1024;
 
-/// What the factory reads.
+/// What OpenSubdiv's factory reads, through the specialised members below.
 struct RefinerInput {
     const SubdivisionMesh& mesh;
     const SubdivisionTags& tags;
@@ -34,11 +34,16 @@ class TagReader {
   private:
     using Tag = SubdivisionMesh::Tag;
 
+    /// Reads a tag about creases, corners or holes; false when it is another.
     bool read_geometry(const Tag& tag);
+    /// Reads a tag about rules for the whole mesh; false when it is another.
     bool read_option(const Tag& tag);
+    /// A chain of vertices, each two neighbours an edge; one sharpness for all or one for each edge.
     void crease(const Tag& tag);
+    /// Vertices; one sharpness for all or one for each.
     void corner(const Tag& tag);
     std::optional<int> choice(const Tag& tag, int fallback, int last) const;
+    /// Whether all indices are below `count` and there are one or so many sharpnesses; else a warning.
     bool checked(const Tag& tag, int count, size_t sharpnesses) const;
     void warn(const Tag& tag, const std::string& text) const {
         diagnostics_.warning(location_, "SubdivisionMesh: tag \"" + tag.name + "\": " + text + "; ignored",
@@ -67,7 +72,8 @@ SubdivisionTags TagReader::read() {
     return std::move(tags_);
 }
 
-/// The tag's one integer, 0 .. last.
+/// The tag's one integer, 0 .. last; `fallback` where it has none, nothing (and a warning) where it is
+/// another.
 std::optional<int> TagReader::choice(const Tag& tag, int fallback, int last) const {
     const int value = tag.ints.empty() ? fallback : tag.ints[0];
     if (value >= 0 && value <= last) return value;
@@ -88,6 +94,7 @@ bool TagReader::checked(const Tag& tag, int count, size_t sharpnesses) const {
     return false;
 }
 
+/// A sharpness within OpenSubdiv's range; NaN and negative ones are smooth.
 float limited(float sharpness) {
     return sharpness > 0 ? std::min(sharpness, OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE) : 0;
 }
@@ -216,6 +223,7 @@ template <>
 bool TopologyRefinerFactory<trapeze::RefinerInput>::assignComponentTags(TopologyRefiner& refiner,
                                                                         trapeze::RefinerInput const& input) {
     for (const auto& crease : input.tags.creases) {
+        // Creases along no edge are told of later, in make_refiner().
         const Index edge = findBaseEdge(refiner, crease.a, crease.b);
         if (edge != INDEX_INVALID) setBaseEdgeSharpness(refiner, edge, crease.sharpness);
     }
@@ -253,6 +261,7 @@ SubdivisionTags read_tags(const SubdivisionMesh& mesh, SourceLocation location, 
 std::unique_ptr<TopologyRefiner> make_refiner(const SubdivisionMesh& mesh, const SubdivisionTags& tags,
                                               std::span<const FaceVaryingTopology> channels,
                                               SourceLocation location, Diagnostics& diagnostics) {
+    // Checked here, for the library itself would only say that it failed, or run out of memory later.
     std::string reason = reason_to_refuse(mesh);
     if (reason.empty()) {
         const RefinerInput input{mesh, tags, channels};

@@ -29,6 +29,7 @@ SubdivisionSurface::SubdivisionSurface(const Primitive& primitive,
         kinds_.push_back(kind_of(face));
         has_limit.push_back(kinds_.back() == FaceKind::Limit);
     }
+    // Triangles of Loop's scheme are all cut into three squares; of the others only quads stay whole.
     const int whole_size = mesh.scheme == SubdivisionMesh::Scheme::Loop ? 0 : 4;
     topology_ = std::make_unique<MeshTopology>(mesh.vertices_per_face, mesh.vertices, mesh.vertex_count,
                                                whole_size, has_limit);
@@ -68,6 +69,7 @@ SubdivisionScratch::Face& SubdivisionSurface::cached_face(SubdivisionScratch& sc
     cached.mesh_face = mesh_face;
     set_vertex_patch(mesh_face, cached.patch);
     cached.positions.resize(positions_.size());
+    // The memory stays: 32 faces are replaced again and again.
     for (auto& points : cached.positions) points.clear();
     cached.channels.resize(channels_.size());
     for (auto& channel : cached.channels) channel.is_set = false;
@@ -94,6 +96,7 @@ void SubdivisionSurface::evaluate(int face, std::span<const V2f> uv, int shape_k
     SubdivisionScratch::Face& cached =
         cached_face(static_cast<SubdivisionScratch&>(*scratch), piece.mesh_face);
     std::vector<float>& points = cached.positions[shape_key];
+    // Once a face and shape key, however many batches of its points are wanted.
     if (points.empty()) cached.patch.gather(positions_[shape_key], 3, points);
     cached.patch.evaluate(points, 3, piece, uv, sink_of(P), sink_of(dPdu), sink_of(dPdv));
 }
@@ -115,6 +118,7 @@ Box3f SubdivisionSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     const FacePiece piece = topology_->piece(face);
     LimitPatch patch;
     set_vertex_patch(piece.mesh_face, patch);
+    // The library's patches have no cheap hull; the ring is large but sure.
     if (!patch.is_bspline() && !patch.is_linear()) return ring_box(piece.mesh_face, shape_key);
     std::vector<float> points;
     patch.gather(positions_[shape_key], 3, points);

@@ -1,4 +1,5 @@
-/// Subdivision meshes: the limit surface, evaluated where it is wanted.
+/// Subdivision meshes [Catmull78]: the limit surface itself, evaluated by the library where it is wanted; no
+/// refined mesh is made.
 #pragma once
 
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
@@ -45,6 +46,7 @@ struct SubdivisionScratch : SurfaceScratch {
     std::array<Face, kFaces> faces;  ///< at mesh_face % kFaces
 };
 
+/// One mesh at all of its shape keys; threads share it, and the library's cache behind it is locked.
 class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
   public:
     SubdivisionSurface(const Primitive& primitive,
@@ -64,7 +66,10 @@ class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
     const MeshTopology& topology() const { return *topology_; }
     /// What variables are evaluated with besides.
     const std::vector<FaceVaryingChannel>& channels() const { return channels_; }
+    /// The thread's patch of a mesh face, set up when it is not among the last ones; valid until another face
+    /// takes its place. call.
     SubdivisionScratch::Face& cached_face(SubdivisionScratch& scratch, int mesh_face) const;
+    /// A cached face's patch for one channel of face-varying values.
     const LimitPatch& cached_channel(SubdivisionScratch::Face& cached, int channel) const;
 
   private:
@@ -90,7 +95,7 @@ class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
     std::unique_ptr<MeshTopology> topology_;
 };
 
-/// The smooth variables of these classes.
+/// The channels of a mesh's variables of classes facevarying (unless those are linear) and facevertex.
 std::vector<FaceVaryingChannel> make_channels(const SubdivisionMesh& mesh, const ParameterList& variables,
                                               bool linear_face_varying);
 

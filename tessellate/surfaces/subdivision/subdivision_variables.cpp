@@ -29,6 +29,7 @@ FaceVaryingChannel* partner(std::vector<FaceVaryingChannel>& channels, const Par
 
 /// Gives corners at a vertex the same value where all members are equal there.
 void weld(const SubdivisionMesh& mesh, FaceVaryingChannel& channel) {
+    // A list of values for each vertex: the first, and for each value the next one at its vertex.
     std::vector<int> first_at(mesh.vertex_count, -1), next;
     std::vector<float> value(channel.size);
     channel.topology.values.resize(mesh.vertices.size());
@@ -70,6 +71,7 @@ class SubdivisionValues : public VariableSource {
   private:
     /// Evaluates unless it was the last one.
     void evaluate(const void* group, const LimitPatch& patch, const float* values, int size) const;
+    /// Values that are linear on the mesh's faces: varying, and facevarying where that is the rule.
     void linear(const Parameter& parameter, int component, std::span<float> values) const;
 
     const SubdivisionSurface& surface_;
@@ -105,6 +107,7 @@ void SubdivisionValues::linear(const Parameter& parameter, int component, std::s
 
 void SubdivisionValues::component(const Parameter& parameter, int component, std::span<float> values) const {
     int plane = component;
+    // The patch of positions serves all variables of class vertex.
     if (parameter.declaration.storage == StorageClass::Vertex) {
         evaluate(&parameter, cached_.patch, parameter.floats.data(), parameter.declaration.floats_per_item());
     } else {
