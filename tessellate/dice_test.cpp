@@ -1,3 +1,5 @@
+/// Grids as shading and tracing get them: rates, positions at keys, normals, derivatives, variables, shared
+/// borders; and what a Tessellation leaves out.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -23,6 +25,7 @@ std::shared_ptr<const Shape> square(ParameterList variables = {}, float z = 0) {
     return test::shape_of(PatchMesh{}, std::move(variables));
 }
 
+/// All grids of a scene before they are shaded.
 struct Diced {
     RenderContext context;
     Tessellation tessellation;
@@ -59,6 +62,7 @@ TEST(Dice, SquareHasTheShadingRateAndLooksAtTheEye) {
         scene.scene.options.width = scene.scene.options.height = 200;
         scene.add(square(), test::translation(0, 0, 2));  // fills the middle half: 100 x 100 pixels
         const Diced diced(scene);
+        // Rates are rounded up to whole segments: never fewer micropolygons, and a third more at most.
         const double wanted = 100 * 100 / static_cast<double>(rate);
         EXPECT_GE(static_cast<double>(diced.tessellation.stats().micropolygons), wanted);
         EXPECT_LT(static_cast<double>(diced.tessellation.stats().micropolygons), 1.35 * wanted);
@@ -159,6 +163,8 @@ TEST(Dice, MotionKeysMixShapesAndTransforms) {
             };
             if (grid.primitive_index == 0) {
                 ASSERT_EQ(grid.key_count, 5);
+                // Shape keys at times 0, 1/2, 1 and transforms at five times: both mixed at each of five
+                // motion keys.
                 moved(1, {0.1f, 0, 0.5f});
                 moved(2, {0.2f, 0, 1});
                 moved(3, {0.3f, 0, 2});
@@ -196,6 +202,7 @@ TEST(Dice, GeometryGoesToCameraSpace) {
     variables.set(test::parameter("across", StorageClass::Constant, ValueType::Normal, {1, 1, 0}));
     variables.set(test::parameter("tint", StorageClass::Constant, ValueType::Color, {1, 2, 3}));
     M44f stretch;
+    // Normals go by the inverse transpose: (1, 1, 0) becomes (1/2, 1, 0).
     stretch.setScale(V3f(2, 1, 1));
     scene.attributes->color = {0.5f, 0.25f, 1};
     scene.add(square(variables), stretch * test::translation(0, 0, 4));

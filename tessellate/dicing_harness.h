@@ -19,6 +19,7 @@ inline M44f translation(float x, float y, float z) {
     return m;
 }
 
+/// A shape as parsing would make it, without checks.
 inline std::shared_ptr<const Shape> shape_of(Topology topology, ParameterList variables = {}) {
     return std::make_shared<const Shape>(Shape{std::move(topology), std::move(variables)});
 }
@@ -66,6 +67,7 @@ struct TestScene {
         attributes->displacement_bound = 1e4f;
         return *this;
     }
+    /// Refers to this scene and its diagnostics. Motion is on.
     RenderContext context() {
         RenderContext context;
         context.scene = &scene;
@@ -99,6 +101,7 @@ struct DicedScene {
             bad_values += not_finite;
         }
     }
+    /// Values that were no numbers when grids were packed.
     int64_t bad_values = 0;
 };
 

@@ -1,3 +1,5 @@
+/// Edges and their intervals: cover the edge once, have the wished length on the picture, stay few near and
+/// behind the eye, and both neighbours find the same vertices on them.
 #include <gtest/gtest.h>
 
 #include "core/random.h"
@@ -37,6 +39,7 @@ struct LongEdge {
                           LineMeasure(metric, context.camera, *placed, false, pixels_per_segment), rate,
                           scratch);
     }
+    /// A point of the edge, camera space.
     V3f at(float parameter) {
         const V2f uv = line.from + (line.to - line.from) * parameter;
         V3f P;

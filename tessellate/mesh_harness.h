@@ -12,12 +12,14 @@
 
 namespace trapeze::test {
 
+/// A mesh as requests give it: positions, corners of each face, vertices of all corners.
 struct Cage {
     std::vector<float> P;
     std::vector<int> sizes, vertices;
     int vertex_count() const { return static_cast<int>(P.size() / 3); }
 };
 
+/// Corners at +-1; (1 - 0) x (2 - 1) of each face points outside.
 inline Cage cube_cage() {
     Cage cage;
     for (int i = 0; i < 8; ++i)
@@ -129,6 +131,7 @@ struct Evaluated {
     std::vector<V3f> P, dPdu, dPdv;
 };
 
+/// Positions and derivatives at points of a face.
 inline Evaluated evaluate(const Surface& surface, int face, const std::vector<V2f>& uv, int key = 0) {
     Evaluated result;
     for (auto* values : {&result.P, &result.dPdu, &result.dPdv}) values->resize(uv.size());
@@ -137,6 +140,7 @@ inline Evaluated evaluate(const Surface& surface, int face, const std::vector<V2
     return result;
 }
 
+/// One point: of a face, of an edge at a parameter, or at an edge's end.
 inline V3f position(const Surface& surface, const SurfacePoint& at) {
     return evaluate(surface, at.face, {at.uv}).P[0];
 }

@@ -1,3 +1,5 @@
+/// Instances' shared points: the same bits as without sharing, evaluated once, within the budget, from many
+/// threads.
 #include "tessellate/shared_grids.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +34,7 @@ class Counted final : public Surface {
     mutable std::atomic<int> calls{0};
 };
 
+/// A grid's parameters; `shift` moves inner rows alone, so that first and last points stay the same.
 std::vector<V2f> grid_of(int n, float shift = 0) {
     std::vector<V2f> uv;
     for (int j = 0; j <= n; ++j)

@@ -15,6 +15,8 @@ using test::TestScene;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
+/// No ray leaves without crossing the surface an odd number of times, and no side of a micropolygon is
+/// without its neighbour.
 void expect_closed(const LeakCount& count) {
     EXPECT_GE(count.rays, 1'000'000);
     EXPECT_EQ(count.leaks, 0);
@@ -23,6 +25,7 @@ void expect_closed(const LeakCount& count) {
     EXPECT_GE(count.hits, count.rays);
 }
 
+/// Evenly in the unit ball, by number.
 V3f in_unit_ball(uint32_t number) {
     return test::random_direction(number, 7) * std::cbrt(unit_float(hash(number, 8)));
 }
@@ -80,6 +83,7 @@ TEST(Watertight, DisplacedMovingSphere) {
         displace_by_texture));
 }
 
+/// Within `minor` of the circle of radius 1 about the z axis.
 V3f inside_torus(uint32_t number, float minor) {
     const float theta = 2 * kPi * unit_float(hash(number, 1));
     const V3f ring(std::cos(theta), std::sin(theta), 0);
@@ -113,6 +117,7 @@ PatchMesh bspline_mesh(int nu, int nv) {
     return mesh;
 }
 
+/// A closed mesh of bicubic B-splines, thicker in three places by `lumps`.
 std::shared_ptr<const Shape> lumpy_torus(float lumps) {
     const PatchMesh mesh = bspline_mesh(9, 5);
     std::vector<float> P;

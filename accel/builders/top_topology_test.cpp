@@ -1,3 +1,5 @@
+/// The tree over grids, and the order that it falls back on: every grid once, depth within its limit whatever
+/// the input, groups by place and, where places tell nothing, by orientation.
 #include "accel/builders/top_topology.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +13,7 @@
 namespace trapeze {
 namespace {
 
+/// A grid as builders see it: a cube of half side `half` about a centre.
 GridSummary box_at(const V3f& centre, float half = 0.1f, const V3f& direction = V3f(0, 0, 1)) {
     GridSummary grid;
     grid.box = {centre - V3f(half), centre + V3f(half)};

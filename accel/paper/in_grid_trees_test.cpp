@@ -1,3 +1,5 @@
+/// The implicit trees inside grids: their numbers of nodes follow from shapes alone; and what summaries say
+/// of grids.
 #include "accel/paper/in_grid_trees.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +11,7 @@
 namespace trapeze {
 namespace {
 
+/// Inner nodes of a block's tree, counted one by one; `deepest`: the depth of the deepest leaf.
 uint32_t counted(const GridBlock& block, int leaf_below, int depth, int& deepest) {
     deepest = std::max(deepest, depth);
     if (block.count() < leaf_below) return 0;

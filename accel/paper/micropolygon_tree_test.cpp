@@ -1,3 +1,5 @@
+/// All variants of the paper's study, of both trees: they find what testing everything finds, and differ only
+/// in what they are named for.
 #include "accel/paper/micropolygon_tree.h"
 
 #include <gtest/gtest.h>
@@ -16,6 +18,7 @@ using testing::GridMaker;
 using testing::Noise;
 using Bounds = PaperTreeOptions::Bounds;
 
+/// Every combination of the study's choices.
 std::vector<PaperTreeOptions> all_options() {
     std::vector<PaperTreeOptions> all;
     for (const Bounds bounds : {Bounds::Oriented, Bounds::AxisAligned, Bounds::WholeMotion})

@@ -1,3 +1,5 @@
+/// The reference tree against testing every micropolygon, bit for bit and in all directions; closed surfaces
+/// without leaks; bounds that hold vertices at all times; memory; degenerate grids.
 #include "accel/paper/paper_tree.h"
 
 #include <gtest/gtest.h>

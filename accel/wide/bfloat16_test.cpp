@@ -1,3 +1,4 @@
+/// Rounding to bfloat16 goes outward, and by less than a step.
 #include "accel/wide/bfloat16.h"
 
 #include <gtest/gtest.h>

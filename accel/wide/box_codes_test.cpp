@@ -1,3 +1,4 @@
+/// Codes of planes: conservative, by less than a step, for all magnitudes and for what is no number.
 #include "accel/wide/box_codes.h"
 
 #include <gtest/gtest.h>

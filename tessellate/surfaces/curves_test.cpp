@@ -1,3 +1,4 @@
+/// Curves as ribbons: centre lines by their bases, directions across, joints without gaps, bounds, variables.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@ const M44f kBezier(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
 const M44f kBSpline = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1 / 6.0f);
 const M44f kCatmullRom = M44f(-1, 3, -3, 1, 2, -5, 4, -1, -1, 0, 1, 0, 0, 2, 0, 0) * 0.5f;
 
+/// Curves of so many control points each; linear(): lines.
 Curves cubic(std::vector<int> counts, const M44f& basis, int step, bool periodic = false) {
     Curves curves;
     curves.cubic = true;
@@ -78,6 +80,7 @@ struct MadeCurves {
     }
 };
 
+/// Control point i of packed floats.
 V3f control(const std::vector<float>& p, int i) {
     return {p[3 * i], p[3 * i + 1], p[3 * i + 2]};
 }

@@ -1,3 +1,5 @@
+/// Patch meshes against RISpec's basis formula: positions, derivatives, shared borders, bounds, variables of
+/// all classes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,6 +68,7 @@ std::array<double, 4> basis_weights(const M44f& basis, double t) {
     return w;
 }
 
+/// RISpec's formula for a bicubic patch, in double.
 V3f direct(const Primitive& primitive, int face, V2f uv) {
     const PatchMesh& mesh = std::get<PatchMesh>(primitive.shape().topology);
     const std::vector<float>& P = primitive.shape().variables.find("P")->floats;
@@ -87,6 +90,7 @@ void expect_near(const V3f& a, const V3f& b, float tolerance) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
+/// Meshes of several bases and steps, open and closed.
 std::vector<PatchMesh> meshes() {
     PatchMesh closed = bicubic(7, 5, kBSpline, 1, kBSpline, 1);
     closed.u_wraps = closed.v_wraps = true;

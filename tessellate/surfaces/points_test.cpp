@@ -1,3 +1,5 @@
+/// Points: disks that face the picture and cover the area of their circles at every size, and the other
+/// types.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +17,7 @@ Parameter places(std::vector<float> floats) {
     return parameter("P", StorageClass::Vertex, ValueType::Point, std::move(floats));
 }
 
+/// Points of one shape key; the first variable is P.
 Primitive primitive_of(std::vector<Parameter> variables, std::vector<M44f> camera_from_object) {
     Points points;
     points.count = static_cast<int>(variables[0].floats.size() / 3);

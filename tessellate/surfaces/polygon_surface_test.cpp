@@ -1,3 +1,4 @@
+/// Polygons as faces: areas, shared edges, variables, and input that is broken or has no area.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,6 +17,7 @@ using test::evaluate;
 using test::Evaluated;
 using test::variables_at;
 
+/// A polygon mesh with the primitive that it refers to.
 struct Made {
     Diagnostics diagnostics;
     Primitive primitive;

@@ -1,3 +1,4 @@
+/// The seven quadrics against RISpec's formulas, with their derivatives, bounds, edges, poles and variables.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,6 +57,7 @@ void expect_formula(const MadeQuadric& made, F&& formula) {
         for (float v = 0; v <= 1; v += 0.125f) expect_near(made.at_quadric(u, v).P, formula(u, v), 3e-6f);
 }
 
+/// A point at a radius and an angle about the z axis.
 V3f turn(float radius, float theta, float z) {
     return {radius * std::cos(theta), radius * std::sin(theta), z};
 }
@@ -93,6 +95,7 @@ TEST(Quadrics, HyperboloidParaboloidTorus) {
     });
 }
 
+/// Each kind, whole and in part, with poles and without.
 const auto all_quadrics = [](auto&& f) {
     f(MadeQuadric(Kind::Sphere, {2, -2, 2, 360}));
     f(MadeQuadric(Kind::Sphere, {2, -1, 2, -70}));

@@ -1,3 +1,5 @@
+/// Triangles of polygons with holes: they cover the polygon, once, with all of its points, and anything at
+/// all ends.
 #include "tessellate/topology/triangulate.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +11,7 @@
 namespace trapeze {
 namespace {
 
+/// A polygon with holes: loops one after the other, the outline first.
 struct Loops {
     std::vector<V2d> points;
     std::vector<int> sizes;
@@ -66,6 +69,7 @@ void expect_closed(const Loops& loops, const std::vector<std::array<int, 3>>& tr
     for (const auto& [edge, count] : uses) EXPECT_EQ(count, 0) << edge.first << " to " << edge.second;
 }
 
+/// The triangles cover the polygon once: their number, areas without overlap, and sides that match.
 void expect_covered(const Loops& loops, double tolerance = 1e-9) {
     const auto triangles = triangulate(loops.points, loops.sizes);
     ASSERT_EQ(triangles.size(), loops.points.size() + 2 * (loops.sizes.size() - 1) - 2);

@@ -1,3 +1,5 @@
+/// Blobbies: fields and their gradients by RISpec, meshes closed for cells of many sizes and as fine as the
+/// screen asks for, blended variables, motion, and absurd input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +19,7 @@ std::vector<float> ellipsoid(const V3f& scale, const V3f& place) {
     return {scale.x, 0, 0, 0, 0, scale.y, 0, 0, 0, 0, scale.z, 0, place.x, place.y, place.z, 1};
 }
 
+/// A request of some code and the floats of its leaves.
 Blobby blobby(int leaves, std::vector<int> code, std::initializer_list<std::vector<float>> floats) {
     Blobby b;
     b.leaf_count = leaves;
@@ -158,6 +161,7 @@ TEST(Blobby, SegmentsAreDrawnAtHalfTheirRadius) {
     }
 }
 
+/// Two unit balls so far apart along x, combined by an operator's number.
 Blobby two_balls(float distance, int operation) {
     return blobby(2, {1001, 0, 1001, 16, operation, 2, 0, 1},
                   {ellipsoid({1, 1, 1}, {-distance / 2, 0, 0}), ellipsoid({1, 1, 1}, {distance / 2, 0, 0})});

@@ -1,3 +1,5 @@
+/// Repelling planes: the published profile and its slope, surfaces that stay above the ground, and what
+/// happens without one.
 #include "tessellate/surfaces/blobby/repelling_ground.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+/// NURBS patches: any knots reproduce the plane, rational ones are round, variables of all classes, bounds;
+/// and those that close, by knots or in poles, have no holes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,3 +1,5 @@
+/// Trim loops: what is kept of cells has the right area for loops of every shape, pieces share their borders,
+/// and the border of a diced patch is the loop.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +17,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 using Loop = std::vector<V2d>;
 
+/// A regular polygon about a centre.
 Loop ring(const V2d& centre, double radius, int points) {
     Loop loop;
     for (int i = 0; i < points; ++i) {
@@ -24,6 +27,7 @@ Loop ring(const V2d& centre, double radius, int points) {
     return loop;
 }
 
+/// The area of all faces; negative for faces that run the wrong way.
 double area(const TrimmedCells& cells) {
     double sum = 0;
     size_t first = 0;

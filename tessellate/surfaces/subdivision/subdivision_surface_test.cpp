@@ -1,3 +1,5 @@
+/// Subdivision surfaces against known limits and against OpenSubdiv in double: creases, boundaries, holes,
+/// shared edges, the same bits in any batch and from any thread, and meshes that make no sense.
 #include <gtest/gtest.h>
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/far/topologyDescriptor.h>

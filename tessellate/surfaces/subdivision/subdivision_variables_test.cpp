@@ -1,3 +1,5 @@
+/// Variables of subdivision meshes by class: limits, linear ones, and facevarying ones with and without
+/// seams.
 #include <gtest/gtest.h>
 
 #include <cmath>
