@@ -49,8 +49,8 @@ struct HitsUntilOpaque {
         hits.push_back(hit);
         if (opaque) first_opaque = hit, ray.t_max = hit.depth;
     }
-    /// Sorts the hits of this ray, which begin at hits[first], from front to back, and drops those found
-    /// before the nearest opaque one was known.
+    /// Sorts the hits of this ray, which begin at hits[first], from front to back, and drops those behind the
+    /// nearest opaque one: it was not known yet when they were found.
     void finish(size_t first) {
         const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(first);
         hits.erase(

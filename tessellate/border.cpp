@@ -10,7 +10,7 @@
 namespace trapeze {
 
 VertexTable::VertexTable(const PlacedSurface& surface) : key_count_(surface.key_count()) {
-    // By face, since surfaces keep the face evaluated last.
+    // Vertices are evaluated in the order of faces, since surfaces keep the face evaluated last.
     std::vector<SurfacePoint> points(surface.surface().vertex_count());
     for (uint32_t v = 0; v < points.size(); ++v) points[v] = surface.surface().vertex(v);
     std::vector<uint32_t> order(points.size());

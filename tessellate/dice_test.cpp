@@ -38,7 +38,7 @@ struct Diced {
     }
 };
 
-/// In one number, all floats that shading and tracing get.
+/// A hash of all floats that shading and tracing get.
 uint64_t bits_of(const ShadingGrid& grid) {
     uint64_t sum = grid.ordinal * 64 + grid.shape.nu * 256 + grid.shape.nv;
     const auto add = [&](const std::vector<float>& values) {

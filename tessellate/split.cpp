@@ -6,7 +6,7 @@
 namespace trapeze {
 namespace {
 
-/// Intervals of a made edge that take about as long as a part.
+/// Intervals of a made edge that take about as much memory as a part.
 constexpr size_t kIntervalsLikeAPart = 8;
 /// Pieces of a rectangle along u and v between samples: at first, and where a small rectangle's do not tell
 /// enough.
@@ -29,7 +29,7 @@ struct Lattice {
 
     int row() const { return pieces + 1; }
     const V3f& at(int key, int i, int j) const { return P[(key * row() + j) * row() + i]; }
-    /// Its points along u (axis 0) or v, key by key.
+    /// The lattice's points along u (axis 0) or v on line `number`, key by key, copied to `points`.
     std::span<const V3f> line(int axis, int number, LatticeLine& points) const {
         size_t count = 0;
         for (int key = 0; key < keys; ++key)

@@ -154,7 +154,7 @@ HWY_INLINE MF misses(const BlockSlabs& slabs, const RayLanes& r) {
         return hn::MulAdd(hn::Set(d, s.axis[0]), r.ux,
                           hn::MulAdd(hn::Set(d, s.axis[1]), r.uy, hn::Set(d, s.axis[2])));
     };
-    /// From the ray's origin to the slab's middle.
+    /// The distance along the slab's axis from the ray's origin to the slab's middle.
     const auto distance = [&](const BlockSlab& s) HWY_ATTR {
         VF center = hn::Set(d, s.center);
         if constexpr (kMoves) center = hn::MulAdd(r.local, hn::Set(d, s.center_delta), center);

@@ -84,7 +84,7 @@ void expect_same_frame(const SegmentFrame& read, const SegmentFrame& expected) {
     }
 }
 
-/// Of boxes that lie in `frame`, as codes say.
+/// Planes of all boxes equal what their codes say between the planes of `frame`.
 void expect_same_boxes(const BoxPlanes& read, const WideTree& tree, const WideGrid& grid, int segment,
                        const SegmentFrame& frame) {
     const GridKeys keys(grid, tree.keys_of(grid));

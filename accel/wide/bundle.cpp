@@ -43,10 +43,10 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace bundle_detail;
 
-/// Grids are fetched so many before their turn, and their bounds, which the record tells where to find, so
-/// many.
+/// How many candidates before a grid's turn its record is fetched, and its bounds, which the record tells
+/// where to find.
 constexpr size_t kPrefetchAhead = 8, kPrefetchBoundsAhead = 4;
-/// And with each so many rays of the next bundle.
+/// Rays of the next bundle that are fetched with each candidate.
 constexpr size_t kRaysWithGrid = 128;
 
 /// A bundle's way through a tree. kMotion: something in the tree moves; kLens: rays do not start in one

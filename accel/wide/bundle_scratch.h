@@ -16,7 +16,7 @@ struct ActiveRays {
 
     size_t count = 0;
     alignas(64) float ox[kRoom], oy[kRoom], ux[kRoom], uy[kRoom], local[kRoom];
-    /// In the grid's frame: 1 / direction, and origin / direction.
+    /// The ray in the grid's frame: 1 / direction, and origin / direction, along each axis.
     alignas(64) float inverse[3][kRoom], offset[3][kRoom];
     alignas(64) float limit[kRoom];  ///< no box entered beyond this depth matters; negative past the end
     alignas(64) uint32_t ray[kRoom];
@@ -33,7 +33,7 @@ struct BlockRays {
 /// d * z + o * (1 - z / focal distance).
 struct RayIntervals {
     static constexpr size_t kRoom = RayBundle::kRoom;  ///< packets of a single lane, at worst
-    /// Of each pair the low one is even.
+    /// Rows in pairs: the lower bounds are even, so that row + 1 is the upper one.
     enum Row { kDxMin, kDxMax, kDyMin, kDyMax, kOxMin, kOxMax, kOyMin, kOyMax, kTimeMin, kTimeMax, kRows };
 
     alignas(64) float row[kRows][kRoom];

@@ -100,7 +100,7 @@ class GridKeys {
     /// The grid's bounds at a key in camera space; only of a grid that has_segments().
     KeyBounds aligned(int key) const { return decoded(1, of_key(key) + 6); }
 
-    /// Where what it has at a key begins.
+    /// Where the bytes of one key begin: its bounds, then the codes of boxes.
     const uint8_t* of_key(int key) const {
         return bytes_ + grid_.header_bytes() + static_cast<size_t>(key) * grid_.key_bytes();
     }

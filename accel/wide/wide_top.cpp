@@ -13,7 +13,7 @@ namespace {
 /// Bins along each axis, hence 15 planes to split at.
 constexpr int kTopBins = 16;
 constexpr size_t kTaskFrom = 512;  ///< grids below which a subtree is one task
-/// Deeper subtrees are halved without looking: the depth of the tree stays bounded.
+/// The depth from which on subtrees are halved without looking: the depth of the tree stays bounded.
 constexpr int kSahDepthLimit = 60;
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 

@@ -17,7 +17,8 @@
 namespace trapeze {
 namespace {
 
-/// Where no ray comes: the boxes of children that are not there.
+/// Low planes of children that are not there, and with a minus high ones: boxes inside out, farther than
+/// anything.
 constexpr float kNowhere = 1e30f;
 
 }  // namespace
@@ -130,7 +131,7 @@ DepthInterval slab_depths(const float* low, const float* high, const float* low_
     return inside;
 }
 
-/// One over a component of a direction, finite for all.
+/// One over a component of a direction, finite even where that is 0.
 float inverse_of(float direction) {
     return 1.0f / (std::abs(direction) < kLeastDirection ? kLeastDirection : direction);
 }

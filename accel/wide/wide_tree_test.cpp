@@ -25,7 +25,7 @@ struct Noise {
     }
 };
 
-/// Waves of every shape of grid, ribbons among them, each on a way of its own.
+/// Adds waves on grids of every shape, ribbons among them, each on a way of its own.
 void add_waves(GridMaker& maker, int count, int keys, Noise& noise) {
     for (int n = 0; n < count; ++n) {
         const V3f origin = noise.point(4), along_u = noise.point(2), along_v = noise.point(n % 4 ? 2 : 0.02f),

@@ -18,7 +18,8 @@ bool has_normals(const ParameterList& variables) {
     return N && N->declaration.floats_per_item() == 3 && !N->is_string();
 }
 
-/// What u and v of faces are: their own square's, for meshes that stand for a curved surface.
+/// What u and v of faces are: x and y in object space, or, for meshes that stand for a curved surface, the
+/// parameters of the face's own square.
 enum class FaceParameters { PlaceInObject, OwnSquare };
 
 /// A polygon mesh cut into faces of three and four corners; a triangle's face is cut into three squares.

@@ -60,7 +60,7 @@ struct ProfileRange {
     Range x, y, z;
 };
 
-/// A quadric's arguments made ready for evaluation.
+/// A quadric's arguments made ready for evaluation. Lengths are in object space, angles in radians.
 struct Profile {
     Kind kind = Kind::Sphere;
     float a = 0, b = 0;            ///< radius; or height and radius, rmax and zmax, both radii of the torus

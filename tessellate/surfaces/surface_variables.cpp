@@ -66,7 +66,7 @@ bool set_variables(const ParameterList& parameters, const VariableSource& source
     size_t count = 0;
     bool has_normals = false;
     for (const Parameter& parameter : parameters.values) {
-        // Of two variables of one name the list's find() gives the one that counts.
+        // Where two variables have one name, the one that the list's find() gives counts.
         if (is_position(parameter.name) || parameters.find(parameter.name) != &parameter) continue;
         if (Triples* triples = own_triples(parameter, grid)) {
             for (int k = 0; k < 3; ++k) fill(parameter, k, source, triples->c[k]);

@@ -214,7 +214,7 @@ bool Triangulator::goes_inside(int node, const V2d& to) const {
     return area2(a, b, c) >= 0 ? left_of_next && left_of_previous : left_of_next || left_of_previous;
 }
 
-/// Both ends of the bridge are doubled: ring -> hole, all around, -> ring.
+/// Joins a hole to the ring by a bridge, whose ends are doubled: ring -> hole, all around, -> ring.
 void Triangulator::join(int ring_node, int hole_node) {
     const int ring_copy = static_cast<int>(nodes_.size()), hole_copy = ring_copy + 1;
     const int after = nodes_[ring_node].next, before = nodes_[hole_node].previous;

@@ -155,7 +155,8 @@ BlobbyBlocks::Found BlobbyBlocks::at(const GridIndex& cell) const {
     return {node->level, node->block};
 }
 
-/// Repelling planes act where bumps do.
+/// Where there are grounds: only points that a bump reaches have the field's value, for repelling planes act
+/// there alone (BlobbyField::grounds).
 float BlobbyBlocks::value(const BlobbyBlock& block, const V3f& p, std::vector<FieldValue>& scratch) const {
     const auto reaches = [&](int leaf) {
         return field_.leaves[leaf].ends && field_.leaves[leaf].at(p).value > 0;

@@ -136,7 +136,8 @@ std::vector<Crossing> Net::crossings(int number) const {
     return found;
 }
 
-/// A cell's vertex is the mean of the places where the surface meets edges of its.
+/// Makes polygons of crossings. A cell's vertex is the mean of the places where the surface meets the cell's
+/// edges.
 void Net::add_polygons(const std::vector<std::vector<Crossing>>& crossings, BlobbyMesh& mesh) const {
     std::vector<std::vector<int>> vertices(blocks_.all().size());
     std::vector<int> counts;

@@ -16,7 +16,7 @@ namespace {
 
 /// Sides of the mesh's quads, in micropolygons.
 constexpr float kMicropolygonsPerCell = 3;
-/// Without a camera: cells along the diagonal.
+/// Cells along the Blobby's diagonal, where no camera says how large it is seen.
 constexpr float kCellsWithoutCamera = 64;
 /// What is nearer to the eye than this part of the Blobby's diagonal is made as if it were that far away.
 constexpr float kNearest = 0.01f;

@@ -102,8 +102,8 @@ double off_lines(double x, int n) {
     return std::abs(x - std::round(x)) < kNear ? std::round(x) + kMove : x;
 }
 
-/// Crossings of a segment with the grid's lines, as vertices in the order of the segment. Those beyond the
-/// rectangle become vertices too; they belong to no cell.
+/// Crossings of a segment with the grid's lines, as vertices in the order of the segment. Crossings beyond
+/// the rectangle are no vertices; they only count for corner_kept().
 void Cutter::cross(const V2d& p, const V2d& q, std::vector<std::pair<double, int>>& crossings) {
     crossings.clear();
     for (int axis = 0; axis < 2; ++axis) {
