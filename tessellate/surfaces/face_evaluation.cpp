@@ -81,7 +81,7 @@ void bezier_of_part(const float* spline, int stride, float a, float b, float* be
         std::array<float, 4> p = controls;
         for (int level = 1; level <= 3; ++level)
             for (int i = 0; i + level < 4; ++i) {
-                // Knots i - 2 + level .. i + 1 bound the span of this step.
+                // Knots i - 3 + level and i + 1 bound the span of this step.
                 const float low = static_cast<float>(i - 3 + level), high = static_cast<float>(i + 1);
                 const float x = (t[level - 1] - low) / (high - low);
                 p[i] = (1 - x) * p[i] + x * p[i + 1];

@@ -69,7 +69,7 @@ class SubdivisionValues : public VariableSource {
     size_t uniform_index(const Parameter& parameter) const override;
 
   private:
-    /// Evaluates unless it was the last one.
+    /// Evaluates a group of components into planes_, unless it is the group evaluated last.
     void evaluate(const void* group, const LimitPatch& patch, const float* values, int size) const;
     /// Values that are linear on the mesh's faces: varying, and facevarying where that is the rule.
     void linear(const Parameter& parameter, int component, std::span<float> values) const;
