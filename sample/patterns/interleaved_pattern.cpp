@@ -13,6 +13,7 @@ namespace {
 /// Which number of an index; part of what is hashed.
 enum Dimension : uint32_t { kSubpixel, kLens, kTime, kPairing, kAssignment };
 
+/// Rounds towards minus infinity: pixels may be negative, beyond the picture by the filter's radius.
 int floor_divided(int at, int by) {
     return (at >= 0 ? at : at - by + 1) / by;
 }
@@ -31,6 +32,7 @@ class SpreadSquare {
     /// Groups take turns in the parts of a region.
     V2f at(uint32_t region, uint32_t group) const {
         const auto nx = static_cast<uint32_t>(nx_), side = static_cast<uint32_t>(side_);
+        // A permutation for each region: group g takes its g-th part, so that together groups fill all parts.
         const uint32_t part = hashed_permutation(size_t{side} * side, hash(seed_, 2, region))[group];
         const uint32_t column = region % nx * side + part % side, row = region / nx * side + part / side;
         return {place(column, middle(rows_, row), static_cast<int>(columns_.size())),

@@ -16,12 +16,14 @@
 
 namespace trapeze {
 
+/// What all samples of one kind in the picture share: where in the pixel, through which lens point, when.
 struct SampleTuple {
     float x, y;            ///< from the pixel's corner, in [0, 1)
     float lens_u, lens_v;  ///< in the unit disk; 0 without a lens
     float time;            ///< in [0, 1); 0 without motion
 };
 
+/// Makes its tuples once, from the context's seed; a pixel's samples depend on the pixel and the seed alone.
 class InterleavedPattern final : public SamplePattern {
   public:
     static constexpr int kMaxSide = 4;
@@ -40,7 +42,8 @@ class InterleavedPattern final : public SamplePattern {
     /// Sample s of a pixel that has group g is tuple g * sample_count() + s.
     const SampleTuple& tuple(int index) const { return tuples_[static_cast<size_t>(index)]; }
 
-    /// Tile (tx, ty) has the pixels from (tx, ty) * side(); every group has one of them.
+    /// The groups of the pixels of pattern tile (tx, ty), which has the pixels from (tx, ty) * side() on,
+    /// negative ones too; every group has one of them.
     Groups groups_of_tile(int tx, int ty) const;
 
     /// Raster coordinate, x or y, that a fraction within a pixel stands for.

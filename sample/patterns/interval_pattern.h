@@ -8,6 +8,7 @@
 
 namespace trapeze {
 
+/// nx * ny samples a pixel, sample s being the one of time region s.
 class IntervalPattern final : public SamplePattern {
   public:
     explicit IntervalPattern(const RenderContext& context);
@@ -16,7 +17,7 @@ class IntervalPattern final : public SamplePattern {
     /// subpixel region that differs from pixel to pixel.
     void make_tile(const PixelRect& pixels, SampleTile& tile) const override;
 
-    /// Where sample `sample` of all pixels looks.
+    /// Bounds that hold for sample `sample` of every pixel, bit for bit.
     TimeSpan time_bounds(int sample) const;
     LensBox lens_bounds(int sample) const;
 

@@ -21,7 +21,7 @@ using I = hn::ScalableTag<int32_t>;
 using FloatLanes = hn::Vec<F>;
 using WordLanes = hn::Vec<U>;
 
-/// core/random.h's.
+/// hash() of core/random.h in lanes.
 HWY_INLINE WordLanes hash(WordLanes x) {
     const U d;
     x = hn::Add(hn::Mul(x, hn::Set(d, 747796405u)), hn::Set(d, 2891336453u));
@@ -30,13 +30,14 @@ HWY_INLINE WordLanes hash(WordLanes x) {
     return hn::Xor(hn::ShiftRight<22>(x), x);
 }
 
+/// unit_float(hash(sample's hash + dimension)) in lanes: 24 bits in [0, 1).
 HWY_INLINE FloatLanes jitter(WordLanes sample_hash, SampleDimension dimension) {
     const WordLanes bits = hash(hn::Add(sample_hash, hn::Set(U(), static_cast<uint32_t>(dimension))));
     return hn::Mul(hn::ConvertTo(F(), hn::BitCast(I(), hn::ShiftRight<8>(bits))),
                    hn::Set(F(), 1.0f / 16777216.0f));
 }
 
-/// strata.h's.
+/// place() of strata.h in lanes, the same operations in the same order.
 HWY_INLINE FloatLanes place(FloatLanes index, FloatLanes at, float count) {
     const F d;
     return hn::Min(hn::Div(hn::Add(index, at), hn::Set(d, count)), hn::Set(d, kBelowOne));

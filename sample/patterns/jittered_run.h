@@ -10,7 +10,7 @@
 
 namespace trapeze {
 
-/// Which number of a sample's index; part of what is hashed.
+/// What a random number of a sample is for: part of what is hashed, so that each use has a number of its own.
 enum SampleDimension : uint32_t { kSubpixelX, kSubpixelY, kLensU, kLensV, kTime, kTimeShift, kShuffle };
 
 /// Pixels of a run: so many that few samples a pixel also fill vectors.
@@ -34,7 +34,7 @@ struct RunRegions {
     int samples_per_pixel() const { return nx * ny; }
 };
 
-/// What a run's pixels do not share.
+/// What a run's pixels do not share: hashes, shifts of time, places on the raster.
 struct RunPixels {
     uint32_t hash[kMaxRunPixels], time_shift[kMaxRunPixels];
     float x[kMaxRunPixels], x_limit[kMaxRunPixels];  ///< left edge; the greatest place before the right one
@@ -55,7 +55,7 @@ struct RunSamples {
 void make_run_samples(const RunRegions& regions, const RunPixels& pixels, const Camera& camera, size_t first,
                       size_t count, RunSamples& out);
 
-/// The rays of the first `count` samples, interleaved.
+/// Writes the rays of the first `count` samples as AxisRays, which hold their numbers side by side.
 void interleave_rays(const RunSamples& samples, size_t count, AxisRay* rays);
 
 }  // namespace trapeze

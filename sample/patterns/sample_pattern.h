@@ -13,6 +13,7 @@
 
 namespace trapeze {
 
+/// Makes the samples of any rectangle of pixels, from any thread; nothing is remembered between calls.
 class SamplePattern {
   public:
     virtual ~SamplePattern() = default;
@@ -50,6 +51,7 @@ struct PatternKind {
     std::unique_ptr<SamplePattern> (*make)(const RenderContext& context, const MethodSpec& spec);
 };
 
+/// The table of all patterns, in the order in which messages list them.
 const std::vector<PatternKind>& sample_patterns();
 
 /// Reads the name of a pattern, as "stratified", against the table. Empty with *error set when it is wrong.

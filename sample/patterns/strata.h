@@ -23,6 +23,7 @@ struct LensBox {
     bool operator==(const LensBox&) const = default;
 };
 
+/// The greatest float below 1.
 inline constexpr float kBelowOne = 0x1.fffffep-1f;
 
 inline constexpr float kQuarterPi = 0.785398163f;
@@ -33,13 +34,14 @@ inline constexpr float kSine[] = {-1.9515295891e-4f, 8.3321608736e-3f, -1.666665
 inline constexpr float kCosine[] = {2.443315711809948e-5f, -1.388731625493765e-3f, 4.166664568298827e-2f,
                                     -0.5f, 1.0f};
 
-/// A permutation of 0 .. count - 1.
+/// A permutation of 0 .. count - 1 that depends on the seed alone: numbers sorted by their hashes.
 std::vector<uint32_t> hashed_permutation(size_t count, uint32_t seed);
 
 /// The unit square to the unit disk, areas kept in proportion [Shirley97].
 V2f disk_from_square(float u, float v);
 
-/// A jittered place in region `index` of `count` in [0, 1).
+/// A jittered place in region `index` of `count` equal ones in [0, 1); jitter 0 to 1. Never 1, whatever
+/// rounds.
 float place(uint32_t index, float jitter, int count);
 
 /// The greatest place of a pixel: the next one's is just above.

@@ -79,6 +79,8 @@ void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) con
     }
 }
 
+/// Makes `count` samples of a run in parts that fit RunSamples, and copies them to the tile from sample `to`
+/// on.
 void StratifiedPattern::make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made,
                                  SampleTile& tile) const {
     for (size_t first = 0; first < count; first += RunSamples::kCount, to += RunSamples::kCount) {

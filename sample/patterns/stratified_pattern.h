@@ -11,6 +11,7 @@
 
 namespace trapeze {
 
+/// nx * ny samples a pixel; the natural pattern of most methods.
 class StratifiedPattern final : public SamplePattern {
   public:
     explicit StratifiedPattern(const RenderContext& context);
@@ -19,7 +20,7 @@ class StratifiedPattern final : public SamplePattern {
 
     /// How far a pixel's times are moved along, in regions: what its neighbours do not share.
     uint32_t time_shift(int px, int py) const;
-    /// Else it is 0 everywhere, or does not matter.
+    /// Whether time shifts matter: without motion nothing looks at times, without a lens all shifts are 0.
     bool has_time_shifts() const { return motion_ && camera_.has_lens(); }
     uint32_t time_region_of(int sample, uint32_t shift) const {
         return (time_of_[static_cast<size_t>(sample)] + shift) % static_cast<uint32_t>(sample_count());
