@@ -11,9 +11,10 @@ namespace {
 /// A vertex this much nearer than the grid is large would be divided by a depth of which little is known.
 constexpr float kLeastRelativeDepth = 0x1p-14f;
 
-/// Keeps reciprocals of depths finite.
+/// The least depth that is divided by: keeps reciprocals finite.
 constexpr float kLeastDepth = 1e-20f;
 
+/// An interval of numbers, in double: what is bounded here was rounded in float, and slack covers that alone.
 struct Range {
     double min, max;
 
@@ -25,6 +26,7 @@ Range product(const Range& a, const Range& b) {
     return {*std::min_element(p, p + 4), *std::max_element(p, p + 4)};
 }
 
+/// From the image plane to raster coordinates along an axis; either may run against the other.
 Range to_raster(const Range& plane, double scale, double offset) {
     const double a = (plane.min - offset) / scale, b = (plane.max - offset) / scale;
     return {std::min(a, b), std::max(a, b)};
@@ -111,6 +113,7 @@ SlotBound GridBounds::slot_bound(size_t grid, const std::vector<SegmentPart>& pa
                 axis[k].add(box.max[0][k] + (double{box.max[1][k]} - box.max[0][k]) * at);
             }
     }
+    // From here on the boxes at both ends of all parts are one box, at all of their times.
     const Range& z = axis[2];
     const auto z_min = static_cast<float>(z.min - bound.z_rounding);
     if (!bound.boundable) return {RasterBox::everything(), -std::numeric_limits<float>::infinity()};

@@ -19,6 +19,7 @@ struct RoundingSlack {
     float near = 0, far = 0;
 };
 
+/// What holds for one grid at all of its keys.
 struct GridBound {
     RoundingSlack slack;
     float z_min = 0;        ///< over all keys
@@ -42,6 +43,7 @@ struct SlotBound {
     float z_min;
 };
 
+/// Bounds of all grids; read from many threads. Refers to the camera.
 class GridBounds {
   public:
     /// Camera space, at the two ends of a segment.
@@ -59,7 +61,8 @@ class GridBounds {
         return segments_[first_segment_[grid] + static_cast<size_t>(segment)];
     }
 
-    /// Conservative for samples of all times in `parts` and lens points in `lens`.
+    /// The part of the raster that a grid may cover, conservative for samples of all times in `parts` and
+    /// lens points in `lens`. Everything where some of it may be too near to be divided by its depth.
     SlotBound slot_bound(size_t grid, const std::vector<SegmentPart>& parts, const LensBox& lens) const;
 
     size_t bytes() const;

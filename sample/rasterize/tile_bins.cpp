@@ -8,6 +8,7 @@
 namespace trapeze {
 namespace {
 
+/// At least one tile, for an empty crop, too.
 int tile_count(int pixels, int side) {
     return std::max(1, (pixels + side - 1) / side);
 }
@@ -43,6 +44,8 @@ TileBins::Span TileBins::span(double min, double max, int origin, int side, int 
     return {tile(min), tile(max)};
 }
 
+/// Rows of tiles are filled apart, each from all boxes: no two threads write to one tile, and grids stay
+/// ascending.
 void TileBins::fill_row(int row) {
     const size_t first_tile = static_cast<size_t>(row) * columns_;
     for (size_t i = 0; i < boxes_.size(); ++i) {
@@ -65,6 +68,7 @@ void TileBins::find(const PixelRect& pixels, std::vector<uint32_t>& found) const
         for (int column = across.first; column <= across.last; ++column)
             for (const uint32_t grid : tiles_[static_cast<size_t>(row) * columns_ + column])
                 if (!pixels_within(boxes_[grid], pixels).empty()) found.push_back(grid);
+    // One tile's list is sorted and has no grid twice.
     if (across.first == across.last && down.first == down.last) return;
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());

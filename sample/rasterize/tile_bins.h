@@ -28,6 +28,7 @@ class TileBins {
     struct Span {
         int first, last;  ///< tiles along an axis, inclusive; empty when first > last
     };
+    /// The tiles along an axis that a range of the raster reaches, those at the border for what lies beyond.
     static Span span(double min, double max, int origin, int side, int count);
     Span columns(double min, double max) const { return span(min, max, area_.x0, side_, columns_); }
     Span rows(double min, double max) const { return span(min, max, area_.y0, side_, rows_); }

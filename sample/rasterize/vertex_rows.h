@@ -8,12 +8,13 @@
 
 namespace trapeze {
 
+/// One grid at a time; memory is reused. One per thread.
 class VertexRows {
   public:
     /// Planes can be read this many floats past the last vertex; what is there repeats it.
     static constexpr int kPadding = 32;
 
-    /// All segments of a grid.
+    /// Copies the positions of all segments of a grid, and finds its micropolygons.
     void load(const Grid& grid);
 
     /// Vertex (i, j) is at j * row_length() + i; so is the micropolygon whose 00 it is.
