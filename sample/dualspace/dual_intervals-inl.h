@@ -37,7 +37,7 @@ struct DualCorners {
     float lens[2][4];  ///< rim of the lens times 1 - z / F
 };
 
-/// What does not depend on the micropolygon.
+/// What does not depend on the micropolygon: the grid's rounding and the part of the shutter.
 struct DualConstants {
     float slack;      ///< of a, by rounding
     int part, parts;  ///< of the shutter
@@ -53,7 +53,7 @@ HWY_INLINE void not_positive(D d, V start, V end, V* min, V* max) {
     *max = hn::IfThenElse(ends_above, hn::IfThenElse(starts_above, hn::Neg(one), crossing), one);
 }
 
-/// Bins of places; none where min > max.
+/// Stores the first and the last bin of a range of places in [0, 1]; none (first above last) where min > max.
 template <class D, class V>
 HWY_INLINE void store_bins(D d, V min, V max, int32_t* first, int32_t* last) {
     const hn::RebindToSigned<D> di;
@@ -67,7 +67,8 @@ HWY_INLINE void store_bins(D d, V min, V max, int32_t* first, int32_t* last) {
     hn::StoreU(hn::IfThenElse(none, hn::Set(di, -1), bin_of(max)), di, last);
 }
 
-/// Where both the least is not positive and the greatest not negative.
+/// The range of places where both the least a is not positive and the greatest not negative, each given at
+/// both ends.
 template <class D, class V>
 HWY_INLINE void seen_places(D d, const V (&least)[2], const V (&greatest)[2], V slack, V* min, V* max) {
     V low_min, low_max, high_min, high_max;
@@ -77,7 +78,8 @@ HWY_INLINE void seen_places(D d, const V (&least)[2], const V (&greatest)[2], V 
     *min = hn::Max(low_min, high_min), *max = hn::Min(low_max, high_max);
 }
 
-/// Sets the intervals of columns first to last; false where the micropolygon is in none.
+/// Sets the intervals of columns first to last, on the lens (or in the pixel) and in time; false where the
+/// micropolygon is in none. s and t are the two axes of DualIntervals.
 template <bool kMoves, bool kLens>
 HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& c, int first, int last,
                                DualIntervals& to) {
@@ -87,6 +89,8 @@ HWY_INLINE bool find_intervals(const DualCorners& corners, const DualConstants& 
     constexpr int kEnds = kMoves ? 2 : 1;
     bool any = false;
     for (int i = first; i <= last; i += static_cast<int>(hn::Lanes(d))) {
+        // Both sides of the pixels; s: from one rim of the lens to the other (or from side to side), over all
+        // times; t: from one end of the part to the other, over all of the lens.
         const V low = hn::LoadU(d, &to.low[i]), high = hn::LoadU(d, &to.high[i]);
         V s_least[2] = {infinite, infinite}, s_greatest[2] = {hn::Neg(infinite), hn::Neg(infinite)};
         V t_least[2] = {infinite, infinite}, t_greatest[2] = {hn::Neg(infinite), hn::Neg(infinite)};

@@ -22,6 +22,7 @@ void SampleMasks::build(const SampleTile& samples, bool lens) {
                     mask[(axis * (kBins + 1) + above) * words_ + s / 64] |= uint64_t{1} << (s % 64);
                 }
             }
+            // Samples were put one bin above their own; or-ing upwards makes of them the sets below each bin.
             for (int axis = 0; axis < kAxes; ++axis) {
                 mask += words_;
                 for (size_t i = 0; i < (kBins - 1) * words_; ++i) mask[words_ + i] |= mask[i];

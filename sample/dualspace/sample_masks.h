@@ -11,9 +11,10 @@
 
 namespace trapeze {
 
+/// The masks of a tile; memory is reused.
 class SampleMasks {
   public:
-    /// Parts of an axis.
+    /// Parts of an axis that can be told apart.
     static constexpr int kBins = 32;
     enum Axis { kU, kV, kTime, kAxes };
 

@@ -21,7 +21,8 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What a tuple's samples share.
+/// What a tuple's samples share: place in the pixel, lens point (camera space) and its part of slopes, time
+/// in the grid's segments, and how far vertices may be off on the raster.
 struct PlacedTuple {
     size_t index;
     float x, y;  ///< from a pixel's corner
@@ -30,6 +31,7 @@ struct PlacedTuple {
     float slack_x, slack_y;  ///< pixels
 };
 
+/// One grid, loaded once and then placed for each tuple that may see it.
 template <bool kPerspective>
 class UvtMesh {
   public:
@@ -46,7 +48,8 @@ class UvtMesh {
           tile_(scratch.tile),
           rows_(scratch.rows) {}
 
-    /// Once for a grid. What does not move is divided by its depths here.
+    /// Takes the grid's vertices out of tiles, once for a grid. What does not move is divided by its depths
+    /// here.
     void load(const Grid& grid, bool moves) {
         scratch_.rows.load(grid);
         for (auto* plane : {&scratch_.inverse_z, &scratch_.x, &scratch_.y, &scratch_.z, &scratch_.raster_x,
@@ -58,7 +61,7 @@ class UvtMesh {
             hn::StoreU(inverse_of(hn::LoadU(d, rows_.plane(0, 2) + i)), d, &scratch_.inverse_z[i]);
     }
 
-    /// `slack` is of the image plane.
+    /// Makes tuple `index` ready for the grid; `slack` is of the image plane.
     PlacedTuple tuple(const UvtRaster& raster, size_t index, int key_count, float slack) const {
         const SampleTuple& sample = raster.pattern.tuple(static_cast<int>(index));
         const UvtTuples& all = raster.tuples;
@@ -142,6 +145,7 @@ class UvtMesh {
             y0 = hn::Max(hn::Sub(y0, slack_y), zero), y1 = hn::Min(hn::Add(y1, slack_y), height);
             auto wanted = hn::RebindMask(d, hn::Gt(hn::LoadU(di, rows_.quad_ids() + i), hn::Set(di, -1)));
             if constexpr (kCareful) {
+                // Too near to be divided: such a micropolygon may be anywhere in the tile.
                 const auto unsafe = hn::Le(z0, hn::Set(d, safe_));
                 x0 = hn::IfThenElse(unsafe, zero, x0), x1 = hn::IfThenElse(unsafe, width, x1);
                 y0 = hn::IfThenElse(unsafe, zero, y0), y1 = hn::IfThenElse(unsafe, height, y1);
@@ -158,11 +162,14 @@ class UvtMesh {
     }
 
   private:
+    /// One over depths, of which none is taken nearer than the grid's safe one.
     V inverse_of(V z) const {
         const D d;
         return hn::Div(hn::Set(d, 1.0f), hn::Max(z, hn::Set(d, safe_)));
     }
 
+    /// Combines the four corners of micropolygons: lanes are their vertices 00, which follow each other in
+    /// rows.
     template <class Combine>
     V of_corners(const float* plane, int i, const Combine& combine) const {
         const D d;

@@ -10,6 +10,7 @@ namespace {
 /// Keeps the planes of tuples from lying at equal places of cache sets.
 constexpr size_t kPlanePadding = 16;
 
+/// Rounds towards minus infinity.
 int floor_to_multiple(int at, int of) {
     return (at >= 0 ? at : at - of + 1) / of * of;
 }

@@ -30,6 +30,7 @@ class UvtTile {
     /// In cell_pixels() where the group's pixel is not in the rectangle.
     static constexpr int32_t kNoPixel = 0x7fff7fff;
 
+    /// Makes cells, rays and empty hits of a rectangle of pixels; reuses memory.
     void build(const PixelRect& pixels, const InterleavedPattern& pattern, const Camera& camera);
 
     int cell_side() const { return side_; }
@@ -59,7 +60,7 @@ class UvtTile {
     float* depths(size_t tuple) { return depths_.data() + tuple * plane_size_; }
     uint64_t* ids(size_t tuple) { return ids_.data() + tuple * plane_size_; }
 
-    /// By sample of the rectangle.
+    /// Copies the nearest opaque hits to nearest[sample], in the order of the rectangle's samples.
     void copy_nearest(std::vector<Hit>& nearest) const;
 
   private:

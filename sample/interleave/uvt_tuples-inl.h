@@ -38,7 +38,8 @@ HWY_INLINE float safe_depth(const GridBound& bound) {
     return bound.boundable ? bound.z_safe : std::numeric_limits<float>::infinity();
 }
 
-/// Ranges of the image plane that a range of a coordinate is seen in, before slopes.
+/// The range of the image plane in which a range of a coordinate is seen through a lens point at depths of
+/// which near_w and far_w are one over the ends, before slopes are added.
 template <bool kPerspective, class V>
 HWY_INLINE void image_range(V low, V high, V lens, V near_w, V far_w, V* min, V* max) {
     low = hn::Sub(low, lens), high = hn::Sub(high, lens);
@@ -50,13 +51,15 @@ HWY_INLINE void image_range(V low, V high, V lens, V near_w, V far_w, V* min, V*
     }
 }
 
-/// Lanes of the cells along an axis that hold a range; in [0, cells].
+/// The cells along an axis that hold coordinates `at`, in pixels from the tile's corner; in [0, cells].
 template <class D, class DI, class V>
 HWY_INLINE hn::Vec<DI> cell_of(D d, DI di, V at, float cell_side, int cells) {
     const auto index = hn::Floor(hn::Mul(at, hn::Set(d, 1 / cell_side)));
     return hn::ConvertTo(di, hn::Min(hn::Max(index, hn::Zero(d)), hn::Set(d, static_cast<float>(cells))));
 }
 
+/// Lists the tuples that may see a grid in a tile, in their order, with the slack of each and, for culling,
+/// cells and least depth. Conservative: boxes are grown by the rounding of the predicate (RoundingSlack).
 template <bool kPerspective>
 void find_tuples(const UvtRaster& raster, const BoundedGrid& grid, const UvtTile& tile,
                  UvtGridTuples& found) {
@@ -89,6 +92,7 @@ void find_tuples(const UvtRaster& raster, const BoundedGrid& grid, const UvtTile
             segment = hn::Min(hn::Max(hn::ConvertTo(di, scaled), segment), hn::Set(di, last_segment));
             local = hn::Sub(scaled, hn::ConvertTo(d, segment));
         }
+        // Tuples of other times lie in other segments: their boxes are gathered.
         const auto box_at = [&](int end, int axis, bool max) HWY_ATTR {
             const float* value = max ? &boxes->max[end][axis] : &boxes->min[end][axis];
             if (last_segment == 0) return hn::Set(d, *value);

@@ -22,19 +22,22 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Where the corners of a micropolygon are at the samples' times.
+/// How the corners of a micropolygon get to where they are at the samples' times: not at all, within one
+/// segment, or by looking up each sample's segment.
 enum class Motion { None, OneSegment, Segments };
 
 using BlockTag = hn::CappedTag<float, SampleBlock::kLanes>;
 using BlockMask = hn::Mask<BlockTag>;
 
-/// Some lanes of a block: all, or as many as a vector has.
+/// The test of rows of one grid against a vector of samples: all lanes of a block, or as many as a vector
+/// has.
 template <Motion kMotion, bool kLens>
 class BlockRows {
   public:
     BlockRows(SlotRaster& raster, const GridInSlot& in, const VertexRows& rows, SampleStats& stats)
         : raster_(raster), in_(in), rows_(rows), stats_(stats) {}
 
+    /// Turns to the samples of a block from a lane on.
     void begin(size_t block, size_t first_lane) {
         index_ = block, lane_ = first_lane;
         block_ = &raster_.slots.block(block);
@@ -108,6 +111,7 @@ class BlockRows {
                 kMotion == Motion::None ? zero : hn::Load(d, local_)};
     }
 
+    /// A coordinate of vertex `at` of the run (floats from the row below) at the samples' times.
     static HWY_INLINE V coordinate(const Run& run, size_t at, int component) {
         const D d;
         const float* start = run.lower + static_cast<size_t>(component) * run.plane + at;
@@ -119,6 +123,7 @@ class BlockRows {
         return position_at(hn::GatherIndex(d, start, segment), hn::GatherIndex(d, delta, segment), run.local);
     }
 
+    /// A vertex along the rays to their plane: the predicate's a and b.
     static HWY_INLINE void move_to_plane(const Run& run, size_t at, V* a, V* b) {
         const V z = coordinate(run, at, 2);
         V x = coordinate(run, at, 0), y = coordinate(run, at, 1);
@@ -127,7 +132,7 @@ class BlockRows {
         *b = hn::Sub(y, hn::Mul(run.uy, z));
     }
 
-    /// What the row before has not left behind.
+    /// Computes vertices and edges of the lower row that the row before has not left behind.
     HWY_INLINE void complete_lower(const Run& run, uint32_t vertices, uint32_t edges) {
         const D d;
         Row& below = *lower_;
@@ -178,6 +183,7 @@ class BlockRows {
         return u;
     }
 
+    /// The quad of micropolygon u with its depths, which only those that are passed need.
     static HWY_INLINE QuadLanes<V> with_depths(const Run& run, int u, V a00, V a10, V a01, V a11, V b00,
                                                V b10, V b01, V b11) {
         const auto at = static_cast<size_t>(u);
@@ -195,6 +201,7 @@ class BlockRows {
                 coordinate(run, run.row + at + 1, 2)};
     }
 
+    /// Finds the depths of rays that pass inside a micropolygon, v << 4 | u, and keeps its hits.
     HWY_INLINE void settle(uint32_t micropolygon, const QuadLanes<V>& quad, BlockMask passed) {
         const D d;
         if (hn::AllFalse(d, passed)) return;
@@ -204,6 +211,8 @@ class BlockRows {
         keep(micropolygon, hit, depth);
     }
 
+    /// Keeps hits in front of the nearest opaque ones, equal depths by id: in the block if the grid is
+    /// opaque, and in the list of all hits if some grid is not.
     HWY_INLINE void keep(uint32_t micropolygon_index, BlockMask hit, V depth) {
         const D d;
         const hn::RebindToUnsigned<D> du;
@@ -228,6 +237,7 @@ class BlockRows {
         if (!raster_.all_opaque) list(kept, depth, uint64_t{in_.index} << 8 | micropolygon_index);
     }
 
+    /// Adds hits to the scratch's list. Not inlined: only pictures with grids that are not opaque come here.
     HWY_NOINLINE void list(BlockMask kept, V depth, uint64_t id) {
         const D d;
         HWY_ALIGN float depths[SampleBlock::kLanes], is_kept[SampleBlock::kLanes];

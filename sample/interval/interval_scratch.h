@@ -18,6 +18,7 @@ struct SlotGridScratch {
     std::vector<uint32_t> rows_of_cell;   ///< bits of the rows of micropolygons that may reach a cell
 };
 
+/// One per thread, reused from tile to tile.
 struct IntervalScratch {
     std::vector<uint32_t> still, blurred;  ///< of the tile
     std::vector<uint32_t> key_of_pixel;

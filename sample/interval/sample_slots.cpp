@@ -43,6 +43,8 @@ void SampleSlots::for_each_sample(const SampleTile& samples, const SlotTable& ta
                 for (int x = cell_x; x < std::min(cell_x + side, width_); ++x) visit_pixel(x, y, cell);
 }
 
+/// Counts samples by slot and cell and gives each cell its blocks; next_lane_ then tells where its samples
+/// go.
 void SampleSlots::count_blocks(const SampleTile& samples, const SlotTable& table) {
     next_lane_.assign(table.slot_count * cell_count_, 0);
     for_each_sample(samples, table, [&](uint32_t, int, int, size_t at) { ++next_lane_[at]; });
@@ -59,6 +61,7 @@ void SampleSlots::count_blocks(const SampleTile& samples, const SlotTable& table
     first_block_.back() = static_cast<uint32_t>(lane_counts_.size());
 }
 
+/// Copies rays to their lanes. The order of samples in a cell is that of the tile.
 void SampleSlots::fill_blocks(const SampleTile& samples, const SlotTable& table, bool places) {
     blocks_.resize(lane_counts_.size());
     samples_.resize(lane_counts_.size() * kLanes);

@@ -38,7 +38,8 @@ struct SlotTable {
 /// Cells are squares of 2^cell_shift pixels anchored at the tile's corner.
 class SampleSlots {
   public:
-    /// Places of lanes are kept only when asked for.
+    /// Sorts a tile's samples into slots and cells; no hits yet. `places`: whether places of lanes are kept.
+    /// Memory is reused.
     void build(const SampleTile& samples, const SlotTable& table, int cell_shift, bool places);
 
     int cell_shift() const { return cell_shift_; }

@@ -22,6 +22,7 @@ SlotPlan shuffled_plan(const StratifiedPattern& pattern, int time_slots) {
     const uint32_t keys = pattern.has_time_shifts() ? count : 1;
     const uint32_t parts = pattern.has_time_shifts() ? static_cast<uint32_t>(time_slots) : 1;
     SlotPlan plan;
+    // Spans of time grow as samples are assigned.
     constexpr TimeSpan kNever{2, -1};
     for (uint32_t part = 0; part < parts; ++part)
         for (uint32_t s = 0; s < count; ++s)

@@ -16,6 +16,7 @@ struct Slot {
     LensBox lens;
 };
 
+/// The slots of a pattern, made once; `slot_of` then sends the samples of any tile to them.
 struct SlotPlan {
     std::vector<Slot> slots;
     std::vector<uint32_t> slot_of;  ///< [key of the pixel * samples per pixel + sample]

@@ -52,6 +52,7 @@ class CellRaster {
           row_length_(rows.row_length),
           shift_(raster.slots.cell_shift()) {}
 
+    /// Goes through the cells that the grid's rows reach, and in each through its blocks of samples.
     void run() {
         const PixelRect cells = mark_rows();
         const uint32_t* first_block = raster_.slots.cells(in_.slot);
@@ -83,6 +84,7 @@ class CellRaster {
         return all;
     }
 
+    /// The cells that the boxes of a row of micropolygons reach together.
     PixelRect cells_of_row(int v) {
         PixelRect pixels{1 << 30, 1 << 30, -1, -1};  // inclusive
         for (int at = v * row_length_; at < v * row_length_ + in_.grid.shape.nu; ++at) {
@@ -96,6 +98,7 @@ class CellRaster {
                 (pixels.y1 >> shift_) + 1};
     }
 
+    /// Tests a block of a cell against the marked rows, a vector of lanes after the other.
     void test_block(size_t index, int x, int y, uint32_t rows) {
         const BlockTag d;
         const auto count = static_cast<size_t>(raster_.slots.lane_count(index));
@@ -112,7 +115,7 @@ class CellRaster {
         }
     }
 
-    /// Inclusive.
+    /// Pixels of the tile, both ends included.
     struct PixelBox {
         int x0, y0, x1, y1;
     };
@@ -141,7 +144,7 @@ class CellRaster {
         });
     }
 
-    /// Bits of those that may be in front of something at a depth.
+    /// Bits of the micropolygons of a row that may be in front of something at a depth.
     HWY_INLINE uint32_t columns_before(int v, float depth) const {
         const BlockTag d;
         return row_bits(
@@ -162,6 +165,8 @@ class CellRaster {
         return bits & ((uint32_t{1} << in_.grid.shape.nu) - 1);
     }
 
+    /// Tests micropolygons of a row against lanes. Sparse cells look at pixels first, and leave out
+    /// micropolygons whose boxes hold none of the lanes.
     void test_row(size_t index, size_t lane, size_t count, int v, uint32_t columns) {
         const BlockTag d;
         if (raster_.sparse) {
@@ -200,6 +205,7 @@ class CellRaster {
         return hn::RebindMask(d, hn::Not(hn::Or(beside, above)));
     }
 
+    /// Counts a test and a node for every sample that is tested, for pictures of costs.
     template <class Wanted>
     HWY_NOINLINE void count_heat(size_t index, size_t lane, uint32_t columns, const Wanted& wanted) {
         const BlockTag d;
@@ -223,6 +229,8 @@ class CellRaster {
     int row_length_, shift_;
 };
 
+/// Bounds vertices, then micropolygons, then tests samples; the form of the test is chosen by motion and
+/// lens.
 void raster_grid(SlotRaster& raster, const GridInSlot& in, SlotGridScratch& scratch, SampleStats& stats) {
     if (raster.cull && is_hidden(raster, in)) return;
     const VertexRows rows = vertex_rows(in, scratch);

@@ -39,7 +39,8 @@ struct GridInSlot {
     float z_min;       ///< no deeper than any of its micropolygons
 };
 
-/// Runs on the best instruction set at hand.
+/// Tests a grid's micropolygons against the samples of one slot of a tile, on the best instruction set at
+/// hand.
 void raster_grid(SlotRaster& raster, const GridInSlot& grid, SlotGridScratch& scratch, SampleStats& stats);
 
 }  // namespace trapeze
