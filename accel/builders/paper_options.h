@@ -5,6 +5,7 @@ namespace trapeze {
 
 /// Defaults are the paper's own method.
 struct PaperTreeOptions {
+    /// What a node is bounded by. The topology is the same for all of them.
     enum class Bounds {
         Oriented,     ///< OBB hyper-trapezoids
         AxisAligned,  ///< AABB hyper-trapezoids

@@ -29,6 +29,7 @@ struct TopLink {
     static constexpr uint32_t kLeaf = uint32_t{1} << 31;
     uint32_t value = 0;
 
+    /// Indices of leaves and of inner nodes count from 0 each, below 2^31.
     static TopLink leaf(uint32_t index) { return {index | kLeaf}; }
     static TopLink inner(uint32_t index) { return {index}; }
     bool is_leaf() const { return value & kLeaf; }

@@ -24,6 +24,7 @@ namespace trapeze {
 /// Where the splits of blocks end: at fewer than a number of micropolygons [Hou10 sec. 3.3].
 class ParametricSplits {
   public:
+    /// `leaf_below`: 2 to kMostSplitFrom.
     explicit ParametricSplits(int leaf_below);
 
     bool is_leaf(const GridBlock& block) const { return block.count() < leaf_below_; }
@@ -95,15 +96,18 @@ class InGridTree {
     InGridTree(const InGridTrees& trees, const Grid& grid, uint32_t grid_index, const TraceRay& ray,
                const FrameRay* along_axes);
 
+    /// The root is always visited: the level above has tested its box.
     Visits enter(const TraceRay&) const {
         return Visits::one({-std::numeric_limits<float>::infinity(), root_}, true);
     }
     bool is_leaf(uint32_t node) const { return splits_.is_leaf(leaf(node)); }
+    /// The block of a node, of inner ones too.
     GridBlock leaf(uint32_t node) const {
         const auto nibble = [node](int shift) { return static_cast<uint8_t>(node >> shift & 15); };
         return {nibble(0), nibble(4), static_cast<uint8_t>(nibble(8) + 1),
                 static_cast<uint8_t>(nibble(12) + 1)};
     }
+    /// The halves of an inner node's block that the ray may hit.
     Visits step(const Visit& at, const TraceRay& ray) const;
 
   private:

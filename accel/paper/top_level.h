@@ -32,6 +32,7 @@ struct TopLevel {
 
     /// What a node's boxes are coordinates of.
     const FrameColumns& frame_of(size_t node) const { return oriented ? frames[node] : kAxes; }
+    /// A node's boxes at keys 0 .. key_count - 1.
     const KeyBox* boxes_of(size_t node) const { return boxes.data() + node * key_count; }
     size_t bytes() const {
         return nodes.capacity() * sizeof(Node) + frames.capacity() * sizeof(FrameColumns) +
@@ -58,6 +59,7 @@ class TopLevelView {
         if (!tree.oriented) along_axes_ = FrameRay(ray);
     }
 
+    /// The root, if the ray may hit something in it; nothing in an empty tree.
     Visits enter(const TraceRay& ray) const;
     Visits step(const Visit& at, const TraceRay& ray) const;
     bool is_leaf(uint32_t node) const { return TopLink{node}.is_leaf(); }

@@ -181,6 +181,7 @@ class CornerLookup {
         own = VF{_mm512_load_ps(tile)};
         behind = VF{_mm512_mask_mov_ps(last, 1 << 8, _mm512_set1_ps(tile[block.down + block.right]))};
     }
+    /// Corner 10, 01 or 11 (1 to 3) of each lane's micropolygon, out of what load() gave.
     HWY_INLINE VF corner(int corner, VF own, VF behind) const {
         return VF{_mm512_permutex2var_ps(own.raw, at_[corner], behind.raw)};
     }

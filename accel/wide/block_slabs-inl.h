@@ -29,6 +29,7 @@ struct BlockSlab {
     float center, half, center_delta, half_delta;
 };
 
+/// The three slabs whose intersection holds the block's vertices at all times of the segment.
 struct BlockSlabs {
     BlockSlab thick;    ///< across the block
     BlockSlab side[2];  ///< along it
@@ -54,6 +55,7 @@ HWY_INLINE void cross(const float* a, const float* b, float* to) {
 struct BlockVertices {
     HWY_ALIGN float own[3][16], behind[3][16];
 
+    /// Takes three planes of positions, from first_plane on: 0 positions, 3 how far they move.
     HWY_INLINE void load(const BlockView& block, int first_plane) {
         for (int k = 0; k < 3; ++k) {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86

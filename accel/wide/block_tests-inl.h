@@ -85,6 +85,7 @@ inline void count_block_tests(BundleState& t, const Block& block, size_t rays) {
     t.stats.leaves_visited += rays;
     t.stats.predicate_tests += rays * static_cast<uint64_t>(block.view.rows * block.columns);
 }
+/// Adds a block's tests to one ray's own costs.
 inline void count_tests_of(BundleState& t, const Block& block, uint32_t ray) {
     t.rays.tests[ray] += static_cast<uint32_t>(block.view.rows * block.columns);
 }

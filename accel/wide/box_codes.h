@@ -15,6 +15,7 @@ struct BoxPlanes {
     static constexpr size_t kMost = 16;  ///< boxes
     alignas(64) float values[12 * kMost];
 
+    /// Plane k of all boxes; rows 6 to 11: how far planes 0 to 5 move during the segment.
     float* row(size_t k) { return values + k * kMost; }
     const float* row(size_t k) const { return values + k * kMost; }
 };
@@ -30,6 +31,7 @@ struct CodeScale {
 
     CodeScale() = default;
     CodeScale(float from, float to) : low(from), step((to - from) * (1.0f / 255)) {}
+    /// Code 0 is one end exactly; others, and the other end, to kCodeRounding.
     float plane(int code) const { return low + step * static_cast<float>(code); }
 };
 
@@ -60,6 +62,7 @@ class KeyBoundsScale {
     explicit KeyBoundsScale(const KeyBounds& whole) {
         for (int k = 0; k < 3; ++k) axis_[k] = CodeScale(whole.low[k], whole.high[k]);
     }
+    /// The box that six codes stand for.
     KeyBounds bounds(const uint8_t* codes) const {
         KeyBounds at;
         for (int k = 0; k < 3; ++k)

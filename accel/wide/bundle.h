@@ -16,6 +16,8 @@ namespace trapeze {
 /// Rays of samples (camera space, origins at z = 0, time in [0, 1]) in an order in which neighbours look
 /// alike, and what they see. The order changes times, never hits.
 struct RayBundle {
+    /// The most rays of a bundle. 512, 2048 and 4096 were measured to be within 5 %
+    /// (docs/decisions/0006-wide-tree.md).
     static constexpr size_t kRays = 1024;
     static constexpr size_t kRoom = kRays + 16;  ///< whole vectors can be read
 
@@ -23,6 +25,7 @@ struct RayBundle {
     static constexpr uint32_t kNone = ~uint32_t{0};
 
     size_t count = 0;
+    /// Camera-space rays: origin (ox, oy, 0), direction (ux, uy, 1).
     alignas(64) float ox[kRoom], oy[kRoom], ux[kRoom], uy[kRoom], time[kRoom];
     alignas(64) float depth[kRoom];  ///< of the nearest opaque hit
     alignas(64) uint32_t id[kRoom];  ///< MicropolygonId::packed() of it (grids are fewer than 2^24), or kNone
@@ -50,6 +53,7 @@ struct DeleteBundleScratch {
     void operator()(BundleScratch* scratch) const;
 };
 using BundleScratchPointer = std::unique_ptr<BundleScratch, DeleteBundleScratch>;
+/// Allocates working memory, about 120 KB; nothing in it needs to be set.
 BundleScratchPointer make_bundle_scratch();
 
 /// Copies rays[order[0]], rays[order[1]] and so on into the bundle; at most RayBundle::kRays. Without `lens`

@@ -15,6 +15,7 @@ struct ActiveRays {
     static constexpr size_t kRoom = RayBundle::kRoom + 16;
 
     size_t count = 0;
+    /// The ray in camera space; `local`: its time within the grid's motion segment.
     alignas(64) float ox[kRoom], oy[kRoom], ux[kRoom], uy[kRoom], local[kRoom];
     /// The ray in the grid's frame: 1 / direction, and origin / direction, along each axis.
     alignas(64) float inverse[3][kRoom], offset[3][kRoom];
@@ -83,6 +84,7 @@ struct BundleScratch {
     static constexpr size_t kGroups = 4;
     float groups[RayIntervals::kRows][kGroups];  ///< the intervals of each
     std::vector<uint64_t> candidates, ordered;   ///< candidate_of()
+    /// A node still to be stepped through, and the groups that meet it.
     struct Link {
         uint32_t node, groups;  ///< a bit a group
     };

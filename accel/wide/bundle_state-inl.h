@@ -35,6 +35,7 @@ HWY_INLINE uint32_t mask_bits(MF mask) {
     return static_cast<uint32_t>(bytes[0] | bytes[1] << 8);
 }
 
+/// The inverse of mask_bits().
 HWY_INLINE MF mask_of(uint32_t bits) {
     const uint8_t bytes[8] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
     return hn::LoadMaskBits(F32(), bytes);

@@ -208,6 +208,7 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
 }
 
 #else
+// Other targets trace pinholes as they trace all else; visit_sharp() is never called.
 inline constexpr bool kHasSharpPackets = false;
 inline void visit_sharp(BundleState&, const Candidate&, const WideGrid&) {}
 #endif

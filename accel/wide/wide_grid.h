@@ -34,6 +34,7 @@ struct FrameAxes {
 /// The same axes in 16 bits a component, in steps of 1 / kOne. Bounds are made with the axes as unpacked, so
 /// that what packing rounds away loosens no bound; it makes the frame a little less than orthogonal.
 struct PackedAxes {
+    /// The code of a component of 1.
     static constexpr float kOne = 32767;
     int16_t code[3][3];
 
@@ -83,6 +84,7 @@ struct WideGrid {
     size_t key_bytes() const { return bounds_bytes() + static_cast<size_t>(box_count()) * 6; }
     size_t keys_bytes() const { return header_bytes() + key_count * key_bytes(); }
 
+    /// Four boxes a ribbon instead of one saved no time and cost memory (docs/decisions/0006-wide-tree.md).
     static constexpr int kRibbonBlocksPerBox = 4;
 };
 
@@ -112,6 +114,7 @@ class GridKeys {
         std::memcpy(&bounds, bytes_ + which * sizeof(bounds), sizeof(bounds));
         return bounds;
     }
+    /// Bounds from codes between header(which).
     KeyBounds decoded(size_t which, const uint8_t* codes) const {
         return KeyBoundsScale(header(which)).bounds(codes);
     }

@@ -39,6 +39,7 @@ struct RayReach {
 template <class T>
 class AlignedArray {
   public:
+    /// Frees what there was; the new elements hold anything.
     void allocate(size_t count) {
         count_ = count;
         data_.reset(static_cast<T*>(::operator new (count * sizeof(T) + 128, std::align_val_t{64})));
@@ -106,6 +107,7 @@ class WideTree final : public RayQuery {
     const WideNode* nodes() const { return nodes_.data(); }
     const WideNodeMotion* node_motions() const { return node_motions_.data(); }
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
+    /// The record of a grid, by its index in grids().
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
     /// A grid's bounds and codes of boxes at its keys, as WideGrid tells; read by GridKeys.
     const uint8_t* keys_of(const WideGrid& grid) const { return keys_.data() + 2 * size_t{grid.first_pair}; }
