@@ -41,6 +41,7 @@ struct BorderSide {
     const EdgeInterval* interval = nullptr;
     int first = 0, step = 1, count = 0;
 
+    /// The interval's vertex that is the side's vertex i.
     int vertex(int i) const { return first + step * i; }
     /// Which of the side's vertices belongs to vertex i of n + 1 of the grid's border, n >= count: all occur.
     int vertex_of_border(int i, int n) const { return (2 * i * count + n) / (2 * n); }

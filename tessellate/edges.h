@@ -21,6 +21,7 @@ struct EdgeInterval {
 
     float size() const { return 1.0f / static_cast<float>(1u << depth); }
     float end() const { return begin + size(); }
+    /// Whether parameters a <= b lie in it, ends included.
     bool contains(float a, float b) const { return a >= begin && b <= end(); }
 
     /// The number of the interval's vertex nearest to a parameter inside it. Exact: all parameters of sides
@@ -48,6 +49,7 @@ struct BorderPoint {
 class EdgeTessellations {
   public:
     size_t size() const { return records_.size(); }
+    /// The intervals of an edge, in the order of its parameter.
     std::span<const EdgeInterval> of(uint32_t edge) const {
         const Record& r = records_[edge];
         return {intervals_.data() + r.first, r.count};
@@ -59,6 +61,7 @@ class EdgeTessellations {
     void append(const EdgeTessellations& other);
     /// Edge i becomes edge new_number[i].
     void renumber(std::span<const uint32_t> new_number);
+    /// Gives back memory that growing has left over; nothing can be added cheaply afterwards.
     void shrink_to_fit();
     size_t bytes() const;
 

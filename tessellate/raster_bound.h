@@ -15,6 +15,7 @@ class RasterBound {
     /// picture: the pixels that are sampled at all; what lies outside is dropped.
     RasterBound(const Camera& camera, const PixelRect& picture) : camera_(camera), picture_(picture) {}
 
+    /// What may see the boxes.
     struct Result {
         PixelRect rect;       ///< clamped to the picture; empty: nothing can be seen
         bool inside = false;  ///< the picture holds all of it, and so it does of any part
@@ -32,6 +33,7 @@ class RasterBound {
     Rect projected(const Box3f& box) const;
     /// Whether no ray of the picture comes through a box, which may cross the eye plane.
     bool missed_by_all_rays(const Box3f& box) const;
+    /// Whether all rays pass the box on one side, seen along x (axis 0) or y alone.
     bool missed_along(int axis, const Box3f& box) const;
 
     Camera camera_;

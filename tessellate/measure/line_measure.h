@@ -39,6 +39,7 @@ struct RateEstimate {
         sum += length, ++pieces;
         if (length > longest) longest = length;
     }
+    /// Segments that the whole line wants, not rounded.
     float segments(float pixels_per_segment) const { return sum / pixels_per_segment; }
     bool wants_split(float pixels_per_segment) const;
     int clamped_segments(const EdgeRate& rate) const;  ///< 1..16
@@ -47,8 +48,11 @@ struct RateEstimate {
 /// The measure of one primitive's lines under one camera. Immutable: threads share it.
 class LineMeasure {
   public:
+    /// The most pieces of a line, and the most keys at which foreshortening is trusted.
     static constexpr int kMostPieces = 8, kMostKeys = 3;
 
+    /// `displaced`: the surface will not lie where it is measured. The surface's attributes say whether
+    /// foreshortening counts.
     LineMeasure(const ScreenMetric& metric, const Camera& camera, const PlacedSurface& surface,
                 bool displaced, float pixels_per_segment);
 

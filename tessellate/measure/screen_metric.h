@@ -22,6 +22,7 @@ inline constexpr float kLeastForeshortening = 0.25f;
 /// Lengths under one camera. Of the whole picture: a crop window changes nothing.
 class ScreenMetric {
   public:
+    /// Keeps no reference to the camera.
     explicit ScreenMetric(const Camera& camera);
 
     /// The length of the piece from p to q, camera space; finite wherever they are.

@@ -32,6 +32,7 @@ class CurveTopology {
         int first = 0, count = 1;  ///< segments
         int all = 1;               ///< the curve's segments
     };
+    /// What a face holds; its v runs over the strip's segments evenly.
     Strip strip(int face) const;
     int vertices_of(int curve) const { return curves_.vertices_per_curve[curve]; }
     /// The number of a curve's first value of class vertex; first_varying(): of class varying.

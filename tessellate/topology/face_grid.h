@@ -15,6 +15,7 @@ class FaceLines {
   public:
     /// Lines along an axis of so many faces.
     int count(int faces, bool wraps) const;
+    /// The line at which a face begins.
     int low(int face) const { return low_.empty() ? face : low_[face]; }
     /// The line at which a face ends; low(): at which it begins.
     int high(int face, int faces, bool wraps) const;

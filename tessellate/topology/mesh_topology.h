@@ -56,16 +56,19 @@ class MeshTopology {
     int mesh_vertex_count() const { return static_cast<int>(vertices_at_.size()); }
     /// A corner's number among all faces' corners, in the order of the mesh.
     int first_corner(int mesh_face) const { return first_corner_[mesh_face]; }
+    /// The vertices at a mesh face's corners, in the order of the mesh.
     std::span<const int> face_vertices(int mesh_face) const {
         return vertices_.subspan(first_corner_[mesh_face],
                                  first_corner_[mesh_face + 1] - first_corner_[mesh_face]);
     }
 
   private:
+    /// A corner of a mesh face; -1: none.
     struct Corner {
         int mesh_face = -1;
         int corner = 0;
     };
+    /// An edge of the mesh, between two vertices.
     struct MeshEdge {
         int a = 0, b = 0;  ///< vertices; the edge's parameter runs from a to b
         Corner at;         ///< the side on which it is evaluated
@@ -81,6 +84,7 @@ class MeshTopology {
         return spokes_begin() + static_cast<uint32_t>(first_spoke_[mesh_face] + number);
     }
     void number_faces(std::span<const int> vertices_per_face, int whole_size);
+    /// Gives each pair of neighbouring vertices one number, in the order of its first use.
     void number_edges();
     void place(std::span<const uint8_t> evaluable);
 

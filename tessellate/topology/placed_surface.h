@@ -18,6 +18,8 @@ class EvaluationScratch {
     SurfaceScratch* of(const Surface& surface);
     std::span<V3f> points(size_t slot, size_t count);  ///< reused memory, 0 <= slot < kSlots
 
+    /// Slots of points(), one for each use that may overlap another: 0 and 1 shape keys, 2 borders, 3 and 4
+    /// splitting.
     static constexpr size_t kSlots = 5;
 
   private:
@@ -63,6 +65,8 @@ class PlacedSurface {
     Box3f bound(int face, V2f lo, V2f hi, int key) const;
 
   private:
+    /// The shape keys that the surface is asked for at a motion key; the motion key itself where
+    /// has_motion_keys().
     ShapeMix mix_of(int key) const;
 
     const Surface* surface_;

@@ -68,7 +68,9 @@ class Surface {
 
     /// How faces join; numbers run from 0 to the counts above.
     virtual std::array<SurfaceSide, 4> sides(int face) const = 0;
+    /// Where all of an edge's points are evaluated, whoever asks.
     virtual EdgeLine edge(uint32_t edge) const = 0;
+    /// Where a vertex is evaluated: a corner of one face.
     virtual SurfacePoint vertex(uint32_t vertex) const = 0;
 
     /// Null when none is needed. Never shared between threads.

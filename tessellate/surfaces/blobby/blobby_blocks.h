@@ -54,6 +54,7 @@ class BlobbyBlocks {
     struct Found {
         int level = 0, block = -1;
     };
+    /// The block of any cell of the finest level, in constant time a level.
     Found at(const GridIndex& cell) const;
     /// The field in a block or on its border: the same bits for all blocks that meet there, since leaves that
     /// do not reach a point add nothing.
@@ -61,15 +62,19 @@ class BlobbyBlocks {
 
     /// Where a place of the grid is in object space; computed alike for all blocks that share it.
     V3f place(const GridIndex& p) const;
+    /// The side of a level's cells, in object space.
     float cell(int level) const { return finest_ * static_cast<float>(1 << level); }
 
   private:
+    /// A node of the octree: eight children in a row, or a block, or neither (-1) where nothing bears on the
+    /// field.
     struct Node {
         int first_child = -1, block = -1, level = 0;
     };
 
     /// The largest cell that is fine enough in a box for features of an extent.
     float wanted(const Box3f& where, float feature) const;
+    /// Makes a node a block or divides it; false when there are too many blocks or operations.
     bool refine(int node, const GridIndex& at, const std::vector<int>& candidates,
                 const BlobbyProgram& program);
     /// The program for some leaves, to which the grounds are added.

@@ -25,6 +25,7 @@ struct BlobbyLeaf {
     V3f begin{0, 0, 0}, end{0, 0, 0};
     float radius = 1;
 
+    /// The leaf's own value and gradient at a point of object space.
     FieldValue at(const V3f& p) const;
     /// Object-space box beyond which it is 0; empty for one that is 0 everywhere, and for what does not end.
     Box3f support() const;
@@ -34,6 +35,7 @@ struct BlobbyLeaf {
 
 /// Operations in the order of the request; results are numbered as they come.
 struct BlobbyInstruction {
+    /// Same: its operand as it is. Add to Minimum take any number of operands, Subtract and Divide two.
     enum class Kind : uint8_t {
         Leaf,
         Constant,

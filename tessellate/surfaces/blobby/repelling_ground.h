@@ -27,6 +27,7 @@ struct Repulsion {
     float peak = 0;     ///< C: the height where the bulge is greatest
     float bulge = 0;    ///< D: that greatest value
 
+    /// The profile at a height z above the ground; slope() is its derivative.
     float at(float z) const;
     float slope(float z) const;  ///< by z
 };
@@ -41,6 +42,7 @@ struct RepellingGround {
     GroundHeight height;
     float step = 1e-3f;  ///< for the height's gradient
 
+    /// The field at a point of object space; gradient 0 where the ground is not known all around.
     FieldValue at(const V3f& p) const;
 };
 

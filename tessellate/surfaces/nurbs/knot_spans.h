@@ -8,6 +8,7 @@
 
 namespace trapeze {
 
+/// The largest order (degree + 1) that patches and trim curves may have.
 inline constexpr int kLargestOrder = 32;
 
 /// The basis functions that are not 0 at a parameter, and their derivatives: those of control points
@@ -29,6 +30,7 @@ class KnotSpans {
     int segment(int span) const { return spans_[span].knot - (order_ - 1); }
     /// The spline's parameter at 0..1 of a span; exact at its ends.
     double parameter(int span, float t) const;
+    /// Of the spline's parameter: of one span, and of all together.
     double length(int span) const { return spans_[span].end - spans_[span].begin; }
     double total_length() const { return spans_.back().end - spans_.front().begin; }
     /// Where a span's share t is in the whole range and in its knot interval, both 0..1.
@@ -44,9 +46,11 @@ class KnotSpans {
     /// The weight of control point first + i in Bezier control point j of [lo, hi] of a span:
     /// weights[j * order + i].
     void bezier_weights(int span, float lo, float hi, std::span<double> weights) const;
+    /// The first control point that bears on a span; order() of them do.
     int first_point(int span) const { return segment(span); }
 
   private:
+    /// A part of a non-empty knot interval, cut to begin..end of the range.
     struct Span {
         int knot = 0;  ///< the knot before it
         double begin = 0, end = 1;

@@ -12,6 +12,7 @@ using V2d = Imath::V2d;
 
 /// A mesh of polygons in the plane of cells.
 struct TrimmedCells {
+    /// A cell, by column and row.
     struct Cell {
         int i = 0, j = 0;
     };

@@ -45,6 +45,7 @@ class LimitPatch {
 
     /// Chooses the form from what the library has set up.
     void classify(std::span<const int> corners);
+    /// Evaluates at most kMostFloats floats a point, `stride` floats from point to point.
     void evaluate_library(const float* points, int size, int stride, const FacePiece& piece,
                           std::span<const V2f> uv, ValueSink value, ValueSink du, ValueSink dv) const;
 

@@ -13,6 +13,7 @@ namespace trapeze {
 
 /// What a mesh's tags say, checked: all indices are within the mesh.
 struct SubdivisionTags {
+    /// An edge by its ends; whether a face has it is found out later.
     struct Crease {
         int a = 0, b = 0;  ///< vertices
         float sharpness = 0;

@@ -20,6 +20,7 @@ namespace trapeze {
 /// Variables of the classes facevarying and facevertex that share their seams: s and t together, each other
 /// one alone. Values are welded: one for each value that differs at a vertex.
 struct FaceVaryingChannel {
+    /// A variable, and where in the channel's values its own floats begin.
     struct Member {
         const Parameter* parameter = nullptr;
         int first = 0;  ///< float of the channel's values
@@ -32,6 +33,7 @@ struct FaceVaryingChannel {
 
 /// What a thread keeps of the faces that it evaluated last: a grid's borders lie on its neighbours, too.
 struct SubdivisionScratch : SurfaceScratch {
+    /// All that has been set up for one mesh face; -1: nothing yet.
     struct Face {
         int mesh_face = -1;
         LimitPatch patch;
@@ -42,6 +44,7 @@ struct SubdivisionScratch : SurfaceScratch {
         };
         std::vector<Channel> channels;
     };
+    /// Faces kept by a thread.
     static constexpr size_t kFaces = 32;
     std::array<Face, kFaces> faces;  ///< at mesh_face % kFaces
 };
@@ -49,6 +52,7 @@ struct SubdivisionScratch : SurfaceScratch {
 /// One mesh at all of its shape keys; threads share it, and the library's cache behind it is locked.
 class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
   public:
+    /// The primitive outlives the surface; its shape keys have positions for all vertices.
     SubdivisionSurface(const Primitive& primitive,
                        std::unique_ptr<const OpenSubdiv::Far::TopologyRefiner> refiner,
                        std::vector<FaceVaryingChannel> channels);
@@ -73,12 +77,14 @@ class SubdivisionSurface : public TopologySurface<SubdivisionSurface> {
     const LimitPatch& cached_channel(SubdivisionScratch::Face& cached, int channel) const;
 
   private:
+    /// What becomes of a mesh face.
     enum class FaceKind : uint8_t {
         Hole,   ///< or at a boundary that is not interpolated: not drawn
         Limit,  ///< has a limit surface
         Flat,   ///< is drawn as it is, because the library cannot take it
     };
 
+    /// The kind of a mesh face, by the library's own answer and by what it cannot take.
     FaceKind kind_of(int mesh_face) const;
     void set_vertex_patch(int mesh_face, LimitPatch& patch) const;
     Box3f ring_box(int mesh_face, int shape_key) const;
