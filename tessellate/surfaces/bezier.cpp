@@ -11,6 +11,7 @@ struct Weights {
     float w[4], d[4];
 };
 
+/// Bernstein polynomials of degree 1 or 3 at t; unused places are 0.
 Weights weights(int degree, float t) {
     const float s = 1 - t;
     if (degree == 1) return {{s, t, 0, 0}, {-1, 1, 0, 0}};
@@ -32,6 +33,7 @@ float combine(const std::array<float, 4>& c, int degree, const Weights& weights,
     return from + steps;
 }
 
+/// Between two points, exact at both ends.
 Control lerp(const Control& a, const Control& b, float t) {
     Control c;
     for (int k = 0; k < 4; ++k) c[k] = a[k] * (1 - t) + b[k] * t;
@@ -98,6 +100,7 @@ void BezierPatch::at(V2f uv, Control* value, Control* by_u, Control* by_v) const
 }
 
 BezierPatch BezierPatch::restricted(V2f lo, V2f hi) const {
+    // Along u row by row, then along v column by column.
     BezierPatch part = *this;
     for (int j = 0; j <= degree; ++j) restrict_line(&part.p[j * 4], 1, degree, lo.x, hi.x);
     for (int i = 0; i <= degree; ++i) restrict_line(&part.p[i], 4, degree, lo.y, hi.y);
@@ -135,8 +138,11 @@ M44f bezier_from_basis(const M44f& basis) {
 
 bool pieces_join(const M44f& bezier_from_basis, int step) {
     constexpr float kNone = 1e-6f;
+    // Bezier points 0 and 3 are where a piece begins and ends.
     const float *const begin = bezier_from_basis[0], *const end = bezier_from_basis[3];
     for (int i = 0; i < 4 + step; ++i) {  // control points of both pieces
+        // The weight of control point i in the end of one piece and in the begin of the next, `step` points
+        // further.
         const float by_first = i < 4 ? end[i] : 0.0f, by_next = i >= step ? begin[i - step] : 0.0f;
         if (std::abs(by_first - by_next) > kNone) return false;
     }
@@ -179,6 +185,7 @@ void numbers_to_bezier(const M44f& u_bezier_from_basis, const M44f& v_bezier_fro
                 const float from = q[std::max_element(w, w + 4) - w];
                 float whole = 0, steps = 0;
                 for (int k = 0; k < 4; ++k) whole += w[k], steps += w[k] * (q[k] - from);
+                // A basis whose weights add up to 1 keeps constants; rounding must not.
                 if (std::abs(whole - 1) < kRounding) whole = 1;
                 patch.p[line * across + i * along][0] = whole * from + steps;
             }

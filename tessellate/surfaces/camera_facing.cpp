@@ -18,6 +18,7 @@ CameraFacing::CameraFacing(const M44f& camera_from_object, const Camera* camera)
     : camera_from_object_(camera_from_object),
       object_from_camera_(M44f(M44d(camera_from_object).inverse())),
       perspective_(!camera || camera->perspective) {
+    // In double: determinants of small scales underflow in float.
     const double determinant = M44d(camera_from_object).determinant();
     outside_ = determinant < 0 ? -1.0f : 1.0f;
     scale_ = static_cast<float>(std::cbrt(std::abs(determinant)));
@@ -33,6 +34,7 @@ V3f CameraFacing::to_object(const V3f& camera_vector) const {
 V3f CameraFacing::across(const V3f& point, const V3f& tangent) const {
     const V3f ray = perspective_ ? transform_point(camera_from_object_, point) : V3f(0, 0, 1);
     const V3f along = transform_vector(camera_from_object_, tangent);
+    // Across the ray and the tangent in camera space; mirrored spaces turn it over.
     V3f side = ray.cross(along) * outside_;
     constexpr float kParallel = 1e-5f;  // below, the direction is mostly rounding
     if (!(side.dot(side) > kParallel * kParallel * ray.dot(ray) * along.dot(along)))

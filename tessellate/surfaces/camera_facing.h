@@ -26,6 +26,7 @@ class CameraFacing {
     const M44f& camera_from_object() const { return camera_from_object_; }
 
   private:
+    /// A direction of camera space in object space, not of unit length.
     V3f to_object(const V3f& camera_vector) const;
 
     M44f camera_from_object_, object_from_camera_;

@@ -13,6 +13,7 @@ CurveVariable CurveVariable::of(const Parameter* parameter, int first_component,
 
 void CurvePiece::at(float t, Control* value, Control* by_t) const {
     if (cubic) return curve.at(t, value, by_t);
+    // A line: its ends are the first two control points.
     for (int k = 0; k < 4; ++k) {
         (*value)[k] = curve.p[0][k] * (1 - t) + curve.p[1][k] * t;
         (*by_t)[k] = curve.p[1][k] - curve.p[0][k];
@@ -58,6 +59,7 @@ CurvePiece CurvePieces::piece(const CurveVariable& variable, int curve, int segm
         std::copy_n(variable.values + number * variable.stride, variable.count, out.begin());
     };
     switch (variable.storage) {
+        // One value for all curves, or for this one: the same at both ends.
         case StorageClass::Constant:
         case StorageClass::Uniform:
             value(variable.storage == StorageClass::Constant ? 0 : curve, p[0]);
@@ -70,6 +72,7 @@ CurvePiece CurvePieces::piece(const CurveVariable& variable, int curve, int segm
             if (piece.cubic) to_bezier(bezier_from_basis_, piece.curve);
             break;
         default: {
+            // Varying: a value at each joint; that of a periodic curve's last joint is its first.
             const int values = curves_.varying(topology_.vertices_of(curve));
             const size_t first = topology_.first_varying(curve);
             value(first + segment, p[0]);

@@ -49,6 +49,7 @@ class CurvePieces {
   private:
     const Curves& curves_;
     const CurveTopology& topology_;
+    /// Set for cubic curves alone.
     M44f bezier_from_basis_;
 };
 

@@ -68,10 +68,14 @@ class CurvesSurface : public TopologySurface<CurvesSurface> {
     CurvePiece piece(CurveVariable RibbonVariables::*variable, int curve, int segment, int key) const;
     /// A control point's place at a motion key.
     V3f control(int curve, int point, int key) const;
+    /// All that shapes one segment at a motion key.
     Segment segment(int curve, int number, int key) const;
+    /// What the ribbon of a line spans at its begin (t = 0) or end (1), which is control point `point`.
     V3f joint_span(const Segment& segment, int curve, int point, float t, int key) const;
     /// The unit direction across the ribbon: across N where there is one, else across the ray that sees it.
     V3f direction(const Segment& segment, const V3f& at, const V3f& tangent, float t, int key) const;
+    /// The ribbon at t of a segment. The direction's own change along the curve is left out of the
+    /// derivative.
     Across across(const Segment& segment, float t, int key) const;
 
     const Primitive& primitive_;
@@ -129,6 +133,7 @@ CurvesSurface::Segment CurvesSurface::segment(int curve, int number, int key) co
 V3f CurvesSurface::joint_span(const Segment& segment, int curve, int point, float t, int key) const {
     const int n = topology_.vertices_of(curve);
     const V3f at = control(curve, point, key);
+    // Unit directions of the lines that come to the point and leave it; 0 at an end.
     V3f in(0, 0, 0), out(0, 0, 0);
     if (curves_.periodic || point > 0) in = unit_or_zero(at - control(curve, point + n - 1, key));
     if (curves_.periodic || point + 1 < n) out = unit_or_zero(control(curve, point + 1, key) - at);
@@ -143,6 +148,7 @@ V3f CurvesSurface::joint_span(const Segment& segment, int curve, int point, floa
 V3f CurvesSurface::direction(const Segment& segment, const V3f& at, const V3f& tangent, float t,
                              int key) const {
     if (keys_.front().N) {
+        // Normals along the tangent say nothing: then the ribbon faces the camera there.
         const V3f side = unit_or_zero(unit_or_zero(tangent).cross(unit_or_zero(xyz(segment.N.at(t)))));
         if (side != V3f(0, 0, 0)) return side;
     }
@@ -245,6 +251,7 @@ Box3f CurvesSurface::bound(int face, V2f lo, V2f hi, int key) const {
     Box3f box;
     float widest = 0;
     for (int i = 0; i < strip.count; ++i) {
+        // Segment i of the strip is at v * count from i to i + 1.
         const float first = static_cast<float>(i);
         if (to < first || from > first + 1) continue;
         const Segment s = segment(strip.curve, strip.first + i, key);

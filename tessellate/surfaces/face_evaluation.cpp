@@ -34,6 +34,7 @@ void for_blocks(std::span<const V2f> uv, F&& f) {
     }
 }
 
+/// Writes a component of a block's points; padding is dropped.
 void store(const Block& block, const Lanes& values, int component, const ValueSink& sink) {
     for (size_t l = 0; l < block.count; ++l) sink.at(block.first + l, component) = values[l];
 }
@@ -97,6 +98,7 @@ void piece_corners(const FacePiece& piece, const float* values, int size, float*
         std::copy_n(values, 4 * size, corners);
         return;
     }
+    // Corner i, the midpoint of side i, the centre, the midpoint of side i - 1: see mesh_topology.h.
     const float* here = values + piece.piece * size;
     const float* next = values + piece.next() * size;
     const float* previous = values + piece.previous() * size;
@@ -157,6 +159,8 @@ void evaluate_bspline(const float* controls, int size, std::span<const V2f> uv, 
     for_blocks(uv, [&](const Block& b) {
         const CubicWeights u(b.u), v(b.v);
         for (int k = 0; k < size; ++k) {
+            // Rows along u first, then the column of rows along v, with the weights of values or of
+            // derivatives.
             Lanes row[4], sum;
             for (int j = 0; j < 4; ++j) combine(u.w, controls + j * 4 * size + k, size, row[j]);
             combine(v.w, row, sum);
@@ -194,6 +198,7 @@ Box3f bilinear_bound(const float* corners, V2f lo, V2f hi) {
 }
 
 Box3f bspline_bound(const float* controls, V2f lo, V2f hi) {
+    // The rectangle's own Bezier control points, three floats each: their hull holds the surface.
     std::array<float, 48> part;
     Box3f whole;
     for (int i = 0; i < 16; ++i)

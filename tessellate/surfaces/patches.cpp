@@ -75,6 +75,7 @@ bool PatchSurface::meets(int face, int next, bool along_u) const {
     for (size_t key = 0; key < points_.size(); ++key) {
         const BezierPatch a = positions(face, static_cast<int>(key)),
                           b = positions(next, static_cast<int>(key));
+        // Compared to the size of the numbers, by all components: rational patches by w, too.
         float size = 0, apart = 0;
         for (int i = 0; i < 4; ++i) {
             const Control &p = a.p[along_u ? i * 4 + 3 : 12 + i], &q = b.p[along_u ? i * 4 : i];
@@ -117,6 +118,7 @@ BezierPatch PatchSurface::numbers(int face, const float* values, size_t stride) 
 BezierPatch PatchSurface::controls(int face, const float* values, int count, size_t stride) const {
     BezierPatch patch;
     patch.degree = mesh_.bicubic ? 3 : 1;
+    // Patches begin a step apart; they share control points where the step is less than 4.
     const int first_i = faces_.column_of(face) * (mesh_.bicubic ? mesh_.u_step : 1);
     const int first_j = faces_.row_of(face) * (mesh_.bicubic ? mesh_.v_step : 1);
     for (int j = 0; j <= patch.degree; ++j)
@@ -170,6 +172,7 @@ class PatchValues : public VariableSource {
             for (size_t i = 0; i < values.size(); ++i) values[i] = patch.number_at(uv_[i]);
             return;
         }
+        // Linear between the values at the face's corners, for all other classes.
         float c[4];
         for (int corner = 0; corner < 4; ++corner)
             c[corner] = first[corner_index(parameter.declaration.storage, corner) * stride];

@@ -27,6 +27,7 @@ struct DiskPoint {
 DiskPoint disk_point(V2f uv) {
     const float a = 2 * uv.x - 1, b = 2 * uv.y - 1;
     constexpr float kQuarter = kHalfTurn / 4;
+    // Four sectors about the axes: r, along the sector's axis, is how far out; the other coordinate turns.
     const bool sideways = std::abs(a) >= std::abs(b);
     const float r = sideways ? a : b, other = sideways ? b : a;
     const float angle = r != 0 ? kQuarter * other / r : 0.0f;
@@ -135,6 +136,7 @@ PointsSurface::PointsSurface(const Primitive& primitive, const Camera* camera, P
 /// micropolygons; 0: as a square. 1 where the size is not known.
 float PointsSurface::factor(int point, const Camera* camera) const {
     if (!camera || type_ == PointType::Picture) return 1;
+    // Behind the eye there is no size on the screen.
     const float z = transform_point(facing_[0].camera_from_object(), keys_[0].place(point)).z;
     if (camera->perspective && !(z > 0)) return 1;
     const V2f scale = camera->pixels_per_length(z);
@@ -146,10 +148,12 @@ float PointsSurface::factor(int point, const Camera* camera) const {
     const float chords = size * 4 * std::sin(kHalfTurn / 16);
     constexpr int kMostSides = 8;
     constexpr float kFits = 0.012f;
+    // Beyond eight segments a side the polygon is as good as its circle.
     if (chords > kMostSides) return 1;
     float best = 0, best_error = kFits;  // else a square of more than one micropolygon
     // A polygon of 4 * side corners that is diced into just so many and is as large as the circle.
     for (int side = 1; side <= kMostSides; ++side) {
+        // Clamped to what is diced into `side` segments: more than side - 1 and at most side of them.
         const float wanted = polygon_factor(4 * side), sides = static_cast<float>(side);
         const float factor = std::clamp(wanted, 1.002f * (sides - 1) / chords, 0.998f * sides / chords);
         const float error = std::abs(factor / wanted - 1);
@@ -255,6 +259,7 @@ void PointsSurface::set_sphere_normals(const Disk& disk, std::span<const V2f> uv
 
 Box3f PointsSurface::bound(int face, V2f, V2f, int key) const {
     const Disk d = disk(face, key);
+    // A box about the rectangle of x and y, in which the disk lies too.
     V3f half;
     for (int k = 0; k < 3; ++k) half[k] = std::abs(d.x[k]) + std::abs(d.y[k]);
     return {d.centre - half, d.centre + half};

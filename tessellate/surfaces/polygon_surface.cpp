@@ -67,6 +67,7 @@ class PolygonSurface : public TopologySurface<PolygonSurface> {
 };
 
 std::array<float, 12> PolygonSurface::corner_positions(const FacePiece& piece, int shape_key) const {
+    // Up to four corners of three floats, in the order of the mesh face.
     std::array<float, 12> positions{};
     const std::span<const int> vertices = topology_.face_vertices(piece.mesh_face);
     for (size_t i = 0; i < vertices.size(); ++i)
@@ -96,6 +97,7 @@ class PolygonSurface::Values : public VariableSource {
 
     void component(const Parameter& parameter, int component, std::span<float> values) const override {
         const size_t stride = parameter.declaration.floats_per_item();
+        // A triangle uses three of them; its pieces are linear in those.
         float corners[4] = {};
         for (int i = 0; i < piece_.size; ++i)
             corners[i] = parameter.floats[item(parameter, i) * stride + component];

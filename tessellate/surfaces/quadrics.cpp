@@ -36,6 +36,7 @@ struct Range {
 Range cosine(Range angle) {
     constexpr float kSlack = 2e-6f;
     Range c = Range::of(std::cos(angle.lo), std::cos(angle.hi));
+    /// Whether a multiple of the turn, shifted by `phase`, lies in the interval: an extremum of the cosine.
     const auto passes = [&](float phase) {
         return std::floor((angle.hi - phase) / (2 * kPi)) != std::floor((angle.lo - phase) / (2 * kPi));
     };
@@ -83,6 +84,7 @@ bool whole_turn(float degrees) {
 Profile sphere_profile(const std::array<float, 7>& q) {
     Profile p;
     p.a = q[0];
+    // zmin and zmax are cut to the radius.
     const auto latitude = [&](float z) { return std::asin(std::clamp(z / q[0], -1.0f, 1.0f)); };
     p.from = latitude(q[1]), p.to = latitude(q[2]);
     // zmin and zmax at or beyond the radius: the sphere is closed there.
@@ -239,6 +241,7 @@ void QuadricSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, 
     const float dv = 1 / static_cast<float>(faces_.rows);
     for (size_t i = 0; i < uv.size(); ++i) {
         const V2f at = faces_.surface_uv(face, uv[i]);
+        // The profile turned about z; RISpec's derivatives by the face's u and v, hence du and dv.
         const float theta = at.x * profile.theta_max;
         const float c = std::cos(theta), s = std::sin(theta);
         const ProfilePoint p = profile.at(at.y);
@@ -266,6 +269,7 @@ Box3f QuadricSurface::bound(int face, V2f lo, V2f hi, int shape_key) const {
     const ProfileRange r = profile.over({a.y, b.y});
     const Range theta = Range::of(a.x * profile.theta_max, b.x * profile.theta_max);
     const Range c = cosine(theta), s = sine(theta);
+    // The rotation of at() in intervals.
     const Range x = r.x * c - r.y * s, y = r.x * s + r.y * c;
     return {V3f(x.lo, y.lo, r.z.lo), V3f(x.hi, y.hi, r.z.hi)};
 }

@@ -51,6 +51,8 @@ bool set_own_floats(const Parameter& parameter, const VariableSource& source, Sh
 
 GridVariable& variable_slot(ShadingGrid& grid, size_t index, const Parameter& parameter, bool uniform) {
     if (index >= grid.variables.size()) grid.variables.resize(index + 1);
+    // Names and planes are kept where they fit: grids of one surface have the same variables in the same
+    // places.
     GridVariable& variable = grid.variables[index];
     if (variable.name != parameter.name) variable.name = parameter.name;
     variable.declaration = parameter.declaration;
@@ -74,6 +76,7 @@ bool set_variables(const ParameterList& parameters, const VariableSource& source
             continue;
         }
         if (set_own_floats(parameter, source, grid)) continue;
+        // Everything else is a variable of its own, in the order of the parameter list.
         const bool uniform = is_uniform(parameter);
         GridVariable& variable = variable_slot(grid, count++, parameter, uniform);
         for (size_t i = 0; i < variable.strings.size(); ++i)
@@ -82,6 +85,7 @@ bool set_variables(const ParameterList& parameters, const VariableSource& source
         for (size_t k = 0; k < variable.planes.size(); ++k)
             fill(parameter, static_cast<int>(k), source, variable.planes[k]);
     }
+    // What an earlier grid had besides goes.
     grid.variables.resize(count);
     return has_normals;
 }

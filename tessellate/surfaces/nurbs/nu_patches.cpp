@@ -132,6 +132,7 @@ void NuPatchSurface::find_tears(bool along_u) {
     std::vector<bool> torn(spans.count());
     for (int i = 0; i + 1 < spans.count(); ++i) {
         const int last = spans.first_point(i) + spans.order() - 1, next = spans.first_point(i + 1);
+        // Spans that share control points meet.
         if (next <= last) continue;
         for (const ControlPoints& points : points_)
             for (int line = 0; line < (along_u ? patch_.nv : patch_.nu); ++line) {
@@ -239,6 +240,7 @@ class NuPatchValues : public VariableSource {
         for (int corner = 0; corner < 4; ++corner)
             c[corner] = first[corner_index(parameter.declaration.storage, corner) * stride];
         for (size_t i = 0; i < values.size(); ++i) {
+            // Values are at the corners of knot intervals, of which the span may be a part.
             const float u = s_.u_.share_of_segment(column_, uv_[i].x);
             const float v = s_.v_.share_of_segment(row_, uv_[i].y);
             values[i] = between_corners(c[0], c[1], c[2], c[3], u, v);

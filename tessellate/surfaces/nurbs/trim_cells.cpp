@@ -176,6 +176,7 @@ bool Cutter::corner_kept(int i, int j) const {
 /// The nodes of one side of a cell from its corner `from` on, without the corner at its end. What is kept
 /// along an edge is counted from its least corner, for both cells alike.
 void Cutter::add_side(std::vector<BorderNode>& nodes, const Edge& edge, bool forwards, int from) {
+    // Each crossing changes sides.
     const bool kept = corner_kept(edge[1], edge[2]);
     const auto found = edge_crossings_.find(edge);
     const int count = found == edge_crossings_.end() ? 0 : static_cast<int>(found->second.size());
@@ -271,6 +272,7 @@ void Cutter::emit(int i, int j, const std::vector<int>& outline, const std::vect
     }
     std::vector<V2d> points;
     for (const int v : vertices) points.push_back(out_.points[v]);
+    // Triangles run the way of the outline; faces run anticlockwise.
     const bool turned = signed_area(out_.points, outline) < 0;
     for (const std::array<int, 3>& t : triangulate(points, sizes)) {
         std::vector<int> triangle{vertices[t[0]], vertices[t[1]], vertices[t[2]]};

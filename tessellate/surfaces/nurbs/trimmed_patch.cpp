@@ -71,6 +71,7 @@ class TrimmedPatch : public TopologySurface<TrimmedPatch> {
     /// Points of a piece as points of the whole patch's face.
     std::vector<V2f> on_whole(const FacePiece& piece, std::span<const V2f> uv) const {
         const TrimmedCells::Cell at = cell(piece);
+        // The least cell of the span that the piece lies in: (0, 0) of the whole patch's face.
         const double first_i = at.i / plane_.per_column * plane_.per_column;
         const double first_j = at.j / plane_.per_row * plane_.per_row;
         std::vector<V2f> corners, result(uv.size());
@@ -103,6 +104,7 @@ std::unique_ptr<Surface> make_trimmed_patch(const NuPatch& patch, std::unique_pt
     plane.per_row = (kCells + v.count() - 1) / v.count();
     std::vector<std::vector<V2d>> loops = flattened_loops(patch);
     for (std::vector<V2d>& loop : loops)
+        // From shares of the range to cells: spans have equally many, however long they are.
         for (V2d& p : loop) p = {u.spans_before(p.x) * plane.per_column, v.spans_before(p.y) * plane.per_row};
     TrimmedCells cells = trim_cells(std::move(loops), plane.columns * plane.per_column,
                                     plane.rows * plane.per_row, patch.trim_outside);

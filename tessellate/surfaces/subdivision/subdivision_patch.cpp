@@ -93,6 +93,7 @@ void evaluate_in(const Chart& chart, const OpenSubdiv::Bfr::Surface<float>& surf
 /// Sets the points beyond a boundary, by which the B-spline ends there: 2 p1 - p2, rows before columns, so
 /// that corners come of both.
 void extrapolate(float* controls, int size, const bool (&boundary)[4]) {
+    // Four points of a line, a step apart: each is set from the two further inward.
     const auto line = [&](int first, int step, int inward) {
         for (int i = 0; i < 4; ++i)
             for (int k = 0; k < size; ++k) {
@@ -156,6 +157,7 @@ void LimitPatch::gather(const float* values, int size, std::vector<float>& point
         case Form::Bspline:
             copy(controls_);
             return extrapolate(points.data(), size, boundary_);
+        // Bfr's own points of the patch: refined ones, made of the mesh's.
         case Form::Library:
             points.resize(static_cast<size_t>(surface_.GetNumPatchPoints()) * size);
             surface_.PreparePatchPoints(values, size, points.data(), size);

@@ -168,6 +168,7 @@ OpenSubdiv::Sdc::SchemeType scheme_type(SubdivisionMesh::Scheme scheme) {
 
 /// What OpenSubdiv would refuse, in words; empty when it takes the mesh.
 std::string reason_to_refuse(const SubdivisionMesh& mesh) {
+    // Faces at each vertex, counted on the way.
     std::vector<int> valence(mesh.vertex_count);
     size_t corner = 0;
     for (size_t face = 0; face < mesh.vertices_per_face.size(); ++face) {

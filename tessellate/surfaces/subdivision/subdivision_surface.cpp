@@ -24,6 +24,7 @@ SubdivisionSurface::SubdivisionSurface(const Primitive& primitive,
     for (const auto& shape : primitive.shape_keys)
         positions_.push_back(shape->variables.find("P")->floats.data());
     const SubdivisionMesh& mesh = std::get<SubdivisionMesh>(primitive.shape().topology);
+    // Shared edges and vertices are evaluated on faces that have a limit surface.
     std::vector<uint8_t> has_limit;
     for (int face = 0; face < static_cast<int>(mesh.vertices_per_face.size()); ++face) {
         kinds_.push_back(kind_of(face));
@@ -137,6 +138,7 @@ std::unique_ptr<Surface> make_subdivision_surface(const Primitive& primitive, Di
                           "subdivision-points");
         return nullptr;
     }
+    // Tags and channels are part of the refiner's topology.
     const SubdivisionTags tags = read_tags(mesh, primitive.location, diagnostics);
     std::vector<FaceVaryingChannel> channels =
         make_channels(mesh, primitive.shape().variables, tags.linear_face_varying);

@@ -39,6 +39,7 @@ void weld(const SubdivisionMesh& mesh, FaceVaryingChannel& channel) {
             std::copy_n(member.parameter->floats.data() + corner * floats, floats,
                         value.data() + member.first);
         }
+        // Follows the vertex's list to an equal value, or to its end, where the new one is put.
         int* link = &first_at[mesh.vertices[corner]];
         while (*link >= 0 &&
                !std::equal(value.begin(), value.end(), channel.values.begin() + *link * channel.size))
@@ -117,6 +118,7 @@ void SubdivisionValues::component(const Parameter& parameter, int component, std
         for (size_t c = 0; c < channels.size() && !member; ++c)
             for (const auto& m : channels[c].members)
                 if (m.parameter == &parameter) member = &m, channel = c;
+        // Varying, or facevarying without channels: linear.
         if (!member) return linear(parameter, component, values);
         evaluate(&channels[channel], surface_.cached_channel(cached_, static_cast<int>(channel)),
                  channels[channel].values.data(), channels[channel].size);
