@@ -23,6 +23,7 @@ struct SourceLocation {
     uint32_t column = 0;
 };
 
+/// One message as listeners get it.
 struct Diagnostic {
     Severity severity = Severity::Error;
     std::string text;                        ///< one line, without the place
@@ -43,6 +44,7 @@ class Diagnostics {
   public:
     using Listener = std::function<void(const Diagnostic&)>;
 
+    /// The listener is called under a lock: one message at a time, from whichever thread reports.
     explicit Diagnostics(Listener listener = {}) : listener_(std::move(listener)) {}
 
     /// Registers a file (or "<stdin>", an inline archive...) so that locations can refer to it.
@@ -51,8 +53,11 @@ class Diagnostics {
     /// after a #line.
     uint32_t add_source(std::string name, SourceLocation included_from,
                         std::shared_ptr<const std::string> text, int64_t line_shift = 0);
+    /// The name that a source was registered by; empty for 0.
     std::string source_name(uint32_t source) const;
 
+    /// Reports a message; `kind`: see Diagnostic. Texts are one line and begin with the request or file at
+    /// fault.
     void error(SourceLocation at, std::string text, std::string kind = {}) {
         report(Severity::Error, at, std::move(text), std::move(kind));
     }
@@ -67,6 +72,7 @@ class Diagnostics {
     /// How many were reported, the unshown repetitions included.
     uint64_t count(Severity severity) const;
 
+    /// All messages of one kind.
     struct KindCount {
         Severity severity;
         std::string text;  ///< that of the first of its kind

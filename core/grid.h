@@ -38,6 +38,7 @@ struct GridShape {
     int tiles_u() const { return (nu + 4) / 4; }
     int tiles_v() const { return (nv + 4) / 4; }
     int plane_size() const { return tiles_u() * tiles_v() * 16; }  ///< floats
+    /// The place of vertex (i, j) in a plane of tiles; row_index(): in a plane of rows.
     int tiled_index(int i, int j) const {
         return ((j >> 2) * tiles_u() + (i >> 2)) * 16 + (j & 3) * 4 + (i & 3);
     }
@@ -54,6 +55,7 @@ struct MicropolygonId {
 
     static constexpr uint64_t kNone = ~uint64_t{0};
     uint64_t packed() const { return uint64_t{grid} << 8 | uint64_t{v} << 4 | u; }
+    /// The inverse of packed().
     static MicropolygonId unpack(uint64_t id) {
         return {static_cast<uint32_t>(id >> 8), static_cast<uint8_t>(id & 15),
                 static_cast<uint8_t>(id >> 4 & 15)};
@@ -148,6 +150,7 @@ class GridArena {
     size_t bytes() const { return bytes_; }
 
   private:
+    /// 64-byte aligned memory, from the present chunk or a new one.
     std::byte* take(size_t size);
 
     struct Free {
@@ -165,6 +168,7 @@ struct Grids {
 
     uint64_t micropolygon_count() const;
     size_t bytes() const;
+    /// The keys of the grid that has the most; 1 without grids.
     int max_key_count() const;
 };
 

@@ -9,6 +9,7 @@
 
 namespace trapeze {
 
+/// Where a ray meets a micropolygon.
 struct Hit {
     float depth = 0;                      ///< along the ray's axis; camera-space z for camera rays
     uint64_t id = MicropolygonId::kNone;  ///< MicropolygonId::packed()
@@ -21,6 +22,7 @@ constexpr bool in_front(const Hit& a, const Hit& b) {
     return a.depth < b.depth || (a.depth == b.depth && a.id < b.id);
 }
 
+/// The hits of a tile's samples, one after another.
 struct HitBuffer {
     std::vector<uint32_t> first;  ///< sample s has hits[first[s]] .. hits[first[s + 1]]; size() + 1 entries
     std::vector<Hit> hits;

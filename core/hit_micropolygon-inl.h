@@ -21,6 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 namespace predicate_lanes {
 
+/// The edge function of the scalar form: twice the area of the triangle with the origin.
 template <class V>
 HWY_INLINE V edge(V ai, V bi, V aj, V bj) {
     return hn::Sub(hn::Mul(ai, bj), hn::Mul(aj, bi));

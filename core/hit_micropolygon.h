@@ -64,15 +64,18 @@ struct QuadWeights {
 
 namespace predicate_detail {
 
+/// A quad's corners along the ray to its plane, and the edge functions of its sides.
 struct Edges {
     float a[4], b[4];
     float c_bottom, c_right, c_top, c_left;  ///< 00->10, 10->11, 11->01, 01->00
 };
 
+/// Twice the signed area of the triangle of the origin and an edge's ends.
 inline float edge(float ai, float bi, float aj, float bj) {
     return ai * bj - aj * bi;
 }
 
+/// Moves the corners along the ray; all forms of the predicate do it in this order of operations.
 inline Edges edges_of(const AxisRay& ray, const Quad& q) {
     Edges e;
     for (int i = 0; i < 4; ++i) {
@@ -93,6 +96,7 @@ inline bool crosses(const Edges& e, int i, int j) {
            std::signbit(e.a[i] * std::abs(e.b[j]) + e.a[j] * std::abs(e.b[i]));
 }
 
+/// Whether the origin is inside, by the even-odd rule over the four sides.
 inline bool inside(const Edges& e) {
     return crosses(e, k00, k10) ^ crosses(e, k10, k11) ^ crosses(e, k11, k01) ^ crosses(e, k01, k00);
 }
@@ -102,6 +106,7 @@ inline float area(const Edges& e) {
     return (e.c_bottom + e.c_right) + (e.c_top + e.c_left);
 }
 
+/// Whether the quad can be hit from this side. A quad without area counts as positive.
 inline bool faces(const Edges& e, Facing facing) {
     if (facing == Facing::Both) return true;
     const float twice_area = area(e);

@@ -31,6 +31,7 @@ struct Frame {
 /// and their normal. Directions that vanish or are parallel leave the choice free.
 Frame frame_of(const V3d& first, const V3d& second);
 
+/// A bound of something that moves, in its own frame; time01 is 0 at shutter open, 1 at shutter close.
 struct HyperTrapezoid {
     Frame frame;
     std::vector<Box3f> keys;  ///< in the frame; 1 or 2^m + 1 of them
@@ -41,7 +42,7 @@ struct HyperTrapezoid {
     /// Whether a point of space is inside at a time.
     bool contains(const V3f& point, float time01) const;
 
-    /// The same bound seen from another frame and at least as many keys: a box around each box.
+    /// This bound seen from another frame and at least as many keys: a box around each box.
     HyperTrapezoid in(const Frame& other, int at_least_keys) const;
 
     /// Grows to hold the other too, in this frame.

@@ -12,7 +12,9 @@ namespace trapeze {
 class RayQuery {
   public:
     virtual ~RayQuery() = default;
+    /// The nearest hit within the range, ends included; nothing for rays that hit nothing or are no numbers.
     virtual std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const = 0;
+    /// Whether there is a hit within the range.
     virtual bool any(const SpaceRay& ray, DepthRange range) const = 0;
 };
 

@@ -39,6 +39,9 @@ struct TurnedRay {
     float depth_sign = 1;
 };
 
+/// Turns a ray so that the largest component of its direction is called z; of equal ones z before y before x.
+/// The direction need not be of unit length; one without length gives slopes that are no numbers, and no
+/// hits.
 inline TurnedRay axis_ray(const SpaceRay& ray) {
     const V3f& d = ray.direction;
     const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);

@@ -6,6 +6,7 @@
 
 namespace trapeze {
 
+/// What splitting made; culled subpatches are those that nothing sees.
 struct TessellateStats {
     uint64_t primitives = 0, subpatches = 0, grids = 0, micropolygons = 0, culled_subpatches = 0;
 
@@ -16,6 +17,7 @@ struct TessellateStats {
     }
 };
 
+/// What shading did; values that were no numbers have been replaced.
 struct ShadeStats {
     uint64_t shaded_vertices = 0, not_finite_values = 0;
 
@@ -25,6 +27,7 @@ struct ShadeStats {
     }
 };
 
+/// What was built for finding hits: bytes held, nodes and leaves.
 struct BuildStats {
     uint64_t tree_bytes = 0, tree_nodes = 0, tree_leaves = 0;
     double setup_seconds =
@@ -37,6 +40,8 @@ struct BuildStats {
     }
 };
 
+/// What finding hits cost: rays traced, tests of the exact predicate and how many of them hit, nodes and
+/// leaves of whatever structure the method has.
 struct SampleStats {
     uint64_t rays = 0, predicate_tests = 0, predicate_hits = 0, nodes_visited = 0, leaves_visited = 0;
 

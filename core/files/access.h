@@ -12,6 +12,7 @@
 
 namespace trapeze {
 
+/// A value that is copied to whoever opens files; nothing is global.
 class Access {
   public:
     /// Everything.

@@ -19,6 +19,7 @@ class OutputFile {
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
+    /// False, with a reason, when the temporary file cannot be made; so do the others.
     bool open();
     bool write(const void* bytes, size_t count);
     bool seek(uint64_t position);

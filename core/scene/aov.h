@@ -22,6 +22,7 @@ namespace trapeze {
 /// floats.
 inline constexpr int kMostAovChannels = 192;
 
+/// One output variable's place among a grid's channels.
 struct Aov {
     std::string name;
     int channels = 3;  ///< 1: a float; 3: a colour, point, vector or normal

@@ -35,6 +35,7 @@ constexpr int component_count(ValueType type) {
     return 1;
 }
 
+/// What a value is: its class, type and array length ("varying float[2]").
 struct Declaration {
     StorageClass storage = StorageClass::Uniform;
     ValueType type = ValueType::Float;
@@ -66,6 +67,7 @@ struct ParameterList {
     Parameter* find(std::string_view name) {
         return const_cast<Parameter*>(static_cast<const ParameterList*>(this)->find(name));
     }
+    /// The first number or string of a parameter, or the fallback where it is missing or empty.
     float float_or(std::string_view name, float fallback) const {
         const Parameter* p = find(name);
         return p && !p->floats.empty() ? p->floats[0] : fallback;

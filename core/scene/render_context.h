@@ -10,6 +10,7 @@
 
 namespace trapeze {
 
+/// Values that hold for one render. Copied freely; the scene and the diagnostics outlive all copies.
 struct RenderContext {
     const Scene* scene = nullptr;
     Camera camera;

@@ -26,6 +26,7 @@ struct DisplayVariable {
     ValueType type = ValueType::Color;
 };
 
+/// A picture to be written, as a Display request asks for it.
 struct Display {
     std::string name;  ///< without the leading '+'
     std::string type;  ///< driver: file, tiff, openexr, exr, png, framebuffer, ...
@@ -36,6 +37,7 @@ struct Display {
         {};  ///< what the mode names, unless it is colour, alpha or depth
 };
 
+/// A PixelFilter request: the filter's name, and how wide it is.
 struct PixelFilter {
     std::string name = "gaussian";
     float width_x = 2, width_y = 2;  ///< pixels, the whole support
@@ -153,6 +155,7 @@ struct ClippingPlane {
     float distance = 0;
 };
 
+/// All of a frame that later stages read. Immutable once the RIB border has made it.
 struct Scene {
     Options options;
     std::vector<Solid> solids;  ///< of all SolidBegin/SolidEnd blocks

@@ -82,6 +82,7 @@ struct ShadingGrid {
     std::vector<std::vector<float>> aovs;
 
     size_t vertex_count() const { return static_cast<size_t>(shape.vertex_count()) * pieces; }
+    /// The variable of a name, or null; P, N, s, t and the others above are not among them.
     const GridVariable* find(std::string_view name) const {
         for (const GridVariable& variable : variables)
             if (variable.name == name) return &variable;
@@ -94,6 +95,7 @@ struct ShadingGrid {
 /// area is negative.
 Facing facing_for_sides(int sides, bool reverse_orientation);
 
+/// How pack_grid() departs from what the grid's attributes say.
 struct PackOptions {
     bool keep_hits_behind = false;  ///< the grid does not count as opaque, whatever Oi
     bool both_sides = false;        ///< hit from both, whatever Sides

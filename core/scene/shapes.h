@@ -25,6 +25,7 @@ struct PolygonMesh {
 struct SubdivisionMesh {
     enum class Scheme : uint8_t { CatmullClark, Loop, Bilinear };
 
+    /// A tag with its arguments, not yet checked (tessellate/surfaces/subdivision reads them).
     struct Tag {
         std::string name;  ///< hole, crease, corner, interpolateboundary, facevaryinginterpolateboundary, ...
         std::vector<int> ints;
@@ -60,6 +61,7 @@ struct PatchMesh {
     M44f u_basis, v_basis;       ///< bicubic only
     int u_step = 3, v_step = 3;  ///< bicubic only
 
+    /// Patches along u; patches_v(): along v.
     int patches_u() const {
         if (!bicubic) return u_wraps ? nu : nu - 1;
         return u_wraps ? nu / u_step : (nu - 4) / u_step + 1;
@@ -110,6 +112,7 @@ struct Curves {
         if (!cubic) return periodic ? vertices : vertices - 1;
         return periodic ? vertices / step : (vertices - 4) / step + 1;
     }
+    /// Values of a varying variable on such a curve: one for each joint.
     int varying(int vertices) const { return segments(vertices) + (periodic ? 0 : 1); }
 };
 
@@ -140,6 +143,7 @@ struct Shape {
 struct VariableCounts {
     int uniform = 1, varying = 1, vertex = 1, face_varying = 1;
 
+    /// The number for one class.
     int of(StorageClass storage) const {
         switch (storage) {
             case StorageClass::Constant:
@@ -158,6 +162,7 @@ struct VariableCounts {
     }
 };
 
+/// The counts of a topology (RISpec section 5), which the RIB border checks all variables against.
 VariableCounts variable_counts(const Topology& topology);
 
 }  // namespace trapeze
