@@ -10,7 +10,7 @@
 namespace trapeze {
 
 /// A rectangle [lo, hi] of a face, to be diced as `shape`. `sides`: where each of its sides lies on its edge,
-/// which is one interval of that edge.
+/// within one interval of it.
 struct Subpatch {
     int face = 0;
     GridShape shape;

@@ -94,7 +94,8 @@ Sum sum_of(std::span<const SahItem> part, const Sum& zero) {
         });
 }
 
-/// A place to divide a node, and what the two sides cost in tests times half area; infinite: none found.
+/// A place to divide a node, and what the node costs then (kTraversalCost and tests, times half areas);
+/// infinite: none found.
 struct Split {
     double cost = kInfinite;
     int axis = 0;

@@ -64,7 +64,8 @@ class BundleTrace {
              in.range.min - in.tree.max_slack(),
              (in.rays.count + kLanes - 1) / kLanes} {}
 
-    /// Grids come from front to back, nearly, so that most of them lie behind what all rays have hit already.
+    /// Looks at candidates from front to back, nearly: grids behind what all rays have hit by then are
+    /// skipped.
     void run() {
         begin();
         for (const uint32_t grid : t_.tree.unbounded_grids()) test_unbounded(grid);

@@ -25,7 +25,7 @@ class ScreenMetric {
     /// Keeps no reference to the camera.
     explicit ScreenMetric(const Camera& camera);
 
-    /// The length of the piece from p to q, camera space; finite wherever they are.
+    /// The length of the piece from p to q, camera space; bounded also behind the eye and in its plane.
     PixelLength of(const V3f& p, const V3f& q) const {
         return perspective_ ? perspective_length(p, q) : orthographic_length(p, q);
     }
