@@ -1,5 +1,5 @@
 /// What the program has to say about its input: errors, warnings and notes with file, line, column and
-/// include stack. Libraries report here; they never print or exit.
+/// include stack. Libraries report here; they never print or exit [decision 0024].
 #pragma once
 
 #include <cstdint>

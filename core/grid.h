@@ -1,4 +1,4 @@
-/// A shaded micropolygon grid, as visibility methods and the resolver read it.
+/// A shaded micropolygon grid, as visibility methods and the resolver read it [decision 0016].
 ///
 /// Positions are in camera space, in planes of tiles of 4x4 vertices (16 floats, 64-byte aligned), so that a
 /// vector register holds a tile:

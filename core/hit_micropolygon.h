@@ -1,6 +1,6 @@
 /// The one predicate: does a ray hit a micropolygon, and how deep. Every visibility method calls it (or its
 /// SIMD form in hit_micropolygon-inl.h, which rounds alike); everything else may only discard what it would
-/// reject.
+/// reject [decision 0015].
 ///
 /// The pseudo-intersection of [Hou10 sec. 3.5]: the four vertices at the ray's time are moved along the ray
 /// to its plane,
@@ -13,7 +13,8 @@
 /// of
 ///     t = a_i * |b_j| + a_j * |b_i|
 /// is set, which is the crossing's a but for a positive factor: multiply, multiply, add, never fused. Walked
-/// the other way it is the same sum: both micropolygons at an edge decide alike in every bit, zeros included.
+/// the other way it is the same sum: both micropolygons at an edge decide alike in every bit, zeros included
+/// [decision 0007].
 /// So a mesh that is closed in its bits has no leaks. (Sign bits, not comparisons with zero: vector units do
 /// them by and, or and xor, without masks.)
 ///
@@ -27,7 +28,7 @@
 ///
 /// Departs from the paper: depth on the triangle instead of bilinear interpolation of all four, clamped to
 /// the quad's own depth range: the weights of a triangle seen edge-on round to anything, and this much stays
-/// certain. (Culls by the depth at which a bound is entered must allow for it: see accel/paper/paper_tree.h.)
+/// certain. (Culls by the depth at which a bound is entered must allow for it [decision 0004].)
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Random numbers from an index (decision 5): the same for any order of work. A counter hashed by PCG's
+/// Random numbers from an index [decision 0019]: the same for any order of work. A counter hashed by PCG's
 /// output function [Jarzynski20, "Hash Functions for GPU Rendering", pcg3d-style mixing of a 32-bit word].
 #pragma once
 

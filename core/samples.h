@@ -1,5 +1,5 @@
 /// The samples of a tile of pixels, as data: where and when each looks, whatever pattern made them and
-/// whatever method resolves them.
+/// whatever method resolves them [decision 0017].
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Statistics are values that add (decision 12), with the unit in the name. Every stage returns its own.
+/// Statistics are values that add [decision 0026], with the unit in the name. Every stage returns its own.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 /// What is cut away from a scene by constructive solid geometry (RISpec 5.7) and by clipping planes: hits
 /// that lie on no border of what is left are taken out of samples' lists. Resolved along each sample's ray,
-/// at its time and point of the lens, it is exact with motion and defocus, and the same for all methods.
+/// at its time and point of the lens, it is exact with motion and defocus, and the same for all methods
+/// [decision 0013].
 #pragma once
 
 #include <memory>

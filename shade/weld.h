@@ -1,5 +1,5 @@
 /// Displaced borders: shared vertices of neighbouring grids go to the same place, with the same normal, since
-/// both take what the shader makes of the shared point's own piece (ShadingGrid::border).
+/// both take what the shader makes of the shared point's own piece (ShadingGrid::border) [decision 0012].
 #pragma once
 
 #include <vector>

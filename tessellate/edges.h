@@ -1,7 +1,8 @@
 /// Edges and their tessellation. Every edge (of the surface, or made when a subpatch is split) is cut into
 /// dyadic intervals, each with 1 to 16 segments uniform in the edge's parameter: a function of the edge alone
-/// [Fisher09, DiagSplit]. Subpatches on either side take their border vertices from here. A subpatch's side
-/// lies inside one interval, and may be finer than it: its ends snap to the interval's vertices.
+/// [Fisher09; decision 0002; decision 0020]. Subpatches on either side take their border vertices from here.
+/// A subpatch's side lies inside one interval, and may be finer than it: its ends snap to the interval's
+/// vertices.
 #pragma once
 
 #include <cstdint>

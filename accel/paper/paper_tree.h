@@ -4,11 +4,11 @@
 /// orientation of that child which makes it smaller. Of axis-aligned bounds the topology is the same.
 ///
 /// Departs from the paper: a node above grids is bounded from the vertices or the grids below it, where these
-/// are few enough, and not by merging its children's boxes (docs/decisions/0008-boxes-are-turned-once.md);
-/// boxes inside grids are 16-bit numbers; any number of motion keys; bounds are grown for rounding, and the
-/// depth at which a box is entered is taken less by the size of its largest micropolygon, because the
-/// predicate's depth is only known to lie within the micropolygon's own (a needle's weights round to
-/// anything). So the tree finds what testing everything finds, bit for bit.
+/// are few enough, and not by merging its children's boxes [decision 0008]; boxes inside grids are 16-bit
+/// numbers; any number of motion keys; bounds are grown for rounding, and the depth at which a box is entered
+/// is taken less by the size of its largest micropolygon, because the predicate's depth is only known to lie
+/// within the micropolygon's own [decision 0004] (a needle's weights round to anything). So the tree finds
+/// what testing everything finds, bit for bit.
 #pragma once
 
 #include <vector>

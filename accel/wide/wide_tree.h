@@ -1,4 +1,4 @@
-/// The fast acceleration structure, for rays that go through it in bundles [docs/decisions/0006]:
+/// The fast acceleration structure, for rays that go through it in bundles [decision 0006]:
 ///
 ///   top level     16-wide nodes of axis-aligned hyper-trapezoids, whose leaves are grids;
 ///   in a grid     one implicit level: blocks of 4 x 4 micropolygons, the tiles in which vertices are stored,

@@ -1,12 +1,12 @@
 /// The film: filtered sums of samples, and the picture they make.
 ///
 /// The picture is the same bit for bit for any order of tiles, any number of threads, any split into regions,
-/// and a crop equals the same pixels of the whole picture. So no two tiles add to the same sum: each has its
-/// own, over its pixels and those around that its samples reach, filled in the order of the samples. A pixel
-/// is finished by adding the sums of the tiles around it in the order of the tiles, as soon as the last of
-/// these has come; then sums that nobody waits for are freed, so that memory holds the picture and a frontier
-/// of tiles. Output variables (aov.h) are summed the same way, in a pass of their own over a tile's samples,
-/// so that pictures without them pay nothing.
+/// and a crop equals the same pixels of the whole picture [decision 0003]. So no two tiles add to the same
+/// sum: each has its own, over its pixels and those around that its samples reach, filled in the order of the
+/// samples. A pixel is finished by adding the sums of the tiles around it in the order of the tiles, as soon
+/// as the last of these has come; then sums that nobody waits for are freed, so that memory holds the picture
+/// and a frontier of tiles. Output variables (aov.h) are summed the same way, in a pass of their own over a
+/// tile's samples, so that pictures without them pay nothing.
 #pragma once
 
 #include <atomic>

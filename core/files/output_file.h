@@ -1,5 +1,5 @@
 /// A file that appears whole or not at all: written under a temporary name in the folder of its target, then
-/// renamed.
+/// renamed [decision 0025].
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// What every stage of a render may read; nothing is global (decision 7).
+/// What every stage of a render may read; nothing is global [decision 0021].
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
-/// Which instruction sets the vector code may use. Highway keeps this choice for the whole process, and so
-/// this is the one thing that is not passed in a context: it is set once, at the start of a program, before
-/// any other work. No result depends on it, only time.
+/// Which instruction sets the vector code may use [decision 0022]. Highway keeps this choice for the whole
+/// process, and so this is the one thing that is not passed in a context [decision 0021]: it is set once, at
+/// the start of a program, before any other work. No result depends on it, only time.
 #pragma once
 
 #include <string>

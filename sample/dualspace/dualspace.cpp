@@ -1,6 +1,7 @@
 /// Clipless dual-space bounds [Laine11, "Clipless dual-space bounds for faster stochastic rasterization"]:
 /// for each micropolygon and pixel, intervals on both axes of the lens and in time outside of which it cannot
 /// be seen, and only the samples in them are tested. Takes any pattern.
+/// (Patents near it: [decision 0027].)
 ///
 /// What is blurred by motion and defocus at once passes a pixel at another time through each part of the
 /// lens: bounds of either that hold for all of the other are wide. So the shutter is cut into parts, each

@@ -1,4 +1,4 @@
-/// The order in which rays go into bundles.
+/// The order in which rays go into bundles [decision 0009].
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 /// With bundles, rays that follow each other first look together, as a beam, for what they may meet of the
 /// levels above grids, and then traverse that part only. It takes most of the steps above grids away and
 /// changes no hit. The nodes that a beam looks at count as visited. Without bundles it is the paper's own
-/// form: every ray from the root (docs/decisions/0001-interval-traversal.md).
+/// form: every ray from the root [decision 0001].
 #pragma once
 
 #include "sample/visibility.h"

@@ -1,4 +1,5 @@
-/// The grid machine: runs a program's steps one after the other, each over all vertices.
+/// The grid machine: runs a program's steps one after the other, each over all vertices
+/// [decision 0011].
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,6 @@
 /// How long lines across a surface count when it is diced. A piece counts as long as it is on the picture:
-/// foreshortened (Attribute "dice" "rasterorient" 1, PRMan's default), or as if it were seen square on (0).
+/// foreshortened (Attribute "dice" "rasterorient" 1, PRMan's default), or as if it were seen square on (0)
+/// [decision 0014].
 ///
 /// Foreshortening is not trusted where what is seen edge-on now may be seen from its side as well: pieces
 /// that turn to the viewer while the shutter is open or to other places of the lens count as long as they are

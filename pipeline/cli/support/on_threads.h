@@ -1,4 +1,4 @@
-/// The number of threads that a user asks for.
+/// The number of threads that a user asks for [decision 0023].
 #pragma once
 
 #include <tbb/global_control.h>

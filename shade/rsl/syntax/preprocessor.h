@@ -1,5 +1,5 @@
 /// Macros, conditions and #include, within bounds that no file from a stranger can break. (See
-/// docs/decisions/0010-preprocessor.md for why it is our own.)
+/// [decision 0010] for why it is our own.)
 #pragma once
 
 #include "shade/rsl/syntax/messages.h"
