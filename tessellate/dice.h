@@ -1,5 +1,5 @@
-/// Makes a subpatch's grid: its vertices evenly over the subpatch, those on its border at the shared points
-/// of its edges (docs/decisions/0002-edges-decide-their-rate.md).
+/// Makes a subpatch's grid [Cook87]: its vertices evenly over the subpatch, those on its border at the shared
+/// points of its edges [decision 0002].
 #pragma once
 
 #include "tessellate/split.h"

@@ -57,8 +57,7 @@ double b_spline(double x, double width) {
     return r < 1 ? (3 * r - 6) * r * r / 6 + 2.0 / 3 : (2 - r) * (2 - r) * (2 - r) / 6;
 }
 
-/// Mitchell and Netravali 1988, "Reconstruction filters in computer graphics", equation 8 with B = C = 1/3;
-/// its four spans fill the width.
+/// [Mitchell88, equation 8] with B = C = 1/3; its four spans fill the width.
 double mitchell(double x, double width) {
     const double r = std::abs(4 * x / width);
     if (r >= 2) return 0;
@@ -66,7 +65,7 @@ double mitchell(double x, double width) {
                  : (((-7.0 / 3 * r + 12) * r - 20) * r + 32.0 / 3) / 6;
 }
 
-/// Harris 1978, the four-term window of minimal side lobes.
+/// The four-term window of minimal side lobes [Harris78].
 double blackman_harris(double x, double width) {
     if (std::abs(2 * x) >= width) return 0;
     const double phase = 2 * kPi * (std::abs(x) / width + 0.5);

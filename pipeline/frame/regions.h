@@ -1,5 +1,5 @@
 /// Regions: the picture is split, not the data, until the grids and the tree of each part fit the memory
-/// budget (RenderAnts' dynamic scheduling, docs/papers.md [Zhou09]).
+/// budget (RenderAnts' dynamic scheduling [Zhou09]).
 #pragma once
 
 #include <cstddef>

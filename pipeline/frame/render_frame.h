@@ -1,4 +1,4 @@
-/// The frame: the whole algorithm on one page.
+/// The frame: the whole algorithm on one page [Cook87].
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-/// Magic squares, the paper's permutation of lens strata.
+/// Magic squares, the paper's permutation of lens strata [Hou10 sec. 3.4].
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ struct DiskPoint {
 };
 
 /// The unit square onto the disk: squares about its middle become circles, and areas keep their proportions
-/// [Shirley and Chiu 1997].
+/// [Shirley97].
 DiskPoint disk_point(V2f uv) {
     const float a = 2 * uv.x - 1, b = 2 * uv.y - 1;
     constexpr float kQuarter = kHalfTurn / 4;

@@ -61,7 +61,7 @@ float library_number(const char* first, const char* end, int64_t exponent) {
 }
 
 /// The longest number at p, or null. With at most 15 digits and a power of ten up to 22 both are exact
-/// doubles and one operation rounds once (Clinger 1990); all else is left to the library. The value is such
+/// doubles and one operation rounds once [Clinger90]; all else is left to the library. The value is such
 /// that its conversion to float is correctly rounded; it is infinite outside of float's range.
 const char* read_number(const char* p, const char* end, double* value) {
     const bool negative = p < end && *p == '-';

@@ -2,7 +2,7 @@
 #ifndef LOCILLUM_H
 #define LOCILLUM_H 1
 
-/* Rough diffuse surfaces (Oren and Nayar 1994, the qualitative model); roughness is the deviation of facets' slopes, in radians. */
+/* Rough diffuse surfaces [Oren94, the qualitative model]; roughness is the deviation of facets' slopes, in radians. */
 color LocIllumOrenNayar(normal N; vector V; float roughness;)
 {
     extern point P;
@@ -27,7 +27,7 @@ color LocIllumOrenNayar(normal N; vector V; float roughness;)
     return sum;
 }
 
-/* Highlights of brushed surfaces (Ward 1992); the roughnesses are the deviations of slopes along xdir and across. */
+/* Highlights of brushed surfaces [Ward92]; the roughnesses are the deviations of slopes along xdir and across. */
 color LocIllumWardAnisotropic(normal N; vector V; vector xdir; float xroughness, yroughness;)
 {
     extern point P;

@@ -1,4 +1,4 @@
-/* Curves from 0..1 to 0..1 (Perlin and Hoffert 1989): 0.5 leaves the value as it is. */
+/* Curves from 0..1 to 0..1 [Perlin89]: 0.5 leaves the value as it is. */
 #ifndef PXSLREMAP_H
 #define PXSLREMAP_H 1
 

@@ -1,6 +1,6 @@
 /// Noise on an integer lattice of one to four dimensions, from a hash of the lattice point.
 ///
-/// Gradient noise is Perlin's improved noise (Perlin, "Improving noise", 2002) with a hash for his table: a
+/// Gradient noise is Perlin's improved noise [Perlin02] with a hash for his table: a
 /// polynomial of fifth degree fades between the corners of a cell, and each corner's hash picks a gradient:
 /// +-1 to +-8 in one dimension, the (+-1, +-2) and (+-2, +-1) in two, the edges of a cube in three and of a
 /// hypercube in four. Sums are scaled to the contrast that noise has elsewhere, a standard deviation of about
