@@ -74,7 +74,8 @@ struct ParameterList {
     }
     std::string string_or(std::string_view name, std::string fallback) const {
         const Parameter* p = find(name);
-        return p && !p->strings.empty() ? p->strings[0] : std::move(fallback);
+        if (p && !p->strings.empty()) return p->strings[0];
+        return fallback;
     }
     /// Replaces the value of the same name, or appends.
     void set(Parameter value) {

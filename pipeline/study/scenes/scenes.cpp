@@ -11,10 +11,8 @@ struct SceneRow {
 };
 
 constexpr SceneRow kScenes[] = {
-    {"hair", scenes::hair_scene},
-    {"furball", scenes::furball_scene},
-    {"halberd", scenes::halberd_scene},
-    {"flowers", scenes::flowers_scene},
+    {"hair", scenes::hair_scene},           {"furball", scenes::furball_scene},
+    {"halberd", scenes::halberd_scene},     {"flowers", scenes::flowers_scene},
     {"car-study", scenes::car_study_scene},
 };
 

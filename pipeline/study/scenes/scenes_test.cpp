@@ -85,7 +85,8 @@ INSTANTIATE_TEST_SUITE_P(All, MadeScene, ::testing::ValuesIn(scene_names()), [](
     return name;
 });
 
-// They are in the repository to be rendered at once; `trapeze scene NAME -o scenes/paper/NAME.rib` renews them.
+// They are in the repository to be rendered at once; `trapeze scene NAME -o scenes/paper/NAME.rib` renews
+// them.
 TEST(Scenes, FilesOfTheRepositoryAreWhatIsWritten) {
     for (const std::string name : {"halberd", "car-study"}) {
         std::ifstream file(TRAPEZE_SOURCE_DIR "/scenes/paper/" + name + ".rib", std::ios::binary);
