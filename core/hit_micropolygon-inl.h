@@ -1,6 +1,6 @@
-/// The SIMD form of hit_micropolygon(): lanes are rays against one micropolygon, which may have moved to
-/// another place for each. The same operations in the same order as the scalar form, none fused: equal bit
-/// for bit, depth included. Compiled once a target; see Highway's foreach_target.h.
+/// The SIMD form of hit_micropolygon() [Hou10 sec. 3.5]: lanes are rays against one micropolygon, which may
+/// have moved to another place for each. The same operations in the same order as the scalar form, none
+/// fused: equal bit for bit, depth included. Compiled once a target; see Highway's foreach_target.h.
 ///
 /// Vectors stay local variables, because targets of unknown vector length forbid anything else.
 #if defined(TRAPEZE_CORE_HIT_MICROPOLYGON_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -93,7 +93,7 @@ TEST(Decisions, AreListed) {
 
 /// By number they are cited as "decision" and four digits, by file with the whole name.
 TEST(Decisions, AreThereWhereTheyAreCited) {
-    static const std::regex by_number(R"(\bdecisions?\s+([0-9]+)\b)", std::regex::icase);
+    static const std::regex by_number(R"(\bdecisions?[\s/*]+([0-9]+)\b)", std::regex::icase);
     static const std::regex by_file(R"(decisions/([0-9][^\s)\]`'",;:]*))");
     const std::map<std::string, std::string> known = decision_pages();
     std::set<std::string> names;

@@ -1,4 +1,5 @@
-/// What one sample sees, out of its hits: colour, coverage and depth.
+/// What one sample sees, out of its hits: colour, coverage and depth, front to back
+/// [Porter84].
 #pragma once
 
 #include <span>
