@@ -68,7 +68,7 @@ struct DepthInterval {
 
     /// Whether hits within the ray's range may be inside; *depth becomes a lower bound of theirs. Hits may
     /// be `slack` outside of the interval: the predicate's depth lies within the micropolygon's own range of
-    /// depths, but not always within an oriented box about it (docs/decisions/0004-boxes-and-depths.md).
+    /// depths, but not always within an oriented box about it [decision 0004].
     bool meets(const TraceRay& ray, float slack, float& depth) const {
         // Negated comparisons let NaN in; & instead of && leaves no branch that would be predicted wrongly.
         depth = near - slack;

@@ -1,5 +1,5 @@
 /// A bundle of camera rays, as intervals of what their rays hold: for finding what no ray of them can meet,
-/// once for all of them (docs/decisions/0005-bundles-in-the-reference.md).
+/// once for all of them [decision 0005].
 #pragma once
 
 #include <span>

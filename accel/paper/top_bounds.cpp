@@ -92,7 +92,7 @@ class Bounding {
         return in_b.expected_half_area() < in_a.expected_half_area() ? in_b : in_a;
     }
     /// That bound in a given frame: from the children where they have it (or are large), else from the leaves
-    /// or what is in them, each turned once (docs/decisions/0008-boxes-are-turned-once.md).
+    /// or what is in them, each turned once [decision 0008].
     HyperTrapezoid union_in(const Frame& frame, const Part& part, const HyperTrapezoid& a,
                             const HyperTrapezoid& b) const {
         HyperTrapezoid both{frame, std::vector<Box3f>(static_cast<size_t>(top_.key_count))};

@@ -1,4 +1,4 @@
-/// Bundles of camera rays that go through a WideTree together (docs/decisions/0006-wide-tree.md): up to 1024
+/// Bundles of camera rays that go through a WideTree together [decision 0006]: up to 1024
 /// of them, in packets of as many rays as a vector has lanes.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace trapeze {
 /// alike, and what they see. The order changes times, never hits.
 struct RayBundle {
     /// The most rays of a bundle. 512, 2048 and 4096 were measured to be within 5 %
-    /// (docs/decisions/0006-wide-tree.md).
+    /// [decision 0006].
     static constexpr size_t kRays = 1024;
     static constexpr size_t kRoom = kRays + 16;  ///< whole vectors can be read
 

@@ -84,7 +84,7 @@ struct WideGrid {
     size_t key_bytes() const { return bounds_bytes() + static_cast<size_t>(box_count()) * 6; }
     size_t keys_bytes() const { return header_bytes() + key_count * key_bytes(); }
 
-    /// Four boxes a ribbon instead of one saved no time and cost memory (docs/decisions/0006-wide-tree.md).
+    /// Four boxes a ribbon instead of one saved no time and cost memory [decision 0006].
     static constexpr int kRibbonBlocksPerBox = 4;
 };
 
