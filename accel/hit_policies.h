@@ -1,6 +1,6 @@
 /// Hit policies: what a ray keeps of the micropolygons that it hits. `consider` sees every hit in the ray's
-/// range, in whatever order the tree finds them, and pulls the range in [decision 0018]. What a policy holds in
-/// the end does not depend on that order: equal depths are settled by id, and t_max is inclusive.
+/// range, in whatever order the tree finds them, and pulls the range in [decision 0018]. What a policy holds
+/// in the end does not depend on that order: equal depths are settled by id, and t_max is inclusive.
 #pragma once
 
 #include <algorithm>
