@@ -219,14 +219,14 @@ class BundleTrace {
 };
 
 /// What dispatch calls, for one of four combinations known at compile time.
-void trace(const TraceInput& in, bool motion, bool lens) {
-    if (motion) {
-        if (lens)
+void trace(const TraceInput& in, RayBlur blur) {
+    if (blur.motion) {
+        if (blur.lens)
             BundleTrace<true, true>(in).run();
         else
             BundleTrace<true, false>(in).run();
     } else {
-        if (lens)
+        if (blur.lens)
             BundleTrace<false, true>(in).run();
         else
             BundleTrace<false, false>(in).run();
@@ -234,7 +234,7 @@ void trace(const TraceInput& in, bool motion, bool lens) {
 }
 
 /// Copies components of rays as they lie in memory to planes; those not wanted become 0.
-template <bool kLens, bool kMotion>
+template <bool kMotion, bool kLens>
 class RayGatherer {
   public:
     RayGatherer(const AxisRay* rays, const uint32_t* order, RayBundle& bundle)
@@ -284,15 +284,14 @@ class RayGatherer {
     RayBundle& bundle_;
 };
 
-void fill(std::span<const AxisRay> rays, std::span<const uint32_t> order, bool lens, bool motion,
-          RayBundle& bundle) {
+void fill(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBlur blur, RayBundle& bundle) {
     bundle.count = order.size();
-    if (lens)
-        motion ? RayGatherer<true, true>(rays.data(), order.data(), bundle).run()
-               : RayGatherer<true, false>(rays.data(), order.data(), bundle).run();
+    if (blur.motion)
+        blur.lens ? RayGatherer<true, true>(rays.data(), order.data(), bundle).run()
+                  : RayGatherer<true, false>(rays.data(), order.data(), bundle).run();
     else
-        motion ? RayGatherer<false, true>(rays.data(), order.data(), bundle).run()
-               : RayGatherer<false, false>(rays.data(), order.data(), bundle).run();
+        blur.lens ? RayGatherer<false, true>(rays.data(), order.data(), bundle).run()
+                  : RayGatherer<false, false>(rays.data(), order.data(), bundle).run();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -312,9 +311,9 @@ void DeleteBundleScratch::operator()(BundleScratch* scratch) const {
     delete scratch;
 }
 
-void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, bool lens, bool motion,
+void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBlur blur,
                  RayBundle& bundle) {
-    HWY_DYNAMIC_DISPATCH(fill)(rays, order, lens, motion, bundle);
+    HWY_DYNAMIC_DISPATCH(fill)(rays, order, blur, bundle);
 }
 
 void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal_distance, RayBundle& rays,
@@ -322,7 +321,7 @@ void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal
     rays.layers.clear();
     if (rays.count == 0) return;
     const bundle_detail::TraceInput in{tree, range, lens ? 1 / focal_distance : 0.0f, rays, scratch, stats};
-    HWY_DYNAMIC_DISPATCH(trace)(in, tree.moves(), lens);
+    HWY_DYNAMIC_DISPATCH(trace)(in, {tree.moves(), lens});
 }
 
 }  // namespace trapeze

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accel/wide/wide_tree.h"
+#include "core/ray_blur.h"
 #include "core/rays.h"
 #include "core/stats.h"
 
@@ -56,9 +57,9 @@ using BundleScratchPointer = std::unique_ptr<BundleScratch, DeleteBundleScratch>
 /// Allocates working memory, about 120 KB; nothing in it needs to be set.
 BundleScratchPointer make_bundle_scratch();
 
-/// Copies rays[order[0]], rays[order[1]] and so on into the bundle; at most RayBundle::kRays. Without `lens`
-/// origins are not read and become 0, without `motion` times.
-void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, bool lens, bool motion,
+/// Copies rays[order[0]], rays[order[1]] and so on into the bundle; at most RayBundle::kRays. Without a lens
+/// origins are not read and become 0, without motion times.
+void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order, RayBlur blur,
                  RayBundle& bundle);
 
 /// Traces a bundle: sets depth, id and layers of its rays to what they see within a range of camera-space

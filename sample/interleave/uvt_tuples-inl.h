@@ -58,6 +58,41 @@ HWY_INLINE hn::Vec<DI> cell_of(D d, DI di, V at, float cell_side, int cells) {
     return hn::ConvertTo(di, hn::Min(hn::Max(index, hn::Zero(d)), hn::Set(d, static_cast<float>(cells))));
 }
 
+/// A vector of tuples: the grid's box as each sees it, in pixels of the tile and in depth, and its slack.
+struct TupleLanes {
+    hn::Vec<UvtLanes> slack, z0, x0, x1, y0, y1;
+    hn::Mask<UvtLanes> seen;     ///< the others are left out
+    hn::Mask<UvtLanes> unsafe;   ///< too near to be bounded: it may be anywhere
+    hn::Mask<UvtLanes> careful;  ///< parts may be too near, or clipped
+};
+
+/// Appends the tuples from `first` on that see the grid.
+HWY_INLINE void keep_tuples(const UvtRaster& raster, const UvtTile& tile, size_t first,
+                            const TupleLanes& lanes, UvtGridTuples& found) {
+    const UvtLanes d;
+    const hn::RebindToSigned<UvtLanes> di;
+    const auto seen_i = hn::RebindMask(di, lanes.seen);
+    const auto index = lane_numbers(di, static_cast<int32_t>(first));
+    hn::StoreU(hn::Compress(index, seen_i), di, &found.tuple[found.count]);
+    hn::StoreU(hn::Compress(lanes.slack, lanes.seen), d, &found.slack[found.count]);
+    hn::StoreU(hn::Compress(hn::IfThenElseZero(lanes.careful, hn::Set(d, 1.0f)), lanes.seen), d,
+               &found.careful[found.count]);
+    if (raster.cull) {
+        const float side = static_cast<float>(tile.cell_side());
+        const auto store = [&](hn::Vec<UvtLanes> value, int cells, std::vector<int32_t>& to_plane,
+                               float unbounded) HWY_ATTR {
+            value = hn::IfThenElse(lanes.unsafe, hn::Set(d, unbounded), value);
+            hn::StoreU(hn::Compress(cell_of(d, di, value, side, cells), seen_i), di, &to_plane[found.count]);
+        };
+        store(lanes.x0, tile.cells_x() - 1, found.first_x, 0.0f);
+        store(lanes.x1, tile.cells_x() - 1, found.last_x, 1e9f);
+        store(lanes.y0, tile.cells_y() - 1, found.first_y, 0.0f);
+        store(lanes.y1, tile.cells_y() - 1, found.last_y, 1e9f);
+        hn::StoreU(hn::Compress(lanes.z0, lanes.seen), d, &found.z_min[found.count]);
+    }
+    found.count += hn::CountTrue(d, lanes.seen);
+}
+
 /// Lists the tuples that may see a grid in a tile, in their order, with the slack of each and, for culling,
 /// cells and least depth. Conservative: boxes are grown by the rounding of the predicate (RoundingSlack).
 template <bool kPerspective>
@@ -134,26 +169,7 @@ void find_tuples(const UvtRaster& raster, const BoundedGrid& grid, const UvtTile
         const auto seen = hn::And(hn::And(in_depth, hn::Or(within, unsafe)), hn::FirstN(d, tuples.count - t));
         if (hn::AllFalse(d, seen)) continue;
         const auto careful = hn::Or(unsafe, hn::Or(hn::Lt(z0, near_clip), hn::Gt(z1, far_clip)));
-        const auto seen_i = hn::RebindMask(di, seen);
-        const auto index = lane_numbers(di, static_cast<int32_t>(t));
-        hn::StoreU(hn::Compress(index, seen_i), di, &found.tuple[found.count]);
-        hn::StoreU(hn::Compress(slack, seen), d, &found.slack[found.count]);
-        hn::StoreU(hn::Compress(hn::IfThenElseZero(careful, one), seen), d, &found.careful[found.count]);
-        if (raster.cull) {
-            const float side = static_cast<float>(tile.cell_side());
-            const auto store = [&](V value, int cells, std::vector<int32_t>& to_plane, float unbounded)
-                                   HWY_ATTR {
-                                       value = hn::IfThenElse(unsafe, hn::Set(d, unbounded), value);
-                                       hn::StoreU(hn::Compress(cell_of(d, di, value, side, cells), seen_i),
-                                                  di, &to_plane[found.count]);
-                                   };
-            store(x0, tile.cells_x() - 1, found.first_x, 0.0f);
-            store(x1, tile.cells_x() - 1, found.last_x, 1e9f);
-            store(y0, tile.cells_y() - 1, found.first_y, 0.0f);
-            store(y1, tile.cells_y() - 1, found.last_y, 1e9f);
-            hn::StoreU(hn::Compress(z0, seen), d, &found.z_min[found.count]);
-        }
-        found.count += hn::CountTrue(d, seen);
+        keep_tuples(raster, tile, t, {slack, z0, x0, x1, y0, y1, seen, unsafe, careful}, found);
     }
 }
 

@@ -17,22 +17,22 @@ BlurMoments moments(float lens, float motion, float grid) {
 }
 
 TEST(BestOrder, SortsByWhatBlurs) {
-    const BundleOrder sharp = best_order(moments(0, 0, 10), 64, true, true);
+    const BundleOrder sharp = best_order(moments(0, 0, 10), 64, {true, true});
     EXPECT_EQ(sharp.lens_bits, 0);
     EXPECT_EQ(sharp.time_bits, 0);
-    const BundleOrder soft = best_order(moments(40, 0, 10), 64, true, true);
+    const BundleOrder soft = best_order(moments(40, 0, 10), 64, {true, true});
     EXPECT_GE(soft.lens_bits, 1);
     EXPECT_EQ(soft.time_bits, 0);
-    const BundleOrder smeared = best_order(moments(0, 80, 10), 64, true, true);
+    const BundleOrder smeared = best_order(moments(0, 80, 10), 64, {true, true});
     EXPECT_EQ(smeared.lens_bits, 0);
     EXPECT_GE(smeared.time_bits, 2);
-    const BundleOrder both = best_order(moments(40, 80, 10), 64, true, true);
+    const BundleOrder both = best_order(moments(40, 80, 10), 64, {true, true});
     EXPECT_GE(both.lens_bits, 1);
     EXPECT_GE(both.time_bits, 1);
 }
 
 TEST(BestOrder, LeavesOutWhatThereIsNot) {
-    const BundleOrder order = best_order(moments(40, 80, 10), 64, false, false);
+    const BundleOrder order = best_order(moments(40, 80, 10), 64, {false, false});
     EXPECT_EQ(order.lens_bits, 0);
     EXPECT_EQ(order.time_bits, 0);
 }

@@ -154,12 +154,12 @@ float cost_of(const BlurMoments& blur, const BundleOrder& order, int samples_per
 
 }  // namespace
 
-BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, bool motion, bool defocus) {
+BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, RayBlur blurs) {
     BundleOrder best;
     float least = HUGE_VALF;
     for (const int side : {8, 16})
-        for (int lens_bits = 0; lens_bits <= (defocus ? 3 : 0); ++lens_bits)
-            for (int time_bits = 0; time_bits <= (motion ? 5 : 0); ++time_bits) {
+        for (int lens_bits = 0; lens_bits <= (blurs.lens ? 3 : 0); ++lens_bits)
+            for (int time_bits = 0; time_bits <= (blurs.motion ? 5 : 0); ++time_bits) {
                 const BundleOrder order{side, lens_bits, time_bits};
                 const float cost = cost_of(blur, order, samples_per_pixel);
                 if (cost < least) least = cost, best = order;
@@ -167,11 +167,11 @@ BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, bool moti
     return best;
 }
 
-void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
+void order_bundles(const SampleTile& samples, RayBlur blur, const BundleOrder& order,
                    BundleOrderScratch& scratch, std::vector<uint32_t>& result) {
     const int width = samples.pixels.width(), height = samples.pixels.height();
     const auto per_pixel = static_cast<uint32_t>(samples.samples_per_pixel);
-    const int lens_bits = defocus ? order.lens_bits : 0, time_bits = motion ? order.time_bits : 0;
+    const int lens_bits = blur.lens ? order.lens_bits : 0, time_bits = blur.motion ? order.time_bits : 0;
     const int bits = 2 * lens_bits + time_bits;
     const int side = order.block_side, blocks_x = (width + side - 1) / side,
               blocks_y = (height + side - 1) / side;
@@ -181,8 +181,8 @@ void order_bundles(const SampleTile& samples, bool motion, bool defocus, const B
         return;
     }
     scratch.keys.resize(samples.size());
-    const float* lens_u = defocus ? samples.lens_u.data() : nullptr;
-    const float* time = motion ? samples.time.data() : nullptr;
+    const float* lens_u = blur.lens ? samples.lens_u.data() : nullptr;
+    const float* time = blur.motion ? samples.time.data() : nullptr;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const auto block = static_cast<uint32_t>(y / side * blocks_x + x / side) << bits;

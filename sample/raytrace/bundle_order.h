@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/ray_blur.h"
 #include "core/samples.h"
 #include "sample/raytrace/blur_map.h"
 
@@ -20,7 +21,7 @@ struct BundleOrder {
 };
 
 /// The order in which the fewest grids and blocks are met in vain, by a model of what groups of rays cover.
-BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, bool motion, bool defocus);
+BundleOrder best_order(const BlurMoments& blur, int samples_per_pixel, RayBlur blurs);
 
 /// What a thread needs for the sort of a tile's samples.
 struct BundleOrderScratch {
@@ -31,7 +32,7 @@ struct BundleOrderScratch {
 
 /// Sets `result`, indices of samples: block by block of pixels; within by cell of the lens, then by time,
 /// then by pixel along a Z-order curve. Without motion or a lens what tells them apart is left out.
-void order_bundles(const SampleTile& samples, bool motion, bool defocus, const BundleOrder& order,
+void order_bundles(const SampleTile& samples, RayBlur blur, const BundleOrder& order,
                    BundleOrderScratch& scratch, std::vector<uint32_t>& result);
 
 }  // namespace trapeze

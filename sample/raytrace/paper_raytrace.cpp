@@ -45,7 +45,7 @@ class PaperRayTraced final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        order_rays(samples, sort_by_time_, sort_by_direction_, scratch.own.of<PaperScratch>().rays);
+        order_rays(samples, {sort_by_time_, sort_by_direction_}, scratch.own.of<PaperScratch>().rays);
         SampleStats counted;  // on the stack, so that counting stays in registers
         if (all_opaque_)
             resolve_closest(samples, hits, scratch, counted);

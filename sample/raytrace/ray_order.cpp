@@ -61,15 +61,15 @@ void sort_by_keys(RayOrder& result) {
 
 }  // namespace
 
-void order_rays(const SampleTile& samples, bool motion, bool defocus, RayOrder& result) {
+void order_rays(const SampleTile& samples, RayBlur blur, RayOrder& result) {
     z_order(samples, result.order);
-    if ((!motion && !defocus) || samples.size() == 0) return;
+    if ((!blur.motion && !blur.lens) || samples.size() == 0) return;
     // The stable sorts one after another are one by the joined key, the last sort's most significant.
     result.keys.assign(samples.size(), 0);
-    if (motion)
+    if (blur.motion)
         for (size_t i = 0; i < samples.size(); ++i)
             result.keys[i] = std::min(static_cast<uint32_t>(samples.time[i] * kLevels), kLevels - 1);
-    if (defocus) {
+    if (blur.lens) {
         const Quantiser x(samples, [](const AxisRay& ray) { return ray.ux; });
         const Quantiser y(samples, [](const AxisRay& ray) { return ray.uy; });
         for (size_t i = 0; i < samples.size(); ++i) {

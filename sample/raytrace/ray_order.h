@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/ray_blur.h"
 #include "core/samples.h"
 
 namespace trapeze {
@@ -17,6 +18,6 @@ struct RayOrder {
 /// Sets result.order [Hou10 sec. 3.4]: pixels along a Z-order curve and a pixel's samples one after another;
 /// then, with motion, a stable sort by time in 4 bits; then, with a lens, a stable sort by x and y of the
 /// direction in 4 bits each, across the tile's range.
-void order_rays(const SampleTile& samples, bool motion, bool defocus, RayOrder& result);
+void order_rays(const SampleTile& samples, RayBlur blur, RayOrder& result);
 
 }  // namespace trapeze

@@ -34,7 +34,7 @@ TEST(RayOrder, IsAPermutationForAnyTileAndEffects) {
                 const TestFrame frame(64, 64, 3, motion, defocus);
                 const SampleTile tile = tile_of(frame, pixels);
                 RayOrder result;
-                order_rays(tile, motion, defocus, result);
+                order_rays(tile, {motion, defocus}, result);
                 EXPECT_TRUE(is_permutation_of_all(result.order, tile.size()));
             }
 }
@@ -42,7 +42,7 @@ TEST(RayOrder, IsAPermutationForAnyTileAndEffects) {
 TEST(RayOrder, OfNoPixelsIsEmpty) {
     RayOrder result;
     result.order = {1, 2};
-    order_rays(SampleTile{}, true, true, result);
+    order_rays(SampleTile{}, {true, true}, result);
     EXPECT_TRUE(result.order.empty());
 }
 
@@ -50,7 +50,7 @@ TEST(RayOrder, PixelsFollowTheZCurve) {
     const TestFrame frame(64, 64, 1, false, false);
     const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
     RayOrder result;
-    order_rays(tile, false, false, result);
+    order_rays(tile, {false, false}, result);
     const std::vector<uint32_t> first(result.order.begin(), result.order.begin() + 8);
     EXPECT_EQ(first, (std::vector<uint32_t>{0, 1, 16, 17, 2, 3, 18, 19}));
 }
@@ -59,8 +59,8 @@ TEST(RayOrder, TimeComesBeforeThePixelAndIsStable) {
     const TestFrame frame(64, 64, 3, true, false);
     const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
     RayOrder still, moving;
-    order_rays(tile, false, false, still);
-    order_rays(tile, true, false, moving);
+    order_rays(tile, {false, false}, still);
+    order_rays(tile, {true, false}, moving);
     std::vector<uint32_t> expected = still.order;
     std::stable_sort(expected.begin(), expected.end(), [&](uint32_t a, uint32_t b) {
         return static_cast<int>(tile.time[a] * 16) < static_cast<int>(tile.time[b] * 16);
@@ -72,8 +72,8 @@ TEST(RayOrder, DirectionComesBeforeTime) {
     const TestFrame frame(64, 64, 4, true, true);
     const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
     RayOrder by_time, by_both;
-    order_rays(tile, true, false, by_time);
-    order_rays(tile, true, true, by_both);
+    order_rays(tile, {true, false}, by_time);
+    order_rays(tile, {true, true}, by_both);
     const auto [low, high] = std::minmax_element(
         tile.rays.begin(), tile.rays.end(), [](const AxisRay& a, const AxisRay& b) { return a.uy < b.uy; });
     const float cell = (high->uy - low->uy) / 16;
@@ -86,7 +86,7 @@ TEST(RayOrder, DirectionComesBeforeTime) {
     // Where direction is one cell, the order by time holds.
     SampleTile parallel = tile;
     for (AxisRay& ray : parallel.rays) ray.ux = ray.uy = 0;
-    order_rays(parallel, true, true, by_both);
+    order_rays(parallel, {true, true}, by_both);
     EXPECT_EQ(by_both.order, by_time.order);
 }
 

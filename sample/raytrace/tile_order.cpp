@@ -9,26 +9,26 @@ constexpr size_t kMostOrders = 32;
 }  // namespace
 
 TileOrder::TileOrder(const Camera& camera, const Grids& grids, bool motion)
-    : motion_(motion), lens_(camera.has_lens()) {
-    if (lens_ || motion_) blur_.emplace(camera, grids);
+    : blur_of_rays_{motion, camera.has_lens()} {
+    if (blur_of_rays_.lens || blur_of_rays_.motion) blur_.emplace(camera, grids);
 }
 
 std::span<const uint32_t> TileOrder::of(const SampleTile& samples, TileOrderScratch& scratch) const {
     BundleOrder order;
-    if (blur_) order = best_order(blur_->at(samples.pixels), samples.samples_per_pixel, motion_, lens_);
+    if (blur_) order = best_order(blur_->at(samples.pixels), samples.samples_per_pixel, blur_of_rays_);
     const std::array kind{samples.pixels.width(), samples.pixels.height(), samples.samples_per_pixel,
                           order.block_side,       order.lens_bits,         order.time_bits};
     std::vector<KnownOrder>& known = scratch.known;
     if (!known.empty() && known.front().owner != this) known.clear();
     // Through a lens alone, or a pinhole, an order serves all tiles of the same shape that are sorted alike:
     // strata of the lens are the same in all pixels (where a pattern's are not, it is only less good).
-    if (!motion_)
+    if (!blur_of_rays_.motion)
         for (const KnownOrder& one : known)
             if (one.kind == kind) return one.order;
-    if (known.empty() || (!motion_ && known.size() < kMostOrders)) known.emplace_back();
+    if (known.empty() || (!blur_of_rays_.motion && known.size() < kMostOrders)) known.emplace_back();
     KnownOrder& made = known.back();
     made.owner = this, made.kind = kind;
-    order_bundles(samples, motion_, lens_, order, scratch.sort, made.order);
+    order_bundles(samples, blur_of_rays_, order, scratch.sort, made.order);
     return made.order;
 }
 

@@ -34,7 +34,7 @@ class TileOrder {
     std::span<const uint32_t> of(const SampleTile& samples, TileOrderScratch& scratch) const;
 
   private:
-    bool motion_, lens_;
+    RayBlur blur_of_rays_;
     std::optional<BlurMap> blur_;  ///< where there is any
 };
 

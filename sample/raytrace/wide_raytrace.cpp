@@ -73,7 +73,7 @@ class WideRayTraced final : public Visibility {
         RayBundle& rays = own.bundle;
         // Rays start in one point only where they all pass a pinhole.
         const bool origins = lens_ || !camera_.perspective;
-        fill_bundle(samples.rays, order, origins, motion_, rays);
+        fill_bundle(samples.rays, order, {motion_, origins}, rays);
         rays.tests = rays.nodes = nullptr;
         if (scratch.heat) count_costs(own);
         // Parallel rays meet nowhere: their intervals are as wide everywhere.
