@@ -1,12 +1,11 @@
 #include "composite/displays/image_output.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "composite/displays/image_library.h"
 #include "composite/displays/srgb.h"
 #include "core/random.h"
 
@@ -37,7 +36,7 @@ constexpr int kMostJpegPixels = 65500;
 /// How the picture's pixels become the file's.
 struct Encoding {
     Quantization quantization;
-    OIIO::TypeDesc type = OIIO::TypeDesc::UINT8;
+    NumberType type = NumberType::Uint8;
     bool srgb = false, unassociated = false;
     int channels = 3;
     int first_channel = 0;          ///< 3 when alpha is alone
@@ -45,16 +44,16 @@ struct Encoding {
     int values_per_pixel = 4;
     bool depth = false;
 
-    bool to_float() const { return type == OIIO::TypeDesc::FLOAT; }
+    bool to_float() const { return type == NumberType::Float; }
 };
 
 Encoding encoding_of(const PictureToWrite& picture) {
     const DisplayPlan& plan = picture.plan;
     Encoding e;
     e.quantization = plan.quantization;
-    e.type = e.quantization.to_float()      ? OIIO::TypeDesc::FLOAT
-             : e.quantization.has_16_bits() ? OIIO::TypeDesc::UINT16
-                                            : OIIO::TypeDesc::UINT8;
+    e.type = e.quantization.to_float()      ? NumberType::Float
+             : e.quantization.has_16_bits() ? NumberType::Uint16
+                                            : NumberType::Uint8;
     e.srgb = plan.srgb;
     const bool takes_alpha = plan.format != FileFormat::Jpeg;
     e.channels = plan.rgb ? (plan.alpha && takes_alpha ? 4 : 3) : 1;
@@ -128,49 +127,54 @@ std::string description(const PictureToWrite& picture, const Encoding& e) {
     return text;
 }
 
-OIIO::ImageSpec make_spec(const PictureToWrite& picture, const Encoding& e) {
+ImageForm make_form(const PictureToWrite& picture, const Encoding& e) {
     const Image& image = picture.image;
-    OIIO::ImageSpec spec(image.window.width(), image.window.height(), e.channels, e.type);
-    spec.x = image.window.x0, spec.y = image.window.y0;
-    spec.full_width = image.width, spec.full_height = image.height;
+    ImageForm form;
+    form.format = format_name(picture.plan.format);
+    form.width = image.window.width(), form.height = image.window.height();
+    form.x = image.window.x0, form.y = image.window.y0;
+    form.full_width = image.width, form.full_height = image.height;
+    form.channels = e.channels;
+    form.type = e.type;
     if (picture.plan.aov) {
-        spec.channelnames = aov_channel_names(picture.plan);
-        spec.alpha_channel = -1;
+        form.channel_names = aov_channel_names(picture.plan);
     } else if (!picture.plan.rgb) {
-        spec.channelnames = {e.depth ? "Z" : "A"};
-        spec.alpha_channel = e.depth ? -1 : 0;
+        form.channel_names = {e.depth ? "Z" : "A"};
+        form.alpha_channel = e.depth ? -1 : 0;
     }
-    spec.attribute("PixelAspectRatio", picture.context.scene->options.pixel_aspect);
-    spec.attribute("Software", picture.info.software);
-    spec.attribute("ImageDescription", description(picture, e));
-    if (!picture.info.date.empty()) spec.attribute("DateTime", picture.info.date);
-    if (e.unassociated) spec.attribute("oiio:UnassociatedAlpha", 1);
+    const auto add = [&form](const char* name, ImageForm::Value value) {
+        form.attributes.emplace_back(name, std::move(value));
+    };
+    add("PixelAspectRatio", picture.context.scene->options.pixel_aspect);
+    add("Software", picture.info.software);
+    add("ImageDescription", description(picture, e));
+    if (!picture.info.date.empty()) add("DateTime", picture.info.date);
+    if (e.unassociated) add("oiio:UnassociatedAlpha", 1);
     const std::string& compression = picture.plan.compression;
     if (picture.plan.format == FileFormat::Png && compression == "none")
-        spec.attribute("png:compressionLevel", 0);
+        add("png:compressionLevel", 0);
     else if (!compression.empty())
-        spec.attribute("compression", compression);
+        add("compression", compression);
     if (picture.plan.format == FileFormat::Tiff) {
-        const M44f screen =
-            picture.context.scene->camera_from_world * screen_from_camera(picture.context.camera);
-        spec.attribute("worldtocamera", OIIO::TypeMatrix, &picture.context.scene->camera_from_world);
-        spec.attribute("worldtoscreen", OIIO::TypeMatrix, &screen);
-        if (picture.plan.depth_map) spec.attribute("textureformat", "Shadow");
+        const Scene& scene = *picture.context.scene;
+        add("worldtocamera", scene.camera_from_world);
+        add("worldtoscreen", scene.camera_from_world * screen_from_camera(picture.context.camera));
+        if (picture.plan.depth_map) add("textureformat", std::string("Shadow"));
     } else {
         // In a TIFF this would be Exif data, which OpenImageIO 2.4 cannot write to memory; readers take whole
         // numbers there for sRGB anyway.
-        spec.attribute("oiio:ColorSpace", e.srgb ? "sRGB" : "");
+        add("oiio:ColorSpace", std::string(e.srgb ? "sRGB" : ""));
     }
-    return spec;
+    return form;
 }
 
-bool write_pixels(OIIO::ImageOutput& out, const Image& image, const Encoding& e) {
-    if (e.depth) return out.write_image(OIIO::TypeDesc::FLOAT, image.z.data());
-    if (e.type == OIIO::TypeDesc::FLOAT)
-        return out.write_image(e.type, encode_pixels<float>(image, e).data());
-    if (e.type == OIIO::TypeDesc::UINT16)
-        return out.write_image(e.type, encode_pixels<uint16_t>(image, e).data());
-    return out.write_image(e.type, encode_pixels<uint8_t>(image, e).data());
+ImageBytes encode(const ImageLibrary& library, const Image& image, const Encoding& e, const ImageForm& form) {
+    if (e.depth) return library.encode(form, NumberType::Float, image.z.data());
+    if (e.type == NumberType::Float)
+        return library.encode(form, e.type, encode_pixels<float>(image, e).data());
+    if (e.type == NumberType::Uint16)
+        return library.encode(form, e.type, encode_pixels<uint16_t>(image, e).data());
+    return library.encode(form, e.type, encode_pixels<uint8_t>(image, e).data());
 }
 
 }  // namespace
@@ -182,17 +186,14 @@ std::string write_image(const PictureToWrite& picture, OutputFile& file) {
         std::max(window.width(), window.height()) > kMostJpegPixels)
         return fmt::format("JPEG files have at most {} pixels along a side", kMostJpegPixels);
     if (!file.open()) return file.error();
-    // Into memory first: not every format's code notices a full disk, OutputFile does.
-    OIIO::Filesystem::IOVecOutput memory;
-    const char* format = format_name(picture.plan.format);
-    const auto out = OIIO::ImageOutput::create(format);
-    if (!out) return OIIO::geterror();
+    std::string problem;
+    const ImageLibrary* const library = image_library(&problem);
+    if (!library) return problem;
     const Encoding encoding = encoding_of(picture);
-    const bool good = out->set_ioproxy(&memory) && out->open(format, make_spec(picture, encoding)) &&
-                      write_pixels(*out, picture.image, encoding) && out->close();
-    if (!good) return out->geterror();
-    const std::vector<unsigned char>& bytes = memory.buffer();
-    return file.write(bytes.data(), bytes.size()) && file.commit() ? std::string() : file.error();
+    // Into memory first: not every format's code notices a full disk, OutputFile does.
+    const ImageBytes made = encode(*library, picture.image, encoding, make_form(picture, encoding));
+    if (!made.problem.empty()) return made.problem;
+    return file.write(made.bytes.data(), made.bytes.size()) && file.commit() ? std::string() : file.error();
 }
 
 }  // namespace trapeze

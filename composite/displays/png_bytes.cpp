@@ -1,22 +1,23 @@
 #include "composite/displays/png_bytes.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <stdexcept>
+
+#include "composite/displays/image_library.h"
 
 namespace trapeze {
 
 std::vector<unsigned char> png_bytes(int width, int height, std::span<const uint8_t> rgb) {
-    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    OIIO::Filesystem::IOVecOutput memory;
-    const auto out = OIIO::ImageOutput::create("png");
-    if (!out) throw std::runtime_error("no PNG: " + OIIO::geterror());
-    const bool good = out->set_ioproxy(&memory) && out->open("png", spec) &&
-                      out->write_image(OIIO::TypeDesc::UINT8, rgb.data()) && out->close();
-    if (!good) throw std::runtime_error("no PNG: " + out->geterror());
-    return memory.buffer();
+    ImageForm form;
+    form.format = "png";
+    form.width = form.full_width = width, form.height = form.full_height = height;
+    form.channels = 3;
+    form.attributes = {{"oiio:ColorSpace", std::string("sRGB")}};
+    std::string problem;
+    const ImageLibrary* const library = image_library(&problem);
+    if (!library) throw std::runtime_error("no PNG: " + problem);
+    ImageBytes made = library->encode(form, NumberType::Uint8, rgb.data());
+    if (!made.problem.empty()) throw std::runtime_error("no PNG: " + made.problem);
+    return std::move(made.bytes);
 }
 
 }  // namespace trapeze
