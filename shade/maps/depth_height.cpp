@@ -14,7 +14,7 @@ constexpr int64_t kMostPixels = int64_t{1} << 26;
 /// A whole map in memory: a polygoniser looks up millions of points all over it.
 class Heights {
   public:
-    Heights(const Textures::DepthMap& map, const M44f& camera_from_world,
+    Heights(const DepthView& map, const M44f& camera_from_world,
             std::shared_ptr<const std::vector<float>> depths)
         : space_(map, camera_from_world),
           x0_(map.x0),
@@ -57,7 +57,7 @@ class Heights {
 
 std::shared_ptr<const std::vector<float>> Textures::Impl::all_depths(const DepthMap& map,
                                                                      SourceLocation location) {
-    const auto pixels = static_cast<int64_t>(map.x1 - map.x0) * (map.y1 - map.y0);
+    const auto pixels = static_cast<int64_t>(map.view.x1 - map.view.x0) * (map.view.y1 - map.view.y0);
     if (pixels <= 0 || pixels > kMostPixels) {
         report_read_error(map.name, location, "too large to be kept, as the heights over it need");
         return nullptr;
@@ -65,11 +65,9 @@ std::shared_ptr<const std::vector<float>> Textures::Impl::all_depths(const Depth
     const std::lock_guard lock(depths_mutex);
     std::weak_ptr<const std::vector<float>>& known = depths[map.name];
     if (auto kept = known.lock()) return kept;
-    auto read = std::make_shared<std::vector<float>>(static_cast<size_t>(pixels));
-    const ThreadState thread(*this);
-    if (!cache->get_pixels(map.handle, thread.of_cache(), 0, 0, map.x0, map.x1, map.y0, map.y1, 0, 1, 0, 1,
-                           OIIO::TypeDesc::FLOAT, read->data())) {
-        report_read_error(map.name, location, cache->geterror());
+    auto read = std::make_shared<std::vector<float>>();
+    if (std::string problem = cache->read_depths(*map.map, *read); !problem.empty()) {
+        report_read_error(map.name, location, std::move(problem));
         return nullptr;
     }
     known = read;
@@ -82,7 +80,7 @@ DepthHeight Textures::height_over(std::string_view name, SourceLocation location
     if (!map) return {};
     auto depths = impl_->all_depths(*map, location);
     if (!depths) return {};
-    const auto heights = std::make_shared<const Heights>(*map, camera_from_world, std::move(depths));
+    const auto heights = std::make_shared<const Heights>(map->view, camera_from_world, std::move(depths));
     return [heights](const V3f& p) { return heights->at(p); };
 }
 

@@ -1,9 +1,5 @@
 #include "shade/maps/make_maps.h"
 
-#include <OpenImageIO/filter.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -14,20 +10,15 @@
 
 #include "core/files/output_file.h"
 #include "shade/maps/cube_faces.h"
-#include "shade/maps/linear_image_input.h"
-#include "shade/maps/map_bytes.h"
-#include "shade/maps/map_matrices.h"
+#include "shade/maps/map_library.h"
 
 namespace trapeze {
 namespace {
 
 namespace fs = std::filesystem;
-using OIIO::ImageSpec;
-using OIIO::TypeDesc;
 
-constexpr uint64_t kMostFloats = uint64_t{1} << 28;  ///< of a picture: 1 GiB
-constexpr int kTile = 64;
-constexpr float kNothing = 1e30f;  ///< what is as deep
+constexpr uint64_t kMostFloats = uint64_t{1} << 28;  ///< of a cube's faces together
+constexpr float kNothing = 1e30f;                    ///< what is as deep
 
 struct MakingError {
     MapProblem problem;
@@ -41,38 +32,18 @@ void check_output(bool good, const std::string& text) {
     if (!good) throw MakingError{{text.empty() ? "cannot be written" : text, true}};
 }
 
-struct Picture {
-    Raster raster;
-    ImageSpec spec;  ///< of the file
-};
+const MapLibrary& library() {
+    std::string problem;
+    const MapLibrary* const found = map_library(&problem);
+    check(found != nullptr, problem);
+    return *found;
+}
 
-Picture read_picture(OIIO::ImageInput& file, const std::string& name) {
-    Picture picture;
-    check(file.open(name, picture.spec), file.geterror());
-    const ImageSpec& spec = picture.spec;
-    const uint64_t floats = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
-    check(spec.nchannels > 0 && spec.depth <= 1 && !spec.deep, "is no picture of rows and columns");
-    check(spec.width > 0 && spec.height > 0 && floats <= kMostFloats,
-          fmt::format("\"{}\" is too large: {} x {} pixels", name, spec.width, spec.height));
-    picture.raster = {spec.width, spec.height, spec.nchannels, std::vector<float>(floats)};
-    check(file.read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, picture.raster.pixels.data()),
-          file.geterror());
-    file.close();
+SourcePicture read_picture(const std::string& name, Transfer transfer) {
+    SourcePicture picture;
+    const std::string problem = library().read(name, transfer, picture);
+    check(problem.empty(), problem);
     return picture;
-}
-
-Picture read_numbers(const std::string& name) {
-    const auto file = OIIO::ImageInput::create(name);
-    check(file != nullptr, OIIO::geterror());
-    return read_picture(*file, name);
-}
-
-Picture read_light(const std::string& name, Transfer transfer) {
-    const auto stored = OIIO::ImageInput::open(name);
-    check(stored != nullptr, OIIO::geterror());
-    if (!is_srgb_encoded(stored->spec(), transfer)) return read_numbers(name);
-    LinearImageInput file;
-    return read_picture(file, name);
 }
 
 /// Where a file is made that becomes `target` when all has gone well.
@@ -104,22 +75,8 @@ std::string wrap_mode(const std::string& name) {
     throw MakingError{{fmt::format("\"{}\" is no wrap mode", name)}};
 }
 
-/// OpenImageIO's name of a filter; "box" for one that it does not have.
-std::string filter_name(const std::string& name) {
-    if (name == "b-spline" || name == "radial-bspline") return "bspline";
-    if (name == "bessel" || name == "lanczos") return "lanczos3";
-    for (int i = 0; i < OIIO::Filter2D::num_filters(); ++i)
-        if (name == OIIO::Filter2D::get_filterdesc(i).name) return name;
-    return "box";
-}
-
-ImageSpec texture_config(const MapMaking& making, TypeDesc format) {
-    ImageSpec config;
-    config.format = format;
-    config.tile_width = config.tile_height = kTile;
-    config.attribute("wrapmodes", wrap_mode(making.swrap) + "," + wrap_mode(making.twrap));
-    config.attribute("maketx:filtername", filter_name(making.filter));
-    return config;
+MapForm form_of(const MapMaking& making) {
+    return {wrap_mode(making.swrap) + "," + wrap_mode(making.twrap), making.filter, false};
 }
 
 /// Whole, or not at all.
@@ -128,11 +85,6 @@ void write_map(const MapBytes& map, const std::string& name) {
     OutputFile file(name);
     check_output(file.open() && file.write(map.bytes.data(), map.bytes.size()) && file.commit(),
                  file.error());
-}
-
-OIIO::ImageBuf buffer_of(Raster& raster) {
-    return OIIO::ImageBuf(ImageSpec(raster.width, raster.height, raster.channels, TypeDesc::FLOAT),
-                          raster.pixels.data());
 }
 
 /// Runs what may throw, and says what went wrong.
@@ -148,30 +100,22 @@ MapProblem made(Make&& make) {
     }
 }
 
-/// Eight bits and halves fit halves.
-TypeDesc texture_format(const ImageSpec& spec) {
-    const bool fits = spec.format == TypeDesc::UINT8 || spec.format == TypeDesc::HALF;
-    return fits ? TypeDesc::HALF : TypeDesc::FLOAT;
+void make_flat(SourcePicture picture, const std::string& texture, const MapMaking& making) {
+    MapForm form = form_of(making);
+    form.halves = picture.fits_halves;
+    write_map(library().texture_map(picture.raster, form), texture);
 }
 
-void make_flat(Picture picture, const std::string& texture, const MapMaking& making) {
-    const ImageSpec config = texture_config(making, texture_format(picture.spec));
-    write_map(open_exr_texture(buffer_of(picture.raster), config), texture);
-}
-
-/// TIFF: OpenEXR's maps have another up. OpenImageIO makes a TIFF of several pictures on the disk only.
 void make_environment(Raster& raster, const std::string& texture, const MapMaking& making) {
-    ImageSpec config = texture_config(making, TypeDesc::FLOAT);
-    config.attribute("maketx:fileformatname", "tiff");
+    const MapForm form = form_of(making);
     Unfinished file(texture);
-    check_output(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxEnvLatl, buffer_of(raster),
-                                                  file.path(), config),
-                 OIIO::geterror());
+    const std::string problem = library().write_environment_map(raster, form, file.path());
+    check_output(problem.empty(), problem);
     file.finish();
 }
 
-std::vector<float> depths_of(const Picture& picture) {
-    const std::vector<std::string>& names = picture.spec.channelnames;
+std::vector<float> depths_of(const SourcePicture& picture) {
+    const std::vector<std::string>& names = picture.channel_names;
     const auto named = std::find_if(names.begin(), names.end(),
                                     [](const std::string& name) { return name == "Z" || name == "z"; });
     check(named != names.end() || picture.raster.channels == 1, "the picture has no depths (channel Z)");
@@ -184,36 +128,23 @@ std::vector<float> depths_of(const Picture& picture) {
     return depths;
 }
 
-void write_depths(const ImageSpec& from, const MapMatrices& matrices, const std::vector<float>& depths,
-                  const std::string& shadow) {
-    ImageSpec spec(from.width, from.height, 1, TypeDesc::FLOAT);
-    spec.x = from.x, spec.y = from.y;
-    spec.full_width = from.full_width, spec.full_height = from.full_height;
-    spec.channelnames = {"Z"};
-    spec.tile_width = spec.tile_height = kTile;
-    spec.attribute("textureformat", "Shadow");
-    spec.attribute("worldtocamera", OIIO::TypeMatrix, &matrices.camera_from_world);
-    spec.attribute("worldtoscreen", OIIO::TypeMatrix, &matrices.screen_from_world);
-    write_map(tiff_bytes(spec, depths), shadow);
-}
-
 }  // namespace
 
 MapProblem make_texture_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
-    return made([&] { make_flat(read_light(picture, making.transfer), texture, making); });
+    return made([&] { make_flat(read_picture(picture, making.transfer), texture, making); });
 }
 
 MapProblem make_bump_map(const std::string& picture, const std::string& texture, const MapMaking& making) {
     return made([&] {
         const bool is_encoded = making.transfer == Transfer::Srgb;
-        make_flat(read_light(picture, is_encoded ? Transfer::Srgb : Transfer::Linear), texture, making);
+        make_flat(read_picture(picture, is_encoded ? Transfer::Srgb : Transfer::Linear), texture, making);
     });
 }
 
 MapProblem make_lat_long_environment(const std::string& picture, const std::string& texture,
                                      const MapMaking& making) {
     return made([&] {
-        Picture read = read_light(picture, making.transfer);
+        SourcePicture read = read_picture(picture, making.transfer);
         make_environment(read.raster, texture, making);
     });
 }
@@ -223,7 +154,7 @@ MapProblem make_cube_face_environment(const std::array<std::string, 6>& pictures
     return made([&] {
         std::array<Raster, 6> faces;
         for (size_t i = 0; i < faces.size(); ++i) {
-            faces[i] = std::move(read_light(pictures[i], making.transfer).raster);
+            faces[i] = std::move(read_picture(pictures[i], making.transfer).raster);
             check(faces[i].channels == faces[0].channels, "the faces do not have the same channels");
             check(faces[i].pixels.size() * 8 <= kMostFloats, fmt::format("\"{}\" is too large", pictures[i]));
         }
@@ -234,11 +165,10 @@ MapProblem make_cube_face_environment(const std::array<std::string, 6>& pictures
 
 MapProblem make_shadow_map(const std::string& picture, const std::string& shadow) {
     return made([&] {
-        const Picture read = read_numbers(picture);
-        const auto matrices = map_matrices(read.spec);
-        check(matrices.has_value(),
+        const SourcePicture read = read_picture(picture, Transfer::Linear);
+        check(read.matrices.has_value(),
               "the picture does not say where its camera was (worldtocamera, worldtoscreen)");
-        write_depths(read.spec, *matrices, depths_of(read), shadow);
+        write_map(library().shadow_map(read, depths_of(read)), shadow);
     });
 }
 

@@ -3,9 +3,17 @@
 
 #include <cmath>
 
-#include "shade/maps/textures_impl.h"
+#include "core/math.h"
 
 namespace trapeze {
+
+/// A depth map's pixels and its camera.
+struct DepthView {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;     ///< the pixels that the file has
+    float full_width = 1, full_height = 1;  ///< of the picture they are part of
+    M44f camera_from_world, screen_from_world;
+    bool perspective = true;
+};
 
 /// A point in a map: pixels, depth, and the depth's form that is linear over planes.
 struct MapPoint {
@@ -16,7 +24,7 @@ struct MapPoint {
 /// Places of current-space points, whose world is at camera_from_world.
 class MapSpace {
   public:
-    MapSpace(const Textures::DepthMap& map, const M44f& camera_from_world)
+    MapSpace(const DepthView& map, const M44f& camera_from_world)
         : width_(map.full_width), height_(map.full_height), perspective_(map.perspective) {
         const M44d world_from_current = M44d(camera_from_world).inverse();
         camera_ = M44f(world_from_current * M44d(map.camera_from_world));

@@ -21,7 +21,7 @@ class OddMapsTest : public MapFilesTest {
     static std::string name_of(int channels, int width, int height) {
         return std::to_string(channels) + "_" + std::to_string(width) + "x" + std::to_string(height) + ".exr";
     }
-    std::vector<float> look(const std::string& file, const Textures::Lookup& at, const MapOptions& options,
+    std::vector<float> look(const std::string& file, const TextureLookup& at, const MapOptions& options,
                             size_t wanted) {
         const std::vector<Plane> out(planes_.begin(), planes_.begin() + static_cast<std::ptrdiff_t>(wanted));
         textures_.texture(textures_.find(file, {}), at, options, {1, {}}, out);
@@ -42,7 +42,7 @@ class OddMapsTest : public MapFilesTest {
         for (const Plane& plane : planes) values.push_back(plane[0]);
         return values;
     }
-    Textures::Lookup at(float s, float t, float dsdu = 0, float dtdu = 0, float dsdv = 0, float dtdv = 0) {
+    TextureLookup at(float s, float t, float dsdu = 0, float dtdu = 0, float dsdv = 0, float dtdv = 0) {
         return {plane({s}), plane({t}), plane({dsdu}), plane({dtdu}), plane({dsdv}), plane({dtdv})};
     }
 

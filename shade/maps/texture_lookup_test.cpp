@@ -28,7 +28,7 @@ class TextureLookupTest : public MapFilesTest {
         textures_.texture(textures_.find(file, {}), square(s, t, width), options, {1, {}}, planes);
         return {planes[0][0], planes[1][0], planes[2][0]};
     }
-    Textures::Lookup square(float s, float t, float width) {
+    TextureLookup square(float s, float t, float width) {
         return {plane({s}), plane({t}), plane({width}), {}, {}, plane({width})};
     }
     static ImageSpec periodic(int side, int channels) {
@@ -181,7 +181,7 @@ TEST_F(TextureLookupTest, AThreadOutlivesTexturesAndMeetsNewOnes) {
     std::thread worker([&] {
         const Plane out = plane(kLanes, -1);
         const Plane planes[] = {out};
-        const Textures::Lookup at = square(0.5f, 0.5f, 0);
+        const TextureLookup at = square(0.5f, 0.5f, 0);
         for (int render = 0; render < kRenders; ++render) {
             turn.arrive_and_wait();
             textures->texture(textures->find(file, {}), at, {}, {1, {}}, planes);
@@ -245,7 +245,7 @@ class EnvironmentTest : public TextureLookupTest {
     }
     V3f seen(const std::string& file, const V3f& R, float width = 0, MapOptions options = {}) {
         const Plane planes[] = {plane(kLanes, -1), plane(kLanes, -1), plane(kLanes, -1)};
-        const Textures::EnvironmentLookup at{
+        const EnvironmentLookup at{
             {plane({R.x}), plane({R.y}), plane({R.z})}, {plane({width}), {}, {}}, {{}, plane({width}), {}}};
         textures_.environment(textures_.find(file, {}), at, options, {1, {}}, planes);
         return {planes[0][0], planes[1][0], planes[2][0]};

@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <limits>
-#include <thread>
 
 #include "core/files/picture_files.h"
-#include "shade/maps/linear_image_input.h"
-#include "shade/maps/map_matrices.h"
+#include "shade/maps/map_lanes.h"
 #include "shade/maps/texture_files.h"
 #include "shade/maps/textures_impl.h"
 
@@ -35,40 +31,6 @@ bool is_traced(std::string_view name) {
 
 }  // namespace
 
-MapOptions::Filter map_filter(std::string_view name) {
-    if (name == "box" || name == "triangle" || name == "bilinear") return MapOptions::Filter::Bilinear;
-    if (name == "nearest" || name == "closest" || name == "point") return MapOptions::Filter::Nearest;
-    return MapOptions::Filter::Smooth;
-}
-
-MapOptions::Wrap map_wrap(std::string_view name) {
-    if (name == "black") return MapOptions::Wrap::Black;
-    if (name == "periodic") return MapOptions::Wrap::Periodic;
-    if (name == "clamp") return MapOptions::Wrap::Clamp;
-    if (name == "mirror") return MapOptions::Wrap::Mirror;
-    return MapOptions::Wrap::OfPicture;
-}
-
-void quad_sides(ConstPlane corner_00, ConstPlane corner_10, ConstPlane corner_01, ConstPlane corner_11,
-                const QuadSides& sides) {
-    for (size_t i = 0; i < sides.middle.size(); ++i) {
-        const float a = map_lanes::value(corner_00, i), b = map_lanes::value(corner_10, i);
-        const float c = map_lanes::value(corner_01, i), d = map_lanes::value(corner_11, i);
-        sides.middle[i] = ((a + b) + (c + d)) * 0.25f;
-        sides.along_u[i] = ((b - a) + (d - c)) * 0.5f;
-        sides.along_v[i] = ((c - a) + (d - b)) * 0.5f;
-    }
-}
-
-bool map_lanes::is_on(const Lanes& lanes, size_t i) {
-    return lanes.mask.empty() || std::bit_cast<uint32_t>(lanes.mask[i < lanes.mask.size() ? i : 0]) != 0;
-}
-
-void map_lanes::pad(const Lanes& lanes, Plane out) {
-    if (lanes.count > 0 && lanes.count < out.size())
-        std::fill(out.begin() + static_cast<std::ptrdiff_t>(lanes.count), out.end(), out[lanes.count - 1]);
-}
-
 Textures::Textures(const Options& options, Diagnostics* diagnostics, const Access& access)
     : impl_(std::make_unique<Impl>(access)) {
     impl_->memory_megabytes = memory_megabytes_of(options);
@@ -83,58 +45,12 @@ Textures::Textures(const Options& options, Diagnostics* diagnostics, const Acces
 
 Textures::~Textures() = default;
 
-Textures::Impl::~Impl() {
-    for (OIIO::TextureSystem::Perthread* state : idle) system->destroy_thread_info(state);
-}
-
-OIIO::TextureSystem::Perthread* Textures::Impl::take_thread_state() {
-    const std::lock_guard lock(idle_mutex);
-    if (idle.empty()) return system->create_thread_info();
-    OIIO::TextureSystem::Perthread* state = idle.back();
-    idle.pop_back();
-    return state;
-}
-
-void Textures::Impl::give_back(OIIO::TextureSystem::Perthread* state) {
-    const std::lock_guard lock(idle_mutex);
-    idle.push_back(state);
-}
-
-void Textures::Impl::start() {
-    if (system) return;
-    cache.reset(OIIO::ImageCache::create(false));
-    cache->attribute("max_memory_MB", memory_megabytes);
-    cache->attribute("autotile", 64);
-    cache->attribute("automip", 1);
-    cache->attribute("deduplicate", 0);  // a file decoded is not the same as it is
-    system.reset(OIIO::TextureSystem::create(false, cache.get()));
-    system->attribute("latlong_up", "z");
-    // All channels lie together in memory: it ends the program at an environment's poles where they do not.
-    system->attribute("max_tile_channels", std::numeric_limits<int>::max());
-}
-
-/// In a thread of its own, since add_file() asks get_perthread_info(). Returns what is wrong with the file.
-std::string Textures::Impl::add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator) {
+std::string Textures::Impl::start() {
+    if (cache) return {};
     std::string problem;
-    std::thread([&] {
-        if (!cache->add_file(path, creator)) problem = cache->geterror();
-    }).join();
+    if (const MapLibrary* const library = map_library(&problem))
+        cache = library->make_cache(memory_megabytes);
     return problem;
-}
-
-/// By the name that the cache has for it. Empty when it is open, else what is wrong.
-std::string Textures::Impl::open_file(Picture& picture, const std::string& name,
-                                      OIIO::ImageInput::Creator creator) {
-    const OIIO::ustring path(name);
-    const std::string problem = add_file(path, creator);
-    const ThreadState thread(*this);
-    picture.handle = system->get_texture_handle(path, thread.get());
-    picture.image = cache->get_image_handle(path, thread.of_cache());
-    if (picture.handle && picture.image && system->good(picture.handle)) return {};
-    std::string reason = problem;
-    if (reason.empty()) reason = system->geterror();
-    if (reason.empty()) reason = cache->geterror();
-    return reason.empty() ? "cannot be read" : reason;
 }
 
 /// Empty when it is open, else what is wrong.
@@ -148,51 +64,11 @@ std::string Textures::Impl::open(Picture& picture) {
     // What is behind rarer formats is wide: films, for one, which may name further files.
     if (access.is_confined() && !is_common_picture(*file))
         return "is of a format that is not open to scenes (--safe)";
-    start();
+    std::string problem = start();
+    if (!problem.empty()) return problem;
     picture.file = *file;
-    if (std::string problem = open_file(picture, *file, nullptr); !problem.empty()) return problem;
-    const ThreadState thread(*this);
-    OIIO::ImageSpec in_file, spec;
-    if (!cache->get_imagespec(picture.image, thread.of_cache(), in_file, 0, 0, true) ||
-        !cache->get_imagespec(picture.image, thread.of_cache(), spec))
-        return cache->geterror();
-    picture.srgb_if_asked = is_srgb_encoded(in_file, Transfer::Srgb);
-    picture.srgb_by_itself = is_srgb_encoded(in_file, Transfer::Auto);
-    return describe(picture, spec);
-}
-
-/// Takes what lookups need to know. Returns what they cannot work with.
-std::string Textures::Impl::describe(Picture& picture, const OIIO::ImageSpec& spec) {
-    if (spec.nchannels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
-        return "is no picture of rows and columns";
-    picture.channels = spec.nchannels;
-    picture.s_scale = static_cast<double>(std::max(spec.full_width, 1)) / spec.width;
-    picture.t_scale = static_cast<double>(std::max(spec.full_height, 1)) / spec.height;
-    picture.wrap_modes = spec.get_string_attribute("wrapmodes");
-    if (!picture.wrap_modes.empty()) {
-        OIIO::TextureOpt::parse_wrapmodes(picture.wrap_modes.c_str(), picture.swrap, picture.twrap);
-        for (OIIO::TextureOpt::Wrap* wrap : {&picture.swrap, &picture.twrap})
-            if (*wrap == OIIO::TextureOpt::WrapDefault) *wrap = OIIO::TextureOpt::WrapBlack;
-    }
-    picture.y_up = spec.get_string_attribute("oiio:updirection") == "y";
-    find_folds(picture, spec);
-    return {};
-}
-
-/// OpenImageIO repeats what is a power of two wide by a short cut, for which it takes the whole picture, of
-/// every resolution, to be one, too: it ends the program where a part or a smaller picture is not.
-void Textures::Impl::find_folds(Picture& picture, const OIIO::ImageSpec& spec) {
-    const auto is_power = [](int size) {
-        return std::has_single_bit(static_cast<unsigned>(std::max(size, 0)));
-    };
-    const ThreadState thread(*this);
-    OIIO::ImageSpec level = spec;
-    for (int i = 1;; ++i) {
-        picture.s_folds = picture.s_folds || (is_power(spec.width) && !is_power(level.full_width));
-        picture.t_folds = picture.t_folds || (is_power(spec.height) && !is_power(level.full_height));
-        if (!cache->get_imagespec(picture.image, thread.of_cache(), level, 0, i)) break;
-    }
-    cache->geterror();
+    picture.map = cache->open(*file, &problem);
+    return problem;
 }
 
 Textures::Impl::Entry<Textures::Picture>& Textures::Impl::entry(std::string_view name,
@@ -212,10 +88,10 @@ Textures::Impl::Entry<Textures::Picture>& Textures::Impl::decoded_entry(const Pi
     const auto known = decoded.find(picture.name);
     if (known != decoded.end()) return known->second;
     Entry<Picture>& made = decoded[picture.name];
-    made.map = std::make_unique<Picture>(picture);
-    made.problem =
-        open_file(*made.map, LinearImageInput::decoded_name(picture.file), &LinearImageInput::create);
-    if (!made.problem.empty()) made.map.reset();
+    auto opened = cache->open_decoded(*picture.map, picture.file, &made.problem);
+    if (made.problem.empty())
+        made.map = std::make_unique<Picture>(
+            Picture{std::move(opened), picture.file, picture.name, picture.location});
     return made;
 }
 
@@ -241,8 +117,8 @@ const Textures::Picture* Textures::find(std::string_view name, SourceLocation lo
     if (name.empty()) return nullptr;
     const std::lock_guard lock(impl_->mutex);
     const Picture* picture = impl_->report(impl_->entry(name, location), name, location);
-    const bool is_encoded = picture && ((transfer == Transfer::Srgb && picture->srgb_if_asked) ||
-                                        (transfer == Transfer::Auto && picture->srgb_by_itself));
+    const bool is_encoded = picture && ((transfer == Transfer::Srgb && picture->map->facts.srgb_if_asked) ||
+                                        (transfer == Transfer::Auto && picture->map->facts.srgb_by_itself));
     return is_encoded ? impl_->report(impl_->decoded_entry(*picture), name, location) : picture;
 }
 
@@ -260,6 +136,28 @@ Transfer Textures::transfer_of_lookup(std::string_view colorspace, bool of_color
                 colorspace, kTransferNames),
             fmt::format("colorspace {}", colorspace));
     return transfer == Transfer::Auto && !of_color ? Transfer::Linear : transfer;
+}
+
+std::string Textures::Impl::open(DepthMap& map) {
+    Entry<Picture>& known = entry(map.name, map.location);
+    if (!known.map) {
+        known.reported = true;
+        return known.problem;
+    }
+    map.map = known.map->map.get();
+    const MapFacts& facts = map.map->facts;
+    if (!facts.matrices) return "is no shadow map: it has no matrices worldtocamera and worldtoscreen";
+    if (!facts.is_one_float) return "is no shadow map: depths are one channel of floats";
+    DepthView& view = map.view;
+    view.camera_from_world = facts.matrices->camera_from_world;
+    view.screen_from_world = facts.matrices->screen_from_world;
+    view.x0 = facts.x0, view.y0 = facts.y0;
+    view.x1 = facts.x1, view.y1 = facts.y1;
+    view.full_width = static_cast<float>(std::max(facts.full_width, 1));
+    view.full_height = static_cast<float>(std::max(facts.full_height, 1));
+    const M44f& s = view.screen_from_world;
+    view.perspective = s[0][3] != 0 || s[1][3] != 0 || s[2][3] != 0;
+    return {};
 }
 
 const Textures::DepthMap* Textures::find_shadow(std::string_view name, SourceLocation location) {
@@ -282,21 +180,48 @@ std::optional<Textures::Info> Textures::info(std::string_view name) {
     const std::lock_guard lock(impl_->mutex);
     const Impl::Entry<Picture>& known = impl_->entry(name, {});
     if (!known.map) return {};
-    OIIO::ImageSpec spec;
-    const Impl::ThreadState thread(*impl_);
-    if (!impl_->cache->get_imagespec(known.map->image, thread.of_cache(), spec)) return {};
+    const MapFacts& facts = known.map->map->facts;
     Info info;
-    info.width = spec.full_width, info.height = spec.full_height, info.channels = spec.nchannels;
-    const std::string format = spec.get_string_attribute("textureformat");
-    info.type = format.find("Environment") != std::string::npos ? "environment"
-                : format == "Shadow"                            ? "shadow"
-                                                                : "texture";
-    info.wrap_modes = known.map->wrap_modes;
-    if (const auto matrices = map_matrices(spec)) {
-        info.viewing_matrix = matrices->camera_from_world;
-        info.projection_matrix = matrices->screen_from_world;
+    info.width = facts.full_width, info.height = facts.full_height, info.channels = facts.channels;
+    info.type = facts.texture_format.find("Environment") != std::string::npos ? "environment"
+                : facts.texture_format == "Shadow"                            ? "shadow"
+                                                                              : "texture";
+    info.wrap_modes = facts.wrap_modes;
+    if (facts.matrices) {
+        info.viewing_matrix = facts.matrices->camera_from_world;
+        info.projection_matrix = facts.matrices->screen_from_world;
     }
     return info;
+}
+
+void Textures::texture(const Picture* picture, const TextureLookup& at, const MapOptions& options,
+                       Lanes lanes, std::span<const Plane> out) const {
+    if (picture)
+        impl_->cache->texture(*picture->map, at, options, lanes, out, impl_->reporter(*picture));
+    else
+        for (const Plane& plane : out) map_lanes::set_all(lanes, plane, options.without);
+}
+
+void Textures::environment(const Picture* picture, const EnvironmentLookup& at, const MapOptions& options,
+                           Lanes lanes, std::span<const Plane> out) const {
+    if (picture)
+        impl_->cache->environment(*picture->map, at, options, lanes, out, impl_->reporter(*picture));
+    else
+        for (const Plane& plane : out) map_lanes::set_all(lanes, plane, options.without);
+}
+
+void Textures::shadow(const DepthMap* map, const ShadowLookup& at, const M44f& camera_from_world,
+                      const MapOptions& options, Lanes lanes, Plane out) const {
+    if (map)
+        impl_->cache->shadow({*map->map, map->view, impl_->shadow_bias}, at, camera_from_world, options,
+                             lanes, out, impl_->reporter(*map));
+    else
+        map_lanes::set_all(lanes, out, 0);
+}
+
+void Textures::lookup(const Picture& picture, const TextureLookup& at, size_t vertices, Plane3 out) const {
+    const Plane planes[] = {out.x, out.y, out.z};
+    texture(&picture, at, {}, {vertices, {}}, planes);
 }
 
 }  // namespace trapeze

@@ -1,5 +1,5 @@
 /// Texture, environment and shadow maps of one render, through a TextureSystem of its own with bounded
-/// memory. What includes textures_impl.h is all that knows OpenImageIO.
+/// memory. What knows OpenImageIO is in the folder openimageio, behind map_library.h.
 ///
 /// s runs across the picture and t down it, from its top row at 0. Numbers are taken as they are, unless
 /// Option "color" "transfer" or a lookup's own "colorspace" asks for pictures of 8 and 16 bits to be taken to
@@ -15,7 +15,6 @@
 /// Shadow maps are pictures of camera-space depth with the metadata worldtocamera and worldtoscreen.
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,58 +27,9 @@
 #include "core/math.h"
 #include "core/scene/scene.h"
 #include "core/scene/transfer.h"
-#include "shade/planes/planes.h"
+#include "shade/maps/map_lookups.h"
 
 namespace trapeze {
-
-/// A number that may differ from lane to lane. What is not finite counts as zero.
-class LaneNumber {
-  public:
-    LaneNumber(float value = 0) : value_(value) {}
-    explicit LaneNumber(ConstPlane plane) : plane_(plane) {}
-
-    float at(size_t lane) const {
-        const float value = plane_.empty() ? value_ : plane_[lane];
-        return std::isfinite(value) ? value : 0;
-    }
-    bool varies() const { return !plane_.empty(); }
-
-  private:
-    float value_ = 0;
-    ConstPlane plane_;
-};
-
-/// How a lookup is filtered: RISpec 3.2's optional arguments of texture(), environment() and shadow()
-/// (section 15.7).
-struct MapOptions {
-    enum class Filter : uint8_t { Smooth, Bilinear, Nearest };
-    enum class Wrap : uint8_t { OfPicture, Black, Periodic, Clamp, Mirror };
-
-    LaneNumber sblur, tblur;            ///< added to the filtered region, as a part of the picture
-    LaneNumber swidth = 1, twidth = 1;  ///< what the region is multiplied by
-    LaneNumber fill;                    ///< of channels that the file does not have
-    float without = 0;                  ///< what texture() gives where there is no picture
-    Wrap swrap = Wrap::OfPicture, twrap = Wrap::OfPicture;
-    bool lerp = true;  ///< between two resolutions of the picture
-    Filter filter = Filter::Smooth;
-    LaneNumber first_channel;
-
-    LaneNumber samples = 16;  ///< of a shadow; whole numbers from 1 to kMostShadowSamples
-    LaneNumber bias = -1;     ///< of a shadow, in its camera's depth; below zero: as the render's options say
-};
-inline constexpr int kMostShadowSamples = 4096;
-
-/// RISpec's filter names: "box" and "triangle" are bilinear, "nearest" and "closest" take a texel, all others
-/// are smooth.
-MapOptions::Filter map_filter(std::string_view name);
-/// MakeTexture's names of wrap modes; that of the picture for all others.
-MapOptions::Wrap map_wrap(std::string_view name);
-
-/// Lanes of planes that a lookup is for.
-struct Lanes {
-    size_t count = 0;  ///< lanes past the last one are given its value in the output
-    ConstPlane mask;   ///< lanes whose bits are all zero are left alone; empty: all are wanted
-};
 
 class Textures {
   public:
@@ -115,34 +65,20 @@ class Textures {
     };
     std::optional<Info> info(std::string_view name);
 
-    // The planes of the inputs below fit the lanes, or hold one value for all (kLanes floats, or fewer than
-    // there are lanes), or are empty, which is zero. Values that are not finite count as zero. All lookups
-    // are thread-safe.
+    // All lookups are thread-safe.
 
-    /// Texture coordinates and how they change from a vertex to the next along u and v of the grid: what a
-    /// lookup is filtered over.
-    struct Lookup {
-        ConstPlane s, t, dsdu, dtdu, dsdv, dtdv;
-    };
     /// `out` are 1 or 3 planes: the picture's channels from the first that is asked for, options.fill those
     /// that it does not have. A null picture gives options.without.
-    void texture(const Picture* picture, const Lookup& at, const MapOptions& options, Lanes lanes,
+    void texture(const Picture* picture, const TextureLookup& at, const MapOptions& options, Lanes lanes,
                  std::span<const Plane> out) const;
 
-    /// Directions, of any length, and how they change from a vertex to the next.
-    struct EnvironmentLookup {
-        ConstPlane3 R, dRdu, dRdv;
-    };
     void environment(const Picture* picture, const EnvironmentLookup& at, const MapOptions& options,
                      Lanes lanes, std::span<const Plane> out) const;
 
-    /// Camera-space points, and how they change from a vertex to the next.
-    struct ShadowLookup {
-        ConstPlane3 P, dPdu, dPdv;
-    };
     /// Percentage-closer filtering [Reeves87, "Rendering Antialiased Shadows with Depth Maps"]: the part, 0
     /// to 1, of what surrounds P in the map that is nearer to the map's camera than P is. See
-    /// shadow_lookup.cpp. Nothing is in shadow outside the map, behind its camera, or of a null map.
+    /// openimageio/shadow_lookup.cpp. Nothing is in shadow outside the map, behind its camera, or of a null
+    /// map.
     void shadow(const DepthMap* map, const ShadowLookup& at, const M44f& camera_from_world,
                 const MapOptions& options, Lanes lanes, Plane out) const;
 
@@ -152,19 +88,11 @@ class Textures {
     DepthHeight height_over(std::string_view name, SourceLocation location, const M44f& camera_from_world);
 
     /// texture() of three channels, for all vertices.
-    void lookup(const Picture& picture, const Lookup& at, size_t vertices, Plane3 out) const;
+    void lookup(const Picture& picture, const TextureLookup& at, size_t vertices, Plane3 out) const;
 
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-/// A quadrilateral's middle and sides, of its corners in the order of a patch's (along u first): for the
-/// lookups that are given four corners.
-struct QuadSides {
-    Plane middle, along_u, along_v;
-};
-void quad_sides(ConstPlane corner_00, ConstPlane corner_10, ConstPlane corner_01, ConstPlane corner_11,
-                const QuadSides& sides);
 
 }  // namespace trapeze

@@ -1,4 +1,4 @@
-#include "shade/maps/map_matrices.h"
+#include "shade/maps/openimageio/map_matrices.h"
 
 namespace trapeze {
 

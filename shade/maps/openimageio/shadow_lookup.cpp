@@ -14,9 +14,9 @@
 #include <bit>
 
 #include "core/random.h"
-#include "shade/maps/map_matrices.h"
+#include "shade/maps/map_lanes.h"
 #include "shade/maps/map_space.h"
-#include "shade/maps/textures_impl.h"
+#include "shade/maps/openimageio/map_cache.h"
 
 namespace trapeze {
 namespace {
@@ -31,8 +31,11 @@ constexpr float kPlaneReach = 0.25f;
 /// Depths through the cache. The last tile of each of four is held, where a region's four corners mostly lie.
 class DepthReader {
   public:
-    DepthReader(OIIO::ImageCache& cache, OIIO::ImageCache::Perthread* thread, const Textures::DepthMap& map)
-        : cache_(cache), thread_(thread), map_(map) {}
+    DepthReader(OIIO::ImageCache& cache, OIIO::ImageCache::Perthread* thread, const MapCache::ShadowMap& map)
+        : cache_(cache),
+          thread_(thread),
+          image_(static_cast<const CachedMap&>(map.map).image),
+          map_(map.view) {}
     ~DepthReader() {
         for (const Tile& tile : tiles_) release(tile);
     }
@@ -66,7 +69,7 @@ class DepthReader {
     void fetch(int x, int y, Tile& tile) {
         release(tile);
         tile = {};
-        tile.held = cache_.get_tile(map_.handle, thread_, 0, 0, x, y, 0, 0, 1);
+        tile.held = cache_.get_tile(image_, thread_, 0, 0, x, y, 0, 0, 1);
         OIIO::TypeDesc format;
         const void* pixels = tile.held ? cache_.tile_pixels(tile.held, format) : nullptr;
         if (!pixels || format != OIIO::TypeDesc::FLOAT) {
@@ -79,7 +82,8 @@ class DepthReader {
 
     OIIO::ImageCache& cache_;
     OIIO::ImageCache::Perthread* thread_;
-    const Textures::DepthMap& map_;
+    OIIO::ImageCache::ImageHandle* image_;
+    const DepthView& map_;
     std::array<Tile, 4> tiles_;
     bool failed_ = false;
 };
@@ -101,7 +105,7 @@ struct Receiver {
     }
 };
 
-Receiver make_receiver(const Textures::DepthMap& map, const MapSpace& space, const MapPoint& at,
+Receiver make_receiver(const DepthView& map, const MapSpace& space, const MapPoint& at,
                        const std::array<V3f, 2>& neighbours, const MapOptions& options, size_t lane) {
     Receiver r;
     r.at = at, r.perspective = map.perspective;
@@ -159,64 +163,34 @@ uint32_t seed_of(const V3f& p) {
     return hash(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y), std::bit_cast<uint32_t>(p.z));
 }
 
-bool may_reach(const Textures::DepthMap& map, const Receiver& r) {
+bool may_reach(const DepthView& map, const Receiver& r) {
     return r.at.x + r.half_x > static_cast<float>(map.x0) && r.at.x - r.half_x < static_cast<float>(map.x1) &&
            r.at.y + r.half_y > static_cast<float>(map.y0) && r.at.y - r.half_y < static_cast<float>(map.y1);
 }
 
 }  // namespace
 
-std::string Textures::Impl::open(DepthMap& map) {
-    Entry<Picture>& known = entry(map.name, map.location);
-    if (!known.map) {
-        known.reported = true;
-        return known.problem;
-    }
-    OIIO::ImageSpec spec;
+void OpenImageIoCache::shadow(const ShadowMap& map, const ShadowLookup& at, const M44f& camera_from_world,
+                              const MapOptions& options, Lanes lanes, Plane out, const ReadFailed& failed) {
     const ThreadState thread(*this);
-    if (!cache->get_imagespec(known.map->image, thread.of_cache(), spec)) return cache->geterror();
-    const auto matrices = map_matrices(spec);
-    if (!matrices) return "is no shadow map: it has no matrices worldtocamera and worldtoscreen";
-    map.camera_from_world = matrices->camera_from_world;
-    map.screen_from_world = matrices->screen_from_world;
-    if (spec.format != OIIO::TypeDesc::FLOAT || spec.nchannels != 1)
-        return "is no shadow map: depths are one channel of floats";
-    map.handle = known.map->image;
-    map.x0 = spec.x, map.y0 = spec.y;
-    map.x1 = spec.x + spec.width, map.y1 = spec.y + spec.height;
-    map.full_width = static_cast<float>(std::max(spec.full_width, 1));
-    map.full_height = static_cast<float>(std::max(spec.full_height, 1));
-    const M44f& s = map.screen_from_world;
-    map.perspective = s[0][3] != 0 || s[1][3] != 0 || s[2][3] != 0;
-    return {};
-}
-
-void Textures::shadow(const DepthMap* map, const ShadowLookup& at, const M44f& camera_from_world,
-                      const MapOptions& options, Lanes lanes, Plane out) const {
-    if (map) {
-        const Impl::ThreadState thread(*impl_);
-        DepthReader depths(*impl_->cache, thread.of_cache(), *map);
-        const MapSpace space(*map, camera_from_world);
-        for (size_t i = 0; i < lanes.count; ++i) {
-            if (!map_lanes::is_on(lanes, i)) continue;
-            out[i] = 0;
-            const V3f P = value(at.P, i);
-            const MapPoint here = space(P);
-            if (!here.seen) continue;
-            const Receiver receiver =
-                make_receiver(*map, space, here, {P + value(at.dPdu, i), P + value(at.dPdv, i)}, options, i);
-            if (!may_reach(*map, receiver)) continue;
-            const float own = options.bias.at(i), asked = own >= 0 ? own : impl_->shadow_bias;
-            const float bias = asked >= 0 ? asked : kDefaultBias * here.depth;
-            const auto samples = static_cast<int>(
-                std::clamp(options.samples.at(i), 1.0f, static_cast<float>(kMostShadowSamples)));
-            out[i] = hidden_part(depths, receiver, bias, samples, seed_of(P));
-        }
-        if (depths.failed()) impl_->report_read_error(map->name, map->location, impl_->cache->geterror());
-    } else {
-        for (size_t i = 0; i < lanes.count; ++i)
-            if (map_lanes::is_on(lanes, i)) out[i] = 0;
+    DepthReader depths(*cache_, thread.of_cache(), map);
+    const MapSpace space(map.view, camera_from_world);
+    for (size_t i = 0; i < lanes.count; ++i) {
+        if (!map_lanes::is_on(lanes, i)) continue;
+        out[i] = 0;
+        const V3f P = value(at.P, i);
+        const MapPoint here = space(P);
+        if (!here.seen) continue;
+        const Receiver receiver =
+            make_receiver(map.view, space, here, {P + value(at.dPdu, i), P + value(at.dPdv, i)}, options, i);
+        if (!may_reach(map.view, receiver)) continue;
+        const float own = options.bias.at(i), asked = own >= 0 ? own : map.bias;
+        const float bias = asked >= 0 ? asked : kDefaultBias * here.depth;
+        const auto samples =
+            static_cast<int>(std::clamp(options.samples.at(i), 1.0f, static_cast<float>(kMostShadowSamples)));
+        out[i] = hidden_part(depths, receiver, bias, samples, seed_of(P));
     }
+    if (depths.failed()) failed(cache_->geterror());
     map_lanes::pad(lanes, out);
 }
 

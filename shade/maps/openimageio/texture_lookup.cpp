@@ -1,7 +1,8 @@
 /// Lookups of colours: by place in a picture, and by direction.
 #include <algorithm>
 
-#include "shade/maps/textures_impl.h"
+#include "shade/maps/map_lanes.h"
+#include "shade/maps/openimageio/map_cache.h"
 
 namespace trapeze {
 namespace {
@@ -36,7 +37,7 @@ bool folds(bool must_fold, OIIO::TextureOpt::Wrap wrap) {
 /// places, and floors far away have nearly all of them; with 32 they are no nearer to the truth.
 constexpr int kLongestRegion = 16;
 
-OIIO::TextureOpt lookup_options(const Textures::Picture& picture, const MapOptions& options) {
+OIIO::TextureOpt lookup_options(const CachedMap& picture, const MapOptions& options) {
     OIIO::TextureOpt made;
     made.anisotropic = kLongestRegion;
     made.swrap = wrap_of(options.swrap, picture.swrap), made.twrap = wrap_of(options.twrap, picture.twrap);
@@ -92,32 +93,22 @@ Region with_area(const Region& r, double s_scale, double t_scale) {
             static_cast<float>(-t * across / s_scale), static_cast<float>(s * across / t_scale)};
 }
 
-/// In wanted lanes.
-void set_all(const Lanes& lanes, std::span<const Plane> out, float value) {
-    for (const Plane& plane : out) {
-        for (size_t i = 0; i < lanes.count; ++i)
-            if (map_lanes::is_on(lanes, i)) plane[i] = value;
-        map_lanes::pad(lanes, plane);
-    }
-}
-
 }  // namespace
 
 template <class LookUp>
-void Textures::Impl::each_lane(const Picture* picture, const MapOptions& options, const Lanes& lanes,
-                               std::span<const Plane> out, LookUp&& look_up) {
-    if (!picture) return set_all(lanes, out, options.without);
+void OpenImageIoCache::each_lane(const CachedMap& map, const MapOptions& options, const Lanes& lanes,
+                                 std::span<const Plane> out, const ReadFailed& failed, LookUp&& look_up) {
     const int wanted = static_cast<int>(std::min<size_t>(out.size(), 3));
     const ThreadState thread(*this);
-    const OIIO::TextureOpt for_all = lookup_options(*picture, options);
+    const OIIO::TextureOpt for_all = lookup_options(map, options);
     OIIO::TextureOpt made = for_all;
     int present = 0;
     float fill = 0;
     const auto set_for_lane = [&](size_t i) {
         const float first = options.first_channel.at(i);
-        present = present_channels(picture->channels, first, wanted);
+        present = present_channels(map.facts.channels, first, wanted);
         fill = options.fill.at(i);
-        made.firstchannel = static_cast<int>(std::clamp(first, 0.0f, static_cast<float>(picture->channels)));
+        made.firstchannel = static_cast<int>(std::clamp(first, 0.0f, static_cast<float>(map.facts.channels)));
         made.sblur = std::clamp(options.sblur.at(i), 0.0f, kMostRegion);
         made.tblur = std::clamp(options.tblur.at(i), 0.0f, kMostRegion);
     };
@@ -131,7 +122,7 @@ void Textures::Impl::each_lane(const Picture* picture, const MapOptions& options
         if (present) {
             made.swrap = for_all.swrap, made.twrap = for_all.twrap;  // which OpenImageIO changes
             if (!look_up(made, thread.get(), i, present, color)) {
-                report_read_error(picture->name, picture->location, system->geterror());
+                failed(system_->geterror());
                 std::fill(color, color + present, 0.0f);
             }
         }
@@ -140,12 +131,13 @@ void Textures::Impl::each_lane(const Picture* picture, const MapOptions& options
     for (const Plane& plane : out) map_lanes::pad(lanes, plane);
 }
 
-void Textures::texture(const Picture* picture, const Lookup& at, const MapOptions& options, Lanes lanes,
-                       std::span<const Plane> out) const {
-    const bool s_folded = picture && folds(picture->s_folds, wrap_of(options.swrap, picture->swrap));
-    const bool t_folded = picture && folds(picture->t_folds, wrap_of(options.twrap, picture->twrap));
-    impl_->each_lane(
-        picture, options, lanes, out,
+void OpenImageIoCache::texture(const OpenMap& open, const TextureLookup& at, const MapOptions& options,
+                               Lanes lanes, std::span<const Plane> out, const ReadFailed& failed) {
+    const auto& map = static_cast<const CachedMap&>(open);
+    const bool s_folded = folds(map.s_folds, wrap_of(options.swrap, map.swrap));
+    const bool t_folded = folds(map.t_folds, wrap_of(options.twrap, map.twrap));
+    each_lane(
+        map, options, lanes, out, failed,
         [&](OIIO::TextureOpt& made, OIIO::TextureSystem::Perthread* thread, size_t i, int channels,
             float* color) {
             const float swidth = std::max(options.swidth.at(i), 0.0f);
@@ -153,38 +145,34 @@ void Textures::texture(const Picture* picture, const Lookup& at, const MapOption
             const auto s_change = [&](ConstPlane d) { return within(value(d, i) * swidth, kMostRegion); };
             const auto t_change = [&](ConstPlane d) { return within(value(d, i) * twidth, kMostRegion); };
             Region region{s_change(at.dsdu), t_change(at.dtdu), s_change(at.dsdv), t_change(at.dtdv)};
-            if (made.sblur + made.tblur > 0) region = with_area(region, picture->s_scale, picture->t_scale);
+            if (made.sblur + made.tblur > 0) region = with_area(region, map.s_scale, map.t_scale);
             const float s = value(at.s, i), t = value(at.t, i);
-            return impl_->system->texture(
-                picture->handle, thread, made, s_folded ? s - std::floor(s) : coordinate(s, made.swrap),
-                t_folded ? t - std::floor(t) : coordinate(t, made.twrap), region.dsdu, region.dtdu,
-                region.dsdv, region.dtdv, channels, color);
+            return system_->texture(map.handle, thread, made,
+                                    s_folded ? s - std::floor(s) : coordinate(s, made.swrap),
+                                    t_folded ? t - std::floor(t) : coordinate(t, made.twrap), region.dsdu,
+                                    region.dtdu, region.dsdv, region.dtdv, channels, color);
         });
 }
 
-void Textures::environment(const Picture* picture, const EnvironmentLookup& at, const MapOptions& options,
-                           Lanes lanes, std::span<const Plane> out) const {
-    impl_->each_lane(picture, options, lanes, out,
-                     [&](OIIO::TextureOpt& made, OIIO::TextureSystem::Perthread* thread, size_t i,
-                         int channels, float* color) {
-                         V3f R = value(at.R, i), dRdu = value(at.dRdu, i), dRdv = value(at.dRdv, i);
-                         const float length = R.length();
-                         if (!(length > 0)) return true;
-                         R /= length;
-                         made.swidth = std::clamp(options.swidth.at(i), 0.0f, kMostRegion);
-                         made.twidth = std::clamp(options.twidth.at(i), 0.0f, kMostRegion);
-                         dRdu = within(dRdu / length, kMostRegion), dRdv = within(dRdv / length, kMostRegion);
-                         // OpenImageIO has longitude 0 in the middle.
-                         if (!picture->y_up)
-                             for (V3f* d : {&R, &dRdu, &dRdv}) d->x = -d->x, d->y = -d->y;
-                         return impl_->system->environment(picture->handle, thread, made, R, dRdu, dRdv,
-                                                           channels, color);
-                     });
-}
-
-void Textures::lookup(const Picture& picture, const Lookup& at, size_t vertices, Plane3 out) const {
-    const Plane planes[] = {out.x, out.y, out.z};
-    texture(&picture, at, {}, {vertices, {}}, planes);
+void OpenImageIoCache::environment(const OpenMap& open, const EnvironmentLookup& at,
+                                   const MapOptions& options, Lanes lanes, std::span<const Plane> out,
+                                   const ReadFailed& failed) {
+    const auto& map = static_cast<const CachedMap&>(open);
+    each_lane(map, options, lanes, out, failed,
+              [&](OIIO::TextureOpt& made, OIIO::TextureSystem::Perthread* thread, size_t i, int channels,
+                  float* color) {
+                  V3f R = value(at.R, i), dRdu = value(at.dRdu, i), dRdv = value(at.dRdv, i);
+                  const float length = R.length();
+                  if (!(length > 0)) return true;
+                  R /= length;
+                  made.swidth = std::clamp(options.swidth.at(i), 0.0f, kMostRegion);
+                  made.twidth = std::clamp(options.twidth.at(i), 0.0f, kMostRegion);
+                  dRdu = within(dRdu / length, kMostRegion), dRdv = within(dRdv / length, kMostRegion);
+                  // OpenImageIO has longitude 0 in the middle.
+                  if (!map.y_up)
+                      for (V3f* d : {&R, &dRdu, &dRdv}) d->x = -d->x, d->y = -d->y;
+                  return system_->environment(map.handle, thread, made, R, dRdu, dRdv, channels, color);
+              });
 }
 
 }  // namespace trapeze

@@ -1,4 +1,4 @@
-#include "shade/maps/map_bytes.h"
+#include "shade/maps/openimageio/map_bytes.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -1,5 +1,4 @@
-/// Files of maps, made in memory by OpenImageIO. Its writer of OpenEXR waits for ever where a disk is full;
-/// whoever has the bytes can write them and notice.
+/// Files of maps, made in memory.
 #pragma once
 
 // First: OpenImageIO declares vectors of its own where it has not seen Imath's.
@@ -8,15 +7,11 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
-#include <string>
 #include <vector>
 
-namespace trapeze {
+#include "shade/maps/map_library.h"
 
-struct MapBytes {
-    std::vector<unsigned char> bytes;
-    std::string problem;  ///< empty, or why there are none
-};
+namespace trapeze {
 
 /// What ImageBufAlgo::make_texture() makes of a texture, as OpenEXR.
 MapBytes open_exr_texture(const OIIO::ImageBuf& picture, OIIO::ImageSpec config);

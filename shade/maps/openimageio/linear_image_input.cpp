@@ -1,4 +1,4 @@
-#include "shade/maps/linear_image_input.h"
+#include "shade/maps/openimageio/linear_image_input.h"
 
 #include <Imath/half.h>
 
