@@ -8,21 +8,22 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/simd/simd_limit.h"
-
 namespace trapeze {
 namespace {
 
 /// Embree reads whole vectors of four floats, also at the last vertex.
 constexpr size_t kFloatPadding = 4;
 
-/// The device's configuration: Embree is held to what our own vector code may use, so that both can be
-/// compared. Threads are those of the calling task arena.
-std::string device_config() {
-    const std::string_view limit = simd_limit();
-    if (limit == "sse4") return "isa=sse4.2";
-    if (limit == "avx2") return "isa=avx2";
-    return "";
+RTCBuildQuality quality_of(EmbreeQuality quality) {
+    switch (quality) {
+        case EmbreeQuality::Low:
+            return RTC_BUILD_QUALITY_LOW;
+        case EmbreeQuality::Medium:
+            return RTC_BUILD_QUALITY_MEDIUM;
+        case EmbreeQuality::High:
+            return RTC_BUILD_QUALITY_HIGH;
+    }
+    return RTC_BUILD_QUALITY_MEDIUM;
 }
 
 void check(RTCDevice device) {
@@ -99,14 +100,14 @@ RTCGrid window_of(const GridShape& shape, size_t first_vertex) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Grids& grids, const EmbreeChoices& choices) {
+EmbreeScene::EmbreeScene(const Grids& grids, const EmbreeChoices& choices, RTCFilterFunctionN filter) {
     const auto start = std::chrono::steady_clock::now();
-    device_ = rtcNewDevice(device_config().c_str());
+    device_ = rtcNewDevice(choices.device.c_str());
     if (!device_) throw std::runtime_error("Embree does not run on this machine");
     rtcSetDeviceMemoryMonitorFunction(device_, monitor_memory, &bytes_);
     gather_meshes(grids, choices.quads);
     stats_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    commit(choices);
+    commit(choices, filter);
     stats_.tree_bytes = static_cast<uint64_t>(std::max<int64_t>(0, bytes_));
 }
 
@@ -134,15 +135,15 @@ void EmbreeScene::gather_meshes(const Grids& grids, bool quads) {
     }
 }
 
-void EmbreeScene::commit(const EmbreeChoices& choices) {
+void EmbreeScene::commit(const EmbreeChoices& choices, RTCFilterFunctionN filter) {
     scene_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene_, choices.quality);
-    for (EmbreeMesh& mesh : meshes_) attach(mesh, choices);
+    rtcSetSceneBuildQuality(scene_, quality_of(choices.quality));
+    for (EmbreeMesh& mesh : meshes_) attach(mesh, choices, filter);
     rtcCommitScene(scene_);
     check(device_);
 }
 
-void EmbreeScene::attach(EmbreeMesh& mesh, const EmbreeChoices& choices) {
+void EmbreeScene::attach(EmbreeMesh& mesh, const EmbreeChoices& choices, RTCFilterFunctionN filter) {
     const auto type = choices.quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_GRID;
     const RTCGeometry geometry = rtcNewGeometry(device_, type);
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(mesh.key_count));
@@ -158,10 +159,10 @@ void EmbreeScene::attach(EmbreeMesh& mesh, const EmbreeChoices& choices) {
     else
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_GRID, 0, RTC_FORMAT_GRID, mesh.windows.data(), 0,
                                    sizeof(RTCGrid), mesh.windows.size());
-    rtcSetGeometryBuildQuality(geometry, choices.quality);
+    rtcSetGeometryBuildQuality(geometry, quality_of(choices.quality));
     if (mesh.filtered) {
         rtcSetGeometryUserData(geometry, &mesh);
-        rtcSetGeometryIntersectFilterFunction(geometry, choices.filter);
+        rtcSetGeometryIntersectFilterFunction(geometry, filter);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);  // numbered as they come, like the meshes

@@ -9,6 +9,7 @@
 
 #include "core/grid.h"
 #include "core/stats.h"
+#include "sample/embree/embree_library.h"
 
 namespace trapeze {
 
@@ -29,16 +30,11 @@ struct EmbreeMesh {
     const Grid& grid(size_t i) const { return all_grids->grids[grids[i]]; }
 };
 
-struct EmbreeChoices {
-    bool quads = false;  ///< else grids
-    RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
-    RTCFilterFunctionN filter = nullptr;  ///< of the meshes that are `filtered`; gets the EmbreeMesh
-};
-
 /// Built with the threads of the calling task arena. Keeps a reference to the grids.
 class EmbreeScene {
   public:
-    EmbreeScene(const Grids& grids, const EmbreeChoices& choices);
+    /// `filter` is that of the meshes that are `filtered`; it gets the EmbreeMesh.
+    EmbreeScene(const Grids& grids, const EmbreeChoices& choices, RTCFilterFunctionN filter);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -58,8 +54,8 @@ class EmbreeScene {
 
   private:
     void gather_meshes(const Grids& grids, bool quads);
-    void commit(const EmbreeChoices& choices);
-    void attach(EmbreeMesh& mesh, const EmbreeChoices& choices);
+    void commit(const EmbreeChoices& choices, RTCFilterFunctionN filter);
+    void attach(EmbreeMesh& mesh, const EmbreeChoices& choices, RTCFilterFunctionN filter);
 
     std::atomic<int64_t> bytes_{0};  ///< what Embree has allocated
     std::vector<EmbreeMesh> meshes_;

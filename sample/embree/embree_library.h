@@ -1,0 +1,58 @@
+/// What the method "embree" asks of Embree, in the module "embree".
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/files/module.h"
+#include "core/grid.h"
+#include "core/stats.h"
+#include "sample/visibility.h"
+
+namespace trapeze {
+
+enum class EmbreeQuality { Low, Medium, High };
+
+/// How many rays Embree is given at once.
+enum class EmbreeMode { Fastest, Single, Packet8, Packet16, Stream };
+
+struct EmbreeChoices {
+    bool quads = false;  ///< else grids
+    EmbreeQuality quality = EmbreeQuality::Medium;
+    EmbreeMode mode = EmbreeMode::Fastest;
+    bool motion = false;                ///< some grid moves
+    std::string device;                 ///< the device's configuration, in Embree's words
+    float near_clip = 0, far_clip = 0;  ///< hits are between, the far end included
+};
+
+/// A tree of Embree's over grids, which outlive it.
+class EmbreeTracer {
+  public:
+    virtual ~EmbreeTracer() = default;
+
+    /// Traces samples in an order: scratch.nearest[sample] becomes the nearest opaque hit where there is one;
+    /// the others before it, in any order and some more than once, come to the end of scratch.hits and
+    /// scratch.hit_sample. Thread-safe.
+    virtual void trace(const SampleTile& samples, std::span<const uint32_t> order,
+                       SampleScratch& scratch) const = 0;
+    virtual const BuildStats& stats() const = 0;
+};
+
+class EmbreeLibrary {
+  public:
+    /// Throws where Embree does not run or memory does not suffice.
+    virtual std::unique_ptr<EmbreeTracer> build(const Grids& grids, const EmbreeChoices& choices) const = 0;
+
+  protected:
+    ~EmbreeLibrary() = default;
+};
+
+/// Null, with *problem set, where the module cannot be opened.
+const EmbreeLibrary* embree_library(std::string* problem);
+
+}  // namespace trapeze
+
+extern "C" {
+[[gnu::visibility("default")]] extern const trapeze::ModuleEntry trapeze_embree_module;
+}
