@@ -36,6 +36,11 @@ struct OpenedModule {
 /// what it returns in a static, so that one thread opens it, once, and others wait.
 OpenedModule open_module(std::string_view name, const std::vector<std::string>& folders = module_folders());
 
+/// The same of a module that is linked in.
+inline OpenedModule linked_module(const ModuleEntry& entry) {
+    return {entry.offered, {}};
+}
+
 /// The object of a module as its interface; null, and why, where there is none.
 template <class Interface>
 const Interface* offered_by(const OpenedModule& module, std::string* problem) {
@@ -47,10 +52,7 @@ const Interface* offered_by(const OpenedModule& module, std::string* problem) {
 
 /// An OpenedModule of the module NAME, for the one function by which a room asks for it.
 #ifdef TRAPEZE_LINKED_MODULES
-#define TRAPEZE_FIND_MODULE(name)           \
-    ::trapeze::OpenedModule {               \
-        trapeze_##name##_module.offered, {} \
-    }
+#define TRAPEZE_FIND_MODULE(name) ::trapeze::linked_module(trapeze_##name##_module)
 #else
 #define TRAPEZE_FIND_MODULE(name) ::trapeze::open_module(#name)
 #endif
