@@ -60,7 +60,7 @@ class Modules : public ::testing::Test {
     int run(const std::string& program, const std::string& arguments) const {
         return run_shell("'" + program + "' " + arguments);
     }
-    std::string errors() const { return text_of(folder_ / ".stderr"); }
+    std::string errors() const { return file_text(folder_ / ".stderr"); }
 
     /// Runs a command of the shell in the folder, with no settings but those in it.
     int run_shell(const std::string& command) const {

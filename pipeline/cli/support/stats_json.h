@@ -1,4 +1,4 @@
-/// The file of `--stats`; README.md documents its keys.
+/// The file of `--stats`; docs/manual.md documents its keys.
 #pragma once
 
 #include <cstdint>
