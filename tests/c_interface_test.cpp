@@ -1,4 +1,4 @@
-/// docs/examples/lamp.c, compiled as C and linked as the README says: the picture that it renders is that of
+/// docs/examples/lamp.c, compiled as C and linked as docs/manual.md says: the picture that it renders is that of
 /// the RIB that it writes.
 #include <OpenImageIO/imagebuf.h>
 
