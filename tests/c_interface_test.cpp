@@ -1,5 +1,5 @@
-/// docs/examples/lamp.c, compiled as C and linked as docs/manual.md says: the picture that it renders is that of
-/// the RIB that it writes.
+/// docs/examples/lamp.c, compiled as C and linked as docs/manual.md says: the picture that it renders is that
+/// of the RIB that it writes.
 #include <OpenImageIO/imagebuf.h>
 
 #include <fstream>
