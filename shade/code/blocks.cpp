@@ -1,6 +1,6 @@
 #include "shade/code/blocks.h"
 
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::rsl {
 
@@ -18,8 +18,7 @@ Blocks::Blocks(const Code& code)
             if (middle[open.back()] != kNone) end[middle[open.back()]] = i;
             open.pop_back();
         }
-        const bool divides = op == Op::Else || op == Op::GatherElse || op == Op::LoopStep;
-        if (divides) {
+        if (divides_block(op)) {
             opening[i] = open.back();
             middle[open.back()] = i;
         }

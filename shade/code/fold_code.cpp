@@ -6,7 +6,7 @@
 
 #include "shade/code/blocks.h"
 #include "shade/code/optimise.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 #include "shade/vm/kernels/kernel.h"
 
 namespace trapeze::rsl {

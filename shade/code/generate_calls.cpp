@@ -18,7 +18,7 @@ std::vector<bool> outputs_of(const Builtin& builtin, size_t arguments) {
         if (at >= arguments) break;
         if (letter == '[') continue;
         if (letter == '*' || letter == '.' || letter == '+') break;
-        outputs[at++] = letter == '?' || (letter >= 'A' && letter <= 'Z');
+        outputs[at++] = is_output_letter(letter);
     }
     return outputs;
 }
@@ -31,8 +31,9 @@ size_t positional_count(const Builtin& builtin, size_t arguments) {
     return std::min(count, arguments);
 }
 
+/// A look into a map, whose inputs map_value() puts in order.
 bool is_map(Op op) {
-    return op == Op::Texture || op == Op::Environment || op == Op::Shadow || op == Op::Bump;
+    return row_of(op).context == ContextFamily::Maps && op != Op::TextureInfo;
 }
 
 int axis_of_function(std::string_view name) {
@@ -75,10 +76,11 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
 
 /// Predefined variables that a function reads without being given them.
 void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
-    if (op == Op::FaceForward && inputs.size() == 2) inputs.push_back(global("Ng", Base::Normal));
-    if (op == Op::Du || op == Op::Dv || op == Op::Deriv)
+    if (op_traits::has(op, op_traits::kNeedsNg) && inputs.size() == 2)
+        inputs.push_back(global("Ng", Base::Normal));
+    if (op_traits::has(op, op_traits::kNeedsUV))
         for (const char* parameter : {"u", "v"}) inputs.push_back(global(parameter, Base::Float));
-    if (op < Op::Ambient || op > Op::Phong) return;
+    if (!op_traits::has(op, op_traits::kNeedsP)) return;
     inputs.insert(inputs.begin(), global("P", Base::Point));
     global("N", Base::Normal);  // lights may ask for it
 }

@@ -20,13 +20,10 @@ bool assigned_in(const Expression& e, const Variable& variable) {
     if (e.kind == Expression::Kind::Assignment && e.children[0]->kind == Expression::Kind::Element &&
         names(*e.children[0]->children[0]))
         return true;
-    // Any call may set what is passed to it: a copy too many does no harm.
-    if (e.kind == Expression::Kind::Call) {
-        const bool sets = e.builtin ? e.builtin->result == 'w' || e.builtin->op >= Op::TextureInfo : true;
-        if (sets)
-            for (const ExpressionPtr& child : e.children)
-                if (names(*child)) return true;
-    }
+    // A function of the shader's own may set what is passed to it: a copy too many does no harm.
+    if (e.kind == Expression::Kind::Call && (!e.builtin || sets_arguments(*e.builtin)))
+        for (const ExpressionPtr& child : e.children)
+            if (names(*child)) return true;
     for (const ExpressionPtr& child : e.children)
         if (assigned_in(*child, variable)) return true;
     return false;

@@ -2,14 +2,10 @@
 
 #include "shade/code/blocks.h"
 #include "shade/code/optimise.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::rsl {
 namespace {
-
-bool repeats(Op op) {
-    return op == Op::Loop || op == Op::Illuminance || op == Op::Gather;
-}
 
 /// The instructions of the loop [first, last] that may stand in front of it: directly in it, into a
 /// temporary, from what the loop does not set. What looks at neighbours stays, since the lanes around may not
@@ -42,7 +38,7 @@ std::vector<size_t> invariant(const Program& program, const Code& code, const Bl
 void hoist_code(Program& program, Code& code) {
     // Loops from the last one back: inner ones come before those around them.
     for (size_t i = code.size(); i-- > 0;) {
-        if (!repeats(code[i].op)) continue;
+        if (!opens_loop(code[i].op)) continue;
         const Blocks blocks(code);
         const std::vector<size_t> found = invariant(program, code, blocks, i, blocks.end[i]);
         if (found.empty()) continue;

@@ -1,7 +1,7 @@
 #include "shade/code/infer_storage.h"
 
 #include "shade/code/blocks.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::rsl {
 namespace {

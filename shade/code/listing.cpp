@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "shade/code/program.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::rsl {
 namespace {
@@ -40,14 +40,15 @@ std::string register_text(const Program& program, RegisterId id) {
     return fmt::format("({})", fmt::join(r.values, ", "));
 }
 
-bool divides(Op op) {
-    return op == Op::Else || op == Op::LoopTest || op == Op::LoopStep || op == Op::GatherElse;
+/// Lines that stand as far out as the block's opening.
+bool stands_out(Op op) {
+    return divides_block(op) || op == Op::LoopTest;
 }
 
 void list_code(const Program& program, const Code& code, int indent, std::string& out) {
     for (const Instruction& instruction : code) {
         if (closes_block(instruction.op)) --indent;
-        const int here = divides(instruction.op) ? indent - 1 : indent;
+        const int here = stands_out(instruction.op) ? indent - 1 : indent;
         out.append(static_cast<size_t>(std::max(here, 0)) * 4, ' ');
         for (size_t k = 0; k < instruction.outputs; ++k) {
             const RegisterId id = instruction.operands[k];
@@ -56,7 +57,7 @@ void list_code(const Program& program, const Code& code, int indent, std::string
                                base_name(r.type.base), register_text(program, id));
         }
         if (instruction.outputs) out += instruction.masked ? " =? " : " = ";
-        out += op_name(instruction.op);
+        out += row_of(instruction.op).name;
         if (opens_block(instruction.op) && instruction.varying) out += " (by lane)";
         for (size_t k = 0; k < instruction.input_count(); ++k)
             out += (k ? ", " : " ") + register_text(program, instruction.input(k));

@@ -2,7 +2,7 @@
 
 #include "shade/code/blocks.h"
 #include "shade/code/optimise.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::rsl {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "shade/materials/material.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze {
 namespace {

@@ -1,11 +1,29 @@
 #include "shade/vm/context_ops.h"
 
+#include "shade/operations/op_table.h"
+
 namespace trapeze::vm {
 
 ContextOp find_context_op(rsl::Op op) {
-    for (const auto find : {find_text_op, find_named_op, find_neighbour_op, find_random_op, find_map_op,
-                            find_light_op, find_message_op})
-        if (const ContextOp found = find(op)) return found;
+    using rsl::ContextFamily;
+    switch (rsl::row_of(op).context) {
+        case ContextFamily::None:
+            return nullptr;
+        case ContextFamily::Texts:
+            return find_text_op(op);
+        case ContextFamily::Names:
+            return find_named_op(op);
+        case ContextFamily::Neighbours:
+            return find_neighbour_op(op);
+        case ContextFamily::Random:
+            return find_random_op(op);
+        case ContextFamily::Maps:
+            return find_map_op(op);
+        case ContextFamily::Lights:
+            return find_light_op(op);
+        case ContextFamily::Messages:
+            return find_message_op(op);
+    }
     return nullptr;
 }
 

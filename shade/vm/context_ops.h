@@ -1,5 +1,6 @@
-/// Operations that are no kernels, by family, a source file each. Each finder returns null for what it does
-/// not have.
+/// Operations that are no kernels: they ask the Context, or handle texts. By family, a source file each, with
+/// a table of its operations; which family an operation belongs to is said in the table of operations
+/// (shade/operations/op_table.def), which find_context_op() asks.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,19 @@
 
 namespace trapeze::vm {
 
+/// An operation of a family and what does it.
+struct ContextRow {
+    rsl::Op op;
+    ContextOp function;
+};
+
+inline ContextOp context_op_in(std::span<const ContextRow> rows, rsl::Op op) {
+    for (const ContextRow& row : rows)
+        if (row.op == op) return row.function;
+    return nullptr;
+}
+
+// Each returns null for an operation that the family does not have.
 ContextOp find_text_op(rsl::Op op);
 ContextOp find_named_op(rsl::Op op);
 ContextOp find_neighbour_op(rsl::Op op);

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "shade/code/blocks.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 #include "shade/vm/plane_slots.h"
 #include "shade/vm/run_defaults.h"
 
@@ -151,6 +151,7 @@ std::vector<Step> Executable::make_steps(const rsl::Code& code) {
         step.count = static_cast<uint32_t>(instruction.operands.size());
         operands_.insert(operands_.end(), instruction.operands.begin(), instruction.operands.end());
         step.kernel = kernel_of(instruction);
+        if (!step.kernel) step.context_op = find_context_op(step.op);
         step.target = static_cast<uint32_t>(target_of(code, blocks, i));
         if (blocks.opening[i] != Blocks::kNone) step.varying = code[blocks.opening[i]].varying;
         const bool jumps = step.op == Op::Break || step.op == Op::Continue || step.op == Op::Leave;

@@ -22,6 +22,16 @@ struct LoopLimits {
     int64_t steps = 100'000'000;  ///< of all loops together, nested ones counted as often as they run
 };
 
+class Run;
+struct Step;
+
+/// Does an operation that is no kernel: one on texts, spaces, neighbours, maps, lights or messages.
+/// `operands` are the step's, but outputs may be scratch planes.
+using ContextOp = void (*)(Run& run, const Step& step, std::span<const Operand> operands);
+
+/// Null for an operation that there is none for.
+ContextOp find_context_op(rsl::Op op);
+
 /// One instruction.
 struct Step {
     rsl::Op op = rsl::Op::Move;
@@ -33,7 +43,8 @@ struct Step {
     int32_t immediate = 0;
     uint32_t first = 0, count = 0;  ///< operands, in Executable::operands
     uint32_t target = 0;            ///< of control: the step to go on with when no lane is left
-    Kernel kernel = nullptr;        ///< null: the machine does it itself
+    Kernel kernel = nullptr;        ///< null: `context_op` does it; of control: the machine itself
+    ContextOp context_op = nullptr;
     SourceLocation at;
 };
 

@@ -64,7 +64,7 @@ void highlights(Run& run, const Step& step, std::span<const Operand> operands) {
 
 /// Rays that nothing answers yet: black, no distance, nothing in the way.
 void no_ray(Run& run, const Step& step, std::span<const Operand> operands) {
-    std::string function(rsl::op_name(step.op));  // as in RSL but for capitals
+    std::string function(rsl::row_of(step.op).name);  // as in RSL but for capitals
     for (char& c : function) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     run.warn(step, function + "() sees nothing yet: its rays miss everything", "rsl-no-rays " + function);
     const bool open = step.op == Op::Transmission || step.op == Op::Visibility;
@@ -78,29 +78,17 @@ void ray_info(Run& run, const Step&, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{0.0f});
 }
 
+constexpr ContextRow kLightRows[] = {
+    {Op::Ambient, ambient},   {Op::Diffuse, diffuse},   {Op::Specular, highlights},
+    {Op::Phong, highlights},  {Op::Trace, no_ray},      {Op::Transmission, no_ray},
+    {Op::Visibility, no_ray}, {Op::Occlusion, no_ray},  {Op::IndirectDiffuse, no_ray},
+    {Op::RayInfo, ray_info},  {Op::RayLevel, ray_info},
+};
+
 }  // namespace
 
 ContextOp find_light_op(Op op) {
-    switch (op) {
-        case Op::Ambient:
-            return ambient;
-        case Op::Diffuse:
-            return diffuse;
-        case Op::Specular:
-        case Op::Phong:
-            return highlights;
-        case Op::Trace:
-        case Op::Transmission:
-        case Op::Visibility:
-        case Op::Occlusion:
-        case Op::IndirectDiffuse:
-            return no_ray;
-        case Op::RayInfo:
-        case Op::RayLevel:
-            return ray_info;
-        default:
-            return nullptr;
-    }
+    return context_op_in(kLightRows, op);
 }
 
 }  // namespace trapeze::vm

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::vm {
 
@@ -97,8 +97,8 @@ void Run::run(const std::vector<Step>& steps) {
 void Run::call(const Step& step, std::span<const Operand> operands, size_t count) {
     if (step.kernel)
         step.kernel(count, operands);
-    else if (const ContextOp op = find_context_op(step.op))
-        op(*this, step, operands);
+    else if (step.context_op)
+        step.context_op(*this, step, operands);
 }
 
 void Run::plain(const Step& step) {

@@ -116,9 +116,4 @@ class Run {
     size_t scratch_used_ = 0;
 };
 
-/// Operations that are not kernels: of texts, spaces, neighbours, maps, lights and messages.
-using ContextOp = void (*)(Run& run, const Step& step, std::span<const Operand> operands);
-/// Null for an operation that there is none for.
-ContextOp find_context_op(rsl::Op op);
-
 }  // namespace trapeze::vm

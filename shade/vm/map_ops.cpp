@@ -14,19 +14,15 @@ void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
             std::fill_n(operands[0].data + k * operands[0].stride, plane_size(run, operands[0]), 0.0f);
 }
 
+constexpr ContextRow kMapRows[] = {
+    {Op::Texture, look_up}, {Op::Environment, look_up}, {Op::Shadow, look_up},
+    {Op::Bump, look_up},    {Op::TextureInfo, look_up},
+};
+
 }  // namespace
 
 ContextOp find_map_op(Op op) {
-    switch (op) {
-        case Op::Texture:
-        case Op::Environment:
-        case Op::Shadow:
-        case Op::Bump:
-        case Op::TextureInfo:
-            return look_up;
-        default:
-            return nullptr;
-    }
+    return context_op_in(kMapRows, op);
 }
 
 }  // namespace trapeze::vm

@@ -26,25 +26,17 @@ void shader_name(Run& run, const Step& step, std::span<const Operand>) {
         run.context().messages ? run.context().messages->shader_name(kind) : std::string();
 }
 
+constexpr ContextRow kMessageRows[] = {
+    {Op::LightMessage, ask},       {Op::SurfaceMessage, ask},  {Op::DisplacementMessage, ask},
+    {Op::AtmosphereMessage, ask},  {Op::IncidentMessage, ask}, {Op::OppositeMessage, ask},
+    {Op::AttributeMessage, ask},   {Op::OptionMessage, ask},   {Op::RendererInfo, ask},
+    {Op::ShaderName, shader_name},
+};
+
 }  // namespace
 
 ContextOp find_message_op(Op op) {
-    switch (op) {
-        case Op::LightMessage:
-        case Op::SurfaceMessage:
-        case Op::DisplacementMessage:
-        case Op::AtmosphereMessage:
-        case Op::IncidentMessage:
-        case Op::OppositeMessage:
-        case Op::AttributeMessage:
-        case Op::OptionMessage:
-        case Op::RendererInfo:
-            return ask;
-        case Op::ShaderName:
-            return shader_name;
-        default:
-            return nullptr;
-    }
+    return context_op_in(kMessageRows, op);
 }
 
 }  // namespace trapeze::vm

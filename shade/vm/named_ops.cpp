@@ -54,19 +54,16 @@ void spline(Run& run, const Step& step, std::span<const Operand> operands) {
         kernel(step.varying ? run.lanes() : kLanes, others);
 }
 
+constexpr ContextRow kNamedRows[] = {
+    {Op::SpaceMatrix, space_matrix},
+    {Op::ConvertColor, convert_color},
+    {Op::Spline, spline},
+};
+
 }  // namespace
 
 ContextOp find_named_op(Op op) {
-    switch (op) {
-        case Op::SpaceMatrix:
-            return space_matrix;
-        case Op::ConvertColor:
-            return convert_color;
-        case Op::Spline:
-            return spline;
-        default:
-            return nullptr;
-    }
+    return context_op_in(kNamedRows, op);
 }
 
 }  // namespace trapeze::vm

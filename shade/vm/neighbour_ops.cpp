@@ -92,25 +92,16 @@ void depth(Run& run, const Step&, std::span<const Operand> operands) {
     }
 }
 
+constexpr ContextRow kNeighbourRows[] = {
+    {Op::Du, differences}, {Op::Dv, differences},          {Op::Deriv, differences},
+    {Op::Area, area},      {Op::CalculateNormal, normals}, {Op::FilterStep, filtered_step},
+    {Op::Depth, depth},
+};
+
 }  // namespace
 
 ContextOp find_neighbour_op(Op op) {
-    switch (op) {
-        case Op::Du:
-        case Op::Dv:
-        case Op::Deriv:
-            return differences;
-        case Op::Area:
-            return area;
-        case Op::CalculateNormal:
-            return normals;
-        case Op::FilterStep:
-            return filtered_step;
-        case Op::Depth:
-            return depth;
-        default:
-            return nullptr;
-    }
+    return context_op_in(kNeighbourRows, op);
 }
 
 }  // namespace trapeze::vm

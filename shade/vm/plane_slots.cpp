@@ -4,7 +4,7 @@
 #include <map>
 
 #include "shade/code/blocks.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::vm {
 namespace {
@@ -22,10 +22,6 @@ struct Lifetime {
     }
 };
 
-bool repeats(rsl::Op op) {
-    return op == rsl::Op::Loop || op == rsl::Op::Illuminance || op == rsl::Op::Gather;
-}
-
 /// A value that is used in a loop but made outside must last to the loop's end; a variable, which may carry a
 /// value from one turn to the next, lasts for the whole of each loop in which it occurs.
 std::vector<Lifetime> lifetimes(const rsl::Program& program) {
@@ -40,9 +36,9 @@ std::vector<Lifetime> lifetimes(const rsl::Program& program) {
             const size_t made = life.first;
             life.cover(i, i);
             // What opens such a block is asked for again in each turn.
-            if (repeats(code[i].op)) life.cover(i, blocks.end[i]);
+            if (rsl::opens_loop(code[i].op)) life.cover(i, blocks.end[i]);
             for (size_t b = blocks.around[i]; b != Blocks::kNone; b = blocks.around[b]) {
-                if (!repeats(code[b].op)) continue;
+                if (!rsl::opens_loop(code[b].op)) continue;
                 if (!temporary) life.cover(b, blocks.end[b]);
                 if (temporary && made < b) life.cover(i, blocks.end[b]);
             }

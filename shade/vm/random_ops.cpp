@@ -23,10 +23,14 @@ void random(Run& run, const Step& step, std::span<const Operand> operands) {
                    operands[0]);
 }
 
+constexpr ContextRow kRandomRows[] = {
+    {rsl::Op::Random, random},
+};
+
 }  // namespace
 
 ContextOp find_random_op(rsl::Op op) {
-    return op == rsl::Op::Random ? random : nullptr;
+    return context_op_in(kRandomRows, op);
 }
 
 }  // namespace trapeze::vm

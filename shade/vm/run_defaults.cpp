@@ -2,19 +2,13 @@
 
 #include <algorithm>
 
-#include "shade/operations/op.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::vm {
 namespace {
 
 using rsl::Op;
 using rsl::Register;
-
-/// Its result follows from the point, or from maps, lights and other shaders.
-bool asks_surroundings(Op op) {
-    return op == Op::Random || (op >= Op::Du && op <= Op::Depth) ||
-           (op >= Op::Texture && op <= Op::ShaderName);
-}
 
 }  // namespace
 
@@ -24,7 +18,7 @@ std::vector<bool> has_run_default(const rsl::Program& program) {
     for (const rsl::ProgramParameter& parameter : program.parameters) {
         bool late = may_ask_object_space(program, parameter.initial);
         for (const rsl::Instruction& instruction : parameter.initial) {
-            late = late || asks_surroundings(instruction.op);
+            late = late || rsl::asks_surroundings(instruction.op);
             for (size_t k = 0; k < instruction.input_count() && !late; ++k) {
                 const rsl::RegisterId id = instruction.input(k);
                 late = known_late[id] || program.reg(id).kind == Register::Kind::Global;

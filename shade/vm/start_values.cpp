@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::vm {
 namespace {

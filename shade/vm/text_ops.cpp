@@ -106,32 +106,17 @@ void match(Run& run, const Step& step, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
 }
 
+constexpr ContextRow kTextRows[] = {
+    {Op::Move, move_text},    {Op::Element, text_element}, {Op::SetElement, set_text_element},
+    {Op::Clear, clear_texts}, {Op::Equal, equal_texts},    {Op::NotEqual, equal_texts},
+    {Op::Concat, concat},     {Op::Format, format_op},     {Op::Print, print},
+    {Op::Match, match},
+};
+
 }  // namespace
 
 ContextOp find_text_op(Op op) {
-    switch (op) {
-        case Op::Move:
-            return move_text;
-        case Op::Element:
-            return text_element;
-        case Op::SetElement:
-            return set_text_element;
-        case Op::Clear:
-            return clear_texts;
-        case Op::Equal:
-        case Op::NotEqual:
-            return equal_texts;
-        case Op::Concat:
-            return concat;
-        case Op::Format:
-            return format_op;
-        case Op::Print:
-            return print;
-        case Op::Match:
-            return match;
-        default:
-            return nullptr;
-    }
+    return context_op_in(kTextRows, op);
 }
 
 }  // namespace trapeze::vm

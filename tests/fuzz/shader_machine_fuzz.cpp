@@ -19,7 +19,7 @@
 #include "shade/code/generate.h"
 #include "shade/code/infer_storage.h"
 #include "shade/code/optimise.h"
-#include "shade/operations/op_traits.h"
+#include "shade/operations/op_table.h"
 #include "shade/rsl/front_end.h"
 #include "shade/vm/machine.h"
 

@@ -2,6 +2,7 @@
 /// later shaders use).
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 
@@ -23,6 +24,15 @@ struct Builtin {
     bool last_resort = false;  ///< beyond the specification: taken only where no other overload fits
 };
 
+/// Whether a letter of a parameter list is of one that the function sets.
+constexpr bool is_output_letter(char letter) {
+    return letter == '?' || (letter >= 'A' && letter <= 'Z');
+}
+constexpr bool sets_arguments(const Builtin& builtin) {
+    return std::ranges::any_of(builtin.parameters, is_output_letter);
+}
+
+/// All overloads of all names.
 std::span<const Builtin> builtins();
 
 /// Those of a name, in the order of preference; empty for an unknown name.

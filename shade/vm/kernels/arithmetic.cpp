@@ -141,53 +141,32 @@ Kernel sum_kernel(std::span<const int> widths) {
     return component_kernel<function>(widths);
 }
 
+constexpr KernelRow kRows[] = {
+    {Op::Move, find_move},
+    {Op::Select, find_select},
+    {Op::Add, sum_kernel<static_cast<V (*)(V, V)>(add)>},
+    {Op::Subtract, sum_kernel<static_cast<V (*)(V, V)>(subtract)>},
+    {Op::Negate, sum_kernel<negate>},
+    {Op::Multiply, component_kernel<multiply>},
+    {Op::Divide, component_kernel<divide>},
+    {Op::Sqrt, component_kernel<square_root>},
+    {Op::InverseSqrt, component_kernel<inverse_square_root>},
+    {Op::Abs, component_kernel<absolute>},
+    {Op::Sign, component_kernel<sign>},
+    {Op::Floor, component_kernel<floor_of>},
+    {Op::Ceil, component_kernel<ceil_of>},
+    {Op::Round, component_kernel<round_of>},
+    {Op::Mod, component_kernel<mod>},
+    {Op::Min, fold_kernel<least>},
+    {Op::Max, fold_kernel<most>},
+    {Op::Step, component_kernel<step_at>},
+    {Op::Clamp, component_kernel<clamp>},
+    {Op::Mix, component_kernel<mix>},
+    {Op::SmoothStep, component_kernel<smooth_step>},
+};
+
 Kernel find_arithmetic(Op op, std::span<const int> widths) {
-    switch (op) {
-        case Op::Move:
-            return find_move(widths);
-        case Op::Select:
-            return find_select(widths);
-        case Op::Add:
-            return sum_kernel<static_cast<V (*)(V, V)>(add)>(widths);
-        case Op::Subtract:
-            return sum_kernel<static_cast<V (*)(V, V)>(subtract)>(widths);
-        case Op::Negate:
-            return sum_kernel<negate>(widths);
-        case Op::Multiply:
-            return component_kernel<multiply>(widths);
-        case Op::Divide:
-            return component_kernel<divide>(widths);
-        case Op::Sqrt:
-            return component_kernel<square_root>(widths);
-        case Op::InverseSqrt:
-            return component_kernel<inverse_square_root>(widths);
-        case Op::Abs:
-            return component_kernel<absolute>(widths);
-        case Op::Sign:
-            return component_kernel<sign>(widths);
-        case Op::Floor:
-            return component_kernel<floor_of>(widths);
-        case Op::Ceil:
-            return component_kernel<ceil_of>(widths);
-        case Op::Round:
-            return component_kernel<round_of>(widths);
-        case Op::Mod:
-            return component_kernel<mod>(widths);
-        case Op::Min:
-            return fold_kernel<least>(widths);
-        case Op::Max:
-            return fold_kernel<most>(widths);
-        case Op::Step:
-            return component_kernel<step_at>(widths);
-        case Op::Clamp:
-            return component_kernel<clamp>(widths);
-        case Op::Mix:
-            return component_kernel<mix>(widths);
-        case Op::SmoothStep:
-            return component_kernel<smooth_step>(widths);
-        default:
-            return nullptr;
-    }
+    return kernel_in(kRows, op, widths);
 }
 
 }  // namespace
@@ -195,13 +174,5 @@ Kernel find_arithmetic(Op op, std::span<const int> widths) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace trapeze::vm {
-
-HWY_EXPORT(find_arithmetic);
-
-Kernel find_arithmetic(rsl::Op op, std::span<const int> widths) {
-    return HWY_DYNAMIC_DISPATCH(find_arithmetic)(op, widths);
-}
-
-}  // namespace trapeze::vm
+TRAPEZE_KERNEL_FAMILY(find_arithmetic)
 #endif

@@ -73,33 +73,17 @@ Kernel float_kernel(std::span<const int> widths) {
     return floats && widths.size() == inputs_of(function).size() + 1 ? by_component<function, 1> : nullptr;
 }
 
+constexpr KernelRow kRows[] = {
+    {Op::Less, float_kernel<less>},        {Op::LessEqual, float_kernel<less_equal>},
+    {Op::Greater, float_kernel<greater>},  {Op::GreaterEqual, float_kernel<greater_equal>},
+    {Op::Equal, find_equal<false>},        {Op::NotEqual, find_equal<true>},
+    {Op::And, float_kernel<both>},         {Op::Or, float_kernel<either>},
+    {Op::Not, float_kernel<complement>},   {Op::ToBool, float_kernel<to_bool>},
+    {Op::ToFloat, float_kernel<to_float>},
+};
+
 Kernel find_bools(Op op, std::span<const int> widths) {
-    switch (op) {
-        case Op::Less:
-            return float_kernel<less>(widths);
-        case Op::LessEqual:
-            return float_kernel<less_equal>(widths);
-        case Op::Greater:
-            return float_kernel<greater>(widths);
-        case Op::GreaterEqual:
-            return float_kernel<greater_equal>(widths);
-        case Op::Equal:
-            return find_equal<false>(widths);
-        case Op::NotEqual:
-            return find_equal<true>(widths);
-        case Op::And:
-            return float_kernel<both>(widths);
-        case Op::Or:
-            return float_kernel<either>(widths);
-        case Op::Not:
-            return float_kernel<complement>(widths);
-        case Op::ToBool:
-            return float_kernel<to_bool>(widths);
-        case Op::ToFloat:
-            return float_kernel<to_float>(widths);
-        default:
-            return nullptr;
-    }
+    return kernel_in(kRows, op, widths);
 }
 
 }  // namespace
@@ -107,13 +91,5 @@ Kernel find_bools(Op op, std::span<const int> widths) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace trapeze::vm {
-
-HWY_EXPORT(find_bools);
-
-Kernel find_bools(rsl::Op op, std::span<const int> widths) {
-    return HWY_DYNAMIC_DISPATCH(find_bools)(op, widths);
-}
-
-}  // namespace trapeze::vm
+TRAPEZE_KERNEL_FAMILY(find_bools)
 #endif

@@ -14,31 +14,21 @@ namespace {
 
 using rsl::Op;
 
+constexpr KernelRow kRows[] = {
+    {Op::Exp, component_kernel<exponential>},
+    {Op::Log, component_kernel<logarithm>},
+    {Op::Sin, component_kernel<sine>},
+    {Op::Cos, component_kernel<cosine>},
+    {Op::Tan, component_kernel<tangent>},
+    {Op::Asin, component_kernel<arc_sine>},
+    {Op::Acos, component_kernel<arc_cosine>},
+    {Op::Atan, component_kernel<static_cast<V (*)(V)>(arc_tangent)>},
+    {Op::Atan2, component_kernel<static_cast<V (*)(V, V)>(arc_tangent)>},
+    {Op::Pow, component_kernel<power>},
+};
+
 Kernel find_elementary(Op op, std::span<const int> widths) {
-    switch (op) {
-        case Op::Exp:
-            return component_kernel<exponential>(widths);
-        case Op::Log:
-            return component_kernel<logarithm>(widths);
-        case Op::Sin:
-            return component_kernel<sine>(widths);
-        case Op::Cos:
-            return component_kernel<cosine>(widths);
-        case Op::Tan:
-            return component_kernel<tangent>(widths);
-        case Op::Asin:
-            return component_kernel<arc_sine>(widths);
-        case Op::Acos:
-            return component_kernel<arc_cosine>(widths);
-        case Op::Atan:
-            return component_kernel<static_cast<V (*)(V)>(arc_tangent)>(widths);
-        case Op::Atan2:
-            return component_kernel<static_cast<V (*)(V, V)>(arc_tangent)>(widths);
-        case Op::Pow:
-            return component_kernel<power>(widths);
-        default:
-            return nullptr;
-    }
+    return kernel_in(kRows, op, widths);
 }
 
 }  // namespace
@@ -46,13 +36,5 @@ Kernel find_elementary(Op op, std::span<const int> widths) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace trapeze::vm {
-
-HWY_EXPORT(find_elementary);
-
-Kernel find_elementary(rsl::Op op, std::span<const int> widths) {
-    return HWY_DYNAMIC_DISPATCH(find_elementary)(op, widths);
-}
-
-}  // namespace trapeze::vm
+TRAPEZE_KERNEL_FAMILY(find_elementary)
 #endif

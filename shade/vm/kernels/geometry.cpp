@@ -159,33 +159,22 @@ Kernel find_fresnel(std::span<const int> widths) {
     return are(widths, {1, 1, 3, 3, 3, 3, 1}) ? fresnel<true> : nullptr;
 }
 
+constexpr KernelRow kRows[] = {
+    {Op::Dot, counted<dot_product, 3>},
+    {Op::Cross, counted<cross_product, 3>},
+    {Op::Length, counted<length, 2>},
+    {Op::Distance, counted<distance, 3>},
+    {Op::Normalize, counted<normalize, 2>},
+    {Op::FaceForward, counted<face_forward, 4>},
+    {Op::Reflect, counted<reflect, 3>},
+    {Op::Refract, counted<refract, 4>},
+    {Op::Fresnel, find_fresnel},
+    {Op::Rotate, counted<rotate, 5>},
+    {Op::LineDistance, counted<line_distance, 4>},
+};
+
 Kernel find_geometry(Op op, std::span<const int> widths) {
-    switch (op) {
-        case Op::Dot:
-            return widths.size() == 3 ? dot_product : nullptr;
-        case Op::Cross:
-            return widths.size() == 3 ? cross_product : nullptr;
-        case Op::Length:
-            return widths.size() == 2 ? length : nullptr;
-        case Op::Distance:
-            return widths.size() == 3 ? distance : nullptr;
-        case Op::Normalize:
-            return widths.size() == 2 ? normalize : nullptr;
-        case Op::FaceForward:
-            return widths.size() == 4 ? face_forward : nullptr;
-        case Op::Reflect:
-            return widths.size() == 3 ? reflect : nullptr;
-        case Op::Refract:
-            return widths.size() == 4 ? refract : nullptr;
-        case Op::Fresnel:
-            return find_fresnel(widths);
-        case Op::Rotate:
-            return widths.size() == 5 ? rotate : nullptr;
-        case Op::LineDistance:
-            return widths.size() == 4 ? line_distance : nullptr;
-        default:
-            return nullptr;
-    }
+    return kernel_in(kRows, op, widths);
 }
 
 }  // namespace
@@ -193,13 +182,5 @@ Kernel find_geometry(Op op, std::span<const int> widths) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace trapeze::vm {
-
-HWY_EXPORT(find_geometry);
-
-Kernel find_geometry(rsl::Op op, std::span<const int> widths) {
-    return HWY_DYNAMIC_DISPATCH(find_geometry)(op, widths);
-}
-
-}  // namespace trapeze::vm
+TRAPEZE_KERNEL_FAMILY(find_geometry)
 #endif

@@ -1,13 +1,34 @@
 #include "shade/vm/kernels/kernel.h"
 
+#include "shade/operations/op_table.h"
 #include "shade/vm/kernels/families.h"
 
 namespace trapeze::vm {
 
 Kernel find_kernel(rsl::Op op, std::span<const int> widths) {
-    for (const auto find : {find_arithmetic, find_bools, find_elementary, find_parts, find_geometry,
-                            find_matrices, find_noises, find_splines, find_light_kernels})
-        if (const Kernel kernel = find(op, widths)) return kernel;
+    using rsl::KernelFamily;
+    switch (rsl::row_of(op).kernels) {
+        case KernelFamily::None:
+            return nullptr;
+        case KernelFamily::Arithmetic:
+            return find_arithmetic(op, widths);
+        case KernelFamily::Bools:
+            return find_bools(op, widths);
+        case KernelFamily::Elementary:
+            return find_elementary(op, widths);
+        case KernelFamily::Parts:
+            return find_parts(op, widths);
+        case KernelFamily::Geometry:
+            return find_geometry(op, widths);
+        case KernelFamily::Light:
+            return find_light_kernels(op, widths);
+        case KernelFamily::Matrices:
+            return find_matrices(op, widths);
+        case KernelFamily::Noise:
+            return find_noises(op, widths);
+        case KernelFamily::Splines:
+            return find_splines(op, widths);
+    }
     return nullptr;
 }
 

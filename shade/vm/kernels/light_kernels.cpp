@@ -122,6 +122,12 @@ Kernel find_specular_brdf(std::span<const int> widths) {
     return are(widths, {3, 3, 3, 3, 1}) ? specular_brdf<3> : nullptr;
 }
 
+constexpr KernelRow kRows[] = {{rsl::Op::SpecularBrdf, find_specular_brdf}};
+
+Kernel find_light_kernels(rsl::Op op, std::span<const int> widths) {
+    return kernel_in(kRows, op, widths);
+}
+
 }  // namespace
 }  // namespace trapeze::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -135,7 +141,6 @@ HWY_EXPORT(sum_specular);
 HWY_EXPORT(sum_phong);
 HWY_EXPORT(find_cone);
 HWY_EXPORT(turn_to_surface);
-HWY_EXPORT(find_specular_brdf);
 
 void add_light(size_t lanes, const Operand& Cl, float share, const Operand& out) {
     HWY_DYNAMIC_DISPATCH(sum_light)(lanes, Cl, share, out);
@@ -161,9 +166,7 @@ void receive_light(size_t lanes, const Operand& lit, const Operand& color, const
     HWY_DYNAMIC_DISPATCH(turn_to_surface)(lanes, lit, color, L, direction, Cl);
 }
 
-Kernel find_light_kernels(rsl::Op op, std::span<const int> widths) {
-    return op == rsl::Op::SpecularBrdf ? HWY_DYNAMIC_DISPATCH(find_specular_brdf)(widths) : nullptr;
-}
-
 }  // namespace trapeze::vm
+
+TRAPEZE_KERNEL_FAMILY(find_light_kernels)
 #endif

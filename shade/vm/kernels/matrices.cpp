@@ -214,31 +214,21 @@ void transform_normal(size_t lanes, Operands o) {
     }
 }
 
+constexpr KernelRow kRows[] = {
+    {Op::MatrixMultiply, exactly<multiply, 16, 16, 16>},
+    {Op::MatrixDivide, exactly<divide, 16, 16, 16>},
+    {Op::Invert, exactly<invert, 16, 16>},
+    {Op::Determinant, exactly<determinant_of, 1, 16>},
+    {Op::TranslateMatrix, exactly<translate, 16, 16, 3>},
+    {Op::ScaleMatrix, exactly<scale_rows, 16, 16, 3>},
+    {Op::RotateMatrix, exactly<rotate, 16, 16, 1, 3>},
+    {Op::TransformPoint, exactly<transform_point, 3, 16, 3>},
+    {Op::TransformVector, exactly<transform_vector, 3, 16, 3>},
+    {Op::TransformNormal, exactly<transform_normal, 3, 16, 3>},
+};
+
 Kernel find_matrices(Op op, std::span<const int> widths) {
-    switch (op) {
-        case Op::MatrixMultiply:
-            return are(widths, {16, 16, 16}) ? multiply : nullptr;
-        case Op::MatrixDivide:
-            return are(widths, {16, 16, 16}) ? divide : nullptr;
-        case Op::Invert:
-            return are(widths, {16, 16}) ? invert : nullptr;
-        case Op::Determinant:
-            return are(widths, {1, 16}) ? determinant_of : nullptr;
-        case Op::TranslateMatrix:
-            return are(widths, {16, 16, 3}) ? translate : nullptr;
-        case Op::ScaleMatrix:
-            return are(widths, {16, 16, 3}) ? scale_rows : nullptr;
-        case Op::RotateMatrix:
-            return are(widths, {16, 16, 1, 3}) ? rotate : nullptr;
-        case Op::TransformPoint:
-            return are(widths, {3, 16, 3}) ? transform_point : nullptr;
-        case Op::TransformVector:
-            return are(widths, {3, 16, 3}) ? transform_vector : nullptr;
-        case Op::TransformNormal:
-            return are(widths, {3, 16, 3}) ? transform_normal : nullptr;
-        default:
-            return nullptr;
-    }
+    return kernel_in(kRows, op, widths);
 }
 
 }  // namespace
@@ -246,13 +236,5 @@ Kernel find_matrices(Op op, std::span<const int> widths) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace trapeze::vm {
-
-HWY_EXPORT(find_matrices);
-
-Kernel find_matrices(rsl::Op op, std::span<const int> widths) {
-    return HWY_DYNAMIC_DISPATCH(find_matrices)(op, widths);
-}
-
-}  // namespace trapeze::vm
+TRAPEZE_KERNEL_FAMILY(find_matrices)
 #endif

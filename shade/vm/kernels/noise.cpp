@@ -128,20 +128,37 @@ Kernel find_cell_noise(int dimensions) {
     }
 }
 
-template <int width>
-Kernel find_of_width(Op op, std::span<const int> inputs) {
-    if (op == Op::Noise) return find_noise<false, width>(dimensions_of(inputs));
-    if (op == Op::CellNoise) return find_cell_noise<width>(dimensions_of(inputs));
-    if (op != Op::PeriodicNoise || inputs.size() % 2 != 0) return nullptr;
-    const auto point = inputs.first(inputs.size() / 2), period = inputs.last(inputs.size() / 2);
-    if (!std::equal(point.begin(), point.end(), period.begin())) return nullptr;
-    return find_noise<true, width>(dimensions_of(point));
+Kernel choose_noise(std::span<const int> widths) {
+    const int dimensions = dimensions_of(widths.subspan(1));
+    if (widths[0] == 1) return find_noise<false, 1>(dimensions);
+    return widths[0] == 3 ? find_noise<false, 3>(dimensions) : nullptr;
 }
 
+Kernel choose_cell_noise(std::span<const int> widths) {
+    const int dimensions = dimensions_of(widths.subspan(1));
+    if (widths[0] == 1) return find_cell_noise<1>(dimensions);
+    return widths[0] == 3 ? find_cell_noise<3>(dimensions) : nullptr;
+}
+
+/// Coordinates, then as many periods of the same widths.
+Kernel choose_periodic_noise(std::span<const int> widths) {
+    const auto inputs = widths.subspan(1);
+    if (inputs.size() % 2 != 0) return nullptr;
+    const auto point = inputs.first(inputs.size() / 2), period = inputs.last(inputs.size() / 2);
+    if (!std::equal(point.begin(), point.end(), period.begin())) return nullptr;
+    const int dimensions = dimensions_of(point);
+    if (widths[0] == 1) return find_noise<true, 1>(dimensions);
+    return widths[0] == 3 ? find_noise<true, 3>(dimensions) : nullptr;
+}
+
+constexpr KernelRow kRows[] = {
+    {Op::Noise, choose_noise},
+    {Op::CellNoise, choose_cell_noise},
+    {Op::PeriodicNoise, choose_periodic_noise},
+};
+
 Kernel find_noises(Op op, std::span<const int> widths) {
-    if (widths.size() < 2) return nullptr;
-    if (widths[0] == 1) return find_of_width<1>(op, widths.subspan(1));
-    return widths[0] == 3 ? find_of_width<3>(op, widths.subspan(1)) : nullptr;
+    return kernel_in(kRows, op, widths);
 }
 
 }  // namespace
@@ -151,16 +168,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace trapeze::vm {
 
-HWY_EXPORT(find_noises);
 HWY_EXPORT(fill_random);
-
-Kernel find_noises(rsl::Op op, std::span<const int> widths) {
-    return HWY_DYNAMIC_DISPATCH(find_noises)(op, widths);
-}
 
 void random_numbers(size_t lanes, int width, const Operand& lane_seeds, uint32_t call, const Operand& out) {
     HWY_DYNAMIC_DISPATCH(fill_random)(lanes, width, lane_seeds, call, out);
 }
 
 }  // namespace trapeze::vm
+
+TRAPEZE_KERNEL_FAMILY(find_noises)
 #endif

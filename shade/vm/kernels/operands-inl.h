@@ -108,6 +108,17 @@ HWY_INLINE bool are(std::span<const int> widths, std::initializer_list<int> want
     return std::equal(widths.begin(), widths.end(), wanted.begin(), wanted.end());
 }
 
+/// Choosers (see KernelRow) of a kernel that serves operands of these widths alone, and of one that is asked
+/// for with so many operands only of the widths that it expects.
+template <Kernel kernel, int... wanted>
+Kernel exactly(std::span<const int> widths) {
+    return are(widths, {wanted...}) ? kernel : nullptr;
+}
+template <Kernel kernel, size_t count>
+Kernel counted(std::span<const int> widths) {
+    return widths.size() == count ? kernel : nullptr;
+}
+
 /// With the sign of x also where that is zero, which targets' own Floor() do not all keep.
 HWY_INLINE V floor_of(V x) {
     return hn::CopySign(hn::Floor(x), x);

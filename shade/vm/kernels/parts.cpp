@@ -142,29 +142,20 @@ Kernel find_set_element(std::span<const int> widths) {
                              : nullptr;
 }
 
+constexpr KernelRow kRows[] = {
+    {Op::Triple, exactly<assemble<3>, 3, 1, 1, 1>},
+    {Op::Sixteen, counted<assemble<16>, 17>},
+    {Op::Component, exactly<component, 1, 3, 1>},
+    {Op::SetComponent, exactly<set_component, 3, 1, 1>},
+    {Op::MatrixElement, exactly<matrix_element, 1, 16, 1, 1>},
+    {Op::SetMatrixElement, exactly<set_matrix_element, 16, 1, 1, 1>},
+    {Op::Element, find_element},
+    {Op::SetElement, find_set_element},
+    {Op::Clear, find_clear},
+};
+
 Kernel find_parts(Op op, std::span<const int> widths) {
-    switch (op) {
-        case Op::Triple:
-            return are(widths, {3, 1, 1, 1}) ? assemble<3> : nullptr;
-        case Op::Sixteen:
-            return widths.size() == 17 && widths[0] == 16 ? assemble<16> : nullptr;
-        case Op::Component:
-            return are(widths, {1, 3, 1}) ? component : nullptr;
-        case Op::SetComponent:
-            return are(widths, {3, 1, 1}) ? set_component : nullptr;
-        case Op::MatrixElement:
-            return are(widths, {1, 16, 1, 1}) ? matrix_element : nullptr;
-        case Op::SetMatrixElement:
-            return are(widths, {16, 1, 1, 1}) ? set_matrix_element : nullptr;
-        case Op::Element:
-            return find_element(widths);
-        case Op::SetElement:
-            return find_set_element(widths);
-        case Op::Clear:
-            return find_clear(widths);
-        default:
-            return nullptr;
-    }
+    return kernel_in(kRows, op, widths);
 }
 
 }  // namespace
@@ -172,13 +163,5 @@ Kernel find_parts(Op op, std::span<const int> widths) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace trapeze::vm {
-
-HWY_EXPORT(find_parts);
-
-Kernel find_parts(rsl::Op op, std::span<const int> widths) {
-    return HWY_DYNAMIC_DISPATCH(find_parts)(op, widths);
-}
-
-}  // namespace trapeze::vm
+TRAPEZE_KERNEL_FAMILY(find_parts)
 #endif

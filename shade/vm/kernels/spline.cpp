@@ -133,6 +133,17 @@ Kernel find_spline(SplineBasis basis, int width) {
     return width == 1 ? find_of_width<1>(basis) : width == 3 ? find_of_width<3>(basis) : nullptr;
 }
 
+/// Without a basis: one that a text names is vm/named_ops.cpp's to look up.
+Kernel choose_spline(std::span<const int> widths) {
+    return widths.size() < 3 ? nullptr : find_spline(SplineBasis::CatmullRom, widths[0]);
+}
+
+constexpr KernelRow kRows[] = {{rsl::Op::Spline, choose_spline}};
+
+Kernel find_splines(rsl::Op op, std::span<const int> widths) {
+    return kernel_in(kRows, op, widths);
+}
+
 }  // namespace
 }  // namespace trapeze::vm::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -163,10 +174,7 @@ Kernel find_spline_kernel(SplineBasis basis, int width) {
     return HWY_DYNAMIC_DISPATCH(find_spline)(basis, width);
 }
 
-Kernel find_splines(rsl::Op op, std::span<const int> widths) {
-    if (op != rsl::Op::Spline || widths.size() < 3) return nullptr;
-    return find_spline_kernel(SplineBasis::CatmullRom, widths[0]);
-}
-
 }  // namespace trapeze::vm
+
+TRAPEZE_KERNEL_FAMILY(find_splines)
 #endif
