@@ -114,14 +114,14 @@ bool is_uniform_global(std::string_view name) {
     return name == "E" || name == "ncomps" || name == "time" || name == "dtime";
 }
 
-void infer_storage(Program& program, const std::function<bool(const ProgramParameter&)>& varies) {
+void infer_storage(Program& program, const std::set<std::string>& varying) {
     for (Register& r : program.registers)
         r.varying =
             r.kind == Register::Kind::Global && r.type.base != Base::String && !is_uniform_global(r.name);
     for (const ProgramParameter& parameter : program.parameters)
         program.registers[parameter.id].varying =
             parameter.type.base != Base::String &&
-            (parameter.storage == Storage::Varying || varies(parameter));
+            (parameter.storage == Storage::Varying || varying.contains(parameter.name));
 
     std::vector<Inference> parts;
     for (ProgramParameter& parameter : program.parameters) parts.emplace_back(program, parameter.initial);

@@ -2,7 +2,8 @@
 /// mask.
 #pragma once
 
-#include <functional>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "shade/code/program.h"
@@ -11,8 +12,8 @@ namespace trapeze::rsl {
 
 /// Sets Register::varying, Instruction::varying and Instruction::masked. What the source declares is kept for
 /// parameters alone: a local variable is uniform when all that it is given is uniform, wherever lanes do not
-/// go separate ways. `varies` says of a parameter whether it is given a value for each vertex.
-void infer_storage(Program& program, const std::function<bool(const ProgramParameter&)>& varies);
+/// go separate ways. `varying` names the parameters that are given a value for each vertex.
+void infer_storage(Program& program, const std::set<std::string>& varying);
 
 /// Predefined variables that have one value for a grid.
 bool is_uniform_global(std::string_view name);

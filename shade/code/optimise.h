@@ -9,6 +9,9 @@ struct OptimiseOptions {
     bool fold = true;   ///< constants, copies and common subexpressions
     bool hoist = true;  ///< what does not change in a loop
     bool prune = true;  ///< what nobody reads
+
+    /// The code as it was generated, to which tests compare what the optimiser makes of it.
+    static OptimiseOptions none() { return {false, false, false}; }
 };
 
 void optimise(Program& program, const OptimiseOptions& options = {});

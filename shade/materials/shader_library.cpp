@@ -5,11 +5,8 @@
 #include <filesystem>
 
 #include "core/files/foreign_paths.h"
-#include "shade/code/generate.h"
-#include "shade/code/infer_storage.h"
-#include "shade/code/optimise.h"
-#include "shade/rsl/front_end.h"
 #include "shade/shaders/standard_shaders.h"
+#include "shade/vm/compile_shader.h"
 
 namespace trapeze {
 namespace {
@@ -83,17 +80,11 @@ ShaderLibrary::Compiled& ShaderLibrary::compiled(const std::string& name, Source
     options.carried_file = standard_header;
     if (access_.is_confined())
         options.read_file = [this](const std::string& path) { return file_text(path); };
-    const auto unit = rsl::compile_front(source, options, diagnostics);
-    if (!unit || unit->shaders.empty()) {
+    entry->program = vm::compile_program(source, options, diagnostics, stem);
+    if (!entry->program) {
         diagnostics.error(asked_at, fmt::format("shader \"{}\" has errors and is not used", name));
         reported_.insert(name);
-        return *entry;
     }
-    const rsl::Shader* shader = unit->shaders.front().get();
-    for (const auto& candidate : unit->shaders)
-        if (candidate->name == stem) shader = candidate.get();
-    entry->program = rsl::generate(*shader, diagnostics);
-    if (entry->program) rsl::optimise(*entry->program);
     return *entry;
 }
 
@@ -116,10 +107,7 @@ std::shared_ptr<const vm::Executable> ShaderLibrary::find(std::string_view name,
         if (varying.contains(parameter.name)) relevant.insert(parameter.name);
     std::shared_ptr<const vm::Executable>& executable = shader.executables[relevant];
     if (!executable) {
-        rsl::Program program = *shader.program;
-        rsl::infer_storage(program,
-                           [&](const rsl::ProgramParameter& p) { return relevant.contains(p.name); });
-        executable = std::make_shared<const vm::Executable>(std::move(program));
+        executable = vm::lay_out(*shader.program, relevant);
         if (executable->varying_planes() > kMostPlanes) {
             if (diagnostics_)
                 diagnostics_->error(

@@ -9,8 +9,7 @@
 #include <sstream>
 
 #include "core/files/file_text_harness.h"
-#include "shade/code/generate.h"
-#include "shade/rsl/front_end.h"
+#include "shade/vm/compile_shader.h"
 
 namespace trapeze {
 namespace {
@@ -109,7 +108,7 @@ TEST(StandardShaders, AllCompileWithoutAWord) {
             rsl::compile_front({expected.name, std::string(standard_shader(expected.name))}, {}, diagnostics);
         ASSERT_TRUE(unit) << messages;
         ASSERT_EQ(unit->shaders.size(), 1u);
-        const auto program = rsl::generate(*unit->shaders[0], diagnostics);
+        const auto program = vm::compile_program(*unit->shaders[0], diagnostics);
         ASSERT_TRUE(program) << messages;
         EXPECT_EQ(program->name, expected.name);
         EXPECT_EQ(messages, "");

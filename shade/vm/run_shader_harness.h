@@ -6,14 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "shade/code/generate.h"
-#include "shade/code/infer_storage.h"
-#include "shade/code/optimise.h"
 #include "shade/grid_footprints.h"
 #include "shade/materials/grid_shader.h"
 #include "shade/materials/scene_spaces.h"
-#include "shade/rsl/front_end.h"
 #include "shade/shading_harness.h"
+#include "shade/vm/compile_shader.h"
 
 namespace trapeze::vm::test {
 
@@ -21,16 +18,9 @@ class ShaderRun {
   public:
     explicit ShaderRun(const std::string& source, bool optimised = true, int nu = 3, int nv = 2)
         : grid_(scene_.grid(nu, nv)) {
-        const auto unit = rsl::compile_front({"test.sl", source}, {}, scene_.diagnostics);
-        if (!unit) {
-            ADD_FAILURE() << messages() << source;
-            return;
-        }
-        auto program = rsl::generate(*unit->shaders.front(), scene_.diagnostics);
-        if (!program) return;
-        if (optimised) rsl::optimise(*program);
-        rsl::infer_storage(*program, [](const rsl::ProgramParameter&) { return false; });
-        executable_ = std::make_shared<const Executable>(std::move(*program));
+        const auto optimiser = optimised ? rsl::OptimiseOptions() : rsl::OptimiseOptions::none();
+        executable_ = compile_shader({"test.sl", source}, {}, scene_.diagnostics, optimiser);
+        if (!executable_) ADD_FAILURE() << messages() << source;
     }
 
     ShadingGrid& grid() { return grid_; }

@@ -13,13 +13,9 @@
 #include <cstring>
 
 #include "core/simd/simd_limit.h"
-#include "shade/code/generate.h"
-#include "shade/code/infer_storage.h"
-#include "shade/code/optimise.h"
 #include "shade/materials/shader_folder_harness.h"
-#include "shade/rsl/front_end.h"
 #include "shade/shading.h"
-#include "shade/vm/executable.h"
+#include "shade/vm/compile_shader.h"
 
 namespace trapeze {
 namespace {
@@ -193,13 +189,9 @@ void compile_500_lines(benchmark::State& state) {
     size_t instructions = 0;
     for (auto _ : state) {
         Diagnostics diagnostics;
-        const auto unit = rsl::compile_front(source, {}, diagnostics);
-        auto program = rsl::generate(*unit->shaders.front(), diagnostics);
-        rsl::optimise(*program);
-        rsl::infer_storage(*program, [](const rsl::ProgramParameter&) { return false; });
-        instructions = program->code.size();
-        const vm::Executable executable(std::move(*program));
-        benchmark::DoNotOptimize(executable.code().data());
+        const auto executable = vm::compile_shader(source, {}, diagnostics);
+        instructions = executable->code().size();
+        benchmark::DoNotOptimize(executable->code().data());
     }
     state.counters["instructions"] = static_cast<double>(instructions);
 }

@@ -16,11 +16,8 @@
 #include <string>
 
 #include "shade/code/blocks.h"
-#include "shade/code/generate.h"
-#include "shade/code/infer_storage.h"
-#include "shade/code/optimise.h"
 #include "shade/operations/op_table.h"
-#include "shade/rsl/front_end.h"
+#include "shade/vm/compile_shader.h"
 #include "shade/vm/machine.h"
 
 namespace {
@@ -95,10 +92,7 @@ class AnyMessages : public Messages {
 /// A program ready to run, and what a run left.
 class Side {
   public:
-    explicit Side(rsl::Program program) {
-        rsl::infer_storage(program, [](const rsl::ProgramParameter&) { return false; });
-        executable_ = std::make_shared<const Executable>(std::move(program), kLimits);
-    }
+    explicit Side(rsl::Program program) : executable_(lay_out(std::move(program), {}, kLimits)) {}
 
     bool fits() const { return executable_->varying_planes() < kMostPlanes; }
     const rsl::Program& program() const { return executable_->program(); }
@@ -183,11 +177,10 @@ bool looks_aside(const rsl::Program& program) {
 }
 
 void run_both(const rsl::Shader& shader, Diagnostics& diagnostics) {
-    const std::unique_ptr<rsl::Program> program = rsl::generate(shader, diagnostics);
+    const std::unique_ptr<rsl::Program> program =
+        compile_program(shader, diagnostics, rsl::OptimiseOptions::none());
     if (!program || program->code.size() > kMostInstructions) return;
-    rsl::Program optimised = *program;
-    rsl::optimise(optimised);
-    Side plain(*program), quick(std::move(optimised));
+    Side plain(*program), quick(*compile_program(shader, diagnostics));
     if (!plain.fits() || !quick.fits()) return;
     const bool plain_ended = plain.run(), quick_ended = quick.run();
     if (!plain_ended || !quick_ended || looks_aside(plain.program())) return;

@@ -10,11 +10,9 @@
 #include "core/files/access.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
-#include "shade/code/generate.h"
-#include "shade/code/infer_storage.h"
-#include "shade/code/optimise.h"
 #include "shade/rsl/front_end.h"
 #include "shade/shaders/standard_shaders.h"
+#include "shade/vm/compile_shader.h"
 
 namespace trapeze {
 namespace {
@@ -59,11 +57,8 @@ void print_parameters(const rsl::Shader& shader) {
 
 /// The code as the machine would run it with no parameter given for each vertex.
 void print_code(const rsl::Shader& shader, Diagnostics& diagnostics) {
-    const auto program = rsl::generate(shader, diagnostics);
-    if (!program) return;
-    rsl::optimise(*program);
-    rsl::infer_storage(*program, [](const rsl::ProgramParameter&) { return false; });
-    fmt::print("{}", rsl::listing(*program));
+    if (const auto program = vm::compile_program(shader, diagnostics))
+        fmt::print("{}", rsl::listing(vm::lay_out(*program)->program()));
 }
 
 std::string read_source(const std::string& file) {

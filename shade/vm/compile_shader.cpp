@@ -1,0 +1,39 @@
+#include "shade/vm/compile_shader.h"
+
+#include "shade/code/generate.h"
+#include "shade/code/infer_storage.h"
+
+namespace trapeze::vm {
+
+std::unique_ptr<rsl::Program> compile_program(const rsl::Source& source, const rsl::CompileOptions& options,
+                                              Diagnostics& diagnostics, std::string_view name,
+                                              const rsl::OptimiseOptions& optimiser) {
+    const auto unit = rsl::compile_front(source, options, diagnostics);
+    if (!unit || unit->shaders.empty()) return nullptr;
+    const rsl::Shader* shader = unit->shaders.front().get();
+    for (const auto& candidate : unit->shaders)
+        if (candidate->name == name) shader = candidate.get();
+    return compile_program(*shader, diagnostics, optimiser);
+}
+
+std::unique_ptr<rsl::Program> compile_program(const rsl::Shader& shader, Diagnostics& diagnostics,
+                                              const rsl::OptimiseOptions& optimiser) {
+    std::unique_ptr<rsl::Program> program = rsl::generate(shader, diagnostics);
+    if (program) rsl::optimise(*program, optimiser);
+    return program;
+}
+
+std::shared_ptr<const Executable> lay_out(rsl::Program program, const std::set<std::string>& varying,
+                                          const LoopLimits& limits) {
+    rsl::infer_storage(program, varying);
+    return std::make_shared<const Executable>(std::move(program), limits);
+}
+
+std::shared_ptr<const Executable> compile_shader(const rsl::Source& source,
+                                                 const rsl::CompileOptions& options, Diagnostics& diagnostics,
+                                                 const rsl::OptimiseOptions& optimiser) {
+    std::unique_ptr<rsl::Program> program = compile_program(source, options, diagnostics, {}, optimiser);
+    return program ? lay_out(std::move(*program)) : nullptr;
+}
+
+}  // namespace trapeze::vm
