@@ -1,4 +1,5 @@
-/// The shading language's front end: text in, checked tree out (RISpec 3.2, sections 11 to 15).
+/// The shading language's front end: text in, checked tree out (RISpec 3.2, sections 11 to 15). What follows
+/// on it, up to code that runs, is shade/vm/compile_shader.h.
 #pragma once
 
 #include <memory>

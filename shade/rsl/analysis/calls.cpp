@@ -1,6 +1,7 @@
 /// Which function a call means.
 #include <algorithm>
 
+#include "shade/operations/op_table.h"
 #include "shade/rsl/analysis/analyser.h"
 #include "shade/rsl/analysis/globals.h"
 #include "shade/rsl/analysis/suggestions.h"
@@ -16,9 +17,9 @@ constexpr size_t kMostCandidatesShown = 8;
 constexpr std::string_view kNotSupported[] = {"blinn", "cosinelight_rate", "getlights", "hair", "push",
                                               "pop"};
 
+/// Functions whose first argument names a file, and may choose a channel of it: "name"[2].
 bool is_map(const Builtin& builtin) {
-    return builtin.op == Op::Texture || builtin.op == Op::Environment || builtin.op == Op::Shadow ||
-           builtin.op == Op::Bump || builtin.op == Op::TextureInfo;
+    return row_of(builtin.op).context == ContextFamily::Maps;
 }
 
 /// The parameter that argument i stands for; null behind them, where more may follow.
@@ -236,23 +237,13 @@ void Analyser::enter_function(Expression& call, const Function& function) {
 
 /// Variables of the renderer that the source does not name, and that the function reads.
 void Analyser::use_globals(const Expression& call) {
+    const Op op = call.builtin->op;
     const size_t given = call.children.size();
-    switch (call.builtin->op) {
-        case Op::FaceForward:
-            if (given == 2) global("Ng");
-            break;
-        case Op::Diffuse:
-        case Op::Specular:
-        case Op::Phong:
-            global("P");
-            break;
-        case Op::Texture:
-            if (given == 1 || (given > 1 && call.children[1]->type.base == Base::String))
-                global("s"), global("t");
-            break;
-        default:
-            break;
-    }
+    if (op_traits::has(op, op_traits::kNeedsNg) && given == 2) global("Ng");
+    if (op_traits::has(op, op_traits::kNeedsP)) global("P");
+    if (op_traits::has(op, op_traits::kNeedsUV)) global("u"), global("v");
+    if (op == Op::Texture && (given == 1 || (given > 1 && call.children[1]->type.base == Base::String)))
+        global("s"), global("t");
 }
 
 }  // namespace trapeze::rsl

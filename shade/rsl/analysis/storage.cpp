@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "shade/operations/op_table.h"
 #include "shade/rsl/analysis/builtins.h"
 #include "shade/rsl/analysis/signature.h"
 
@@ -11,38 +12,18 @@ namespace {
 
 constexpr int kMostPasses = 10;  // then all that may be varying is
 
+/// An answer to a question: found or not, and the value in an output argument. Answers are taken to be the
+/// same at all vertices here, as the language declares them; the machine sees to those that are not.
 bool is_message(Op op) {
-    switch (op) {
-        case Op::LightMessage:
-        case Op::SurfaceMessage:
-        case Op::DisplacementMessage:
-        case Op::AtmosphereMessage:
-        case Op::IncidentMessage:
-        case Op::OppositeMessage:
-        case Op::AttributeMessage:
-        case Op::OptionMessage:
-        case Op::RendererInfo:
-        case Op::TextureInfo:
-        case Op::RayInfo:
-            return true;
-        default:
-            return false;
-    }
+    return keeps_output(op) && asks_surroundings(op);
 }
 
-/// Gives other values at other vertices whatever its arguments are.
+/// Gives other values at other vertices whatever its arguments are: what sums up light, which is asked for at
+/// P, and textures without coordinates, which are looked up at s and t.
 bool is_varying(const Expression& call) {
-    switch (call.builtin->op) {
-        case Op::Ambient:
-        case Op::Diffuse:
-        case Op::Specular:
-        case Op::Phong:
-            return true;
-        case Op::Texture:  // at s and t
-            return call.children.size() == 1 || call.children[1]->type.base == Base::String;
-        default:
-            return false;
-    }
+    if (call.builtin->op == Op::Texture)
+        return call.children.size() == 1 || call.children[1]->type.base == Base::String;
+    return op_traits::has(call.builtin->op, op_traits::kNeedsP);
 }
 
 class Inference {

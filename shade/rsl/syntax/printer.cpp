@@ -1,3 +1,5 @@
+#include "shade/rsl/syntax/printer.h"
+
 #include <charconv>
 #include <cstdio>
 
