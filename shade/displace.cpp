@@ -53,10 +53,10 @@ void store(ConstPlane3 planes, size_t vertices, Triples& out) {
 
 }  // namespace
 
-Displaced displaced_by(const vm::Frame& frame, size_t first, size_t count) {
+Displaced displaced_by(const vm::Registers& registers, size_t first, size_t count) {
     const auto values = [&](std::string_view name) -> ConstPlane3 {
-        if (!writes_variable(frame.program(), name)) return {};
-        return part(variable_planes(frame, name), first, count);
+        if (!writes_variable(registers.program(), name)) return {};
+        return part(variable_planes(registers, name), first, count);
     };
     return {values("P"), values("N")};
 }

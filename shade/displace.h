@@ -3,7 +3,7 @@
 
 #include "core/scene/shading_grid.h"
 #include "shade/planes/planes.h"
-#include "shade/vm/frame.h"
+#include "shade/vm/registers.h"
 
 namespace trapeze {
 
@@ -14,7 +14,7 @@ struct Displaced {
 };
 
 /// What a displacement shader that has run leaves of vertices first .. first + count - 1 of its run.
-Displaced displaced_by(const vm::Frame& frame, size_t first, size_t count);
+Displaced displaced_by(const vm::Registers& registers, size_t first, size_t count);
 
 /// From camera space at the first key to camera space at another, of a grid's possibly finer keys, for what
 /// moves with a primitive's pose.

@@ -14,10 +14,10 @@ size_t plane_of(const vm::Operand& out, size_t lanes) {
 }
 
 /// A variable of another shader: its parameter, or a predefined one.
-bool copy_variable(const vm::Frame* frame, std::string_view name, rsl::Type type, const vm::Operand& out,
-                   std::string* text) {
-    if (!frame) return false;
-    const rsl::Program& program = frame->program();
+bool copy_variable(const vm::Registers* registers, std::string_view name, rsl::Type type,
+                   const vm::Operand& out, std::string* text) {
+    if (!registers) return false;
+    const rsl::Program& program = registers->program();
     const rsl::RegisterId* id = program.find_global(name);
     for (const rsl::ProgramParameter& parameter : program.parameters)
         if (parameter.name == name) id = &parameter.id;
@@ -26,11 +26,12 @@ bool copy_variable(const vm::Frame* frame, std::string_view name, rsl::Type type
     if (own.length != type.length || rsl::width_of(own.base) != rsl::width_of(type.base)) return false;
     if (type.base == Base::String) {
         if (!text || own.base != Base::String) return false;
-        *text = frame->text(*id);
+        *text = registers->text(*id);
         return true;
     }
-    const vm::Operand& from = frame->operand(*id);
-    const size_t from_plane = plane_of(from, frame->lanes()), to_plane = plane_of(out, frame->lanes());
+    const vm::Operand& from = registers->operand(*id);
+    const size_t from_plane = plane_of(from, registers->lanes()),
+                 to_plane = plane_of(out, registers->lanes());
     const size_t planes = static_cast<size_t>(rsl::width_of(type.base) * std::max(type.length, 1));
     for (size_t p = 0; p < planes; ++p) {
         if (from.lane_mask && out.lane_mask)
@@ -119,7 +120,7 @@ bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm
                         std::string* text, size_t light) {
     switch (what) {
         case Op::LightMessage:
-            return lights && copy_variable(lights->frame(light), name, type, out, text);
+            return lights && copy_variable(lights->registers(light), name, type, out, text);
         case Op::SurfaceMessage:
             return copy_variable(surface, name, type, out, text);
         case Op::DisplacementMessage:
@@ -141,7 +142,9 @@ bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm
 }
 
 std::string GridMessages::shader_name(std::string_view kind) {
-    const auto name_of = [](const vm::Frame* frame) { return frame ? frame->program().name : std::string(); };
+    const auto name_of = [](const vm::Registers* registers) {
+        return registers ? registers->program().name : std::string();
+    };
     if (kind == "surface") return name_of(surface);
     if (kind == "displacement") return name_of(displacement);
     if (kind == "atmosphere") return name_of(atmosphere);

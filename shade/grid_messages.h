@@ -11,10 +11,10 @@ class GridMessages : public vm::Messages {
   public:
     explicit GridMessages(const RenderContext& context) : context_(context) {}
 
-    /// Frames of shaders that have run on the grid (or are running); may be null.
-    const vm::Frame* surface = nullptr;
-    const vm::Frame* displacement = nullptr;
-    const vm::Frame* atmosphere = nullptr;
+    /// Registers of shaders that have run on the grid (or are running); may be null.
+    const vm::Registers* surface = nullptr;
+    const vm::Registers* displacement = nullptr;
+    const vm::Registers* atmosphere = nullptr;
     const LightRig* lights = nullptr;
     const Attributes* attributes = nullptr;
     std::string running;  ///< the name of the shader that runs

@@ -75,44 +75,44 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
       scratch_(scratch),
       maps_(textures, *context.scene),
       messages_(context),
-      points_(points_of(read_)) {
+      batch_(batch_of(read_)) {
     messages_.attributes = material.attributes;
     messages_.lights = &scratch.lights;
 }
 
 void GridRun::run(const AovLayout& aovs) {
-    Frames displaced;
+    LayerRegisters displaced;
     if (material_.displacement) displaced = displace();
-    // What the first layer does not name stays as the primitive has it; the rest is taken from the frame.
+    // What the first layer does not name stays as the primitive has it; the rest is taken from the registers.
     const rsl::Program& first = material_.surface->layers.front()->program();
     for (ShadingGrid* grid : grids_) {
         if (!first.find_global("Ci")) grid->Ci = grid->Cs;
         if (!first.find_global("Oi")) grid->Oi = grid->Os;
     }
-    const Frames surface = color(*material_.surface, false, messages_.surface);
+    const LayerRegisters surface = color(*material_.surface, false, messages_.surface);
     if (material_.atmosphere) color(*material_.atmosphere, true, messages_.atmosphere);
     if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
 }
 
-vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
-                              std::span<const ShadingGrid* const> grids, const vm::Points& points,
-                              bool shaded, Frames& frames) {
+vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
+                                  std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
+                                  bool shaded, LayerRegisters& layers) {
     const BoundShader& bound = *shader.layers[layer];
     // Layers may be the same shader twice.
-    vm::Frame& frame = scratch_.machine.frame(bound.executable(), layer);
-    frames.push_back(&frame);
-    frame.start(points.lanes);
-    bound.set_parameters(frame, grids);
+    vm::Registers& registers = scratch_.machine.registers(bound.executable(), layer);
+    layers.push_back(&registers);
+    registers.start(batch.lanes);
+    bound.set_parameters(registers, grids);
     // Lights that ask for the surface's variables may see them before the surface sets them.
     const bool all = std::ranges::any_of(material_.lights, &Lamp::asks_surface);
     GridFootprints footprints(grids, context_.camera, bound.program().kind != rsl::ShaderKind::Displacement);
-    set_variables(frame, grids, context_, footprints, shaded, all);
+    set_variables(registers, grids, context_, footprints, shaded, all);
     messages_.running = bound.program().name;
     // Lights may ask the surface that asks them.
-    if (bound.program().kind == rsl::ShaderKind::Surface) messages_.surface = &frame;
+    if (bound.program().kind == rsl::ShaderKind::Surface) messages_.surface = &registers;
     const SceneSpaces spaces(*context_.scene, context_.camera, &bound.instance(), grids.front()->primitive);
     vm::Context surroundings;
-    surroundings.points = &points;
+    surroundings.batch = &batch;
     surroundings.spaces = &spaces;
     surroundings.footprints = &footprints;
     surroundings.maps = &maps_;
@@ -120,12 +120,12 @@ vm::Frame& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     surroundings.messages = &messages_;
     surroundings.diagnostics = context_.diagnostics;
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
-    scratch_.lights.start(scratch_.machine, material_.lights, surroundings, points.lanes,
-                          variable_planes(frame, "N"));
-    bound.set_run_defaults(scratch_.machine, frame, surroundings, grids);
-    shader.connect(layer, frames);
-    scratch_.machine.run(frame, surroundings);
-    return frame;
+    scratch_.lights.start(scratch_.machine, material_.lights, surroundings, batch.lanes,
+                          variable_planes(registers, "N"));
+    bound.set_run_defaults(scratch_.machine, registers, surroundings, grids);
+    shader.connect(layer, layers);
+    scratch_.machine.run(registers, surroundings);
+    return registers;
 }
 
 /// All layers over the pieces of the grids' borders: what those who share a border point take of it.
@@ -134,18 +134,18 @@ void GridRun::move_borders(const LayeredShader& shader) {
     for (ShadingGrid* grid : grids_)
         for (ShadingGrid& pieces : grid->border) borders.push_back(&pieces);
     // Of another run, with other lanes.
-    const vm::Frame* const of_grids = std::exchange(messages_.displacement, nullptr);
+    const vm::Registers* const of_grids = std::exchange(messages_.displacement, nullptr);
     for_each_run(std::move(borders), shader, [&](std::span<ShadingGrid* const> run) {
         const std::vector<const ShadingGrid*> read = to_read(run);
-        const vm::Points points = points_of(read, true);
-        Frames frames;
+        const vm::Batch batch = batch_of(read, true);
+        LayerRegisters layers;
         messages_.displacement = nullptr;
         for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
-            const vm::Frame& frame = run_layer(shader, layer, read, points, false, frames);
-            if (&shader == material_.displacement) messages_.displacement = &frame;
+            const vm::Registers& registers = run_layer(shader, layer, read, batch, false, layers);
+            if (&shader == material_.displacement) messages_.displacement = &registers;
             size_t first = 0;
             for (ShadingGrid* pieces : run) {
-                displace_grid(displaced_by(frame, first, pieces->vertex_count()), *pieces, scratch_.pool);
+                displace_grid(displaced_by(registers, first, pieces->vertex_count()), *pieces, scratch_.pool);
                 first += pieces->vertex_count();
             }
         }
@@ -154,55 +154,56 @@ void GridRun::move_borders(const LayeredShader& shader) {
 }
 
 /// By what a shader that has run on them made of P and N.
-void GridRun::move_grids(const vm::Frame& frame) {
+void GridRun::move_grids(const vm::Registers& registers) {
     size_t first = 0;
     for (ShadingGrid* grid : grids_) {
         raise(material_.displacement_reach,
-              displace_grid(displaced_by(frame, first, grid->vertex_count()), *grid, scratch_.pool));
+              displace_grid(displaced_by(registers, first, grid->vertex_count()), *grid, scratch_.pool));
         first += grid->vertex_count();
     }
 }
 
 /// How far a surface shader would move the grids.
-void GridRun::note_moves(const vm::Frame& frame) {
-    if (!writes_variable(frame.program(), "P")) return;
+void GridRun::note_moves(const vm::Registers& registers) {
+    if (!writes_variable(registers.program(), "P")) return;
     size_t first = 0;
     for (const ShadingGrid* grid : grids_) {
         raise(material_.displacement_reach,
-              longest_move(displaced_by(frame, first, grid->vertex_count()), *grid));
+              longest_move(displaced_by(registers, first, grid->vertex_count()), *grid));
         first += grid->vertex_count();
     }
 }
 
-GridRun::Frames GridRun::displace() {
+GridRun::LayerRegisters GridRun::displace() {
     const LayeredShader& shader = *material_.displacement;
     const std::vector<BorderWeld> welds = welds_of(grids_);
     move_borders(shader);
-    Frames frames;
+    LayerRegisters layers;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
-        const vm::Frame& frame = run_layer(shader, layer, read_, points_, false, frames);
-        messages_.displacement = &frame;
-        move_grids(frame);
+        const vm::Registers& registers = run_layer(shader, layer, read_, batch_, false, layers);
+        messages_.displacement = &registers;
+        move_grids(registers);
     }
     for (size_t g = 0; g < grids_.size(); ++g) welds[g].close(*grids_[g]);
-    return frames;
+    return layers;
 }
 
 /// A surface shader that moves P displaces the surface behind it, as a displacement shader does.
-GridRun::Frames GridRun::color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced) {
+GridRun::LayerRegisters GridRun::color(const LayeredShader& shader, bool shaded,
+                                       const vm::Registers*& announced) {
     const bool moves = &shader == material_.surface && material_.surface_moves;
     const std::vector<BorderWeld> welds = moves ? welds_of(grids_) : std::vector<BorderWeld>();
     if (moves) move_borders(shader);
-    Frames frames;
+    LayerRegisters layers;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
-        vm::Frame& frame = run_layer(shader, layer, read_, points_, shaded || layer > 0, frames);
-        announced = &frame;
-        take_colors(frame, grids_);
-        if (moves && writes_variable(frame.program(), "P")) move_grids(frame);
-        if (&shader == material_.surface && material_.surface_only_sets_P) note_moves(frame);
+        vm::Registers& registers = run_layer(shader, layer, read_, batch_, shaded || layer > 0, layers);
+        announced = &registers;
+        take_colors(registers, grids_);
+        if (moves && writes_variable(registers.program(), "P")) move_grids(registers);
+        if (&shader == material_.surface && material_.surface_only_sets_P) note_moves(registers);
     }
     for (size_t g = 0; g < welds.size(); ++g) welds[g].close(*grids_[g]);
-    return frames;
+    return layers;
 }
 
 }  // namespace trapeze

@@ -34,17 +34,18 @@ class GridRun {
     void run(const AovLayout& aovs);
 
   private:
-    using Frames = std::vector<vm::Frame*>;
+    using LayerRegisters = std::vector<vm::Registers*>;
 
-    /// Shades points, which are those of `grids`; returns the layer's frame.
-    vm::Frame& run_layer(const LayeredShader& shader, size_t layer, std::span<const ShadingGrid* const> grids,
-                         const vm::Points& points, bool shaded, Frames& frames);
-    // These return the layers' frames.
-    Frames displace();
-    Frames color(const LayeredShader& shader, bool shaded, const vm::Frame*& announced);
+    /// Shades points, which are those of `grids`; returns the layer's registers.
+    vm::Registers& run_layer(const LayeredShader& shader, size_t layer,
+                             std::span<const ShadingGrid* const> grids, const vm::Batch& batch, bool shaded,
+                             LayerRegisters& layers);
+    // These return the layers' layers.
+    LayerRegisters displace();
+    LayerRegisters color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
     void move_borders(const LayeredShader& shader);
-    void move_grids(const vm::Frame& frame);
-    void note_moves(const vm::Frame& frame);
+    void move_grids(const vm::Registers& registers);
+    void note_moves(const vm::Registers& registers);
 
     const RenderContext& context_;
     const Material& material_;
@@ -53,7 +54,7 @@ class GridRun {
     GridRunScratch& scratch_;
     MapService maps_;
     GridMessages messages_;
-    const vm::Points points_;
+    const vm::Batch batch_;
 };
 
 }  // namespace trapeze

@@ -17,9 +17,9 @@ namespace {
 constexpr int kBatch = 256;  ///< pixels run together: about as many as a grid has vertices
 
 /// Of a variable that the program may not name: then null.
-const vm::Operand* variable(const vm::Frame& frame, std::string_view name) {
-    const rsl::RegisterId* id = frame.program().find_global(name);
-    return id ? &frame.operand(*id) : nullptr;
+const vm::Operand* variable(const vm::Registers& registers, std::string_view name) {
+    const rsl::RegisterId* id = registers.program().find_global(name);
+    return id ? &registers.operand(*id) : nullptr;
 }
 
 /// Imagers of exporters mostly put a colour behind the picture: where theirs is missing and has such a
@@ -40,15 +40,15 @@ std::optional<ShaderInstance> stand_in(const ShaderInstance& missing) {
 }
 
 /// Each pixel is a grid of its own: it has no neighbours, and its random numbers follow from its place.
-vm::Points points_of(int x0, int y, size_t pixels) {
-    vm::Points points;
-    points.vertices = pixels;
-    points.lanes = padded_size(pixels);
+vm::Batch batch_of(int x0, int y, size_t pixels) {
+    vm::Batch batch;
+    batch.vertices = pixels;
+    batch.lanes = padded_size(pixels);
     for (size_t i = 0; i < pixels; ++i) {
         const uint64_t row = static_cast<uint32_t>(y), column = static_cast<uint32_t>(x0) + i;
-        points.spans.push_back({i, GridShape{0, 0}, false, row << 32 | column, V2f(0)});
+        batch.spans.push_back({i, GridShape{0, 0}, false, row << 32 | column, V2f(0)});
     }
-    return points;
+    return batch;
 }
 
 /// Sets a varying variable's component from each pixel; lanes past the end repeat the last.
@@ -68,7 +68,7 @@ float finite(float value) {
 struct Imager::Impl {
     explicit Impl(const RenderContext& render) : context(render) {}
 
-    void load_pixels(vm::Frame& frame, int x0, int y, size_t pixels, const float* rgba) const;
+    void load_pixels(vm::Registers& registers, int x0, int y, size_t pixels, const float* rgba) const;
 
     const RenderContext& context;
     // All null when there is no imager.
@@ -112,64 +112,66 @@ const BoundShader* Imager::shader() const {
     return impl_->shader.get();
 }
 
-void Imager::Impl::load_pixels(vm::Frame& frame, int x0, int y, size_t pixels, const float* rgba) const {
-    const size_t lanes = frame.lanes();
-    load(variable(frame, "P"), 0, pixels, lanes,
+void Imager::Impl::load_pixels(vm::Registers& registers, int x0, int y, size_t pixels,
+                               const float* rgba) const {
+    const size_t lanes = registers.lanes();
+    load(variable(registers, "P"), 0, pixels, lanes,
          [&](size_t i) { return static_cast<float>(x0) + static_cast<float>(i) + 0.5f; });
-    load(variable(frame, "P"), 1, pixels, lanes, [&](size_t) { return static_cast<float>(y) + 0.5f; });
-    load(variable(frame, "P"), 2, pixels, lanes, [](size_t) { return 0.0f; });
+    load(variable(registers, "P"), 1, pixels, lanes, [&](size_t) { return static_cast<float>(y) + 0.5f; });
+    load(variable(registers, "P"), 2, pixels, lanes, [](size_t) { return 0.0f; });
     for (const char* name : {"s", "u"})
-        load(variable(frame, name), 0, pixels, lanes, [&](size_t i) {
+        load(variable(registers, name), 0, pixels, lanes, [&](size_t i) {
             return (static_cast<float>(x0) + static_cast<float>(i) + 0.5f) /
                    static_cast<float>(context.camera.width);
         });
     for (const char* name : {"t", "v"})
-        load(variable(frame, name), 0, pixels, lanes, [&](size_t) {
+        load(variable(registers, name), 0, pixels, lanes, [&](size_t) {
             return (static_cast<float>(y) + 0.5f) / static_cast<float>(context.camera.height);
         });
     for (int c = 0; c < 3; ++c) {
-        load(variable(frame, "Ci"), c, pixels, lanes,
+        load(variable(registers, "Ci"), c, pixels, lanes,
              [&](size_t i) { return rgba[4 * i + static_cast<size_t>(c)]; });
-        load(variable(frame, "Oi"), c, pixels, lanes, [&](size_t i) { return rgba[4 * i + 3]; });
+        load(variable(registers, "Oi"), c, pixels, lanes, [&](size_t i) { return rgba[4 * i + 3]; });
     }
-    load(variable(frame, "alpha"), 0, pixels, lanes, [&](size_t i) { return rgba[4 * i + 3]; });
+    load(variable(registers, "alpha"), 0, pixels, lanes, [&](size_t i) { return rgba[4 * i + 3]; });
     const Options& options = context.scene->options;
     const float components = 3, open = options.shutter_close - options.shutter_open;
     for (const auto& [name, value] :
          {std::pair{"ncomps", components}, {"time", options.shutter_open}, {"dtime", open}})
-        if (const rsl::RegisterId* id = frame.program().find_global(name)) frame.set_uniform(*id, &value);
+        if (const rsl::RegisterId* id = registers.program().find_global(name))
+            registers.set_uniform(*id, &value);
 }
 
 void Imager::run(int x0, int y, int count, float* rgba) const {
     if (!impl_->shader) return;
     const BoundShader& shader = *impl_->shader;
     vm::Machine machine;
-    vm::Frame& frame = machine.frame(shader.executable());
+    vm::Registers& registers = machine.registers(shader.executable());
     MapService maps(*impl_->textures, *impl_->context.scene);
     GridMessages messages(impl_->context);
     messages.running = shader.program().name;
     for (int done = 0; done < count; done += kBatch) {
         const auto pixels = static_cast<size_t>(std::min(kBatch, count - done));
-        float* batch = rgba + 4 * static_cast<size_t>(done);
-        const vm::Points points = points_of(x0 + done, y, pixels);
-        frame.start(points.lanes);
-        shader.set_parameters(frame, {});
-        impl_->load_pixels(frame, x0 + done, y, pixels, batch);
+        float* colors = rgba + 4 * static_cast<size_t>(done);
+        const vm::Batch batch = batch_of(x0 + done, y, pixels);
+        registers.start(batch.lanes);
+        shader.set_parameters(registers, {});
+        impl_->load_pixels(registers, x0 + done, y, pixels, colors);
         vm::Context surroundings;
-        surroundings.points = &points;
+        surroundings.batch = &batch;
         surroundings.spaces = impl_->spaces.get();
         surroundings.maps = &maps;
         surroundings.messages = &messages;
         surroundings.diagnostics = impl_->context.diagnostics;
         surroundings.near_clip = impl_->context.camera.near_clip;
         surroundings.far_clip = impl_->context.camera.far_clip;
-        shader.set_run_defaults(machine, frame, surroundings, {});
-        machine.run(frame, surroundings);
-        const vm::Operand *color = variable(frame, "Ci"), *alpha = variable(frame, "alpha");
+        shader.set_run_defaults(machine, registers, surroundings, {});
+        machine.run(registers, surroundings);
+        const vm::Operand *color = variable(registers, "Ci"), *alpha = variable(registers, "alpha");
         for (size_t i = 0; i < pixels; ++i) {
             for (size_t c = 0; c < 3 && color; ++c)
-                batch[4 * i + c] = finite(color->data[c * color->stride + i]);
-            if (alpha) batch[4 * i + 3] = finite(alpha->data[i]);
+                colors[4 * i + c] = finite(color->data[c * color->stride + i]);
+            if (alpha) colors[4 * i + 3] = finite(alpha->data[i]);
         }
     }
 }

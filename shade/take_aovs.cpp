@@ -70,12 +70,12 @@ const rsl::RegisterId* register_of(const rsl::Program& program, const Aov& aov) 
     return id && fits(program.reg(*id).type, aov) ? id : nullptr;
 }
 
-using Frames = std::span<vm::Frame* const>;
+using LayerRegisters = std::span<vm::Registers* const>;
 
 /// Where shaders hold a variable; null when they have none.
-const vm::Operand* operand_of(const Aov& aov, Frames surface, Frames displacement) {
+const vm::Operand* operand_of(const Aov& aov, LayerRegisters surface, LayerRegisters displacement) {
     if (is_result(aov)) return nullptr;
-    for (const Frames layers : {surface, displacement})
+    for (const LayerRegisters layers : {surface, displacement})
         for (size_t i = layers.size(); i-- > 0;)
             if (const rsl::RegisterId* id = output_of(layers[i]->program(), aov))
                 return &layers[i]->operand(*id);
@@ -119,7 +119,7 @@ SourceLocation asked_at(const Options& options, const Aov& aov) {
 
 }  // namespace
 
-void take_aovs(const AovLayout& layout, Frames surface, Frames displacement,
+void take_aovs(const AovLayout& layout, LayerRegisters surface, LayerRegisters displacement,
                std::span<ShadingGrid* const> grids) {
     for (ShadingGrid* grid : grids) grid->aovs.resize(static_cast<size_t>(layout.channel_count));
     for (const Aov& aov : layout.aovs) {

@@ -30,7 +30,7 @@ class CallLanes {
     Lanes wanted() const {
         if (is_uniform_) return {1, {}};
         Lanes lanes;
-        lanes.count = run_.context().points ? run_.context().points->vertices : plane_;
+        lanes.count = run_.context().batch ? run_.context().batch->vertices : plane_;
         if (!run_.masks().all())
             lanes.mask = {reinterpret_cast<const float*>(run_.masks().current()), plane_};
         return lanes;
@@ -49,8 +49,8 @@ class CallLanes {
     Plane differences(GridAxis axis, ConstPlane values) const {
         const Plane out = scratch();
         std::fill(out.begin(), out.end(), 0.0f);
-        if (!run_.context().points || is_uniform_) return out;
-        for (const vm::GridSpan& span : run_.context().points->spans) {
+        if (!run_.context().batch || is_uniform_) return out;
+        for (const vm::GridSpan& span : run_.context().batch->spans) {
             const size_t count = static_cast<size_t>(span.shape.vertex_count());
             difference(span.shape, axis, values.subspan(span.first, count), out.subspan(span.first, count));
         }
@@ -60,13 +60,13 @@ class CallLanes {
     /// A component's changes along both axes of the vertices' footprints.
     std::array<Plane, 2> changes(const Operand& operand, size_t component, ConstPlane values) const {
         const vm::Context& context = run_.context();
-        if (!context.footprints || !context.points || is_uniform_ || !operand.lane_mask)
+        if (!context.footprints || !context.batch || is_uniform_ || !operand.lane_mask)
             return {differences(GridAxis::U, values), differences(GridAxis::V, values)};
         const vm::Footprint& footprint = context.footprints->get();
         Operand value = operand;
         value.data += component * operand.stride;
         const Plane by_u = scratch(), by_v = scratch(), along_a = scratch(), along_b = scratch();
-        const vm::GridSpans spans = context.points->spans;
+        const vm::GridSpans spans = context.batch->spans;
         const auto into = [](Plane plane) { return Operand{plane.data(), ~size_t{0}, 0, 0, 0}; };
         vm::derivative_u(spans, plane_, 1, value, footprint.u, footprint.v, into(by_u));
         vm::derivative_v(spans, plane_, 1, value, footprint.u, footprint.v, into(by_v));
@@ -101,13 +101,13 @@ LaneNumber number_of(const Operand& operand, size_t lanes) {
 /// The named arguments.
 MapOptions options_of(Run& run, const Step& step, std::span<const Operand> operands) {
     MapOptions options;
-    const vm::Frame& frame = run.frame();
+    const vm::Registers& registers = run.registers();
     options.first_channel = number_of(operands[step.outputs + 1u], run.lanes());
     for (size_t i = first_named(step); i + 1 < step.count; i += 2) {
-        const std::string& name = frame.text(frame.register_of(step, i));
-        const rsl::RegisterId id = frame.register_of(step, i + 1);
-        if (frame.reg(id).type.base == rsl::Base::String) {
-            const std::string& text = frame.text(id);
+        const std::string& name = registers.text(registers.register_of(step, i));
+        const rsl::RegisterId id = registers.register_of(step, i + 1);
+        if (registers.reg(id).type.base == rsl::Base::String) {
+            const std::string& text = registers.text(id);
             if (name == "filter") options.filter = map_filter(text);
             if (name == "swrap" || name == "wrap") options.swrap = map_wrap(text);
             if (name == "twrap" || name == "wrap") options.twrap = map_wrap(text);
@@ -128,11 +128,11 @@ MapOptions options_of(Run& run, const Step& step, std::span<const Operand> opera
 
 /// The argument "colorspace"; empty where there is none.
 std::string_view colorspace_of(Run& run, const Step& step) {
-    const vm::Frame& frame = run.frame();
+    const vm::Registers& registers = run.registers();
     for (size_t i = first_named(step); i + 1 < step.count; i += 2)
-        if (frame.text(frame.register_of(step, i)) == "colorspace" &&
-            frame.reg(frame.register_of(step, i + 1)).type.base == rsl::Base::String)
-            return frame.text(frame.register_of(step, i + 1));
+        if (registers.text(registers.register_of(step, i)) == "colorspace" &&
+            registers.reg(registers.register_of(step, i + 1)).type.base == rsl::Base::String)
+            return registers.text(registers.register_of(step, i + 1));
     return {};
 }
 
@@ -179,9 +179,10 @@ std::array<Coordinate, 3> triple_values(const CallLanes& lanes, const Step& step
 
 /// Of a picture that cannot be read. White leaves a surface its own colour, and a light its own; what is
 /// displaced by a picture stays where it is, and no name is no picture.
-float stand_in(const vm::Frame& frame, const Step& step) {
-    return frame.text_input(step, 0).empty() || frame.program().kind == rsl::ShaderKind::Displacement ? 0.0f
-                                                                                                      : 1.0f;
+float stand_in(const vm::Registers& registers, const Step& step) {
+    return registers.text_input(step, 0).empty() || registers.program().kind == rsl::ShaderKind::Displacement
+               ? 0.0f
+               : 1.0f;
 }
 
 }  // namespace
@@ -205,7 +206,7 @@ void MapService::look_up(Run& run, const Step& step, std::span<const Operand> op
 
 /// The picture that a lookup names. One of floats reads numbers, unless it says that they are encoded.
 const Textures::Picture* MapService::picture_of(Run& run, const Step& step, bool of_color) {
-    return textures_.find(run.frame().text_input(step, 0), step.at,
+    return textures_.find(run.registers().text_input(step, 0), step.at,
                           textures_.transfer_of_lookup(colorspace_of(run, step), of_color, step.at));
 }
 
@@ -215,7 +216,7 @@ void MapService::texture(Run& run, const Step& step, std::span<const Operand> op
     const Textures::Picture* picture = picture_of(run, step, operands[0].stride != 0);
     const std::vector<Plane> out = lanes.outputs(operands[0]);
     MapOptions options = options_of(run, step, operands);
-    options.without = stand_in(run.frame(), step);
+    options.without = stand_in(run.registers(), step);
     textures_.texture(picture, {s.middle, t.middle, s.along_u, t.along_u, s.along_v, t.along_v}, options,
                       lanes.wanted(), out);
 }
@@ -273,7 +274,7 @@ void MapService::environment(Run& run, const Step& step, std::span<const Operand
 void MapService::shadow(Run& run, const Step& step, std::span<const Operand> operands) {
     const CallLanes lanes(run, operands[0]);
     const std::array<Coordinate, 3> P = triple_values(lanes, step, operands);
-    const Textures::DepthMap* map = textures_.find_shadow(run.frame().text_input(step, 0), step.at);
+    const Textures::DepthMap* map = textures_.find_shadow(run.registers().text_input(step, 0), step.at);
     const std::vector<Plane> out = lanes.outputs(operands[0]);
     textures_.shadow(map,
                      {{P[0].middle, P[1].middle, P[2].middle},
@@ -285,12 +286,12 @@ void MapService::shadow(Run& run, const Step& step, std::span<const Operand> ope
 
 /// Outputs: found, the value; inputs: the file's name, what is asked.
 void MapService::texture_info(Run& run, const Step& step, std::span<const Operand> operands) {
-    vm::Frame& frame = run.frame();
-    const std::string& what = frame.text_input(step, 1);
-    const rsl::RegisterId id = frame.register_of(step, 1);
-    const rsl::Type type = frame.reg(id).type;
+    vm::Registers& registers = run.registers();
+    const std::string& what = registers.text_input(step, 1);
+    const rsl::RegisterId id = registers.register_of(step, 1);
+    const rsl::Type type = registers.reg(id).type;
     bool found = false;
-    if (const auto info = textures_.info(frame.text_input(step, 0))) {
+    if (const auto info = textures_.info(registers.text_input(step, 0))) {
         std::vector<float> values;
         if (what == "resolution")
             values = {static_cast<float>(info->width), static_cast<float>(info->height)};
@@ -301,7 +302,7 @@ void MapService::texture_info(Run& run, const Step& step, std::span<const Operan
             values.assign(&(*matrix)[0][0], &(*matrix)[0][0] + 16);
         const std::string text = what == "type" ? info->type : what == "wrapmodes" ? info->wrap_modes : "";
         if (!text.empty() && type.base == rsl::Base::String) {
-            frame.text(id) = text;
+            registers.text(id) = text;
             found = true;
         }
         const size_t width = static_cast<size_t>(rsl::width_of(type.base));

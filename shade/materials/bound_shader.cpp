@@ -64,10 +64,10 @@ BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const
     : executable_(std::move(executable)), instance_(instance) {
     const rsl::Program& program = executable_->program();
     values_.resize(program.parameters.size());
-    // Defaults may name parameters before them, and so all are set one after the other in a frame.
+    // Defaults may name parameters before them, and so all are set one after the other in registers.
     vm::Machine machine;
-    vm::Frame& frame = machine.frame(executable_);
-    frame.start(kLanes);
+    vm::Registers& registers = machine.registers(executable_);
+    registers.start(kLanes);
     vm::Context context;
     context.spaces = &spaces;
     context.diagnostics = diagnostics;
@@ -79,9 +79,9 @@ BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const
         if (take_from_instance(parameter, value, diagnostics)) {
             for (size_t e = 0; e < elements; ++e) {
                 if (width)
-                    frame.set_uniform(parameter.id, value.floats.data() + e * width, e);
+                    registers.set_uniform(parameter.id, value.floats.data() + e * width, e);
                 else
-                    frame.text(parameter.id, e) = value.texts[e];
+                    registers.text(parameter.id, e) = value.texts[e];
             }
             continue;
         }
@@ -91,10 +91,10 @@ BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const
             value.texts.resize(width ? 0 : elements);
             continue;
         }
-        machine.run_initial(frame, i, context);
+        machine.run_initial(registers, i, context);
         for (size_t e = 0; e < elements; ++e) {
-            if (!width) value.texts.push_back(frame.text(parameter.id, e));
-            const vm::Operand& operand = frame.operand(parameter.id);
+            if (!width) value.texts.push_back(registers.text(parameter.id, e));
+            const vm::Operand& operand = registers.operand(parameter.id);
             for (size_t k = 0; k < width; ++k)
                 value.floats.push_back(operand.data[e * operand.element_stride + k * operand.stride]);
         }
@@ -145,7 +145,7 @@ const GridVariable* suitable_variable(const ShadingGrid& grid, std::string_view 
     return variable;
 }
 
-void BoundShader::set_parameters(vm::Frame& frame, std::span<const ShadingGrid* const> grids) const {
+void BoundShader::set_parameters(vm::Registers& registers, std::span<const ShadingGrid* const> grids) const {
     for (size_t i = 0; i < values_.size(); ++i) {
         const rsl::ProgramParameter& parameter = program().parameters[i];
         const Value& value = values_[i];
@@ -155,18 +155,18 @@ void BoundShader::set_parameters(vm::Frame& frame, std::span<const ShadingGrid* 
             grids.empty() ? nullptr : suitable_variable(*grids.front(), parameter.name, parameter.type);
         if (!width) {
             for (size_t e = 0; e < value.texts.size(); ++e)
-                frame.text(id, e) =
+                registers.text(id, e) =
                     variable && e < variable->strings.size() ? variable->strings[e] : value.texts[e];
             continue;
         }
         if (!variable) {
             for (size_t e = 0; e * width < value.floats.size(); ++e)
-                frame.set_uniform(id, value.floats.data() + e * width, e);
+                registers.set_uniform(id, value.floats.data() + e * width, e);
             continue;
         }
-        const vm::Operand& out = frame.operand(id);
+        const vm::Operand& out = registers.operand(id);
         const bool varying = out.lane_mask != 0;
-        const size_t plane = varying ? frame.lanes() : kLanes;
+        const size_t plane = varying ? registers.lanes() : kLanes;
         for (size_t p = 0; p < variable->planes.size(); ++p) {
             float* to = out.data + p * plane;
             if (!varying) {
@@ -188,13 +188,13 @@ void BoundShader::set_parameters(vm::Frame& frame, std::span<const ShadingGrid* 
     }
 }
 
-void BoundShader::set_run_defaults(vm::Machine& machine, vm::Frame& frame, const vm::Context& context,
+void BoundShader::set_run_defaults(vm::Machine& machine, vm::Registers& registers, const vm::Context& context,
                                    std::span<const ShadingGrid* const> grids) const {
     for (const size_t i : run_defaults_) {
         const rsl::ProgramParameter& parameter = program().parameters[i];
         // Grids that share a run all have the variable, or none has.
         if (grids.empty() || !suitable_variable(*grids.front(), parameter.name, parameter.type))
-            machine.run_initial(frame, i, context);
+            machine.run_initial(registers, i, context);
     }
 }
 

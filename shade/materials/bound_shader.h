@@ -21,13 +21,13 @@ class BoundShader {
     BoundShader(std::shared_ptr<const vm::Executable> executable, const ShaderInstance& instance,
                 const vm::Spaces& spaces, Diagnostics* diagnostics);
 
-    /// Sets the parameters in a frame that has been started. A primitive variable of a parameter's name and
-    /// type replaces it (RISpec 3.2, section 5).
-    void set_parameters(vm::Frame& frame, std::span<const ShadingGrid* const> grids) const;
+    /// Sets the parameters in registers that have been started. A primitive variable of a parameter's name
+    /// and type replaces it (RISpec 3.2, section 5).
+    void set_parameters(vm::Registers& registers, std::span<const ShadingGrid* const> grids) const;
 
     /// Computes the defaults that follow from the point (Executable::has_run_default) of parameters that
-    /// nothing else gives, once the frame has its parameters and predefined variables.
-    void set_run_defaults(vm::Machine& machine, vm::Frame& frame, const vm::Context& context,
+    /// nothing else gives, once the registers have their parameters and predefined variables.
+    void set_run_defaults(vm::Machine& machine, vm::Registers& registers, const vm::Context& context,
                           std::span<const ShadingGrid* const> grids) const;
 
     const std::shared_ptr<const vm::Executable>& executable() const { return executable_; }

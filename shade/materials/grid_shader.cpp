@@ -13,7 +13,8 @@ using vm::Operand;
 /// Writes a grid's values behind those of the grids before it.
 class Loader {
   public:
-    Loader(vm::Frame& frame, std::span<const ShadingGrid* const> grids) : frame_(frame), grids_(grids) {}
+    Loader(vm::Registers& registers, std::span<const ShadingGrid* const> grids)
+        : registers_(registers), grids_(grids) {}
 
     template <class PlaneOf>
     void load(const Operand& out, int components, const PlaneOf& plane_of) const {
@@ -27,7 +28,7 @@ class Loader {
                 std::fill_n(to + at + given, count - given, given ? from[given - 1] : 0.0f);
                 at += count;
             }
-            std::fill(to + at, to + frame_.lanes(), at ? to[at - 1] : 0.0f);
+            std::fill(to + at, to + registers_.lanes(), at ? to[at - 1] : 0.0f);
         }
     }
 
@@ -44,16 +45,18 @@ class Loader {
              [](const ShadingGrid& grid, int k) -> const std::vector<float>& { return grid.P.front().c[k]; });
     }
 
-    void copy(const Operand& out, const float* plane) const { std::copy_n(plane, frame_.lanes(), out.data); }
+    void copy(const Operand& out, const float* plane) const {
+        std::copy_n(plane, registers_.lanes(), out.data);
+    }
 
   private:
-    vm::Frame& frame_;
+    vm::Registers& registers_;
     std::span<const ShadingGrid* const> grids_;
 };
 
-void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& value,
+void set_variable(const Loader& loader, vm::Registers& registers, const vm::StartValue& value,
                   const RenderContext& context, vm::Footprints& footprints, bool shaded) {
-    const Operand& out = frame.operand(value.id);
+    const Operand& out = registers.operand(value.id);
     const Options& options = context.scene->options;
     using vm::Predefined;
     switch (value.variable) {
@@ -64,7 +67,7 @@ void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& 
             // From the eye to P; along the view when the projection is orthographic.
             if (context.camera.perspective) return loader.load_P(out);
             const float along[3] = {0, 0, 1};
-            return frame.set_uniform(value.id, along);
+            return registers.set_uniform(value.id, along);
         }
         case Predefined::N:
             return loader.load(out, &ShadingGrid::N);
@@ -83,7 +86,7 @@ void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& 
             // its own.
             if (shaded) return loader.load(out, &ShadingGrid::Ci);
             const float black[3] = {};
-            return frame.set_uniform(value.id, black);
+            return registers.set_uniform(value.id, black);
         }
         case Predefined::Oi:
             return loader.load(out, shaded ? &ShadingGrid::Oi : &ShadingGrid::Os);
@@ -101,18 +104,18 @@ void set_variable(const Loader& loader, vm::Frame& frame, const vm::StartValue& 
             return loader.copy(out, footprints.get().dv);
         case Predefined::ncomps: {
             const float three = 3;
-            return frame.set_uniform(value.id, &three);
+            return registers.set_uniform(value.id, &three);
         }
         case Predefined::time:
-            return frame.set_uniform(value.id, &options.shutter_open);
+            return registers.set_uniform(value.id, &options.shutter_open);
         case Predefined::dtime: {
             const float open = options.shutter_close - options.shutter_open;
-            return frame.set_uniform(value.id, &open);
+            return registers.set_uniform(value.id, &open);
         }
         case Predefined::Ns:
         case Predefined::Other: {  // E, L, Cl, dPdtime...
             const float zeros[16] = {};
-            if (rsl::width_of(frame.reg(value.id).type.base) > 0) frame.set_uniform(value.id, zeros);
+            if (rsl::width_of(registers.reg(value.id).type.base) > 0) registers.set_uniform(value.id, zeros);
         }
     }
 }
@@ -126,33 +129,33 @@ uint64_t place_seed(const V3f& P) {
 
 }  // namespace
 
-vm::Points points_of(std::span<const ShadingGrid* const> grids, bool shared) {
-    vm::Points points;
+vm::Batch batch_of(std::span<const ShadingGrid* const> grids, bool shared) {
+    vm::Batch batch;
     for (const ShadingGrid* grid : grids) {
         const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
         for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
             const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->ordinal;
-            points.spans.push_back({points.vertices, grid->shape, grid->reverse_orientation, seed,
-                                    steps_of_face(*grid, first / in_piece)});
-            points.vertices += in_piece;
+            batch.spans.push_back({batch.vertices, grid->shape, grid->reverse_orientation, seed,
+                                   steps_of_face(*grid, first / in_piece)});
+            batch.vertices += in_piece;
         }
     }
-    points.lanes = padded_size(points.vertices);
-    return points;
+    batch.lanes = padded_size(batch.vertices);
+    return batch;
 }
 
-void set_variables(vm::Frame& frame, std::span<const ShadingGrid* const> grids, const RenderContext& context,
-                   vm::Footprints& footprints, bool shaded, bool all) {
-    const Loader loader(frame, grids);
-    for (const vm::StartValue& value : frame.executable().start_values())
-        if (all || value.needed) set_variable(loader, frame, value, context, footprints, shaded);
+void set_variables(vm::Registers& registers, std::span<const ShadingGrid* const> grids,
+                   const RenderContext& context, vm::Footprints& footprints, bool shaded, bool all) {
+    const Loader loader(registers, grids);
+    for (const vm::StartValue& value : registers.executable().start_values())
+        if (all || value.needed) set_variable(loader, registers, value, context, footprints, shaded);
 }
 
-Plane3 variable_planes(const vm::Frame& frame, std::string_view name) {
-    const rsl::RegisterId* id = frame.program().find_global(name);
+Plane3 variable_planes(const vm::Registers& registers, std::string_view name) {
+    const rsl::RegisterId* id = registers.program().find_global(name);
     if (!id) return {};
-    const Operand& operand = frame.operand(*id);
-    const size_t lanes = frame.lanes();
+    const Operand& operand = registers.operand(*id);
+    const size_t lanes = registers.lanes();
     return {{operand.data, lanes},
             {operand.data + operand.stride, lanes},
             {operand.data + 2 * operand.stride, lanes}};
@@ -167,10 +170,10 @@ bool writes_variable(const rsl::Program& program, std::string_view name) {
     return false;
 }
 
-void take_colors(const vm::Frame& frame, std::span<ShadingGrid* const> grids) {
+void take_colors(const vm::Registers& registers, std::span<ShadingGrid* const> grids) {
     for (const auto& [name, triples] :
          {std::pair{"Ci", &ShadingGrid::Ci}, std::pair{"Oi", &ShadingGrid::Oi}}) {
-        const Plane3 planes = variable_planes(frame, name);
+        const Plane3 planes = variable_planes(registers, name);
         if (planes.size() == 0) continue;
         size_t at = 0;
         for (ShadingGrid* grid : grids) {

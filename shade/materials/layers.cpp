@@ -75,13 +75,14 @@ bool LayeredShader::asks_object_space() const {
         layers, [](const BoundShader* layer) { return trapeze::asks_object_space(layer->program()); });
 }
 
-void LayeredShader::connect(size_t to, std::span<vm::Frame* const> frames) const {
+void LayeredShader::connect(size_t to, std::span<vm::Registers* const> registers) const {
     for (const Connection& c : connections) {
         if (c.to != to) continue;
-        const vm::Frame& source_frame = *frames[c.from];
-        const vm::Operand &from = source_frame.operand(c.source), &target = frames[to]->operand(c.target);
-        const rsl::Type type = source_frame.reg(c.source).type;
-        const size_t lanes = target.lane_mask ? frames[to]->lanes() : kLanes;
+        const vm::Registers& source_registers = *registers[c.from];
+        const vm::Operand &from = source_registers.operand(c.source),
+                          &target = registers[to]->operand(c.target);
+        const rsl::Type type = source_registers.reg(c.source).type;
+        const size_t lanes = target.lane_mask ? registers[to]->lanes() : kLanes;
         const size_t width = static_cast<size_t>(rsl::width_of(type.base));
         for (size_t p = 0; p < width * static_cast<size_t>(std::max(type.length, 1)); ++p) {
             const auto plane = [&](const vm::Operand& operand) {

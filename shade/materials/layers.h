@@ -24,9 +24,9 @@ struct LayeredShader {
     /// Whether a layer may ask for the space named "object".
     bool asks_object_space() const;
 
-    /// Copies what earlier layers have into the variables of layer `to`. frames[i] is layer i's, all of as
+    /// Copies what earlier layers have into the variables of layer `to`. registers[i] is layer i's, all of as
     /// many lanes.
-    void connect(size_t to, std::span<vm::Frame* const> frames) const;
+    void connect(size_t to, std::span<vm::Registers* const> registers) const;
 };
 
 /// The parameters of a layer that connections set: they vary over grids.

@@ -186,7 +186,7 @@ TEST(Messages, IncidentIsTheAtmosphere) {
     out.data = plane.data();
     const rsl::Type number_type{rsl::Base::Float, 0};
     EXPECT_FALSE(messages.find(rsl::Op::IncidentMessage, "density", number_type, out, nullptr, 0));
-    messages.atmosphere = &volume.frame();
+    messages.atmosphere = &volume.registers();
     EXPECT_TRUE(messages.find(rsl::Op::IncidentMessage, "density", number_type, out, nullptr, 0));
     EXPECT_EQ(plane[0], 0.25f);
     EXPECT_FALSE(messages.find(rsl::Op::OppositeMessage, "density", number_type, out, nullptr, 0));

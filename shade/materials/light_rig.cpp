@@ -23,10 +23,10 @@ vm::Operand planes_of(float* first, size_t lanes) {
 }
 
 /// An output parameter's value at the first vertex.
-float output_number(const vm::Frame& frame, std::string_view name, float fallback) {
-    for (const rsl::ProgramParameter& parameter : frame.program().parameters)
+float output_number(const vm::Registers& registers, std::string_view name, float fallback) {
+    for (const rsl::ProgramParameter& parameter : registers.program().parameters)
         if (parameter.name == name && parameter.type == rsl::Type{rsl::Base::Float, 0})
-            return frame.operand(parameter.id).data[0];
+            return registers.operand(parameter.id).data[0];
     return fallback;
 }
 
@@ -54,7 +54,7 @@ void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps
     while (slots_.size() < lamps.size()) slots_.emplace_back();
     for (Slot& slot : slots_) {
         slot.lasts = false;
-        slot.arriving.frame = nullptr;
+        slot.arriving.registers = nullptr;
     }
 }
 
@@ -66,27 +66,27 @@ const vm::Lights::Arriving& LightRig::arriving(size_t light, const vm::Operand& 
     return slot.arriving;
 }
 
-const vm::Frame* LightRig::frame(size_t light) const {
-    return light < count() ? slots_[light].arriving.frame : nullptr;
+const vm::Registers* LightRig::registers(size_t light) const {
+    return light < count() ? slots_[light].arriving.registers : nullptr;
 }
 
-void LightRig::set_variables(vm::Frame& frame, const Lamp& lamp, const vm::Operand& P) const {
+void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const {
     using vm::Predefined;
-    for (const vm::StartValue& value : frame.executable().start_values()) {
+    for (const vm::StartValue& value : registers.executable().start_values()) {
         const rsl::RegisterId id = value.id;
-        const vm::Operand& operand = frame.operand(id);
+        const vm::Operand& operand = registers.operand(id);
         const Predefined variable = value.variable;
         if (variable == Predefined::Ps || variable == Predefined::I) {  // the eye is at the origin
             copy_operand(P, 3, lanes_, operand);
         } else if (variable == Predefined::P) {
-            frame.set_uniform(id, &lamp.position.x);
+            registers.set_uniform(id, &lamp.position.x);
         } else if ((variable == Predefined::N || variable == Predefined::Ns) && N_.size() == lanes_) {
             for (int k = 0; k < 3; ++k)
                 std::memcpy(operand.data + static_cast<size_t>(k) * operand.stride, N_[k].data(),
                             lanes_ * sizeof(float));
-        } else if (rsl::width_of(frame.reg(id).type.base) > 0) {
+        } else if (rsl::width_of(registers.reg(id).type.base) > 0) {
             const float zeros[16] = {};
-            frame.set_uniform(id, zeros);
+            registers.set_uniform(id, zeros);
         }
     }
 }
@@ -94,10 +94,10 @@ void LightRig::set_variables(vm::Frame& frame, const Lamp& lamp, const vm::Opera
 void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     const Lamp& lamp = *(*lamps_)[light];
     const rsl::Program& program = lamp.shader->program();
-    vm::Frame& frame = machine_->frame(lamp.shader->executable(), light);
-    frame.start(lanes_);
-    lamp.shader->set_parameters(frame, {});
-    set_variables(frame, lamp, P);
+    vm::Registers& registers = machine_->registers(lamp.shader->executable(), light);
+    registers.start(lanes_);
+    lamp.shader->set_parameters(registers, {});
+    set_variables(registers, lamp, P);
     if (slot.capacity < lanes_) {
         slot.planes = {static_cast<float*>(std::aligned_alloc(64, kPlanes * lanes_ * sizeof(float))),
                        std::free};
@@ -116,22 +116,22 @@ void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     context.spaces = lamp.spaces.get();
     context.light_output = &output;
     context.lights = nullptr;
-    lamp.shader->set_run_defaults(*machine_, frame, context, {});
-    machine_->run(frame, context);
+    lamp.shader->set_run_defaults(*machine_, registers, context, {});
+    machine_->run(registers, context);
 
     Arriving& arriving = slot.arriving;
     arriving.ambient = !program.directional;
-    arriving.frame = &frame;
+    arriving.registers = &registers;
     arriving.L = output.L;
     arriving.direction = planes + kDirection * lanes_;
     arriving.Cl = planes + kCl * lanes_;
     arriving.lit = planes + kLit * lanes_;
-    arriving.diffuse = 1 - std::clamp(output_number(frame, "__nondiffuse", 0), 0.0f, 1.0f);
-    arriving.specular = 1 - std::clamp(output_number(frame, "__nonspecular", 0), 0.0f, 1.0f);
+    arriving.diffuse = 1 - std::clamp(output_number(registers, "__nondiffuse", 0), 0.0f, 1.0f);
+    arriving.specular = 1 - std::clamp(output_number(registers, "__nonspecular", 0), 0.0f, 1.0f);
     const rsl::RegisterId* Cl = program.find_global("Cl");
     const vm::Operand arrives = planes_of(planes + kCl * lanes_, lanes_);
     if (!Cl) std::fill_n(arrives.data, 3 * lanes_, 0.0f);
-    const vm::Operand sent = Cl ? frame.operand(*Cl) : arrives;
+    const vm::Operand sent = Cl ? registers.operand(*Cl) : arrives;
     if (arriving.ambient)
         copy_operand(sent, 3, lanes_, arrives);
     else
@@ -142,7 +142,7 @@ void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
 
 bool LightRig::in_category(size_t light, std::string_view wanted) {
     if (wanted.empty()) return true;
-    const vm::Frame* own = frame(light);
+    const vm::Registers* own = registers(light);
     std::string_view categories;
     if (own)
         for (const rsl::ProgramParameter& parameter : own->program().parameters)

@@ -31,7 +31,7 @@ class LightRig : public vm::Lights {
     bool in_category(size_t light, std::string_view wanted) override;
 
     /// The light's variables, once it has run; null before.
-    const vm::Frame* frame(size_t light) const;
+    const vm::Registers* registers(size_t light) const;
     const Lamp& lamp(size_t light) const { return *(*lamps_)[light]; }
 
   private:
@@ -42,7 +42,7 @@ class LightRig : public vm::Lights {
         std::unique_ptr<float, void (*)(void*)> planes{nullptr, nullptr};
     };
     void run(size_t light, Slot& slot, const vm::Operand& P);
-    void set_variables(vm::Frame& frame, const Lamp& lamp, const vm::Operand& P) const;
+    void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
 
     vm::Machine* machine_ = nullptr;
     const std::vector<const Lamp*>* lamps_ = nullptr;

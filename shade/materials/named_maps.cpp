@@ -33,7 +33,7 @@ class Specialised {
             r.texts = shader.values()[i].texts;
         }
         rsl::optimise(program_);
-        for (int round = 0; round < kMostRounds && settle_texts(); ++round) rsl::optimise(program_);
+        for (int round = 0; round < kMostRounds && follow_texts(); ++round) rsl::optimise(program_);
     }
 
     std::vector<NamedMap> maps() const {
@@ -64,8 +64,8 @@ class Specialised {
     }
 
     /// Follows texts one step: the optimiser folds numbers. False when nothing more is known.
-    bool settle_texts() {
-        bool settled = false;
+    bool follow_texts() {
+        bool followed = false;
         count_writes();
         for (Instruction& instruction : program_.code) {
             std::vector<const std::string*> texts;
@@ -75,7 +75,7 @@ class Specialised {
             if (instruction.op == Op::Equal || instruction.op == Op::NotEqual) {
                 const bool holds = (*texts[0] == *texts[1]) == (instruction.op == Op::Equal);
                 set_constant(instruction, {holds ? std::bit_cast<float>(~0u) : 0.0f}, {});
-                settled = true;
+                followed = true;
             } else if (instruction.op == Op::Concat || instruction.op == Op::Move) {
                 const RegisterId out = instruction.output();
                 const Register::Kind kind = program_.reg(out).kind;
@@ -87,13 +87,13 @@ class Specialised {
                 r.kind = Register::Kind::Constant;
                 r.texts = {std::move(whole)};
                 instruction.outputs = 0;  // marked as done
-                settled = true;
+                followed = true;
             }
         }
         std::erase_if(program_.code, [](const Instruction& i) {
             return i.outputs == 0 && (i.op == Op::Concat || i.op == Op::Move);
         });
-        return settled;
+        return followed;
     }
 
     /// The instruction becomes the Move of a constant of its output's type.

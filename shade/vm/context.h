@@ -16,12 +16,12 @@
 
 namespace trapeze::vm {
 
-class Frame;
+class Registers;
 class Run;
 struct Step;
 
 /// The vertices of one or more grids of one primitive, side by side.
-struct Points {
+struct Batch {
     size_t vertices = 0;
     size_t lanes = 0;  ///< padded_size(vertices)
     std::vector<GridSpan> spans;
@@ -51,12 +51,12 @@ class Lights {
 
     struct Arriving {
         bool ambient = false;
-        const float* L = nullptr;          ///< to the light; 3 planes
-        const float* direction = nullptr;  ///< L, of unit length
-        const float* Cl = nullptr;         ///< 3 planes; zero where the light does not reach
-        const float* lit = nullptr;        ///< lanes that the light's cone holds
-        float diffuse = 1, specular = 1;   ///< shares in those built-in functions
-        const Frame* frame = nullptr;      ///< the light's variables
+        const float* L = nullptr;              ///< to the light; 3 planes
+        const float* direction = nullptr;      ///< L, of unit length
+        const float* Cl = nullptr;             ///< 3 planes; zero where the light does not reach
+        const float* lit = nullptr;            ///< lanes that the light's cone holds
+        float diffuse = 1, specular = 1;       ///< shares in those built-in functions
+        const Registers* registers = nullptr;  ///< the light's variables
     };
     /// `lasting`: P will not change in this run, and what was found for it may be kept.
     virtual const Arriving& arriving(size_t light, const Operand& P, bool lasting) = 0;
@@ -84,7 +84,7 @@ struct LightOutput {
 
 /// All may be null where shaders cannot ask.
 struct Context {
-    const Points* points = nullptr;
+    const Batch* batch = nullptr;
     const Spaces* spaces = nullptr;
     Footprints* footprints = nullptr;  ///< of the points
     Maps* maps = nullptr;

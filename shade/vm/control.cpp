@@ -81,12 +81,12 @@ size_t Run::control(const std::vector<Step>& steps, size_t at) {
 }
 
 bool Run::uniform_condition(const Step& step) const {
-    return lane_is_set(frame_.input(step, 0).data[0]);
+    return lane_is_set(registers_.input(step, 0).data[0]);
 }
 
 /// The condition's plane, for lanes that may go separate ways though it is the same for all.
 const float* Run::condition(const Step& step) {
-    const Operand& operand = frame_.input(step, 0);
+    const Operand& operand = registers_.input(step, 0);
     if (operand.lane_mask) return operand.data;
     float* plane = scratch(1);
     std::fill_n(plane, lanes(), operand.data[0]);
@@ -141,9 +141,9 @@ size_t Run::loop_step(const std::vector<Step>& steps, size_t at) {
 /// Counts the steps of a loop's turn; true when all loops together have had their share.
 bool Run::steps_are_spent(const Step& opening, size_t steps) {
     loop_steps_ += static_cast<int64_t>(steps);
-    if (loop_steps_ <= frame_.executable().max_loop_steps()) return false;
-    frame_.executable().found_endless();
-    const std::string& name = frame_.program().name;
+    if (loop_steps_ <= registers_.executable().max_loop_steps()) return false;
+    registers_.executable().found_endless();
+    const std::string& name = registers_.program().name;
     if (context_.diagnostics)
         context_.diagnostics->error(
             opening.at, fmt::format("the loops of shader \"{}\" have taken too long; they are left", name),
@@ -153,14 +153,14 @@ bool Run::steps_are_spent(const Step& opening, size_t steps) {
 
 /// Counts a turn of a loop; true when it was the last that it may have.
 bool Run::turns_are_spent(const Step& opening) {
-    const int most = frame_.executable().max_turns();
+    const int most = registers_.executable().max_turns();
     if (++turns_[&opening] < most) return false;
-    frame_.executable().found_endless();
+    registers_.executable().found_endless();
     if (context_.diagnostics)
         context_.diagnostics->error(
             opening.at,
             fmt::format("this loop of shader \"{}\" has not ended after {} turns; it is left",
-                        frame_.program().name, most),
+                        registers_.program().name, most),
             fmt::format("rsl-endless-loop {}:{}", opening.at.source, opening.at.line));
     return true;
 }
@@ -188,18 +188,18 @@ bool Run::enter_lights() {
 /// none.
 size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
     const Step& step = steps[opening];
-    const Operand& P = frame_.input(step, 1);
+    const Operand& P = registers_.input(step, 1);
     const bool with_cone = step.count - step.outputs == 4;
     Lights& lights = *context_.lights;
     while (next_lights_.back() < lights.count() && !masks_.loop_is_over()) {
         if (next_lights_.back() > 0 && steps_are_spent(step, step.target - opening)) break;
         const size_t number = next_lights_.back()++;
         const Lights::Arriving& light = lights.arriving(number, P, is_lasting_P(P));
-        if (light.ambient || !lights.in_category(number, frame_.text_input(step, 0))) continue;
+        if (light.ambient || !lights.in_category(number, registers_.text_input(step, 0))) continue;
         const float* reached = light.lit;
         scratch_used_ = 0;
         if (with_cone) {
-            const Operand &axis = frame_.input(step, 2), &angle = frame_.input(step, 3);
+            const Operand &axis = registers_.input(step, 2), &angle = registers_.input(step, 3);
             float* cone = scratch(1);
             const Operand inside = varying(cone, lanes());
             cone_mask(lanes(), varying(const_cast<float*>(light.L), lanes()), axis, angle, inside);
@@ -210,7 +210,7 @@ size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
         }
         masks_.start_turn(reached);
         if (masks_.none()) continue;
-        const Operand &L = frame_.operands_of(step)[0], &Cl = frame_.operands_of(step)[1];
+        const Operand &L = registers_.operands_of(step)[0], &Cl = registers_.operands_of(step)[1];
         std::memcpy(L.data, light.L, 3 * lanes() * sizeof(float));
         std::memcpy(Cl.data, light.Cl, 3 * lanes() * sizeof(float));
         current_light_ = number;
@@ -226,7 +226,7 @@ size_t Run::enter_gather(const std::vector<Step>& steps, size_t at_step) {
     constexpr float kMostSamples = 65536;
     const Step& step = steps[at_step];
     warn(step, "gather() sees nothing yet: its rays count as misses", "rsl-no-rays gather");
-    const float samples = at(frame_.input(step, 4), 0, 0);
+    const float samples = at(registers_.input(step, 4), 0, 0);
     const size_t otherwise = step.target;
     if (!(samples >= 1)) return steps[otherwise].target + 1;
     masks_.enter_loop();
@@ -246,19 +246,19 @@ size_t Run::next_gather(const std::vector<Step>& steps, size_t at_step) {
 }
 
 const float* Run::P_data() const {
-    const rsl::RegisterId* P = frame_.program().find_global("P");
-    return P ? frame_.operand(*P).data : nullptr;
+    const rsl::RegisterId* P = registers_.program().find_global("P");
+    return P ? registers_.operand(*P).data : nullptr;
 }
 
 /// Sets L in a light shader, from the light to the point, and lets the lanes run that its cone holds.
 size_t Run::enter_illuminate(const Step& step, size_t at_step) {
     const bool solar = step.op == Op::Solar;
     const size_t inputs = step.count - step.outputs;
-    const Operand& L = frame_.operands_of(step)[0];
+    const Operand& L = registers_.operands_of(step)[0];
     leave_light(step, L);
     float* lit = scratch(1);
     if (!solar && inputs > 2)
-        cone_mask(lanes(), L, frame_.input(step, 2), frame_.input(step, 3), varying(lit, lanes()));
+        cone_mask(lanes(), L, registers_.input(step, 2), registers_.input(step, 3), varying(lit, lanes()));
     else
         std::fill_n(lit, lanes(), lane_of(true));
     masks_.enter_if(lit);
@@ -274,9 +274,9 @@ size_t Run::enter_illuminate(const Step& step, size_t at_step) {
 void Run::leave_light(const Step& step, const Operand& L) {
     static constexpr int kTriples[] = {3, 3, 3};
     const std::span<const int> widths(kTriples);
-    const Operand& first = frame_.input(step, 0);
+    const Operand& first = registers_.input(step, 0);
     if (step.op != Op::Solar)
-        find_kernel(Op::Subtract, widths)(lanes(), std::array{L, first, frame_.input(step, 1)});
+        find_kernel(Op::Subtract, widths)(lanes(), std::array{L, first, registers_.input(step, 1)});
     else if (step.count - step.outputs == 1)
         find_kernel(Op::Negate, widths.first(2))(lanes(), std::array{L, first});
     else

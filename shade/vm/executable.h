@@ -48,7 +48,7 @@ struct Step {
     SourceLocation at;
 };
 
-/// Where a register is in a frame.
+/// Where a register is in the memory of Registers.
 struct Place {
     enum class Kind : uint8_t { Constant, Uniform, Varying, Text };
     Kind kind = Kind::Uniform;

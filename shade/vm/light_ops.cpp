@@ -28,7 +28,7 @@ template <class Add>
 void for_lights(Run& run, const Step& step, bool ambient, const Add& add) {
     Lights* lights = run.context().lights;
     if (!lights) return;
-    const Operand& P = run.frame().input(step, 0);
+    const Operand& P = run.registers().input(step, 0);
     for (size_t i = 0; i < lights->count(); ++i) {
         const Lights::Arriving& light = lights->arriving(i, P, run.is_lasting_P(P));
         if (light.ambient == ambient) add(light);

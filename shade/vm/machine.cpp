@@ -13,31 +13,31 @@ namespace trapeze::vm {
 
 using rsl::Op;
 
-/// What one run needs besides its frame, kept for the next at the same depth.
+/// What one run needs besides its registers, kept for the next at the same depth.
 struct Machine::Level {
     struct Free {
         void operator()(float* p) const { std::free(p); }
     };
     MaskStack masks;
-    std::vector<std::unique_ptr<float, Free>> blocks;  ///< scratch, each of `planes` planes or more
-    std::vector<size_t> block_floats;
+    std::vector<std::unique_ptr<float, Free>> scratch;  ///< one for each call of Run::scratch() in a step
+    std::vector<size_t> scratch_floats;                 ///< size of each; they only grow
 };
 
 Machine::Machine() = default;
 Machine::~Machine() = default;
 
-Frame& Machine::frame(const std::shared_ptr<const Executable>& executable, size_t copy) {
-    std::unique_ptr<Frame>& frame = frames_[{executable.get(), copy}];
-    if (!frame) frame = std::make_unique<Frame>(executable);
-    return *frame;
+Registers& Machine::registers(const std::shared_ptr<const Executable>& executable, size_t copy) {
+    std::unique_ptr<Registers>& registers = registers_[{executable.get(), copy}];
+    if (!registers) registers = std::make_unique<Registers>(executable);
+    return *registers;
 }
 
-void Machine::run(Frame& frame, const Context& context) {
-    Run(*this, frame, context).run(frame.executable().code());
+void Machine::run(Registers& registers, const Context& context) {
+    Run(*this, registers, context).run(registers.executable().code());
 }
 
-void Machine::run_initial(Frame& frame, size_t parameter, const Context& context) {
-    Run(*this, frame, context).run(frame.executable().initial(parameter));
+void Machine::run_initial(Registers& registers, size_t parameter, const Context& context) {
+    Run(*this, registers, context).run(registers.executable().initial(parameter));
 }
 
 namespace {
@@ -49,14 +49,14 @@ Machine::Level& level_at(std::vector<std::unique_ptr<Machine::Level>>& levels, s
 
 }  // namespace
 
-Run::Run(Machine& machine, Frame& frame, const Context& context)
+Run::Run(Machine& machine, Registers& registers, const Context& context)
     : machine_(machine),
-      frame_(frame),
+      registers_(registers),
       context_(context),
       level_(level_at(machine.levels_, machine.depth_)),
       masks_(level_.masks) {
     ++machine_.depth_;
-    masks_.start(frame.lanes());
+    masks_.start(registers.lanes());
 }
 
 Run::~Run() {
@@ -65,17 +65,17 @@ Run::~Run() {
 
 float* Run::scratch(size_t planes) {
     const size_t floats = planes * lanes();
-    if (scratch_used_ == level_.blocks.size()) {
-        level_.blocks.emplace_back();
-        level_.block_floats.push_back(0);
+    if (scratch_used_ == level_.scratch.size()) {
+        level_.scratch.emplace_back();
+        level_.scratch_floats.push_back(0);
     }
-    if (level_.block_floats[scratch_used_] < floats) {
-        level_.blocks[scratch_used_].reset(
+    if (level_.scratch_floats[scratch_used_] < floats) {
+        level_.scratch[scratch_used_].reset(
             static_cast<float*>(std::aligned_alloc(64, floats * sizeof(float))));
-        if (!level_.blocks[scratch_used_]) throw std::bad_alloc();
-        level_.block_floats[scratch_used_] = floats;
+        if (!level_.scratch[scratch_used_]) throw std::bad_alloc();
+        level_.scratch_floats[scratch_used_] = floats;
     }
-    return level_.blocks[scratch_used_++].get();
+    return level_.scratch[scratch_used_++].get();
 }
 
 void Run::warn(const Step& step, std::string text, std::string kind) {
@@ -102,7 +102,7 @@ void Run::call(const Step& step, std::span<const Operand> operands, size_t count
 }
 
 void Run::plain(const Step& step) {
-    const std::span<const Operand> operands = frame_.operands_of(step);
+    const std::span<const Operand> operands = registers_.operands_of(step);
     scratch_used_ = 0;
     if (step.masked && !masks_.all()) {
         if (masks_.none()) return;
@@ -124,14 +124,14 @@ void Run::through_scratch(const Step& step, std::span<const Operand> operands) {
     }
     std::copy(operands.begin(), operands.end(), redirected.begin());
     for (size_t k = 0; k < step.outputs; ++k) {
-        const uint32_t planes = frame_.executable().places()[frame_.register_of(step, k)].planes;
+        const uint32_t planes = registers_.executable().places()[registers_.register_of(step, k)].planes;
         if (!planes) continue;  // a text
         redirected[k].data = scratch(planes);
         if (rsl::keeps_output(step.op)) copy_planes(operands[k], planes, redirected[k].data);
     }
     call(step, redirected, step.varying ? lanes() : kLanes);
     for (size_t k = 0; k < step.outputs; ++k) {
-        const uint32_t planes = frame_.executable().places()[frame_.register_of(step, k)].planes;
+        const uint32_t planes = registers_.executable().places()[registers_.register_of(step, k)].planes;
         if (planes) copy_running(step.masked && !masks_.all(), redirected[k].data, planes, operands[k]);
     }
 }

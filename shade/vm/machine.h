@@ -8,41 +8,41 @@
 #include <vector>
 
 #include "shade/vm/context.h"
-#include "shade/vm/frame.h"
 #include "shade/vm/mask_stack.h"
+#include "shade/vm/registers.h"
 
 namespace trapeze::vm {
 
-/// A thread's memory: frames of the programs it runs, and scratch planes. One run may start another (a
+/// A thread's memory: registers of the programs it runs, and scratch planes. One run may start another (a
 /// surface its lights); each has masks and scratch of its own.
 class Machine {
   public:
     Machine();
     ~Machine();
 
-    /// The thread's frame of an executable, number `copy` of those in use together.
-    Frame& frame(const std::shared_ptr<const Executable>& executable, size_t copy = 0);
+    /// The thread's registers of an executable, number `copy` of those in use together.
+    Registers& registers(const std::shared_ptr<const Executable>& executable, size_t copy = 0);
 
     struct Level;
 
-    /// Runs the program's code. The frame has been started, and its parameters and variables set.
-    void run(Frame& frame, const Context& context);
+    /// Runs the program's code. The registers have been started, and its parameters and variables set.
+    void run(Registers& registers, const Context& context);
     /// Computes a parameter's default.
-    void run_initial(Frame& frame, size_t parameter, const Context& context);
+    void run_initial(Registers& registers, size_t parameter, const Context& context);
 
   private:
     friend class Run;
-    struct FrameKey {
+    struct RegistersKey {
         const Executable* executable;
         size_t copy;
-        bool operator==(const FrameKey&) const = default;
+        bool operator==(const RegistersKey&) const = default;
     };
-    struct FrameKeyHash {
-        size_t operator()(const FrameKey& key) const {
+    struct RegistersKeyHash {
+        size_t operator()(const RegistersKey& key) const {
             return std::hash<const void*>()(key.executable) + key.copy * 0x9e3779b97f4a7c15u;
         }
     };
-    std::unordered_map<FrameKey, std::unique_ptr<Frame>, FrameKeyHash> frames_;
+    std::unordered_map<RegistersKey, std::unique_ptr<Registers>, RegistersKeyHash> registers_;
     std::vector<std::unique_ptr<Level>> levels_;
     size_t depth_ = 0;
 };
@@ -50,7 +50,7 @@ class Machine {
 /// One run, as the operations that ask their context see it.
 class Run {
   public:
-    Run(Machine& machine, Frame& frame, const Context& context);
+    Run(Machine& machine, Registers& registers, const Context& context);
     ~Run();
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
@@ -58,16 +58,16 @@ class Run {
     void run(const std::vector<Step>& steps);
 
     Machine& machine() { return machine_; }
-    Frame& frame() { return frame_; }
+    Registers& registers() { return registers_; }
     const Context& context() const { return context_; }
     MaskStack& masks() { return masks_; }
     /// In an illuminance block: the number of the light.
     size_t current_light() const { return current_light_; }
     /// Whether an operand is the predefined P, which this program never sets.
     bool is_lasting_P(const Operand& operand) const {
-        return operand.data == P_data() && frame_.executable().keeps_P();
+        return operand.data == P_data() && registers_.executable().keeps_P();
     }
-    size_t lanes() const { return frame_.lanes(); }
+    size_t lanes() const { return registers_.lanes(); }
     /// Planes of lanes() floats in a row; given back when the step is done. Contents are undefined.
     float* scratch(size_t planes);
 
@@ -102,7 +102,7 @@ class Run {
     void leave_light(const Step& step, const Operand& L);
 
     Machine& machine_;
-    Frame& frame_;
+    Registers& registers_;
     const Context& context_;
     Machine::Level& level_;
     MaskStack& masks_;

@@ -8,21 +8,21 @@ using rsl::Op;
 
 /// Outputs: found (1 or 0), the value, which is kept when there is none; input: the name.
 void ask(Run& run, const Step& step, std::span<const Operand> operands) {
-    Frame& frame = run.frame();
-    const rsl::RegisterId value = frame.register_of(step, 1);
-    const rsl::Type type = frame.reg(value).type;
+    Registers& registers = run.registers();
+    const rsl::RegisterId value = registers.register_of(step, 1);
+    const rsl::Type type = registers.reg(value).type;
     bool found = false;
     if (run.context().messages)
-        found = run.context().messages->find(step.op, frame.text_input(step, 0), type, operands[1],
-                                             type.base == rsl::Base::String ? &frame.text(value) : nullptr,
-                                             run.current_light());
+        found = run.context().messages->find(
+            step.op, registers.text_input(step, 0), type, operands[1],
+            type.base == rsl::Base::String ? &registers.text(value) : nullptr, run.current_light());
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
 }
 
 void shader_name(Run& run, const Step& step, std::span<const Operand>) {
-    Frame& frame = run.frame();
-    const std::string kind = step.count > step.outputs ? frame.text_input(step, 0) : std::string();
-    frame.text(frame.register_of(step, 0)) =
+    Registers& registers = run.registers();
+    const std::string kind = step.count > step.outputs ? registers.text_input(step, 0) : std::string();
+    registers.text(registers.register_of(step, 0)) =
         run.context().messages ? run.context().messages->shader_name(kind) : std::string();
 }
 

@@ -11,7 +11,7 @@ namespace {
 using rsl::Op;
 
 void space_matrix(Run& run, const Step& step, std::span<const Operand> operands) {
-    const std::string &from = run.frame().text_input(step, 0), &to = run.frame().text_input(step, 1);
+    const std::string &from = run.registers().text_input(step, 0), &to = run.registers().text_input(step, 1);
     std::optional<M44f> matrix;
     if (run.context().spaces) matrix = run.context().spaces->matrix(from, to);
     if (!matrix) {
@@ -25,7 +25,7 @@ void space_matrix(Run& run, const Step& step, std::span<const Operand> operands)
 }
 
 void convert_color(Run& run, const Step& step, std::span<const Operand> operands) {
-    const std::string &from = run.frame().text_input(step, 0), &to = run.frame().text_input(step, 1);
+    const std::string &from = run.registers().text_input(step, 0), &to = run.registers().text_input(step, 1);
     Kernel kernel = find_color_conversion(from, to);
     if (!kernel) {
         run.warn(
@@ -40,7 +40,7 @@ void convert_color(Run& run, const Step& step, std::span<const Operand> operands
 
 /// spline() with a basis; without one it is a kernel.
 void spline(Run& run, const Step& step, std::span<const Operand> operands) {
-    const std::string& name = run.frame().text_input(step, 0);
+    const std::string& name = run.registers().text_input(step, 0);
     std::optional<SplineBasis> basis = spline_basis(name);
     if (!basis) {
         run.warn(step, fmt::format("there is no spline basis \"{}\"; catmull-rom is used", name),
@@ -49,7 +49,7 @@ void spline(Run& run, const Step& step, std::span<const Operand> operands) {
     }
     std::vector<Operand> others(operands.begin(), operands.end());
     others.erase(others.begin() + step.outputs);
-    const int width = rsl::width_of(run.frame().reg(run.frame().register_of(step, 0)).type.base);
+    const int width = rsl::width_of(run.registers().reg(run.registers().register_of(step, 0)).type.base);
     if (const Kernel kernel = find_spline_kernel(*basis, width))
         kernel(step.varying ? run.lanes() : kLanes, others);
 }

@@ -10,12 +10,12 @@ namespace {
 using rsl::Op;
 
 GridSpans spans_of(const Run& run) {
-    const Points* points = run.context().points;
-    return points ? GridSpans(points->spans) : GridSpans();
+    const Batch* batch = run.context().batch;
+    return batch ? GridSpans(batch->spans) : GridSpans();
 }
 
 int width_of_output(Run& run, const Step& step) {
-    return rsl::width_of(run.frame().reg(run.frame().register_of(step, 0)).type.base);
+    return rsl::width_of(run.registers().reg(run.registers().register_of(step, 0)).type.base);
 }
 
 /// What is the same at all vertices does not change from one to the next.
@@ -63,14 +63,15 @@ void filter_width(Run& run, const Operand& x, const Operand& out) {
 /// edge, x [, x2] [, name, value, ...]; of the named ones, "width" counts.
 void filtered_step(Run& run, const Step& step, std::span<const Operand> operands) {
     const auto is_text = [&](size_t i) {
-        return run.frame().reg(run.frame().register_of(step, i)).type.base == rsl::Base::String;
+        return run.registers().reg(run.registers().register_of(step, i)).type.base == rsl::Base::String;
     };
     const size_t lanes = operands[0].lane_mask ? run.lanes() : kLanes;
     if (step.count > 3 && !is_text(3))
         return filter_step_between(lanes, operands[1], operands[2], operands[3], operands[0]);
     float scale = 1;
     for (size_t i = 3; i + 1 < step.count; i += 2)
-        if (is_text(i) && !is_text(i + 1) && run.frame().text(run.frame().register_of(step, i)) == "width")
+        if (is_text(i) && !is_text(i + 1) &&
+            run.registers().text(run.registers().register_of(step, i)) == "width")
             scale = operands[i + 1].data[0];
     Operand widths;
     widths.data = run.scratch(1);

@@ -9,8 +9,8 @@ namespace {
 void random(Run& run, const Step& step, std::span<const Operand> operands) {
     float* seeds = run.scratch(1);
     std::memset(seeds, 0, run.lanes() * sizeof(float));
-    if (const Points* points = run.context().points)
-        for (const GridSpan& span : points->spans)
+    if (const Batch* batch = run.context().batch)
+        for (const GridSpan& span : batch->spans)
             for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i) {
                 const uint32_t word = hash(static_cast<uint32_t>(span.seed),
                                            static_cast<uint32_t>(span.seed >> 32), static_cast<uint32_t>(i));

@@ -33,32 +33,32 @@ class ShaderRun {
                                  &scene_.scene.primitives[0]);
         const BoundShader bound(executable_, instance_, spaces, &scene_.diagnostics);
         const ShadingGrid* grids[] = {&grid_};
-        points_ = points_of(grids);
-        frame_ = &machine_.frame(executable_);
-        frame_->start(points_.lanes);
-        bound.set_parameters(*frame_, grids);
+        batch_ = batch_of(grids);
+        registers_ = &machine_.registers(executable_);
+        registers_->start(batch_.lanes);
+        bound.set_parameters(*registers_, grids);
         GridFootprints footprints(grids, scene_.context.camera);
-        set_variables(*frame_, grids, scene_.context, footprints, false);
+        set_variables(*registers_, grids, scene_.context, footprints, false);
         context.footprints = &footprints;
-        context.points = &points_;
+        context.batch = &batch_;
         context.spaces = &spaces;
         context.diagnostics = &scene_.diagnostics;
-        bound.set_run_defaults(machine_, *frame_, context, grids);
-        machine_.run(*frame_, context);
+        bound.set_run_defaults(machine_, *registers_, context, grids);
+        machine_.run(*registers_, context);
     }
 
     size_t vertices() const { return grid_.vertex_count(); }
     /// An output parameter's component at a vertex.
     float at(const std::string& name, size_t vertex, int component = 0, size_t element = 0) const {
-        const Operand& operand = frame_->operand(id(name));
+        const Operand& operand = registers_->operand(id(name));
         return operand.data[element * operand.element_stride +
                             static_cast<size_t>(component) * operand.stride + (vertex & operand.lane_mask)];
     }
-    const std::string& text(const std::string& name) const { return frame_->text(id(name)); }
-    bool is_varying(const std::string& name) const { return frame_->reg(id(name)).varying; }
+    const std::string& text(const std::string& name) const { return registers_->text(id(name)); }
+    bool is_varying(const std::string& name) const { return registers_->reg(id(name)).varying; }
     const rsl::Program& program() const { return executable_->program(); }
     Machine& machine() { return machine_; }
-    Frame& frame() { return *frame_; }
+    Registers& registers() { return *registers_; }
     std::string messages() const {
         std::string all;
         for (const Diagnostic& d : scene_.reported) all += to_string(d) + "\n";
@@ -77,9 +77,9 @@ class ShaderRun {
     ShaderInstance instance_;
     ShadingGrid grid_;
     std::shared_ptr<const Executable> executable_;
-    Points points_;
+    Batch batch_;
     Machine machine_;
-    Frame* frame_ = nullptr;
+    Registers* registers_ = nullptr;
 };
 
 /// Runs `body` in a surface with output parameter `float r`, with and without the optimiser, and hands the

@@ -13,58 +13,59 @@ using rsl::Op;
 
 size_t element_of(Run& run, const Step& step, size_t index_operand, int length) {
     const size_t i = index_operand;
-    const float index = run.frame().operand(run.frame().register_of(step, i)).data[0];
+    const float index = run.registers().operand(run.registers().register_of(step, i)).data[0];
     const float last = static_cast<float>(std::max(length, 1) - 1);
     return static_cast<size_t>(index > 0 ? std::min(std::floor(index), last) : 0);
 }
 
 void move_text(Run& run, const Step& step, std::span<const Operand>) {
-    run.frame().text(run.frame().register_of(step, 0)) = run.frame().text_input(step, 0);
+    run.registers().text(run.registers().register_of(step, 0)) = run.registers().text_input(step, 0);
 }
 
 void text_element(Run& run, const Step& step, std::span<const Operand>) {
-    Frame& frame = run.frame();
-    const rsl::RegisterId array = frame.register_of(step, 1);
-    frame.text(frame.register_of(step, 0)) =
-        frame.text(array, element_of(run, step, 2, frame.reg(array).type.length));
+    Registers& registers = run.registers();
+    const rsl::RegisterId array = registers.register_of(step, 1);
+    registers.text(registers.register_of(step, 0)) =
+        registers.text(array, element_of(run, step, 2, registers.reg(array).type.length));
 }
 
 void set_text_element(Run& run, const Step& step, std::span<const Operand>) {
-    Frame& frame = run.frame();
-    const rsl::RegisterId array = frame.register_of(step, 0);
-    frame.text(array, element_of(run, step, 1, frame.reg(array).type.length)) =
-        frame.text(frame.register_of(step, 2));
+    Registers& registers = run.registers();
+    const rsl::RegisterId array = registers.register_of(step, 0);
+    registers.text(array, element_of(run, step, 1, registers.reg(array).type.length)) =
+        registers.text(registers.register_of(step, 2));
 }
 
 void clear_texts(Run& run, const Step& step, std::span<const Operand>) {
-    Frame& frame = run.frame();
-    const rsl::RegisterId array = frame.register_of(step, 0);
-    for (int i = 0; i < frame.reg(array).type.length; ++i) frame.text(array, static_cast<size_t>(i)).clear();
+    Registers& registers = run.registers();
+    const rsl::RegisterId array = registers.register_of(step, 0);
+    for (int i = 0; i < registers.reg(array).type.length; ++i)
+        registers.text(array, static_cast<size_t>(i)).clear();
 }
 
 void equal_texts(Run& run, const Step& step, std::span<const Operand> operands) {
-    const bool equal = run.frame().text_input(step, 0) == run.frame().text_input(step, 1);
+    const bool equal = run.registers().text_input(step, 0) == run.registers().text_input(step, 1);
     fill_bool(run, operands[0], equal == (step.op == Op::Equal));
 }
 
 void concat(Run& run, const Step& step, std::span<const Operand>) {
     constexpr size_t kMaxText = 1 << 16;  // a loop must not grow it without end
     std::string joined;
-    for (size_t i = 0; i + step.outputs < step.count; ++i) joined += run.frame().text_input(step, i);
+    for (size_t i = 0; i + step.outputs < step.count; ++i) joined += run.registers().text_input(step, i);
     if (joined.size() > kMaxText) joined.resize(kMaxText);
-    run.frame().text(run.frame().register_of(step, 0)) = std::move(joined);
+    run.registers().text(run.registers().register_of(step, 0)) = std::move(joined);
 }
 
 std::vector<TextValue> values_at(Run& run, const Step& step, std::span<const Operand> operands, size_t lane) {
-    Frame& frame = run.frame();
+    Registers& registers = run.registers();
     std::vector<TextValue> values;
     for (size_t i = step.outputs + 1u; i < step.count; ++i) {
-        const rsl::RegisterId id = frame.register_of(step, i);
+        const rsl::RegisterId id = registers.register_of(step, i);
         TextValue& value = values.emplace_back();
-        const rsl::Type type = frame.reg(id).type;
+        const rsl::Type type = registers.reg(id).type;
         if (type.base == rsl::Base::String) {
             value.is_text = true;
-            value.text = frame.text(id);
+            value.text = registers.text(id);
         } else if (type.base == rsl::Base::Bool) {
             value.floats.push_back(Run::at(operands[i], 0, lane) != 0 ? 1.0f : 0.0f);
         } else {
@@ -76,8 +77,8 @@ std::vector<TextValue> values_at(Run& run, const Step& step, std::span<const Ope
 }
 
 void format_op(Run& run, const Step& step, std::span<const Operand> operands) {
-    run.frame().text(run.frame().register_of(step, 0)) =
-        format_text(run.frame().text_input(step, 0), values_at(run, step, operands, 0));
+    run.registers().text(run.registers().register_of(step, 0)) =
+        format_text(run.registers().text_input(step, 0), values_at(run, step, operands, 0));
 }
 
 /// printf() speaks for each vertex when its values differ from one to the other.
@@ -86,15 +87,16 @@ void print(Run& run, const Step& step, std::span<const Operand> operands) {
     if (!diagnostics || run.masks().none()) return;
     bool varying = false;
     for (size_t i = step.outputs + 1u; i < step.count; ++i)
-        varying = varying || run.frame().reg(run.frame().register_of(step, i)).varying;
-    const size_t vertices = run.context().points ? run.context().points->vertices : 1;
+        varying = varying || run.registers().reg(run.registers().register_of(step, i)).varying;
+    const size_t vertices = run.context().batch ? run.context().batch->vertices : 1;
     const uint32_t* running = run.masks().current();
     for (size_t lane = 0; lane < vertices; ++lane) {
         if (!running[lane]) continue;
         if (!run.may_print())
             return run.warn(step, "printf() has said enough: the rest of this grid's is left out",
                             "rsl-printed-too-much");
-        std::string text = format_text(run.frame().text_input(step, 0), values_at(run, step, operands, lane));
+        std::string text =
+            format_text(run.registers().text_input(step, 0), values_at(run, step, operands, lane));
         while (!text.empty() && text.back() == '\n') text.pop_back();
         diagnostics->note(step.at, std::move(text));
         if (!varying) return;
@@ -102,7 +104,7 @@ void print(Run& run, const Step& step, std::span<const Operand> operands) {
 }
 
 void match(Run& run, const Step& step, std::span<const Operand> operands) {
-    const bool found = matches(run.frame().text_input(step, 0), run.frame().text_input(step, 1));
+    const bool found = matches(run.registers().text_input(step, 0), run.registers().text_input(step, 1));
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
 }
 

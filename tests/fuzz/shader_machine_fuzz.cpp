@@ -96,12 +96,12 @@ class Side {
 
     bool fits() const { return executable_->varying_planes() < kMostPlanes; }
     const rsl::Program& program() const { return executable_->program(); }
-    Frame& frame() { return machine_.frame(executable_); }
+    Registers& registers() { return machine_.registers(executable_); }
 
     /// False when loops took too long.
     bool run() {
         Diagnostics diagnostics([](const Diagnostic&) {});
-        frame().start(kLanes);
+        registers().start(kLanes);
         Context context;
         const AnySpaces spaces;
         context.spaces = &spaces;
@@ -109,20 +109,20 @@ class Side {
         for (size_t i = 0; i < program().parameters.size(); ++i) {
             // As if defaults could name variables that are not there yet.
             set_variables();
-            machine_.run_initial(frame(), i, context);
+            machine_.run_initial(registers(), i, context);
         }
         set_variables();
-        Points points{static_cast<size_t>(kShape.vertex_count()), kLanes, {{0, kShape, false, 1}}};
+        Batch batch{static_cast<size_t>(kShape.vertex_count()), kLanes, {{0, kShape, false, 1}}};
         ThreeLights lights;
         AnyMessages messages;
         std::vector<float> L(3 * kLanes);
         std::vector<uint32_t> lit(kLanes);
         LightOutput output{L.data(), lit.data()};
-        context.points = &points;
+        context.batch = &batch;
         context.lights = &lights;
         context.messages = &messages;
         if (program().kind == rsl::ShaderKind::Light) context.light_output = &output;
-        machine_.run(frame(), context);
+        machine_.run(registers(), context);
         return diagnostics.count(Severity::Error) == 0;
     }
 
@@ -130,7 +130,7 @@ class Side {
     void set_variables() {
         for (const rsl::RegisterId id : program().globals) {
             const rsl::Register& r = program().reg(id);
-            const Operand& operand = frame().operand(id);
+            const Operand& operand = registers().operand(id);
             for (int k = 0; k < rsl::width_of(r.type.base); ++k)
                 for (size_t i = 0; i < kLanes; ++i)
                     operand.data[static_cast<size_t>(k) * operand.stride + i] =
@@ -151,10 +151,10 @@ bool same_register(Side& a, Side& b, rsl::RegisterId id_a, rsl::RegisterId id_b)
     const size_t elements = static_cast<size_t>(std::max(type.length, 1));
     if (type.base == rsl::Base::String) {
         for (size_t e = 0; e < elements; ++e)
-            if (a.frame().text(id_a, e) != b.frame().text(id_b, e)) return false;
+            if (a.registers().text(id_a, e) != b.registers().text(id_b, e)) return false;
         return true;
     }
-    const Operand &left = a.frame().operand(id_a), &right = b.frame().operand(id_b);
+    const Operand &left = a.registers().operand(id_a), &right = b.registers().operand(id_b);
     const auto at = [](const Operand& operand, size_t e, size_t k, size_t lane) {
         return operand.data[e * operand.element_stride + k * operand.stride + (lane & operand.lane_mask)];
     };

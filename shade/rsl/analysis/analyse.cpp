@@ -4,7 +4,7 @@
 
 #include "shade/rsl/analysis/analysis.h"
 #include "shade/rsl/analysis/globals.h"
-#include "shade/rsl/analysis/storage.h"
+#include "shade/rsl/analysis/propagate_varying.h"
 #include "shade/rsl/analysis/suggestions.h"
 #include "shade/rsl/syntax/clone.h"
 #include "shade/rsl/syntax/parser.h"
@@ -34,8 +34,8 @@ void replace_variable(Statement& s, const Variable* old, Variable* now) {
 
 }  // namespace
 
-void analyse(TranslationUnit& unit, Messages& messages) {
-    Analyser(unit, messages).run();
+void analyse(TranslationUnit& unit, Reporter& reporter) {
+    Analyser(unit, reporter).run();
 }
 
 void Analyser::run() {
@@ -48,7 +48,7 @@ void Analyser::run() {
     }
     std::set<std::string_view> names;
     for (const auto& shader : unit_.shaders) {
-        if (messages_.full()) return;
+        if (reporter_.full()) return;
         if (!names.insert(shader->name).second)
             error(shader->at, "there are two shaders " + in_quotes(shader->name) + " in this file");
         analyse_shader(*shader);
@@ -67,8 +67,8 @@ void Analyser::analyse_shader(Shader& shader) {
     warned_.clear();
     unavailable_.clear();
     scopes_.clear();
-    frames_.clear();
-    frames_.emplace_back();
+    bodies_.clear();
+    bodies_.emplace_back();
     scopes_.emplace_back();
     for (const auto& parameter : shader.parameters) {
         check_array(*parameter);
@@ -78,20 +78,20 @@ void Analyser::analyse_shader(Shader& shader) {
         declare(*parameter);
     }
     statement(shader.body);
-    if (frame().operations > kMostInlined)
+    if (body().operations > kMostInlined)
         error(shader.at, "this shader is too large once its functions are put in place of their calls");
-    if (frame().array_floats > kMostArrayFloatsTogether)
+    if (body().array_floats > kMostArrayFloatsTogether)
         error(shader.at, "the arrays of this shader are too large together");
     std::vector<Function*> functions;
     for (Instance& instance : instances_)
         if (instance.complete) functions.push_back(instance.function.get());
-    if (!messages_.failed()) infer_storage(shader, functions, messages_);
+    if (!reporter_.failed()) propagate_varying(shader, functions, reporter_);
     for (Instance& instance : instances_) kept_.push_back(std::move(instance.function));
 }
 
 /// A copy of the function for this shader, analysed; null after an error that concerns the call.
 Analyser::Instance* Analyser::instance_of(const Function& original, bool nested, SourceLocation at) {
-    if (depth_ + frame().depth + height_ > kDeepestInlined) {
+    if (depth_ + body().depth + height_ > kDeepestInlined) {
         error(at, "functions that call functions nest too deeply here");
         return nullptr;
     }
@@ -117,18 +117,18 @@ Analyser::Instance* Analyser::instance_of(const Function& original, bool nested,
     auto choices = std::move(choices_);
     const Expression* channel = std::exchange(channel_, nullptr);
     const int height = std::exchange(height_, 0);
-    const int entered = frame().depth + height;
+    const int entered = body().depth + height;
     depth_ += entered;
     choices_.clear();
 
-    Frame& inner = frames_.emplace_back();
+    Body& inner = bodies_.emplace_back();
     inner.instance = &instance;
     inner.nested = nested;
     inner.first_scope = scopes_.size();
     analyse_body(*instance.function);
     finish_instance(instance);
     scopes_.resize(inner.first_scope);
-    frames_.pop_back();
+    bodies_.pop_back();
 
     depth_ -= entered;
     choices_ = std::move(choices);
@@ -142,24 +142,24 @@ void Analyser::analyse_body(Function& function) {
     for (const auto& parameter : function.parameters) {
         if (parameter->external) error(parameter->at, "a function's parameter cannot be extern");
         if (parameter->initial) {
-            messages_.warning(parameter->at, "default values of functions' parameters are ignored");
+            reporter_.warning(parameter->at, "default values of functions' parameters are ignored");
             parameter->initial.reset();
         }
         if (parameter->type.length > 0) check_array(*parameter);
         declare(*parameter);
     }
     statement(function.body);
-    if (function.result.base != Base::Void && !frame().returns)
-        messages_.warning(function.at,
+    if (function.result.base != Base::Void && !body().returns)
+        reporter_.warning(function.at,
                           "function " + in_quotes(function.name) + " never returns a value: it is 0");
 }
 
 void Analyser::finish_instance(Instance& instance) {
     copy_written_parameters(*instance.function);
-    copied_ += frame().own_operations;
-    instance.operations = std::min<uint64_t>(frame().operations, uint64_t{kMostInlined} * 2);
-    instance.array_floats = std::min<uint64_t>(frame().array_floats, uint64_t{kMostArrayFloatsTogether} * 2);
-    instance.depth = frame().deepest;
+    copied_ += body().own_operations;
+    instance.operations = std::min<uint64_t>(body().operations, uint64_t{kMostInlined} * 2);
+    instance.array_floats = std::min<uint64_t>(body().array_floats, uint64_t{kMostArrayFloatsTogether} * 2);
+    instance.depth = body().deepest;
     instance.complete = true;
 }
 
@@ -167,7 +167,7 @@ void Analyser::finish_instance(Instance& instance) {
 /// function does to others happens to a local of the same name.
 void Analyser::copy_written_parameters(Function& function) {
     for (const auto& parameter : function.parameters) {
-        if (!frame().written_parameters.contains(parameter.get())) continue;
+        if (!body().written_parameters.contains(parameter.get())) continue;
         auto local = std::make_unique<Variable>();
         local->name = parameter->name;
         local->type = parameter->type;
@@ -196,7 +196,7 @@ void Analyser::copy_written_parameters(Function& function) {
 void Analyser::declare(Variable& variable) {
     Variable*& known = scopes_.back().variables[variable.name];
     if (known && variable.kind == Variable::Kind::Local && known->kind == Variable::Kind::Local)
-        messages_.warning(variable.at,
+        reporter_.warning(variable.at,
                           in_quotes(variable.name) + " is declared twice: this one hides the other");
     else if (known)
         error(variable.at, in_quotes(variable.name) + " is declared twice");
@@ -221,7 +221,7 @@ void Analyser::check_array(Variable& variable) {
         error(variable.at, "array " + in_quotes(variable.name) + " is too large: " + std::to_string(floats) +
                                " floats, at most " + std::to_string(kMostArrayFloats));
     else if (variable.kind != Variable::Kind::FunctionParameter)
-        frame().array_floats += floats;
+        body().array_floats += floats;
 }
 
 void Analyser::initial_value(Variable& variable) {
@@ -263,7 +263,7 @@ void Analyser::value_of_array(Variable& variable) {
 /// Makes a name of outside known in this scope; false, after a report, when there is none.
 bool Analyser::bind_external(const Variable& variable) {
     Variable* found =
-        frames_.size() == 1 ? find_variable(variable.name) : find_outside(variable.name, frames_.size() - 1);
+        bodies_.size() == 1 ? find_variable(variable.name) : find_outside(variable.name, bodies_.size() - 1);
     if (!found) found = global(variable.name);
     if (!found) {
         Suggestion suggestion(variable.name);
@@ -284,7 +284,7 @@ bool Analyser::bind_external(const Variable& variable) {
 }
 
 Variable* Analyser::find_variable(std::string_view name) {
-    for (size_t i = scopes_.size(); i-- > frame().first_scope;) {
+    for (size_t i = scopes_.size(); i-- > body().first_scope;) {
         const auto entry = scopes_[i].variables.find(name);
         if (entry != scopes_[i].variables.end()) return entry->second;
     }
@@ -293,9 +293,9 @@ Variable* Analyser::find_variable(std::string_view name) {
 
 /// Of a nested function, what encloses it; of another, the shader's parameters and outermost variables.
 Variable* Analyser::find_outside(std::string_view name, size_t number) {
-    const Frame& inner = frames_[number];
+    const Body& inner = bodies_[number];
     if (number == 0) return nullptr;
-    const size_t first = inner.nested ? frames_[number - 1].first_scope : 0;
+    const size_t first = inner.nested ? bodies_[number - 1].first_scope : 0;
     const size_t last = inner.nested ? inner.first_scope : std::min<size_t>(2, inner.first_scope);
     for (size_t i = last; i-- > first;) {
         const auto entry = scopes_[i].variables.find(name);
@@ -322,13 +322,13 @@ Variable* Analyser::global(std::string_view name) {
 }
 
 void Analyser::unknown_variable(const Expression& e) {
-    if (frames_.size() > 1 && find_outside(e.text, frames_.size() - 1)) {
+    if (bodies_.size() > 1 && find_outside(e.text, bodies_.size() - 1)) {
         error(e.at,
               in_quotes(e.text) + " is a variable of the shader: functions name those as \"extern\" first");
         return;
     }
     Suggestion suggestion(e.text);
-    for (size_t i = scopes_.size(); i-- > frame().first_scope;)
+    for (size_t i = scopes_.size(); i-- > body().first_scope;)
         for (const auto& [name, variable] : scopes_[i].variables) suggestion.consider(name);
     for (const GlobalVariable& row : global_variables(shader_->kind)) suggestion.consider(row.name);
     std::string where;

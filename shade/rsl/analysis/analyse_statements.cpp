@@ -10,9 +10,9 @@ namespace trapeze::rsl {
 void Analyser::value(ExpressionPtr& e, Base wanted) {
     choices_.clear();
     height_ = e->height;
-    frame().deepest = std::max(frame().deepest, frame().depth + e->height);
-    examine(*e);
-    settle(e, wanted);
+    body().deepest = std::max(body().deepest, body().depth + e->height);
+    possible_types(*e);
+    choose_type(e, wanted);
     choices_.clear();
     height_ = 0;
 }
@@ -56,10 +56,10 @@ void Analyser::declare_again(StatementPtr& s) {
 }
 
 void Analyser::statement(StatementPtr& s) {
-    if (messages_.full()) return;
-    ++frame().operations;
-    ++frame().own_operations;
-    ++frame().depth;
+    if (reporter_.full()) return;
+    ++body().operations;
+    ++body().own_operations;
+    ++body().depth;
     switch (s->kind) {
         case Statement::Kind::Block:
             block(*s);
@@ -99,7 +99,7 @@ void Analyser::statement(StatementPtr& s) {
                     s->defines = instance->function.get();
             break;
     }
-    --frame().depth;
+    --body().depth;
 }
 
 void Analyser::block(Statement& s) {
@@ -129,9 +129,9 @@ void Analyser::loop(Statement& s) {
         const bool is_condition = s.kind == Statement::Kind::While || i == 1;
         if (s.expressions[i]) value(s.expressions[i], is_condition ? Base::Bool : Base::Void);
     }
-    ++frame().loops;
+    ++body().loops;
     scoped(s.children[0]);
-    --frame().loops;
+    --body().loops;
 }
 
 /// "name", value, ... behind the arguments of a loop over lights or of a light's block.
@@ -139,7 +139,7 @@ void Analyser::ignore_options(Statement& s, const std::string& word) {
     const size_t given = s.expressions.size();
     for (size_t i = s.kind == Statement::Kind::Solar ? 0 : 1; i < given; ++i) {
         if (s.expressions[i]->kind != Expression::Kind::Text || (given - i) % 2 != 0) continue;
-        messages_.warning(s.expressions[i]->at, "optional arguments of " + word + " are ignored");
+        reporter_.warning(s.expressions[i]->at, "optional arguments of " + word + " are ignored");
         s.expressions.resize(i);
         return;
     }
@@ -163,7 +163,7 @@ void Analyser::light_loop(Statement& s) {
     if (illuminance && given > 0) {
         // The category is known by being a string.
         choices_.clear();
-        const Choices first = examine(*s.expressions[0]);
+        const Choices first = possible_types(*s.expressions[0]);
         choices_.clear();
         if (first.cost_to(Base::String) < Choices::kNever && !first.is_unknown())
             wanted.push_back(Base::String);
@@ -183,9 +183,9 @@ void Analyser::light_loop(Statement& s) {
     }
     global("L");
     global(illuminance ? "Cl" : "Ps");
-    frame().loops += illuminance ? 1 : 0;
+    body().loops += illuminance ? 1 : 0;
     scoped(s.children[0]);
-    frame().loops -= illuminance ? 1 : 0;
+    body().loops -= illuminance ? 1 : 0;
 }
 
 /// gather(category, P, direction, angle, samples, name, value, ...): what a name with a colon asks for is
@@ -208,23 +208,23 @@ void Analyser::gather(Statement& s) {
         else
             error(s.expressions[i]->at, "gather writes \"" + name.text + "\" to a variable");
     }
-    ++frame().loops;
+    ++body().loops;
     for (StatementPtr& child : s.children) scoped(child);
-    --frame().loops;
+    --body().loops;
 }
 
 void Analyser::jump(const Statement& s) {
     const std::string word = s.kind == Statement::Kind::Break ? "break" : "continue";
-    if (frame().loops == 0)
+    if (body().loops == 0)
         error(s.at, word + " stands outside of loops");
-    else if (s.levels > frame().loops)
+    else if (s.levels > body().loops)
         error(s.at, word + " " + std::to_string(s.levels) + " stands in only " +
-                        std::to_string(frame().loops) + (frame().loops == 1 ? " loop" : " loops"));
+                        std::to_string(body().loops) + (body().loops == 1 ? " loop" : " loops"));
 }
 
 void Analyser::return_statement(Statement& s) {
-    const Base result = frame().instance ? frame().instance->function->result.base : Base::Void;
-    frame().returns = frame().returns || !s.expressions.empty();
+    const Base result = body().instance ? body().instance->function->result.base : Base::Void;
+    body().returns = body().returns || !s.expressions.empty();
     if (s.expressions.empty()) {
         if (result != Base::Void) error(s.at, "a " + std::string(name_of(result)) + " is to be returned");
         return;
@@ -232,7 +232,7 @@ void Analyser::return_statement(Statement& s) {
     if (result != Base::Void) return value(s.expressions[0], result);
     value(s.expressions[0], Base::Void);
     error(s.at,
-          frame().instance ? "this function returns nothing: its type is void" : "a shader returns no value");
+          body().instance ? "this function returns nothing: its type is void" : "a shader returns no value");
 }
 
 }  // namespace trapeze::rsl

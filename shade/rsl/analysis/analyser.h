@@ -11,13 +11,13 @@
 #include "shade/rsl/analysis/conversions.h"
 #include "shade/rsl/analysis/signature.h"
 #include "shade/rsl/syntax/ast.h"
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 
 namespace trapeze::rsl {
 
 class Analyser {
   public:
-    Analyser(TranslationUnit& unit, Messages& messages) : unit_(unit), messages_(messages) {}
+    Analyser(TranslationUnit& unit, Reporter& reporter) : unit_(unit), reporter_(reporter) {}
     void run();
 
   private:
@@ -34,9 +34,9 @@ class Analyser {
         std::unordered_map<std::string_view, std::vector<Instance*>> functions;
     };
     /// A shader or a function whose body is analysed.
-    struct Frame {
+    struct Body {
         Instance* instance = nullptr;  ///< null: the shader
-        bool nested = false;           ///< a function defined within the frame below
+        bool nested = false;           ///< a function defined within the body below
         size_t first_scope = 0;
         int loops = 0;
         bool returns = false;
@@ -58,10 +58,10 @@ class Analyser {
     void check_array(Variable& variable);
     void initial_value(Variable& variable);
     Variable* find_variable(std::string_view name);
-    Variable* find_outside(std::string_view name, size_t frame);
+    Variable* find_outside(std::string_view name, size_t number);
     Variable* global(std::string_view name);
     void unknown_variable(const Expression& e);
-    Frame& frame() { return frames_.back(); }
+    Body& body() { return bodies_.back(); }
 
     // Statements.
     void statement(StatementPtr& s);
@@ -80,33 +80,33 @@ class Analyser {
     void value_of_array(Variable& variable);
 
     // What an expression can be.
-    Choices examine(Expression& e);
-    Choices examine_within(Expression& e);
-    Choices examine_once(Expression& e);
-    Choices examine_variable(Expression& e);
-    Choices examine_element(Expression& e);
-    Choices examine_binary(Expression& e);
-    Choices examine_conditional(Expression& e);
-    Choices examine_cast(Expression& e);
-    Choices examine_assignment(Expression& e);
-    Choices examine_component_assignment(Expression& e);
-    Choices examine_array_assignment(Expression& e);
-    Choices examine_tuple(Expression& e);
-    Choices examine_call(Expression& e);
+    Choices possible_types(Expression& e);
+    Choices possible_types_within(Expression& e);
+    Choices possible_types_once(Expression& e);
+    Choices variable_types(Expression& e);
+    Choices element_types(Expression& e);
+    Choices binary_types(Expression& e);
+    Choices conditional_types(Expression& e);
+    Choices cast_types(Expression& e);
+    Choices assignment_types(Expression& e);
+    Choices component_assignment_types(Expression& e);
+    Choices array_assignment_types(Expression& e);
+    Choices tuple_types(Expression& e);
+    Choices call_types(Expression& e);
     Choices choices_of(const Expression& e) const;
     bool is_component(const Expression& e) const;
     bool is_place(const Expression& e) const;
     void check_index(const Expression& element);
 
     // What it becomes.
-    void settle(ExpressionPtr& e, Base wanted);
-    void settle_as(Expression& e, Base base);
-    void settle_binary(Expression& e, Base base);
-    void settle_cast(Expression& e);
-    void settle_assignment(Expression& e);
-    void settle_array_assignment(Expression& e);
-    void settle_call(Expression& e, Base base);
-    void settle_argument(Expression& call, size_t i, const Signature& signature);
+    void choose_type(ExpressionPtr& e, Base wanted);
+    void give_type(Expression& e, Base base);
+    void choose_binary(Expression& e, Base base);
+    void choose_cast(Expression& e);
+    void choose_assignment(Expression& e);
+    void choose_array_assignment(Expression& e);
+    void choose_call(Expression& e, Base base);
+    void choose_argument(Expression& call, size_t i, const Signature& signature);
     void convert(ExpressionPtr& e, Base to);
     void check_written(const Expression& place);
 
@@ -120,10 +120,10 @@ class Analyser {
     void enter_function(Expression& call, const Function& original);
     void use_globals(const Expression& call);
 
-    void error(SourceLocation at, std::string text) { messages_.error(at, std::move(text)); }
+    void error(SourceLocation at, std::string text) { reporter_.error(at, std::move(text)); }
 
     TranslationUnit& unit_;
-    Messages& messages_;
+    Reporter& reporter_;
     std::unordered_map<std::string_view, std::vector<const Function*>> file_functions_;
     std::vector<std::unique_ptr<Function>> kept_;  ///< instances of shaders that are done
     uint64_t copied_ = 0;                          ///< operations in all instances
@@ -135,7 +135,7 @@ class Analyser {
     std::unordered_map<const Function*, Instance*> instance_of_copy_;
     std::map<std::string, Variable*, std::less<>> globals_;
     std::deque<Scope> scopes_;
-    std::deque<Frame> frames_;
+    std::deque<Body> bodies_;
     std::set<const Variable*> warned_;
     std::set<std::string_view> unavailable_;  ///< functions that were warned of
     int depth_ = 0;                           ///< of all frames together

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "shade/rsl/syntax/ast.h"
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 
 namespace trapeze::rsl {
 
-/// Completes the tree as ast.h says. Of use afterwards only when messages.failed() is false.
-void analyse(TranslationUnit& unit, Messages& messages);
+/// Completes the tree as ast.h says. Of use afterwards only when reporter.failed() is false.
+void analyse(TranslationUnit& unit, Reporter& reporter);
 
 }  // namespace trapeze::rsl

@@ -43,9 +43,9 @@ bool is_pair_name(const Signature& signature, size_t i) {
 /// All functions that the name may mean, those of the source first.
 std::vector<Signature> Analyser::candidates(const Expression& call) {
     std::vector<Signature> all;
-    for (size_t number = frames_.size();;) {  // nested ones, from the inside out
-        const Frame& at = frames_[--number];
-        const size_t last = number + 1 < frames_.size() ? frames_[number + 1].first_scope : scopes_.size();
+    for (size_t number = bodies_.size();;) {  // nested ones, from the inside out
+        const Body& at = bodies_[--number];
+        const size_t last = number + 1 < bodies_.size() ? bodies_[number + 1].first_scope : scopes_.size();
         for (size_t i = last; i-- > at.first_scope;)
             if (const auto entry = scopes_[i].functions.find(call.text); entry != scopes_[i].functions.end())
                 for (const Instance* instance : entry->second)
@@ -94,14 +94,14 @@ int Analyser::cost_of(const Signature& signature, const Expression& call) const 
     return std::min(cost, Choices::kNever - 1);
 }
 
-Choices Analyser::examine_call(Expression& e) {
+Choices Analyser::call_types(Expression& e) {
     const std::vector<Signature> all = candidates(e);
     // A texture's name may have a channel.
     const bool map = !all.empty() && all.back().builtin && is_map(*all.back().builtin);
     bool unknown = false;
     for (size_t i = 0; i < e.children.size(); ++i) {
         if (map && i == 0) channel_ = e.children[0].get();
-        unknown = examine_once(*e.children[i]).is_unknown() || unknown;
+        unknown = possible_types_once(*e.children[i]).is_unknown() || unknown;
     }
     if (all.empty()) {
         unknown_function(e);
@@ -154,7 +154,7 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
                 error(argument.at, which + "is written to, and must be a variable");
             else
                 error(argument.at, which + "is a " + is + ", a " + print(parameter->type) + " is wanted");
-            messages_.note(argument.at, print(signature));
+            reporter_.note(argument.at, print(signature));
             return;
         }
     }
@@ -164,9 +164,9 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
                  (argument->type.is_array() ? print(argument->type) : choices_of(*argument).text());
     error(call.at, "no " + call.text + " takes (" + given + ")");
     for (size_t i = 0; i < std::min(all.size(), kMostCandidatesShown); ++i)
-        messages_.note(call.at, "there is " + print(all[i]));
+        reporter_.note(call.at, "there is " + print(all[i]));
     if (all.size() > kMostCandidatesShown)
-        messages_.note(call.at, "and " + std::to_string(all.size() - kMostCandidatesShown) + " more");
+        reporter_.note(call.at, "and " + std::to_string(all.size() - kMostCandidatesShown) + " more");
 }
 
 void Analyser::unknown_function(const Expression& call) {
@@ -181,7 +181,7 @@ void Analyser::unknown_function(const Expression& call) {
     error(call.at, "there is no function " + name + suggestion.text());
 }
 
-void Analyser::settle_call(Expression& e, Base base) {
+void Analyser::choose_call(Expression& e, Base base) {
     const std::vector<Signature> all = candidates(e);
     const Signature* best = nullptr;
     int least = Choices::kNever;
@@ -193,25 +193,25 @@ void Analyser::settle_call(Expression& e, Base base) {
     if (!best) return;  // reported
     e.builtin = best->builtin;
     if (e.builtin && e.builtin->op == Op::Spline) lacks_knots(e);
-    for (size_t i = 0; i < e.children.size(); ++i) settle_argument(e, i, *best);
+    for (size_t i = 0; i < e.children.size(); ++i) choose_argument(e, i, *best);
     if (best->function)
         enter_function(e, *best->function);
     else
         use_globals(e);
     if (e.builtin && e.builtin->op == Op::Unavailable && unavailable_.insert(e.builtin->name).second)
-        messages_.warning(e.at,
+        reporter_.warning(e.at,
                           "function \"" + e.text + "\" of later renderers is not there, and does nothing");
 }
 
-void Analyser::settle_argument(Expression& call, size_t i, const Signature& signature) {
+void Analyser::choose_argument(Expression& call, size_t i, const Signature& signature) {
     ExpressionPtr& argument = call.children[i];
     const Signature::Parameter* parameter = parameter_at(signature, i);
-    if (!parameter) return settle(argument, is_pair_name(signature, i) ? Base::String : Base::Void);
+    if (!parameter) return choose_type(argument, is_pair_name(signature, i) ? Base::String : Base::Void);
     if (parameter->output) {
         check_written(*argument);
-        if (argument->kind == Expression::Kind::Element) settle(argument, argument->type.base);
+        if (argument->kind == Expression::Kind::Element) choose_type(argument, argument->type.base);
     } else if (!parameter->type.is_array() && !parameter->any_array) {
-        settle(argument, parameter->type.base);
+        choose_type(argument, parameter->type.base);
     }
 }
 
@@ -228,10 +228,10 @@ void Analyser::enter_function(Expression& call, const Function& function) {
         return;
     }
     call.function = instance->function.get();
-    frame().operations += instance->operations;
-    frame().array_floats += instance->array_floats;
-    frame().deepest = std::max(frame().deepest, frame().depth + call.height + instance->depth);
-    if (frame().deepest > kDeepestInlined)
+    body().operations += instance->operations;
+    body().array_floats += instance->array_floats;
+    body().deepest = std::max(body().deepest, body().depth + call.height + instance->depth);
+    if (body().deepest > kDeepestInlined)
         error(call.at, "functions that call functions nest too deeply here");
 }
 

@@ -22,32 +22,32 @@ Choices Analyser::choices_of(const Expression& e) const {
     return entry == choices_.end() ? Choices::unknown() : entry->second;
 }
 
-Choices Analyser::examine(Expression& e) {
-    ++frame().operations;
-    ++frame().own_operations;
-    const Choices choices = examine_within(e);
+Choices Analyser::possible_types(Expression& e) {
+    ++body().operations;
+    ++body().own_operations;
+    const Choices choices = possible_types_within(e);
     choices_.insert_or_assign(&e, choices);
     return choices;
 }
 
 /// Of an expression that may have been examined before it became an argument.
-Choices Analyser::examine_once(Expression& e) {
+Choices Analyser::possible_types_once(Expression& e) {
     const auto known = choices_.find(&e);
-    return known != choices_.end() ? known->second : examine(e);
+    return known != choices_.end() ? known->second : possible_types(e);
 }
 
-Choices Analyser::examine_within(Expression& e) {
+Choices Analyser::possible_types_within(Expression& e) {
     switch (e.kind) {
         case Expression::Kind::Number:
             return Choices(Base::Float);
         case Expression::Kind::Text:
             return Choices(Base::String);
         case Expression::Kind::Variable:
-            return examine_variable(e);
+            return variable_types(e);
         case Expression::Kind::Element:
-            return examine_element(e);
+            return element_types(e);
         case Expression::Kind::Unary: {
-            const Choices operand = examine(*e.children[0]);
+            const Choices operand = possible_types(*e.children[0]);
             Choices choices;
             if (operand.is_unknown()) return operand;
             if (e.op == Operator::Not) {
@@ -62,24 +62,24 @@ Choices Analyser::examine_within(Expression& e) {
             return Choices::unknown();
         }
         case Expression::Kind::Binary:
-            return examine_binary(e);
+            return binary_types(e);
         case Expression::Kind::Conditional:
-            return examine_conditional(e);
+            return conditional_types(e);
         case Expression::Kind::Triple:
         case Expression::Kind::Sixteen:
         case Expression::Kind::List:
-            return examine_tuple(e);
+            return tuple_types(e);
         case Expression::Kind::Cast:
-            return examine_cast(e);
+            return cast_types(e);
         case Expression::Kind::Call:
-            return examine_call(e);
+            return call_types(e);
         case Expression::Kind::Assignment:
-            return examine_assignment(e);
+            return assignment_types(e);
     }
     return Choices::unknown();
 }
 
-Choices Analyser::examine_variable(Expression& e) {
+Choices Analyser::variable_types(Expression& e) {
     e.variable = find_variable(e.text);
     if (!e.variable && e.text == "PI") {
         e.kind = Expression::Kind::Number;
@@ -88,7 +88,7 @@ Choices Analyser::examine_variable(Expression& e) {
     }
     // Functions ought to name the renderer's variables as extern; that was not always checked.
     if (!e.variable) e.variable = global(e.text);
-    if (!e.variable && frame().nested) e.variable = find_outside(e.text, frames_.size() - 1);
+    if (!e.variable && body().nested) e.variable = find_outside(e.text, bodies_.size() - 1);
     if (!e.variable) {
         unknown_variable(e);
         return Choices::unknown();
@@ -106,10 +106,10 @@ bool Analyser::is_component(const Expression& e) const {
            (single(Base::Color) || single(Base::Point) || single(Base::Vector) || single(Base::Normal));
 }
 
-Choices Analyser::examine_element(Expression& e) {
+Choices Analyser::element_types(Expression& e) {
     Expression& of = *e.children[0];
     if (of.kind == Expression::Kind::Element && of.children[0]->kind == Expression::Kind::Variable) {
-        const Choices matrix = examine(*of.children[0]);
+        const Choices matrix = possible_types(*of.children[0]);
         if (!of.children[0]->type.is_array() && !matrix.is_unknown() && matrix.has(Base::Matrix)) {
             e.kind = Expression::Kind::Call;
             e.text = "comp";
@@ -117,17 +117,17 @@ Choices Analyser::examine_element(Expression& e) {
             ExpressionPtr column = std::move(e.children[1]);
             e.children = std::move(inner->children);
             e.children.push_back(std::move(column));
-            return examine_call(e);
+            return call_types(e);
         }
     }
-    const Choices choices = examine(of);
+    const Choices choices = possible_types(of);
     if (choices.is_unknown()) return choices;
     if (is_component(e)) {
         e.kind = Expression::Kind::Call;
         e.text = "comp";
-        return examine_call(e);
+        return call_types(e);
     }
-    const Choices index = examine(*e.children[1]);
+    const Choices index = possible_types(*e.children[1]);
     if (!index.is_unknown() && index.cost_to(Base::Float) >= Choices::kNever)
         error(e.children[1]->at, "an index is a float, not a " + index.text());
     if (is_string(of, choices) && channel_ == &e) {  // texture("name"[2], ...)
@@ -156,16 +156,16 @@ void Analyser::check_index(const Expression& element) {
 }
 
 /// Reports a whole array where one value is wanted.
-static bool is_whole_array(const Expression& e, Messages& messages) {
+static bool is_whole_array(const Expression& e, Reporter& reporter) {
     if (!e.type.is_array()) return false;
-    messages.error(e.at, "this is an array; one of its elements is wanted here");
+    reporter.error(e.at, "this is an array; one of its elements is wanted here");
     return true;
 }
 
-Choices Analyser::examine_binary(Expression& e) {
-    const Choices left = examine(*e.children[0]), right = examine(*e.children[1]);
+Choices Analyser::binary_types(Expression& e) {
+    const Choices left = possible_types(*e.children[0]), right = possible_types(*e.children[1]);
     const bool arrays =
-        is_whole_array(*e.children[0], messages_) || is_whole_array(*e.children[1], messages_);
+        is_whole_array(*e.children[0], reporter_) || is_whole_array(*e.children[1], reporter_);
     if (arrays || left.is_unknown() || right.is_unknown()) return Choices::unknown();
     Choices choices;
     for (const Base a : kAllBases)
@@ -179,11 +179,11 @@ Choices Analyser::examine_binary(Expression& e) {
     return Choices::unknown();
 }
 
-Choices Analyser::examine_conditional(Expression& e) {
-    const Choices condition = examine(*e.children[0]);
-    const Choices yes = examine(*e.children[1]), no = examine(*e.children[2]);
+Choices Analyser::conditional_types(Expression& e) {
+    const Choices condition = possible_types(*e.children[0]);
+    const Choices yes = possible_types(*e.children[1]), no = possible_types(*e.children[2]);
     for (const ExpressionPtr& child : e.children)
-        if (is_whole_array(*child, messages_)) return Choices::unknown();
+        if (is_whole_array(*child, reporter_)) return Choices::unknown();
     if (condition.cost_to(Base::Bool) >= Choices::kNever)
         error(e.children[0]->at, "a condition is wanted here, not a " + condition.text());
     if (yes.is_unknown()) return no;
@@ -199,14 +199,14 @@ Choices Analyser::examine_conditional(Expression& e) {
     return Choices::unknown();
 }
 
-Choices Analyser::examine_tuple(Expression& e) {
+Choices Analyser::tuple_types(Expression& e) {
     if (e.kind == Expression::Kind::List) {
         error(e.at, "values in braces stand only where an array is declared");
         return Choices::unknown();
     }
     for (const ExpressionPtr& child : e.children) {
-        const Choices part = examine(*child);
-        if (!is_whole_array(*child, messages_) && part.cost_to(Base::Float) >= Choices::kNever)
+        const Choices part = possible_types(*child);
+        if (!is_whole_array(*child, reporter_) && part.cost_to(Base::Float) >= Choices::kNever)
             error(child->at, "a float is wanted here, not a " + part.text());
     }
     if (e.kind == Expression::Kind::Sixteen) return Choices(Base::Matrix);
@@ -216,10 +216,10 @@ Choices Analyser::examine_tuple(Expression& e) {
     return choices;
 }
 
-Choices Analyser::examine_cast(Expression& e) {
-    const Choices operand = examine(*e.children[0]);
+Choices Analyser::cast_types(Expression& e) {
+    const Choices operand = possible_types(*e.children[0]);
     const Base base = e.type.base;
-    if (is_whole_array(*e.children[0], messages_) || operand.is_unknown()) return Choices(base);
+    if (is_whole_array(*e.children[0], reporter_) || operand.is_unknown()) return Choices(base);
     bool possible = operand.cost_to(base) < Choices::kNever;
     // Told to, a colour may become a vector and so on.
     for (const Base from : kAllBases)
@@ -236,7 +236,7 @@ bool Analyser::is_place(const Expression& e) const {
 }
 
 /// v[k] = x, which has been read as comp(v, k), as setcomp(v, k, x); v[k] += x with comp(v, k) + x.
-Choices Analyser::examine_component_assignment(Expression& e) {
+Choices Analyser::component_assignment_types(Expression& e) {
     if (!is_place(*e.children[0]->children[0])) {
         error(e.children[0]->at, "this cannot be assigned to");
         return Choices::unknown();
@@ -259,18 +259,18 @@ Choices Analyser::examine_component_assignment(Expression& e) {
     e.text = "setcomp";
     e.children = std::move(component->children);
     e.children.push_back(std::move(value));
-    return examine_call(e);
+    return call_types(e);
 }
 
 /// a = b or a = {1, 2, 3}.
-Choices Analyser::examine_array_assignment(Expression& e) {
+Choices Analyser::array_assignment_types(Expression& e) {
     const Expression &left = *e.children[0], &right = *e.children[1];
     if (right.kind == Expression::Kind::List) {
-        for (const ExpressionPtr& child : right.children) examine(*child);
+        for (const ExpressionPtr& child : right.children) possible_types(*child);
         if (left.type.length > 0 && right.children.size() > static_cast<size_t>(left.type.length))
             error(right.at, std::to_string(right.children.size()) + " values for the " +
                                 std::to_string(left.type.length) + " elements of an array");
-    } else if (examine(*e.children[1]).is_unknown()) {
+    } else if (possible_types(*e.children[1]).is_unknown()) {
         return Choices::unknown();
     }
     const bool fits = right.kind == Expression::Kind::List ||
@@ -286,13 +286,13 @@ Choices Analyser::examine_array_assignment(Expression& e) {
     return {};
 }
 
-Choices Analyser::examine_assignment(Expression& e) {
-    const Choices place = examine(*e.children[0]);
+Choices Analyser::assignment_types(Expression& e) {
+    const Choices place = possible_types(*e.children[0]);
     const Expression& left = *e.children[0];
-    if (left.kind == Expression::Kind::Call && left.text == "comp") return examine_component_assignment(e);
-    if (left.type.is_array()) return examine_array_assignment(e);
-    const Choices given = examine(*e.children[1]);
-    if (is_whole_array(*e.children[1], messages_) || place.is_unknown()) return Choices::unknown();
+    if (left.kind == Expression::Kind::Call && left.text == "comp") return component_assignment_types(e);
+    if (left.type.is_array()) return array_assignment_types(e);
+    const Choices given = possible_types(*e.children[1]);
+    if (is_whole_array(*e.children[1], reporter_) || place.is_unknown()) return Choices::unknown();
     if (!is_place(left)) {
         error(left.at, "this cannot be assigned to");
         return Choices::unknown();
@@ -308,7 +308,7 @@ Choices Analyser::examine_assignment(Expression& e) {
             if (const auto planned = plan(e.op, base, from))
                 if (planned->left == base && conversion_cost(planned->result, base))
                     cost = std::min(cost, given.cost(from) + planned->cost);
-    // A colour that is assigned to a vector, or the reverse, is warned of in settle().
+    // A colour that is assigned to a vector, or the reverse, is warned of in choose_type().
     const bool as_it_is = e.op == Operator::None && given.foreign_triple_for(base);
     if (cost < Choices::kNever || as_it_is) return Choices(base);
     error(e.at, "a " + given.text() + " cannot be " +
@@ -327,14 +327,14 @@ void Analyser::check_written(const Expression& place) {
     switch (variable->kind) {
         case Variable::Kind::Global:
             if (!variable->output && warned_.insert(variable).second)
-                messages_.warning(place.at, name + " is not to be assigned to in " +
+                reporter_.warning(place.at, name + " is not to be assigned to in " +
                                                 std::string(name_of(shader_->kind)) +
                                                 " shaders: only this one sees the change");
             variable->copied = variable->copied || !variable->output;
             break;
         case Variable::Kind::Parameter:
             if (!variable->output && warned_.insert(variable).second)
-                messages_.warning(place.at, "parameter " + name + " is assigned to, and is not output");
+                reporter_.warning(place.at, "parameter " + name + " is assigned to, and is not output");
             break;
         case Variable::Kind::FunctionParameter: {
             if (variable->output) break;
@@ -342,12 +342,12 @@ void Analyser::check_written(const Expression& place) {
                 error(place.at, "array " + name + " cannot be assigned to: it is no output parameter");
                 break;
             }
-            for (Frame& frame : frames_)
-                if (frame.instance)
-                    for (const auto& parameter : frame.instance->function->parameters)
-                        if (parameter.get() == variable) frame.written_parameters.insert(variable);
+            for (Body& open : bodies_)
+                if (open.instance)
+                    for (const auto& parameter : open.instance->function->parameters)
+                        if (parameter.get() == variable) open.written_parameters.insert(variable);
             if (warned_.insert(variable).second)
-                messages_.warning(place.at, "parameter " + name +
+                reporter_.warning(place.at, "parameter " + name +
                                                 " is assigned to, and is not output: the "
                                                 "caller sees no change");
             break;

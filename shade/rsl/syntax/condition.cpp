@@ -39,8 +39,8 @@ int precedence_of(const Token& token) {
 
 class Condition {
   public:
-    Condition(const std::vector<Token>& tokens, SourceLocation at, Messages& messages)
-        : tokens_(tokens), at_(at), messages_(messages) {}
+    Condition(const std::vector<Token>& tokens, SourceLocation at, Reporter& reporter)
+        : tokens_(tokens), at_(at), reporter_(reporter) {}
 
     int64_t whole() {
         const int64_t value = conditional();
@@ -56,7 +56,7 @@ class Condition {
     }
 
     [[noreturn]] void fail(const std::string& text) {
-        messages_.error(next_ < tokens_.size() ? tokens_[next_].at : at_, text);
+        reporter_.error(next_ < tokens_.size() ? tokens_[next_].at : at_, text);
         throw BadCondition();
     }
 
@@ -115,7 +115,7 @@ class Condition {
         if (op == "*") return static_cast<int64_t>(a * b);
         if (right == 0) {
             if (idle_) return 0;
-            messages_.error(mark.at, "division by zero in a condition");
+            reporter_.error(mark.at, "division by zero in a condition");
             throw BadCondition();
         }
         if (right == -1) return op == "/" ? static_cast<int64_t>(0 - a) : 0;
@@ -155,7 +155,7 @@ class Condition {
 
     const std::vector<Token>& tokens_;
     SourceLocation at_;
-    Messages& messages_;
+    Reporter& reporter_;
     size_t next_ = 0;
     int depth_ = 0;
     bool idle_ = false;  // in a part whose value is not wanted
@@ -163,9 +163,9 @@ class Condition {
 
 }  // namespace
 
-bool evaluate_condition(const std::vector<Token>& tokens, SourceLocation at, Messages& messages) {
+bool evaluate_condition(const std::vector<Token>& tokens, SourceLocation at, Reporter& reporter) {
     try {
-        return Condition(tokens, at, messages).whole() != 0;
+        return Condition(tokens, at, reporter).whole() != 0;
     } catch (const BadCondition&) {
         return false;
     }

@@ -21,8 +21,8 @@ bool is_name_part(char c) {
     return is_name_start(c) || is_digit(c);
 }
 
-Lexer::Lexer(const SourceText& text, uint32_t source, Messages& messages)
-    : text_(text.text), joints_(text.joints), messages_(messages), source_(source) {
+Lexer::Lexer(const SourceText& text, uint32_t source, Reporter& reporter)
+    : text_(text.text), joints_(text.joints), reporter_(reporter), source_(source) {
     while (next_joint_ < joints_.size() && joints_[next_joint_] == 0)
         ++next_joint_, ++line_, ++physical_line_;
 }
@@ -45,7 +45,7 @@ bool Lexer::skip_comment() {
     advance(), advance();
     while (position_ < text_.size() && !(peek() == '*' && peek(1) == '/')) advance();
     if (position_ == text_.size())
-        messages_.error(at, "this comment is never closed");
+        reporter_.error(at, "this comment is never closed");
     else
         advance(), advance();
     return true;
@@ -144,8 +144,8 @@ bool is_one_token(std::string_view text, Token::Kind& kind) {
     SourceText source;
     source.text = text;
     Diagnostics unheard;
-    Messages messages(unheard);
-    Lexer lexer(source, 0, messages);
+    Reporter reporter(unheard);
+    Lexer lexer(source, 0, reporter);
     const Token token = lexer.next();
     kind = token.kind;
     return token.kind != Token::Kind::End && token.kind != Token::Kind::NewLine &&

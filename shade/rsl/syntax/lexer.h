@@ -1,7 +1,7 @@
 /// Text to tokens, one at a time, comments left out.
 #pragma once
 
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 #include "shade/rsl/syntax/token.h"
 
 namespace trapeze::rsl {
@@ -9,7 +9,7 @@ namespace trapeze::rsl {
 class Lexer {
   public:
     /// `source`: as registered with Diagnostics. `text` must outlive the tokens.
-    Lexer(const SourceText& text, uint32_t source, Messages& messages);
+    Lexer(const SourceText& text, uint32_t source, Reporter& reporter);
 
     /// The next token; after the last, NewLine and then End for ever.
     Token next();
@@ -34,7 +34,7 @@ class Lexer {
 
     std::string_view text_;
     const std::vector<size_t>& joints_;
-    Messages& messages_;
+    Reporter& reporter_;
     size_t position_ = 0, next_joint_ = 0;
     uint32_t source_, line_ = 1, column_ = 1, physical_line_ = 1;
     bool line_start_ = true;

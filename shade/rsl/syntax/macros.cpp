@@ -44,7 +44,7 @@ void Expander::leave_context() {
 }
 
 void Expander::exceed(SourceLocation at, const char* what) {
-    if (!budget_.exceeded) messages_.error(at, what);
+    if (!budget_.exceeded) reporter_.error(at, what);
     budget_.exceeded = true;
 }
 
@@ -87,7 +87,7 @@ Token Expander::next() {
         }
         if (macro->kind == Macro::Kind::File) {
             token.kind = Token::Kind::Text;
-            token.text = keep('"' + messages_.diagnostics().source_name(token.at.source) + '"');
+            token.text = keep('"' + reporter_.diagnostics().source_name(token.at.source) + '"');
             return token;
         }
         if (macro->kind == Macro::Kind::Function && !next_is_open_parenthesis()) return token;
@@ -119,7 +119,7 @@ bool Expander::collect_arguments(const Token& name, const Macro& macro, Argument
     for (int depth = 0;;) {
         const Token token = pull();
         if (token.kind == Token::Kind::End) {
-            messages_.error(name.at, "the arguments of " + called + " never end: a ) is missing");
+            reporter_.error(name.at, "the arguments of " + called + " never end: a ) is missing");
             return false;
         }
         if (++budget_.tokens > ExpansionBudget::kMostTokens) {
@@ -137,7 +137,7 @@ bool Expander::collect_arguments(const Token& name, const Macro& macro, Argument
     if (wanted == 0 && arguments.size() == 1 && arguments[0].empty()) arguments.clear();
     if (macro.variadic && arguments.size() + 1 == wanted) arguments.emplace_back();
     if (arguments.size() == wanted) return true;
-    messages_.error(name.at, called + " takes " + std::to_string(wanted) +
+    reporter_.error(name.at, called + " takes " + std::to_string(wanted) +
                                  (wanted == 1 ? " argument, " : " arguments, ") +
                                  std::to_string(arguments.size()) + " are given");
     return false;
@@ -197,7 +197,7 @@ std::vector<Token> Expander::expanded(const std::vector<Token>& argument) {
     if (++budget_.argument_depth > ExpansionBudget::kDeepestArguments && !argument.empty())
         exceed(argument.front().at, "macros in arguments of macros nest too deeply");
     std::vector<Token> tokens;
-    if (!budget_.exceeded) tokens = expand_all(argument, macros_, budget_, made_, messages_);
+    if (!budget_.exceeded) tokens = expand_all(argument, macros_, budget_, made_, reporter_);
     --budget_.argument_depth;
     return tokens;
 }
@@ -238,7 +238,7 @@ Token Expander::pasted(const Token& left, const Token& right, const Token& name)
         return token;
     }
     if (!is_one_token(text, token.kind)) {
-        messages_.error(name.at, "## makes no word of \"" + std::string(left.text.substr(0, 40)) +
+        reporter_.error(name.at, "## makes no word of \"" + std::string(left.text.substr(0, 40)) +
                                      "\" and \"" + std::string(right.text.substr(0, 40)) + "\"");
         return left;
     }
@@ -249,10 +249,10 @@ Token Expander::pasted(const Token& left, const Token& right, const Token& name)
 }
 
 std::vector<Token> expand_all(const std::vector<Token>& tokens, Macros& macros, ExpansionBudget& budget,
-                              std::deque<std::string>& made, Messages& messages) {
+                              std::deque<std::string>& made, Reporter& reporter) {
     size_t position = 0;
     Expander expander([&] { return position < tokens.size() ? tokens[position++] : Token(); }, macros, budget,
-                      made, messages);
+                      made, reporter);
     std::vector<Token> out;
     for (Token token = expander.next(); token.kind != Token::Kind::End; token = expander.next())
         out.push_back(token);

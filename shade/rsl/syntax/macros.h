@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 #include "shade/rsl/syntax/token.h"
 
 namespace trapeze::rsl {
@@ -52,8 +52,8 @@ class Expander {
   public:
     using Read = std::function<Token()>;
     Expander(Read read, Macros& macros, ExpansionBudget& budget, std::deque<std::string>& made,
-             Messages& messages)
-        : read_(std::move(read)), macros_(macros), budget_(budget), made_(made), messages_(messages) {}
+             Reporter& reporter)
+        : read_(std::move(read)), macros_(macros), budget_(budget), made_(made), reporter_(reporter) {}
     ~Expander();
     Expander(const Expander&) = delete;
     Expander& operator=(const Expander&) = delete;
@@ -85,13 +85,13 @@ class Expander {
     Macros& macros_;
     ExpansionBudget& budget_;
     std::deque<std::string>& made_;
-    Messages& messages_;
+    Reporter& reporter_;
     std::vector<Context> contexts_;
     std::vector<Token> put_back_;  ///< read to see whether a parenthesis follows
 };
 
 /// All of a list, expanded.
 std::vector<Token> expand_all(const std::vector<Token>& tokens, Macros& macros, ExpansionBudget& budget,
-                              std::deque<std::string>& made, Messages& messages);
+                              std::deque<std::string>& made, Reporter& reporter);
 
 }  // namespace trapeze::rsl

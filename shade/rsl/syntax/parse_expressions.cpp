@@ -49,7 +49,7 @@ ExpressionPtr Parser::finished(ExpressionPtr e) {
     for (const ExpressionPtr& child : e->children) height = std::max<int>(height, child->height);
     e->height = static_cast<uint16_t>(height + 1);
     if (height < kHighestExpression) return e;
-    messages_.error(e->at, "this expression is too long; split it");
+    reporter_.error(e->at, "this expression is too long; split it");
     throw Lost();
 }
 

@@ -16,7 +16,7 @@ StatementPtr Parser::block() {
     StatementPtr block = make(Statement::Kind::Block, now());
     const Nesting nesting(*this);
     expect("{", "before a block");
-    while (!at("}") && !at_end() && !messages_.full()) {
+    while (!at("}") && !at_end() && !reporter_.full()) {
         try {
             block->children.push_back(statement());
         } catch (const Lost&) {

@@ -22,15 +22,15 @@ std::string shown(const Token& token) {
 
 }  // namespace
 
-std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Messages& messages) {
-    return Parser(stream.tokens, messages).unit();
+std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporter& reporter) {
+    return Parser(stream.tokens, reporter).unit();
 }
 
-Parser::Parser(const std::vector<Token>& tokens, Messages& messages) : tokens_(tokens), messages_(messages) {}
+Parser::Parser(const std::vector<Token>& tokens, Reporter& reporter) : tokens_(tokens), reporter_(reporter) {}
 
 std::unique_ptr<TranslationUnit> Parser::unit() {
     try {
-        while (!at_end() && !messages_.full()) {
+        while (!at_end() && !reporter_.full()) {
             try {
                 if (accept(";")) continue;
                 refuse_rsl2();
@@ -64,7 +64,7 @@ bool Parser::accept(std::string_view text) {
 }
 
 void Parser::fail(const Token& token, std::string text) {
-    messages_.error(token.at, std::move(text));
+    reporter_.error(token.at, std::move(text));
     throw Lost();
 }
 
@@ -145,7 +145,7 @@ void Parser::refuse_rsl2() {
     const bool handle = at("shader") && ahead(1).kind == Token::Kind::Name;
     const bool member = at("->") || at("::");
     if (!class_ && !struct_ && !plugin && !public_ && !handle && !member) return;
-    messages_.error(now().at, shown(now()) +
+    reporter_.error(now().at, shown(now()) +
                                   " belongs to RSL 2 (structs, classes, co-shaders, plugins), "
                                   "which is not supported: shaders are written in RSL 1 here");
     throw Hopeless();

@@ -7,19 +7,19 @@
 #include <vector>
 
 #include "shade/rsl/syntax/ast.h"
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 #include "shade/rsl/syntax/token.h"
 
 namespace trapeze::rsl {
 
 /// After an error goes on behind the next ; or }, and reports what else is wrong. Of use only when
-/// messages.failed() is false.
-std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Messages& messages);
+/// reporter.failed() is false.
+std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporter& reporter);
 
 /// The parser's state. parser.cpp has definitions, parse_statements.cpp and parse_expressions.cpp the rest.
 class Parser {
   public:
-    Parser(const std::vector<Token>& tokens, Messages& messages);
+    Parser(const std::vector<Token>& tokens, Reporter& reporter);
     std::unique_ptr<TranslationUnit> unit();
 
   private:
@@ -94,7 +94,7 @@ class Parser {
     ExpressionPtr finished(ExpressionPtr e);
 
     const std::vector<Token>& tokens_;
-    Messages& messages_;
+    Reporter& reporter_;
     std::unique_ptr<TranslationUnit> unit_ = std::make_unique<TranslationUnit>();
     std::string inside_;          // the shader or function whose body is read
     bool returns_value_ = false;  // it has a "return" with a value
@@ -107,7 +107,7 @@ class Parser::Nesting {
   public:
     explicit Nesting(Parser& parser) : parser_(parser) {
         if (++parser_.nesting_ <= kDeepestNesting) return;
-        parser_.messages_.error(parser_.now().at, "this nests too deeply");
+        parser_.reporter_.error(parser_.now().at, "this nests too deeply");
         --parser_.nesting_;
         throw Hopeless();
     }

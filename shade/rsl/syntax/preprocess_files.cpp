@@ -30,14 +30,14 @@ std::string file_name_of(std::string_view text) {
 }  // namespace
 
 FileReader::FileReader(const CompileOptions& options, Macros& macros, ExpansionBudget& budget,
-                       TokenStream& stream, Messages& messages)
-    : options_(options), macros_(macros), budget_(budget), stream_(stream), messages_(messages) {}
+                       TokenStream& stream, Reporter& reporter)
+    : options_(options), macros_(macros), budget_(budget), stream_(stream), reporter_(reporter) {}
 
 void FileReader::enter(const std::string& name, const std::string& path, std::string text,
                        SourceLocation from) {
     const SourceText& source = stream_.sources.emplace_back(joined_lines(std::move(text)));
-    const uint32_t number = messages_.diagnostics().add_source(name, from, source.as_written);
-    files_.push_back({path, name, from, source.as_written, Lexer(source, number, messages_)});
+    const uint32_t number = reporter_.diagnostics().add_source(name, from, source.as_written);
+    files_.push_back({path, name, from, source.as_written, Lexer(source, number, reporter_)});
 }
 
 void FileReader::define_from_outside(const std::string& name, const std::string& value) {
@@ -51,7 +51,7 @@ bool FileReader::counts() const {
 
 Token FileReader::next() {
     while (!files_.empty()) {
-        if (stopped_ || messages_.full()) {
+        if (stopped_ || reporter_.full()) {
             files_.clear();
             break;
         }
@@ -68,7 +68,7 @@ Token FileReader::next() {
 
 void FileReader::leave() {
     for (const Conditional& open : files_.back().conditionals)
-        messages_.error(open.at, "this condition has no #endif");
+        reporter_.error(open.at, "this condition has no #endif");
     files_.pop_back();
 }
 
@@ -82,7 +82,7 @@ FileReader::Line FileReader::rest_of_line() {
 }
 
 FileReader::Line FileReader::expanded(const Line& line) {
-    return expand_all(line, macros_, budget_, stream_.made, messages_);
+    return expand_all(line, macros_, budget_, stream_.made, reporter_);
 }
 
 void FileReader::obey(const Token& hash) {
@@ -107,7 +107,7 @@ void FileReader::obey(const Token& hash) {
     } else if (word.is("pragma")) {
         if (!line.empty() && line[0].is("once")) once_.insert(files_.back().path);
     } else if (!word.is("ident")) {
-        messages_.warning(hash.at,
+        reporter_.warning(hash.at,
                           "unknown directive #" + std::string(word.text.substr(0, 80)) + " (ignored)");
     }
 }
@@ -118,7 +118,7 @@ bool FileReader::obey_conditional(std::string_view name, const Token& at, const 
     const bool starts = name == "if" || name == "ifdef" || name == "ifndef";
     if (starts) {
         if (open.size() >= kDeepestNesting) {
-            messages_.error(at.at, "conditions nest too deeply");
+            reporter_.error(at.at, "conditions nest too deeply");
             stopped_ = true;
             return true;
         }
@@ -130,14 +130,14 @@ bool FileReader::obey_conditional(std::string_view name, const Token& at, const 
     }
     if (name != "elif" && name != "else" && name != "endif") return false;
     if (open.empty()) {
-        messages_.error(at.at, "#" + std::string(name) + " without #if");
+        reporter_.error(at.at, "#" + std::string(name) + " without #if");
         return true;
     }
     Conditional& top = open.back();
     if (name == "endif") {
         open.pop_back();
     } else if (top.had_else) {
-        messages_.error(at.at, "#" + std::string(name) + " after #else");
+        reporter_.error(at.at, "#" + std::string(name) + " after #else");
     } else {
         top.had_else = name == "else";
         top.counts = top.outer_counts && !top.taken && (name == "else" || condition(at, line));
@@ -156,7 +156,7 @@ bool FileReader::condition(const Token& at, const Line& line) {
         const bool complete = name < line.size() && line[name].kind == Token::Kind::Name &&
                               (!open || (name + 1 < line.size() && line[name + 1].is(")")));
         if (!complete) {
-            messages_.error(line[i].at, "\"defined\" wants a name");
+            reporter_.error(line[i].at, "\"defined\" wants a name");
             return false;
         }
         Token& value = without_defined.back();
@@ -164,12 +164,12 @@ bool FileReader::condition(const Token& at, const Line& line) {
         value.text = macros_.contains(line[name].text) ? "1" : "0";
         i = name + (open ? 1 : 0);
     }
-    return evaluate_condition(expanded(without_defined), at.at, messages_);
+    return evaluate_condition(expanded(without_defined), at.at, reporter_);
 }
 
 bool FileReader::name_is_defined(const Token& at, const Line& line) {
     if (line.empty() || line[0].kind != Token::Kind::Name) {
-        messages_.error(at.at, "#" + std::string(at.text) + " wants a name");
+        reporter_.error(at.at, "#" + std::string(at.text) + " wants a name");
         return false;
     }
     return macros_.contains(line[0].text);
@@ -204,7 +204,7 @@ bool FileReader::read_parameters(const Line& line, size_t& i, Macro& macro) {
 
 void FileReader::define(const Token& at, const Line& line) {
     if (line.empty() || line[0].kind != Token::Kind::Name || line[0].is("defined")) {
-        messages_.error(at.at, "#define wants a name");
+        reporter_.error(at.at, "#define wants a name");
         return;
     }
     Macro macro;
@@ -213,7 +213,7 @@ void FileReader::define(const Token& at, const Line& line) {
     if (i < line.size() && line[i].is("(") && !line[i].space_before) {
         macro.kind = Macro::Kind::Function;
         if (!read_parameters(line, ++i, macro)) {
-            messages_.error(line[std::min(i, line.size() - 1)].at,
+            reporter_.error(line[std::min(i, line.size() - 1)].at,
                             "the parameters of macro " + shown(line[0].text) + " are names between ( , )");
             return;
         }
@@ -222,16 +222,16 @@ void FileReader::define(const Token& at, const Line& line) {
     const bool ends_badly =
         !macro.body.empty() && (macro.body.front().is("##") || macro.body.back().is("##"));
     if (ends_badly) {
-        messages_.error(line[0].at, "## stands between two words, in macro " + shown(line[0].text));
+        reporter_.error(line[0].at, "## stands between two words, in macro " + shown(line[0].text));
         return;
     }
     if (macros_.define(line[0].text, std::move(macro)))
-        messages_.warning(line[0].at, "macro " + shown(line[0].text) + " is defined anew, differently");
+        reporter_.warning(line[0].at, "macro " + shown(line[0].text) + " is defined anew, differently");
 }
 
 void FileReader::undefine(const Token& at, const Line& line) {
     if (line.empty() || line[0].kind != Token::Kind::Name)
-        messages_.error(at.at, "#undef wants a name");
+        reporter_.error(at.at, "#undef wants a name");
     else
         macros_.remove(line[0].text);
 }
@@ -246,9 +246,9 @@ void FileReader::say(const Token& at, const Line& line, bool error) {
     if (line.size() == 1 && line[0].kind == Token::Kind::Text) text = file_name_of(line[0].text);
     if (text.empty()) text = "#" + std::string(at.text);
     if (error)
-        messages_.error(at.at, text);
+        reporter_.error(at.at, text);
     else
-        messages_.warning(at.at, text);
+        reporter_.warning(at.at, text);
 }
 
 void FileReader::include(const Token& at, const Line& line_as_written) {
@@ -265,11 +265,11 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
         if (i == line.size()) name.clear();
     }
     if (name.empty()) {
-        messages_.error(at.at, "#include wants \"file\" or <file>");
+        reporter_.error(at.at, "#include wants \"file\" or <file>");
         return;
     }
     if (files_.size() >= kDeepestInclude || ++includes_ > kMostIncludes) {
-        messages_.error(at.at, files_.size() >= kDeepestInclude ? "files include each other too deeply"
+        reporter_.error(at.at, files_.size() >= kDeepestInclude ? "files include each other too deeply"
                                                                 : "too many files are included");
         stopped_ = includes_ > kMostIncludes;
         return;
@@ -285,11 +285,11 @@ void FileReader::include(const Token& at, const Line& line_as_written) {
     for (const std::string& path : places_beside(bare)) {
         if (!is_included(path, at)) continue;
         if (!stopped_)
-            messages_.warning(at.at, "file " + shown(name) + " is in none of the folders to search; " +
+            reporter_.warning(at.at, "file " + shown(name) + " is in none of the folders to search; " +
                                          shown(path) + " is read");
         return;
     }
-    messages_.error(at.at, "file " + shown(name) + " is not found" +
+    reporter_.error(at.at, "file " + shown(name) + " is not found" +
                                (options_.include_folders.empty() ? "" : " in any of the folders to search"));
 }
 
@@ -301,7 +301,7 @@ bool FileReader::is_included(const std::string& path, const Token& at) {
     if (!text) return false;
     bytes_ += text->size();
     if (bytes_ > kMostBytes) {
-        messages_.error(at.at, "the included files are too large together");
+        reporter_.error(at.at, "the included files are too large together");
         stopped_ = true;
     } else {
         enter(path, path, std::move(*text), at.at);
@@ -357,14 +357,14 @@ void FileReader::line(const Token& at, const Line& line_as_written) {
         if (text == "0") number = 1;
     }
     if (number == 0 || number > 1u << 30) {
-        messages_.error(at.at, "#line wants a line number");
+        reporter_.error(at.at, "#line wants a line number");
         return;
     }
     if (++renumberings_ > kMostRenumberings) return;
     File& file = files_.back();
     if (line.size() > 1 && line[1].kind == Token::Kind::Text) file.name = file_name_of(line[1].text);
     const int64_t shift = static_cast<int64_t>(number) - file.lexer.physical_line();
-    file.lexer.renumber(messages_.diagnostics().add_source(file.name, file.from, file.text, shift), number);
+    file.lexer.renumber(reporter_.diagnostics().add_source(file.name, file.from, file.text, shift), number);
 }
 
 }  // namespace trapeze::rsl

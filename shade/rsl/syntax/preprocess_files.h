@@ -17,7 +17,7 @@ class FileReader {
     static constexpr size_t kMostBytes = size_t{64} << 20;
 
     FileReader(const CompileOptions& options, Macros& macros, ExpansionBudget& budget, TokenStream& stream,
-               Messages& messages);
+               Reporter& reporter);
 
     /// Begins a file; `from` is where it is included.
     void enter(const std::string& name, const std::string& path, std::string text, SourceLocation from);
@@ -65,7 +65,7 @@ class FileReader {
     Macros& macros_;
     ExpansionBudget& budget_;
     TokenStream& stream_;
-    Messages& messages_;
+    Reporter& reporter_;
     std::vector<File> files_;
     std::unordered_set<std::string> once_;  ///< files with #pragma once
     size_t bytes_ = 0, includes_ = 0, renumberings_ = 0;

@@ -22,21 +22,21 @@ void define_builtin(Macros& macros) {
 
 }  // namespace
 
-TokenStream preprocess(const Source& source, const CompileOptions& options, Messages& messages) {
+TokenStream preprocess(const Source& source, const CompileOptions& options, Reporter& reporter) {
     TokenStream stream;
     Macros macros;
     ExpansionBudget budget;
-    FileReader files(options, macros, budget, stream, messages);
+    FileReader files(options, macros, budget, stream, reporter);
     define_builtin(macros);
     for (const auto& [name, value] : options.defines) files.define_from_outside(name, value);
     if (source.text.size() <= FileReader::kMostBytes)
         files.enter(source.name, source.name, source.text, {});
     else
-        messages.error({}, "\"" + source.name + "\" is too large for a shader");
-    Expander expander([&] { return files.next(); }, macros, budget, stream.made, messages);
+        reporter.error({}, "\"" + source.name + "\" is too large for a shader");
+    Expander expander([&] { return files.next(); }, macros, budget, stream.made, reporter);
     for (Token token = expander.next(); token.kind != Token::Kind::End; token = expander.next()) {
         if (stream.tokens.size() == kMostTokens) {
-            messages.error(token.at, "this file is too large after its macros are expanded");
+            reporter.error(token.at, "this file is too large after its macros are expanded");
             break;
         }
         stream.tokens.push_back(token);

@@ -29,8 +29,8 @@ struct Files {
     /// The tokens that are left, between blanks.
     std::string expand(const std::string& text) {
         heard.lines.clear();
-        Messages messages(heard.diagnostics);
-        const TokenStream stream = preprocess({"dir/main.sl", text}, options, messages);
+        Reporter reporter(heard.diagnostics);
+        const TokenStream stream = preprocess({"dir/main.sl", text}, options, reporter);
         std::string out;
         for (const Token& token : stream.tokens)
             if (token.kind != Token::Kind::End) out += (out.empty() ? "" : " ") + std::string(token.text);
@@ -63,9 +63,9 @@ TEST(Lexer, WordsAndComments) {
 
 TEST(Lexer, EveryTokenKnowsItsPlace) {
     Heard heard;
-    Messages messages(heard.diagnostics);
+    Reporter reporter(heard.diagnostics);
     const TokenStream stream =
-        preprocess({"m.sl", "#define TWO x \\\n  y\n\n  TWO z/*\n*/ w\\\nv  \"s\"\n"}, {}, messages);
+        preprocess({"m.sl", "#define TWO x \\\n  y\n\n  TWO z/*\n*/ w\\\nv  \"s\"\n"}, {}, reporter);
     std::string places;
     for (const Token& token : stream.tokens)
         if (token.kind != Token::Kind::End)
@@ -196,9 +196,9 @@ TEST(Includes, AreSearchedAboveAndInFoldersOfHeaders) {
 TEST(Includes, MessagesKnowTheWay) {
     std::vector<Diagnostic> heard;
     Diagnostics diagnostics([&](const Diagnostic& d) { heard.push_back(d); });
-    Messages messages(diagnostics);
+    Reporter reporter(diagnostics);
     Files files({{"dir/a.h", "\n#include \"b.h\"\n"}, {"dir/b.h", "#error deep"}});
-    preprocess({"dir/main.sl", "#include \"a.h\"\n"}, files.options, messages);
+    preprocess({"dir/main.sl", "#include \"a.h\"\n"}, files.options, reporter);
     ASSERT_EQ(heard.size(), 1u);
     EXPECT_EQ(to_string(heard[0]),
               "dir/b.h:1:2: error: deep\n    #error deep\n     ^\n"
@@ -223,11 +223,11 @@ TEST(Includes, AreBounded) {
 TEST(Lines, AreRenumbered) {
     std::vector<Diagnostic> heard;
     Diagnostics diagnostics([&](const Diagnostic& d) { heard.push_back(d); });
-    Messages messages(diagnostics);
+    Reporter reporter(diagnostics);
     preprocess(
         {"main.sl",
          "# 1 \"real.sl\"\nfine\n# 20 \"other.h\" 1\n\n  #error here\n# 3 \"real.sl\" 2\n#error there\n"},
-        {}, messages);
+        {}, reporter);
     ASSERT_EQ(heard.size(), 2u);
     EXPECT_EQ(to_string(heard[0]), "other.h:21:4: error: here\n      #error here\n       ^");
     EXPECT_EQ(to_string(heard[1]), "real.sl:3:2: error: there\n    #error there\n     ^");
@@ -268,9 +268,9 @@ TEST(Bounds, ExpansionEnds) {
 TEST(TokenValues, SaysWhatIsNoWord) {
     const auto errors = [](const std::string& text) {
         Heard heard;
-        Messages messages(heard.diagnostics);
-        TokenStream stream = preprocess({"t.sl", text}, {}, messages);
-        read_values(stream, messages);
+        Reporter reporter(heard.diagnostics);
+        TokenStream stream = preprocess({"t.sl", text}, {}, reporter);
+        read_values(stream, reporter);
         return heard.all();
     };
     EXPECT_EQ(errors("a @@@ b"), "error 1:3: \"@\" means nothing in a shader\n");
@@ -284,10 +284,10 @@ TEST(TokenValues, SaysWhatIsNoWord) {
 
 TEST(TokenValues, GivesValues) {
     Heard heard;
-    Messages messages(heard.diagnostics);
+    Reporter reporter(heard.diagnostics);
     TokenStream stream =
-        preprocess({"t.sl", "1 .5 2.5e2 1e99 1e-99 3.f \"a\\n\\\"\" \"b\\102\""}, {}, messages);
-    read_values(stream, messages);
+        preprocess({"t.sl", "1 .5 2.5e2 1e99 1e-99 3.f \"a\\n\\\"\" \"b\\102\""}, {}, reporter);
+    read_values(stream, reporter);
     EXPECT_EQ(heard.all(), "");
     ASSERT_EQ(stream.tokens.size(), 8u);
     EXPECT_EQ(stream.tokens[0].number, 1.0f);

@@ -61,26 +61,26 @@ std::string description(const Token& token) {
 
 }  // namespace
 
-void read_values(TokenStream& stream, Messages& messages) {
+void read_values(TokenStream& stream, Reporter& reporter) {
     std::vector<Token>& tokens = stream.tokens;
     size_t kept = 0;
     bool after_unknown = false;
     for (size_t i = 0; i < tokens.size(); ++i) {
         Token token = tokens[i];
         if (token.kind == Token::Kind::Unknown) {
-            if (!after_unknown) messages.error(token.at, description(token));
+            if (!after_unknown) reporter.error(token.at, description(token));
             after_unknown = true;
             continue;
         }
         after_unknown = false;
         if (token.kind == Token::Kind::Name && token.text.size() > kLongestName) {
-            messages.error(token.at,
+            reporter.error(token.at,
                            "a name of " + std::to_string(token.text.size()) + " letters is too long");
             token.text = token.text.substr(0, kLongestName);
         } else if (token.kind == Token::Kind::Number) {
             const std::optional<float> value = number_of(token.text);
             if (!value)
-                messages.error(token.at, "\"" + std::string(token.text.substr(0, 80)) + "\" is no number");
+                reporter.error(token.at, "\"" + std::string(token.text.substr(0, 80)) + "\" is no number");
             token.number = value.value_or(0.0f);
         } else if (token.kind == Token::Kind::Text) {
             std::string& value = stream.made.emplace_back();

@@ -1,7 +1,7 @@
 /// What stands between the preprocessor and the parser: values of numbers and strings.
 #pragma once
 
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 #include "shade/rsl/syntax/token.h"
 
 namespace trapeze::rsl {
@@ -10,6 +10,6 @@ inline constexpr size_t kLongestName = 1000;
 
 /// Gives numbers their values and strings theirs (escapes read, strings beside each other joined). Reports
 /// what is no word of the language, and leaves it out.
-void read_values(TokenStream& stream, Messages& messages);
+void read_values(TokenStream& stream, Reporter& reporter);
 
 }  // namespace trapeze::rsl

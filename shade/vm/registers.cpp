@@ -1,4 +1,4 @@
-#include "shade/vm/frame.h"
+#include "shade/vm/registers.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,11 +8,11 @@
 
 namespace trapeze::vm {
 
-void Frame::Free::operator()(float* p) const {
+void Registers::Free::operator()(float* p) const {
     std::free(p);
 }
 
-void Frame::start(size_t lanes) {
+void Registers::start(size_t lanes) {
     if (executable_->text_count()) texts_ = executable_->texts();
     if (lanes == lanes_) return;
     lanes_ = lanes;
@@ -26,9 +26,9 @@ void Frame::start(size_t lanes) {
         std::fill_n(memory_.get(), floats, 0.0f);
     }
     const std::vector<Place>& places = executable_->places();
-    registers_.resize(places.size());
+    by_id_.resize(places.size());
     for (size_t id = 0; id < places.size(); ++id) {
-        Operand& operand = registers_[id];
+        Operand& operand = by_id_[id];
         const rsl::Type type = program().registers[id].type;
         const int width = rsl::width_of(type.base);
         const bool varying = places[id].kind == Place::Kind::Varying;
@@ -46,11 +46,11 @@ void Frame::start(size_t lanes) {
         operand.length = type.length;
     }
     operands_.clear();
-    for (const rsl::RegisterId id : executable_->operands()) operands_.push_back(registers_[id]);
+    for (const rsl::RegisterId id : executable_->operands()) operands_.push_back(by_id_[id]);
 }
 
-void Frame::set_uniform(rsl::RegisterId id, const float* values, size_t element) {
-    const Operand& operand = registers_[id];
+void Registers::set_uniform(rsl::RegisterId id, const float* values, size_t element) {
+    const Operand& operand = by_id_[id];
     const int width = rsl::width_of(reg(id).type.base);
     const size_t plane = operand.lane_mask ? lanes_ : kLanes;
     for (int k = 0; k < width; ++k) {

@@ -9,9 +9,9 @@
 
 namespace trapeze::vm {
 
-class Frame {
+class Registers {
   public:
-    explicit Frame(std::shared_ptr<const Executable> executable) : executable_(std::move(executable)) {}
+    explicit Registers(std::shared_ptr<const Executable> executable) : executable_(std::move(executable)) {}
 
     /// Registers for so many lanes (a multiple of kLanes); their contents are undefined, constants apart.
     void start(size_t lanes);
@@ -20,7 +20,7 @@ class Frame {
     const rsl::Program& program() const { return executable_->program(); }
     size_t lanes() const { return lanes_; }
 
-    const Operand& operand(rsl::RegisterId id) const { return registers_[id]; }
+    const Operand& operand(rsl::RegisterId id) const { return by_id_[id]; }
     /// Those of a step, in a row, outputs first.
     std::span<const Operand> operands_of(const Step& step) const {
         return {operands_.data() + step.first, step.count};
@@ -56,7 +56,7 @@ class Frame {
     std::shared_ptr<const Executable> executable_;
     size_t lanes_ = 0, capacity_ = 0;
     std::unique_ptr<float, Free> memory_;
-    std::vector<Operand> registers_, operands_;
+    std::vector<Operand> by_id_, operands_;
     std::vector<std::string> texts_;
 };
 

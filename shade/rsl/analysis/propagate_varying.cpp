@@ -1,4 +1,4 @@
-#include "shade/rsl/analysis/storage.h"
+#include "shade/rsl/analysis/propagate_varying.h"
 
 #include <unordered_map>
 #include <unordered_set>
@@ -26,10 +26,10 @@ bool is_varying(const Expression& call) {
     return op_traits::has(call.builtin->op, op_traits::kNeedsP);
 }
 
-class Inference {
+class Propagation {
   public:
-    Inference(Shader& shader, const std::vector<Function*>& functions, Messages& messages)
-        : shader_(shader), functions_(functions), messages_(messages) {}
+    Propagation(Shader& shader, const std::vector<Function*>& functions, Reporter& reporter)
+        : shader_(shader), functions_(functions), reporter_(reporter) {}
 
     void run() {
         for (int pass = 0; pass < kMostPasses; ++pass) {
@@ -226,7 +226,7 @@ class Inference {
             return;
         }
         if (warn)
-            messages_.warning(
+            reporter_.warning(
                 at, "\"" + variable.name + "\" is uniform and gets a varying value: it becomes varying");
         variable.storage = Storage::Varying;
     }
@@ -239,7 +239,7 @@ class Inference {
 
     Shader& shader_;
     const std::vector<Function*>& functions_;
-    Messages& messages_;
+    Reporter& reporter_;
     const Function* function_ = nullptr;  // whose body is looked at; null: the shader's
     std::unordered_map<const Function*, Facts> facts_;
     std::unordered_map<const Variable*, int> depth_;
@@ -250,8 +250,8 @@ class Inference {
 
 }  // namespace
 
-void infer_storage(Shader& shader, const std::vector<Function*>& functions, Messages& messages) {
-    Inference(shader, functions, messages).run();
+void propagate_varying(Shader& shader, const std::vector<Function*>& functions, Reporter& reporter) {
+    Propagation(shader, functions, reporter).run();
 }
 
 }  // namespace trapeze::rsl

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "shade/rsl/syntax/ast.h"
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 
 namespace trapeze::rsl {
 
 /// Uniform variables that get varying values become varying; where the source assigns such a value, there is
 /// a warning. `functions` are all that the shader calls.
-void infer_storage(Shader& shader, const std::vector<Function*>& functions, Messages& messages);
+void propagate_varying(Shader& shader, const std::vector<Function*>& functions, Reporter& reporter);
 
 }  // namespace trapeze::rsl

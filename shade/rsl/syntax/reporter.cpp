@@ -1,8 +1,8 @@
-#include "shade/rsl/syntax/messages.h"
+#include "shade/rsl/syntax/reporter.h"
 
 namespace trapeze::rsl {
 
-void Messages::error(SourceLocation at, std::string text) {
+void Reporter::error(SourceLocation at, std::string text) {
     const bool same_place = errors_ > 0 && at.line > 0 && at.source == last_error_.source &&
                             at.line == last_error_.line && at.column == last_error_.column;
     last_shown_ = !same_place && !full();
@@ -16,11 +16,11 @@ void Messages::error(SourceLocation at, std::string text) {
     }
 }
 
-void Messages::warning(SourceLocation at, std::string text) {
+void Reporter::warning(SourceLocation at, std::string text) {
     if (++warnings_ <= kMostWarnings) diagnostics_.warning(at, std::move(text));
 }
 
-void Messages::note(SourceLocation at, std::string text) {
+void Reporter::note(SourceLocation at, std::string text) {
     if (last_shown_) diagnostics_.note(at, std::move(text));
 }
 

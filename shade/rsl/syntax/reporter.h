@@ -8,12 +8,12 @@
 namespace trapeze::rsl {
 
 /// Passes messages on until there are too many: then says so once, and is full().
-class Messages {
+class Reporter {
   public:
     static constexpr int kMostErrors = 50;
     static constexpr int kMostWarnings = 50;
 
-    explicit Messages(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+    explicit Reporter(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
     /// Of several errors at one place the first is shown.
     void error(SourceLocation at, std::string text);
