@@ -1,4 +1,5 @@
-/// Where the blocks of a program's code begin, divide and end.
+/// Where the blocks of a program's code begin, divide and end. All passes over code ask this in place of
+/// matching openings and ends themselves; it holds until instructions are moved or taken out.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 
 namespace trapeze::rsl {
 
+/// Indices into the code, one for each instruction; kNone where there is nothing to name.
 struct Blocks {
     static constexpr size_t kNone = ~size_t{0};
     explicit Blocks(const Code& code);

@@ -44,8 +44,10 @@ class ConstantMachine {
     }
 };
 
-/// One walk over the code. What is known of values is undone at the end of the block in which it was learnt,
-/// since another lane (or none) may have gone through it.
+/// Folds constants, follows copies and reuses common subexpressions in one walk over the code, as value
+/// numbering does. A value is a register and its version, which counts the writes to it: what was computed
+/// from older versions is not found any more. What is known of values is undone at the end of the block in
+/// which it was learnt, since another lane (or none) may have gone through it.
 class Folder {
   public:
     Folder(Program& program, Code& code) : program_(program), code_(code), blocks_(code) {}
@@ -61,12 +63,14 @@ class Folder {
     }
 
   private:
+    /// An operation with its inputs as they were: equal keys give equal results.
     using Key = std::tuple<Op, int32_t, Base, std::vector<std::pair<RegisterId, uint32_t>>>;
     /// A register that holds the same value, as long as neither is set again.
     struct Copy {
         RegisterId of;
         uint32_t version, of_version;
     };
+    /// What was learnt in a block, to be forgotten at its end.
     struct Undo {
         std::vector<Key> keys;
         std::vector<std::pair<RegisterId, std::optional<Copy>>> copies;
@@ -74,6 +78,7 @@ class Folder {
         bool removed = false;      ///< the block's markers are left out
     };
 
+    /// How often a register has been written on the way here; constants are made as the walk goes.
     uint32_t version(RegisterId id) {
         if (id >= versions_.size()) versions_.resize(program_.registers.size() + 64, 0);
         return versions_[id];
@@ -83,6 +88,8 @@ class Folder {
         ++versions_[id];
     }
 
+    /// The register that a copy was made from, where both still hold the same value; else the register
+    /// itself.
     RegisterId newest(RegisterId id) {
         const auto known = copies_.find(id);
         if (known == copies_.end()) return id;
@@ -98,6 +105,7 @@ class Folder {
         copies_[id] = {of, version(id), version(of)};
     }
 
+    /// Copies are put back in reverse, so that the oldest of several has the last word.
     void forget(const Undo& undo) {
         for (const Key& key : undo.keys) known_.erase(key);
         for (size_t i = undo.copies.size(); i-- > 0;) {
@@ -109,6 +117,8 @@ class Folder {
         }
     }
 
+    /// Whatever the code from `first` to `last` writes may hold a new value: the loop may come round, the
+    /// branch be taken.
     void set_all_written(size_t first, size_t last) {
         std::vector<RegisterId> written;
         collect_written(code_, first, last, written);
@@ -130,6 +140,8 @@ class Folder {
             instruction.operands[k] = newest(instruction.operands[k]);
     }
 
+    /// The beginning of a block. An If whose condition is a constant is left out, and so is the half that is
+    /// never taken: the walk goes on behind it.
     void open(size_t i, Instruction& instruction, Code& folded) {
         const bool repeats = opens_loop(instruction.op);
         // A loop over lights asks for its inputs in each turn: they must be what no turn sets.
@@ -149,6 +161,8 @@ class Folder {
         folded.push_back(std::move(instruction));
     }
 
+    /// The middle or the end of a block. What its first half taught is forgotten before the second begins,
+    /// and all that it wrote counts as written.
     void divide_or_close(size_t i, Instruction& instruction, Code& folded) {
         Undo& undo = undo_.back();
         const size_t opening = blocks_.opening[i];
@@ -185,6 +199,7 @@ class Folder {
         folded.push_back(std::move(instruction));
     }
 
+    /// The value of a constant Bool, all bits or none.
     std::optional<bool> constant_bool(RegisterId id) const {
         const Register& r = program_.reg(id);
         if (r.kind != Register::Kind::Constant || r.type.base != Base::Bool) return {};
@@ -219,6 +234,10 @@ class Folder {
         folded.push_back(std::move(instruction));
     }
 
+    /// An operation with one output that may be done once for two. All inputs constant: it becomes a Move of
+    /// the constant that the machine's own kernel gives, so that folding changes no bit. Done before with the
+    /// same inputs: a Move of that result. Constants of equal width are not folded through Move, which
+    /// follow_copies() sees through anyway.
     void fold_or_reuse(Instruction& instruction) {
         const RegisterId out = instruction.output();
         const Type type = program_.reg(out).type;

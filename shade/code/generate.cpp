@@ -60,6 +60,8 @@ void Generator::add_parameters() {
     }
 }
 
+/// A register belongs to the region that it is made in, but those of parameters and predefined variables
+/// outlive all.
 RegisterId Generator::add_register(Register::Kind kind, Type type, std::string name) {
     Register r;
     r.kind = kind;
@@ -70,6 +72,7 @@ RegisterId Generator::add_register(Register::Kind kind, Type type, std::string n
     return static_cast<RegisterId>(program_->registers.size() - 1);
 }
 
+/// One register for each number; NaN, which equals nothing, gets a new one each time.
 RegisterId Generator::constant(float value) {
     if (value == value) {
         if (const auto known = numbers_.find(value); known != numbers_.end()) return known->second;
@@ -89,6 +92,7 @@ RegisterId Generator::constant_text(const std::string& text) {
     return known->second;
 }
 
+/// A predefined variable, whether the source names it or an operation needs it unnamed.
 RegisterId Generator::global(std::string_view name, Base base) {
     if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
     const RegisterId id = add_register(Register::Kind::Global, {base, 0}, std::string(name));
@@ -97,6 +101,7 @@ RegisterId Generator::global(std::string_view name, Base base) {
     return id;
 }
 
+/// Locals get their register when they are first met; a function that is inlined again has new ones.
 RegisterId Generator::register_of(const Variable& variable) {
     switch (variable.kind) {
         case Variable::Kind::Global:
@@ -111,6 +116,8 @@ RegisterId Generator::register_of(const Variable& variable) {
     }
 }
 
+/// Appends an instruction to the code that is being made. The bound keeps functions that call functions from
+/// filling the memory.
 Instruction& Generator::emit(Op op, Ids outputs, const Ids& inputs, int32_t immediate) {
     if (++instruction_count_ > kMaxInstructions) {
         diagnostics_.error(
@@ -136,6 +143,8 @@ RegisterId Generator::compute(Op op, Base base, const Ids& inputs, std::optional
     return out;
 }
 
+/// Begins a block: what follows is a region of its own, so that storage inference knows which values outlive
+/// the lanes that it switches off.
 void Generator::open(Op op, Ids outputs, const Ids& inputs) {
     emit(op, std::move(outputs), inputs);
     open_regions_.push_back(region_);

@@ -36,6 +36,7 @@ bool is_map(Op op) {
     return row_of(op).context == ContextFamily::Maps && op != Op::TextureInfo;
 }
 
+/// 0 to 2 for xcomp() to zcomp() and setxcomp() to setzcomp(); -1 for other names.
 int axis_of_function(std::string_view name) {
     const size_t at = name.starts_with("set") ? 3 : 0;
     if (name.size() != at + 5 || !name.ends_with("comp")) return -1;
@@ -49,6 +50,8 @@ RegisterId Generator::call_value(const Expression& e, std::optional<RegisterId> 
     return builtin_value(e, into);
 }
 
+/// A call of a built-in function. Its operands are the arguments in their order, those that it sets among the
+/// outputs, behind the result; what the source left out stands behind them, or in front (add_unnamed_inputs).
 RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterId> into) {
     if (const auto rewritten = rewritten_builtin(e, into)) return *rewritten;
     const Builtin& builtin = *e.builtin;
@@ -171,6 +174,7 @@ RegisterId Generator::chain_value(const Expression& e, std::optional<RegisterId>
     return result;
 }
 
+/// A constant: a function is inlined once for each array that it is called with.
 RegisterId Generator::number_of_elements(const Expression& array, std::optional<RegisterId> into) {
     const int length = program_->reg(value(array)).type.length;
     return moved(constant(static_cast<float>(length)), Base::Float, into);
@@ -227,6 +231,8 @@ RegisterId Generator::map_value(const Expression& e, std::optional<RegisterId> i
     return out;
 }
 
+/// A register for an argument that a function sets: the variable's own, or for an array's element a local,
+/// from which write_back() stores it.
 RegisterId Generator::output_place(const Expression& argument, Base base) {
     if (argument.kind == Expression::Kind::Variable) return register_of(*argument.variable);
     const RegisterId place = add_register(Register::Kind::Local, {base, 0});
@@ -235,6 +241,7 @@ RegisterId Generator::output_place(const Expression& argument, Base base) {
     return place;
 }
 
+/// Stores what a function set back into the array's element; variables have been set in place.
 void Generator::write_back(const Expression& argument, RegisterId result) {
     if (argument.kind != Expression::Kind::Element) return;
     emit(Op::SetElement, {value(*argument.children[0])}, {value(*argument.children[1]), result});
@@ -281,6 +288,8 @@ RegisterId Generator::function_value(const Expression& e) {
     return result;
 }
 
+/// The function's statements where it is called. A return from the middle leaves a Scope around them, so that
+/// lanes may return one by one.
 RegisterId Generator::inline_body(const Function& function, Base base) {
     const Body outer = body_;
     body_ = {};

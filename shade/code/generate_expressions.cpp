@@ -39,6 +39,8 @@ Op arithmetic_op(Operator op, Base base) {
     }
 }
 
+/// Points are moved, vectors turned, normals turned so that they stay at right angles (RISpec 3.2, section
+/// 15.2).
 Op transform_op(Base base) {
     if (base == Base::Vector) return Op::TransformVector;
     return base == Base::Normal ? Op::TransformNormal : Op::TransformPoint;
@@ -95,6 +97,8 @@ RegisterId Generator::value(const Expression& e, std::optional<RegisterId> into)
     return constant(0);
 }
 
+/// The value in `into`, if there is such a place and it is another one; an array goes element by element. A
+/// width that differs is converted by Op::Move.
 RegisterId Generator::moved(RegisterId from, Base base, std::optional<RegisterId> into) {
     if (!into || *into == from) return from;
     const Register &source = program_->reg(from), &target = program_->reg(*into);
@@ -113,6 +117,7 @@ RegisterId Generator::number_value(const Expression& e, std::optional<RegisterId
     return moved(constant(e.number), e.type.base, into);
 }
 
+/// a op b, where the analysis has made operands of the types that op wants.
 RegisterId Generator::combined(Operator op, Base base, RegisterId a, RegisterId b,
                                std::optional<RegisterId> into) {
     if (op == Operator::Add && base == Base::String) return compute(Op::Concat, base, {a, b}, into);
@@ -135,6 +140,8 @@ RegisterId Generator::binary_value(const Expression& e, std::optional<RegisterId
     return combined(e.op, e.type.base, a, b, into);
 }
 
+/// c ? a : b. Where neither side does more than compute, both are computed and lanes choose, which costs less
+/// than parting them.
 RegisterId Generator::conditional_value(const Expression& e, std::optional<RegisterId> into) {
     const RegisterId decision = condition(*e.children[0]);
     const bool is_text = e.type.base == Base::String;
@@ -151,6 +158,8 @@ RegisterId Generator::conditional_value(const Expression& e, std::optional<Regis
     return moved(result, e.type.base, into);
 }
 
+/// Conversions by width (Move), between Bools and floats, and from a named space: of colours to rgb, of
+/// points, vectors, normals and matrices to current space (RISpec 3.2, section 11).
 RegisterId Generator::cast_value(const Expression& e, std::optional<RegisterId> into) {
     const Expression& child = *e.children[0];
     const Base to = e.type.base, from = child.type.base;
@@ -173,6 +182,8 @@ RegisterId Generator::cast_value(const Expression& e, std::optional<RegisterId> 
     return moved(a, to, into);
 }
 
+/// The value of an assignment is what the variable holds after it. An element is set by SetElement, all else
+/// is computed right into the variable's register.
 RegisterId Generator::assignment_value(const Expression& e) {
     const Expression& target = *e.children[0];
     const Expression& source = *e.children[1];

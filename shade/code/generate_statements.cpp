@@ -12,6 +12,7 @@ bool contains_return(const Statement& s) {
     return false;
 }
 
+/// Whether an expression may change a variable, by assignment or as the argument of a call.
 bool assigned_in(const Expression& e, const Variable& variable) {
     const auto names = [&](const Expression& target) {
         return target.kind == Expression::Kind::Variable && target.variable == &variable;
@@ -168,6 +169,8 @@ void Generator::if_statement(const Statement& s) {
     close(Op::EndIf);
 }
 
+/// while and for. The condition is computed inside the loop in every turn, and stands before the body; what a
+/// Continue jumps to, LoopStep, stands before the for's step.
 void Generator::loop_statement(const Statement& s) {
     const bool counts = s.kind == Statement::Kind::For;
     const Expression* initial = counts ? s.expressions[0].get() : nullptr;
@@ -183,6 +186,8 @@ void Generator::loop_statement(const Statement& s) {
     close(Op::EndLoop);
 }
 
+/// illuminance in surfaces and volumes; illuminate and solar in lights, which tell by them that the light has
+/// a direction. All set L.
 void Generator::light_block(const Statement& s) {
     Ids inputs, outputs = {global("L", Base::Vector)};
     Op op = Op::Solar, end = Op::EndSolar;
@@ -243,6 +248,7 @@ void Generator::gather_statement(const Statement& s) {
     close(Op::EndGather);
 }
 
+/// The value goes to the caller's register; at the end of a body nothing has to be left.
 void Generator::return_statement(const Statement& s) {
     if (!s.expressions.empty() && s.expressions[0]) {
         if (body_.result)

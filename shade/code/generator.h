@@ -1,5 +1,9 @@
 /// The state of code generation; the work is in generate_expressions.cpp, generate_calls.cpp and
 /// generate_statements.cpp.
+///
+/// Every expression becomes instructions that leave its value in a register. A caller that has a place for
+/// the value passes it as `into`, which saves a Move for each assignment; without one the value is where it
+/// happens to be, in a variable's own register or a temporary. Such a register must not be written to.
 #pragma once
 
 #include <map>
@@ -20,6 +24,7 @@ bool ends_with_return(const Statement& body);
 /// Whether a body may change a variable.
 bool assigns(const Statement& body, const Variable& variable);
 
+/// Makes the program of one shader. To be used once.
 class Generator {
   public:
     Generator(const Shader& shader, Diagnostics& diagnostics) : shader_(shader), diagnostics_(diagnostics) {}

@@ -35,6 +35,9 @@ std::vector<size_t> invariant(const Program& program, const Code& code, const Bl
 
 }  // namespace
 
+/// Instructions that move take their output's region with them. It may be that the loop does not run at all,
+/// and they run now: they have no effect but on a temporary (and perhaps a warning of an unknown space), and
+/// kernels do not trap.
 void hoist_code(Program& program, Code& code) {
     // Loops from the last one back: inner ones come before those around them.
     for (size_t i = code.size(); i-- > 0;) {

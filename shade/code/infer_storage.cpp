@@ -6,7 +6,9 @@
 namespace trapeze::rsl {
 namespace {
 
-/// Repeats until nothing changes: what varies makes more vary.
+/// One piece of code. Repeats until nothing changes: what varies makes more vary. A register varies when
+/// anything that it is computed from does, or when it is written where lanes have parted and read where they
+/// are together again; a block parts lanes when its condition varies.
 class Inference {
   public:
     Inference(Program& program, Code& code) : program_(program), code_(code), blocks_(code) {}
@@ -18,6 +20,9 @@ class Inference {
         return changed_;
     }
 
+    /// Marks the instructions that must leave lanes alone which do not run. A temporary, and what is read
+    /// only inside the region, may hold anything in such lanes; so most instructions run without a mask, at
+    /// full speed.
     void set_masks() {
         for (size_t i = 0; i < code_.size(); ++i) {
             Instruction& instruction = code_[i];
@@ -31,6 +36,8 @@ class Inference {
     }
 
   private:
+    /// Whether a register is read outside the region in which the instruction stands, as far as its kind
+    /// tells.
     bool outlives_region(const Instruction& instruction, RegisterId id) const {
         const Register& r = program_.reg(id);
         return r.kind != Register::Kind::Temporary && r.region != instruction.region;

@@ -30,6 +30,7 @@ std::string_view base_name(Base base) {
     return "?";
 }
 
+/// A constant's value, a variable's name, or %number for a temporary.
 std::string register_text(const Program& program, RegisterId id) {
     const Register& r = program.reg(id);
     if (r.kind != Register::Kind::Constant)
@@ -45,6 +46,8 @@ bool stands_out(Op op) {
     return divides_block(op) || op == Op::LoopTest;
 }
 
+/// "uniform float x = Add a, b", indented by the blocks around; "=?" where lanes that do not run keep what
+/// they have, "(by lane)" where a block parts lanes.
 void list_code(const Program& program, const Code& code, int indent, std::string& out) {
     for (const Instruction& instruction : code) {
         if (closes_block(instruction.op)) --indent;

@@ -1,5 +1,9 @@
 /// A shader as three-address code: what code generation makes of the tree, the optimiser improves and the
 /// grid machine runs.
+///
+/// A program has no jumps to addresses: control is in blocks that open and close (op_table.def), since what
+/// runs is a whole grid, of whose vertices some may take one way and some another. Nor are there functions:
+/// they are written out where they are called.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +18,9 @@ namespace trapeze::rsl {
 
 using RegisterId = uint32_t;
 
+/// A value with a name or without one. It may be written by several instructions, unless it is a temporary:
+/// code is not in single-assignment form, for a masked write leaves old values in some lanes, and so every
+/// write to a variable would also be a read of it.
 struct Register {
     enum class Kind : uint8_t {
         Constant,
@@ -51,6 +58,8 @@ struct Instruction {
 
 using Code = std::vector<Instruction>;
 
+/// A parameter of the shader. Its default is code of its own, for it may be any expression of what stands
+/// before it; an instance that gives the parameter a value leaves the code out.
 struct ProgramParameter {
     std::string name;
     Type type;
@@ -61,6 +70,7 @@ struct ProgramParameter {
     SourceLocation at;
 };
 
+/// One shader of a source.
 struct Program {
     ShaderKind kind = ShaderKind::Surface;
     std::string name;

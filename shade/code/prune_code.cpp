@@ -7,6 +7,8 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Counts how often each register is read, by the code and by the defaults of parameters, and takes out what
+/// nobody reads until that leaves nothing more unread.
 class Pruner {
   public:
     explicit Pruner(Program& program) : program_(program), reads_(program.registers.size(), 0) {}
@@ -37,6 +39,7 @@ class Pruner {
         return kind == Register::Kind::Temporary || kind == Register::Kind::Local;
     }
 
+    /// Whether an instruction does nothing that anyone sees.
     bool is_unread(const Instruction& instruction) const {
         if (!is_pure(instruction.op) || instruction.outputs == 0) return false;
         for (size_t k = 0; k < instruction.outputs; ++k) {
@@ -46,6 +49,7 @@ class Pruner {
         return true;
     }
 
+    /// Takes out the marked instructions, and what they read off the counts. Whether there were any.
     bool erase(Code& code, const std::vector<bool>& gone) {
         size_t kept = 0;
         for (size_t i = 0; i < code.size(); ++i) {
@@ -98,6 +102,8 @@ class Pruner {
         return erase(code, gone);
     }
 
+    /// An Else without contents, and an If or Scope. Loops stay, though empty: one that never ends is to be
+    /// reported.
     bool remove_empty_blocks(Code& code) {
         std::vector<bool> gone(code.size(), false);
         for (size_t i = 0; i + 1 < code.size(); ++i) {

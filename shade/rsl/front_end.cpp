@@ -9,6 +9,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Preprocessor, values of numbers and strings, parser. The tree is of use only if nothing has failed.
 std::unique_ptr<TranslationUnit> parse_with(const Source& source, const CompileOptions& options,
                                             Reporter& reporter) {
     TokenStream stream = preprocess(source, options, reporter);

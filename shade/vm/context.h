@@ -20,7 +20,8 @@ class Registers;
 class Run;
 struct Step;
 
-/// The vertices of one or more grids of one primitive, side by side.
+/// The vertices of one or more grids of one primitive, side by side in the lanes of a run. Small grids share
+/// a batch, since what a run costs besides its arithmetic does not depend on how many lanes it has.
 struct Batch {
     size_t vertices = 0;
     size_t lanes = 0;  ///< padded_size(vertices)

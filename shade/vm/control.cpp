@@ -1,4 +1,7 @@
-// The machine's control flow.
+// The machine's control flow. A block whose condition is the same in all lanes jumps, like any other
+// program's. A block where lanes may part (Step::varying) runs for all of them, one way after the other, and
+// MaskStack says which of them count; it is jumped over where no lane is left. Every function here takes the
+// index of the step that is done and returns that of the next.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +16,7 @@ namespace {
 
 using rsl::Op;
 
+/// Whether a lane of a Bool, which is all bits or none, is set: as a float it is NaN or 0.
 bool lane_is_set(float lane) {
     uint32_t bits;
     std::memcpy(&bits, &lane, sizeof bits);
@@ -80,6 +84,7 @@ size_t Run::control(const std::vector<Step>& steps, size_t at) {
     }
 }
 
+/// The condition of a step whose lanes go together: its first lane speaks for all.
 bool Run::uniform_condition(const Step& step) const {
     return lane_is_set(registers_.input(step, 0).data[0]);
 }
@@ -93,6 +98,8 @@ const float* Run::condition(const Step& step) {
     return plane;
 }
 
+/// If, Else and EndIf. Where lanes part, Else runs the lanes that were on at the If and failed its condition;
+/// it is given the condition again, a temporary that nothing in between sets.
 size_t Run::if_step(const Step& step, size_t at) {
     if (step.op == Op::EndIf) {
         if (step.varying) masks_.leave_block();
@@ -110,6 +117,9 @@ size_t Run::if_step(const Step& step, size_t at) {
     return masks_.none() ? step.target : at + 1;
 }
 
+/// Loop, LoopTest, LoopStep and EndLoop. Lanes that fail the test leave for good, lanes that met a Continue
+/// come back at LoopStep. EndLoop goes back to the step after Loop unless no lane is left or the loop has had
+/// its share of turns and steps (LoopLimits).
 size_t Run::loop_step(const std::vector<Step>& steps, size_t at) {
     const Step& step = steps[at];
     switch (step.op) {
@@ -165,6 +175,8 @@ bool Run::turns_are_spent(const Step& opening) {
     return true;
 }
 
+/// Break, Continue and Leave. A jump that all lanes make together is one; else the lanes that make it are
+/// taken off the masks of the blocks that they leave, and the others go on.
 size_t Run::jump_step(const Step& step) {
     if (!step.varying) return step.target;
     if (step.op == Op::Break)

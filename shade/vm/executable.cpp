@@ -28,6 +28,8 @@ size_t left_by(const rsl::Code& code, const Blocks& blocks, size_t i) {
     return left;
 }
 
+/// The end of the half of a block in which instruction i stands: its middle where that is still to come, or
+/// its closing instruction. Lanes that have been switched off meet the others there.
 size_t rest_of_block(const Blocks& blocks, size_t i) {
     const size_t around = blocks.around[i], middle = blocks.middle[around];
     return middle != Blocks::kNone && middle > i ? middle : blocks.end[around];
@@ -84,6 +86,9 @@ Executable::Executable(rsl::Program source, const LoopLimits& limits)
             if (P && instruction.operands[k] == *P) keeps_P_ = false;
 }
 
+/// Gives each register its place: varying ones share planes where they are never alive together, uniform ones
+/// and constants have one block of kLanes floats for each component, texts are strings. Constants are filled
+/// in here, once for all runs.
 void Executable::place_registers() {
     const PlaneSlots slots = assign_plane_slots(program_);
     varying_planes_ = slots.planes;
@@ -123,6 +128,8 @@ void Executable::place_registers() {
     }
 }
 
+/// The kernel for the widths that the instruction's operands have; null for control, for an operation that no
+/// kernel does, and where one of the operands is a text.
 Kernel Executable::kernel_of(const rsl::Instruction& instruction) const {
     if (rsl::is_control(instruction.op)) return nullptr;
     std::vector<int> widths;
@@ -134,6 +141,9 @@ Kernel Executable::kernel_of(const rsl::Instruction& instruction) const {
     return find_kernel(instruction.op, widths);
 }
 
+/// The steps of a piece of code, one for each instruction, so that jumps may be worked out from the indices
+/// of its blocks. The middle and the end of a block part lanes exactly if its opening does, and a jump if the
+/// loop or scope that it leaves does.
 std::vector<Step> Executable::make_steps(const rsl::Code& code) {
     const Blocks blocks(code);
     std::vector<Step> steps;

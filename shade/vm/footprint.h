@@ -16,6 +16,7 @@ struct Footprint {
     const float* widening = nullptr;
 };
 
+/// The footprints of a batch, computed when the first operation asks for them: most shaders never do.
 class Footprints {
   public:
     virtual ~Footprints() = default;

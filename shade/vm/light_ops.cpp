@@ -19,6 +19,7 @@ Operand planes_of(const Run& run, const float* first) {
     return operand;
 }
 
+/// Sums begin at black: the output's three planes, which vary.
 void clear(const Run& run, const Operand& out) {
     for (size_t k = 0; k < 3; ++k) std::fill_n(out.data + k * out.stride, run.lanes(), 0.0f);
 }
@@ -35,6 +36,7 @@ void for_lights(Run& run, const Step& step, bool ambient, const Add& add) {
     }
 }
 
+/// ambient(): what ambient lights, which have no direction, send.
 void ambient(Run& run, const Step& step, std::span<const Operand> operands) {
     clear(run, operands[0]);
     for_lights(run, step, true, [&](const Lights::Arriving& light) {
@@ -42,6 +44,7 @@ void ambient(Run& run, const Step& step, std::span<const Operand> operands) {
     });
 }
 
+/// diffuse(N): a light may say with __nondiffuse that it counts less here, or not at all.
 void diffuse(Run& run, const Step& step, std::span<const Operand> operands) {
     clear(run, operands[0]);
     for_lights(run, step, false, [&](const Lights::Arriving& light) {
@@ -74,6 +77,7 @@ void no_ray(Run& run, const Step& step, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::span(values).first(static_cast<size_t>(width)));
 }
 
+/// rayinfo() finds nothing, and raylevel() is 0: shaders only run for what the camera sees.
 void ray_info(Run& run, const Step&, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{0.0f});
 }

@@ -63,6 +63,8 @@ Run::~Run() {
     --machine_.depth_;
 }
 
+/// Scratch is counted by calls within a step, so that operands that a step asks for one after the other never
+/// overlap; the next step begins again with the first.
 float* Run::scratch(size_t planes) {
     const size_t floats = planes * lanes();
     if (scratch_used_ == level_.scratch.size()) {
@@ -94,6 +96,7 @@ void Run::run(const std::vector<Step>& steps) {
     }
 }
 
+/// Does a step with these operands, which are its own or scratch in place of its outputs, over `count` lanes.
 void Run::call(const Step& step, std::span<const Operand> operands, size_t count) {
     if (step.kernel)
         step.kernel(count, operands);
@@ -101,6 +104,9 @@ void Run::call(const Step& step, std::span<const Operand> operands, size_t count
         step.context_op(*this, step, operands);
 }
 
+/// A step that is no control. It may write where its outputs are when all lanes run, and also when some do
+/// not but nothing outlives the block in which they were switched off (Instruction::masked); else it goes
+/// through scratch. A masked step with no lane left is not done at all.
 void Run::plain(const Step& step) {
     const std::span<const Operand> operands = registers_.operands_of(step);
     scratch_used_ = 0;
@@ -136,10 +142,13 @@ void Run::through_scratch(const Step& step, std::span<const Operand> operands) {
     }
 }
 
+/// All lanes of so many planes of an operand, one after the other.
 void Run::copy_planes(const Operand& from, size_t planes, float* to) const {
     std::memcpy(to, from.data, planes * (from.lane_mask ? lanes() : kLanes) * sizeof(float));
 }
 
+/// Copies planes to an operand: all lanes, or (`masked`) those that run. A uniform operand has lanes of its
+/// own number, kLanes, all of which are the same; it is copied whole.
 void Run::copy_running(bool masked, const float* from, size_t planes, const Operand& to) const {
     const size_t plane = to.lane_mask ? lanes() : kLanes;
     if (!masked || !to.lane_mask) {

@@ -14,7 +14,9 @@
 namespace trapeze::vm {
 
 /// A thread's memory: registers of the programs it runs, and scratch planes. One run may start another (a
-/// surface its lights); each has masks and scratch of its own.
+/// surface its lights); each has masks and scratch of its own. All of it is kept from run to run, since a
+/// picture runs a few programs over very many grids of much the same size: nothing is allocated in a run once
+/// it has reached its largest one.
 class Machine {
   public:
     Machine();
@@ -23,6 +25,7 @@ class Machine {
     /// The thread's registers of an executable, number `copy` of those in use together.
     Registers& registers(const std::shared_ptr<const Executable>& executable, size_t copy = 0);
 
+    /// What the runs at one depth of nesting need besides their registers.
     struct Level;
 
     /// Runs the program's code. The registers have been started, and its parameters and variables set.
@@ -47,7 +50,10 @@ class Machine {
     size_t depth_ = 0;
 };
 
-/// One run, as the operations that ask their context see it.
+/// One run of a program over a batch, as the operations that ask their context see it. Steps are done one
+/// after the other, each over all lanes of the batch, so that the cost of finding out what is to be done is
+/// shared by hundreds of vertices. Lanes past the batch's vertices are computed as well, and not read by
+/// anyone.
 class Run {
   public:
     Run(Machine& machine, Registers& registers, const Context& context);

@@ -1,4 +1,5 @@
-// Texture, environment and shadow maps.
+// Texture, environment and shadow maps (RISpec 3.2, section 15.7). What they hold is looked up by shade/maps,
+// on which the machine does not depend; without maps, as in most tests, every lookup is black.
 #include "shade/vm/context_ops.h"
 
 namespace trapeze::vm {

@@ -49,6 +49,8 @@ void MaskStack::copy(const uint32_t* from, uint32_t* to) const {
     std::memcpy(to, from, lanes_ * sizeof *to);
 }
 
+/// The state decides how steps are done (all lanes: in place; none: not at all), and so is found once for
+/// each change of the mask and not for each step.
 void MaskStack::set_state() {
     uint32_t any = 0, every = ~0u;
     for (size_t i = 0; i < lanes_; ++i) any |= current_[i], every &= current_[i];
@@ -129,6 +131,9 @@ void MaskStack::enter_scope() {
     push(Kind::Scope);
 }
 
+/// Walks outward over the blocks that the lanes jump out of. An If or Scope on the way must not wake them at
+/// its end, so they are taken off what goes on behind it; the last loop they leave keeps them there, for that
+/// is where they go on.
 void MaskStack::break_loops(int levels) {
     for (size_t i = blocks_.size(); i-- > 0;) {
         Block& block = blocks_[i];
@@ -139,6 +144,7 @@ void MaskStack::break_loops(int levels) {
     run_none();
 }
 
+/// As break_loops(), but the last loop still has them among its live lanes: next_turn() wakes them.
 void MaskStack::continue_loop(int levels) {
     for (size_t i = blocks_.size(); i-- > 0;) {
         Block& block = blocks_[i];
@@ -149,6 +155,7 @@ void MaskStack::continue_loop(int levels) {
     run_none();
 }
 
+/// Lanes that return wake at the end of the scope: they leave all loops and halves inside it.
 void MaskStack::leave_scope() {
     for (size_t i = blocks_.size(); i-- > 0;) {
         Block& block = blocks_[i];

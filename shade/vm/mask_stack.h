@@ -1,5 +1,11 @@
-/// Which lanes of a grid run. Blocks in which lanes go separate ways nest; lanes that jump out of several
+/// Which lanes of a batch run. Blocks in which lanes go separate ways nest; lanes that jump out of several
 /// blocks are taken off each of them.
+///
+/// A mask is a plane of 32-bit words, all bits of a lane set or none, in the form that kernels and
+/// comparisons give and take as floats. There is one mask of the lanes that run now, and for each open block
+/// a copy of those that go on behind it. What a lane is taken off of decides where it wakes up again: of the
+/// current mask alone, at the block's end (or Else); of a loop's `live` lanes, behind the loop; of `before`
+/// too, further out.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +19,8 @@ namespace trapeze::vm {
 /// A lane runs where all bits are set.
 using MaskPlane = std::span<uint32_t>;
 
+/// The masks of one run. Only blocks where lanes may part are entered here; a block whose condition is
+/// uniform leaves all masks as they are, and the machine jumps.
 class MaskStack {
   public:
     enum class State : uint8_t { None, Some, All };
@@ -26,10 +34,13 @@ class MaskStack {
     /// Of the lanes that run; meaningful in every state.
     const uint32_t* current() const { return current_; }
 
+    /// Lanes go on in the first half where the condition holds, and in the second where it does not.
     void enter_if(const float* condition);
     void turn_to_else(const float* condition);
+    /// All lanes that entered the innermost block and have not jumped out of it run again.
     void leave_block();
 
+    /// The lanes that run now take part in a loop, of which each leaves when its own test fails.
     void enter_loop();
     void test_loop(const float* condition);
     /// Lanes that continued run again.
@@ -38,6 +49,7 @@ class MaskStack {
     void start_turn(const float* lanes);
     bool loop_is_over() const;
 
+    /// A body that lanes may return from one by one.
     void enter_scope();
     /// The lanes that run leave `levels` loops, or go on with the next turn of the `levels`-th.
     void break_loops(int levels);
@@ -52,9 +64,11 @@ class MaskStack {
         uint32_t* live = nullptr;    ///< of a loop: lanes that have not left it
     };
 
+    /// A plane of its own for a block, from those given back or new; contents are undefined.
     uint32_t* take();
     void give_back(uint32_t* plane) { free_.push_back(plane); }
     Block& push(Kind kind);
+    /// Clears the lanes that run now in another mask.
     void take_off(uint32_t* plane) const;
     void copy(const uint32_t* from, uint32_t* to) const;
     void set_state();

@@ -19,6 +19,7 @@ void ask(Run& run, const Step& step, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});
 }
 
+/// shadername() of the shader that runs, or of the one of a kind that is on the same grid.
 void shader_name(Run& run, const Step& step, std::span<const Operand>) {
     Registers& registers = run.registers();
     const std::string kind = step.count > step.outputs ? registers.text_input(step, 0) : std::string();

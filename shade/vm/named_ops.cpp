@@ -10,6 +10,8 @@ namespace {
 
 using rsl::Op;
 
+/// Transforms by name are a matrix, found once for the batch, and an operation of matrices. An unknown name
+/// is said once and transforms nothing, as it is mostly a misspelt one.
 void space_matrix(Run& run, const Step& step, std::span<const Operand> operands) {
     const std::string &from = run.registers().text_input(step, 0), &to = run.registers().text_input(step, 1);
     std::optional<M44f> matrix;
@@ -24,6 +26,7 @@ void space_matrix(Run& run, const Step& step, std::span<const Operand> operands)
     fill_operand(run, operands[0], std::span<const float>(&(*matrix)[0][0], 16));
 }
 
+/// ctransform(), and casts of colours from a space. Operand 0 is the result, 1 and 2 the names, 3 the colour.
 void convert_color(Run& run, const Step& step, std::span<const Operand> operands) {
     const std::string &from = run.registers().text_input(step, 0), &to = run.registers().text_input(step, 1);
     Kernel kernel = find_color_conversion(from, to);

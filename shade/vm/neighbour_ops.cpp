@@ -26,6 +26,7 @@ bool is_flat(Run& run, const Step& step, std::span<const Operand> operands) {
     return true;
 }
 
+/// Du(), Dv() and Deriv(), with u and v behind their arguments (kNeedsUV).
 void differences(Run& run, const Step& step, std::span<const Operand> operands) {
     if (is_flat(run, step, operands)) return;
     const int width = width_of_output(run, step);
@@ -36,6 +37,8 @@ void differences(Run& run, const Step& step, std::span<const Operand> operands) 
     differentiate(spans_of(run), run.lanes(), width, operands[1], operands[2], operands[3], operands[0]);
 }
 
+/// area(P): as large as what the vertex stands for where it is filtered, which at grazing angles is more than
+/// the micropolygon (Footprint::widening).
 void area(Run& run, const Step& step, std::span<const Operand> operands) {
     if (is_flat(run, step, operands)) return;
     areas(spans_of(run), run.lanes(), operands[1], operands[0]);
@@ -44,6 +47,7 @@ void area(Run& run, const Step& step, std::span<const Operand> operands) {
     for (size_t i = 0; i < run.lanes(); ++i) operands[0].data[i] *= widening[i];
 }
 
+/// calculatenormal(P).
 void normals(Run& run, const Step& step, std::span<const Operand> operands) {
     if (!is_flat(run, step, operands))
         calculate_normals(spans_of(run), run.lanes(), operands[1], operands[0]);

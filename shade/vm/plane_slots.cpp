@@ -12,6 +12,7 @@ namespace {
 using rsl::Blocks;
 using rsl::Register;
 
+/// From the first instruction that names a register to the last, both included.
 struct Lifetime {
     size_t first = Blocks::kNone, last = 0;
     uint32_t id = 0;
@@ -61,6 +62,10 @@ uint32_t plane_count(const rsl::Type& type) {
     return static_cast<uint32_t>(rsl::width_of(type.base) * std::max(type.length, 1));
 }
 
+/// Registers are looked at in the order in which their lifetimes begin, and take planes that an older one of
+/// the same size has done with, or new ones: register allocation by linear scan, but without spilling, for
+/// there are as many planes as are asked for. Fewer planes are fewer bytes for the processor's caches to
+/// hold.
 PlaneSlots assign_plane_slots(const rsl::Program& program) {
     PlaneSlots slots;
     slots.first.assign(program.registers.size(), 0);

@@ -12,6 +12,8 @@ void Registers::Free::operator()(float* p) const {
     std::free(p);
 }
 
+/// Operands are made anew only where the number of lanes changes. One block of memory holds all planes: the
+/// uniform ones first, kLanes floats each, then the varying ones, `lanes` floats each.
 void Registers::start(size_t lanes) {
     if (executable_->text_count()) texts_ = executable_->texts();
     if (lanes == lanes_) return;
@@ -49,6 +51,7 @@ void Registers::start(size_t lanes) {
     for (const rsl::RegisterId id : executable_->operands()) operands_.push_back(by_id_[id]);
 }
 
+/// An element of an array is chosen by its number; 0 for what is no array.
 void Registers::set_uniform(rsl::RegisterId id, const float* values, size_t element) {
     const Operand& operand = by_id_[id];
     const int width = rsl::width_of(reg(id).type.base);

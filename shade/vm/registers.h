@@ -1,4 +1,8 @@
-/// A program's registers during a run on one thread. Kept from run to run.
+/// A program's registers during a run on one thread: parameters, predefined variables, locals and
+/// temporaries, each one or several planes of floats, and texts. Kept from run to run.
+///
+/// A caller sets parameters and variables after start() and before Machine::run(), and reads what the program
+/// left in them afterwards, until the next start().
 #pragma once
 
 #include <memory>

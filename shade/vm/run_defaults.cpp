@@ -12,6 +12,7 @@ using rsl::Register;
 
 }  // namespace
 
+/// Parameters are looked at in their order, since a default may name parameters before it and no others.
 std::vector<bool> has_run_default(const rsl::Program& program) {
     std::vector<bool> found;
     std::vector<bool> known_late(program.registers.size(), false);

@@ -11,6 +11,7 @@ namespace {
 
 using rsl::Op;
 
+/// Variables that the renderer has values for; others of globals.cpp start as 0.
 constexpr std::pair<std::string_view, Predefined> kNames[] = {
     {"P", Predefined::P},       {"Ps", Predefined::Ps},       {"N", Predefined::N},
     {"Ns", Predefined::Ns},     {"Ng", Predefined::Ng},       {"dPdu", Predefined::dPdu},

@@ -42,6 +42,8 @@ struct StartValue {
     bool needed = true;
 };
 
+/// One for each of program.globals. A value that nobody can see is not computed or copied into the registers:
+/// a constant surface over a grid costs mostly that.
 std::vector<StartValue> start_values(const rsl::Program& program);
 
 }  // namespace trapeze::vm

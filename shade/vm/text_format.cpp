@@ -17,6 +17,8 @@ struct Field {
     char letter = 0;           ///< 0: the format ends in it
 };
 
+/// A width or precision, clamped: a format from a stranger must not ask for a megabyte. Returns where reading
+/// goes on.
 size_t read_number(std::string_view format, size_t at, std::string& out) {
     int number = 0;
     const size_t first = at;
@@ -40,6 +42,7 @@ size_t read_field(std::string_view format, size_t at, Field& field) {
     return at;
 }
 
+/// %d of a float is its whole part; what is too large for that, and NaN, is written as a float.
 std::string number_text(const Field& field, float value) {
     char buffer[kMaxFieldWidth * 2 + 64];
     const bool whole = field.letter == 'd' || field.letter == 'i';

@@ -11,6 +11,8 @@ namespace {
 
 using rsl::Op;
 
+/// An index into an array of texts. Texts are uniform, so the first lane speaks for all; what is out of range
+/// is clamped, as it is for arrays of numbers.
 size_t element_of(Run& run, const Step& step, size_t index_operand, int length) {
     const size_t i = index_operand;
     const float index = run.registers().operand(run.registers().register_of(step, i)).data[0];
@@ -43,6 +45,7 @@ void clear_texts(Run& run, const Step& step, std::span<const Operand>) {
         registers.text(array, static_cast<size_t>(i)).clear();
 }
 
+/// == and != of texts, which are uniform.
 void equal_texts(Run& run, const Step& step, std::span<const Operand> operands) {
     const bool equal = run.registers().text_input(step, 0) == run.registers().text_input(step, 1);
     fill_bool(run, operands[0], equal == (step.op == Op::Equal));
@@ -56,6 +59,7 @@ void concat(Run& run, const Step& step, std::span<const Operand>) {
     run.registers().text(run.registers().register_of(step, 0)) = std::move(joined);
 }
 
+/// The arguments behind a format, as they are in one lane.
 std::vector<TextValue> values_at(Run& run, const Step& step, std::span<const Operand> operands, size_t lane) {
     Registers& registers = run.registers();
     std::vector<TextValue> values;

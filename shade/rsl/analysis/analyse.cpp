@@ -19,6 +19,7 @@ std::string in_quotes(std::string_view name) {
     return "\"" + std::string(name.substr(0, 80)) + "\"";
 }
 
+/// Makes all that name a variable name another one.
 void replace_variable(Expression& e, const Variable* old, Variable* now) {
     if (e.variable == old) e.variable = now;
     for (const ExpressionPtr& child : e.children) replace_variable(*child, old, now);
@@ -38,6 +39,8 @@ void analyse(TranslationUnit& unit, Reporter& reporter) {
     Analyser(unit, reporter).run();
 }
 
+/// Shaders one after the other: functions have no meaning by themselves, since the variables that they name
+/// as extern are those of the shader that calls them. Those that no shader calls are not looked at.
 void Analyser::run() {
     for (const auto& function : unit_.functions) {
         if (!function->inside.empty()) continue;
@@ -58,6 +61,8 @@ void Analyser::run() {
 
 // ---- Shaders and functions
 
+/// Parameters are declared one by one as their defaults are analysed, for a default may name the parameters
+/// before it.
 void Analyser::analyse_shader(Shader& shader) {
     shader_ = &shader;
     file_instances_.clear();
@@ -137,6 +142,7 @@ Analyser::Instance* Analyser::instance_of(const Function& original, bool nested,
     return &instance;
 }
 
+/// A function's parameters and statements, as the innermost body.
 void Analyser::analyse_body(Function& function) {
     scopes_.emplace_back();
     for (const auto& parameter : function.parameters) {
@@ -154,6 +160,8 @@ void Analyser::analyse_body(Function& function) {
                           "function " + in_quotes(function.name) + " never returns a value: it is 0");
 }
 
+/// What a call of the function adds to its caller: counts are kept from running over, since calls multiply
+/// them.
 void Analyser::finish_instance(Instance& instance) {
     copy_written_parameters(*instance.function);
     copied_ += body().own_operations;
@@ -193,6 +201,8 @@ void Analyser::copy_written_parameters(Function& function) {
 
 // ---- Variables
 
+/// Puts a name into the innermost scope. A local declared twice is warned of and hides the first; any other
+/// name is an error.
 void Analyser::declare(Variable& variable) {
     Variable*& known = scopes_.back().variables[variable.name];
     if (known && variable.kind == Variable::Kind::Local && known->kind == Variable::Kind::Local)
@@ -203,6 +213,7 @@ void Analyser::declare(Variable& variable) {
     known = &variable;
 }
 
+/// An array without a length has that of its list of values; bounds keep a shader from wanting all memory.
 void Analyser::check_array(Variable& variable) {
     if (!variable.type.is_array()) return;
     if (variable.type.length == Type::kUnsized) {

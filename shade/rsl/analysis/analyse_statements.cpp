@@ -7,6 +7,7 @@
 
 namespace trapeze::rsl {
 
+/// Both walks over one expression: see analyser.h. What they learn of it is of no use afterwards.
 void Analyser::value(ExpressionPtr& e, Base wanted) {
     choices_.clear();
     height_ = e->height;
@@ -55,6 +56,7 @@ void Analyser::declare_again(StatementPtr& s) {
     s->expressions.push_back(std::move(assignment));
 }
 
+/// Counts the statement and its depth, since all of it is inlined where the function is called.
 void Analyser::statement(StatementPtr& s) {
     if (reporter_.full()) return;
     ++body().operations;

@@ -1,6 +1,11 @@
 /// The analysis' state, shared by its parts: analyse.cpp has shaders, functions and names,
 /// analyse_statements.cpp statements, possible_types.cpp the types that expressions can have,
 /// choose_types.cpp those that they get, calls.cpp the choice of overloads.
+///
+/// In the shading language a call may mean a float or a colour according to what is wanted of it: noise(P) is
+/// both. So expressions are walked twice: from the leaves up, for the types that each can have and what
+/// conversions each would cost (Choices); then from the root down, where each gets the cheapest type that
+/// serves. The second walk puts the casts into the tree.
 #pragma once
 
 #include <deque>
@@ -15,6 +20,7 @@
 
 namespace trapeze::rsl {
 
+/// Analyses a whole source. To be used once.
 class Analyser {
   public:
     Analyser(TranslationUnit& unit, Reporter& reporter) : unit_(unit), reporter_(reporter) {}
@@ -29,6 +35,7 @@ class Analyser {
         uint64_t operations = 0, array_floats = 0;  ///< with those of the functions it calls
         int depth = 0;                              ///< of its tree, likewise
     };
+    /// What is declared between two braces, by name.
     struct Scope {
         std::unordered_map<std::string_view, Variable*> variables;
         std::unordered_map<std::string_view, std::vector<Instance*>> functions;

@@ -5,6 +5,9 @@
 namespace trapeze::rsl {
 namespace {
 
+// To add a function: a row for each of its overloads here, a row in operations/op_table.def if none of the
+// operations there computes it, and a kernel (vm/kernels) or a function that asks the context (vm/*_ops.cpp).
+//
 // Overloads of a name stand together, the preferred one first: where nothing says which result is wanted, the
 // first whose arguments fit best is taken. xcomp and its like are Component and SetComponent with the number
 // that their name says; those of transform with one space name have the current space for the other.

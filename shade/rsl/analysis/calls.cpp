@@ -28,12 +28,14 @@ const Signature::Parameter* parameter_at(const Signature& signature, size_t i) {
     return signature.more ? &signature.parameters.back() : nullptr;
 }
 
+/// Whether a signature takes so many arguments.
 bool count_fits(const Signature& signature, size_t given) {
     const size_t fixed = signature.parameters.size();
     if (given == fixed || (given > fixed && (signature.more || signature.anything))) return true;
     return signature.pairs && given > fixed && (given - fixed) % 2 == 0;
 }
 
+/// Whether argument i is the name of a pair of name and value.
 bool is_pair_name(const Signature& signature, size_t i) {
     return signature.pairs && i >= signature.parameters.size() && (i - signature.parameters.size()) % 2 == 0;
 }
@@ -59,6 +61,7 @@ std::vector<Signature> Analyser::candidates(const Expression& call) {
     return all;
 }
 
+/// What converting an argument to its parameter costs. Arrays and output arguments are not converted at all.
 int Analyser::cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const {
     const Choices choices = choices_of(argument);
     if (choices.is_unknown()) return 0;
@@ -94,6 +97,7 @@ int Analyser::cost_of(const Signature& signature, const Expression& call) const 
     return std::min(cost, Choices::kNever - 1);
 }
 
+/// Every overload that fits offers its result type, at what its arguments cost.
 Choices Analyser::call_types(Expression& e) {
     const std::vector<Signature> all = candidates(e);
     // A texture's name may have a channel.
@@ -169,6 +173,7 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
         reporter_.note(call.at, "and " + std::to_string(all.size() - kMostCandidatesShown) + " more");
 }
 
+/// Says that there is no such function, and which name was meant, if one is near.
 void Analyser::unknown_function(const Expression& call) {
     const std::string name = "\"" + call.text.substr(0, 80) + "\"";
     if (std::find(std::begin(kNotSupported), std::end(kNotSupported), call.text) != std::end(kNotSupported)) {
@@ -181,6 +186,8 @@ void Analyser::unknown_function(const Expression& call) {
     error(call.at, "there is no function " + name + suggestion.text());
 }
 
+/// The overload with the wanted result whose arguments cost least. Among equals the first one stands, so that
+/// the order of candidates() and of builtins.cpp decides.
 void Analyser::choose_call(Expression& e, Base base) {
     const std::vector<Signature> all = candidates(e);
     const Signature* best = nullptr;
@@ -203,6 +210,7 @@ void Analyser::choose_call(Expression& e, Base base) {
                           "function \"" + e.text + "\" of later renderers is not there, and does nothing");
 }
 
+/// Named optional arguments may be of any type; output arguments must be places, and stay what they are.
 void Analyser::choose_argument(Expression& call, size_t i, const Signature& signature) {
     ExpressionPtr& argument = call.children[i];
     const Signature::Parameter* parameter = parameter_at(signature, i);

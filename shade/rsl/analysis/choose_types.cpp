@@ -30,6 +30,7 @@ void Analyser::choose_type(ExpressionPtr& e, Base wanted) {
     if (wanted != Base::Void) convert(e, wanted);
 }
 
+/// A list's values become elements; another array is taken as it is.
 void Analyser::choose_array_assignment(Expression& e) {
     if (e.children[1]->kind != Expression::Kind::List) return choose_type(e.children[1], Base::Void);
     for (ExpressionPtr& child : e.children[1]->children) choose_type(child, e.type.base);
@@ -49,6 +50,7 @@ void Analyser::convert(ExpressionPtr& e, Base to) {
     e = std::move(cast);
 }
 
+/// Gives an expression the type, which is one of its choices, and its operands those that lead there.
 void Analyser::give_type(Expression& e, Base base) {
     e.type.base = base;
     switch (e.kind) {
@@ -88,6 +90,8 @@ void Analyser::give_type(Expression& e, Base base) {
     }
 }
 
+/// Tries all pairs of types that the operands can have, as binary_types() did, and takes the cheapest that
+/// gives `base`.
 void Analyser::choose_binary(Expression& e, Base base) {
     const Choices left = choices_of(*e.children[0]), right = choices_of(*e.children[1]);
     std::optional<OperatorPlan> best;
@@ -116,6 +120,8 @@ void Analyser::choose_cast(Expression& e) {
                                                                        : Base::Void);
 }
 
+/// What is assigned becomes of the variable's type; with an operator (+= and such) it gets the type that the
+/// operator takes beside the variable.
 void Analyser::choose_assignment(Expression& e) {
     const Base to = e.type.base;
     if (e.children[0]->kind == Expression::Kind::Element) choose_type(e.children[0], to);

@@ -13,6 +13,8 @@ bool is_geometric(Base base) {
     return base == Base::Point || base == Base::Vector || base == Base::Normal;
 }
 
+/// a + b and a - b. A point minus a point is a vector, a point plus a vector a point; two points added are a
+/// point, which real shaders do when they average.
 std::optional<OperatorPlan> plan_sum(Operator op, Base a, Base b) {
     if (a == Base::Float && b == Base::Float) return OperatorPlan{a, a, b, 0};
     if (a == Base::String && b == Base::String && op == Operator::Add) return OperatorPlan{a, a, b, 0};
@@ -28,6 +30,7 @@ std::optional<OperatorPlan> plan_sum(Operator op, Base a, Base b) {
     return OperatorPlan{a == b ? a : Base::Vector, a, b, 0};
 }
 
+/// a * b and a / b: by component for triples, of matrices for matrices; a float beside a matrix becomes one.
 std::optional<OperatorPlan> plan_product(Base a, Base b) {
     if (a == Base::Float && b == Base::Float) return OperatorPlan{a, a, b, 0};
     if (a == Base::Float && is_triple(b)) return OperatorPlan{b, a, b, b == Base::Color ? kSameFamily : 0};
@@ -64,12 +67,14 @@ std::optional<OperatorPlan> plan_order(Base a, Base b) {
     return planned;
 }
 
+/// && and ||, of anything that can be true.
 std::optional<OperatorPlan> plan_logic(Base a, Base b) {
     const auto left = conversion_cost(a, Base::Bool), right = conversion_cost(b, Base::Bool);
     if (!left || !right) return {};
     return OperatorPlan{Base::Bool, Base::Bool, Base::Bool, *left + *right};
 }
 
+/// Every operator but && and ||, on types other than Bool.
 std::optional<OperatorPlan> plan_values(Operator op, Base a, Base b) {
     switch (op) {
         case Operator::Add:

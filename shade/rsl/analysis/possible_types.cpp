@@ -17,6 +17,8 @@ bool is_string(const Expression& e, const Choices& choices) {
 
 }  // namespace
 
+/// What the first walk found for an expression; unknown, which goes with everything, where it has not been
+/// there.
 Choices Analyser::choices_of(const Expression& e) const {
     const auto entry = choices_.find(&e);
     return entry == choices_.end() ? Choices::unknown() : entry->second;
@@ -106,6 +108,8 @@ bool Analyser::is_component(const Expression& e) const {
            (single(Base::Color) || single(Base::Point) || single(Base::Vector) || single(Base::Normal));
 }
 
+/// a[i]: an element of an array; v[k] and m[i][j], other words for comp(), become calls of it; "name"[k]
+/// before a texture call is the name with a channel.
 Choices Analyser::element_types(Expression& e) {
     Expression& of = *e.children[0];
     if (of.kind == Expression::Kind::Element && of.children[0]->kind == Expression::Kind::Variable) {
@@ -143,6 +147,7 @@ Choices Analyser::element_types(Expression& e) {
     return Choices(of.type.base);
 }
 
+/// Only an index that is a constant can be judged; the machine clamps all others.
 void Analyser::check_index(const Expression& element) {
     const int length = element.children[0]->type.length;
     const Expression* index = element.children[1].get();
@@ -162,6 +167,7 @@ static bool is_whole_array(const Expression& e, Reporter& reporter) {
     return true;
 }
 
+/// All results that the operator gives for pairs of types that its operands can have.
 Choices Analyser::binary_types(Expression& e) {
     const Choices left = possible_types(*e.children[0]), right = possible_types(*e.children[1]);
     const bool arrays =
@@ -179,6 +185,7 @@ Choices Analyser::binary_types(Expression& e) {
     return Choices::unknown();
 }
 
+/// The types that both values can become.
 Choices Analyser::conditional_types(Expression& e) {
     const Choices condition = possible_types(*e.children[0]);
     const Choices yes = possible_types(*e.children[1]), no = possible_types(*e.children[2]);
@@ -199,6 +206,7 @@ Choices Analyser::conditional_types(Expression& e) {
     return Choices::unknown();
 }
 
+/// (a, b, c) may be any triple, and what it is is decided by where it stands.
 Choices Analyser::tuple_types(Expression& e) {
     if (e.kind == Expression::Kind::List) {
         error(e.at, "values in braces stand only where an array is declared");
@@ -286,6 +294,8 @@ Choices Analyser::array_assignment_types(Expression& e) {
     return {};
 }
 
+/// The type of the variable, if the value can become it. Where what is assigned to is a component, the
+/// assignment becomes a call of setcomp().
 Choices Analyser::assignment_types(Expression& e) {
     const Choices place = possible_types(*e.children[0]);
     const Expression& left = *e.children[0];

@@ -26,6 +26,10 @@ bool is_varying(const Expression& call) {
     return op_traits::has(call.builtin->op, op_traits::kNeedsP);
 }
 
+/// Walks over the shader and its functions until nothing changes: a variable becomes varying when a varying
+/// value is assigned to it, or any value where only some vertices take part.
+///
+/// Functions are shared by their calls, so a parameter is varying if it is at one of them.
 class Propagation {
   public:
     Propagation(Shader& shader, const std::vector<Function*>& functions, Reporter& reporter)
@@ -43,6 +47,7 @@ class Propagation {
     }
 
   private:
+    /// What is known of a function from all that it returns and all places where it is called.
     struct Facts {
         bool result_varying = false;
         bool called_apart = false;  ///< where not all vertices take part
@@ -139,6 +144,7 @@ class Propagation {
 
     // ---- Values
 
+    /// Whether an expression may have different values at different vertices, as far as is known yet.
     bool varying(const Expression& e) const {
         if (e.type.base == Base::String) return false;
         switch (e.kind) {
@@ -218,6 +224,7 @@ class Propagation {
         if (parted || all_varying_) make_varying(*variable, place.at, false);
     }
 
+    /// With `warn`, says that what the source calls uniform is not.
     void make_varying(Variable& variable, SourceLocation at, bool warn) {
         if (variable.type.base == Base::String || varying(variable)) return;
         changed_ = true;
@@ -231,6 +238,7 @@ class Propagation {
         variable.storage = Storage::Varying;
     }
 
+    /// Sets a fact that, once true, stays so.
     void note(bool& fact, bool value) {
         if (fact || !value) return;
         fact = true;

@@ -5,6 +5,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// A letter of Builtin::parameters, small or capital.
 Base base_of(char letter) {
     switch (letter | 32) {
         case 'f':

@@ -9,6 +9,7 @@
 
 namespace trapeze::rsl {
 
+/// A function's result and parameters, in the form that the choice of overloads works with.
 struct Signature {
     struct Parameter {
         Type type;

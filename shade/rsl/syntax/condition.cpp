@@ -10,6 +10,7 @@ constexpr int kDeepest = 200;
 
 struct BadCondition {};
 
+/// A whole number as in C: decimal, octal, hexadecimal, and with U or L behind it.
 std::optional<int64_t> integer_of(std::string_view text) {
     while (!text.empty() && std::string_view("uUlL").find(text.back()) != std::string_view::npos)
         text.remove_suffix(1);
@@ -37,6 +38,8 @@ int precedence_of(const Token& token) {
     return 0;
 }
 
+/// Evaluates while it parses, by precedence climbing. What && || and ?: leave out is parsed but not judged
+/// (idle_): a division by zero in it is no error.
 class Condition {
   public:
     Condition(const std::vector<Token>& tokens, SourceLocation at, Reporter& reporter)

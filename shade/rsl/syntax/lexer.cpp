@@ -27,6 +27,8 @@ Lexer::Lexer(const SourceText& text, uint32_t source, Reporter& reporter)
         ++next_joint_, ++line_, ++physical_line_;
 }
 
+/// One byte on. Lines count as in the file: where a backslash joined two, the joined text goes on in the next
+/// one.
 void Lexer::advance() {
     ++column_;
     if (text_[position_++] == '\n') ++line_, ++physical_line_, column_ = 1;
@@ -34,6 +36,7 @@ void Lexer::advance() {
         ++next_joint_, ++line_, ++physical_line_, column_ = 1;
 }
 
+/// Both forms of comments. True when there was one.
 bool Lexer::skip_comment() {
     if (peek() != '/') return false;
     if (peek(1) == '/') {
@@ -126,6 +129,7 @@ bool Lexer::scan_string() {
     return false;
 }
 
+/// The longest operator that begins here, or one byte.
 void Lexer::scan_mark() {
     const std::string_view rest = text_.substr(position_, 3);
     for (const std::string_view mark : kMarks)

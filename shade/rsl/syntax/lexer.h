@@ -6,6 +6,8 @@
 
 namespace trapeze::rsl {
 
+/// Reads a text once. Tokens point into it, so it is not copied; bytes that mean nothing become tokens, too,
+/// and it is read_values() that complains, since a condition may leave them out.
 class Lexer {
   public:
     /// `source`: as registered with Diagnostics. `text` must outlive the tokens.

@@ -7,6 +7,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Whether two definitions are the same to the letter, which makes defining anew harmless.
 bool same_body(const Macro& a, const Macro& b) {
     return a.kind == b.kind && a.variadic == b.variadic && a.parameters == b.parameters &&
            std::equal(a.body.begin(), a.body.end(), b.body.begin(), b.body.end(),
@@ -38,6 +39,7 @@ Expander::~Expander() {
     while (!contexts_.empty()) leave_context();
 }
 
+/// The macro's text has been read to its end: its name means it again.
 void Expander::leave_context() {
     --contexts_.back().macro->disabled;
     contexts_.pop_back();
@@ -48,6 +50,7 @@ void Expander::exceed(SourceLocation at, const char* what) {
     budget_.exceeded = true;
 }
 
+/// The next token before expansion: of the innermost macro's text, or of the file.
 Token Expander::pull() {
     while (!contexts_.empty()) {
         Context& top = contexts_.back();
@@ -62,6 +65,8 @@ Token Expander::pull() {
     return read_();
 }
 
+/// Looks ahead without expanding: the name of a macro with parameters that no parenthesis follows is an
+/// ordinary name.
 bool Expander::next_is_open_parenthesis() {
     while (!contexts_.empty() && contexts_.back().position == contexts_.back().tokens.size()) leave_context();
     if (!contexts_.empty()) return contexts_.back().tokens[contexts_.back().position].is("(");
@@ -95,6 +100,8 @@ Token Expander::next() {
     }
 }
 
+/// Puts the macro's text in front of what is still to be read, where next() looks for macros in it again;
+/// while it is read the macro's own name stays as it is, as in C.
 void Expander::expand(const Token& name, const std::shared_ptr<Macro>& macro) {
     Arguments arguments;
     if (macro->kind == Macro::Kind::Function && !collect_arguments(name, *macro, arguments)) return;

@@ -12,6 +12,7 @@
 
 namespace trapeze::rsl {
 
+/// A macro as it was defined; __FILE__ and __LINE__ are kinds of their own.
 struct Macro {
     enum class Kind : uint8_t { Object, Function, File, Line };
     Kind kind = Kind::Object;

@@ -80,6 +80,7 @@ ExpressionPtr Parser::conditional() {
     return finished(std::move(choice));
 }
 
+/// Operators that bind at least as tightly as `lowest`, by precedence climbing: all are left-associative.
 ExpressionPtr Parser::binary(int lowest) {
     ExpressionPtr left = unary();
     while (const BinaryOperator* row = find(kBinary, now())) {
@@ -93,6 +94,7 @@ ExpressionPtr Parser::binary(int lowest) {
     return left;
 }
 
+/// - and !, and + which says nothing. A type's name begins a cast, which binds as tightly.
 ExpressionPtr Parser::unary() {
     if (at("-") || at("!")) {
         const Nesting nesting(*this);
@@ -130,6 +132,7 @@ ExpressionPtr Parser::cast() {
     return finished(std::move(e));
 }
 
+/// Elements: a[i], m[i][j].
 ExpressionPtr Parser::postfix() {
     ExpressionPtr e = primary();
     while (at("[")) {
@@ -144,6 +147,7 @@ ExpressionPtr Parser::postfix() {
     return e;
 }
 
+/// A number, string, name, call, or something in parentheses.
 ExpressionPtr Parser::primary() {
     const Token& token = now();
     if (token.kind == Token::Kind::Number) {

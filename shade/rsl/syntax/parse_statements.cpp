@@ -12,6 +12,7 @@ StatementPtr make(Statement::Kind kind, const Token& token) {
 
 }  // namespace
 
+/// { ... }: an error within ends one statement only.
 StatementPtr Parser::block() {
     StatementPtr block = make(Statement::Kind::Block, now());
     const Nesting nesting(*this);
@@ -84,6 +85,8 @@ bool Parser::at_function() const {
     return is_void || tokens_[behind_parentheses(name + 1)].is("{");
 }
 
+/// Whether a declaration begins here: a type and a name, without the parenthesis that makes it a cast of a
+/// call.
 bool Parser::at_declaration() const {
     if (at_any({"extern", "output", "uniform", "varying"})) return true;
     if (base_named(now().text) == Base::Void) return false;
@@ -169,6 +172,7 @@ StatementPtr Parser::for_statement() {
     return around;
 }
 
+/// illuminance, illuminate, solar and gather: arguments in parentheses, a statement, and for gather an else.
 StatementPtr Parser::light_statement(Statement::Kind kind) {
     const Token& word = take();
     StatementPtr statement = make(kind, word);
@@ -179,6 +183,7 @@ StatementPtr Parser::light_statement(Statement::Kind kind) {
     return statement;
 }
 
+/// break n and continue n: out of the n-th loop, from the inside.
 StatementPtr Parser::loop_control(Statement::Kind kind) {
     const Token& word = take();
     StatementPtr statement = make(kind, word);

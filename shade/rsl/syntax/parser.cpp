@@ -14,6 +14,7 @@ std::optional<ShaderKind> shader_kind_named(std::string_view name) {
     return {};
 }
 
+/// A token as messages quote it.
 std::string shown(const Token& token) {
     if (token.kind == Token::Kind::End) return "the end of the file";
     if (token.kind == Token::Kind::Text) return "a string";
@@ -28,6 +29,7 @@ std::unique_ptr<TranslationUnit> parse_tokens(const TokenStream& stream, Reporte
 
 Parser::Parser(const std::vector<Token>& tokens, Reporter& reporter) : tokens_(tokens), reporter_(reporter) {}
 
+/// Definitions until the end. An error ends the definition that it is in, and reading goes on behind it.
 std::unique_ptr<TranslationUnit> Parser::unit() {
     try {
         while (!at_end() && !reporter_.full()) {
@@ -47,6 +49,7 @@ std::unique_ptr<TranslationUnit> Parser::unit() {
 
 // ---- Tokens
 
+/// The token that is read next, and on; the End is never left behind.
 const Token& Parser::take() {
     const Token& token = now();
     if (next_ + 1 < tokens_.size()) ++next_;
@@ -72,6 +75,7 @@ void Parser::fail_expecting(std::string_view what) {
     fail(now(), "expected " + std::string(what) + ", not " + shown(now()));
 }
 
+/// Takes a mark or word that must come now; `where` completes the message: expected ")" after arguments.
 void Parser::expect(std::string_view text, std::string_view where) {
     if (accept(text)) return;
     const std::string wanted = "\"" + std::string(text) + "\" " + std::string(where);
@@ -85,6 +89,7 @@ void Parser::expect(std::string_view text, std::string_view where) {
     fail_expecting(wanted);
 }
 
+/// A name that is not a word of the language; `what` it is the name of, for messages.
 std::string Parser::new_name(std::string_view what) {
     if (now().kind != Token::Kind::Name) fail_expecting(what);
     if (is_reserved(now().text)) fail(now(), shown(now()) + " is a word of the language and no name");
@@ -153,6 +158,7 @@ void Parser::refuse_rsl2() {
 
 // ---- Definitions
 
+/// A shader or a function, which are told apart by what stands before the first parenthesis.
 void Parser::definition() {
     if (shader_kind_named(now().text) && ahead(1).kind == Token::Kind::Name && ahead(2).is("("))
         return shader();
@@ -169,6 +175,7 @@ void Parser::definition() {
     fail_expecting("a shader or a function");
 }
 
+/// kind name ( parameters ) { ... }
 void Parser::shader() {
     auto shader = std::make_unique<Shader>();
     shader->kind = *shader_kind_named(take().text);
@@ -209,6 +216,8 @@ void Parser::function(std::string inside) {
     unit_->functions.push_back(std::move(function));
 }
 
+/// Parameters between parentheses: "float a = 1, b; color c". A type holds until the next ; or type, and a
+/// stray ; or , is let pass.
 std::vector<std::unique_ptr<Variable>> Parser::formals(Variable::Kind kind) {
     std::vector<std::unique_ptr<Variable>> variables;
     if (at("void") && ahead(1).is(")")) take();
@@ -238,6 +247,7 @@ bool Parser::at_specifier() const {
            (at_any({"output", "extern", "uniform", "varying"}) || base_named(now().text) != Base::Void);
 }
 
+/// output, extern, uniform and varying in any order, and then the type.
 Parser::Specifier Parser::specifier() {
     Specifier specifier;
     while (true) {
@@ -264,6 +274,7 @@ Parser::Specifier Parser::specifier() {
     return specifier;
 }
 
+/// name [length] = value.
 std::unique_ptr<Variable> Parser::declarator(const Specifier& specifier, Variable::Kind kind) {
     auto variable = std::make_unique<Variable>();
     variable->at = now().at;
@@ -292,6 +303,7 @@ int Parser::array_length() {
     return static_cast<int>(value);
 }
 
+/// The value of an expression of numbers and + - * / alone; false for any other.
 bool Parser::constant_value(const Expression& e, double& value) {
     double left = 0, right = 0;
     if (e.kind == Expression::Kind::Number) {
@@ -324,6 +336,7 @@ bool Parser::constant_value(const Expression& e, double& value) {
     }
 }
 
+/// An expression, or an array's values in braces.
 ExpressionPtr Parser::initial_value() {
     if (!at("{")) return expression();
     auto list = std::make_unique<Expression>();

@@ -33,6 +33,8 @@ FileReader::FileReader(const CompileOptions& options, Macros& macros, ExpansionB
                        TokenStream& stream, Reporter& reporter)
     : options_(options), macros_(macros), budget_(budget), stream_(stream), reporter_(reporter) {}
 
+/// The text is kept in the stream, since tokens point into it; Diagnostics gets it too, to show the lines
+/// that messages are about.
 void FileReader::enter(const std::string& name, const std::string& path, std::string text,
                        SourceLocation from) {
     const SourceText& source = stream_.sources.emplace_back(joined_lines(std::move(text)));
@@ -45,10 +47,12 @@ void FileReader::define_from_outside(const std::string& name, const std::string&
     while (next().kind != Token::Kind::End) {}
 }
 
+/// Whether the lines that are read now are compiled: all conditions around them hold.
 bool FileReader::counts() const {
     return files_.back().conditionals.empty() || files_.back().conditionals.back().counts;
 }
 
+/// Obeys directives on the way, enters files that are included and leaves them at their ends.
 Token FileReader::next() {
     while (!files_.empty()) {
         if (stopped_ || reporter_.full()) {
@@ -85,6 +89,7 @@ FileReader::Line FileReader::expanded(const Line& line) {
     return expand_all(line, macros_, budget_, stream_.made, reporter_);
 }
 
+/// A directive: all to the line's end behind a # that is the first of its line.
 void FileReader::obey(const Token& hash) {
     Line line = rest_of_line();
     if (line.empty()) return;
@@ -146,6 +151,8 @@ bool FileReader::obey_conditional(std::string_view name, const Token& at, const 
     return true;
 }
 
+/// The expression of #if or #elif. `defined NAME` is answered before macros are expanded, or NAME would be
+/// replaced.
 bool FileReader::condition(const Token& at, const Line& line) {
     Line without_defined;
     for (size_t i = 0; i < line.size(); ++i) {
@@ -202,6 +209,8 @@ bool FileReader::read_parameters(const Line& line, size_t& i, Macro& macro) {
     return false;
 }
 
+/// #define. A ( right behind the name makes it a macro with parameters; with a blank between, it belongs to
+/// the text.
 void FileReader::define(const Token& at, const Line& line) {
     if (line.empty() || line[0].kind != Token::Kind::Name || line[0].is("defined")) {
         reporter_.error(at.at, "#define wants a name");
@@ -251,6 +260,8 @@ void FileReader::say(const Token& at, const Line& line, bool error) {
         reporter_.warning(at.at, text);
 }
 
+/// #include, whose file is looked for, in this order: where the including file and the search path say, among
+/// the headers that the program carries, and in the folders beside, of which there is a warning.
 void FileReader::include(const Token& at, const Line& line_as_written) {
     Line line = line_as_written;
     if (!line.empty() && line[0].kind == Token::Kind::Name) line = expanded(line);

@@ -12,6 +12,7 @@ namespace trapeze::rsl {
 /// Tokens of a file and its includes before macros are expanded; directives are obeyed on the way.
 class FileReader {
   public:
+    /// Bounds that no collection of shaders comes near, and that end a file which includes itself.
     static constexpr size_t kDeepestInclude = 32;
     static constexpr size_t kMostIncludes = 5000;
     static constexpr size_t kMostBytes = size_t{64} << 20;

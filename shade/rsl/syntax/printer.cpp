@@ -61,6 +61,7 @@ bool names_a_variable(const Expression& e) {
     return e.kind == Expression::Kind::Variable || e.kind == Expression::Kind::Element;
 }
 
+/// The shortest text that reads as the same float; infinity as a number that is too large for one.
 std::string number_text(float value) {
     if (value > 3.4e38f) return "1e39";
     char text[32];
@@ -87,6 +88,8 @@ std::string escaped(std::string_view value) {
     return text + '"';
 }
 
+/// Writes a tree with as few parentheses as parse to the same one: an operand gets some where it binds less
+/// tightly than its place wants.
 class Printer {
   public:
     std::string text;

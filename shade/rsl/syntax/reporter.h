@@ -7,7 +7,9 @@
 
 namespace trapeze::rsl {
 
-/// Passes messages on until there are too many: then says so once, and is full().
+/// Passes messages on until there are too many: then says so once, and is full(). What one mistake brings
+/// with it is of no use to the reader, and a file that is no shader would bring a message for each of its
+/// lines.
 class Reporter {
   public:
     static constexpr int kMostErrors = 50;

@@ -29,15 +29,19 @@ HWY_INLINE V divide(V a, V b) {
 HWY_INLINE V negate(V a) {
     return hn::Neg(a);
 }
+/// 0 for negative numbers, where RISpec leaves it open: NaN would spread over the picture.
 HWY_INLINE V square_root(V x) {
     return hn::Sqrt(positive(x));
 }
+/// Finite for all x: 0 and less count as the least normal float. Divided, since approximate reciprocal roots
+/// differ between processors.
 HWY_INLINE V inverse_square_root(V x) {
     return hn::Div(set(1), hn::Sqrt(at_least(x, set(kLeastNormal))));
 }
 HWY_INLINE V absolute(V x) {
     return hn::Abs(x);
 }
+/// 1, -1, or 0 for 0 and NaN.
 HWY_INLINE V sign(V x) {
     const V zero = hn::Zero(D());
     return hn::Sub(hn::IfThenElseZero(hn::Gt(x, zero), set(1)), hn::IfThenElseZero(hn::Lt(x, zero), set(1)));
@@ -71,9 +75,12 @@ HWY_INLINE V step_at(V edge, V x) {
 HWY_INLINE V clamp(V x, V low, V high) {
     return hn::IfThenElse(hn::Ge(x, low), at_most(x, high), low);
 }
+/// (1 - t) a + t b as RISpec writes it, which for t = 1 gives b exactly.
 HWY_INLINE V mix(V a, V b, V t) {
     return hn::Add(hn::Mul(a, hn::Sub(set(1), t)), hn::Mul(b, t));
 }
+/// Bounds that are equal or the wrong way round make a step at the lower one; the quotient, which is then no
+/// number, is not taken.
 HWY_INLINE V smooth_step(V low, V high, V x) {
     const V t = at_most(positive(hn::Div(hn::Sub(x, low), hn::Sub(high, low))), set(1));
     const V smooth = hn::Mul(hn::Mul(t, t), hn::Sub(set(3), hn::Add(t, t)));
@@ -112,6 +119,7 @@ void select(size_t lanes, Operands o) {
     }
 }
 
+/// A float as a matrix (RISpec 3.2, section 11).
 void scaled_identity(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input in(o[1]);
@@ -121,6 +129,8 @@ void scaled_identity(size_t lanes, Operands o) {
     }
 }
 
+/// Copies of 1, 3 or 16 components, and the conversions that a width implies: a float fills a triple, and
+/// makes a scaled identity of a matrix.
 Kernel find_move(std::span<const int> widths) {
     if (are(widths, {16, 1})) return scaled_identity;
     if (are(widths, {16, 16})) return by_component<same, 16>;

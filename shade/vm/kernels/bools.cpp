@@ -1,4 +1,5 @@
-/// Comparisons and operations on lane masks.
+/// Comparisons and operations on lane masks. A Bool is all bits or none, so that And, Or and Not are those of
+/// bits, and Select and MaskStack take it as it is.
 #include "shade/vm/kernels/families.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -15,6 +15,8 @@ enum class ColorSpace : uint8_t { Rgb, Hsv, Hsl, Xyz, XyY, Yiq };
 
 using ColorMatrix = std::array<std::array<double, 3>, 3>;
 
+/// Inverts while compiling, in doubles, so that a colour that goes to a space and back comes out as it was
+/// but for a rounding.
 constexpr ColorMatrix inverse(const ColorMatrix& m) {
     ColorMatrix result{};
     double determinant = 0;
@@ -59,9 +61,12 @@ HWY_INLINE V ratio(V a, V b) {
     return hn::IfThenZeroElse(hn::Eq(b, hn::Zero(D())), hn::Div(a, b));
 }
 
+/// What hsv and hsl have in common: the hue, and the largest and least of the three components.
 struct Hue {
     V hue, most, least;
 };
+/// Which component is largest decides the third of the circle, the difference of the two others where in it.
+/// Grey has hue 0.
 HWY_INLINE Hue hue_of(const V3& c) {
     const V most = at_least(at_least(c.x, c.y), c.z), least = at_most(at_most(c.x, c.y), c.z);
     const V sixth = ratio(set(1.0f / 6), hn::Sub(most, least));

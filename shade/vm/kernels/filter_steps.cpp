@@ -19,6 +19,7 @@ HWY_INLINE V share_above(V edge, V x, V width) {
     return hn::IfThenElse(hn::Gt(width, hn::Zero(D())), at_most(positive(share), set(1)), step_there);
 }
 
+/// An interval of width * scale_by with x in its middle.
 void step_around(size_t lanes, const Operand& edges, const Operand& xs, const Operand& widths, float scale_by,
                  const Operand& result) {
     const Input edge(edges), x(xs), width(widths);
@@ -29,6 +30,7 @@ void step_around(size_t lanes, const Operand& edges, const Operand& xs, const Op
     }
 }
 
+/// The interval from the lesser to the greater of two values.
 void step_between(size_t lanes, const Operand& edges, const Operand& xs, const Operand& x2s,
                   const Operand& result) {
     const Input edge(edges), first(xs), second(x2s);

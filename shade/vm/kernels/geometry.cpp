@@ -44,6 +44,7 @@ void distance(size_t lanes, Operands o) {
     }
 }
 
+/// Divides by the length; a vector without one stays zero (inverse_length).
 void normalize(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input in(o[1]);
@@ -65,6 +66,7 @@ void face_forward(size_t lanes, Operands o) {
     }
 }
 
+/// I - 2 (I.N) N, for N of unit length.
 HWY_INLINE V3 reflection(const V3& I, const V3& N) {
     const V twice = hn::Mul(dot(I, N), set(2));
     return subtract(I, scale(N, twice));
@@ -75,6 +77,8 @@ HWY_INLINE V squared_cosine_inside(V toward, V eta) {
     return hn::Sub(set(1), hn::Mul(hn::Mul(eta, eta), hn::Sub(set(1), hn::Mul(toward, toward))));
 }
 
+/// Snell's law in vectors, for I and N of unit length and I.N < 0: eta I - (eta I.N + sqrt(1 - eta^2 (1 -
+/// (I.N)^2))) N.
 HWY_INLINE V3 refraction(const V3& I, const V3& N, V eta) {
     const V toward = dot(I, N), squared = squared_cosine_inside(toward, eta);
     const V along = hn::Add(hn::Mul(eta, toward), hn::Sqrt(positive(squared)));
@@ -143,6 +147,7 @@ void rotate(size_t lanes, Operands o) {
     }
 }
 
+/// To the segment, not the line through it: the nearest point is kept between its ends (RISpec 3.2, ptlined).
 void line_distance(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input from(o[1]), to(o[2]), point(o[3]);

@@ -1,6 +1,9 @@
 /// How the grid machine calls its arithmetic. A register's components are planes of floats, one for each
 /// vertex; a uniform register's planes are kLanes equal floats, and the kernels, which read planes through
 /// Operand::lane_mask, need no second form for them.
+///
+/// A kernel is one pass over all lanes of a batch, which has no branches and keeps nothing: it may compute
+/// lanes that hold no vertex, or whose vertices do not run, and never traps on what it finds there.
 #pragma once
 
 #include <cstddef>

@@ -18,6 +18,8 @@ bool any_of(size_t lanes, const Operand& mask) {
     return !hn::AllFalse(D(), hn::MaskFromVec(seen));
 }
 
+/// Both look at all lanes without leaving early: batches are some hundred lanes, and a branch each costs
+/// more.
 bool all_of(size_t lanes, const Operand& mask) {
     const Input in(mask);
     V seen = in.get(0);

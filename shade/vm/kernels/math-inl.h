@@ -17,6 +17,8 @@ namespace trapeze::kernels::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Tags and vectors of floats and of integers of the same number of lanes: as many as the target has, at most
+/// kLanes, of which planes have a multiple.
 using D = hn::CappedTag<float, kLanes>;
 using DI = hn::RebindToSigned<D>;
 using DU = hn::RebindToUnsigned<D>;
@@ -48,6 +50,7 @@ HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
     return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
 }
 
+/// 0 for a vector without length, so that normalizing it leaves it zero.
 HWY_INLINE V inverse_length(V x, V y, V z) {
     const V squared = dot(x, y, z, x, y, z);
     return hn::IfThenElseZero(hn::Gt(squared, hn::Zero(D())), hn::Div(set(1), hn::Sqrt(squared)));
@@ -113,15 +116,19 @@ HWY_INLINE V pow(V x, V y) {
     return hn::IfThenElse(hn::Eq(y, zero), set(1), result);
 }
 
+/// a at t = 0, b at t = 1 but for a rounding.
 HWY_INLINE V lerp(V t, V a, V b) {
     return hn::Add(a, hn::Mul(t, hn::Sub(b, a)));
 }
 
+/// 6 t^5 - 15 t^4 + 10 t^3: flat in first and second derivative at 0 and 1, and so of a noise without
+/// creases.
 HWY_INLINE V fade(V t) {
     const V p = step(step(set(6), t, -15), t, 10);
     return hn::Mul(hn::Mul(hn::Mul(t, t), t), p);
 }
 
+/// +-2^22: the largest coordinates at which floats still have halves, and whole numbers fit into 32 bits.
 HWY_INLINE V clamp_to_lattice(V x) {
     return at_least(at_most(x, set(4194304)), set(-4194304));
 }

@@ -14,6 +14,7 @@ namespace {
 
 using rsl::Op;
 
+/// A matrix for each lane of a vector, in sixteen of them: rows of four.
 struct Matrix {
     HWY_INLINE V operator()(int row, int column) const { return m[row * 4 + column]; }
     HWY_INLINE V3 row(int i) const { return {m[i * 4], m[i * 4 + 1], m[i * 4 + 2]}; }

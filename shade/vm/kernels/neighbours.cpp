@@ -17,6 +17,7 @@ namespace {
 constexpr int kMaxRow = 256;        // GridShape counts in bytes
 constexpr double kParallel = 1e-5;  // sine of the angle
 
+/// A row of vertices, one float each, on the stack: no grid is wider than GridShape can say.
 struct alignas(64) Row {
     float lanes[kMaxRow];
 };
@@ -331,6 +332,7 @@ void fill_gaps(const Row3* above, const Row3& here, const Row3* below, const Row
     }
 }
 
+/// Counted without a branch for each vertex: gaps are rare, and this is asked for every row.
 HWY_INLINE bool has_gap(const Row3& normals, int count) {
     int gaps = 0;
     for (int i = 0; i < count; ++i)
@@ -339,6 +341,8 @@ HWY_INLINE bool has_gap(const Row3& normals, int count) {
     return gaps > 0;
 }
 
+/// Normals of a row from the differences along u and v. Only where some are missing are the rows above and
+/// below worked out as well.
 void find_normals(GridSpans spans, size_t lanes, const Operand& P, const Operand& out) {
     for_rows(spans, lanes, 3, out, [&](const RowOf& row) HWY_ATTR {
         Row3 here;

@@ -34,6 +34,7 @@ std::array<Coordinate, dimensions> coordinates(Operands o) {
     return result;
 }
 
+/// Operands that hold a point of so many dimensions: f, ff, t or tf.
 constexpr size_t operand_count(int dimensions) {
     return dimensions == 2 || dimensions == 4 ? 2 : 1;
 }
@@ -73,6 +74,8 @@ void cell_noise(size_t lanes, Operands o) {
     }
 }
 
+/// Counter-based numbers: a hash of who asks in place of a state, so that lanes need not know of each other
+/// and a picture does not depend on the order in which grids are shaded.
 void fill_random(size_t lanes, int width, const Operand& lane_seeds, uint32_t call, const Operand& result) {
     const DU du;
     const Output out(result);

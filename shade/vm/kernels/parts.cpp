@@ -35,6 +35,7 @@ void assemble(size_t lanes, Operands o) {
     }
 }
 
+/// comp(c, k) and c[k]; compares instead of gathering, which for three planes is quicker.
 void component(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input v(o[1]), index(o[2]);
@@ -60,6 +61,7 @@ HWY_INLINE VI matrix_index(V row, V column) {
     return hn::Add(hn::ShiftLeft<2>(index_below(row, 4)), index_below(column, 4));
 }
 
+/// An element for each lane: planes are m.stride floats apart, and lane i of one is its float i.
 void matrix_element(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input m(o[1]), row(o[2]), column(o[3]);

@@ -22,6 +22,10 @@ struct SplineRule {
 
 inline constexpr float k16 = 1.0f / 6, k23 = 2.0f / 3;
 inline constexpr SplineRule kSplineRules[] = {
+    // In the order of SplineBasis: Catmull-Rom, Bezier, B-spline, Hermite, linear, constant. The last two use
+    // the
+    // second and third knot of each four, so that all bases have the same number of knots to spare at the
+    // ends.
     {1, {{-0.5f, 1.5f, -1.5f, 0.5f}, {1, -2.5f, 2, -0.5f}, {-0.5f, 0, 0.5f, 0}, {0, 1, 0, 0}}},
     {3, {{-1, 3, -3, 1}, {3, -6, 3, 0}, {-3, 3, 0, 0}, {1, 0, 0, 0}}},
     {1, {{-k16, 0.5f, -0.5f, k16}, {0.5f, -1, 0.5f, 0}, {-0.5f, 0, 0.5f, 0}, {k16, k23, k16, 0}}},
@@ -74,6 +78,8 @@ HWY_INLINE void gather(const Operand& array, int step, V segment, size_t i, int 
         out[j] = hn::GatherIndex(D(), data + j * distance, hn::Add(first, hn::Iota(di, 0)));
 }
 
+/// One function for all bases and widths: what differs is a table, which costs less than twelve copies of the
+/// loop. Fewer than four knots have no segment, and give 0.
 HWY_NOINLINE void run_spline(const SplineRule& rule, int width, size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input value(o[1]);
