@@ -125,6 +125,7 @@ class Folder {
         for (const RegisterId id : written) set_again(id);
     }
 
+    /// One instruction: a block's mark, or any other.
     void visit(size_t i, Code& folded) {
         Instruction instruction = code_[i];
         if (opens_block(instruction.op))
@@ -135,6 +136,7 @@ class Folder {
             plain(instruction, folded);
     }
 
+    /// Inputs that are copies become what they are copies of, so that the Move itself may be pruned.
     void follow_copies(Instruction& instruction) {
         for (size_t k = instruction.outputs; k < instruction.operands.size(); ++k)
             instruction.operands[k] = newest(instruction.operands[k]);
@@ -208,6 +210,7 @@ class Folder {
         return bits != 0;
     }
 
+    /// Random() has no inputs, and is not constant for that.
     bool all_constant(const Instruction& instruction) const {
         for (size_t k = 0; k < instruction.input_count(); ++k)
             if (program_.reg(instruction.input(k)).kind != Register::Kind::Constant) return false;
@@ -223,6 +226,7 @@ class Folder {
         return static_cast<RegisterId>(program_.registers.size() - 1);
     }
 
+    /// An instruction that is no mark of a block; one that may not be folded still counts as a write.
     void plain(Instruction& instruction, Code& folded) {
         follow_copies(instruction);
         const bool single = instruction.outputs == 1;

@@ -10,6 +10,8 @@ std::unique_ptr<Program> generate(const Shader& shader, Diagnostics& diagnostics
     return Generator(shader, diagnostics).run();
 }
 
+/// Parameters come first, with a piece of code each for its default; then the body. An error on the way has
+/// been reported, and there is no program.
 std::unique_ptr<Program> Generator::run() {
     program_ = std::make_unique<Program>();
     program_->kind = shader_.kind;
@@ -137,6 +139,7 @@ Instruction& Generator::emit(Op op, Ids outputs, const Ids& inputs, int32_t imme
     return instruction;
 }
 
+/// One instruction with one output, which is of type `base` when it is a temporary.
 RegisterId Generator::compute(Op op, Base base, const Ids& inputs, std::optional<RegisterId> into) {
     const RegisterId out = into ? *into : temporary(base);
     emit(op, {out}, inputs);
@@ -158,6 +161,7 @@ void Generator::turn_to_else(RegisterId decision) {
     region_ = ++last_region_;
 }
 
+/// Ends the innermost block; code goes on in the region around it.
 void Generator::close(Op op) {
     region_ = open_regions_.back();
     open_regions_.pop_back();

@@ -8,6 +8,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Inlining recurses on the processor's own stack, a few frames for each call.
 constexpr int kMaxCallDepth = 200;
 
 /// Which arguments of a call the function sets; those past the letters are inputs.

@@ -5,6 +5,8 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Operators of the language are operations of the machine, but for products of matrices, which are not by
+/// component.
 Op arithmetic_op(Operator op, Base base) {
     const bool matrix = base == Base::Matrix;
     switch (op) {
@@ -56,6 +58,8 @@ bool has_effects(const Expression& e) {
 
 }  // namespace
 
+/// An expression's value: see generator.h for where it is. Messages and the listing get the expression's
+/// place.
 RegisterId Generator::value(const Expression& e, std::optional<RegisterId> into) {
     if (e.at.line) at_ = e.at;
     switch (e.kind) {
@@ -209,6 +213,7 @@ RegisterId Generator::assignment_value(const Expression& e) {
     return to;
 }
 
+/// {a, b, ...}: one element after the other, from the first.
 void Generator::assign_list(const Expression& list, RegisterId array) {
     for (size_t i = 0; i < list.children.size(); ++i)
         emit(Op::SetElement, {array}, {constant(static_cast<float>(i)), value(*list.children[i])});

@@ -5,6 +5,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Whether a return stands anywhere in a statement.
 bool contains_return(const Statement& s) {
     if (s.kind == Statement::Kind::Return) return true;
     for (const StatementPtr& child : s.children)
@@ -128,6 +129,7 @@ void Generator::declare_outliving(const Statement& s) {
     for (const StatementPtr& child : s.children) declare_outliving(*child);
 }
 
+/// Zeros, empty texts, or zeros in all elements.
 void Generator::clear(RegisterId id) {
     const Type type = program_->reg(id).type;
     if (type.is_array())
@@ -158,6 +160,7 @@ RegisterId Generator::condition(const Expression& e) {
     return base_of(id) == Base::Bool ? id : compute(Op::ToBool, Base::Bool, {id});
 }
 
+/// Else is given the condition again: lanes that parted at the If take the other half where it does not hold.
 void Generator::if_statement(const Statement& s) {
     const RegisterId decision = condition(*s.expressions[0]);
     open(Op::If, {}, {decision});
@@ -236,6 +239,7 @@ void Generator::keep_inputs(size_t opening) {
     }
 }
 
+/// A loop over rays, whose second half is for those that hit nothing.
 void Generator::gather_statement(const Statement& s) {
     Ids inputs;
     for (const ExpressionPtr& e : s.expressions) inputs.push_back(value(*e));

@@ -121,6 +121,9 @@ bool is_uniform_global(std::string_view name) {
     return name == "E" || name == "ncomps" || name == "time" || name == "dtime";
 }
 
+/// Begins with what is known: predefined variables vary but for a few, parameters as declared or as the scene
+/// gives them. The code of defaults and of the body share registers, so all pieces are gone over until none
+/// changes.
 void infer_storage(Program& program, const std::set<std::string>& varying) {
     for (Register& r : program.registers)
         r.varying =

@@ -2,6 +2,8 @@
 
 namespace trapeze::rsl {
 
+/// Folding comes before hoisting, which then has less to look at, and after it, for what is now outside is
+/// common.
 void optimise(Program& program, const OptimiseOptions& options) {
     if (options.fold) {
         for (ProgramParameter& parameter : program.parameters) fold_code(program, parameter.initial);

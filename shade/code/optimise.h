@@ -5,6 +5,7 @@
 
 namespace trapeze::rsl {
 
+/// What is to be done; all of it, but for tests that look at one pass.
 struct OptimiseOptions {
     bool fold = true;   ///< constants, copies and common subexpressions
     bool hoist = true;  ///< what does not change in a loop

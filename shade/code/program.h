@@ -38,6 +38,8 @@ struct Register {
     std::vector<std::string> texts;  ///< of a Constant of strings
 };
 
+/// One operation. What it does to lanes that do not run, and whether it does it once or for each, is found
+/// last.
 struct Instruction {
     Op op = Op::Move;
     uint8_t outputs = 0;

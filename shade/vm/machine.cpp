@@ -26,6 +26,8 @@ struct Machine::Level {
 Machine::Machine() = default;
 Machine::~Machine() = default;
 
+/// Registers of one program are found again by its executable. Copies serve several layers or lights that use
+/// the same shader at one time.
 Registers& Machine::registers(const std::shared_ptr<const Executable>& executable, size_t copy) {
     std::unique_ptr<Registers>& registers = registers_[{executable.get(), copy}];
     if (!registers) registers = std::make_unique<Registers>(executable);
@@ -84,6 +86,7 @@ void Run::warn(const Step& step, std::string text, std::string kind) {
     if (context_.diagnostics) context_.diagnostics->warning(step.at, std::move(text), std::move(kind));
 }
 
+/// Control says where to go on; after any other step it is the next.
 void Run::run(const std::vector<Step>& steps) {
     for (size_t at = 0; at < steps.size();) {
         const Step& step = steps[at];

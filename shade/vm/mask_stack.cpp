@@ -8,6 +8,7 @@
 namespace trapeze::vm {
 namespace {
 
+/// A lane of a Bool, which kernels keep as a float.
 uint32_t bits(const float* plane, size_t i) {
     uint32_t value;
     std::memcpy(&value, plane + i, sizeof value);
@@ -20,6 +21,7 @@ void MaskStack::Free::operator()(uint32_t* p) const {
     std::free(p);
 }
 
+/// Planes are kept from run to run, as long as no run has more lanes than those before.
 void MaskStack::start(size_t lanes) {
     if (lanes > capacity_) {
         planes_.clear();
@@ -62,6 +64,7 @@ void MaskStack::run_none() {
     state_ = State::None;
 }
 
+/// Those that run now go on behind the block.
 MaskStack::Block& MaskStack::push(Kind kind) {
     Block& block = blocks_.emplace_back();
     block.kind = kind;
@@ -86,6 +89,7 @@ void MaskStack::turn_to_else(const float* condition) {
     set_state();
 }
 
+/// The state is found anew: lanes may have left blocks further out meanwhile.
 void MaskStack::leave_block() {
     Block& block = blocks_.back();
     copy(block.before, current_);

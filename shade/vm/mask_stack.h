@@ -23,6 +23,7 @@ using MaskPlane = std::span<uint32_t>;
 /// uniform leaves all masks as they are, and the machine jumps.
 class MaskStack {
   public:
+    /// Whether no, some or all of the lanes run.
     enum class State : uint8_t { None, Some, All };
 
     /// All of so many lanes (a multiple of kLanes) run.
@@ -58,6 +59,7 @@ class MaskStack {
 
   private:
     enum class Kind : uint8_t { If, Loop, Scope };
+    /// A block that lanes are in: what it must know to wake them again.
     struct Block {
         Kind kind = Kind::If;
         uint32_t* before = nullptr;  ///< lanes that go on after it

@@ -9,6 +9,7 @@ namespace {
 
 using rsl::Op;
 
+/// The grids of the batch; none where shaders run over no points, and then nothing has neighbours.
 GridSpans spans_of(const Run& run) {
     const Batch* batch = run.context().batch;
     return batch ? GridSpans(batch->spans) : GridSpans();

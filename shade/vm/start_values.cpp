@@ -26,6 +26,7 @@ Predefined predefined(std::string_view name) {
     return row != std::end(kNames) ? row->second : Predefined::Other;
 }
 
+/// Whether a register is among the inputs.
 bool reads(const rsl::Instruction& instruction, rsl::RegisterId id) {
     const auto inputs = instruction.operands.begin() + instruction.outputs;
     return std::find(inputs, instruction.operands.end(), id) != instruction.operands.end();

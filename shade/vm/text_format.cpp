@@ -9,6 +9,7 @@
 namespace trapeze::vm {
 namespace {
 
+/// Characters of one number at most: widths and precisions beyond it are cut to it.
 constexpr int kMaxFieldWidth = 200;
 
 /// "%[flags][width][.precision]letter", of which the numbers are kept within reason.
@@ -57,6 +58,7 @@ std::string number_text(const Field& field, float value) {
     return buffer;
 }
 
+/// A triple or matrix is its numbers, with blanks between.
 void append_value(const Field& field, const TextValue& value, std::string& out) {
     if (value.is_text) {
         out += value.text;

@@ -80,6 +80,7 @@ std::vector<TextValue> values_at(Run& run, const Step& step, std::span<const Ope
     return values;
 }
 
+/// format(): values that vary are those of the first vertex, for a text is uniform.
 void format_op(Run& run, const Step& step, std::span<const Operand> operands) {
     run.registers().text(run.registers().register_of(step, 0)) =
         format_text(run.registers().text_input(step, 0), values_at(run, step, operands, 0));
@@ -107,6 +108,7 @@ void print(Run& run, const Step& step, std::span<const Operand> operands) {
     }
 }
 
+/// match(pattern, subject).
 void match(Run& run, const Step& step, std::span<const Operand> operands) {
     const bool found = matches(run.registers().text_input(step, 0), run.registers().text_input(step, 1));
     fill_operand(run, operands[0], std::array{found ? 1.0f : 0.0f});

@@ -235,6 +235,7 @@ void Analyser::check_array(Variable& variable) {
         body().array_floats += floats;
 }
 
+/// A default or initial value, in the type of the variable.
 void Analyser::initial_value(Variable& variable) {
     if (!variable.initial) return;
     if (variable.external) {
@@ -332,6 +333,8 @@ Variable* Analyser::global(std::string_view name) {
     return shader_->globals.back().get();
 }
 
+/// Says that there is no such variable: with the word extern where the shader has one, with the kinds of
+/// shaders that have one, or with a name that is near.
 void Analyser::unknown_variable(const Expression& e) {
     if (bodies_.size() > 1 && find_outside(e.text, bodies_.size() - 1)) {
         error(e.at,

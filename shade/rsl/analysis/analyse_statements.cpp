@@ -110,6 +110,7 @@ void Analyser::block(Statement& s) {
     if (!s.open) scopes_.pop_back();
 }
 
+/// extern variables mean those of outside and leave the tree; all others are new.
 void Analyser::declaration(Statement& s) {
     std::vector<std::unique_ptr<Variable>> kept;
     for (auto& variable : s.variables) {
@@ -215,6 +216,7 @@ void Analyser::gather(Statement& s) {
     --body().loops;
 }
 
+/// break and continue, which may name a loop further out by its number.
 void Analyser::jump(const Statement& s) {
     const std::string word = s.kind == Statement::Kind::Break ? "break" : "continue";
     if (body().loops == 0)
@@ -224,6 +226,7 @@ void Analyser::jump(const Statement& s) {
                         std::to_string(body().loops) + (body().loops == 1 ? " loop" : " loops"));
 }
 
+/// A value in a function that has a type, none in others and in shaders.
 void Analyser::return_statement(Statement& s) {
     const Base result = body().instance ? body().instance->function->result.base : Base::Void;
     body().returns = body().returns || !s.expressions.empty();

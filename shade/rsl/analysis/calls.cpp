@@ -11,6 +11,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Overloads that are listed where none fits.
 constexpr size_t kMostCandidatesShown = 8;
 
 // Of later renderers; known to be missing here.

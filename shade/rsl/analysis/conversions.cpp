@@ -116,6 +116,8 @@ bool same_family(Base a, Base b) {
     return a == b || (is_geometric(a) && is_geometric(b));
 }
 
+/// Points, vectors and normals stand for each other, floats fill triples and matrices, truth is 1 or 0.
+/// Nothing becomes a string, and a triple no float.
 std::optional<int> conversion_cost(Base from, Base to) {
     if (from == to) return 0;
     if (is_geometric(from) && is_geometric(to))
@@ -137,6 +139,7 @@ int Choices::cost_to(Base to) const {
     return std::min(least, kNever);
 }
 
+/// The cheapest choice that can become `to`; among equals the first of kAllBases.
 std::optional<Base> Choices::best_for(Base to) const {
     if (unknown_) return to;
     std::optional<Base> best;

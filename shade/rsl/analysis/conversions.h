@@ -69,6 +69,7 @@ struct OperatorPlan {
     Base left, right;  ///< what the operands are converted to; floats beside triples stay what they are
     int cost;
 };
+/// Nothing where the operator does not go with the types. And and Or take all that can be true.
 std::optional<OperatorPlan> plan(Operator op, Base left, Base right);
 
 std::string_view text_of(Operator op);

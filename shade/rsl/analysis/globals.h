@@ -8,6 +8,7 @@
 
 namespace trapeze::rsl {
 
+/// A row of the tables. Not writable ones may be assigned to with a warning: the shader works on a copy.
 struct GlobalVariable {
     std::string_view name;
     Base base;

@@ -24,6 +24,7 @@ Choices Analyser::choices_of(const Expression& e) const {
     return entry == choices_.end() ? Choices::unknown() : entry->second;
 }
 
+/// All types that an expression can have. They are kept for the walk down, and each expression counts once.
 Choices Analyser::possible_types(Expression& e) {
     ++body().operations;
     ++body().own_operations;
@@ -81,6 +82,8 @@ Choices Analyser::possible_types_within(Expression& e) {
     return Choices::unknown();
 }
 
+/// A variable's own type: the innermost of its name, then the renderer's, then what encloses a nested
+/// function.
 Choices Analyser::variable_types(Expression& e) {
     e.variable = find_variable(e.text);
     if (!e.variable && e.text == "PI") {
@@ -224,6 +227,8 @@ Choices Analyser::tuple_types(Expression& e) {
     return choices;
 }
 
+/// The type that is named, if the operand can become it; a space goes with colours, triples and matrices
+/// alone.
 Choices Analyser::cast_types(Expression& e) {
     const Choices operand = possible_types(*e.children[0]);
     const Base base = e.type.base;

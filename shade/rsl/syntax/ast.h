@@ -69,9 +69,13 @@ inline constexpr int kDeepestNesting = 256;
 inline constexpr int kLongestArray = 65536;
 inline constexpr int kMostArrayFloats = 65536;
 inline constexpr int kMostArrayFloatsTogether = 4 * kMostArrayFloats;
+/// Code generation recurses through statements, expressions and calls alike; this many fit on any thread's
+/// stack.
 inline constexpr int kDeepestInlined = 1500;
+/// Operations of one shader with its functions written out: functions that call functions multiply.
 inline constexpr int kMostInlined = 1000000;
 
+/// A value. Which of the fields mean something depends on the kind; `type` is what the analysis decided on.
 struct Expression {
     enum class Kind : uint8_t {
         Number,
@@ -104,6 +108,8 @@ struct Expression {
     const Function* function = nullptr;  ///< ... or the user's function
 };
 
+/// Something to do. Children are statements within it, expressions those of its head, in the order given
+/// here.
 struct Statement {
     enum class Kind : uint8_t {
         Block,        ///< children
@@ -131,6 +137,8 @@ struct Statement {
     SourceLocation at;
 };
 
+/// A function of the source's own. Its parameters are references to the caller's variables (RISpec 3.2,
+/// section 16.1).
 struct Function {
     std::string name;
     Type result;
@@ -143,6 +151,7 @@ struct Function {
     bool typed = true;  ///< the source names the result's type, or says void
 };
 
+/// One shader of the file. Its parameters are what the scene may set.
 struct Shader {
     ShaderKind kind = ShaderKind::Surface;
     std::string name;

@@ -2,6 +2,8 @@
 
 namespace trapeze::rsl {
 
+/// Types stay (a cast's is the source's), but not what names mean: variables, overloads and functions are
+/// found anew for each copy.
 ExpressionPtr clone(const ExpressionPtr& e) {
     if (!e) return nullptr;
     auto copy = std::make_unique<Expression>();

@@ -6,6 +6,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Parentheses and operators within each other: the evaluation recurses.
 constexpr int kDeepest = 200;
 
 struct BadCondition {};
@@ -25,6 +26,7 @@ std::optional<int64_t> integer_of(std::string_view text) {
     return static_cast<int64_t>(value);
 }
 
+/// As in C; 0 for what is no binary operator.
 int precedence_of(const Token& token) {
     if (token.kind != Token::Kind::Mark) return 0;
     static constexpr struct {

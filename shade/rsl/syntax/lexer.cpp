@@ -54,6 +54,8 @@ bool Lexer::skip_comment() {
     return true;
 }
 
+/// Blanks and comments. A macro's parameters begin with a parenthesis right behind its name, so that they
+/// were there is kept.
 void Lexer::skip_blanks(Token& token) {
     while (position_ < text_.size()) {
         const char c = peek();
@@ -65,6 +67,8 @@ void Lexer::skip_blanks(Token& token) {
     }
 }
 
+/// The first byte tells what a token is. The text's end is a NewLine if its last line has none, so that
+/// directives on it end.
 Token Lexer::next() {
     Token token;
     skip_blanks(token);
@@ -140,10 +144,12 @@ void Lexer::scan_mark() {
     advance();
 }
 
+/// #line: only what messages say changes, the text goes on.
 void Lexer::renumber(uint32_t source, uint32_t line) {
     source_ = source, line_ = line;
 }
 
+/// For ##, whose result must be a token again.
 bool is_one_token(std::string_view text, Token::Kind& kind) {
     SourceText source;
     source.text = text;

@@ -14,6 +14,7 @@ bool same_body(const Macro& a, const Macro& b) {
                       [](const Token& x, const Token& y) { return x.kind == y.kind && x.text == y.text; });
 }
 
+/// Which parameter a name in a macro's text is; npos for none.
 size_t parameter_index(const Macro& macro, const Token& token) {
     if (macro.kind != Macro::Kind::Function || token.kind != Token::Kind::Name) return std::string::npos;
     for (size_t i = 0; i < macro.parameters.size(); ++i)
@@ -45,6 +46,7 @@ void Expander::leave_context() {
     contexts_.pop_back();
 }
 
+/// Ends all expansion of this compilation, and says so once.
 void Expander::exceed(SourceLocation at, const char* what) {
     if (!budget_.exceeded) reporter_.error(at, what);
     budget_.exceeded = true;
@@ -74,6 +76,9 @@ bool Expander::next_is_open_parenthesis() {
     return put_back_.back().is("(");
 }
 
+/// Every name that is a macro, and not within its own expansion, is replaced until a token is left that is
+/// none. A name that was met inside its own expansion stays painted: it is never replaced, wherever it goes
+/// (C 6.10.3.4).
 Token Expander::next() {
     while (true) {
         if (budget_.exceeded) return {};
@@ -200,6 +205,7 @@ std::vector<Token> Expander::substitute(const Token& name, const Macro& macro, c
     return out;
 }
 
+/// An argument is expanded by itself before it is put in, as if it were the rest of the file.
 std::vector<Token> Expander::expanded(const std::vector<Token>& argument) {
     if (++budget_.argument_depth > ExpansionBudget::kDeepestArguments && !argument.empty())
         exceed(argument.front().at, "macros in arguments of macros nest too deeply");
@@ -209,6 +215,7 @@ std::vector<Token> Expander::expanded(const std::vector<Token>& argument) {
     return tokens;
 }
 
+/// Texts that stand in no source live as long as the stream of tokens.
 std::string_view Expander::keep(std::string text) {
     budget_.made_bytes += text.size();
     made_.push_back(std::move(text));

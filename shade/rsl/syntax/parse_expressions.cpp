@@ -27,6 +27,7 @@ constexpr BinaryOperator kAssignments[] = {{"=", Operator::None, 0},
                                            {"/=", Operator::Divide, 0}};
 
 template <size_t N>
+/// The row of the operator that a token is; null for others.
 const BinaryOperator* find(const BinaryOperator (&table)[N], const Token& token) {
     if (token.kind != Token::Kind::Mark) return nullptr;
     const auto* row = std::find_if(std::begin(table), std::end(table),
@@ -34,6 +35,7 @@ const BinaryOperator* find(const BinaryOperator (&table)[N], const Token& token)
     return row == std::end(table) ? nullptr : row;
 }
 
+/// Begins an expression where a token stands.
 ExpressionPtr make(Expression::Kind kind, const Token& token) {
     auto expression = std::make_unique<Expression>();
     expression->kind = kind;
@@ -53,6 +55,7 @@ ExpressionPtr Parser::finished(ExpressionPtr e) {
     throw Lost();
 }
 
+/// conditional, or place = value and its like, which are right-associative.
 ExpressionPtr Parser::expression() {
     const Nesting nesting(*this);
     ExpressionPtr left = conditional();
@@ -68,6 +71,7 @@ ExpressionPtr Parser::expression() {
     return finished(std::move(assignment));
 }
 
+/// condition ? a : b, right-associative.
 ExpressionPtr Parser::conditional() {
     ExpressionPtr condition = binary(1);
     if (!at("?")) return condition;

@@ -96,6 +96,8 @@ bool Parser::at_declaration() const {
     return !ahead(name + 1).is("(");
 }
 
+/// A function within a shader or function. It joins those of the file, with the name of what encloses it; an
+/// Empty statement stays in its place, which says from where on it is known.
 StatementPtr Parser::nested_function() {
     StatementPtr statement = make(Statement::Kind::Empty, now());
     const size_t before = unit_->functions.size();
@@ -107,6 +109,7 @@ StatementPtr Parser::nested_function() {
     return statement;
 }
 
+/// "float a = 1, b, color c;": a type may change between commas.
 StatementPtr Parser::declaration() {
     StatementPtr statement = make(Statement::Kind::Declare, now());
     Specifier specified = specifier();

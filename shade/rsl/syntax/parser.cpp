@@ -60,6 +60,7 @@ bool Parser::at_any(std::initializer_list<std::string_view> texts) const {
     return std::any_of(texts.begin(), texts.end(), [&](std::string_view text) { return at(text); });
 }
 
+/// Takes a mark or word if it comes now.
 bool Parser::accept(std::string_view text) {
     if (!at(text)) return false;
     take();

@@ -72,6 +72,8 @@ struct Angle {
     V r;
     VI quadrant;
 };
+/// In doubles, by Cody and Waite's two-part pi / 2: an angle in floats has lost what a difference of large
+/// numbers would need. Larger angles than 2^30 have no meaningful sine left.
 HWY_INLINE Angle reduce_angle(V angle) {
     const Doubles x = to_doubles(hn::IfThenElseZero(hn::Lt(hn::Abs(angle), set(1073741824)), angle));
     Doubles r, quadrants;
@@ -87,6 +89,7 @@ HWY_INLINE Angle reduce_angle(V angle) {
     return {to_floats(r), low_words(quadrants)};
 }
 
+/// For |r| <= pi / 4, with rr = r * r.
 HWY_INLINE V sine_near_zero(V r, V rr) {
     V p = set(-1.9515295891e-4f);
     p = step(p, rr, 8.3321608736e-3f);
@@ -111,6 +114,7 @@ HWY_INLINE V sine_of(V sine, V cosine, VI quadrants) {
 struct SineCosine {
     V sine, cosine;
 };
+/// Both at once, for rotations: the reduction costs as much as a polynomial.
 HWY_INLINE SineCosine sin_cos(V x) {
     const Angle angle = reduce_angle(x);
     const V rr = hn::Mul(angle.r, angle.r);
@@ -123,6 +127,8 @@ HWY_INLINE V sine(V x) {
 HWY_INLINE V cosine(V x) {
     return sin_cos(x).cosine;
 }
+/// By its own polynomial, near the poles as -1 over that of the rest, rather than as a quotient of sine and
+/// cosine.
 HWY_INLINE V tangent(V x) {
     const DI di;
     const Angle angle = reduce_angle(x);
@@ -209,6 +215,8 @@ HWY_INLINE V scale_by_power(V p, VI n) {
     return hn::Mul(hn::Mul(p, a), b);
 }
 
+/// e^x = 2^n e^r with r = x - n ln 2, |r| <= ln 2 / 2; ln 2 in two parts, of which n times the first is
+/// exact.
 HWY_INLINE V exponential(V x) {
     const V clamped = at_most(at_least(x, set(-105)), set(89));
     const V n = hn::Round(hn::Mul(clamped, set(1.44269504f)));
@@ -224,6 +232,7 @@ HWY_INLINE V exponential(V x) {
     return scale_by_power(power, hn::ConvertTo(DI(), n));
 }
 
+/// ln x = e ln 2 + ln(1 + f), the small parts summed first.
 HWY_INLINE V logarithm(V x) {
     const Scientific split = split_exponent(at_least(x, set(kLeastNormal)));
     const V f = split.f, e = hn::ConvertTo(D(), split.exponent);
@@ -263,6 +272,8 @@ HWY_INLINE V power_of_positive(V x, V y) {
     return scale_by_power(step(p, r, 1), low_words(whole));
 }
 
+/// x^y as C's powf where that is finite: negative x have powers for whole y alone, and a zero has the power 0
+/// for positive y, 1 for y = 0.
 HWY_INLINE V power(V x, V y) {
     const V zero = hn::Zero(D());
     const V result = power_of_positive(at_least(hn::Abs(x), set(kLeastNormal)), y);

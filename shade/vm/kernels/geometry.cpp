@@ -114,6 +114,7 @@ void refract(size_t lanes, Operands o) {
 }
 
 template <bool directions>
+/// Kr and Kt alone, or with the directions R and T behind them: what is reflected and what is transmitted.
 void fresnel(size_t lanes, Operands o) {
     const Output Kr(o[0]), Kt(o[1]), R(o[directions ? 2 : 0]), T(o[directions ? 3 : 0]);
     const size_t first = directions ? 4 : 2;

@@ -39,6 +39,7 @@ size_t count_of(size_t lanes, const Operand& mask) {
     return static_cast<size_t>(hn::GetLane(hn::SumOfLanes(di, sum)));
 }
 
+/// A component after the other, so that a plane is read and written as it lies in memory.
 void move_where(size_t lanes, int width, const Operand& mask, const Operand& from, const Operand& to) {
     const Input where(mask), in(from);
     const Output out(to);

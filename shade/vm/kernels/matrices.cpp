@@ -21,6 +21,7 @@ struct Matrix {
     V m[16];
 };
 
+/// The components of a register of width 16 are the elements by rows.
 HWY_INLINE Matrix read(const Input& in, size_t i) {
     Matrix m;
     for (int k = 0; k < 16; ++k) m.m[k] = in.get(i, k);
@@ -133,6 +134,7 @@ void translate(size_t lanes, Operands o) {
     }
 }
 
+/// A scaling in front of m multiplies its first three rows.
 void scale_rows(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input in(o[1]), by(o[2]);
@@ -187,6 +189,7 @@ void transform_point(size_t lanes, Operands o) {
     }
 }
 
+/// Without the translation, and without a division: vectors have no place.
 void transform_vector(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input m(o[1]), in(o[2]);

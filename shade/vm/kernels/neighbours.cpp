@@ -283,6 +283,7 @@ HWY_INLINE Double3 cross_product(const Double3& a, const Double3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The length of the product of both differences.
 void measure_areas(GridSpans spans, size_t lanes, const Operand& P, const Operand& out) {
     for_rows(spans, lanes, 1, out, [&](const RowOf& row) HWY_ATTR {
         Row3 u, v;

@@ -134,6 +134,7 @@ HWY_INLINE void blend_corners(const NoiseAxis (&axes)[dimensions], VU hash, V (&
 inline constexpr float kNoiseScales[] = {0.0703f, 0.1762f, 0.3259f, 0.3006f};
 
 template <int dimensions, int width>
+/// The weighted sum over the corners, scaled and moved around 0.5 (see above).
 HWY_INLINE void gradient_noise(const NoiseAxis (&axes)[dimensions], V (&out)[width]) {
     V offset[dimensions];
     blend_corners<dimensions - 1>(axes, hn::Zero(DU()), offset, out);

@@ -39,6 +39,7 @@ constexpr size_t operand_count(int dimensions) {
     return dimensions == 2 || dimensions == 4 ? 2 : 1;
 }
 
+/// noise() and pnoise(). Periods are whole numbers, at least 1, and may differ from lane to lane.
 template <bool periodic, int dimensions, int width>
 void noise_kernel(size_t lanes, Operands o) {
     const Output out(o[0]);

@@ -32,6 +32,7 @@ using Operands = std::span<const Operand>;
 /// Where functions have a pole at 0, this stands for what is less.
 inline constexpr float kLeastNormal = 1.17549435e-38f;
 
+/// A triple of each lane.
 struct V3 {
     V x, y, z;
 };
@@ -81,11 +82,13 @@ HWY_INLINE void map_components(size_t lanes, Operands o, std::index_sequence<n..
     }
 }
 
+/// How many inputs a function of vectors has, as indices.
 template <class... In>
 constexpr std::make_index_sequence<sizeof...(In)> inputs_of(V (*)(In...)) {
     return {};
 }
 
+/// The kernel that applies a function of vectors to each of `width` components by itself.
 template <auto function, int width>
 void by_component(size_t lanes, Operands o) {
     map_components<function, width>(lanes, o, inputs_of(function));

@@ -25,6 +25,7 @@ HWY_INLINE VI offsets(VI index, size_t distance) {
     return hn::Add(hn::Mul(index, hn::Set(di, static_cast<int32_t>(distance))), hn::Iota(di, 0));
 }
 
+/// Triple and Sixteen. All parts are read before any is written, for the output may be one of them.
 template <int width>
 void assemble(size_t lanes, Operands o) {
     const Output out(o[0]);
@@ -88,6 +89,7 @@ Operand element_at(const Operand& array, float index) {
     return element;
 }
 
+/// array[index]. Mostly the index is uniform, and the element is copied; else each lane gathers its own.
 template <int width>
 void element(size_t lanes, Operands o) {
     if (o[2].lane_mask == 0)
@@ -103,6 +105,7 @@ void element(size_t lanes, Operands o) {
     }
 }
 
+/// array[index] = value: the one element, or by lane. Other elements keep what they have.
 template <int width>
 void set_element(size_t lanes, Operands o) {
     if (o[1].lane_mask == 0)

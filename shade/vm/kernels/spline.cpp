@@ -69,6 +69,7 @@ HWY_INLINE void pick_in_turn(const Knots& knots, int step, int segments, V segme
     }
 }
 
+/// From an array: each lane loads the four knots of its own segment.
 HWY_INLINE void gather(const Operand& array, int step, V segment, size_t i, int k, V (&out)[4]) {
     const DI di;
     const size_t distance = array.element_stride;

@@ -10,6 +10,7 @@
 
 namespace trapeze::vm {
 
+/// In the order of the rules in spline.cpp.
 enum class SplineBasis : uint8_t { CatmullRom, Bezier, BSpline, Hermite, Linear, Constant };
 
 /// As shaders name it; empty for an unknown name.
