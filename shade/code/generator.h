@@ -38,6 +38,7 @@ class Generator {
     // Registers.
     RegisterId add_register(Register::Kind kind, Type type, std::string name = {});
     RegisterId temporary(Base base) { return add_register(Register::Kind::Temporary, {base, 0}); }
+    /// Registers of constants, predefined variables and variables are shared by all that name the same.
     RegisterId constant(float value);
     RegisterId constant_text(const std::string& text);
     RegisterId global(std::string_view name, Base base);

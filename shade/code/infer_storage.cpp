@@ -105,6 +105,8 @@ class Inference {
             if (out.type.base == Base::String) continue;
             const bool apart = outlives_region(instruction, instruction.operands[k]) && in_varying_block(i);
             if (any || apart) set(out.varying);
+            // An output that varies for another reason is set in all its lanes, though the inputs are
+            // uniform.
             if (out.varying && !is_control(instruction.op)) instruction.varying = true;
         }
     }

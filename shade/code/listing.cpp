@@ -74,6 +74,7 @@ void list_code(const Program& program, const Code& code, int indent, std::string
 
 }  // namespace
 
+/// The shader's kind and name, the code of each parameter's default, and the body.
 std::string listing(const Program& program) {
     static constexpr std::string_view kKinds[] = {"surface", "displacement", "light", "volume", "imager"};
     std::string out = fmt::format("{} {}\n", kKinds[static_cast<size_t>(program.kind)], program.name);

@@ -108,6 +108,7 @@ class Pruner {
         std::vector<bool> gone(code.size(), false);
         for (size_t i = 0; i + 1 < code.size(); ++i) {
             if (code[i].op == Op::Else && code[i + 1].op == Op::EndIf) gone[i] = true;
+            // Blocks that only switch lanes: with nothing inside they have nothing to switch them for.
             const bool plain = code[i].op == Op::If || code[i].op == Op::Scope;
             if (plain && closes_block(code[i + 1].op)) gone[i] = gone[i + 1] = true;
         }

@@ -206,8 +206,10 @@ size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
     while (next_lights_.back() < lights.count() && !masks_.loop_is_over()) {
         if (next_lights_.back() > 0 && steps_are_spent(step, step.target - opening)) break;
         const size_t number = next_lights_.back()++;
+        // The light's own shader runs here, if what it sends to P is not known yet.
         const Lights::Arriving& light = lights.arriving(number, P, is_lasting_P(P));
         if (light.ambient || !lights.in_category(number, registers_.text_input(step, 0))) continue;
+        // Lanes that the light does not reach, or outside the cone asked for, sit this turn out.
         const float* reached = light.lit;
         scratch_used_ = 0;
         if (with_cone) {
@@ -274,6 +276,7 @@ size_t Run::enter_illuminate(const Step& step, size_t at_step) {
     else
         std::fill_n(lit, lanes(), lane_of(true));
     masks_.enter_if(lit);
+    // Whoever asked this light wants to know where it is and which lanes it lights, besides Cl.
     if (LightOutput* out = context_.light_output) {
         copy_running(!masks_.all(), lit, 1, varying(reinterpret_cast<float*>(out->lit), lanes()));
         copy_running(!masks_.all(), L.data, 3, varying(out->L, lanes()));

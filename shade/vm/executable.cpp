@@ -164,11 +164,14 @@ std::vector<Step> Executable::make_steps(const rsl::Code& code) {
         if (!step.kernel) step.context_op = find_context_op(step.op);
         step.target = static_cast<uint32_t>(target_of(code, blocks, i));
         if (blocks.opening[i] != Blocks::kNone) step.varying = code[blocks.opening[i]].varying;
+        // A jump is one for all lanes, or one lane by lane, as the block that it leaves is.
         const bool jumps = step.op == Op::Break || step.op == Op::Continue || step.op == Op::Leave;
         if (jumps) step.varying = code[left_by(code, blocks, i)].varying;
         // Without lanes an If goes to its Else, which a uniform one must pass by.
         if (step.op == Op::If) step.immediate = blocks.middle[i] != Blocks::kNone;
         if (step.op == Op::LoopTest) step.varying = code[blocks.around[i]].varying;
+        // A kernel reads a group of lanes before it writes them; all else may still want what it has
+        // overwritten.
         if (step.kernel && !rsl::reads_neighbours(step.op)) continue;
         for (size_t k = 0; k < instruction.input_count(); ++k)
             for (size_t o = 0; o < instruction.outputs; ++o)

@@ -56,6 +56,9 @@ struct Place {
     uint32_t planes = 1;  ///< of all elements together
 };
 
+/// Made once for a program and the parameters that vary, and then run over all grids of the materials that
+/// use it. The one thing that changes is whether a loop has turned out to be endless, which all threads may
+/// set.
 class Executable {
   public:
     /// The program has been optimised, and its storage inferred.

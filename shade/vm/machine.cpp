@@ -115,6 +115,7 @@ void Run::plain(const Step& step) {
     scratch_used_ = 0;
     if (step.masked && !masks_.all()) {
         if (masks_.none()) return;
+        // A uniform output has one value for all lanes, and is set whichever of them run.
         if (step.varying) return through_scratch(step, operands);
     }
     if (step.through_scratch) return through_scratch(step, operands);
@@ -123,6 +124,7 @@ void Run::plain(const Step& step) {
 
 /// Computes into other planes, of which lanes that run are copied.
 void Run::through_scratch(const Step& step, std::span<const Operand> operands) {
+    // More operands than this have only calls with many named arguments.
     constexpr size_t kMaxInPlace = 32;
     Operand in_place[kMaxInPlace];
     std::vector<Operand> many;
@@ -136,6 +138,7 @@ void Run::through_scratch(const Step& step, std::span<const Operand> operands) {
         const uint32_t planes = registers_.executable().places()[registers_.register_of(step, k)].planes;
         if (!planes) continue;  // a text
         redirected[k].data = scratch(planes);
+        // What the operation does not set is copied back, too, and must be what it was.
         if (rsl::keeps_output(step.op)) copy_planes(operands[k], planes, redirected[k].data);
     }
     call(step, redirected, step.varying ? lanes() : kLanes);

@@ -35,6 +35,8 @@ class Machine {
 
   private:
     friend class Run;
+    /// A program may be run several times at once: a layer that uses it twice, a light on a surface of the
+    /// same shader.
     struct RegistersKey {
         const Executable* executable;
         size_t copy;
@@ -86,6 +88,7 @@ class Run {
     bool may_print() { return ++printed_ <= kMostPrinted; }
 
   private:
+    /// Does a step of control (control.cpp); returns where to go on. `at` is the step's index in `steps`.
     size_t control(const std::vector<Step>& steps, size_t at);
     void plain(const Step& step);
     void through_scratch(const Step& step, std::span<const Operand> operands);
@@ -97,8 +100,11 @@ class Run {
     size_t if_step(const Step& step, size_t at);
     size_t loop_step(const std::vector<Step>& steps, size_t at);
     size_t jump_step(const Step& step);
+    /// Loops over lights and rays: the numbers of the next light and of the turns left are on stacks, for
+    /// these loops nest.
     bool enter_lights();
     const float* P_data() const;
+    /// Bounds of LoopLimits, which end what a mistake in a shader would never end.
     bool steps_are_spent(const Step& opening, size_t steps);
     bool turns_are_spent(const Step& opening);
     size_t next_light(const std::vector<Step>& steps, size_t opening);

@@ -8,6 +8,7 @@
 
 namespace trapeze::vm {
 
+/// Places in a block of planes, in planes.
 struct PlaneSlots {
     std::vector<uint32_t> first;  ///< plane of each register; unused for those that are not varying
     uint32_t planes = 0;          ///< of all together

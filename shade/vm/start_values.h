@@ -34,6 +34,7 @@ enum class Predefined : uint8_t {
     Other
 };
 
+/// A predefined variable that the program names.
 struct StartValue {
     rsl::RegisterId id = 0;
     Predefined variable = Predefined::Other;

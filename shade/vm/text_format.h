@@ -17,6 +17,7 @@ struct TextValue {
     std::vector<float> floats;
 };
 
+/// Missing values leave their field empty, further ones are not written.
 std::string format_text(std::string_view format, std::span<const TextValue> values);
 
 /// Whether a part of the subject matches the pattern (POSIX extended regular expressions). Bad patterns, and

@@ -102,6 +102,7 @@ void print(Run& run, const Step& step, std::span<const Operand> operands) {
                             "rsl-printed-too-much");
         std::string text =
             format_text(run.registers().text_input(step, 0), values_at(run, step, operands, lane));
+        // A message is a line of its own, as shaders end theirs by themselves.
         while (!text.empty() && text.back() == '\n') text.pop_back();
         diagnostics->note(step.at, std::move(text));
         if (!varying) return;

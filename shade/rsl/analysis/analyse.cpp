@@ -295,6 +295,7 @@ bool Analyser::bind_external(const Variable& variable) {
     return true;
 }
 
+/// The innermost variable of that name in the body that is analysed; null when it has none.
 Variable* Analyser::find_variable(std::string_view name) {
     for (size_t i = scopes_.size(); i-- > body().first_scope;) {
         const auto entry = scopes_[i].variables.find(name);

@@ -102,6 +102,7 @@ class Analyser {
     Choices call_types(Expression& e);
     Choices choices_of(const Expression& e) const;
     bool is_component(const Expression& e) const;
+    /// Whether an expression names something that can be written to.
     bool is_place(const Expression& e) const;
     void check_index(const Expression& element);
 

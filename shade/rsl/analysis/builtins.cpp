@@ -291,6 +291,7 @@ constexpr Builtin kBuiltins[] = {
 
 using ByName = std::unordered_map<std::string_view, std::span<const Builtin>>;
 
+/// The runs of rows that share a name.
 ByName by_name() {
     ByName map;
     const std::span<const Builtin> all(kBuiltins);

@@ -202,6 +202,7 @@ void Analyser::choose_call(Expression& e, Base base) {
     e.builtin = best->builtin;
     if (e.builtin && e.builtin->op == Op::Spline) lacks_knots(e);
     for (size_t i = 0; i < e.children.size(); ++i) choose_argument(e, i, *best);
+    // The copy of the function is made only now, when nothing else may still be meant.
     if (best->function)
         enter_function(e, *best->function);
     else

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kPi = 3.14159265358979323846f;  // RISpec 3.2, section 12: PI is predefined
 
+/// Whether an expression can be a text.
 bool is_string(const Expression& e, const Choices& choices) {
     return !e.type.is_array() && !choices.is_unknown() && choices.has(Base::String);
 }

@@ -33,6 +33,7 @@ class Parser {
         Storage storage = Storage::Unspecified;
         bool output = false, external = false;
     };
+    /// Bounds the recursion: see below.
     class Nesting;
 
     // Tokens.

@@ -10,7 +10,9 @@
 namespace trapeze::rsl {
 namespace {
 
+/// #line lines beyond which a file is not written by people; each costs an entry in Diagnostics.
 constexpr size_t kMostRenumberings = 100000;
+/// Folders that are looked into for a header that is nowhere else.
 constexpr size_t kMostFoldersBeside = 1000;
 
 std::string shown(std::string_view text) {
@@ -76,6 +78,7 @@ void FileReader::leave() {
     files_.pop_back();
 }
 
+/// The tokens of a directive, not expanded.
 FileReader::Line FileReader::rest_of_line() {
     Line line;
     for (Token token = files_.back().lexer.next();
@@ -174,6 +177,7 @@ bool FileReader::condition(const Token& at, const Line& line) {
     return evaluate_condition(expanded(without_defined), at.at, reporter_);
 }
 
+/// The answer to #ifdef.
 bool FileReader::name_is_defined(const Token& at, const Line& line) {
     if (line.empty() || line[0].kind != Token::Kind::Name) {
         reporter_.error(at.at, "#" + std::string(at.text) + " wants a name");
@@ -245,6 +249,7 @@ void FileReader::undefine(const Token& at, const Line& line) {
         macros_.remove(line[0].text);
 }
 
+/// #error and #warning: the rest of the line as it was written.
 void FileReader::say(const Token& at, const Line& line, bool error) {
     std::string text;
     for (const Token& token : line) {

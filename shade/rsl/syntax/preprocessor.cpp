@@ -7,6 +7,7 @@ namespace {
 
 constexpr size_t kMostTokens = size_t{1} << 20;  // that the parser gets
 
+/// __FILE__ and __LINE__, and TRAPEZE, by which shaders tell this compiler from others.
 void define_builtin(Macros& macros) {
     Macro file, line, trapeze;
     file.kind = Macro::Kind::File;

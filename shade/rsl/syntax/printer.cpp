@@ -17,6 +17,7 @@ struct Written {
     int precedence;
 };
 
+/// An operator's mark and how tightly it binds.
 Written written(Operator op) {
     switch (op) {
         case Operator::Or:
@@ -57,6 +58,7 @@ Written written(Operator op) {
     return {"", kPrimary};
 }
 
+/// Whether an expression begins with a variable's name.
 bool names_a_variable(const Expression& e) {
     return e.kind == Expression::Kind::Variable || e.kind == Expression::Kind::Element;
 }
@@ -120,6 +122,7 @@ class Printer {
   private:
     void line_start() { text += '\n' + std::string(static_cast<size_t>(indent_) * 4, ' '); }
 
+    /// "(float a = 1; color c) ".
     void head(const std::vector<std::unique_ptr<Variable>>& parameters) {
         text += '(';
         const char* separator = "";
@@ -173,6 +176,7 @@ class Printer {
         }
     }
 
+    /// A word, its arguments, the statement within, and what follows an else.
     void with_head(std::string_view word, const Statement& s) {
         text += word;
         text += '(';

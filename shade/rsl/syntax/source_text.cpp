@@ -16,6 +16,8 @@ size_t next_line_after_backslash(std::string_view text, size_t at) {
 
 }  // namespace
 
+/// Where lines were joined is kept aside, so that the lexer counts lines as they are in the file. A last line
+/// without an end gets one.
 SourceText joined_lines(std::string as_written) {
     SourceText source;
     source.as_written = std::make_shared<const std::string>(std::move(as_written));

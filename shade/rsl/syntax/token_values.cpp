@@ -48,6 +48,7 @@ void append_value(std::string_view text, std::string& value) {
     }
 }
 
+/// What is wrong with a token that is no word of the language.
 std::string description(const Token& token) {
     if (token.text.starts_with('"')) return "this string has no end on its line";
     const auto byte = static_cast<unsigned char>(token.text.empty() ? 0 : token.text[0]);

@@ -58,6 +58,7 @@ HWY_INLINE V round_of(V x) {
 HWY_INLINE V mod(V a, V b) {
     const V zero = hn::Zero(D());
     const V rest = hn::Sub(a, hn::Mul(b, floor_of(hn::Div(a, b))));
+    // a / b may have been rounded up to a whole number: the rest is then beyond 0 by a rounding.
     const M past = hn::Lt(hn::Mul(hn::CopySign(set(1), b), rest), zero);
     const V inside = hn::Add(rest, hn::IfThenElseZero(past, b));
     return hn::IfThenZeroElse(hn::Or(hn::Eq(b, zero), hn::Eq(inside, b)), inside);
@@ -68,6 +69,7 @@ HWY_INLINE V least(V a, V b) {
 HWY_INLINE V most(V a, V b) {
     return at_least(a, b);
 }
+/// 0 where x < edge, else 1, at the edge itself too.
 HWY_INLINE V step_at(V edge, V x) {
     return hn::IfThenZeroElse(hn::Lt(x, edge), set(1));
 }
@@ -100,6 +102,7 @@ void fold(size_t lanes, Operands o) {
     }
 }
 
+/// The kernel of two inputs by component, or of more, as min() and max() have them.
 template <auto function>
 Kernel fold_kernel(std::span<const int> widths) {
     if (widths.size() == 3) return component_kernel<function>(widths);
@@ -107,6 +110,7 @@ Kernel fold_kernel(std::span<const int> widths) {
     return widths[0] == 1 ? fold<function, 1> : widths[0] == 3 ? fold<function, 3> : nullptr;
 }
 
+/// c ? a : b, without a branch: the condition is a mask.
 template <int width>
 void select(size_t lanes, Operands o) {
     const Output out(o[0]);
@@ -137,6 +141,7 @@ Kernel find_move(std::span<const int> widths) {
     return component_kernel<same>(widths);
 }
 
+/// One mask chooses whole triples and matrices.
 Kernel find_select(std::span<const int> widths) {
     if (widths.size() != 4) return nullptr;
     return widths[0] == 1 ? select<1> : widths[0] == 3 ? select<3> : widths[0] == 16 ? select<16> : nullptr;

@@ -56,6 +56,7 @@ void equal(size_t lanes, Operands o) {
     }
 }
 
+/// A float beside a triple or matrix is compared with each of its components.
 template <bool negated>
 Kernel find_equal(std::span<const int> widths) {
     if (widths.size() != 3) return nullptr;

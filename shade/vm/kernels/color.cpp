@@ -48,6 +48,7 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze::vm::HWY_NAMESPACE {
 namespace {
 
+/// A row of a colour matrix times a colour.
 HWY_INLINE V weigh(const std::array<double, 3>& row, const V3& c) {
     return dot(c.x, c.y, c.z, set(static_cast<float>(row[0])), set(static_cast<float>(row[1])),
                set(static_cast<float>(row[2])));
@@ -90,6 +91,8 @@ HWY_INLINE V absence(V hue, float offset) {
     return at_most(positive(at_most(k, hn::Sub(set(4), k))), set(1));
 }
 
+/// value is the largest component, saturation how far the least is below it, as a share. All of the
+/// conversions work for colours brighter than 1 and darker than 0 as well.
 HWY_INLINE V3 hsv_from_rgb(const V3& c) {
     const Hue h = hue_of(c);
     return {h.hue, ratio(hn::Sub(h.most, h.least), h.most), h.most};
@@ -99,6 +102,7 @@ HWY_INLINE V3 rgb_from_hsv(const V3& c) {
     return {hn::Sub(c.z, hn::Mul(chroma, absence(c.x, 5))), hn::Sub(c.z, hn::Mul(chroma, absence(c.x, 3))),
             hn::Sub(c.z, hn::Mul(chroma, absence(c.x, 1)))};
 }
+/// lightness is halfway between the largest and the least component.
 HWY_INLINE V3 hsl_from_rgb(const V3& c) {
     const Hue h = hue_of(c);
     const V sum = hn::Add(h.most, h.least), lightness = hn::Mul(sum, set(0.5f));
@@ -113,6 +117,7 @@ HWY_INLINE V3 rgb_from_hsl(const V3& c) {
     };
     return {channel(5), channel(3), channel(1)};
 }
+/// Chromaticity x, y and luminance Y.
 HWY_INLINE V3 xyy_from_xyz(const V3& c) {
     const V scale_down = ratio(set(1), hn::Add(hn::Add(c.x, c.y), c.z));
     return {hn::Mul(c.x, scale_down), hn::Mul(c.y, scale_down), c.y};
@@ -122,6 +127,7 @@ HWY_INLINE V3 xyz_from_xyy(const V3& c) {
     return {hn::Mul(c.x, scale_up), c.z, hn::Mul(hn::Sub(hn::Sub(set(1), c.x), c.y), scale_up)};
 }
 
+/// Every conversion goes through rgb, so that six spaces need ten functions and not thirty.
 template <ColorSpace space>
 HWY_INLINE V3 rgb_from(const V3& c) {
     if constexpr (space == ColorSpace::Hsv) return rgb_from_hsv(c);

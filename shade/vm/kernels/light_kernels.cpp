@@ -27,6 +27,7 @@ void sum_light(size_t lanes, const Operand& Cl, float share, const Operand& resu
     for (size_t i = 0; i < lanes; i += lane_count()) add_scaled(out, color, set(share), i);
 }
 
+/// The names here differ from those of light_kernels.h, which call them by way of the dispatch.
 void sum_diffuse(size_t lanes, const Operand& N, const Operand& L, const Operand& Cl, float share,
                  const Operand& result) {
     const Output out(result);
@@ -89,6 +90,7 @@ void find_cone(size_t lanes, const Operand& vectors, const Operand& axes, const 
     }
 }
 
+/// receive_light() of light_kernels.h: the light's run has left L as the way from it.
 void turn_to_surface(size_t lanes, const Operand& lit, const Operand& color, const Operand& L,
                      const Operand& direction, const Operand& Cl) {
     const Input reached(lit), sent(color), from_light(L);

@@ -34,6 +34,7 @@ size_t count_of(size_t lanes, const Operand& mask) {
     VI sum = hn::Zero(di);
     size_t i = 0;
     for (; i + lane_count() <= lanes; i += lane_count()) sum = hn::Sub(sum, hn::BitCast(di, in.get(i)));
+    // The last vector may hold lanes of no vertex, which are not to be counted.
     const M inside = hn::FirstN(D(), lanes - i);
     if (i < lanes) sum = hn::Sub(sum, hn::BitCast(di, hn::IfThenElseZero(inside, in.get(i))));
     return static_cast<size_t>(hn::GetLane(hn::SumOfLanes(di, sum)));

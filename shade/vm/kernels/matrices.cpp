@@ -46,6 +46,7 @@ HWY_INLINE Matrix product(const Matrix& a, const Matrix& b) {
 struct Minors {
     V first[6], last[6];
 };
+/// Twelve products of two rows each, which determinant and inverse are both made of.
 HWY_INLINE Minors minors(const Matrix& m) {
     constexpr int kPairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
     Minors result;
@@ -102,6 +103,7 @@ void multiply(size_t lanes, Operands o) {
     for (size_t i = 0; i < lanes; i += lane_count()) write(product(read(a, i), read(b, i)), out, i);
 }
 
+/// a / b is a times the inverse of b (RISpec 3.2, section 13).
 void divide(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input a(o[1]), b(o[2]);

@@ -25,6 +25,7 @@ struct Row3 {
     Row component[3];
 };
 
+/// Along rows, or from row to row.
 enum class Axis { U, V };
 
 /// Differences along an axis of row j of a span's plane.
@@ -269,6 +270,7 @@ void along_both(GridSpans spans, size_t lanes, int width, const Operand& num, co
     });
 }
 
+/// A triple in doubles.
 struct Double3 {
     double x, y, z;
 };

@@ -100,6 +100,7 @@ int dimensions_of(std::span<const int> inputs) {
     return are(inputs, {3, 1}) ? 4 : 0;
 }
 
+/// The number of dimensions becomes part of the kernel's type, so that its loops over them are unrolled.
 template <bool periodic, int width>
 Kernel find_noise(int dimensions) {
     switch (dimensions) {

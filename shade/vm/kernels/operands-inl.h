@@ -66,6 +66,7 @@ struct Output {
     size_t stride;
 };
 
+/// Lanes that one turn of a loop does: a power of two, at most kLanes.
 HWY_INLINE size_t lane_count() {
     return hn::Lanes(D());
 }

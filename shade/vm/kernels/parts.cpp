@@ -92,6 +92,7 @@ Operand element_at(const Operand& array, float index) {
 /// array[index]. Mostly the index is uniform, and the element is copied; else each lane gathers its own.
 template <int width>
 void element(size_t lanes, Operands o) {
+    // The same element for all lanes: its planes are copied as they lie.
     if (o[2].lane_mask == 0)
         return by_component<same, width>(lanes, std::array{o[0], element_at(o[1], o[2].data[0])});
     const Output out(o[0]);
@@ -108,6 +109,7 @@ void element(size_t lanes, Operands o) {
 /// array[index] = value: the one element, or by lane. Other elements keep what they have.
 template <int width>
 void set_element(size_t lanes, Operands o) {
+    // The same element for all lanes: its planes are written as they lie.
     if (o[1].lane_mask == 0)
         return by_component<same, width>(lanes, std::array{element_at(o[0], o[1].data[0]), o[2]});
     const Output array(o[0]);

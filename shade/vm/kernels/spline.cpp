@@ -49,6 +49,7 @@ struct Knots {
     explicit Knots(Operands o)
         : operands(o.subspan(2)), array(operands.size() == 1 && operands[0].length > 0) {}
     int count() const { return array ? operands[0].length : static_cast<int>(operands.size()); }
+    /// Component k of a knot, at lane i.
     HWY_INLINE V get(size_t i, int knot, int k) const {
         const Operand& o = operands[array ? 0 : static_cast<size_t>(knot)];
         return hn::Load(D(), o.data + (array ? static_cast<size_t>(knot) * o.element_stride : 0) +
@@ -91,6 +92,7 @@ HWY_NOINLINE void run_spline(const SplineRule& rule, int width, size_t lanes, Op
             for (int k = 0; k < width; ++k) out.put(hn::Zero(D()), i, k);
             continue;
         }
+        // Segments are equally long in the value; at 1 the last one ends.
         const V t = hn::Mul(at_most(positive(value.get(i)), set(1)), set(static_cast<float>(segments)));
         const V segment = at_most(hn::Floor(t), set(static_cast<float>(segments - 1)));
         const V f = hn::Sub(t, segment);
@@ -112,6 +114,7 @@ HWY_NOINLINE void run_spline(const SplineRule& rule, int width, size_t lanes, Op
     }
 }
 
+/// A kernel has no arguments but its operands: basis and width become part of its type.
 template <SplineBasis basis, int width>
 void spline(size_t lanes, Operands o) {
     run_spline(kSplineRules[static_cast<size_t>(basis)], width, lanes, o);
