@@ -10,7 +10,8 @@
 #include <sstream>
 
 #include "pipeline/cli/commands/compliance_notes.h"
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/read_rib.h"
+#include "pipeline/rib/reader/known_requests.h"
 #include "pipeline/rib/state/recognised_names.h"
 #include "pipeline/rib/syntax/arguments.h"
 #include "shade/rsl/analysis/builtins.h"

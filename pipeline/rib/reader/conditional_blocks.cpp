@@ -1,11 +1,7 @@
-/// Parts of a stream that are read but not executed: branches of IfBegin, ElseIf, Else and IfEnd (no part of
-/// RISpec 3.2; PRMan's and Pixie's), and blocks that are skipped whole.
-#include <algorithm>
-#include <array>
-#include <cstdlib>
+#include "pipeline/rib/reader/conditional_blocks.h"
 
-#include "pipeline/rib/reader/reader.h"
-#include "pipeline/rib/syntax/conditions.h"
+#include <algorithm>
+#include <cstdlib>
 
 namespace trapeze::rib {
 namespace {
@@ -59,7 +55,7 @@ ConditionValue option_value(const Options& o, const std::string& name) {
 
 }  // namespace
 
-bool Reader::is_conditional(std::string_view request) {
+bool ConditionalBlocks::is_conditional(std::string_view request) {
     constexpr std::string_view kRequests[] = {kIf, "ElseIf", "Else", "IfEnd"};
     return std::find(std::begin(kRequests), std::end(kRequests), request) != std::end(kRequests) ||
            std::any_of(std::begin(kSkippedBlocks), std::end(kSkippedBlocks), [&](const SkippedBlock& block) {
@@ -67,100 +63,107 @@ bool Reader::is_conditional(std::string_view request) {
            });
 }
 
-ConditionValue Reader::variable(const std::string& name) const {
+ConditionValue ConditionalBlocks::value_of_variable(const std::string& name) const {
     constexpr std::string_view kAttribute = "Attribute:", kOption = "Option:";
     if (name.starts_with(kAttribute))
-        return attribute_value(attributes().attributes, name.substr(kAttribute.size()));
-    if (name.starts_with(kOption)) return option_value(scope_.options, name.substr(kOption.size()));
-    ConditionValue value = attribute_value(attributes().attributes, name);
-    if (value.is_undefined()) value = option_value(scope_.options, name);
+        return attribute_value(state_.attributes().attributes, name.substr(kAttribute.size()));
+    if (name.starts_with(kOption)) return option_value(state_.options(), name.substr(kOption.size()));
+    ConditionValue value = attribute_value(state_.attributes().attributes, name);
+    if (value.is_undefined()) value = option_value(state_.options(), name);
     const bool looks_further = value.is_undefined() && access_.may_see_environment();
     const char* const in_environment = looks_further ? std::getenv(name.c_str()) : nullptr;
     if (in_environment) value.text = in_environment;
     return value;
 }
 
-bool Reader::holds(const std::string& expression) {
+bool ConditionalBlocks::holds(const std::string& expression) {
     const ConditionResult result =
-        evaluate_condition(expression, [this](const std::string& name) { return variable(name); });
+        evaluate_condition(expression, [this](const std::string& name) { return value_of_variable(name); });
     if (!result.problem.empty()) {
-        error("the condition " + in_quotes(expression) + " is wrong: " + result.problem + "; taken as false");
+        report_.error("the condition " + in_quotes(expression) + " is wrong: " + result.problem +
+                      "; taken as false");
         return false;
     }
     for (const std::string& name : result.undefined)
-        warn_once("no option or attribute " + in_quotes(name) + "; it equals nothing", "undefined-" + name);
+        report_.warn_once("no option or attribute " + in_quotes(name) + "; it equals nothing",
+                          "undefined-" + name);
     return result.holds;
 }
 
-void Reader::push_conditional(std::string_view name, bool active) {
-    if (conditionals_.size() >= kDeepestConditional)
+void ConditionalBlocks::push(std::string_view name, bool is_active) {
+    if (blocks_.size() >= kDeepestConditional)
         throw RequestError{"conditions are nested more than " + std::to_string(kDeepestConditional) + " deep",
                            {}};
-    conditionals_.push_back({name, at_, is_skipping(), active, active, false});
+    blocks_.push_back({name, report_.at(), is_skipping(), is_active, is_active, false});
 }
 
-void Reader::if_begin(const std::string& expression) {
+void ConditionalBlocks::if_begin(const std::string& expression) {
     const bool outer_skips = is_skipping();
-    push_conditional(kIf, !outer_skips && holds(expression));
+    push(kIf, !outer_skips && holds(expression));
 }
 
-Reader::Conditional& Reader::open_conditional(std::string_view name) {
-    if (conditionals_.size() <= first_conditional_ || conditionals_.back().name != name)
+ConditionalBlocks::OpenCondition& ConditionalBlocks::innermost(std::string_view name) {
+    if (blocks_.size() <= first_ || blocks_.back().name != name)
         throw RequestError{"no " + std::string(name) + " is open here", {}};
-    return conditionals_.back();
+    return blocks_.back();
 }
 
-void Reader::else_if(const std::string* expression) {
-    Conditional& block = open_conditional(kIf);
+void ConditionalBlocks::else_if(const std::string* expression) {
+    OpenCondition& block = innermost(kIf);
     if (block.had_else) throw RequestError{"stands after Else", {}};
     block.had_else = !expression;
-    const bool may = !block.outer_skips && !block.taken;
-    block.active = may && (!expression || holds(*expression));
-    block.taken |= block.active;
+    const bool may = !block.outer_skips && !block.was_taken;
+    block.is_active = may && (!expression || holds(*expression));
+    block.was_taken |= block.is_active;
 }
 
-void Reader::if_end() {
-    open_conditional(kIf);
-    conditionals_.pop_back();
+void ConditionalBlocks::if_end() {
+    innermost(kIf);
+    blocks_.pop_back();
 }
 
-void Reader::skip_block() {
+void ConditionalBlocks::skip_block() {
     for (const SkippedBlock& block : kSkippedBlocks) {
-        if (request_name_ == block.begin) {
+        if (report_.name() == block.begin) {
             if (!is_skipping()) {
-                ++summary_.unsupported[request_name_];
-                warn_once("is not supported; skipped up to " + std::string(block.end),
-                          "unsupported-" + request_name_);
+                report_.count_unsupported();
+                report_.warn_once("is not supported; skipped up to " + std::string(block.end),
+                                  "unsupported-" + report_.name());
             }
-            push_conditional(block.begin, false);
-        } else if (request_name_ == block.end) {
-            open_conditional(block.begin);
-            conditionals_.pop_back();
+            push(block.begin, false);
+        } else if (report_.name() == block.end) {
+            innermost(block.begin);
+            blocks_.pop_back();
         }
     }
 }
 
-void Reader::close_conditionals() {
-    for (; conditionals_.size() > first_conditional_; conditionals_.pop_back()) {
-        request_name_ = conditionals_.back().name;
-        error(conditionals_.back().at, "never closed; closed at the end of the stream");
-    }
+size_t ConditionalBlocks::begin_stream() {
+    return std::exchange(first_, blocks_.size());
 }
 
-/// PRMan's Option "ribparse" "string varsubst" (older: "rib"): from then on texts in requests may name
-/// options and attributes.
-void Reader::substitute(RequestText& request) const {
-    if (scope_.options.user.empty() || is_conditional(request.name)) return;
+void ConditionalBlocks::end_stream(size_t outer, bool is_whole) {
+    for (; blocks_.size() > first_; blocks_.pop_back()) {
+        if (!is_whole) continue;
+        const OpenCondition& block = blocks_.back();
+        report_.set_request(report_.at(), block.name);
+        report_.error(block.at, "never closed; closed at the end of the stream");
+    }
+    first_ = outer;
+}
+
+void ConditionalBlocks::substitute(RequestText& request) const {
+    if (state_.options().user.empty() || is_conditional(request.name)) return;
     for (const char* category : {"ribparse", "rib"}) {
-        const auto list = scope_.options.user.find(category);
-        if (list == scope_.options.user.end()) continue;
+        const auto list = state_.options().user.find(category);
+        if (list == state_.options().user.end()) continue;
         const std::string marker = list->second.string_or("varsubst", "");
         if (marker.empty()) continue;
         for (Argument& argument : request.arguments)
             for (std::string& text : argument.strings)
                 if (text.find(marker) != std::string::npos)
-                    text = substitute_variables(text, marker,
-                                                [this](const std::string& name) { return variable(name); });
+                    text = substitute_variables(
+                        text, marker, [this](const std::string& name) { return value_of_variable(name); });
     }
 }
 

@@ -1,7 +1,7 @@
 /// Retained geometry: ObjectBegin, ObjectEnd, ObjectInstance.
 #include <algorithm>
 
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/state/scene_size.h"
 
 namespace trapeze::rib {
@@ -71,32 +71,31 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
 
 }  // namespace
 
-void Reader::begin_object(const std::string& handle) {
+void SceneBuilder::begin_object(const std::string& handle) {
     if (object_) throw RequestError{"object definitions do not nest", {}};
-    begin_block(Block::Object);
-    AttributeState& state = change_attributes();
-    state.orientation = Orientation::OfInstance, state.orientation_reversed = false;
+    state_.open(Block::Object, report_.at());
+    AttributeState& attributes = state_.change_attributes();
+    attributes.orientation = Orientation::OfInstance, attributes.orientation_reversed = false;
     object_ = std::make_shared<RetainedObject>();
-    object_->attributes = state_.attributes;
-    scope_.objects[handle] = object_;
-    state_.transform = MovingTransform();
+    object_->attributes = state_.current().attributes;
+    state_.scope().objects[handle] = object_;
+    state_.current().transform = MovingTransform();
 }
 
-void Reader::instance(const std::string& handle) {
-    if (motion_) throw RequestError{"inside a motion block", {}};
+void SceneBuilder::instance(const std::string& handle) {
+    if (motion_.is_open()) throw RequestError{"inside a motion block", {}};
     if (!takes_geometry()) return;
-    const auto found = scope_.objects.find(handle);
-    if (found == scope_.objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
+    const auto found = state_.scope().objects.find(handle);
+    if (found == state_.scope().objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
     if (found->second == object_) throw RequestError{"an object in its own definition", {}};
     RetainedObject& object = *found->second;
     place_lights(object);
     instanced_primitives_ += object.primitives.size();
     if (instanced_primitives_ > read_options_.most_instanced_primitives) {
-        diagnostics_.error(at_,
-                           request_name_ + ": instances make more than " +
-                               std::to_string(read_options_.most_instanced_primitives) +
-                               " primitives, which is the limit; this and further ones are left out",
-                           "instance-limit");
+        report_.error_of_limit("instances make more than " +
+                                   std::to_string(read_options_.most_instanced_primitives) +
+                                   " primitives, which is the limit; this and further ones are left out",
+                               "instance-limit");
         return;
     }
     if (object_ && object_->primitives.size() + object.primitives.size() > kMostInObject)
@@ -112,36 +111,36 @@ void Reader::instance(const std::string& handle) {
         const bool own = primitive.attributes != object.attributes;
         if (own && merged_from != primitive.attributes.get()) {
             merged_from = primitive.attributes.get();
-            merged = instance_attributes(*state_.attributes, *object.attributes, *primitive.attributes,
-                                         camera_from_current());
+            merged = instance_attributes(state_.attributes(), *object.attributes, *primitive.attributes,
+                                         state_.camera_from_current());
         }
-        place_instance(primitive, own ? merged : state_.attributes, solid);
+        place_instance(primitive, own ? merged : state_.current().attributes, solid);
     }
 }
 
 /// A primitive of an object with the current transformation: into the scene, or into the object that is being
 /// defined.
-void Reader::place_instance(ObjectPrimitive& primitive,
-                            const std::shared_ptr<const AttributeState>& attributes, int solid) {
-    MovingTransform transform = state_.transform;
+void SceneBuilder::place_instance(ObjectPrimitive& primitive,
+                                  const std::shared_ptr<const AttributeState>& attributes, int solid) {
+    MovingTransform transform = state_.current().transform;
     transform.concat(primitive.object_from_shape);
     if (object_) {
         if (keeps_geometry() && !has_room(sizeof(ObjectPrimitive))) return;
         ObjectPrimitive& copy = object_->primitives.emplace_back(primitive);
         copy.object_from_shape = std::move(transform);
         copy.attributes = attributes;
-        copy.at = at_;
+        copy.at = report_.at();
         copy.solid = solid;
         return;
     }
-    const float open = scope_.options.shutter_open, close = scope_.options.shutter_close;
+    const float open = state_.options().shutter_open, close = state_.options().shutter_close;
     if (primitive.keys.empty() || primitive.keys_open != open || primitive.keys_close != close) {
         primitive.keys = shapes_at_keys(primitive.shapes, primitive.times, open, close);
         primitive.keys_open = open, primitive.keys_close = close;
         if (primitive.keys.size() > 1 && !has_room(primitive.keys.size() * bytes_of(*primitive.keys.front())))
             return;
     }
-    emit(primitive.request, primitive.keys, transform, attributes, at_, solid);
+    emit(primitive.request, primitive.keys, transform, attributes, report_.at(), solid);
 }
 
 }  // namespace trapeze::rib

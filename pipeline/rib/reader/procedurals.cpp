@@ -1,120 +1,101 @@
-/// Procedural primitives (RISpec 5.8): their geometry is read at once, within a block of their own.
+#include "pipeline/rib/reader/procedurals.h"
+
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <sstream>
 
 #include "pipeline/rib/programs/find_program.h"
-#include "pipeline/rib/reader/reader.h"
 
 namespace trapeze::rib {
-namespace {
 
-RequestText bare_request(const char* name, SourceLocation at) {
-    RequestText request;
-    request.name = name, request.at = at;
-    return request;
+std::string Procedurals::Source::title() const {
+    return "the " + kind + " " + in_quotes(shown);
 }
 
-}  // namespace
-
-/// Runs `read` between AttributeBegin and AttributeEnd; blocks that it leaves open are closed.
-template <class Read>
-void Reader::read_in_block(Read&& read) {
-    begin_block(Block::Attribute);
-    hands_on(bare_request("AttributeBegin", at_));
-    const size_t depth = blocks_.size();
-    const auto id = blocks_.back().id;
-    read();
-    while (blocks_.size() > depth && blocks_[depth - 1].id == id) {
-        error(std::string(block_name(blocks_.back().kind)) + " of line " +
-              std::to_string(blocks_.back().at.line) + " is still open; closed here");
-        close_block();
-    }
-    hands_on(bare_request("AttributeEnd", at_));
-    // What was read may have closed this block too.
-    if (blocks_.size() >= depth && blocks_[depth - 1].id == id) close_block();
+bool Procedurals::takes_procedural() {
+    if (state_.in_motion()) throw RequestError{"inside a motion block", {}};
+    return scene_.takes_geometry();
 }
 
-bool Reader::takes_procedural() {
-    if (motion_) throw RequestError{"inside a motion block", {}};
-    return takes_geometry();
-}
-
-void Reader::delayed_archive(const std::string& name) {
+void Procedurals::delayed_archive(const std::string& name) {
     if (!takes_procedural()) return;
-    read_in_block([&] { read_archive(name); });
+    blocks_.within_attribute_block([&] { stream_.read_archive(name); });
 }
 
-void Reader::run_program(const std::string& command, const std::string& data,
-                         const std::vector<float>& bound) {
+void Procedurals::run_program(const std::string& command, const std::string& data,
+                              const std::vector<float>& bound) {
     std::istringstream stream(command);
     std::vector<std::string> words;
     for (std::string word; stream >> word;) words.push_back(word);
-    ask_program_for_rib("program", command, words, data, bound);
+    read_answer({"program", command, std::move(words)}, data, bound);
 }
 
 /// The library is looked for as it is named, and with the ending that libraries have here.
-void Reader::load_procedural(const std::string& library, const std::string& data,
-                             const std::vector<float>& bound) {
+void Procedurals::load_procedural(const std::string& library, const std::string& data,
+                                  const std::vector<float>& bound) {
     if (read_options_.procedural_host.empty())
         throw RequestError{"\"DynamicLoad\" is not supported here", {}};
     namespace fs = std::filesystem;
     std::error_code ignored;
     std::vector<std::string> words = read_options_.procedural_host;
     words.push_back(library);
-    for (const std::string& folder : folders("procedural"))
+    for (const std::string& folder : search_.folders("procedural"))
         for (const char* ending : {"", ".so"}) {
             const fs::path path = fs::absolute(fs::path(folder.empty() ? "." : folder) / (library + ending));
             if (words.back() == library && fs::is_regular_file(path, ignored)) words.back() = path.string();
         }
-    ask_program_for_rib("procedural", library, words, data, bound);
+    read_answer({"procedural", library, std::move(words)}, data, bound);
 }
 
-void Reader::ask_program_for_rib(const char* kind, const std::string& shown,
-                                 const std::vector<std::string>& command, const std::string& data,
-                                 const std::vector<float>& bound) {
-    if (!takes_procedural()) return;
+/// Strangers' files run nothing unless the user says so.
+bool Procedurals::may_run(const Source& source) {
     if (access_.is_confined()) {
-        ++summary_.unsupported[request_name_];
-        warn_once("programs are not run (--safe); skipped", "programs-not-allowed");
-        return;
+        report_.count_unsupported();
+        report_.warn_once("programs are not run (--safe); skipped", "programs-not-allowed");
+        return false;
     }
-    if (!read_options_.allow_programs) {
-        // A library's name is the last word, after its host's.
-        std::error_code ignored;
-        const bool is_there = std::string_view(kind) == "program"
-                                  ? !command.empty() && has_program(command[0], folders("procedural"))
-                                  : std::filesystem::is_regular_file(command.back(), ignored);
-        ++summary_.unsupported[request_name_];
-        if (!is_there) error("the " + std::string(kind) + " " + in_quotes(shown) + " is not found");
-        warn_once("programs are run only where that is allowed (--allow-programs); skipped",
-                  "programs-not-allowed");
-        return;
-    }
-    if (!frame_wanted_) return;
-    const std::string name = "<" + std::string(kind) + " " + clipped(shown) + ">";
-    if (!may_read_archive(name, {})) return;
+    if (read_options_.allow_programs) return true;
+    // A library's name is the last word, after its host's.
+    std::error_code ignored;
+    const bool is_there =
+        source.kind == "program"
+            ? !source.words.empty() && has_program(source.words[0], search_.folders("procedural"))
+            : std::filesystem::is_regular_file(source.words.back(), ignored);
+    report_.count_unsupported();
+    if (!is_there) report_.error(source.title() + " is not found");
+    report_.warn_once("programs are run only where that is allowed (--allow-programs); skipped",
+                      "programs-not-allowed");
+    return false;
+}
+
+void Procedurals::read_answer(const Source& source, const std::string& data,
+                              const std::vector<float>& bound) {
+    if (!takes_procedural() || !may_run(source) || !scene_.frame_is_wanted()) return;
+    const std::string name = "<" + source.kind + " " + clipped(source.shown) + ">";
+    if (!stream_.may_read_archive(name, {})) return;
+    // The request is a line of the bound's area in pixels, and the scene's data. Infinite areas are large.
     char detail[32];
-    const float area = bound.empty() ? 0 : raster_area(bound);
-    const auto end = std::to_chars(detail, detail + sizeof detail, std::min(area, 1e38f)).ptr;
+    const float area = bound.empty() ? 0 : std::min(state_.raster_area(bound), 1e38f);
+    const char* const end = std::to_chars(detail, detail + sizeof detail, area).ptr;
+    const ProgramAnswer answer =
+        ask(source, std::string(static_cast<const char*>(detail), end) + " " + data + "\n");
+    if (report_.must_stop()) return;
+    if (!answer.problem.empty()) report_.error(source.title() + " " + answer.problem);
+    if (answer.text.empty()) return;
+    const uint32_t id = report_.diagnostics().add_source(name, report_.at());
+    const OpenFiles::Entry entry(files_, name);
+    blocks_.within_attribute_block([&] { stream_.read_text(answer.text, {id, 1, 1}); });
+}
+
+ProgramAnswer Procedurals::ask(const Source& source, const std::string& request) {
     Patience patience;
     patience.silence = std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000));
     patience.most_bytes = read_options_.max_source_bytes;
     patience.cancelled = read_options_.cancelled;
     if (read_options_.on_wait)
-        patience.on_wait = [&](int seconds) {
-            read_options_.on_wait("the " + std::string(kind) + " " + in_quotes(shown), seconds);
-        };
-    const ProgramAnswer answer =
-        programs_.ask(command, std::string(detail, end) + " " + data + "\n", folders("procedural"), patience);
-    if (is_stopped()) return;
-    if (!answer.problem.empty())
-        error("the " + std::string(kind) + " " + in_quotes(shown) + " " + answer.problem);
-    if (answer.text.empty()) return;
-    const uint32_t id = diagnostics_.add_source(name, at_);
-    open_files_.push_back(name);
-    read_in_block([&] { read_text(answer.text, {id, 1, 1}); });
-    open_files_.pop_back();
+        patience.on_wait = [&](int seconds) { read_options_.on_wait(source.title(), seconds); };
+    return programs_.ask(source.words, request, search_.folders("procedural"), patience);
 }
 
 }  // namespace trapeze::rib

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/ris/ris_lights.h"
 #include "pipeline/rib/state/scene_size.h"
 
@@ -22,70 +22,83 @@ M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_fr
 
 }  // namespace
 
-void Reader::add_world_light(std::shared_ptr<const LightInstance> light) {
-    auto& lights = object_ ? object_->lights : scope_.ris.lights;
+void SceneBuilder::add_light(std::shared_ptr<const LightInstance> light) {
+    if (object_) throw RequestError{"inside an object definition", {}};
+    ++report_.summary().lights;
+    state_.scope().lights[light->handle] = light;
+    state_.change_attributes().attributes.lights.push_back(std::move(light));
+}
+
+std::shared_ptr<const LightInstance> SceneBuilder::light(const std::string& handle) const {
+    const auto found = state_.scope().lights.find(handle);
+    return found == state_.scope().lights.end() ? nullptr : found->second;
+}
+
+void SceneBuilder::add_world_light(std::shared_ptr<const LightInstance> light) {
+    auto& lights = object_ ? object_->lights : state_.scope().ris.lights;
     if (lights.size() >= kMostWorldLights) {
-        warn_once("more than " + std::to_string(kMostWorldLights) + " lights; this and further ones are dark",
-                  "ris-lights");
+        report_.warn_once(
+            "more than " + std::to_string(kMostWorldLights) + " lights; this and further ones are dark",
+            "ris-lights");
         return;
     }
     if (!object_) {
-        ++summary_.lights;
-        scope_.lights[light->handle] = light;
+        ++report_.summary().lights;
+        state_.scope().lights[light->handle] = light;
     }
     lights.push_back(std::move(light));
 }
 
 /// Those of an object, where it is placed.
-void Reader::place_lights(const RetainedObject& object) {
+void SceneBuilder::place_lights(const RetainedObject& object) {
     for (const auto& light : object.lights) {
-        if (!object_ && scope_.ris.lights.size() >= kMostWorldLights)
+        if (!object_ && state_.scope().ris.lights.size() >= kMostWorldLights)
             return add_world_light(light);  // says so
         auto placed = std::make_shared<LightInstance>(*light);
-        placed->shader.camera_from_shader = placed->shader.camera_from_shader * camera_from_current();
+        placed->shader.camera_from_shader = placed->shader.camera_from_shader * state_.camera_from_current();
         add_world_light(std::move(placed));
     }
 }
 
-void Reader::place_emitter(const Shape& shape) {
-    Emitter* const emitter = state_.attributes->emitter.get();
+void SceneBuilder::place_emitter(const Shape& shape) {
+    Emitter* const emitter = state_.attributes().emitter.get();
     if (!emitter || std::exchange(emitter->is_placed, true)) return;
     ShaderInstance& shader = emitter->light->shader;
     if (emitter->is_of_ris)
-        place_mesh_light(*emitter->light, shape, camera_from_current());
+        place_mesh_light(*emitter->light, shape, state_.camera_from_current());
     else if (!shader.parameters.find("from"))
         shader.camera_from_shader =
-            with_origin(shader.camera_from_shader, middle_of(shape), camera_from_current());
+            with_origin(shader.camera_from_shader, middle_of(shape), state_.camera_from_current());
 }
 
-void Reader::place_far_emitter(FarShape shape, float angle) {
-    Emitter* const emitter = state_.attributes->emitter.get();
+void SceneBuilder::place_far_emitter(FarShape shape, float angle) {
+    Emitter* const emitter = state_.attributes().emitter.get();
     if (!emitter || !emitter->is_of_ris || std::exchange(emitter->is_placed, true)) return;
-    const auto lights = far_lights(*emitter->light, shape, camera_from_current(), angle);
+    const auto lights = far_lights(*emitter->light, shape, state_.camera_from_current(), angle);
     *emitter->light = *lights.front();
     for (size_t i = 1; i < lights.size(); ++i) add_world_light(lights[i]);
 }
 
 /// Area lights whose block ended, and that no Illuminate ever named, would shine on themselves alone: they
 /// are of files for renderers in which what shines is seen by all.
-void Reader::add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights) {
-    const auto& current = state_.attributes->attributes.lights;
-    for (const auto& emitter : scope_.emitters) {
+void SceneBuilder::add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights) {
+    const auto& current = state_.attributes().attributes.lights;
+    for (const auto& emitter : state_.scope().emitters) {
         const std::shared_ptr<const LightInstance> light = emitter->light;
         if (!emitter->is_placed || std::find(current.begin(), current.end(), light) != current.end())
             continue;
-        warn_once("light " + in_quotes(light->handle) +
-                      " is of a block that ended, and no Illuminate names it; "
-                      "it shines on all",
-                  "stray-area-light");
+        report_.warn_once("light " + in_quotes(light->handle) +
+                              " is of a block that ended, and no Illuminate names it; "
+                              "it shines on all",
+                          "stray-area-light");
         lights.push_back(light);
     }
 }
 
 /// Adds the world's lights to all primitives. Bxdfs that nothing lights have a light at the eye, so that
 /// there is something to see, and are shaded once a pixel at least: path tracers do not look at ShadingRate.
-void Reader::light_world() {
-    auto lights = scope_.ris.lights;
+void SceneBuilder::light_world() {
+    auto lights = state_.scope().ris.lights;
     add_strays(lights);
     const std::shared_ptr<const LightInstance> at_eye = headlight();
     std::map<std::shared_ptr<const Attributes>, std::shared_ptr<const Attributes>> lit;

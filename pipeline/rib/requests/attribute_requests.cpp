@@ -9,12 +9,12 @@
 namespace trapeze::rib {
 namespace {
 
-Attributes& change(Reader& r) {
-    return r.change_attributes().attributes;
+Attributes& change(RequestContext& r) {
+    return r.state.change_attributes().attributes;
 }
 
-V3f color_of(Reader& r, ArgumentCursor& c, const char* what) {
-    const size_t samples = r.samples_per_color();
+V3f color_of(RequestContext& r, ArgumentCursor& c, const char* what) {
+    const size_t samples = r.state.scope().samples_per_color();
     const SourceLocation at = c.done() ? SourceLocation{} : c.peek()->at;
     std::vector<float> given = c.next_is_array() ? c.number_array(what) : c.numbers(1, samples, what);
     if (given.size() != samples && given.size() != 1 && given.size() != samples + 1)
@@ -22,62 +22,64 @@ V3f color_of(Reader& r, ArgumentCursor& c, const char* what) {
                                std::to_string(samples),
                            at};
     if (given.size() < samples)
-        r.warn_once("one number for " + std::string(what) + "; all of it is taken to be that", "grey-color");
-    if (given.size() > samples) r.warn_once("a number too many for " + std::string(what), "long-color");
+        r.report.warn_once("one number for " + std::string(what) + "; all of it is taken to be that",
+                           "grey-color");
+    if (given.size() > samples)
+        r.report.warn_once("a number too many for " + std::string(what), "long-color");
     given.resize(samples, given[0]);
-    const auto v = r.rgb(given);
+    const auto v = r.state.scope().rgb(given);
     return {v[0], v[1], v[2]};
 }
 
-void opacity(Reader& r, ArgumentCursor& c) {
+void opacity(RequestContext& r, ArgumentCursor& c) {
     const V3f o = color_of(r, c, "the opacity");
     change(r).opacity = o;
 }
 
-void texture_coordinates(Reader& r, ArgumentCursor& c) {
+void texture_coordinates(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(8, "the coordinates");
     std::copy(v.begin(), v.end(), change(r).texture_coordinates.begin());
 }
 
-void shading_rate(Reader& r, ArgumentCursor& c) {
+void shading_rate(RequestContext& r, ArgumentCursor& c) {
     const float rate = c.number("the rate");
     if (!(rate > 0)) throw RequestError{"the rate must be positive", {}};
     change(r).shading_rate = rate;
 }
 
-void shading_interpolation(Reader& r, ArgumentCursor& c) {
+void shading_interpolation(RequestContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     if (type != "constant" && type != "smooth")
         throw RequestError{in_quotes(type) + " is neither constant nor smooth", {}};
     change(r).smooth_shading = type == "smooth";
 }
 
-void matte(Reader& r, ArgumentCursor& c) {
+void matte(RequestContext& r, ArgumentCursor& c) {
     change(r).matte = c.integer("the flag", 0, 2);
 }
 
-void sides(Reader& r, ArgumentCursor& c) {
+void sides(RequestContext& r, ArgumentCursor& c) {
     const float n = c.number("1 or 2");
     if (n != 1 && n != 2) throw RequestError{"must be 1 or 2", {}};
     change(r).sides = static_cast<int>(n);
 }
 
-void orientation(Reader& r, ArgumentCursor& c) {
+void orientation(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the orientation");
     if (name != "outside" && name != "inside" && name != "lh" && name != "rh")
         throw RequestError{in_quotes(name) + " is none of outside, inside, lh, rh", {}};
-    const bool mismatches = name == (r.is_right_handed() ? "lh" : "rh");
-    AttributeState& state = r.change_attributes();
+    const bool mismatches = name == (r.state.is_right_handed() ? "lh" : "rh");
+    AttributeState& state = r.state.change_attributes();
     state.orientation = name == "inside" || mismatches ? Orientation::Inside : Orientation::Outside;
     state.orientation_reversed = false;
 }
 
-void reverse_orientation(Reader& r, ArgumentCursor&) {
-    AttributeState& state = r.change_attributes();
+void reverse_orientation(RequestContext& r, ArgumentCursor&) {
+    AttributeState& state = r.state.change_attributes();
     state.orientation_reversed = !state.orientation_reversed;
 }
 
-void basis(Reader& r, ArgumentCursor& c) {
+void basis(RequestContext& r, ArgumentCursor& c) {
     const auto one = [&](M44f& matrix, int& step, const char* what) {
         if (c.next_is_string()) {
             const std::string name = c.string(what);
@@ -105,7 +107,7 @@ void basis(Reader& r, ArgumentCursor& c) {
     int u_step = 3, v_step = 3;
     one(u, u_step, "the u basis");
     one(v, v_step, "the v basis");
-    AttributeState& state = r.change_attributes();
+    AttributeState& state = r.state.change_attributes();
     state.u_basis = u, state.v_basis = v, state.u_step = u_step, state.v_step = v_step;
 }
 
@@ -121,19 +123,19 @@ void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
     if (name == "minlength") dice.min_length = std::max(value, 0.0f);
 }
 
-void attribute(Reader& r, ArgumentCursor& c) {
+void attribute(RequestContext& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
-    AttributeState& state = r.change_attributes();
+    AttributeState& state = r.state.change_attributes();
     for (const Parameter& value : values.values) {
         state.attributes.user[category].set(value);
         const bool is_executed = category == "Ri" && execute_ri_value(r, value);
         const SettledSetting* const settled = settled_attribute(category, value.name);
         if (settled)
-            r.count_settled(' ' + in_quotes(category) + ' ' + in_quotes(value.name) + ": " +
-                            std::string(settled->why));
+            r.report.count_settled(' ' + in_quotes(category) + ' ' + in_quotes(value.name) + ": " +
+                                   std::string(settled->why));
         else if (!is_executed && !attribute_has_effect(category, value.name))
-            r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
+            r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         const float number = value.floats.empty() ? 0 : value.floats[0];
         const std::string text = value.strings.empty() ? "" : value.strings[0];
         if (category == "displacementbound" && value.name == "sphere")
@@ -144,7 +146,7 @@ void attribute(Reader& r, ArgumentCursor& c) {
             state.displacement_bound.coordinate_system = text;
         if (category == "trimcurve" && value.name == "sense") {
             if (text != "inside" && text != "outside")
-                r.error("the sense " + in_quotes(text) + " is neither inside nor outside");
+                r.report.error("the sense " + in_quotes(text) + " is neither inside nor outside");
             state.trim_outside = text == "outside";
         }
         if (category == "identifier" && value.name == "name") state.attributes.name = text;
@@ -160,7 +162,7 @@ void attribute(Reader& r, ArgumentCursor& c) {
 constexpr RequestRow kAttributeRequests[] = {
     {"Attribute", attribute},
     {"Color",
-     [](Reader& r, ArgumentCursor& c) {
+     [](RequestContext& r, ArgumentCursor& c) {
          const V3f v = color_of(r, c, "the colour");
          change(r).color = v;
      }},

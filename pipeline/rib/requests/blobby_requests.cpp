@@ -1,6 +1,7 @@
 /// RISpec 5.6: Blobby.
 #include <cstdint>
 
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 
@@ -96,7 +97,7 @@ class ProgramCheck {
     bool has_implicit_fields_ = false;
 };
 
-void blobby(Reader& r, ArgumentCursor& c) {
+void blobby(RequestContext& r, ArgumentCursor& c) {
     Blobby blobby;
     blobby.leaf_count = c.integer("the number of leaves", 0, kMostLeaves);
     blobby.code = c.int_array("the code");
@@ -108,17 +109,18 @@ void blobby(Reader& r, ArgumentCursor& c) {
     check.run();
     if (check.leaves() != blobby.leaf_count) {
         // As in an example that Pixar published: the code is what counts.
-        r.warn_once("the code has " + std::to_string(check.leaves()) + " leaves, not " +
-                        std::to_string(blobby.leaf_count) + "; the code is right",
-                    "blobby-leaves");
+        r.report.warn_once("the code has " + std::to_string(check.leaves()) + " leaves, not " +
+                               std::to_string(blobby.leaf_count) + "; the code is right",
+                           "blobby-leaves");
         blobby.leaf_count = check.leaves();
     }
     if (check.has_implicit_fields())
-        r.warn_once("fields of compiled code (1004) are not supported; they are 0", "blobby-implicit-field");
+        r.report.warn_once("fields of compiled code (1004) are not supported; they are 0",
+                           "blobby-implicit-field");
     const auto leaves = static_cast<uint64_t>(blobby.leaf_count);
     Shape shape{std::move(blobby), {}};
-    shape.variables = checked_variables(r, read_variables(r, c, PointForm::None), shape.topology);
-    r.add_shape("Blobby", std::move(shape), leaves);
+    shape.variables = checked_variables(r.report, read_variables(r, c, PointForm::None), shape.topology);
+    r.scene.add_shape("Blobby", std::move(shape), leaves);
 }
 
 constexpr RequestRow kBlobbyRequests[] = {

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "core/scene/transfer.h"
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/reader/request_report.h"
 
 namespace trapeze::rib {
 
 /// Whether the value of Option "color" "transfer", or of a "colorspace", is one that there is; an error where
 /// it is not.
-bool names_transfer(Reader& reader, const Parameter& value);
+bool names_transfer(RequestReport& report, const Parameter& value);
 
 /// The "colorspace" among a request's parameters; one that is not known is an error, and none.
-std::optional<Transfer> colorspace_of(Reader& reader, ParameterList& parameters);
+std::optional<Transfer> colorspace_of(RequestReport& report, ParameterList& parameters);
 
 }  // namespace trapeze::rib

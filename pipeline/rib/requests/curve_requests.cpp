@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/select_values.h"
@@ -21,16 +22,16 @@ std::string has_points(int vertices, size_t number) {
 }
 
 /// Points beyond the last whole segment are left over, but where the curve closes.
-void check_step(Reader& r, const Curves& curves, int vertices, size_t number) {
+void check_step(RequestContext& r, const Curves& curves, int vertices, size_t number) {
     if (!curves.cubic || (curves.periodic ? vertices : vertices - 4) % curves.step == 0) return;
     const std::string misfit =
         has_points(vertices, number) + ", which do not fit the basis' step of " + std::to_string(curves.step);
     if (curves.periodic) throw RequestError{misfit, {}};
-    r.warn_once(misfit + "; the rest is left over", "surplus-points");
+    r.report.warn_once(misfit + "; the rest is left over", "surplus-points");
 }
 
 /// Leaves out curves that have too few points for one segment, unless all have.
-void leave_out_short_curves(Reader& r, Curves& curves, ParameterList& variables) {
+void leave_out_short_curves(RequestContext& r, Curves& curves, ParameterList& variables) {
     std::vector<char> kept, kept_varying, kept_points;
     const int least = least_points(curves);
     std::string first;
@@ -44,7 +45,7 @@ void leave_out_short_curves(Reader& r, Curves& curves, ParameterList& variables)
     }
     if (first.empty()) return;
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) throw RequestError{first, {}};
-    r.warn_once(first + "; curves of fewer are left out", "short-curves");
+    r.report.warn_once(first + "; curves of fewer are left out", "short-curves");
     keep_values(curves.vertices_per_curve, kept);
     for (Parameter& p : variables.values) {
         const StorageClass storage = p.declaration.storage;
@@ -55,15 +56,15 @@ void leave_out_short_curves(Reader& r, Curves& curves, ParameterList& variables)
     }
 }
 
-void curves(Reader& r, ArgumentCursor& c) {
+void curves(RequestContext& r, ArgumentCursor& c) {
     Curves curves;
     const std::string type = c.string("the type");
     if (type != "linear" && type != "cubic")
         throw RequestError{in_quotes(type) + " is neither linear nor cubic", {}};
     curves.cubic = type == "cubic";
-    curves.basis = r.attributes().v_basis, curves.step = r.attributes().v_step;
+    curves.basis = r.state.attributes().v_basis, curves.step = r.state.attributes().v_step;
     curves.vertices_per_curve = c.int_array("the numbers of points");
-    curves.periodic = takes_periodic(r, c);
+    curves.periodic = takes_periodic(r.report, c);
     if (curves.vertices_per_curve.empty()) throw RequestError{"has no curves", {}};
     int64_t sum = 0;
     for (size_t i = 0; i < curves.vertices_per_curve.size(); ++i) {
@@ -76,14 +77,14 @@ void curves(Reader& r, ArgumentCursor& c) {
     Shape shape{std::move(curves), {}};
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
-    shape.variables = checked_variables(r, std::move(list), shape.topology);
+    shape.variables = checked_variables(r.report, std::move(list), shape.topology);
     Curves& kept = std::get<Curves>(shape.topology);
     leave_out_short_curves(r, kept, shape.variables);
     const uint64_t count = kept.vertices_per_curve.size();
-    r.add_shape("Curves", std::move(shape), count);
+    r.scene.add_shape("Curves", std::move(shape), count);
 }
 
-void points(Reader& r, ArgumentCursor& c) {
+void points(RequestContext& r, ArgumentCursor& c) {
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     Points points;
     points.count = point_count_of(list);
@@ -91,8 +92,8 @@ void points(Reader& r, ArgumentCursor& c) {
     if (points.count > kMostPoints)
         throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
     Shape shape{points, {}};
-    shape.variables = checked_variables(r, std::move(list), shape.topology);
-    r.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
+    shape.variables = checked_variables(r.report, std::move(list), shape.topology);
+    r.scene.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
 }
 
 constexpr RequestRow kCurveRequests[] = {

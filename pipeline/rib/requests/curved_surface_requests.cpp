@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/wrap_mode.h"
@@ -13,35 +14,35 @@ namespace {
 constexpr int kLargestMesh = 1 << 20;  ///< control points along a side
 constexpr int64_t kMostControlPoints = 1 << 28;
 
-PatchMesh mesh_of_type(Reader& r, const std::string& type) {
+PatchMesh mesh_of_type(RequestContext& r, const std::string& type) {
     PatchMesh mesh;
     if (type != "bilinear" && type != "bicubic")
         throw RequestError{in_quotes(type) + " is neither bilinear nor bicubic", {}};
     mesh.bicubic = type == "bicubic";
-    mesh.u_basis = r.attributes().u_basis, mesh.v_basis = r.attributes().v_basis;
-    mesh.u_step = r.attributes().u_step, mesh.v_step = r.attributes().v_step;
+    mesh.u_basis = r.state.attributes().u_basis, mesh.v_basis = r.state.attributes().v_basis;
+    mesh.u_step = r.state.attributes().u_step, mesh.v_step = r.state.attributes().v_step;
     return mesh;
 }
 
-void add_patches(Reader& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
+void add_patches(RequestContext& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
     Shape shape{mesh, {}};
     ParameterList list = read_variables(r, c, PointForm::Patch);
     if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
-    shape.variables = checked_variables(r, std::move(list), shape.topology);
-    r.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
+    shape.variables = checked_variables(r.report, std::move(list), shape.topology);
+    r.scene.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
 }
 
-void patch(Reader& r, ArgumentCursor& c) {
+void patch(RequestContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     mesh.nu = mesh.nv = mesh.bicubic ? 4 : 2;
     add_patches(r, c, "Patch", mesh);
 }
 
-void patch_mesh(Reader& r, ArgumentCursor& c) {
+void patch_mesh(RequestContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
         n = c.integer((std::string("the number of points along ") + axis).c_str(), 2, kLargestMesh);
-        wraps = takes_periodic(r, c);
+        wraps = takes_periodic(r.report, c);
         if (!mesh.bicubic) return;
         if (wraps ? (n % step != 0 || n < 3) : (n < 4 || (n - 4) % step != 0))
             throw RequestError{std::to_string(n) + " points along " + axis +
@@ -70,29 +71,31 @@ constexpr QuadricRow kQuadrics[] = {
 
 /// RISpec 5.4: spheres reach from -radius to radius, whatever zmin and zmax say, and paraboloids from their
 /// apex on. Rounded numbers are no mistake.
-void end_with_surface(Reader& r, Quadric& q) {
+void end_with_surface(RequestContext& r, Quadric& q) {
     constexpr float kRounding = 1 + 1e-5f;
     if (q.kind == Quadric::Kind::Sphere) {
         const float radius = std::abs(q.values[0]);
         for (const int i : {1, 2}) {
             float& z = q.values[i];
             if (std::abs(z) > radius * kRounding)
-                r.warn_once(std::string(i == 1 ? "zmin" : "zmax") + " is beyond the sphere, which ends there",
-                            i == 1 ? "sphere-zmin" : "sphere-zmax");
+                r.report.warn_once(
+                    std::string(i == 1 ? "zmin" : "zmax") + " is beyond the sphere, which ends there",
+                    i == 1 ? "sphere-zmin" : "sphere-zmax");
             z = std::clamp(z, -radius, radius);
         }
     }
     if (q.kind == Quadric::Kind::Paraboloid && q.values[1] / q.values[2] < 0) {
-        r.warn_once("zmin and zmax lie on both sides of the apex; zmin is 0", "paraboloid-zmin");
+        r.report.warn_once("zmin and zmax lie on both sides of the apex; zmin is 0", "paraboloid-zmin");
         q.values[1] = 0;
     }
 }
 
 /// Each turn is drawn over the last one: of a great many, so many as nobody meant, work has no end.
-void end_turning(Reader& r, Quadric& q) {
+void end_turning(RequestContext& r, Quadric& q) {
     constexpr float kMost = 3600;  // degrees
     const auto limited = [&](float sweep) {
-        if (std::abs(sweep) > kMost) r.warn_once("turns more than ten times; ten are drawn", "quadric-turns");
+        if (std::abs(sweep) > kMost)
+            r.report.warn_once("turns more than ten times; ten are drawn", "quadric-turns");
         return std::clamp(sweep, -kMost, kMost);
     };
     float& theta = q.values[q.value_count - 1];
@@ -101,7 +104,7 @@ void end_turning(Reader& r, Quadric& q) {
 }
 
 template <int kRow>
-void quadric(Reader& r, ArgumentCursor& c) {
+void quadric(RequestContext& r, ArgumentCursor& c) {
     const QuadricRow& row = kQuadrics[kRow];
     Quadric q;
     q.kind = row.kind, q.value_count = row.count;
@@ -120,8 +123,8 @@ void quadric(Reader& r, ArgumentCursor& c) {
     end_with_surface(r, q);
     end_turning(r, q);
     Shape shape{q, {}};
-    shape.variables = checked_variables(r, read_variables(r, c, PointForm::None), shape.topology);
-    r.add_shape(row.name, std::move(shape), 1);
+    shape.variables = checked_variables(r.report, read_variables(r, c, PointForm::None), shape.topology);
+    r.scene.add_shape(row.name, std::move(shape), 1);
 }
 
 constexpr RequestRow kCurvedSurfaceRequests[] = {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/rib/requests/select_values.h"
+#include "pipeline/rib/syntax/arguments.h"
 
 namespace trapeze::rib {
 namespace {
@@ -38,7 +39,7 @@ class FaceCheck {
     const std::vector<char>& kept_corners() const { return kept_corners_; }
     const std::vector<char>& kept_faces() const { return kept_faces_; }
 
-    void report(Reader& reader) const {
+    void report(RequestReport& report) const {
         const std::string text =
             outside_ ? "vertex " + std::to_string(*outside_) + " is outside of the " +
                            std::to_string(vertex_count_) + " points of \"P\""
@@ -46,9 +47,9 @@ class FaceCheck {
         if (std::find(kept_faces_.begin(), kept_faces_.end(), 1) == kept_faces_.end())
             throw RequestError{text, {}};
         if (outside_)
-            reader.error(text + "; faces that name such are left out");
+            report.error(text + "; faces that name such are left out");
         else
-            reader.warn_once(text + "; they are left out", "slivers");
+            report.warn_once(text + "; they are left out", "slivers");
     }
 
   private:
@@ -71,7 +72,7 @@ void keep(ParameterList& variables, const FaceCheck& check) {
 }
 
 /// A polygon without its outline is none; a hole that is none leaves the polygon whole.
-void leave_out(Reader& reader, PolygonMesh& mesh, ParameterList& variables) {
+void leave_out(RequestReport& report, PolygonMesh& mesh, ParameterList& variables) {
     FaceCheck check(mesh.vertices, mesh.vertex_count);
     std::vector<int> loops_per_polygon, vertices_per_loop;
     size_t loop = 0;
@@ -90,7 +91,7 @@ void leave_out(Reader& reader, PolygonMesh& mesh, ParameterList& variables) {
         if (kept_loops > 0) loops_per_polygon.push_back(kept_loops);
     }
     if (check.keeps_all()) return;
-    check.report(reader);
+    check.report(report);
     keep_values(mesh.vertices, check.kept_corners());
     mesh.loops_per_polygon = std::move(loops_per_polygon);
     mesh.vertices_per_loop = std::move(vertices_per_loop);
@@ -110,11 +111,11 @@ void renumber_faces(std::vector<SubdivisionMesh::Tag>& tags, const std::vector<c
     }
 }
 
-void leave_out(Reader& reader, SubdivisionMesh& mesh, ParameterList& variables) {
+void leave_out(RequestReport& report, SubdivisionMesh& mesh, ParameterList& variables) {
     FaceCheck check(mesh.vertices, mesh.vertex_count);
     for (const int count : mesh.vertices_per_face) check.end_face(check.keeps_next(count));
     if (check.keeps_all()) return;
-    check.report(reader);
+    check.report(report);
     renumber_faces(mesh.tags, check.kept_faces());
     keep_values(mesh.vertices, check.kept_corners());
     keep_values(mesh.vertices_per_face, check.kept_faces());
@@ -123,11 +124,11 @@ void leave_out(Reader& reader, SubdivisionMesh& mesh, ParameterList& variables) 
 
 }  // namespace
 
-void leave_out_broken_faces(Reader& reader, Shape& shape) {
+void leave_out_broken_faces(RequestReport& report, Shape& shape) {
     if (auto* polygons = std::get_if<PolygonMesh>(&shape.topology))
-        leave_out(reader, *polygons, shape.variables);
+        leave_out(report, *polygons, shape.variables);
     else if (auto* mesh = std::get_if<SubdivisionMesh>(&shape.topology))
-        leave_out(reader, *mesh, shape.variables);
+        leave_out(report, *mesh, shape.variables);
 }
 
 }  // namespace trapeze::rib

@@ -14,44 +14,50 @@ std::vector<float> box(ArgumentCursor& c) {
 }
 
 /// Primitives are bounded by themselves.
-void bound(Reader& r, ArgumentCursor& c) {
+void bound(RequestContext& r, ArgumentCursor& c) {
     box(c);
-    r.count_without_effect();
+    r.report.count_without_effect();
 }
 
-void detail(Reader& r, ArgumentCursor& c) {
-    r.set_detail(box(c));
+void detail(RequestContext& r, ArgumentCursor& c) {
+    const std::vector<float> bound = box(c);
+    if (r.state.in_object()) {
+        r.report.warn_once("inside an object definition is not supported; ignored", "detail-in-object");
+        return;
+    }
+    const float size = r.state.raster_area(bound);
+    r.state.change_attributes().detail.size = size;
 }
 
-void detail_range(Reader& r, ArgumentCursor& c) {
+void detail_range(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(4, "the range");
     if (!(v[0] <= v[1] && v[1] <= v[2] && v[2] <= v[3]))
         throw RequestError{"needs minvisible <= lowertransition <= uppertransition <= maxvisible", {}};
     const auto limit = [](float size) {
         return size >= kInfinity ? std::numeric_limits<float>::infinity() : size;
     };
-    Detail& range = r.change_attributes().detail;
+    Detail& range = r.state.change_attributes().detail;
     range.least = v[0], range.full_from = v[1], range.full_to = limit(v[2]), range.most = limit(v[3]);
 }
 
-void geometric_approximation(Reader& r, ArgumentCursor& c) {
+void geometric_approximation(RequestContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     const float value = c.number("the value");
     if (type == "motionfactor" || type == "focusfactor") {
         if (value < 0) throw RequestError{"the factor must not be negative", {}};
-        Attributes& a = r.change_attributes().attributes;
+        Attributes& a = r.state.change_attributes().attributes;
         (type == "motionfactor" ? a.motion_factor : a.focus_factor) = value;
     } else if (type == "flatness") {  // which ShadingRate makes fine enough
-        r.count_without_effect(" \"flatness\"");
+        r.report.count_without_effect(" \"flatness\"");
     } else {
-        r.warn_once(in_quotes(type) + " is not known; ignored", "approximation-" + type);
+        r.report.warn_once(in_quotes(type) + " is not known; ignored", "approximation-" + type);
     }
 }
 
 /// What RISpec calls "primitive" and "smooth": there is one way to draw.
-void geometric_representation(Reader& r, ArgumentCursor& c) {
+void geometric_representation(RequestContext& r, ArgumentCursor& c) {
     c.string("the type");
-    r.count_without_effect();
+    r.report.count_without_effect();
 }
 
 constexpr RequestRow kDetailRequests[] = {

@@ -46,11 +46,12 @@ bool is_of_the_picture(std::string_view mode) {
 }
 
 /// What a mode names: "varying color foo", a DisplayChannel, or a variable whose type is known.
-std::optional<DisplayVariable> variable_named(Reader& r, const std::string& mode) {
+std::optional<DisplayVariable> variable_named(RequestContext& r, const std::string& mode) {
     if (is_of_the_picture(mode)) return {};
-    if (const auto channel = r.display_channels().find(mode); channel != r.display_channels().end())
+    if (const auto channel = r.state.scope().display_channels.find(mode);
+        channel != r.state.scope().display_channels.end())
         return channel->second.variable;
-    if (const auto declared = r.declarations().resolve(mode))
+    if (const auto declared = r.state.declarations().resolve(mode))
         return variable_of(declared->first, declared->second);
     for (const Global& global : kGlobals)
         if (global.name == mode) return DisplayVariable{mode, global.type};
@@ -58,7 +59,7 @@ std::optional<DisplayVariable> variable_named(Reader& r, const std::string& mode
 }
 
 /// PRMan's "Ci,a" and the like: of a list of channels the picture's own, as RISpec writes them.
-std::string picture_mode(Reader& r, const std::string& mode) {
+std::string picture_mode(RequestContext& r, const std::string& mode) {
     if (mode.find(',') == std::string::npos) return mode;
     std::string picture, rest;
     for (size_t begin = 0; begin <= mode.size();) {
@@ -72,29 +73,31 @@ std::string picture_mode(Reader& r, const std::string& mode) {
         if (!is_picture) rest += (rest.empty() ? "" : ",") + channel;
     }
     if (!rest.empty() && !picture.empty())
-        r.warn_once(
+        r.report.warn_once(
             "a file holds colour, alpha and depth, or one variable; " + in_quotes(rest) + " is left out",
             "display-channels " + rest);
     return picture.empty() ? mode : picture;
 }
 
-void display(Reader& r, ArgumentCursor& c) {
+void display(RequestContext& r, ArgumentCursor& c) {
     Display d;
-    d.location = r.at();
+    d.location = r.report.at();
     d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
     d.mode = picture_mode(r, d.mode);
     d.parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : d.parameters.values)
-        if (!display_parameter_has_effect(value.name)) r.count_without_effect(' ' + in_quotes(value.name));
-    colorspace_of(r, d.parameters);
+        if (!display_parameter_has_effect(value.name))
+            r.report.count_without_effect(' ' + in_quotes(value.name));
+    colorspace_of(r.report, d.parameters);
     d.variable = variable_named(r, d.mode);
-    if (const auto channel = r.display_channels().find(d.mode); channel != r.display_channels().end())
+    if (const auto channel = r.state.scope().display_channels.find(d.mode);
+        channel != r.state.scope().display_channels.end())
         for (const Parameter& parameter : channel->second.parameters.values)
             if (!d.parameters.find(parameter.name)) d.parameters.set(parameter);
     Options& o = changeable_options(r);
     const bool is_further = !d.name.empty() && d.name[0] == '+';
     if (is_further && d.parameters.string_or("source", "").find("lpe:") != std::string::npos) {
-        r.warn_once(
+        r.report.warn_once(
             "there are no paths of light to choose from; " + in_quotes(d.name.substr(1)) + " is not written",
             "lpe " + d.name);
         return;
@@ -107,7 +110,7 @@ void display(Reader& r, ArgumentCursor& c) {
     }
 }
 
-void display_channel(Reader& r, ArgumentCursor& c) {
+void display_channel(RequestContext& r, ArgumentCursor& c) {
     const std::string token = c.string("the channel");
     ParameterList parameters = r.parameters(c, Undeclared::Guess);
     changeable_options(r);
@@ -120,7 +123,7 @@ void display_channel(Reader& r, ArgumentCursor& c) {
     const std::string channel = variable->name, source = parameters.string_or("source", "");
     // Others, "lpe:..." and the like, are not for names.
     if (is_variable_name(source) && source.find(':') == std::string::npos) variable->name = source;
-    r.display_channels()[channel] = {*variable, std::move(parameters)};
+    r.state.scope().display_channels[channel] = {*variable, std::move(parameters)};
 }
 
 constexpr RequestRow kDisplayRequests[] = {{"Display", display}, {"DisplayChannel", display_channel}};

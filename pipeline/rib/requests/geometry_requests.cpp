@@ -1,4 +1,5 @@
 /// RISpec 5.6: Geometry, shapes that the renderer knows by name.
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/teapot.h"
@@ -7,18 +8,19 @@
 namespace trapeze::rib {
 namespace {
 
-void add(Reader& r, const char* kind, Topology topology, ParameterList list) {
+void add(RequestContext& r, const char* kind, Topology topology, ParameterList list) {
     Shape shape{std::move(topology), std::move(list)};
-    r.add_shape(kind, std::move(shape), 1);
+    r.scene.add_shape(kind, std::move(shape), 1);
 }
 
-void teapot(Reader& r, const ParameterList& given) {
-    if (r.in_motion()) throw RequestError{"a teapot does not deform; move it by its transformation", {}};
+void teapot(RequestContext& r, const ParameterList& given) {
+    if (r.state.in_motion())
+        throw RequestError{"a teapot does not deform; move it by its transformation", {}};
     PatchMesh mesh;
     mesh.bicubic = true;
     mesh.nu = mesh.nv = 4;
     mesh.u_basis = mesh.v_basis = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
-    const ParameterList variables = checked_variables(r, given, mesh);
+    const ParameterList variables = checked_variables(r.report, given, mesh);
     for (const std::array<V3f, 16>& points : teapot_patches()) {
         Parameter P{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
         for (const V3f& p : points) P.floats.insert(P.floats.end(), {p.x, p.y, p.z});
@@ -28,15 +30,15 @@ void teapot(Reader& r, const ParameterList& given) {
     }
 }
 
-void sphere(Reader& r, const ParameterList& given, float radius) {
+void sphere(RequestContext& r, const ParameterList& given, float radius) {
     Quadric q;
     q.values = {radius, -radius, radius, 360};
     q.value_count = 4;
-    add(r, "Sphere", q, checked_variables(r, given, q));
+    add(r, "Sphere", q, checked_variables(r.report, given, q));
 }
 
 /// Edges of length 1 about the origin.
-void cube(Reader& r, const ParameterList& given) {
+void cube(RequestContext& r, const ParameterList& given) {
     PolygonMesh mesh;
     mesh.loops_per_polygon.assign(6, 1);
     mesh.vertices_per_loop.assign(6, 4);
@@ -46,15 +48,15 @@ void cube(Reader& r, const ParameterList& given) {
     Parameter P{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
     for (int c = 0; c < 8; ++c)
         for (int axis = 0; axis < 3; ++axis) P.floats.push_back(c >> axis & 1 ? 0.5f : -0.5f);
-    ParameterList list = checked_variables(r, given, mesh);
+    ParameterList list = checked_variables(r.report, given, mesh);
     list.set(std::move(P));
     add(r, "PointsPolygons", std::move(mesh), std::move(list));
 }
 
 /// The path tracer's rectangular light: a square of width 1.
-void rectangle(Reader& r, const ParameterList& given) {
+void rectangle(RequestContext& r, const ParameterList& given) {
     const PatchMesh mesh;
-    ParameterList list = checked_variables(r, given, mesh);
+    ParameterList list = checked_variables(r.report, given, mesh);
     list.set({"P",
               {StorageClass::Vertex, ValueType::Point, 1},
               {-.5f, -.5f, 0, .5f, -.5f, 0, -.5f, .5f, 0, .5f, .5f, 0},
@@ -67,7 +69,7 @@ float number_of(const ParameterList& given, const char* name, float otherwise) {
     return p && p->floats.size() == 1 ? p->floats[0] : otherwise;
 }
 
-void geometry(Reader& r, ArgumentCursor& c) {
+void geometry(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the name");
     const ParameterList given = read_variables(r, c, PointForm::None);
     if (name == "teapot") return teapot(r, given);
@@ -75,10 +77,10 @@ void geometry(Reader& r, ArgumentCursor& c) {
     if (name == "cube") return cube(r, given);
     if (name == "rectlight") return rectangle(r, given);
     if (name == "spherelight") return sphere(r, given, number_of(given, "radius", 0.5f));
-    if (name == "envsphere") return r.place_far_emitter(FarShape::Dome);
+    if (name == "envsphere") return r.scene.place_far_emitter(FarShape::Dome);
     if (name == "distantlight")
-        return r.place_far_emitter(FarShape::Direction, number_of(given, "anglesubtended", 0));
-    r.warn_once(
+        return r.scene.place_far_emitter(FarShape::Direction, number_of(given, "anglesubtended", 0));
+    r.report.warn_once(
         "no geometry " + in_quotes(name) + "; known are teapot, sphere, cube, rectlight and spherelight",
         "geometry-" + name);
 }

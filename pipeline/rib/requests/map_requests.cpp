@@ -1,6 +1,7 @@
 /// MakeTexture, MakeBump, MakeLatLongEnvironment, MakeCubeFaceEnvironment, MakeShadow (RISpec 3.2, section
 /// 7).
 #include "pipeline/rib/map_request.h"
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/colorspaces.h"
 #include "pipeline/rib/requests/request_table.h"
 
@@ -16,13 +17,13 @@ void take_filter(ArgumentCursor& c, MapRequest& request) {
 }
 
 /// Of its parameters, the "colorspace" counts.
-void finish(Reader& r, ArgumentCursor& c, MapRequest request) {
+void finish(RequestContext& r, ArgumentCursor& c, MapRequest request) {
     ParameterList parameters = r.parameters(c, Undeclared::Guess);
-    request.colorspace = colorspace_of(r, parameters);
-    r.make_map(std::move(request));
+    request.colorspace = colorspace_of(r.report, parameters);
+    r.scene.make_map(std::move(request));
 }
 
-void make_flat(Reader& r, ArgumentCursor& c, Kind kind) {
+void make_flat(RequestContext& r, ArgumentCursor& c, Kind kind) {
     MapRequest request;
     request.kind = kind;
     request.pictures = {c.string("the picture's name")};
@@ -33,7 +34,7 @@ void make_flat(Reader& r, ArgumentCursor& c, Kind kind) {
     finish(r, c, std::move(request));
 }
 
-void make_lat_long_environment(Reader& r, ArgumentCursor& c) {
+void make_lat_long_environment(RequestContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::LatLongEnvironment;
     request.pictures = {c.string("the picture's name")};
@@ -42,7 +43,7 @@ void make_lat_long_environment(Reader& r, ArgumentCursor& c) {
     finish(r, c, std::move(request));
 }
 
-void make_cube_face_environment(Reader& r, ArgumentCursor& c) {
+void make_cube_face_environment(RequestContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::CubeFaceEnvironment;
     for (int i = 0; i < 6; ++i) request.pictures.push_back(c.string("the name of a face's picture"));
@@ -60,7 +61,7 @@ void make_cube_face_environment(Reader& r, ArgumentCursor& c) {
     finish(r, c, std::move(request));
 }
 
-void make_shadow(Reader& r, ArgumentCursor& c) {
+void make_shadow(RequestContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::Shadow;
     request.pictures = {c.string("the picture's name")};
@@ -69,8 +70,8 @@ void make_shadow(Reader& r, ArgumentCursor& c) {
 }
 
 constexpr RequestRow kMapRequests[] = {
-    {"MakeTexture", [](Reader& r, ArgumentCursor& c) { make_flat(r, c, Kind::Texture); }},
-    {"MakeBump", [](Reader& r, ArgumentCursor& c) { make_flat(r, c, Kind::Bump); }},
+    {"MakeTexture", [](RequestContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Texture); }},
+    {"MakeBump", [](RequestContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Bump); }},
     {"MakeLatLongEnvironment", make_lat_long_environment},
     {"MakeCubeFaceEnvironment", make_cube_face_environment},
     {"MakeShadow", make_shadow},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 
@@ -13,7 +14,7 @@ constexpr int kLargestMesh = 1 << 20;  ///< control points along a side
 constexpr int64_t kMostPoints = 1 << 28;
 
 /// One direction: the number of points, the order, the knots and the range.
-void read_direction(Reader& r, ArgumentCursor& c, const std::string& axis, int& points, int& order,
+void read_direction(RequestContext& r, ArgumentCursor& c, const std::string& axis, int& points, int& order,
                     std::vector<float>& knots, float& begin, float& end) {
     points = c.integer(("the number of points along " + axis).c_str(), 2, kLargestMesh);
     order = c.integer(("the order along " + axis).c_str(), 2, kLargestOrder);
@@ -32,26 +33,27 @@ void read_direction(Reader& r, ArgumentCursor& c, const std::string& axis, int& 
     if (!std::is_sorted(knots.begin(), knots.end())) throw RequestError{name + " fall", {}};
     const float first = knots[order - 1], last = knots[points];
     if (begin < first || end > last)
-        r.warn_once("the range of " + axis + " reaches beyond the knots; it ends with them", "nupatch-range");
+        r.report.warn_once("the range of " + axis + " reaches beyond the knots; it ends with them",
+                           "nupatch-range");
     begin = std::max(begin, first), end = std::min(end, last);
     if (!(begin < end)) throw RequestError{"the range of " + axis + " is empty", {}};
 }
 
-void nu_patch(Reader& r, ArgumentCursor& c) {
+void nu_patch(RequestContext& r, ArgumentCursor& c) {
     NuPatch patch;
     read_direction(r, c, "u", patch.nu, patch.u_order, patch.u_knots, patch.u_begin, patch.u_end);
     read_direction(r, c, "v", patch.nv, patch.v_order, patch.v_knots, patch.v_begin, patch.v_end);
     if (int64_t{patch.nu} * patch.nv > kMostPoints)
         throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
-    if (r.attributes().trim_loops) patch.trim_loops = *r.attributes().trim_loops;
-    patch.trim_outside = r.attributes().trim_outside;
+    if (r.state.attributes().trim_loops) patch.trim_loops = *r.state.attributes().trim_loops;
+    patch.trim_outside = r.state.attributes().trim_outside;
     const uint64_t faces = static_cast<uint64_t>(patch.segments_u()) * patch.segments_v();
     Shape shape{std::move(patch), {}};
     ParameterList list = read_variables(r, c, PointForm::Patch);
     if (list.find("Pz")) throw RequestError{"\"Pz\" is not for this primitive", {}};
     if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
-    shape.variables = checked_variables(r, std::move(list), shape.topology);
-    r.add_shape("NuPatch", std::move(shape), faces);
+    shape.variables = checked_variables(r.report, std::move(list), shape.topology);
+    r.scene.add_shape("NuPatch", std::move(shape), faces);
 }
 
 /// The arrays of a TrimCurve request, and how far they have been read.
@@ -118,7 +120,7 @@ TrimCurve next_curve(TrimArrays& a) {
 }
 
 /// Replaces the loops that trim the NuPatches to come; none end it.
-void trim_curve(Reader& r, ArgumentCursor& c) {
+void trim_curve(RequestContext& r, ArgumentCursor& c) {
     if (c.peek(9)) c.integer("the number of loops", 0, kLargestMesh);  // some write it before the arrays
     const std::vector<int> curves_of_loops = c.int_array("the numbers of curves");
     int64_t curves = 0;
@@ -127,7 +129,7 @@ void trim_curve(Reader& r, ArgumentCursor& c) {
         curves += n;
     }
     if (curves == 0) {
-        r.change_attributes().trim_loops.reset();
+        r.state.change_attributes().trim_loops.reset();
         return;
     }
     TrimArrays arrays = trim_arrays(c, curves);
@@ -136,7 +138,7 @@ void trim_curve(Reader& r, ArgumentCursor& c) {
         loops->emplace_back();
         for (int i = 0; i < n; ++i) loops->back().push_back(next_curve(arrays));
     }
-    r.change_attributes().trim_loops = std::move(loops);
+    r.state.change_attributes().trim_loops = std::move(loops);
 }
 
 constexpr RequestRow kAttributeRows[] = {

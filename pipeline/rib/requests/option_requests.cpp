@@ -4,6 +4,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "pipeline/rib/reader/file_search.h"
+#include "pipeline/rib/reader/open_files.h"
 #include "pipeline/rib/requests/colorspaces.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/ri_values.h"
@@ -27,7 +29,7 @@ void require(bool holds, const char* text) {
     if (!holds) throw RequestError{text, {}};
 }
 
-void format(Reader& r, ArgumentCursor& c) {
+void format(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, 3, "the format");
     const float width = v[0], height = v[1], aspect = v.size() > 2 ? v[2] : 1;
     require(width <= kLargestPicture && height <= kLargestPicture,
@@ -38,7 +40,7 @@ void format(Reader& r, ArgumentCursor& c) {
     if (aspect > 0) o.pixel_aspect = aspect;  // RISpec: values below 1 ask for the default
 }
 
-void frame_aspect_ratio(Reader& r, ArgumentCursor& c) {
+void frame_aspect_ratio(RequestContext& r, ArgumentCursor& c) {
     const float aspect = c.number("the ratio");
     require(std::isfinite(aspect), "the ratio must be finite");
     // Later RenderMans write -1 for that of the picture, which is the default.
@@ -50,20 +52,20 @@ std::array<float, 4> four(ArgumentCursor& c, const char* what) {
     return {v[0], v[1], v[2], v[3]};
 }
 
-void screen_window(Reader& r, ArgumentCursor& c) {
+void screen_window(RequestContext& r, ArgumentCursor& c) {
     const auto w = four(c, "the window");
     require(w[0] != w[1] && w[2] != w[3], "the window is empty");
     changeable_options(r).screen_window = w;
 }
 
-void crop_window(Reader& r, ArgumentCursor& c) {
+void crop_window(RequestContext& r, ArgumentCursor& c) {
     auto w = four(c, "the window");
     for (float& v : w) v = std::clamp(v, 0.0f, 1.0f);
     require(w[0] < w[1] && w[2] < w[3], "the window is empty");
     changeable_options(r).crop_window = w;
 }
 
-void projection(Reader& r, ArgumentCursor& c) {
+void projection(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     std::string name = c.string("the projection's name");
     if (name == "PxrCamera" || name == "PxrPerspective") name = "perspective";  // RIS's plugins
@@ -73,7 +75,8 @@ void projection(Reader& r, ArgumentCursor& c) {
     require(fov > 0 && fov < 180, "\"fov\" must be between 0 and 180");
     if (name != "perspective" && name != "orthographic") {
         if (!name.empty() && name != "null")
-            r.warn_once(in_quotes(name) + " is not supported; orthographic is used", "projection-" + name);
+            r.report.warn_once(in_quotes(name) + " is not supported; orthographic is used",
+                               "projection-" + name);
         o.projection = "orthographic";
     } else {
         o.projection = name;
@@ -85,10 +88,10 @@ void projection(Reader& r, ArgumentCursor& c) {
     if (f_stop > 0 && f_stop < kInfinity && length > 0 && distance > 0)
         o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
     // RISpec 4.1.1: what came before belongs to the screen; what follows places the world before the camera.
-    if (!r.in_world()) r.state().transform = MovingTransform();
+    if (!r.state.in_world()) r.state.current().transform = MovingTransform();
 }
 
-void clipping(Reader& r, ArgumentCursor& c) {
+void clipping(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the planes");
     const float near = v[0], far = v[1];
     require(near >= 0 && near < far, "needs 0 <= near < far");
@@ -97,7 +100,7 @@ void clipping(Reader& r, ArgumentCursor& c) {
     o.far_clip = std::min(far, kInfinity);
 }
 
-void depth_of_field(Reader& r, ArgumentCursor& c) {
+void depth_of_field(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     if (c.done() || c.next_is_string()) {  // "-" in older files, or nothing: a pinhole
         if (!c.done()) c.string("f-stop");
@@ -114,65 +117,66 @@ void depth_of_field(Reader& r, ArgumentCursor& c) {
     o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
 }
 
-void shutter(Reader& r, ArgumentCursor& c) {
+void shutter(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the shutter");
     const float open = v[0], close = v[1];
     require(open <= close, "closes before it opens");
     require(std::isfinite(close - open), "is open for too long");
-    require(!r.in_world(), "options cannot change inside a world");  // paths have been cut at its times
+    require(!r.state.in_world(), "options cannot change inside a world");  // paths have been cut at its times
     changeable_options(r).shutter_open = open;
-    r.options().shutter_close = close;
+    r.state.options().shutter_close = close;
 }
 
-void pixel_samples(Reader& r, ArgumentCursor& c) {
+void pixel_samples(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the samples");
     const float x = v[0], y = v[1];
     require(x >= 1 && y >= 1, "needs at least one sample along each side");
-    if (x > kMostSamples || y > kMostSamples) r.error("more than 64 samples along a side; 64 are used");
+    if (x > kMostSamples || y > kMostSamples)
+        r.report.error("more than 64 samples along a side; 64 are used");
     changeable_options(r).samples_x = std::min(x, kMostSamples);
-    r.options().samples_y = std::min(y, kMostSamples);
-    r.scope().has_pixel_samples = true;
+    r.state.options().samples_y = std::min(y, kMostSamples);
+    r.state.scope().has_pixel_samples = true;
 }
 
 /// PRMan's path tracer takes a pixel's samples from its hider: as many as it may take at most, as a square.
 /// Without that, at least as many as it asks for.
-void set_samples_of_hider(Reader& r) {
-    const ParameterList& given = r.options().hider_parameters;
+void set_samples_of_hider(RequestContext& r) {
+    const ParameterList& given = r.state.options().hider_parameters;
     const float samples = std::max(given.float_or("maxsamples", 0), given.float_or("minsamples", 0));
-    if (!(samples >= 1) || r.scope().has_pixel_samples) return;
+    if (!(samples >= 1) || r.state.scope().has_pixel_samples) return;
     const float side = std::ceil(std::sqrt(std::min(samples, kMostHiderSamples)));
-    r.options().samples_x = r.options().samples_y = side;
+    r.state.options().samples_x = r.state.options().samples_y = side;
 }
 
-void pixel_filter(Reader& r, ArgumentCursor& c) {
+void pixel_filter(RequestContext& r, ArgumentCursor& c) {
     std::string name = c.string("the filter's name");
     const auto v = c.numbers(2, "the widths");
     const float x = v[0], y = v[1];
     require(x > 0 && y > 0 && x <= 64 && y <= 64, "widths must be positive and at most 64 pixels");
     Options& o = changeable_options(r);
     if (std::find(std::begin(kFilters), std::end(kFilters), name) == std::end(kFilters)) {
-        r.warn_once(in_quotes(name) + " is not known; gaussian is used", "filter-" + name);
+        r.report.warn_once(in_quotes(name) + " is not known; gaussian is used", "filter-" + name);
         name = "gaussian";
     }
     o.filter = {name, x, y};
 }
 
-void exposure(Reader& r, ArgumentCursor& c) {
+void exposure(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the exposure");
     const float gain = v[0], gamma = v[1];
     require(gain >= 0 && gamma > 0, "needs a positive gamma");
     changeable_options(r).exposure_gain = gain;
-    r.options().exposure_gamma = gamma;
+    r.state.options().exposure_gamma = gamma;
 }
 
-void quantize(Reader& r, ArgumentCursor& c) {
+void quantize(RequestContext& r, ArgumentCursor& c) {
     Parameter value;
     value.name = c.string("the type");
     value.floats = c.numbers(4, "one, min, max and dither");
     if (value.name == "rgb") value.name = "rgba";  // as scenes in the world write it
     if (value.name != "rgba" && value.name != "z")
-        r.warn_once(in_quotes(value.name) + " is not known: the type is \"rgba\" or \"z\"",
-                    "quantize-" + value.name);
+        r.report.warn_once(in_quotes(value.name) + " is not known: the type is \"rgba\" or \"z\"",
+                           "quantize-" + value.name);
     value.declaration.array_length = 4;
     changeable_options(r).quantize.set(std::move(value));
 }
@@ -185,7 +189,7 @@ void rename_background(ParameterList& parameters) {
     }
 }
 
-void imager(Reader& r, ArgumentCursor& c) {
+void imager(RequestContext& r, ArgumentCursor& c) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, "imager"));
     instance->parameters = r.shader_parameters(c);
     if (instance->name == "background") rename_background(instance->parameters);
@@ -193,62 +197,63 @@ void imager(Reader& r, ArgumentCursor& c) {
     changeable_options(r).imager = is_none ? nullptr : std::move(instance);
 }
 
-void hider(Reader& r, ArgumentCursor& c) {
+void hider(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     o.hider = c.string("the hider's name");
     o.hider_parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : o.hider_parameters.values)
-        if (!hider_parameter_has_effect(value.name)) r.count_without_effect(' ' + in_quotes(value.name));
+        if (!hider_parameter_has_effect(value.name))
+            r.report.count_without_effect(' ' + in_quotes(value.name));
     set_samples_of_hider(r);
 }
 
-void option(Reader& r, ArgumentCursor& c) {
+void option(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : values.values) {
         if (category == "searchpath" && !value.strings.empty())
-            r.set_search_path(value.name, value.strings[0]);
-        if (category == "color" && value.name == "transfer" && !names_transfer(r, value)) continue;
+            r.search.set_search_path(value.name, value.strings[0]);
+        if (category == "color" && value.name == "transfer" && !names_transfer(r.report, value)) continue;
         const bool is_executed = category == "Ri" && execute_ri_value(r, value);
         if (!is_executed && !option_has_effect(category, value.name))
-            r.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
+            r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         o.user[category].set(value);
     }
 }
 
-void relative_detail(Reader& r, ArgumentCursor& c) {
+void relative_detail(RequestContext& r, ArgumentCursor& c) {
     const float factor = c.number("the factor");
     require(factor >= 0, "the factor must not be negative");
     changeable_options(r);
-    r.scope().relative_detail = factor;
+    r.state.scope().relative_detail = factor;
 }
 
 /// An estimate of variance could choose the number of samples; here it is fixed.
-void pixel_variance(Reader& r, ArgumentCursor& c) {
+void pixel_variance(RequestContext& r, ArgumentCursor& c) {
     changeable_options(r);
     c.number("the variance");
-    r.count_without_effect();
+    r.report.count_without_effect();
 }
 
 /// RISpec 4.1.1: the half space on the side to which the normal points is cut away.
-void clipping_plane(Reader& r, ArgumentCursor& c) {
+void clipping_plane(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(6, "the plane");
     const V3d point(v[0], v[1], v[2]), normal(v[3], v[4], v[5]);
     require(normal.length() > 0, "the normal is 0");
     changeable_options(r);
-    const M44d camera_from_current(r.camera_from_current());
+    const M44d camera_from_current(r.state.camera_from_current());
     const M44d normals = camera_from_current.inverse().transposed();
     V3d camera_normal, camera_point;
     normals.multDirMatrix(normal, camera_normal);
     camera_from_current.multVecMatrix(point, camera_point);
     require(camera_normal.length() > 0 && std::isfinite(camera_normal.length()), "the space is singular");
     const V3d inwards = -camera_normal.normalized();
-    r.scope().clipping_planes.push_back({V3f(inwards), static_cast<float>(inwards.dot(camera_point))});
+    r.state.scope().clipping_planes.push_back({V3f(inwards), static_cast<float>(inwards.dot(camera_point))});
 }
 
 /// RISpec 4.1.4. The matrix back from RGB is for displays of samples, which nobody makes.
-void color_samples(Reader& r, ArgumentCursor& c) {
+void color_samples(RequestContext& r, ArgumentCursor& c) {
     ColorSamples samples{0, c.number_array("the matrix to RGB")};
     const std::vector<float> back = c.number_array("the matrix from RGB");
     samples.samples = samples.rgb_from_samples.size() / 3;
@@ -256,7 +261,7 @@ void color_samples(Reader& r, ArgumentCursor& c) {
                 samples.rgb_from_samples.size() % 3 == 0 && back.size() == samples.rgb_from_samples.size(),
             "needs two matrices, of 3 numbers for each of at most 1000 samples");
     changeable_options(r);
-    r.scope().color_samples = std::move(samples);
+    r.state.scope().color_samples = std::move(samples);
 }
 
 constexpr RequestRow kOptionRequests[] = {
@@ -283,13 +288,13 @@ constexpr RequestRow kOptionRequests[] = {
 
 }  // namespace
 
-Options& changeable_options(Reader& reader) {
-    if (reader.in_world()) {
-        if (reader.in_archive_of_world()) throw RequestError{"options cannot change inside a world", {}};
-        reader.warn_once("an option, which belongs before WorldBegin; it is taken for this world",
-                         "option-in-world");
+Options& changeable_options(RequestContext& context) {
+    if (context.state.in_world()) {
+        if (context.files.are_below_world()) throw RequestError{"options cannot change inside a world", {}};
+        context.report.warn_once("an option, which belongs before WorldBegin; it is taken for this world",
+                                 "option-in-world");
     }
-    return reader.options();
+    return context.state.options();
 }
 
 std::span<const RequestRow> option_requests() {

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <type_traits>
 
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/degenerate_faces.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
@@ -46,10 +47,11 @@ std::string problem_of(const SubdivisionMesh::Tag& tag, const SubdivisionMesh& m
     return {};
 }
 
-void check_tags(Reader& r, SubdivisionMesh& mesh) {
+void check_tags(RequestContext& r, SubdivisionMesh& mesh) {
     std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
         const std::string problem = problem_of(tag, mesh);
-        if (!problem.empty()) r.error("tag " + in_quotes(tag.name) + " " + problem + "; the tag is left out");
+        if (!problem.empty())
+            r.report.error("tag " + in_quotes(tag.name) + " " + problem + "; the tag is left out");
         return !problem.empty();
     });
 }
@@ -64,17 +66,17 @@ uint64_t face_count(const SubdivisionMesh& mesh) {
 
 /// Reads the variables of a mesh whose points are counted by its "P".
 template <class Mesh>
-void add_mesh(Reader& r, ArgumentCursor& c, const char* request, Mesh mesh) {
+void add_mesh(RequestContext& r, ArgumentCursor& c, const char* request, Mesh mesh) {
     if (face_count(mesh) == 0) throw RequestError{"has no faces", {}};
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     mesh.vertex_count = point_count_of(list);
     if (mesh.vertex_count == 0) throw RequestError{"\"P\" is missing", {}};
     if constexpr (std::is_same_v<Mesh, SubdivisionMesh>) check_tags(r, mesh);
     Shape shape{std::move(mesh), {}};
-    shape.variables = checked_variables(r, std::move(list), shape.topology);
-    leave_out_broken_faces(r, shape);
+    shape.variables = checked_variables(r.report, std::move(list), shape.topology);
+    leave_out_broken_faces(r.report, shape);
     const uint64_t faces = face_count(std::get<Mesh>(shape.topology));
-    r.add_shape(request, std::move(shape), faces);
+    r.scene.add_shape(request, std::move(shape), faces);
 }
 
 /// One polygon of consecutive points.
@@ -87,7 +89,7 @@ PolygonMesh consecutive(std::vector<int> loops) {
     return mesh;
 }
 
-void polygon(Reader& r, ArgumentCursor& c) {
+void polygon(RequestContext& r, ArgumentCursor& c) {
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     const int points = point_count_of(list);
     if (points < 3)
@@ -95,11 +97,11 @@ void polygon(Reader& r, ArgumentCursor& c) {
     PolygonMesh mesh = consecutive({points});
     mesh.vertex_count = points;
     Shape shape{std::move(mesh), {}};
-    shape.variables = checked_variables(r, std::move(list), shape.topology);
-    r.add_shape("Polygon", std::move(shape), 1);
+    shape.variables = checked_variables(r.report, std::move(list), shape.topology);
+    r.scene.add_shape("Polygon", std::move(shape), 1);
 }
 
-void general_polygon(Reader& r, ArgumentCursor& c) {
+void general_polygon(RequestContext& r, ArgumentCursor& c) {
     std::vector<int> loops = c.int_array("the loops");
     const int64_t sum = checked_sum(loops, 0, "a loop");
     ParameterList list = read_variables(r, c, PointForm::Mesh);
@@ -111,12 +113,12 @@ void general_polygon(Reader& r, ArgumentCursor& c) {
     PolygonMesh mesh = consecutive(std::move(loops));
     mesh.vertex_count = points;
     Shape shape{std::move(mesh), {}};
-    shape.variables = checked_variables(r, std::move(list), shape.topology);
-    leave_out_broken_faces(r, shape);
-    r.add_shape("GeneralPolygon", std::move(shape), 1);
+    shape.variables = checked_variables(r.report, std::move(list), shape.topology);
+    leave_out_broken_faces(r.report, shape);
+    r.scene.add_shape("GeneralPolygon", std::move(shape), 1);
 }
 
-void points_polygons(Reader& r, ArgumentCursor& c) {
+void points_polygons(RequestContext& r, ArgumentCursor& c) {
     PolygonMesh mesh;
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
     mesh.loops_per_polygon.assign(mesh.vertices_per_loop.size(), 1);
@@ -126,7 +128,7 @@ void points_polygons(Reader& r, ArgumentCursor& c) {
     add_mesh(r, c, "PointsPolygons", std::move(mesh));
 }
 
-void points_general_polygons(Reader& r, ArgumentCursor& c) {
+void points_general_polygons(RequestContext& r, ArgumentCursor& c) {
     PolygonMesh mesh;
     mesh.loops_per_polygon = c.int_array("the numbers of loops");
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
@@ -202,16 +204,17 @@ SubdivisionMesh read_subdivision(ArgumentCursor& c) {
     return mesh;
 }
 
-void subdivision_mesh(Reader& r, ArgumentCursor& c) {
+void subdivision_mesh(RequestContext& r, ArgumentCursor& c) {
     add_mesh(r, c, "SubdivisionMesh", read_subdivision(c));
 }
 
 /// PRMan's, whose tags may also edit vertices, edges and faces of finer levels: that is left out.
-void hierarchical_subdivision_mesh(Reader& r, ArgumentCursor& c) {
+void hierarchical_subdivision_mesh(RequestContext& r, ArgumentCursor& c) {
     SubdivisionMesh mesh = read_subdivision(c);
     std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
         const bool is_edit = tag.name.ends_with("edit");
-        if (is_edit) r.warn_once("edits of finer levels are not supported; left out", "hierarchical-edits");
+        if (is_edit)
+            r.report.warn_once("edits of finer levels are not supported; left out", "hierarchical-edits");
         return is_edit;
     });
     add_mesh(r, c, "HierarchicalSubdivisionMesh", std::move(mesh));

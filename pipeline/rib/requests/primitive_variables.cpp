@@ -26,14 +26,14 @@ void remove(ParameterList& list, std::string_view name) {
 }
 
 /// Later stages know RISpec's variables by name: scenes may not declare them as something else.
-void check_types(Reader& reader, ParameterList& list) {
+void check_types(RequestReport& report, ParameterList& list) {
     std::erase_if(list.values, [&](Parameter& p) {
         for (const StandardVariable& standard : kStandard) {
             if (p.name != standard.name) continue;
             Declaration own{p.declaration.storage, standard.type, standard.array_length};
             if (standard.is_points) own.storage = StorageClass::Vertex;
             if (p.is_string() || p.declaration.floats_per_item() != own.floats_per_item()) {
-                reader.error(in_quotes(p.name) + " is declared with another type than its own; left out");
+                report.error(in_quotes(p.name) + " is declared with another type than its own; left out");
                 return true;
             }
             p.declaration = own;
@@ -43,7 +43,7 @@ void check_types(Reader& reader, ParameterList& list) {
     });
 }
 
-void split_st(Reader& reader, ParameterList& list) {
+void split_st(RequestReport& report, ParameterList& list) {
     const Parameter* st = list.find("st");
     if (!st) return;
     Declaration declaration = st->declaration;
@@ -57,7 +57,7 @@ void split_st(Reader& reader, ParameterList& list) {
         const Parameter* const given = list.find(half->name);
         const bool comes_first = given && given - list.values.data() < place;
         if (given)
-            reader.warn_once(in_quotes(half->name) + " is given twice, once in \"st\"; the first counts",
+            report.warn_once(in_quotes(half->name) + " is given twice, once in \"st\"; the first counts",
                              "repeated-parameter");
         if (!comes_first) list.set(std::move(*half));
     }
@@ -78,10 +78,10 @@ Parameter divided_by_weights(const Parameter& pw) {
     return p;
 }
 
-void choose_points(Reader& reader, ParameterList& list, PointForm form) {
+void choose_points(RequestReport& report, ParameterList& list, PointForm form) {
     const auto leave_out = [&](const char* name) {
         if (!list.find(name)) return;
-        reader.error(in_quotes(name) + " is not for this primitive; left out");
+        report.error(in_quotes(name) + " is not for this primitive; left out");
         remove(list, name);
     };
     if (form == PointForm::None) leave_out("P"), leave_out("Pw");
@@ -126,7 +126,7 @@ std::optional<StorageClass> class_of_count(size_t count, const VariableCounts& c
 /// Whether the variable has what its class wants of the shape, or can be given it: as many values as another
 /// class wants are of that class (one is for the whole shape), and values beyond those wanted are left over.
 /// Throws where points are too few.
-bool fit_to_shape(Reader& reader, Parameter& p, const VariableCounts& counts) {
+bool fit_to_shape(RequestReport& report, Parameter& p, const VariableCounts& counts) {
     const bool points = p.name == "P" || p.name == "Pw";
     const auto item =
         static_cast<size_t>(p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item());
@@ -137,25 +137,25 @@ bool fit_to_shape(Reader& reader, Parameter& p, const VariableCounts& counts) {
                              (points ? " points" : " values") + ", needs " + std::to_string(wanted);
     if (const auto storage = points ? std::nullopt : class_of_count(got, counts)) {
         p.declaration.storage = *storage;
-        reader.warn_once(text + "; it is taken as " + std::string(name_of(*storage)), "variable-class");
+        report.warn_once(text + "; it is taken as " + std::string(name_of(*storage)), "variable-class");
         return true;
     }
     if (got > wanted && wanted > 0) {
         (p.is_string() ? p.strings.resize(wanted) : p.floats.resize(wanted * item));
-        reader.warn_once(text + "; the rest is left over", "surplus-values");
+        report.warn_once(text + "; the rest is left over", "surplus-values");
         return true;
     }
     if (points) throw RequestError{text, {}};
-    reader.error(text + "; the variable is left out");
+    report.error(text + "; the variable is left out");
     return false;
 }
 
 }  // namespace
 
-ParameterList read_variables(Reader& reader, ArgumentCursor& cursor, PointForm form) {
-    ParameterList list = reader.parameters(cursor);
-    check_types(reader, list);
-    choose_points(reader, list, form);
+ParameterList read_variables(RequestContext& context, ArgumentCursor& cursor, PointForm form) {
+    ParameterList list = context.parameters(cursor);
+    check_types(context.report, list);
+    choose_points(context.report, list, form);
     return list;
 }
 
@@ -166,11 +166,11 @@ int point_count_of(const ParameterList& list) {
     return 0;
 }
 
-ParameterList checked_variables(Reader& reader, ParameterList list, const Topology& topology) {
+ParameterList checked_variables(RequestReport& report, ParameterList list, const Topology& topology) {
     expand_pz(list, topology);
     const VariableCounts counts = variable_counts(topology);
-    std::erase_if(list.values, [&](Parameter& p) { return !fit_to_shape(reader, p, counts); });
-    split_st(reader, list);
+    std::erase_if(list.values, [&](Parameter& p) { return !fit_to_shape(report, p, counts); });
+    split_st(report, list);
     return list;
 }
 

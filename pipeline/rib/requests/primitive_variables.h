@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/reader/request_context.h"
 
 namespace trapeze::rib {
 
@@ -10,7 +10,7 @@ enum class PointForm { Mesh, Patch, None };
 
 /// The parameter list at the end of a primitive. RISpec's own variables have their own types in it, and of
 /// all forms of points only one is left.
-ParameterList read_variables(Reader& reader, ArgumentCursor& cursor, PointForm form);
+ParameterList read_variables(RequestContext& context, ArgumentCursor& cursor, PointForm form);
 
 /// Number of points in such a list; 0 when there are none.
 int point_count_of(const ParameterList& list);
@@ -18,6 +18,6 @@ int point_count_of(const ParameterList& list);
 /// Checks the list against its primitive: points of a wrong number end the request, other variables of a
 /// wrong length are reported and left out. "Pz" becomes "P", "st"
 /// becomes "s" and "t".
-ParameterList checked_variables(Reader& reader, ParameterList list, const Topology& topology);
+ParameterList checked_variables(RequestReport& report, ParameterList list, const Topology& topology);
 
 }  // namespace trapeze::rib

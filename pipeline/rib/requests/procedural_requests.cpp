@@ -1,4 +1,5 @@
 /// Procedural (RISpec 5.8) and PRMan's Procedural2.
+#include "pipeline/rib/reader/procedurals.h"
 #include "pipeline/rib/requests/request_table.h"
 
 namespace trapeze::rib {
@@ -11,7 +12,7 @@ namespace {
     throw RequestError{"no procedural " + in_quotes(kind), {}};
 }
 
-void procedural(Reader& r, ArgumentCursor& c) {
+void procedural(RequestContext& r, ArgumentCursor& c) {
     const std::string kind = c.string("the procedural's name");
     std::vector<std::string> data = c.string_array("the arguments");
     std::vector<float> bound;
@@ -19,30 +20,31 @@ void procedural(Reader& r, ArgumentCursor& c) {
     if (data.empty()) throw RequestError{"has no arguments", {}};
     data.resize(2);
     if (kind == "DelayedReadArchive")
-        r.delayed_archive(data[0]);
+        r.procedurals.delayed_archive(data[0]);
     else if (kind == "RunProgram")
-        r.run_program(data[0], data[1], bound);
+        r.procedurals.run_program(data[0], data[1], bound);
     else if (kind == "DynamicLoad")
-        r.load_procedural(data[0], data[1], bound);
+        r.procedurals.load_procedural(data[0], data[1], bound);
     else
         refuse(kind);
 }
 
 /// Name, how it is bounded, and the rest as parameters.
-void procedural2(Reader& r, ArgumentCursor& c) {
+void procedural2(RequestContext& r, ArgumentCursor& c) {
     const std::string kind = c.string("the procedural's name");
     c.string("the kind of bound");
     const ParameterList parameters = r.parameters(c, Undeclared::Guess);
     const std::string file = parameters.string_or("filename", "");
     if (kind == "DelayedReadArchive" || kind == "DelayedReadArchive2") {
         if (file.empty()) throw RequestError{"\"filename\" is missing", {}};
-        r.delayed_archive(file);
+        r.procedurals.delayed_archive(file);
     } else if (kind == "RunProgram" || kind == "RunProgram2") {
         if (file.empty()) throw RequestError{"\"filename\" is missing", {}};
         const Parameter* const hidden = parameters.find("__bound");
         const Parameter* const bound = hidden ? hidden : parameters.find("bound");
         const bool is_box = bound && bound->floats.size() == 6;
-        r.run_program(file, parameters.string_or("data", ""), is_box ? bound->floats : std::vector<float>());
+        r.procedurals.run_program(file, parameters.string_or("data", ""),
+                                  is_box ? bound->floats : std::vector<float>());
     } else {
         refuse(kind);
     }

@@ -3,7 +3,8 @@
 
 #include <span>
 
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/reader/known_requests.h"
+#include "pipeline/rib/reader/request_context.h"
 
 namespace trapeze::rib {
 
@@ -24,7 +25,7 @@ std::span<const RequestRow> attribute_requests();
 std::span<const RequestRow> shader_requests();
 std::span<const RequestRow> solid_requests();
 /// For requests that belong before the world: a warning in one, an error in archives that it reads.
-Options& changeable_options(Reader& reader);
+Options& changeable_options(RequestContext& context);
 std::span<const RequestRow> transform_requests();
 std::span<const RequestRow> polygon_requests();
 std::span<const RequestRow> curved_surface_requests();

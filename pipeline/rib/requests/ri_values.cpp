@@ -47,8 +47,8 @@ Argument number(double value, SourceLocation at) {
 }
 
 /// Each of these is half of a PixelFilter: the other stays.
-bool execute_filter(Reader& reader, const Parameter& value) {
-    PixelFilter filter = reader.options().filter;
+bool execute_filter(RequestContext& context, const Parameter& value) {
+    PixelFilter filter = context.state.options().filter;
     if (value.name == "PixelFilterName" && value.strings.size() == 1)
         filter.name = value.strings[0];
     else if (value.name == "PixelFilterWidth" && value.floats.size() == 2)
@@ -56,28 +56,29 @@ bool execute_filter(Reader& reader, const Parameter& value) {
     else
         return false;
     RequestText text;
-    text.arguments = {text_argument(filter.name, reader.at()), number(filter.width_x, reader.at()),
-                      number(filter.width_y, reader.at())};
+    text.arguments = {text_argument(filter.name, context.report.at()),
+                      number(filter.width_x, context.report.at()),
+                      number(filter.width_y, context.report.at())};
     ArgumentCursor cursor(text);
-    find_request("PixelFilter")->handler(reader, cursor);
+    find_request("PixelFilter")->handler(context, cursor);
     return true;
 }
 
-bool set_frame(Reader& reader, const Parameter& value) {
+bool set_frame(RequestContext& context, const Parameter& value) {
     if (value.name != "Frame" || value.floats.size() != 1 || !(std::abs(value.floats[0]) < 1e9f))
         return false;
-    reader.options().frame = static_cast<int>(value.floats[0]);
+    context.state.options().frame = static_cast<int>(value.floats[0]);
     return true;
 }
 
 }  // namespace
 
-bool execute_ri_value(Reader& reader, const Parameter& value) {
-    if (execute_filter(reader, value) || set_frame(reader, value)) return true;
+bool execute_ri_value(RequestContext& context, const Parameter& value) {
+    if (execute_filter(context, value) || set_frame(context, value)) return true;
     for (const RiValue& known : kValues) {
         if (known.value != value.name) continue;
         RequestText text;
-        text.at = reader.at();
+        text.at = context.report.at();
         for (int i = 0; i < known.before_count; ++i)
             text.arguments.push_back(number(known.before[i], text.at));
         Argument& argument = text.arguments.emplace_back();
@@ -86,7 +87,7 @@ bool execute_ri_value(Reader& reader, const Parameter& value) {
         argument.floats = value.floats, argument.strings = value.strings;
         if (known.has_after) text.arguments.push_back(number(known.after, text.at));
         ArgumentCursor cursor(text);
-        find_request(known.request)->handler(reader, cursor);
+        find_request(known.request)->handler(context, cursor);
         return true;
     }
     return false;

@@ -2,11 +2,11 @@
 /// category "Ri": Option "Ri" "int[2] FormatResolution" [640 480].
 #pragma once
 
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/reader/request_context.h"
 
 namespace trapeze::rib {
 
 /// Executes the request that sets the value; false when there is none.
-bool execute_ri_value(Reader& reader, const Parameter& value);
+bool execute_ri_value(RequestContext& context, const Parameter& value);
 
 }  // namespace trapeze::rib

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <string_view>
 
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/request_table.h"
+#include "pipeline/rib/requests/ris_light_request.h"
 #include "pipeline/rib/ris/ris_lights.h"
 #include "pipeline/rib/ris/ris_network.h"
 
 namespace trapeze::rib {
 namespace {
 
-void note(Reader& r) {
-    r.count_unsupported();
-    r.warn_once(
+void note(RequestContext& r) {
+    r.report.count_unsupported();
+    r.report.warn_once(
         "RIS shading is not supported; Bxdfs are seen by their colours and textures, lights have no shadows",
         "ris");
 }
@@ -46,36 +48,36 @@ RisLook known_look(RisNetwork& network, const std::string& shader, const RisPara
     return look;
 }
 
-void bxdf(Reader& r, ArgumentCursor& c) {
+void bxdf(RequestContext& r, ArgumentCursor& c) {
     ShaderInstance surface = r.shader(c, "bxdf");
     const std::string handle = c.handle("the handle");
     const RisParameters parameters = RisParameters::read(c);
-    RisNetwork& network = r.scope().ris;
+    RisNetwork& network = r.state.scope().ris;
     const RisLook look = network.bxdfs[handle] = known_look(network, surface.name, parameters);
-    Attributes& a = r.change_attributes().attributes;
+    Attributes& a = r.state.change_attributes().attributes;
     a.color = look.color.value_or(look.is_constant ? V3f(1, 1, 1) : V3f(0.5f, 0.5f, 0.5f));
     show(look, surface);
     a.surface = std::make_shared<const ShaderInstance>(std::move(surface));
     note(r);
 }
 
-void pattern(Reader& r, ArgumentCursor& c) {
+void pattern(RequestContext& r, ArgumentCursor& c) {
     RisPattern made;
     made.shader = c.string("the pattern's name");
     const std::string handle = c.handle("the handle");
     made.parameters = RisParameters::read(c);
-    r.scope().ris.patterns[handle] = std::move(made);
+    r.state.scope().ris.patterns[handle] = std::move(made);
     note(r);
 }
 
-void light(Reader& r, ArgumentCursor& c) {
+void light(RequestContext& r, ArgumentCursor& c) {
     const ShaderInstance shader = r.shader(c, "light");
     const std::string handle = c.handle("the handle");
     add_ris_light(r, handle, shader, RisParameters::read(c), false);
     note(r);
 }
 
-void skip(Reader& r, ArgumentCursor& c) {
+void skip(RequestContext& r, ArgumentCursor& c) {
     while (!c.done()) c.take("");
     note(r);
 }
@@ -87,19 +89,20 @@ constexpr RequestRow kRisRequests[] = {
 
 }  // namespace
 
-void add_ris_light(Reader& r, const std::string& handle, const ShaderInstance& shader,
+void add_ris_light(RequestContext& r, const std::string& handle, const ShaderInstance& shader,
                    const RisParameters& parameters, bool is_area_light) {
-    const auto lighting = r.attributes().attributes.user.find("lighting");
-    if (lighting != r.attributes().attributes.user.end() && lighting->second.float_or("mute", 0) != 0) return;
+    const auto lighting = r.state.attributes().attributes.user.find("lighting");
+    if (lighting != r.state.attributes().attributes.user.end() && lighting->second.float_or("mute", 0) != 0)
+        return;
     if (is_mesh_light(shader.name, is_area_light)) {
         auto emitter = std::make_shared<Emitter>();
         emitter->light = mesh_light(handle, shader, parameters);
         emitter->is_of_ris = true;
-        r.add_world_light(emitter->light);
-        r.change_attributes().emitter = std::move(emitter);
+        r.scene.add_world_light(emitter->light);
+        r.state.change_attributes().emitter = std::move(emitter);
         return;
     }
-    for (const auto& one : ris_lights(handle, shader, parameters)) r.add_world_light(one);
+    for (const auto& one : ris_lights(handle, shader, parameters)) r.scene.add_world_light(one);
 }
 
 std::span<const RequestRow> ris_requests() {

@@ -1,7 +1,9 @@
 /// RISpec 4.2: shaders, their layers, and lights.
 #include <algorithm>
 
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/request_table.h"
+#include "pipeline/rib/requests/ris_light_request.h"
 #include "pipeline/rib/ris/ris_lights.h"
 
 namespace trapeze::rib {
@@ -9,12 +11,12 @@ namespace {
 
 using ShaderMember = std::shared_ptr<const ShaderInstance> Attributes::*;
 
-Attributes& change(Reader& r) {
-    return r.change_attributes().attributes;
+Attributes& change(RequestContext& r) {
+    return r.state.change_attributes().attributes;
 }
 
 template <ShaderMember kWhere>
-void shader(Reader& r, ArgumentCursor& c, const char* kind) {
+void shader(RequestContext& r, ArgumentCursor& c, const char* kind) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
     instance->parameters = r.shader_parameters(c);
     // Exporters write "null" for what does nothing; the surface of that name is a shader.
@@ -33,7 +35,7 @@ ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
 }
 
 /// ShaderLayer type name layer parameters: a layer after those there are, or in the place of one of its name.
-void shader_layer(Reader& r, ArgumentCursor& c) {
+void shader_layer(RequestContext& r, ArgumentCursor& c) {
     constexpr size_t kMostLayers = 64;
     std::string kind;
     const ShaderMember where = layered_kind(c, kind);
@@ -58,7 +60,7 @@ void shader_layer(Reader& r, ArgumentCursor& c) {
 }
 
 /// ConnectShaderLayers type layer variable layer variable.
-void connect_shader_layers(Reader& r, ArgumentCursor& c) {
+void connect_shader_layers(RequestContext& r, ArgumentCursor& c) {
     std::string kind;
     const ShaderMember where = layered_kind(c, kind);
     LayerConnection connection;
@@ -80,20 +82,20 @@ bool has_handle(const ArgumentCursor& c) {
     return second->kind == Argument::Kind::String;
 }
 
-std::shared_ptr<LightInstance> light_of(Reader& r, ArgumentCursor& c) {
+std::shared_ptr<LightInstance> light_of(RequestContext& r, ArgumentCursor& c) {
     auto light = std::make_shared<LightInstance>();
     light->shader = r.shader(c, "light");
     if (has_handle(c))
         light->handle = c.handle("the handle");
     else
-        r.warn_once("the light has no handle, and cannot be switched", "light-without-handle");
+        r.report.warn_once("the light has no handle, and cannot be switched", "light-without-handle");
     light->shader.parameters = r.shader_parameters(c);
     return light;
 }
 
 /// Area Lights is an optional capability (RISpec 1.1): the light shines from the middle of the first shape
 /// that follows, and all that follows is geometry.
-void area_light_source(Reader& r, ArgumentCursor& c) {
+void area_light_source(RequestContext& r, ArgumentCursor& c) {
     if (const Argument* name = c.peek(); name && name->is_text() && is_ris_light(name->strings[0])) {
         const ShaderInstance shader = r.shader(c, "light");
         const std::string handle = c.handle("the handle");
@@ -101,24 +103,24 @@ void area_light_source(Reader& r, ArgumentCursor& c) {
     }
     auto light = light_of(r, c);
     if (light->shader.name.empty() || light->shader.name == "null") {  // ends an area light
-        r.change_attributes().emitter = nullptr;
+        r.state.change_attributes().emitter = nullptr;
         return;
     }
-    r.warn_once("area lights are not sampled; the light shines from the middle of its first shape",
-                "area-light");
+    r.report.warn_once("area lights are not sampled; the light shines from the middle of its first shape",
+                       "area-light");
     auto emitter = std::make_shared<Emitter>();
     emitter->light = light;
-    r.add_light(std::move(light));
-    r.scope().emitters.push_back(emitter);
-    r.change_attributes().emitter = std::move(emitter);
+    r.scene.add_light(std::move(light));
+    r.state.scope().emitters.push_back(emitter);
+    r.state.change_attributes().emitter = std::move(emitter);
 }
 
-void illuminate(Reader& r, ArgumentCursor& c) {
+void illuminate(RequestContext& r, ArgumentCursor& c) {
     const std::string handle = c.handle("the light's handle");
     const bool on = c.done() || c.number("0 or 1") != 0;
-    const auto light = r.light(handle);
+    const auto light = r.scene.light(handle);
     if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
-    std::erase_if(r.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
+    std::erase_if(r.state.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
     auto& lights = change(r).lights;
     const auto place = std::find(lights.begin(), lights.end(), light);
     if (on && place == lights.end()) lights.push_back(light);
@@ -126,15 +128,18 @@ void illuminate(Reader& r, ArgumentCursor& c) {
 }
 
 constexpr RequestRow kShaderRequests[] = {
-    {"Surface", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
+    {"Surface", [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
     {"Displacement",
-     [](Reader& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
-    {"Atmosphere", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
-    {"Interior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
-    {"Exterior", [](Reader& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
+     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
+    {"Atmosphere",
+     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
+    {"Interior",
+     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
+    {"Exterior",
+     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
     {"ShaderLayer", shader_layer},
     {"ConnectShaderLayers", connect_shader_layers},
-    {"LightSource", [](Reader& r, ArgumentCursor& c) { r.add_light(light_of(r, c)); }},
+    {"LightSource", [](RequestContext& r, ArgumentCursor& c) { r.scene.add_light(light_of(r, c)); }},
     {"AreaLightSource", area_light_source},
     {"Illuminate", illuminate},
 };

@@ -10,20 +10,20 @@ void skip_rest(ArgumentCursor& c) {
 }
 
 /// "attributes" are saved and restored. Of the subsets of PRMan's, "transform" and all others are told apart.
-void resource(Reader& r, ArgumentCursor& c) {
+void resource(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.handle("the resource's name"), type = c.string("the type");
     const ParameterList parameters = r.parameters(c, Undeclared::Guess);
     const std::string operation = parameters.string_or("operation", ""),
                       subset = parameters.string_or("subset", "all");
     if (type != "attributes") {
-        r.count_unsupported();
-        r.warn_once(in_quotes(type) + " is not supported; skipped", "resource-" + type);
+        r.report.count_unsupported();
+        r.report.warn_once(in_quotes(type) + " is not supported; skipped", "resource-" + type);
     } else if (operation == "save") {
-        r.save_state(name);
+        r.state.saved_states().save(name, r.state.current());
     } else if (operation == "restore") {
         const bool all = subset.find("all") != std::string::npos;
         const bool transform = subset.find("transform") != std::string::npos;
-        if (!r.restore_state(name, all || !transform || subset.find(',') != std::string::npos,
+        if (!r.state.restore(name, all || !transform || subset.find(',') != std::string::npos,
                              all || transform))
             throw RequestError{"no resource " + in_quotes(name), {}};
     } else {
@@ -31,25 +31,25 @@ void resource(Reader& r, ArgumentCursor& c) {
     }
 }
 
-void error_handler(Reader& r, ArgumentCursor& c) {
+void error_handler(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the handler");
     r.parameters(c, Undeclared::Guess);
     if (name == "ignore")
-        r.set_error_handler(Reader::OnError::Ignore);
+        r.report.set_error_handler(RequestReport::OnError::Ignore);
     else if (name == "abort" || name == "abortall")
-        r.set_error_handler(Reader::OnError::Abort);
+        r.report.set_error_handler(RequestReport::OnError::Abort);
     else if (name == "print" || name == "printonce" || name == "default")
-        r.set_error_handler(Reader::OnError::Print);
+        r.report.set_error_handler(RequestReport::OnError::Print);
     else
-        r.warn_once(in_quotes(name) + " is not known; ignored", "error-handler-" + name);
+        r.report.warn_once(in_quotes(name) + " is not known; ignored", "error-handler-" + name);
 }
 
 /// The space that the world is seen from, which its coordinate system is named for. Later versions keep the
 /// window and the planes of clipping with it.
-void camera(Reader& r, ArgumentCursor& c) {
-    r.name_coordinate_system(c.string("the name"));
+void camera(RequestContext& r, ArgumentCursor& c) {
+    r.state.name_coordinate_system(c.string("the name"));
     const ParameterList parameters = r.parameters(c, Undeclared::Guess);
-    if (r.in_world()) return;
+    if (r.state.in_world()) return;
     constexpr std::string_view kRi = "Ri:";
     for (Parameter value : parameters.values)
         if (value.name.starts_with(kRi)) {
@@ -57,32 +57,34 @@ void camera(Reader& r, ArgumentCursor& c) {
             execute_ri_value(r, value);
         }
     const float near = parameters.float_or("nearClip", 0), far = parameters.float_or("farClip", 0);
-    if (near > 0 && near < far) r.options().near_clip = near, r.options().far_clip = far;
+    if (near > 0 && near < far) r.state.options().near_clip = near, r.state.options().far_clip = far;
 }
 
 /// Commands of strangers are not run.
-void system(Reader& r, ArgumentCursor& c) {
+void system(RequestContext& r, ArgumentCursor& c) {
     skip_rest(c);
-    r.count_unsupported();
-    r.warn_once("commands in files are never run; skipped", "unsupported-System");
+    r.report.count_unsupported();
+    r.report.warn_once("commands in files are never run; skipped", "unsupported-System");
 }
 
-void volume_pixel_samples(Reader& r, ArgumentCursor& c) {
+void volume_pixel_samples(RequestContext& r, ArgumentCursor& c) {
     c.numbers(2, "the samples");
-    r.count_without_effect();
+    r.report.count_without_effect();
 }
 
 constexpr RequestRow kStateRequests[] = {
     {"Resource", resource},
-    {"ResourceBegin", [](Reader& r, ArgumentCursor&) { r.begin_resources(); }},
-    {"ResourceEnd", [](Reader& r, ArgumentCursor&) { r.end_resources(); }},
+    {"ResourceBegin", [](RequestContext& r, ArgumentCursor&) { r.state.saved_states().begin_block(); }},
+    {"ResourceEnd", [](RequestContext& r, ArgumentCursor&) { r.state.saved_states().end_block(); }},
     {"ErrorHandler", error_handler},
     {"ScopedCoordinateSystem",
-     [](Reader& r, ArgumentCursor& c) { r.name_scoped_coordinate_system(c.string("the name")); }},
+     [](RequestContext& r, ArgumentCursor& c) {
+         r.state.name_scoped_coordinate_system(c.string("the name"));
+     }},
     {"Camera", camera},
     {"System", system},
     {"VolumePixelSamples", volume_pixel_samples},
-    {"ArchiveRecord", [](Reader&, ArgumentCursor& c) { skip_rest(c); }},  // a comment
+    {"ArchiveRecord", [](RequestContext&, ArgumentCursor& c) { skip_rest(c); }},  // a comment
 };
 
 }  // namespace

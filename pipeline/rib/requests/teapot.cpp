@@ -7,7 +7,7 @@ namespace {
 
 /// Rim, body (two), lid (two) and bottom are quarters about z; handle (two) and spout (two) are halves.
 constexpr int kPatches = 10, kQuarters = 6;
-constexpr uint8_t kPoints[kPatches][16] = {
+constexpr uint8_t kPatchPoints[kPatches][16] = {
     {102, 103, 104, 105, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15},
     {12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27},
     {24, 25, 26, 27, 29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40},
@@ -152,7 +152,7 @@ std::array<V3f, 16> mirrored(int patch, bool in_x, bool in_y) {
     std::array<V3f, 16> points;
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
-            const float* const p = kPlaces[kPoints[patch][j * 4 + (in_x != in_y ? 3 - i : i)]];
+            const float* const p = kPlaces[kPatchPoints[patch][j * 4 + (in_x != in_y ? 3 - i : i)]];
             points[j * 4 + i] = {in_x ? -p[0] : p[0], in_y ? -p[1] : p[1], p[2]};
         }
     return points;

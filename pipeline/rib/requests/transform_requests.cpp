@@ -1,49 +1,50 @@
 /// RISpec 4.3.
 #include <cmath>
 
+#include "pipeline/rib/reader/motion_collector.h"
 #include "pipeline/rib/requests/request_table.h"
 
 namespace trapeze::rib {
 namespace {
 
 template <TransformKind kKind, size_t kCount>
-void concat(Reader& r, ArgumentCursor& c) {
-    r.transform(kKind, c.numbers(kCount, "the transformation"));
+void concat(RequestContext& r, ArgumentCursor& c) {
+    r.motion.transform(kKind, c.numbers(kCount, "the transformation"));
 }
 
-void perspective(Reader& r, ArgumentCursor& c) {
+void perspective(RequestContext& r, ArgumentCursor& c) {
     const std::vector<float> fov = c.numbers(1, "the field of view");
     if (!(fov[0] > 0 && fov[0] < 180)) throw RequestError{"the field of view must be between 0 and 180", {}};
-    r.transform(TransformKind::Perspective, fov);
+    r.motion.transform(TransformKind::Perspective, fov);
 }
 
-void rotate(Reader& r, ArgumentCursor& c) {
+void rotate(RequestContext& r, ArgumentCursor& c) {
     std::vector<float> v = c.numbers(4, "the transformation");
     if (v[1] == 0 && v[2] == 0 && v[3] == 0) {
         if (v[0] != 0) throw RequestError{"the axis is 0", {}};
         v[3] = 1;  // exporters take the axis from a matrix, which has none when nothing turns
     }
-    r.transform(TransformKind::Rotate, v);
+    r.motion.transform(TransformKind::Rotate, v);
 }
 
 /// RISpec 4.3: the angle is below that between the axes, and above it less 180 degrees.
-void skew(Reader& r, ArgumentCursor& c) {
+void skew(RequestContext& r, ArgumentCursor& c) {
     const std::vector<float> v = c.numbers(7, "the transformation");
     const V3d from(v[1], v[2], v[3]), to(v[4], v[5], v[6]);
     if (from.length() == 0 || to.length() == 0) throw RequestError{"an axis is 0", {}};
     const double between = std::atan2(from.cross(to).length(), from.dot(to)) * (180 / M_PI);
     if (!(v[0] < between && v[0] > between - 180))
         throw RequestError{"the angle must be smaller than that between the axes", {}};
-    r.transform(TransformKind::Skew, v);
+    r.motion.transform(TransformKind::Skew, v);
 }
 
-void set_transform(Reader& r, ArgumentCursor& c) {
+void set_transform(RequestContext& r, ArgumentCursor& c) {
     const TransformArguments matrix = c.numbers(16, "the matrix");
-    r.set_transform(&matrix);
+    r.motion.set_transform(&matrix);
 }
 
 constexpr RequestRow kTransformRequests[] = {
-    {"Identity", [](Reader& r, ArgumentCursor&) { r.set_transform(nullptr); }},
+    {"Identity", [](RequestContext& r, ArgumentCursor&) { r.motion.set_transform(nullptr); }},
     {"Transform", set_transform},
     {"ConcatTransform", concat<TransformKind::Matrix, 16>},
     {"Translate", concat<TransformKind::Translate, 3>},
@@ -52,9 +53,9 @@ constexpr RequestRow kTransformRequests[] = {
     {"Skew", skew},
     {"Perspective", perspective},
     {"CoordinateSystem",
-     [](Reader& r, ArgumentCursor& c) { r.name_coordinate_system(c.string("the name")); }},
+     [](RequestContext& r, ArgumentCursor& c) { r.state.name_coordinate_system(c.string("the name")); }},
     {"CoordSysTransform",
-     [](Reader& r, ArgumentCursor& c) { r.use_coordinate_system(c.string("the name")); }},
+     [](RequestContext& r, ArgumentCursor& c) { r.state.use_coordinate_system(c.string("the name")); }},
 };
 
 }  // namespace

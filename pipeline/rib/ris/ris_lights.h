@@ -13,13 +13,6 @@
 
 namespace trapeze::rib {
 
-class Reader;
-
-/// Adds it to the world, or to the object that is being defined; Attribute "lighting" "mute" turns it off.
-/// `is_area_light`: AreaLightSource asks for it.
-void add_ris_light(Reader& reader, const std::string& handle, const ShaderInstance& shader,
-                   const RisParameters& parameters, bool is_area_light);
-
 /// Whether a LightSource or AreaLightSource of this name is the path tracer's.
 bool is_ris_light(std::string_view shader);
 

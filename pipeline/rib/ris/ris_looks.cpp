@@ -188,12 +188,13 @@ bool take_layers(const RisParameters& parameters, const RisNetwork& network, Ris
 }
 
 /// Parameters that hold what a surface looks like from afar, the better ones first.
-constexpr std::string_view kColors[] = {"baseColor",    "diffuseColor", "frontColor",    "diffuseFrontColor",
-                                        "color",        "emitColor",    "emissionColor", "transmissionColor",
-                                        "reflectivity", "albedo",       "tint"};
+constexpr std::string_view kColorParameters[] = {
+    "baseColor",    "diffuseColor", "frontColor",    "diffuseFrontColor",
+    "color",        "emitColor",    "emissionColor", "transmissionColor",
+    "reflectivity", "albedo",       "tint"};
 
 void take_any_color(const RisParameters& parameters, const RisNetwork& network, RisLook& look) {
-    for (const std::string_view name : kColors)
+    for (const std::string_view name : kColorParameters)
         if (const auto tint = tint_of(parameters, name, network)) {
             look.color = tint->color;
             take_texture(*tint, look);

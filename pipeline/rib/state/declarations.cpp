@@ -128,9 +128,9 @@ const char* const kFloats[] = {"Ka",
                                "enable gaussian",
                                "enable lerp",
                                "veining"};
-const char* const kColors[] = {"specularcolor", "lightcolor", "background", "opacity",
-                               "bgcolor",       "fogcolor",   "color"};
-const char* const kPoints[] = {"from", "to"};
+const char* const kShaderColors[] = {"specularcolor", "lightcolor", "background", "opacity",
+                                     "bgcolor",       "fogcolor",   "color"};
+const char* const kShaderPoints[] = {"from", "to"};
 const char* const kStrings[] = {"type",           "texturename",  "shadowname",       "mapname",
                                 "name",           "archive",      "shader",           "texture",
                                 "procedural",     "display",      "resource",         "depthfilter",
@@ -153,8 +153,8 @@ Declarations::Declarations() {
         for (const char* name : names) known_[name] = {StorageClass::Uniform, type, 1};
     };
     add(kFloats, ValueType::Float);
-    add(kColors, ValueType::Color);
-    add(kPoints, ValueType::Point);
+    add(kShaderColors, ValueType::Color);
+    add(kShaderPoints, ValueType::Point);
     add(kStrings, ValueType::String);
     known_["sphere"] = {StorageClass::Uniform, ValueType::Float, 1};
     for (const auto& [name, declaration] : known_) predeclared_.insert(name);

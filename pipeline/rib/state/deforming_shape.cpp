@@ -98,7 +98,7 @@ bool can_deform(const std::vector<ShapePointer>& shapes) {
     });
 }
 
-bool settle_colors(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open) {
+bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open) {
     const size_t after = std::upper_bound(times.begin(), times.end(), open) - times.begin();
     const ShapePointer at_open = shapes[after > 0 ? after - 1 : 0];
     bool moves = false;

@@ -18,7 +18,7 @@ bool can_deform(const std::vector<ShapePointer>& shapes);
 
 /// Colours ("Cs", "Os") do not move: what the surface has as the shutter opens is shaded. Poses that have
 /// other ones than that which the shutter opens with are given its own. Whether some do not stay the same.
-bool settle_colors(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open);
+bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open);
 
 /// One shape when nothing moves within the shutter, else 2^m + 1 at even times. Before the first time and
 /// after the last a shape stays as it is.

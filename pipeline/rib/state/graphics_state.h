@@ -68,6 +68,7 @@ struct GraphicsState {
 };
 
 enum class Block { Frame, World, Attribute, Transform, Motion, Object, Solid };
+inline constexpr size_t kBlockKinds = 7;
 
 /// The request that opens it.
 const char* block_name(Block kind);
@@ -130,6 +131,11 @@ struct Scope {
     std::map<std::string, DisplayChannel> display_channels;
     std::map<std::string, std::shared_ptr<RetainedObject>> objects;
     RisNetwork ris;
+
+    /// Numbers of one colour in the file; 3 but for ColorSamples.
+    size_t samples_per_color() const { return color_samples ? color_samples->samples : 3; }
+    /// Colours as the file gives them, as RGB.
+    std::vector<float> rgb(std::vector<float> colors) const;
 };
 
 struct OpenBlock {
@@ -138,20 +144,6 @@ struct OpenBlock {
     SourceLocation at;
     GraphicsState saved;
     std::unique_ptr<Scope> scope;  ///< of frames and worlds
-};
-
-/// Geometry or transforms, gathered between MotionBegin and MotionEnd.
-struct MotionBlock {
-    SourceLocation at;
-    std::vector<float> times;
-    std::string request;  ///< what of transforms or geometry the block holds
-    TransformKind transform_kind = TransformKind::Matrix;
-    bool absolute = false;  ///< Transform
-    std::vector<TransformArguments> transforms;
-    std::vector<std::shared_ptr<const Shape>> shapes;
-    /// Requests of other kinds (colours, shaders), which do not move: by name, in the order of the first
-    /// ones.
-    std::vector<std::vector<RequestText>> others;
 };
 
 }  // namespace trapeze::rib

@@ -67,4 +67,16 @@ class ReadyArchive {
     bool is_complete_ = false, is_given_up_ = false;
 };
 
+/// Where a stream of requests stands in the archive that it is read from.
+struct ArchivePlace {
+    ReadyArchive* archive = nullptr;  ///< null: what is read is no archive, and is read once
+    size_t request = 0;               ///< that which is being carried out
+    size_t shapes = 0;                ///< how many it has made so far
+
+    /// ReadyArchive::share() for the next shape of the request; false outside of archives.
+    bool share(std::shared_ptr<const Shape>& shape) {
+        return archive && archive->share(request, shapes++, shape);
+    }
+};
+
 }  // namespace trapeze::rib

@@ -11,16 +11,11 @@
 #include <memory>
 #include <utility>
 
+#include "pipeline/rib/syntax/input_file.h"
 #include "pipeline/rib/syntax/zip_archive.h"
 
 namespace trapeze::rib {
 namespace {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const {
-        if (file != stdin) std::fclose(file);
-    }
-};
 
 constexpr size_t kBlock = size_t{1} << 20;
 
@@ -131,7 +126,7 @@ std::optional<SourceText> read_source(const std::string& path, size_t max_bytes,
         if (!text) return {};
         return SourceText{std::move(*text), {}};
     }
-    std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : access.open_to_read(path));
+    const InputFile file(path == "-" ? stdin : access.open_to_read(path));
     if (!file) {
         *error = std::strerror(errno);
         return {};

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "pipeline/rib/syntax/input_file.h"
 #include "pipeline/rib/syntax/source_text.h"
 
 namespace trapeze::rib {
@@ -15,11 +16,6 @@ constexpr uint32_t kLocalHeader = 0x04034b50, kCentralHeader = 0x02014b50, kEndO
 constexpr size_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22, kLongestComment = 65535;
 constexpr uint64_t kLargestDirectory = uint64_t{1} << 28;
 constexpr unsigned kStored = 0, kDeflated = 8;
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
 
 /// Least significant byte first; the caller has checked the length.
 uint32_t number(const std::string& bytes, size_t at, int count) {
@@ -75,8 +71,8 @@ std::optional<Entry> find_entry(const std::string& directory, const std::string&
     return {};
 }
 
-File open_archive(const std::string& path, const Access& access, std::string* error) {
-    File file(access.open_to_read(path));
+InputFile open_archive(const std::string& path, const Access& access, std::string* error) {
+    InputFile file(access.open_to_read(path));
     if (!file) *error = "the archive cannot be opened";
     return file;
 }
@@ -91,7 +87,7 @@ std::optional<ZipMember> zip_member_named(const std::string& path) {
 
 std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_bytes, std::string* error,
                                            const Access& access) {
-    const File file = open_archive(member.archive, access, error);
+    const InputFile file = open_archive(member.archive, access, error);
     if (!file) return {};
     const auto entry = find_entry(read_directory(file.get()), member.member);
     if (!entry) {
@@ -126,7 +122,7 @@ std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_b
 
 bool has_zip_member(const ZipMember& member, const Access& access) {
     std::string ignored;
-    const File file = open_archive(member.archive, access, &ignored);
+    const InputFile file = open_archive(member.archive, access, &ignored);
     return file && find_entry(read_directory(file.get()), member.member).has_value();
 }
 

@@ -1,30 +1,12 @@
-/// Constructive solid geometry: SolidBegin, SolidEnd (RISpec 5.7).
-#include "pipeline/rib/requests/request_table.h"
+/// Constructive solid geometry (RISpec 5.7): the tree of solids that surfaces bound.
+#include "pipeline/rib/reader/scene_builder.h"
 
 namespace trapeze::rib {
 namespace {
 
-constexpr size_t kMostSolids = 1'000'000;
-
-Solid::Operation operation_of(ArgumentCursor& c) {
-    const std::string name = c.string("the operation");
-    if (name == "primitive") return Solid::Operation::Primitive;
-    if (name == "union") return Solid::Operation::Union;
-    if (name == "intersection") return Solid::Operation::Intersection;
-    if (name == "difference") return Solid::Operation::Difference;
-    throw RequestError{in_quotes(name) + " is none of primitive, union, intersection, difference", {}};
-}
-
-constexpr RequestRow kSolidRequests[] = {
-    {"SolidBegin", [](Reader& r, ArgumentCursor& c) { r.begin_solid(operation_of(c)); }},
-    {"SolidEnd", [](Reader& r, ArgumentCursor&) { r.end_block(Block::Solid); }},
-};
+constexpr size_t kMostSolids = 1'000'000;  ///< of a scene, or of an object
 
 }  // namespace
-
-std::span<const RequestRow> solid_requests() {
-    return kSolidRequests;
-}
 
 int SolidList::add(Solid::Operation operation, int parent) {
     if (solids.size() >= kMostSolids)
@@ -37,27 +19,27 @@ int SolidList::add(Solid::Operation operation, int parent) {
     return static_cast<int>(solids.size()) - 1;
 }
 
-void Reader::begin_solid(Solid::Operation operation) {
+void SceneBuilder::begin_solid(Solid::Operation operation) {
     SolidList& list = solids_here();
     if (list.open >= 0 &&
         list.solids[static_cast<size_t>(list.open)].operation == Solid::Operation::Primitive)
         throw RequestError{"inside a primitive solid", {}};
-    begin_block(Block::Solid);
+    state_.open(Block::Solid, report_.at());
     list.open = list.add(operation, list.open);
 }
 
-void Reader::close_solid() {
+void SceneBuilder::end_solid() {
     SolidList& list = solids_here();
     if (list.open >= 0) list.open = list.solids[static_cast<size_t>(list.open)].parent;
 }
 
 /// The solid that a surface bounds. Geometry stands in primitive solids; elsewhere in a solid each surface is
 /// taken to be one.
-int Reader::solid_of_surface(SolidList& list) {
+int SceneBuilder::solid_of_surface(SolidList& list) {
     if (list.open < 0) return -1;
     if (list.solids[static_cast<size_t>(list.open)].operation == Solid::Operation::Primitive)
         return list.open;
-    warn_once(
+    report_.warn_once(
         "geometry in a solid stands between SolidBegin \"primitive\" and SolidEnd; each surface outside "
         "of these is taken to be a solid of its own",
         "solid-without-primitive");
@@ -65,7 +47,7 @@ int Reader::solid_of_surface(SolidList& list) {
 }
 
 /// Copies an object's solids into the open one, here; returns where they begin.
-int Reader::place_solids(const SolidList& object) {
+int SceneBuilder::place_solids(const SolidList& object) {
     SolidList& list = solids_here();
     const int first = static_cast<int>(list.solids.size());
     for (const Solid& solid : object.solids)

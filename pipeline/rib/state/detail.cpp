@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/scene/camera.h"
-#include "pipeline/rib/reader/reader.h"
+#include "pipeline/rib/state/graphics_state_stack.h"
 
 namespace trapeze::rib {
 
@@ -17,10 +17,9 @@ SeenNumbers Detail::seen() const {
     return {0, 1};
 }
 
-/// Pixels of the smallest upright rectangle round a box, times RelativeDetail.
-float Reader::raster_area(const std::vector<float>& bound) const {
+float GraphicsStateStack::raster_area(const std::vector<float>& bound) const {
     constexpr float kInfinite = std::numeric_limits<float>::infinity();
-    if (object_) return kInfinite;  // its instances may be of any size
+    if (in_object()) return kInfinite;
     const Camera camera = make_camera(scope_.options);
     const M44f to_camera = camera_from_current();
     const float nearest = std::max(camera.near_clip, kEpsilon);
@@ -36,14 +35,6 @@ float Reader::raster_area(const std::vector<float>& bound) const {
     }
     const float area = (high.x - low.x) * (high.y - low.y) * scope_.relative_detail;
     return std::isnan(area) ? kInfinite : area;
-}
-
-void Reader::set_detail(const std::vector<float>& bound) {
-    if (object_) {
-        warn_once("inside an object definition is not supported; ignored", "detail-in-object");
-        return;
-    }
-    change_attributes().detail.size = raster_area(bound);
 }
 
 }  // namespace trapeze::rib

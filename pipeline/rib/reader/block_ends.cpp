@@ -1,0 +1,81 @@
+#include "pipeline/rib/reader/block_ends.h"
+
+#include <algorithm>
+
+#include "pipeline/rib/reader/request_executor.h"
+
+namespace trapeze::rib {
+namespace {
+
+RequestText bare_request(const char* name, SourceLocation at) {
+    RequestText request;
+    request.name = name, request.at = at;
+    return request;
+}
+
+std::string still_open(const OpenBlock& block) {
+    return std::string(block_name(block.kind)) + " of line " + std::to_string(block.at.line) +
+           " is still open; closed here";
+}
+
+}  // namespace
+
+void BlockEnds::end(Block kind) {
+    const auto& blocks = state_.blocks();
+    const auto begin = std::find_if(blocks.rbegin(), blocks.rend(), [&](const OpenBlock& block) {
+        return block.kind == kind || (block.kind == Block::World && kind != Block::Frame);
+    });
+    if (begin == blocks.rend() || begin->kind != kind) {
+        report_.error(std::string("no ") + block_name(kind) + " is open; ignored");
+        return;
+    }
+    while (blocks.back().kind != kind) {
+        report_.error(still_open(blocks.back()));
+        close_innermost();
+    }
+    close_innermost();
+}
+
+void BlockEnds::end_all() {
+    while (!state_.blocks().empty()) {
+        const OpenBlock& block = state_.blocks().back();
+        report_.set_request(block.at, block_name(block.kind));
+        report_.error("never closed; closed at the end of the input");
+        close_innermost();
+    }
+}
+
+void BlockEnds::close_innermost() {
+    const Block kind = state_.blocks().back().kind;
+    if (kind == Block::World) scene_.deliver_world();
+    state_.close();
+    if (kind == Block::Motion) finish_motion();
+    if (kind == Block::Frame) scene_.end_frame();
+    if (kind == Block::Object) scene_.end_object();
+    if (kind == Block::Solid) scene_.end_solid();
+}
+
+void BlockEnds::finish_motion() {
+    MotionBlock block = motion_.take();
+    for (const std::vector<RequestText>& keys : block.held) executor_.execute_held(keys, block.times);
+    if (auto moving = motion_.resolve(std::move(block))) scene_.add_moving_shape(std::move(*moving));
+}
+
+size_t BlockEnds::begin_attribute_block() {
+    state_.open(Block::Attribute, report_.at());
+    executor_.hands_on(bare_request("AttributeBegin", report_.at()));
+    return state_.blocks().size();
+}
+
+void BlockEnds::end_attribute_block(size_t depth, uint64_t id) {
+    const auto& blocks = state_.blocks();
+    while (blocks.size() > depth && blocks[depth - 1].id == id) {
+        report_.error(still_open(blocks.back()));
+        close_innermost();
+    }
+    executor_.hands_on(bare_request("AttributeEnd", report_.at()));
+    // What was read may have closed this block too.
+    if (blocks.size() >= depth && blocks[depth - 1].id == id) close_innermost();
+}
+
+}  // namespace trapeze::rib

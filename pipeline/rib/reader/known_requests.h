@@ -1,0 +1,35 @@
+/// The requests that are known by name, and what carries each of them out. The rows stand in
+/// requests/*_requests.cpp, the table that is made of them in requests/request_table.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trapeze::rib {
+
+class ArgumentCursor;
+struct RequestContext;
+
+/// What a motion block does with requests (RISpec 6): transforms and geometry have a motion of their own;
+/// options and attributes have their values as the shutter opens; structure is not held back.
+enum class RequestGroup { Structure, Option, Attribute, Transform, Geometry, Unsupported };
+
+/// Takes the arguments of one request and does what it says. Throws a RequestError where the request has to
+/// be skipped; an argument that it leaves is reported by its caller.
+using RequestHandler = void (*)(RequestContext& context, ArgumentCursor& cursor);
+
+struct Request {
+    RequestHandler handler = nullptr;  ///< null: known, not supported
+    RequestGroup group = RequestGroup::Unsupported;
+};
+
+/// Null for unknown names.
+const Request* find_request(std::string_view name);
+bool is_request(std::string_view name);
+/// All known ones, sorted.
+std::vector<std::string> request_names();
+/// The known request most like a misspelt name, or nothing.
+std::string suggestion_for(const std::string& name);
+
+}  // namespace trapeze::rib

@@ -1,0 +1,147 @@
+#include "pipeline/rib/reader/request_context.h"
+
+#include <algorithm>
+
+#include "pipeline/rib/reader/request_report.h"
+#include "pipeline/rib/state/graphics_state_stack.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr size_t kMostParameters = 1000;  ///< of one request; lists are searched one by one
+
+/// What an undeclared value looks like.
+Declaration guessed(size_t numbers, size_t strings) {
+    const size_t length = strings > 0 ? strings : numbers;
+    return {StorageClass::Uniform, strings > 0 ? ValueType::String : ValueType::Float,
+            static_cast<int>(std::clamp<size_t>(length, 1, kLongestArray))};
+}
+
+bool fits(const Declaration& declaration, size_t numbers, size_t strings) {
+    const size_t item = component_count(declaration.type) * static_cast<size_t>(declaration.array_length);
+    const bool is_string = declaration.type == ValueType::String;
+    const size_t got = is_string ? strings : numbers;
+    return (is_string ? numbers : strings) == 0 && got > 0 && got % item == 0;
+}
+
+/// One name and value pair, checked against its declaration. A name without a value throws a RequestError.
+class ParameterReader {
+  public:
+    ParameterReader(RequestContext& context, ArgumentCursor& cursor, Undeclared undeclared)
+        : report_(context.report), state_(context.state), cursor_(cursor), undeclared_(undeclared) {}
+
+    /// Nothing when the pair is wrong, which has been reported.
+    std::optional<Parameter> read(const ParameterList& earlier) {
+        if (!cursor_.next_is_string() || cursor_.peek()->strings.size() != 1)
+            throw RequestError{"a parameter's name is expected", cursor_.peek()->at};
+        name_at_ = cursor_.peek()->at;
+        const std::string token = cursor_.string("a parameter's name");
+        if (cursor_.done()) throw RequestError{in_quotes(token) + " has no value", name_at_};
+        if (earlier.values.size() >= kMostParameters)
+            throw RequestError{"more than " + std::to_string(kMostParameters) + " parameters", name_at_};
+        Argument value = cursor_.take("a value");
+        std::vector<float> numbers = value.take_numbers();
+        // Several bare numbers may stand for an array of a fixed size (a colour, say).
+        while (value.kind == Argument::Kind::Number && cursor_.next_is_number() && !cursor_.next_is_array())
+            numbers.push_back(cursor_.number("a value"));
+        auto declared = declaration_of(token, numbers.size(), value.strings.size());
+        if (!declared) {
+            report_.say(Severity::Error, name_at_, in_quotes(token) + " is not declared; left out",
+                        "undeclared-" + token);
+            return {};
+        }
+        Parameter parameter{std::move(declared->first), declared->second, std::move(numbers),
+                            std::move(value.strings)};
+        if (!fit_to_declaration(parameter)) return {};
+        if (earlier.find(parameter.name)) {
+            report_.say(Severity::Warning, name_at_,
+                        in_quotes(parameter.name) + " is given twice; the first counts",
+                        "repeated-parameter");
+            return {};
+        }
+        if (parameter.declaration.type == ValueType::Color)
+            parameter.floats = state_.scope().rgb(std::move(parameter.floats));
+        return parameter;
+    }
+
+  private:
+    std::optional<std::pair<std::string, Declaration>> declaration_of(const std::string& token,
+                                                                      size_t numbers, size_t strings) {
+        auto declared = state_.declarations().resolve(token);
+        if (undeclared_ == Undeclared::LeaveOut) return declared;
+        // A shader's or a renderer's own parameter of a name that RISpec gives another type to.
+        const bool is_another = declared && state_.declarations().is_predeclared(token) &&
+                                !state_.scope().color_samples && !fits(declared->second, numbers, strings);
+        if (is_another || (!declared && token.find(' ') == std::string::npos))
+            declared = {token, guessed(numbers, strings)};
+        return declared;
+    }
+
+    /// Values beyond the last whole item are left over; too few, or of the wrong kind, are none.
+    bool fit_to_declaration(Parameter& p) {
+        const bool is_string = p.declaration.type == ValueType::String;
+        if (is_string ? !p.floats.empty() : !p.strings.empty()) {
+            report_.error(name_at_,
+                          in_quotes(p.name) + " wants " + (is_string ? "strings" : "numbers") + "; left out");
+            return false;
+        }
+        const size_t got = is_string ? p.strings.size() : p.floats.size();
+        const bool is_color = p.declaration.type == ValueType::Color;
+        const size_t components =
+            is_color ? state_.scope().samples_per_color() : component_count(p.declaration.type);
+        const size_t item = components * static_cast<size_t>(p.declaration.array_length);
+        const std::string has = in_quotes(p.name) + " has " + std::to_string(got) + " values, ";
+        if (got < item) {
+            report_.error(name_at_, has + "needs a multiple of " + std::to_string(item) + "; left out");
+            return false;
+        }
+        if (got % item != 0) {
+            report_.diagnostics().warning(name_at_,
+                                          report_.name() + ": " + has + "no multiple of " +
+                                              std::to_string(item) + "; the rest is left over",
+                                          "surplus-numbers");
+            (is_string ? p.strings.resize(got - got % item) : p.floats.resize(got - got % item));
+        }
+        return true;
+    }
+
+    RequestReport& report_;
+    GraphicsStateStack& state_;
+    ArgumentCursor& cursor_;
+    const Undeclared undeclared_;
+    SourceLocation name_at_;
+};
+
+}  // namespace
+
+ParameterList RequestContext::parameters(ArgumentCursor& cursor, Undeclared undeclared) {
+    ParameterList list;
+    ParameterReader reader(*this, cursor, undeclared);
+    while (!cursor.done())
+        if (auto parameter = reader.read(list)) list.values.push_back(std::move(*parameter));
+    return list;
+}
+
+ParameterList RequestContext::shader_parameters(ArgumentCursor& cursor) {
+    ParameterList list = parameters(cursor, Undeclared::Guess);
+    std::erase_if(list.values, [&](const Parameter& p) {
+        const size_t got = p.is_string() ? p.strings.size() : p.floats.size();
+        const int wanted = p.is_string() ? p.declaration.array_length : p.declaration.floats_per_item();
+        if (got == static_cast<size_t>(wanted)) return false;
+        report.error(in_quotes(p.name) + " has " + std::to_string(got) + " values, needs " +
+                     std::to_string(wanted) + "; left out");
+        return true;
+    });
+    return list;
+}
+
+ShaderInstance RequestContext::shader(ArgumentCursor& cursor, const char* kind) {
+    ShaderInstance instance;
+    instance.name = cursor.string("the shader's name");
+    instance.location = report.at();
+    instance.camera_from_shader = state.camera_from_current();
+    ++report.summary().shaders[std::string(kind) + " " + instance.name];
+    return instance;
+}
+
+}  // namespace trapeze::rib

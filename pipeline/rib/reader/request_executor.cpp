@@ -1,0 +1,96 @@
+#include "pipeline/rib/reader/request_executor.h"
+
+#include "pipeline/rib/reader/conditional_blocks.h"
+#include "pipeline/rib/reader/motion_collector.h"
+#include "pipeline/rib/reader/scene_builder.h"
+
+namespace trapeze::rib {
+namespace {
+
+/// Exporters write objects without points as shapes of an empty "P".
+bool has_no_points(const RequestText& text) {
+    for (size_t i = 0; i + 1 < text.arguments.size(); ++i) {
+        const Argument& name = text.arguments[i];
+        const Argument& value = text.arguments[i + 1];
+        if (value.kind == Argument::Kind::Array && value.strings.empty() && value.floats.empty() &&
+            name.kind == Argument::Kind::String &&
+            (name.strings[0] == "P" || name.strings[0].ends_with(" P")))
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void RequestExecutor::execute(RequestText& text) {
+    RequestReport& report = context_.report;
+    if (text.name != last_request_.name || !last_request_.request) {
+        last_request_ = {text.name, find_request(text.name), nullptr};
+        if (last_request_.request) last_request_.count = &report.summary().requests[text.name];
+    }
+    const Request* const request = last_request_.request;
+    if (!request) {
+        report.set_request(text.at, clipped(text.name));
+        report.report_unknown_request(text.name);
+        return;
+    }
+    report.set_request(text.at, text.name);
+    ++*last_request_.count;
+    if (!request->handler) {
+        if (text.problem.empty()) hands_on(text);
+        report.count_unsupported();
+        report.diagnostics().warning(text.at, text.name + " is not supported yet; skipped",
+                                     "unsupported-" + text.name);
+        return;
+    }
+    if (!text.problem.empty()) {
+        // A stray character must not take a whole block with it.
+        const bool is_block = request->group == RequestGroup::Structure && text.arguments.empty();
+        report.error(text.problem_at, text.problem + (is_block ? "; ignored" : "; request skipped"));
+        if (!is_block) return;
+    }
+    try {
+        context_.conditions.substitute(text);
+        if (!hands_on(text)) return;
+        const bool moves =
+            request->group != RequestGroup::Attribute && request->group != RequestGroup::Option;
+        if (context_.motion.is_open() && !moves)
+            context_.motion.hold(std::move(text));
+        else
+            carry_out(*request, text);
+    } catch (const RequestError& problem) {
+        const bool is_shape = request->group == RequestGroup::Geometry;
+        report.error(problem.at, problem.text + (is_shape ? "; primitive skipped" : "; request skipped"));
+    }
+}
+
+void RequestExecutor::execute_held(const std::vector<RequestText>& keys, const std::vector<float>& times) {
+    const OtherRequest held(context_.report, keys[0].at, keys[0].name);
+    RequestText text = context_.motion.as_shutter_opens(keys, times);
+    try {
+        carry_out(*find_request(text.name), text);
+    } catch (const RequestError& problem) {
+        context_.report.error(problem.at, problem.text + "; request skipped");
+    }
+}
+
+void RequestExecutor::carry_out(const Request& request, RequestText& text) {
+    RequestReport& report = context_.report;
+    if (request.group == RequestGroup::Geometry && has_no_points(text)) {
+        report.warn_once("\"P\" is empty; there is nothing to draw", "empty-" + text.name);
+        return;
+    }
+    ArgumentCursor cursor(text);
+    request.handler(context_, cursor);
+    if (!cursor.done())
+        report.error(cursor.peek()->at, "more arguments than the request has; the rest is ignored");
+}
+
+bool RequestExecutor::hands_on(const RequestText& text) const {
+    if (!read_options_.on_request || ConditionalBlocks::is_conditional(text.name) ||
+        !context_.scene.frame_is_wanted())
+        return true;
+    return read_options_.on_request(text);
+}
+
+}  // namespace trapeze::rib

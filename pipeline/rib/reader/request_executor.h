@@ -1,0 +1,40 @@
+/// What happens to each request that is read, up to its handler.
+#pragma once
+
+#include <string>
+
+#include "pipeline/rib/reader/known_requests.h"
+#include "pipeline/rib/reader/request_context.h"
+
+namespace trapeze::rib {
+
+/// Looks requests up, counts them, keeps those back that a motion block holds, calls handlers, and says what
+/// is wrong with the others.
+class RequestExecutor {
+  public:
+    RequestExecutor(const ReadOptions& options, RequestContext& context)
+        : read_options_(options), context_(context) {}
+    RequestExecutor(const RequestExecutor&) = delete;
+    RequestExecutor& operator=(const RequestExecutor&) = delete;
+
+    /// A request as it stands in the stream. Its text may be changed, and its memory taken.
+    void execute(RequestText& text);
+    /// One that a motion block has held back, at the times of that block.
+    void execute_held(const std::vector<RequestText>& keys, const std::vector<float>& times);
+    /// Tells ReadOptions::on_request of a request; whether it is to be carried out.
+    bool hands_on(const RequestText& text) const;
+
+  private:
+    void carry_out(const Request& request, RequestText& text);
+
+    const ReadOptions& read_options_;
+    RequestContext& context_;
+    /// The last name looked up: requests mostly come in rows. `count` is in the summary.
+    struct {
+        std::string name;
+        const Request* request = nullptr;
+        uint64_t* count = nullptr;
+    } last_request_;
+};
+
+}  // namespace trapeze::rib

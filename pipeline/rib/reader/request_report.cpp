@@ -1,0 +1,76 @@
+#include "pipeline/rib/reader/request_report.h"
+
+#include "pipeline/rib/reader/known_requests.h"
+
+namespace trapeze::rib {
+namespace {
+
+// What is no RIB at all (a picture, a program) has a mistake of its own in each word: its reader is helped by
+// the first of them, not by a million.
+constexpr size_t kMostKinds = 200;
+constexpr size_t kMostUnknownRequests = 20;
+
+/// A message without its numbers: files that are wrong in one place are wrong alike in many.
+std::string kind_of(Severity severity, const std::string& text) {
+    std::string kind = severity == Severity::Error ? "error-" : "warning-";
+    for (const char c : text)
+        if (c < '0' || c > '9')
+            kind += c;
+        else if (!kind.ends_with('#'))
+            kind += '#';
+    return kind;
+}
+
+}  // namespace
+
+void RequestReport::error(SourceLocation at, const std::string& text) {
+    const Severity severity = severity_of_errors();
+    say(severity, at.line ? at : at_, text, kind_of(severity, name_ + ": " + text));
+}
+
+void RequestReport::warn_once(const std::string& text, const std::string& kind) {
+    say(Severity::Warning, at_, text, kind);
+}
+
+void RequestReport::error_of_limit(const std::string& text, const std::string& kind) {
+    diagnostics_.error(at_, name_ + ": " + text, kind);
+}
+
+void RequestReport::say(Severity severity, SourceLocation at, const std::string& text,
+                        const std::string& kind) {
+    const std::string whole = name_ + ": " + text;
+    if (kinds_.size() < kMostKinds) kinds_.insert(kind);
+    if (kinds_.contains(kind))
+        diagnostics_.report(severity, at, whole, kind);
+    else
+        diagnostics_.report(severity, at, whole + " (further messages of other kinds are only counted)",
+                            severity == Severity::Error ? "error-further-kinds" : "warning-further-kinds");
+}
+
+void RequestReport::report_unknown_request(const std::string& name) {
+    if (unknown_requests_.size() < kMostUnknownRequests) unknown_requests_.insert(name);
+    if (!unknown_requests_.contains(name)) {
+        say(severity_of_errors(), at_, "no such request; further unknown names are only counted",
+            "error-further-unknown-requests");
+        return;
+    }
+    const std::string like = suggestion_for(name);
+    error("no such request" + (like.empty() ? "" : " (did you mean " + like + "?)") +
+          "; skipped to the next one");
+}
+
+void RequestReport::set_error_handler(OnError handler) {
+    on_error_ = handler;
+    errors_before_abort_ = diagnostics_.count(Severity::Error);
+}
+
+bool RequestReport::must_stop() {
+    has_stopped_ = has_stopped_ || (cancelled_ && *cancelled_);
+    if (has_stopped_ || on_error_ != OnError::Abort) return has_stopped_;
+    has_stopped_ = diagnostics_.count(Severity::Error) > errors_before_abort_;
+    if (has_stopped_)
+        diagnostics_.error(at_, "reading ends at the first error, as ErrorHandler \"abort\" asks");
+    return has_stopped_;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,257 @@
+/// Worlds and their primitives. Objects are in objects.cpp, lights in world_lights.cpp, solids in solids.cpp.
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/rib/reader/scene_builder.h"
+#include "pipeline/rib/state/motion_paths.h"
+#include "pipeline/rib/state/scene_size.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr float kMostSharpSamples = 4;  ///< along each side of a pixel, of a hider's samples without blur
+
+uint64_t point_count(const Shape& shape) {
+    if (std::holds_alternative<Quadric>(shape.topology)) return 0;
+    return static_cast<uint64_t>(variable_counts(shape.topology).vertex);
+}
+
+/// No vector becomes longer than so many times its length: a bound that is exact when all grow alike.
+/// With A = the linear part and G = A A^T, the largest eigenvalue of G is at most its largest row sum.
+float largest_stretch(const M44f& m) {
+    V3d rows[3];
+    for (int i = 0; i < 3; ++i) rows[i] = V3d(m[i][0], m[i][1], m[i][2]);
+    double largest = 0;
+    for (const V3d& a : rows) {
+        double sum = 0;
+        for (const V3d& b : rows) sum += std::abs(a.dot(b));
+        largest = std::max(largest, sum);
+    }
+    return static_cast<float>(std::sqrt(largest));
+}
+
+bool is_finite(const M44f& m) {
+    return std::all_of(&m[0][0], &m[0][0] + 16, [](float v) { return std::isfinite(v); });
+}
+
+std::vector<ShapePointer> only(ShapePointer shape) {
+    std::vector<ShapePointer> keys;
+    keys.push_back(std::move(shape));
+    return keys;
+}
+
+}  // namespace
+
+void SceneBuilder::begin_frame(int number) {
+    if (state_.in_world()) throw RequestError{"inside a world", {}};
+    if (state_.is_open(Block::Frame)) throw RequestError{"a frame is open already", {}};
+    state_.open(Block::Frame, report_.at());
+    state_.options().frame = number;
+    ++report_.summary().frames;
+    frame_is_wanted_ = !read_options_.wants_frame || read_options_.wants_frame(number);
+}
+
+void SceneBuilder::begin_world() {
+    if (state_.in_world()) throw RequestError{"a world is open already", {}};
+    state_.open(Block::World, report_.at());
+    // Without it, as for shadow maps, all is seen as the shutter opens.
+    Options& options = state_.options();
+    if (options.hider_parameters.float_or("samplemotion", 1) == 0)
+        options.shutter_close = options.shutter_open;
+    report_turned_away();
+    scene_ = Scene();
+    solids_ = {};
+    instanced_primitives_ = 0;
+}
+
+void SceneBuilder::make_map(MapRequest request) {
+    if (state_.in_world()) throw RequestError{"inside a world", {}};
+    if (!frame_is_wanted_ || !read_options_.on_map) return;
+    request.location = report_.at();
+    request.folders = search_.folders("texture");
+    request.transfer = transfer_of(state_.options());
+    read_options_.on_map(request);
+}
+
+void SceneBuilder::deliver_world() {
+    ++report_.summary().worlds;
+    Scope& scope = state_.scope();
+    Options& options = scope.options;
+    const float open = options.shutter_open;
+    // A hider's counts are of paths: where nothing is blurred, edges need fewer.
+    if (!scope.has_pixel_samples && options.f_stop >= kInfinity && options.shutter_close <= open) {
+        options.samples_x = std::min(options.samples_x, kMostSharpSamples);
+        options.samples_y = std::min(options.samples_y, kMostSharpSamples);
+    }
+    scene_.camera_from_world = M44f(state_.camera_from_world().at(open));
+    for (const auto& [name, space] : scope.named_spaces)
+        scene_.camera_from_named[name] = M44f(space.at(open));
+    for (const char* category : {"archive", "shader", "texture"})
+        options.search_paths[category] = search_.folders(category);
+    const bool wanted = frame_is_wanted_ && (state_.is_open(Block::Frame) || !read_options_.wants_frame ||
+                                             read_options_.wants_frame(options.frame));
+    scene_.solids = std::move(solids_.solids);
+    scene_.options = std::move(options);
+    scene_.clipping_planes = scope.clipping_planes;
+    resolved_ = {};
+    light_world();
+    if (wanted) on_world_(std::move(scene_));
+    scene_ = Scene();
+    scene_bytes_ = 0;
+}
+
+float SceneBuilder::displacement_length(const AttributeState& state,
+                                        const std::vector<M44f>& camera_from_object) {
+    const DisplacementBound& bound = state.displacement_bound;
+    if (bound.sphere == 0 || bound.coordinate_system == "camera") return bound.sphere;
+    float stretch = 0;
+    for (const M44f& key : camera_from_object) stretch = std::max(stretch, largest_stretch(key));
+    const auto& shader = state.attributes.displacement;
+    if (const MovingTransform* const named = state_.named_space(bound.coordinate_system))
+        stretch = largest_stretch(M44f(named->at(state_.options().shutter_open)));
+    else if (bound.coordinate_system == "shader" && shader)
+        stretch = largest_stretch(shader->camera_from_shader);
+    else if (bound.coordinate_system != "object" && bound.coordinate_system != "current" &&
+             bound.coordinate_system != "shader")
+        report_.warn_once("the displacement bound's coordinate system " + in_quotes(bound.coordinate_system) +
+                              " is not known; object space is used",
+                          "displacementbound-" + bound.coordinate_system);
+    return bound.sphere * stretch;
+}
+
+std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
+    const std::shared_ptr<const AttributeState>& state, const std::vector<M44f>& camera_from_object) {
+    // dPdu x dPdv in camera space is the transformed outward normal times the sign of the determinant.
+    const bool mirrored = M44d(camera_from_object.front()).determinant() < 0;
+    const bool inside = state->orientation == Orientation::Inside;
+    const bool reverse = (mirrored != inside) != state->orientation_reversed;
+    const float bound = displacement_length(*state, camera_from_object);
+    if (resolved_.state == state && resolved_.attributes->reverse_orientation == reverse &&
+        resolved_.attributes->displacement_bound == bound)
+        return resolved_.attributes;
+    auto attributes = std::make_shared<Attributes>(state->attributes);
+    attributes->reverse_orientation = reverse;
+    attributes->displacement_bound = bound;
+    set_seen_numbers(*attributes, state->detail.seen());
+    if (read_options_.shading_rate) attributes->shading_rate = *read_options_.shading_rate;
+    resolved_ = {state, attributes};
+    return attributes;
+}
+
+bool SceneBuilder::has_room(uint64_t bytes) {
+    scene_bytes_ += bytes;
+    if (scene_bytes_ <= read_options_.most_scene_bytes) return true;
+    report_.error_of_limit("the scene takes more than " +
+                               std::to_string(read_options_.most_scene_bytes >> 20) +
+                               " MiB, which is the limit; this and further primitives are left out",
+                           "scene-limit");
+    return false;
+}
+
+void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> shape_keys,
+                        const MovingTransform& transform, const std::shared_ptr<const AttributeState>& state,
+                        SourceLocation at, int solid) {
+    const float open = state_.options().shutter_open, close = state_.options().shutter_close;
+    Primitive primitive;
+    primitive.location = at;
+    primitive.solid = solid;
+    primitive.shape_keys = std::move(shape_keys);
+    const int keys = close > open ? keys_for_paths(transform, open, close, primitive.shape_keys,
+                                                   make_camera(state_.options()))
+                                  : 1;
+    primitive.camera_from_object.reserve(static_cast<size_t>(keys));
+    for (int k = 0; k < keys; ++k)
+        primitive.camera_from_object.push_back(M44f(transform.at(key_time(open, close, k, keys))));
+    const auto& spaces = primitive.camera_from_object;
+    if (!std::all_of(spaces.begin(), spaces.end(), is_finite) ||
+        !(std::abs(M44d(spaces.front()).determinant()) > 0)) {
+        const std::string what = request == report_.name() ? "" : request + ": ";
+        report_.error(at, what + "the current transformation is singular; primitive skipped");
+        return;
+    }
+    ++report_.summary().primitives[request];
+    report_.summary().points += point_count(primitive.shape());
+    if (primitive.key_count() > 1) ++report_.summary().moving_primitives;
+    if (!keeps_geometry() || state->detail.seen().are_none()) return;
+    const std::shared_ptr<const Attributes> last = resolved_.attributes;
+    primitive.attributes = resolved_attributes(state, spaces);
+    uint64_t bytes = bytes_of(primitive);
+    if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
+    if (!has_room(bytes)) return;
+    scene_.primitives.push_back(std::move(primitive));
+}
+
+bool SceneBuilder::takes_geometry() {
+    if (state_.in_world() || object_) return true;
+    if (report_.summary().worlds > 0) throw RequestError{"geometry outside of a world", {}};
+    if (turned_away_.count++ == 0) turned_away_.first = report_.at(), turned_away_.request = report_.name();
+    return false;
+}
+
+void SceneBuilder::report_turned_away() {
+    if (turned_away_.count == 0) return;
+    const std::string count =
+        turned_away_.count == 1 ? "1 primitive" : std::to_string(turned_away_.count) + " primitives";
+    if (state_.in_world()) {
+        const OtherRequest first(report_, turned_away_.first, turned_away_.request);
+        report_.error("geometry outside of a world; " + count + " skipped");
+    } else {
+        report_.note(turned_away_.first,
+                     count +
+                         " outside of a world, in an input that has none: an archive for other files to "
+                         "read");
+    }
+    turned_away_.count = 0;
+}
+
+/// What the archive being read has made before, where it is the same; null when there is no room for a new
+/// one. Poses of a motion are counted at its end, at the keys that the scene has.
+ShapePointer SceneBuilder::shared_or_new(Shape shape) {
+    auto shared = std::make_shared<const Shape>(std::move(shape));
+    if (place_.share(shared)) return shared;
+    if (keeps_geometry() && !motion_.is_open() && !has_room(bytes_of(*shared))) return nullptr;
+    return shared;
+}
+
+void SceneBuilder::add_shape(std::string request, Shape shape, uint64_t faces) {
+    if (!takes_geometry()) return;
+    if (motion_.is_open()) motion_.expect(request);
+    report_.summary().faces += faces;
+    place_emitter(shape);
+    ShapePointer shared = shared_or_new(std::move(shape));
+    if (!shared) return;
+    if (motion_.is_open())
+        motion_.add_pose(std::move(shared));
+    else if (object_)
+        add_to_object(std::move(request), only(std::move(shared)), {0.0f}, report_.at());
+    else
+        emit(request, only(std::move(shared)), state_.current().transform, state_.current().attributes,
+             report_.at(), solid_of_surface(solids_));
+}
+
+void SceneBuilder::add_moving_shape(MovingShape moving) {
+    if (object_)
+        return add_to_object(std::move(moving.request), std::move(moving.shapes), std::move(moving.times),
+                             moving.at);
+    const auto keys = shapes_at_keys(moving.shapes, moving.times, state_.options().shutter_open,
+                                     state_.options().shutter_close);
+    if (keeps_geometry() && !has_room(keys.size() * bytes_of(*keys.front()))) return;
+    emit(moving.request, keys, state_.current().transform, state_.current().attributes, moving.at,
+         solid_of_surface(solids_));
+}
+
+void SceneBuilder::add_to_object(std::string request, std::vector<ShapePointer> shapes,
+                                 std::vector<float> times, SourceLocation at) {
+    object_->primitives.push_back({std::move(request),
+                                   std::move(shapes),
+                                   std::move(times),
+                                   state_.current().transform,
+                                   state_.current().attributes,
+                                   at,
+                                   {},
+                                   0,
+                                   0,
+                                   solid_of_surface(object_->solids)});
+}
+
+}  // namespace trapeze::rib

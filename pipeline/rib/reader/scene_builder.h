@@ -1,0 +1,131 @@
+/// What is read becomes Scenes: worlds, their primitives and lights, objects and solids.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/rib/reader/file_search.h"
+#include "pipeline/rib/reader/motion_collector.h"
+#include "pipeline/rib/reader/request_report.h"
+#include "pipeline/rib/state/graphics_state_stack.h"
+#include "pipeline/rib/state/ready_archive.h"
+
+namespace trapeze::rib {
+
+enum class FarShape;
+
+/// Owns the Scene that is being made, and the object that is being defined. Geometry that a handler has
+/// checked comes in by one door, add_shape(): from there it goes into the open motion block, into the object,
+/// or into the Scene, with the current attributes and at the motion keys of the shutter.
+class SceneBuilder {
+  public:
+    using OnWorld = std::function<void(Scene&&)>;
+
+    /// `place`: where the stream of requests stands. All are kept by reference.
+    SceneBuilder(const ReadOptions& options, RequestReport& report, GraphicsStateStack& state,
+                 MotionCollector& motion, ArchivePlace& place, const FileSearch& search,
+                 const OnWorld& on_world)
+        : read_options_(options),
+          report_(report),
+          state_(state),
+          motion_(motion),
+          place_(place),
+          search_(search),
+          on_world_(on_world) {}
+
+    // --- frames and worlds ---
+    void begin_frame(int number);
+    void end_frame() { frame_is_wanted_ = true; }
+    /// Whether the worlds and maps of the open frame are to be made, and programs run for them.
+    bool frame_is_wanted() const { return frame_is_wanted_; }
+    void begin_world();
+    /// As the world ends, while its options and names are still there.
+    void deliver_world();
+    /// Hands on a request that is complete but for its place and folders.
+    void make_map(MapRequest request);
+
+    // --- objects (RISpec 5.9) and solids (5.7) ---
+    void begin_object(const std::string& handle);
+    void end_object() { object_ = nullptr; }
+    void instance(const std::string& handle);
+    void begin_solid(Solid::Operation operation);
+    void end_solid();
+
+    // --- geometry ---
+    /// Whether a world or an object is open to take it. What stands before all worlds may be an archive,
+    /// which is said at the end of the input; geometry between worlds is a RequestError.
+    bool takes_geometry();
+    /// Says what takes_geometry() has turned away, now that the first world begins, or none came.
+    void report_turned_away();
+    /// A primitive of `faces` faces, counted under the name of its request.
+    void add_shape(std::string request, Shape shape, uint64_t faces);
+    /// The primitive of a motion block that ended.
+    void add_moving_shape(MovingShape moving);
+
+    // --- lights ---
+    /// One that shines on the primitives to come.
+    void add_light(std::shared_ptr<const LightInstance> light);
+    /// One that shines on all of the world, or on where its object is placed (RIS).
+    void add_world_light(std::shared_ptr<const LightInstance> light);
+    /// Geometry too far away to be seen, for the light that waits for its shape, if one does. `angle`: that
+    /// which a FarShape::Direction takes in the sky, in degrees; 0 if unknown.
+    void place_far_emitter(FarShape shape, float angle = 0);
+    /// Null when there is none of that handle.
+    std::shared_ptr<const LightInstance> light(const std::string& handle) const;
+
+  private:
+    SolidList& solids_here() { return object_ ? object_->solids : solids_; }
+    int solid_of_surface(SolidList& list);
+    int place_solids(const SolidList& object);
+    void place_instance(ObjectPrimitive& primitive, const std::shared_ptr<const AttributeState>& attributes,
+                        int solid);
+
+    void place_lights(const RetainedObject& object);
+    void place_emitter(const Shape& shape);
+    void add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights);
+    void light_world();
+
+    bool keeps_geometry() const { return read_options_.keep_geometry && frame_is_wanted_; }
+    bool has_room(uint64_t bytes);
+    ShapePointer shared_or_new(Shape shape);
+    void add_to_object(std::string request, std::vector<ShapePointer> shapes, std::vector<float> times,
+                       SourceLocation at);
+    void emit(const std::string& request, std::vector<ShapePointer> shape_keys,
+              const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
+              SourceLocation at, int solid);
+    std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
+                                                          const std::vector<M44f>& camera_from_object);
+    float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
+
+    const ReadOptions& read_options_;
+    RequestReport& report_;
+    GraphicsStateStack& state_;
+    MotionCollector& motion_;
+    ArchivePlace& place_;
+    const FileSearch& search_;
+    const OnWorld& on_world_;
+
+    bool frame_is_wanted_ = true;
+    Scene scene_;                             ///< of the open world
+    SolidList solids_;                        ///< the scene's
+    std::shared_ptr<RetainedObject> object_;  ///< being defined; null: none
+    uint64_t instanced_primitives_ = 0;       ///< of this world
+    uint64_t scene_bytes_ = 0;                ///< of this world's primitives, and of objects before it
+
+    /// Primitives before the first world.
+    struct {
+        uint64_t count = 0;
+        SourceLocation first;
+        std::string request;
+    } turned_away_;
+
+    /// The last primitive's attributes, for the next ones that look alike.
+    struct {
+        std::shared_ptr<const AttributeState> state;
+        std::shared_ptr<const Attributes> attributes;
+    } resolved_;
+};
+
+}  // namespace trapeze::rib

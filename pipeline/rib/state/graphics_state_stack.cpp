@@ -1,0 +1,135 @@
+#include "pipeline/rib/state/graphics_state_stack.h"
+
+namespace trapeze::rib {
+namespace {
+
+constexpr size_t kDeepestBlock = 10000;  ///< each saves a state: files that only open blocks must end
+
+std::shared_ptr<const AttributeState> default_attributes() {
+    auto state = std::make_shared<AttributeState>();
+    state->u_basis = state->v_basis = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);  // bezier
+    return state;
+}
+
+}  // namespace
+
+const char* block_name(Block kind) {
+    switch (kind) {
+        case Block::Frame:
+            return "FrameBegin";
+        case Block::World:
+            return "WorldBegin";
+        case Block::Attribute:
+            return "AttributeBegin";
+        case Block::Transform:
+            return "TransformBegin";
+        case Block::Motion:
+            return "MotionBegin";
+        case Block::Object:
+            return "ObjectBegin";
+        case Block::Solid:
+            return "SolidBegin";
+    }
+    return "";
+}
+
+std::vector<float> Scope::rgb(std::vector<float> colors) const {
+    if (!color_samples) return colors;
+    const auto& [n, matrix] = *color_samples;
+    std::vector<float> converted(colors.size() / n * 3);
+    for (size_t color = 0; color < colors.size() / n; ++color)
+        for (size_t i = 0; i < n; ++i)
+            for (size_t k = 0; k < 3; ++k)
+                converted[color * 3 + k] += colors[color * n + i] * matrix[i * 3 + k];
+    return converted;
+}
+
+GraphicsStateStack::GraphicsStateStack() {
+    state_.attributes = default_attributes();
+}
+
+AttributeState& GraphicsStateStack::change_attributes() {
+    if (state_.attributes.use_count() > 1)
+        state_.attributes = std::make_shared<AttributeState>(*state_.attributes);
+    return const_cast<AttributeState&>(*state_.attributes);
+}
+
+void GraphicsStateStack::open(Block kind, SourceLocation at) {
+    if (in_motion()) throw RequestError{"inside a motion block", {}};
+    if (blocks_.size() >= kDeepestBlock)
+        throw RequestError{"blocks are nested more than " + std::to_string(kDeepestBlock) + " deep", {}};
+    OpenBlock& block = blocks_.emplace_back();
+    block.kind = kind, block.id = ++block_count_, block.at = at, block.saved = state_;
+    ++open_counts_[static_cast<size_t>(kind)];
+    if (kind == Block::Frame || kind == Block::World) block.scope = std::make_unique<Scope>(scope_);
+    if (kind == Block::World) scope_.named_spaces["world"] = camera_from_world_ = state_.transform;
+}
+
+void GraphicsStateStack::close() {
+    OpenBlock block = std::move(blocks_.back());
+    blocks_.pop_back();
+    --open_counts_[static_cast<size_t>(block.kind)];
+    if (block.scope) scope_ = std::move(*block.scope);
+    if (block.kind == Block::Motion) return;
+    if (block.kind == Block::Transform)  // attributes that changed since stay
+        state_.transform = std::move(block.saved.transform);
+    else
+        state_ = std::move(block.saved);
+}
+
+bool GraphicsStateStack::restore(const std::string& name, bool attributes, bool transform) {
+    if (in_motion()) throw RequestError{"inside a motion block", {}};
+    const GraphicsState* const saved = saved_states_.find(name);
+    if (!saved) return false;
+    if (attributes) state_.attributes = saved->attributes;
+    if (transform) state_.transform = saved->transform;
+    return true;
+}
+
+MovingTransform GraphicsStateStack::root_transform() const {
+    return in_world() && !in_object() ? camera_from_world_ : MovingTransform();
+}
+
+void GraphicsStateStack::name_coordinate_system(const std::string& name) {
+    scope_.named_spaces[name] = state_.transform;
+}
+
+void GraphicsStateStack::name_scoped_coordinate_system(const std::string& name) {
+    auto spaces = state_.scoped_spaces ? std::make_shared<NamedSpaces>(*state_.scoped_spaces)
+                                       : std::make_shared<NamedSpaces>();
+    (*spaces)[name] = state_.transform;
+    state_.scoped_spaces = std::move(spaces);
+    // Shaders look names up when the world is whole: there the first of a name stands for all.
+    scope_.named_spaces.try_emplace(name, state_.transform);
+}
+
+const MovingTransform* GraphicsStateStack::named_space(const std::string& name) const {
+    if (state_.scoped_spaces)
+        if (const auto space = state_.scoped_spaces->find(name); space != state_.scoped_spaces->end())
+            return &space->second;
+    const auto space = scope_.named_spaces.find(name);
+    return space == scope_.named_spaces.end() ? nullptr : &space->second;
+}
+
+void GraphicsStateStack::use_coordinate_system(const std::string& name) {
+    if (in_motion()) throw RequestError{"inside a motion block", {}};
+    if (in_object()) throw RequestError{"inside an object definition", {}};
+    const MovingTransform* const space = named_space(name);
+    if (!space && name != "camera") throw RequestError{"no coordinate system " + in_quotes(name), {}};
+    state_.transform = space ? *space : MovingTransform();
+}
+
+M44f GraphicsStateStack::camera_from_current() const {
+    return M44f(state_.transform.at(scope_.options.shutter_open));
+}
+
+bool GraphicsStateStack::is_right_handed() const {
+    const float open = scope_.options.shutter_open;
+    bool right = state_.transform.at(open).determinant() < 0;
+    // An object's own space stands in that in which its definition began.
+    for (const OpenBlock& block : blocks_)
+        if (block.kind == Block::Object && block.saved.transform.at(open).determinant() < 0) right = !right;
+    return right;
+}
+
+}  // namespace trapeze::rib

@@ -1,0 +1,90 @@
+/// The current graphics state, and the blocks that save and restore it (RISpec 4).
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "pipeline/rib/state/declarations.h"
+#include "pipeline/rib/state/graphics_state.h"
+#include "pipeline/rib/state/saved_states.h"
+
+namespace trapeze::rib {
+
+/// Owns all that a request can set and a block can restore: transformation, attributes, options, named
+/// spaces, lights and objects by their names. Knows nothing of scenes: who adds to one asks here for the
+/// state to add it with.
+class GraphicsStateStack {
+  public:
+    /// RISpec's defaults.
+    GraphicsStateStack();
+
+    GraphicsState& current() { return state_; }
+    const GraphicsState& current() const { return state_; }
+    const AttributeState& attributes() const { return *state_.attributes; }
+    /// Copies the attributes first where primitives or blocks share them.
+    AttributeState& change_attributes();
+
+    Scope& scope() { return scope_; }
+    const Scope& scope() const { return scope_; }
+    Options& options() { return scope_.options; }
+    const Options& options() const { return scope_.options; }
+    Declarations& declarations() { return declarations_; }
+
+    // --- blocks ---
+    /// Opens a block at the place of its request; frames and worlds save the scope too. The world's
+    /// transformation is the camera's. Throws a RequestError inside a motion block, or when blocks nest too
+    /// deeply.
+    void open(Block kind, SourceLocation at);
+    /// Closes the innermost block and restores what it saved: of a transform block the transformation alone,
+    /// of a motion block nothing.
+    void close();
+    bool is_open(Block kind) const { return open_counts_[static_cast<size_t>(kind)] > 0; }
+    /// Of all open blocks, the outermost first.
+    const std::vector<OpenBlock>& blocks() const { return blocks_; }
+    bool in_world() const { return is_open(Block::World); }
+    bool in_object() const { return is_open(Block::Object); }
+    /// No block opens within a motion block: it is the innermost.
+    bool in_motion() const { return is_open(Block::Motion); }
+
+    // --- PRMan's Resource ---
+    SavedStates& saved_states() { return saved_states_; }
+    /// Takes over the attributes, the transformation or both from a saved state; false when there is none of
+    /// that name.
+    bool restore(const std::string& name, bool attributes, bool transform);
+
+    // --- spaces; all transformations are camera_from_..., for row vectors ---
+    /// As the last world opened.
+    const MovingTransform& camera_from_world() const { return camera_from_world_; }
+    /// What Identity and Transform are relative to: the world in a world, the camera before it, and the
+    /// object in its definition.
+    MovingTransform root_transform() const;
+    /// CoordinateSystem: the name lasts until the world ends.
+    void name_coordinate_system(const std::string& name);
+    /// ScopedCoordinateSystem: the name ends with the block.
+    void name_scoped_coordinate_system(const std::string& name);
+    /// CoordSysTransform: throws a RequestError for unknown names.
+    void use_coordinate_system(const std::string& name);
+    /// Null when there is none of that name.
+    const MovingTransform* named_space(const std::string& name) const;
+    /// The current space as the shutter opens.
+    M44f camera_from_current() const;
+    /// Of the current space as the shutter opens. Camera space is left-handed (RISpec 4.1.1).
+    bool is_right_handed() const;
+    /// Pixels of the smallest upright rectangle round a box of the current space (xmin xmax ymin ymax zmin
+    /// zmax) on the picture, times RelativeDetail (RISpec 4.2.7). Infinite in an object's definition, whose
+    /// instances may be of any size.
+    float raster_area(const std::vector<float>& bound) const;
+
+  private:
+    GraphicsState state_;
+    Scope scope_;
+    Declarations declarations_;
+    SavedStates saved_states_;
+    MovingTransform camera_from_world_;
+    std::vector<OpenBlock> blocks_;
+    std::array<size_t, kBlockKinds> open_counts_{};  ///< by Block
+    uint64_t block_count_ = 0;                       ///< since the beginning, for the blocks' ids
+};
+
+}  // namespace trapeze::rib
