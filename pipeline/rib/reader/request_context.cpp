@@ -90,14 +90,14 @@ class ParameterReader {
         const size_t components =
             is_color ? state_.scope().samples_per_color() : component_count(p.declaration.type);
         const size_t item = components * static_cast<size_t>(p.declaration.array_length);
-        const std::string has = in_quotes(p.name) + " has " + std::to_string(got) + " values, ";
+        const auto has = [&] { return in_quotes(p.name) + " has " + std::to_string(got) + " values, "; };
         if (got < item) {
-            report_.error(name_at_, has + "needs a multiple of " + std::to_string(item) + "; left out");
+            report_.error(name_at_, has() + "needs a multiple of " + std::to_string(item) + "; left out");
             return false;
         }
         if (got % item != 0) {
             report_.diagnostics().warning(name_at_,
-                                          report_.name() + ": " + has + "no multiple of " +
+                                          report_.name() + ": " + has() + "no multiple of " +
                                               std::to_string(item) + "; the rest is left over",
                                           "surplus-numbers");
             (is_string ? p.strings.resize(got - got % item) : p.floats.resize(got - got % item));
