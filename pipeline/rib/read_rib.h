@@ -74,7 +74,7 @@ struct ReadSummary {
     /// Understood, but nothing looks at them: requests, and `Option "limits" "eyesplits"`.
     std::map<std::string, uint64_t> without_effect;
     /// Need no effect, and why: `Attribute "stitch" "enable": grids join without cracks in any case`.
-    std::map<std::string, uint64_t> settled;
+    std::map<std::string, uint64_t> not_needed;
     std::map<std::string, uint64_t> primitives;  ///< by request, those that were valid
     std::map<std::string, uint64_t> shaders;     ///< by kind and name: "surface plastic"
     uint64_t points = 0, faces = 0;              ///< control points and faces of those primitives

@@ -92,7 +92,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const std::chrono::milliseconds time_limit(late ? 2 : 20000);
     const rib::ProgramAnswer answer =
         rib::ask_program(ends.input[0], ends.output[0], "1 data\n", {time_limit, most_bytes, {}, nullptr});
-    const auto end = rib::AnswerEnd().find(arriving);
+    const auto end = rib::EndOfAnswer().find(arriving);
     if (!small_limit && !late) {
         if (answer.problem.empty() != end.has_value()) std::abort();
         if (answer.text != arriving.substr(0, end.value_or(arriving.size()))) std::abort();

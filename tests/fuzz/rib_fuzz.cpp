@@ -14,8 +14,8 @@
 #include "pipeline/rib/read_rib.h"
 
 /// A program's answer ends at the same place however it arrives.
-static void find_answer_end(std::string_view bytes) {
-    trapeze::rib::AnswerEnd in_parts, whole;
+static void find_end_of_answer(std::string_view bytes) {
+    trapeze::rib::EndOfAnswer in_parts, whole;
     std::optional<size_t> place;
     for (size_t length = 0; length < bytes.size() && !place; length += 1 + length / 8)
         place = in_parts.find(bytes.substr(0, length));
@@ -24,7 +24,7 @@ static void find_answer_end(std::string_view bytes) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    find_answer_end({reinterpret_cast<const char*>(data), size});
+    find_end_of_answer({reinterpret_cast<const char*>(data), size});
     const int file = memfd_create("rib", 0);
     if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) return 0;
     const bool is_zip = size >= 2 && data[0] == 'P' && data[1] == 'K';

@@ -110,7 +110,7 @@ int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& d
                              total(summary.unsupported), total(summary.without_effect)));
     for (const auto& [name, count] : summary.unsupported) fmt::print("unsupported {} {}\n", name, count);
     for (const auto& [name, count] : summary.without_effect) fmt::print("no effect {} {}\n", name, count);
-    for (const auto& [name, count] : summary.settled) fmt::print("not needed {} ({})\n", name, count);
+    for (const auto& [name, count] : summary.not_needed) fmt::print("not needed {} ({})\n", name, count);
     const bool all_honoured = diagnostics.count(Severity::Warning) == 0 && summary.unsupported.empty() &&
                               summary.without_effect.empty();
     const bool bad = diagnostics.count(Severity::Error) > 0 || (arguments.strict && !all_honoured);

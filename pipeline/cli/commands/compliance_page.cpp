@@ -148,14 +148,14 @@ std::string compliance_page(const std::vector<std::string>& paths) {
         "static library. Filter functions are RISpec's own.\n\n";
     text += "## Requests of RISpec 3.2\n\n" + request_table(rispec, scenes);
     text += "\n## Requests of later RenderMans\n\n" + request_table(later, scenes);
-    const rib::EffectiveSettings settings = rib::effective_settings();
+    const rib::RecognisedNames settings = rib::recognised_names();
     text +=
         "\n## Settings with an effect\n\nAll others are kept for shaders to read, and `trapeze check` "
         "lists them.\n\n";
     text += "- Option: " + joined(settings.options) + "- Attribute: " + joined(settings.attributes);
     text += "- Hider: " + joined(settings.hider) + "- Display: " + joined(settings.display);
     text += "\n## Settings that need no effect\n\nThey ask for what is so in any case.\n\n";
-    for (const rib::SettledSetting& s : rib::settled_attributes())
+    for (const rib::UnneededAttribute& s : rib::unneeded_attributes())
         text += fmt::format("- Attribute {} {}: {}.\n", s.category, s.name, s.why);
     const auto names = standard_shader_names();
     text += "\n## Standard shaders\n\n" + joined({names.begin(), names.end()});

@@ -4,7 +4,7 @@
 
 namespace trapeze::rib {
 
-std::optional<size_t> AnswerEnd::find(std::string_view bytes) {
+std::optional<size_t> EndOfAnswer::find(std::string_view bytes) {
     while (next_ < bytes.size()) {
         const char c = bytes[next_];
         if (within_ == Within::Comment) {

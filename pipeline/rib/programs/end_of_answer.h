@@ -10,7 +10,7 @@
 namespace trapeze::rib {
 
 /// Looks through bytes as they arrive.
-class AnswerEnd {
+class EndOfAnswer {
   public:
     /// `bytes` are all that have arrived. The place of the end, once it is there.
     std::optional<size_t> find(std::string_view bytes);

@@ -9,7 +9,7 @@ namespace {
 
 /// The end, looked for after each byte; the same at once.
 std::optional<size_t> end_of(const std::string& bytes) {
-    AnswerEnd slow, fast;
+    EndOfAnswer slow, fast;
     std::optional<size_t> place;
     for (size_t length = 0; length <= bytes.size() && !place; ++length)
         place = slow.find(std::string_view(bytes).substr(0, length));
@@ -17,14 +17,14 @@ std::optional<size_t> end_of(const std::string& bytes) {
     return place;
 }
 
-TEST(AnswerEnd, IsTheByte0377) {
+TEST(EndOfAnswer, IsTheByte0377) {
     EXPECT_EQ(end_of("Sphere 1 -1 1 360\n\xff"), 18u);
     EXPECT_EQ(end_of("\xff more"), 0u);
     EXPECT_EQ(end_of("Sphere 1"), std::nullopt);
 }
 
 /// As Python's print("\377") has it, say.
-TEST(AnswerEnd, IsThatCharacterInUtf8) {
+TEST(EndOfAnswer, IsThatCharacterInUtf8) {
     EXPECT_EQ(end_of("Sphere 1 -1 1 360\n\xc3\xbf\n"), 18u);
     EXPECT_EQ(end_of("\xc3\xbf"), 0u);
     EXPECT_EQ(end_of("Sphere 1\xc3"), std::nullopt);
@@ -32,7 +32,7 @@ TEST(AnswerEnd, IsThatCharacterInUtf8) {
     EXPECT_EQ(end_of("\xc3\xc3\xbf"), 1u);
 }
 
-TEST(AnswerEnd, IsNotWithinStringsAndComments) {
+TEST(EndOfAnswer, IsNotWithinStringsAndComments) {
     EXPECT_EQ(end_of("\"\xff\" \xff"), 4u);
     EXPECT_EQ(end_of("\"\\\"\xff\" \xff"), 6u);
     EXPECT_EQ(end_of("# \xff \"\n\xff"), 6u);
@@ -40,7 +40,7 @@ TEST(AnswerEnd, IsNotWithinStringsAndComments) {
     EXPECT_EQ(end_of("\"\xff"), std::nullopt);
 }
 
-TEST(AnswerEnd, IsNotWithinEncodedValues) {
+TEST(EndOfAnswer, IsNotWithinEncodedValues) {
     EXPECT_EQ(end_of("\x80\xff\xff"), 2u);                                // an integer of one byte
     EXPECT_EQ(end_of("\xc8\x01\xff\xff\xff\xff\xff"), 6u);                // an array of one float
     EXPECT_EQ(end_of("\xa0\x02\xff\xff\xff"), 4u);                        // a string of two

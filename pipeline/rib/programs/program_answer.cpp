@@ -16,10 +16,10 @@ using Clock = std::chrono::steady_clock;
 
 /// False at the end of its output.
 bool read_some(int output, std::string& text) {
-    constexpr size_t kBlock = 65536;
+    constexpr size_t kReadAtOnce = 65536;
     const size_t old = text.size();
-    text.resize(old + kBlock);
-    const ssize_t got = read(output, text.data() + old, kBlock);
+    text.resize(old + kReadAtOnce);
+    const ssize_t got = read(output, text.data() + old, kReadAtOnce);
     text.resize(old + static_cast<size_t>(std::max<ssize_t>(got, 0)));
     return got > 0 || (got < 0 && errno == EINTR);
 }
@@ -27,37 +27,37 @@ bool read_some(int output, std::string& text) {
 /// For how long a program has said nothing.
 class Silence {
   public:
-    explicit Silence(const Patience& patience) : patience_(patience) {}
+    explicit Silence(const AnswerLimits& limits) : limits_(limits) {}
 
     void ends() { begin_ = Clock::now(), seconds_said_ = 0; }
     bool is_too_long() {
-        if (patience_.cancelled && *patience_.cancelled) return true;
+        if (limits_.cancelled && *limits_.cancelled) return true;
         const auto length = Clock::now() - begin_;
         const auto seconds =
             static_cast<int>(std::chrono::duration_cast<std::chrono::seconds>(length).count());
-        if (seconds > seconds_said_ && patience_.on_wait) patience_.on_wait(seconds_said_ = seconds);
-        return length >= patience_.silence;
+        if (seconds > seconds_said_ && limits_.on_wait) limits_.on_wait(seconds_said_ = seconds);
+        return length >= limits_.silence;
     }
     int milliseconds_to_wait() const {
         constexpr std::chrono::milliseconds kLongest{200};
         const auto left =
-            std::chrono::duration_cast<std::chrono::milliseconds>(begin_ + patience_.silence - Clock::now());
+            std::chrono::duration_cast<std::chrono::milliseconds>(begin_ + limits_.silence - Clock::now());
         return static_cast<int>(std::clamp(left, std::chrono::milliseconds(0), kLongest).count());
     }
 
   private:
-    const Patience& patience_;
+    const AnswerLimits& limits_;
     Clock::time_point begin_ = Clock::now();
     int seconds_said_ = 0;
 };
 
 }  // namespace
 
-ProgramAnswer ask_program(int input, int output, const std::string& request, const Patience& patience) {
+ProgramAnswer ask_program(int input, int output, const std::string& request, const AnswerLimits& limits) {
     ProgramAnswer answer;
-    AnswerEnd end;
+    EndOfAnswer end;
     size_t sent = 0;
-    Silence silence(patience);
+    Silence silence(limits);
     while (true) {
         pollfd waits[] = {{output, POLLIN, 0}, {sent < request.size() ? input : -1, POLLOUT, 0}};
         const int ready = poll(waits, 2, silence.milliseconds_to_wait());
@@ -81,7 +81,7 @@ ProgramAnswer ask_program(int input, int output, const std::string& request, con
             return answer;
         }
         if (!goes_on) answer.problem = "ended before its answer did (with a byte 0377)";
-        if (answer.text.size() > patience.most_bytes) answer.problem = "answers with too much";
+        if (answer.text.size() > limits.most_bytes) answer.problem = "answers with too much";
         if (!answer.problem.empty()) return answer;
     }
 }

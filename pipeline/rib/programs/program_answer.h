@@ -13,7 +13,7 @@ struct ProgramAnswer {
     std::string problem;  ///< empty when it is whole
 };
 
-struct Patience {
+struct AnswerLimits {
     std::chrono::milliseconds silence{10000};  ///< a program that says nothing for so long does not answer
     size_t most_bytes = size_t{1} << 30;
     /// Called each second that it says nothing, with how many there have been. May be empty.
@@ -23,6 +23,6 @@ struct Patience {
 
 /// Writes the request to `input`, a socket, and reads the answer from `output` meanwhile, each without
 /// waiting for the other. What arrives together with the end of the answer but behind it is dropped.
-ProgramAnswer ask_program(int input, int output, const std::string& request, const Patience& patience);
+ProgramAnswer ask_program(int input, int output, const std::string& request, const AnswerLimits& limits);
 
 }  // namespace trapeze::rib

@@ -59,8 +59,8 @@ class Programs::Program {
   public:
     /// Why it cannot be started, or nothing.
     std::string start(Command words, const std::vector<std::string>& folders);
-    ProgramAnswer ask(const std::string& request, const Patience& patience) {
-        return ask_program(input_.get(), output_.get(), request, patience);
+    ProgramAnswer ask(const std::string& request, const AnswerLimits& limits) {
+        return ask_program(input_.get(), output_.get(), request, limits);
     }
     ~Program() { stop(kTimeToEnd); }
 
@@ -124,7 +124,7 @@ Programs::Programs() = default;
 Programs::~Programs() = default;
 
 ProgramAnswer Programs::ask(const Command& command, const std::string& request,
-                            const std::vector<std::string>& folders, const Patience& patience) {
+                            const std::vector<std::string>& folders, const AnswerLimits& limits) {
     const auto known = programs_.find(command);
     if (known != programs_.end() && !known->second) return {{}, "has failed before"};
     if (known == programs_.end()) {
@@ -137,7 +137,7 @@ ProgramAnswer Programs::ask(const Command& command, const std::string& request,
         }
         programs_[command] = std::move(program);
     }
-    ProgramAnswer answer = programs_[command]->ask(request, patience);
+    ProgramAnswer answer = programs_[command]->ask(request, limits);
     if (!answer.problem.empty()) programs_[command] = nullptr;
     return answer;
 }

@@ -24,7 +24,7 @@ class Programs {
     /// started at its first; its name is looked for in the folders, then in PATH. A program that does not
     /// answer within the limits is ended, with all that it has started in its group, and asked no more.
     ProgramAnswer ask(const Command& command, const std::string& request,
-                      const std::vector<std::string>& folders, const Patience& patience);
+                      const std::vector<std::string>& folders, const AnswerLimits& limits);
 
   private:
     class Program;

@@ -89,13 +89,13 @@ void Procedurals::read_answer(const Source& source, const std::string& data,
 }
 
 ProgramAnswer Procedurals::ask(const Source& source, const std::string& request) {
-    Patience patience;
-    patience.silence = std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000));
-    patience.most_bytes = read_options_.max_source_bytes;
-    patience.cancelled = read_options_.cancelled;
+    AnswerLimits limits;
+    limits.silence = std::chrono::milliseconds(static_cast<int64_t>(read_options_.program_seconds * 1000));
+    limits.most_bytes = read_options_.max_source_bytes;
+    limits.cancelled = read_options_.cancelled;
     if (read_options_.on_wait)
-        patience.on_wait = [&](int seconds) { read_options_.on_wait(source.title(), seconds); };
-    return programs_.ask(source.words, request, search_.folders("procedural"), patience);
+        limits.on_wait = [&](int seconds) { read_options_.on_wait(source.title(), seconds); };
+    return programs_.ask(source.words, request, search_.folders("procedural"), limits);
 }
 
 }  // namespace trapeze::rib

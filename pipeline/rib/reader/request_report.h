@@ -48,7 +48,7 @@ class RequestReport {
     /// It was understood, but changes nothing; `what` follows the request's name.
     void count_without_effect(const std::string& what = {}) { ++summary_.without_effect[name_ + what]; }
     /// It asks for what is so in any case; `what` says why.
-    void count_settled(const std::string& what) { ++summary_.settled[name_ + what]; }
+    void count_not_needed(const std::string& what) { ++summary_.not_needed[name_ + what]; }
 
     /// ErrorHandler (RISpec 3): Print is the default.
     enum class OnError { Print, Ignore, Abort };

@@ -130,11 +130,11 @@ void attribute(RequestContext& r, ArgumentCursor& c) {
     for (const Parameter& value : values.values) {
         state.attributes.user[category].set(value);
         const bool is_executed = category == "Ri" && execute_ri_value(r, value);
-        const SettledSetting* const settled = settled_attribute(category, value.name);
-        if (settled)
-            r.report.count_settled(' ' + in_quotes(category) + ' ' + in_quotes(value.name) + ": " +
-                                   std::string(settled->why));
-        else if (!is_executed && !attribute_has_effect(category, value.name))
+        const UnneededAttribute* const unneeded = unneeded_attribute(category, value.name);
+        if (unneeded)
+            r.report.count_not_needed(' ' + in_quotes(category) + ' ' + in_quotes(value.name) + ": " +
+                                      std::string(unneeded->why));
+        else if (!is_executed && !recognises_attribute(category, value.name))
             r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         const float number = value.floats.empty() ? 0 : value.floats[0];
         const std::string text = value.strings.empty() ? "" : value.strings[0];

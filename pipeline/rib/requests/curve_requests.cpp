@@ -46,13 +46,13 @@ void leave_out_short_curves(RequestContext& r, Curves& curves, ParameterList& va
     if (first.empty()) return;
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) throw RequestError{first, {}};
     r.report.warn_once(first + "; curves of fewer are left out", "short-curves");
-    keep_values(curves.vertices_per_curve, kept);
+    select_values(curves.vertices_per_curve, kept);
     for (Parameter& p : variables.values) {
         const StorageClass storage = p.declaration.storage;
         if (storage == StorageClass::Constant) continue;
-        keep_items(p, storage == StorageClass::Uniform  ? kept
-                      : storage == StorageClass::Vertex ? kept_points
-                                                        : kept_varying);
+        select_items(p, storage == StorageClass::Uniform  ? kept
+                        : storage == StorageClass::Vertex ? kept_points
+                                                          : kept_varying);
     }
 }
 

@@ -65,9 +65,9 @@ void keep(ParameterList& variables, const FaceCheck& check) {
     for (Parameter& p : variables.values) {
         const StorageClass storage = p.declaration.storage;
         if (storage == StorageClass::Uniform)
-            keep_items(p, check.kept_faces());
+            select_items(p, check.kept_faces());
         else if (storage == StorageClass::FaceVarying || storage == StorageClass::FaceVertex)
-            keep_items(p, check.kept_corners());
+            select_items(p, check.kept_corners());
     }
 }
 
@@ -92,7 +92,7 @@ void leave_out(RequestReport& report, PolygonMesh& mesh, ParameterList& variable
     }
     if (check.keeps_all()) return;
     check.report(report);
-    keep_values(mesh.vertices, check.kept_corners());
+    select_values(mesh.vertices, check.kept_corners());
     mesh.loops_per_polygon = std::move(loops_per_polygon);
     mesh.vertices_per_loop = std::move(vertices_per_loop);
     keep(variables, check);
@@ -117,14 +117,14 @@ void leave_out(RequestReport& report, SubdivisionMesh& mesh, ParameterList& vari
     if (check.keeps_all()) return;
     check.report(report);
     renumber_faces(mesh.tags, check.kept_faces());
-    keep_values(mesh.vertices, check.kept_corners());
-    keep_values(mesh.vertices_per_face, check.kept_faces());
+    select_values(mesh.vertices, check.kept_corners());
+    select_values(mesh.vertices_per_face, check.kept_faces());
     keep(variables, check);
 }
 
 }  // namespace
 
-void leave_out_broken_faces(RequestReport& report, Shape& shape) {
+void leave_out_degenerate_faces(RequestReport& report, Shape& shape) {
     if (auto* polygons = std::get_if<PolygonMesh>(&shape.topology))
         leave_out(report, *polygons, shape.variables);
     else if (auto* mesh = std::get_if<SubdivisionMesh>(&shape.topology))

@@ -10,6 +10,6 @@ namespace trapeze::rib {
 /// beyond the mesh's points, with an error, and what the shape's variables have for them (class uniform a
 /// value for each face, facevarying one for each corner). Variables have been checked (checked_variables).
 /// Throws RequestError where no face is left.
-void leave_out_broken_faces(RequestReport& report, Shape& shape);
+void leave_out_degenerate_faces(RequestReport& report, Shape& shape);
 
 }  // namespace trapeze::rib

@@ -86,7 +86,7 @@ void display(RequestContext& r, ArgumentCursor& c) {
     d.mode = picture_mode(r, d.mode);
     d.parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : d.parameters.values)
-        if (!display_parameter_has_effect(value.name))
+        if (!recognises_display_parameter(value.name))
             r.report.count_without_effect(' ' + in_quotes(value.name));
     colorspace_of(r.report, d.parameters);
     d.variable = variable_named(r, d.mode);

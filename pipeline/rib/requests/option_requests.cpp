@@ -202,7 +202,7 @@ void hider(RequestContext& r, ArgumentCursor& c) {
     o.hider = c.string("the hider's name");
     o.hider_parameters = r.parameters(c, Undeclared::Guess);
     for (const Parameter& value : o.hider_parameters.values)
-        if (!hider_parameter_has_effect(value.name))
+        if (!recognises_hider_parameter(value.name))
             r.report.count_without_effect(' ' + in_quotes(value.name));
     set_samples_of_hider(r);
 }
@@ -216,7 +216,7 @@ void option(RequestContext& r, ArgumentCursor& c) {
             r.search.set_search_path(value.name, value.strings[0]);
         if (category == "color" && value.name == "transfer" && !names_transfer(r.report, value)) continue;
         const bool is_executed = category == "Ri" && execute_ri_value(r, value);
-        if (!is_executed && !option_has_effect(category, value.name))
+        if (!is_executed && !recognises_option(category, value.name))
             r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         o.user[category].set(value);
     }

@@ -74,7 +74,7 @@ void add_mesh(RequestContext& r, ArgumentCursor& c, const char* request, Mesh me
     if constexpr (std::is_same_v<Mesh, SubdivisionMesh>) check_tags(r, mesh);
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
-    leave_out_broken_faces(r.report, shape);
+    leave_out_degenerate_faces(r.report, shape);
     const uint64_t faces = face_count(std::get<Mesh>(shape.topology));
     r.scene.add_shape(request, std::move(shape), faces);
 }
@@ -114,7 +114,7 @@ void general_polygon(RequestContext& r, ArgumentCursor& c) {
     mesh.vertex_count = points;
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
-    leave_out_broken_faces(r.report, shape);
+    leave_out_degenerate_faces(r.report, shape);
     r.scene.add_shape("GeneralPolygon", std::move(shape), 1);
 }
 

@@ -10,7 +10,7 @@ namespace trapeze::rib {
 
 /// Of runs of `item` values those that are kept.
 template <class Value>
-void keep_values(std::vector<Value>& values, const std::vector<char>& kept, size_t item = 1) {
+void select_values(std::vector<Value>& values, const std::vector<char>& kept, size_t item = 1) {
     size_t to = 0;
     for (size_t from = 0; from < kept.size(); ++from) {
         if (!kept[from]) continue;
@@ -21,11 +21,11 @@ void keep_values(std::vector<Value>& values, const std::vector<char>& kept, size
 }
 
 /// Of a variable's items, an array as one, those that are kept.
-inline void keep_items(Parameter& variable, const std::vector<char>& kept) {
+inline void select_items(Parameter& variable, const std::vector<char>& kept) {
     if (variable.is_string())
-        keep_values(variable.strings, kept, static_cast<size_t>(variable.declaration.array_length));
+        select_values(variable.strings, kept, static_cast<size_t>(variable.declaration.array_length));
     else
-        keep_values(variable.floats, kept, static_cast<size_t>(variable.declaration.floats_per_item()));
+        select_values(variable.floats, kept, static_cast<size_t>(variable.declaration.floats_per_item()));
 }
 
 }  // namespace trapeze::rib

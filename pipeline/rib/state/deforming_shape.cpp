@@ -109,10 +109,10 @@ bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<flo
             if (!own && !other) continue;
             moves = moves || !own || !other || own->floats != other->floats;
             if (own && other && same_form(*own, *other)) continue;
-            auto settled = std::make_shared<Shape>(*shape);
-            std::erase_if(settled->variables.values, [&](const Parameter& p) { return p.name == name; });
-            if (own) settled->variables.set(*own);
-            shape = std::move(settled);
+            auto same_colors = std::make_shared<Shape>(*shape);
+            std::erase_if(same_colors->variables.values, [&](const Parameter& p) { return p.name == name; });
+            if (own) same_colors->variables.set(*own);
+            shape = std::move(same_colors);
         }
     }
     return moves;

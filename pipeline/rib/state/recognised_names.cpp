@@ -33,7 +33,7 @@ constexpr Value kAttributes[] = {{"user", ""},
                                  {"dice", "minlength"},
                                  {"trimcurve", "sense"}};
 
-constexpr SettledSetting kSettledAttributes[] = {
+constexpr UnneededAttribute kUnneededAttributes[] = {
     {"cull", "backfacing", "all that is in view is shaded, whichever way it faces"},
     {"cull", "hidden", "all that is in view is shaded, hidden or not"},
     {"dice", "hair", "curves thinner than a micropolygon are one wide in any case"},
@@ -79,30 +79,30 @@ std::vector<std::string> listed(const std::string_view (&values)[kCount]) {
 
 }  // namespace
 
-EffectiveSettings effective_settings() {
+RecognisedNames recognised_names() {
     return {listed(kOptions), listed(kAttributes), listed(kHider), listed(kDisplay)};
 }
 
-std::span<const SettledSetting> settled_attributes() {
-    return kSettledAttributes;
+std::span<const UnneededAttribute> unneeded_attributes() {
+    return kUnneededAttributes;
 }
-const SettledSetting* settled_attribute(std::string_view category, std::string_view name) {
-    const auto found = std::ranges::find_if(kSettledAttributes, [&](const SettledSetting& setting) {
+const UnneededAttribute* unneeded_attribute(std::string_view category, std::string_view name) {
+    const auto found = std::ranges::find_if(kUnneededAttributes, [&](const UnneededAttribute& setting) {
         return setting.category == category && setting.name == name;
     });
-    return found == std::end(kSettledAttributes) ? nullptr : &*found;
+    return found == std::end(kUnneededAttributes) ? nullptr : &*found;
 }
 
-bool option_has_effect(std::string_view category, std::string_view name) {
+bool recognises_option(std::string_view category, std::string_view name) {
     return has(kOptions, category, name);
 }
-bool attribute_has_effect(std::string_view category, std::string_view name) {
+bool recognises_attribute(std::string_view category, std::string_view name) {
     return has(kAttributes, category, name);
 }
-bool hider_parameter_has_effect(std::string_view name) {
+bool recognises_hider_parameter(std::string_view name) {
     return has(kHider, name);
 }
-bool display_parameter_has_effect(std::string_view name) {
+bool recognises_display_parameter(std::string_view name) {
     return has(kDisplay, name) || name.starts_with(kHeaderPrefix);
 }
 

@@ -10,23 +10,23 @@
 namespace trapeze::rib {
 
 /// All of them, for people: "category name", or "category (all)"; sorted.
-struct EffectiveSettings {
+struct RecognisedNames {
     std::vector<std::string> options, attributes, hider, display;
 };
-EffectiveSettings effective_settings();
+RecognisedNames recognised_names();
 
 /// Attributes that say how to get what this renderer's pictures have in any case, or that save work it does
 /// not do.
-struct SettledSetting {
+struct UnneededAttribute {
     std::string_view category, name, why;
 };
-std::span<const SettledSetting> settled_attributes();
+std::span<const UnneededAttribute> unneeded_attributes();
 /// Null for others.
-const SettledSetting* settled_attribute(std::string_view category, std::string_view name);
+const UnneededAttribute* unneeded_attribute(std::string_view category, std::string_view name);
 
-bool option_has_effect(std::string_view category, std::string_view name);
-bool attribute_has_effect(std::string_view category, std::string_view name);
-bool hider_parameter_has_effect(std::string_view name);
-bool display_parameter_has_effect(std::string_view name);
+bool recognises_option(std::string_view category, std::string_view name);
+bool recognises_attribute(std::string_view category, std::string_view name);
+bool recognises_hider_parameter(std::string_view name);
+bool recognises_display_parameter(std::string_view name);
 
 }  // namespace trapeze::rib

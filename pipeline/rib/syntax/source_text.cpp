@@ -17,18 +17,18 @@
 namespace trapeze::rib {
 namespace {
 
-constexpr size_t kBlock = size_t{1} << 20;
+constexpr size_t kChunk = size_t{1} << 20;
 
 std::string read_all(std::FILE* file, size_t max_bytes, std::string* problem) {
     std::string bytes;
     struct stat status {};
     if (fstat(fileno(file), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0)
-        bytes.reserve(std::min(static_cast<size_t>(status.st_size), max_bytes) + kBlock);
+        bytes.reserve(std::min(static_cast<size_t>(status.st_size), max_bytes) + kChunk);
     size_t got = 0;
     do {
         const size_t old = bytes.size();
-        bytes.resize(old + kBlock);
-        got = std::fread(bytes.data() + old, 1, kBlock, file);
+        bytes.resize(old + kChunk);
+        got = std::fread(bytes.data() + old, 1, kChunk, file);
         bytes.resize(old + got);
         if (bytes.size() > max_bytes) {
             bytes.resize(max_bytes);
@@ -89,15 +89,15 @@ std::string inflated(const std::string& packed, Packing packing, size_t max_byte
     size_t left = packed.size();
     int status = Z_OK;
     while (true) {
-        const uInt given = static_cast<uInt>(std::min(left, kBlock));
+        const uInt given = static_cast<uInt>(std::min(left, kChunk));
         stream.avail_in = given;
         const size_t old = bytes.size();
-        bytes.resize(old + kBlock);
+        bytes.resize(old + kChunk);
         stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + old);
-        stream.avail_out = static_cast<uInt>(kBlock);
+        stream.avail_out = static_cast<uInt>(kChunk);
         status = inflate(&stream, Z_NO_FLUSH);
         left -= given - stream.avail_in;
-        bytes.resize(old + kBlock - stream.avail_out);
+        bytes.resize(old + kChunk - stream.avail_out);
         if (bytes.size() > max_bytes) {
             bytes.resize(max_bytes);
             *problem =
