@@ -1,52 +1,43 @@
 /// Attributes and shaders (RISpec 4.2).
-#include "pipeline/ri/call.h"
-#include "pipeline/ri/parameters.h"
+#include "pipeline/ri/in_order.h"
 
 namespace trapeze::ri {
 namespace {
 
-void write_color(const char* name, const char* request, const RtFloat* color) {
+/// A request of one array, of `count` numbers.
+void write_array(const char* name, const RtFloat* array, size_t count, const char* what) {
+    call(name, [&](Context& context) {
+        required(array, what);
+        context.writer().request(name + 2);  // without its "Ri"
+        context.writer().numbers({array, count});
+    });
+}
+
+void write_color(const char* name, const RtFloat* color) {
     call(name, [&](Context& context) {
         required(color, "the colour");
-        context.writer().request(request);
+        context.writer().request(name + 2);
         context.writer().numbers({color, static_cast<size_t>(context.counting.samples_per_color)});
     });
 }
 
-void write_word(const char* name, const char* request, RtToken word) {
+/// A request of one word.
+void write_word(const char* name, RtToken word) {
     call(name, [&](Context& context) {
         required(word, "the word");
-        context.writer().request(request);
+        context.writer().request(name + 2);
         context.writer().string(word);
     });
 }
 
-void write_box(const char* name, const char* request, const RtFloat* box) {
-    call(name, [&](Context& context) {
-        required(box, "the bound");
-        context.writer().request(request);
-        context.writer().numbers({box, 6});
-    });
-}
-
-void write_shader(const char* name, const char* request, RtToken shader, const RiArguments& arguments) {
-    call(name, [&](Context& context) {
-        required(shader, "the shader's name");
-        const auto parameters = checked_parameters(context, arguments);
-        context.writer().request(request);
-        context.writer().string(shader);
-        write_parameters(context.writer(), parameters);
-    });
-}
-
-RtLightHandle write_light(const char* name, const char* request, RtToken shader,
-                          const RiArguments& arguments) {
+/// Handles count from 1; that of a call that is left out is null.
+RtLightHandle write_light(const char* name, RtToken shader, const RiArguments& arguments) {
     RtLightHandle handle = nullptr;
     call(name, [&](Context& context) {
         required(shader, "the shader's name");
         const auto parameters = checked_parameters(context, arguments);
         ++context.lights;
-        context.writer().request(request);
+        context.writer().request(name + 2);
         context.writer().string(shader);
         context.writer().number(static_cast<double>(context.lights));
         write_parameters(context.writer(), parameters);
@@ -55,17 +46,21 @@ RtLightHandle write_light(const char* name, const char* request, RtToken shader,
     return handle;
 }
 
+OrderedCall shader(Context&, const char* request, const RiArguments& parameters) {
+    return {request, "the shader's name", parameters, {}, {}};
+}
+
 }  // namespace
 }  // namespace trapeze::ri
 
 using namespace trapeze::ri;
 
 RtVoid RiColor(RtFloat color[]) {
-    write_color("RiColor", "Color", color);
+    write_color("RiColor", color);
 }
 
 RtVoid RiOpacity(RtFloat opacity[]) {
-    write_color("RiOpacity", "Opacity", opacity);
+    write_color("RiOpacity", opacity);
 }
 
 RtVoid RiTextureCoordinates(RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3,
@@ -88,7 +83,7 @@ RtVoid RiShadingRate(RtFloat size) {
 }
 
 RtVoid RiShadingInterpolation(RtToken type) {
-    write_word("RiShadingInterpolation", "ShadingInterpolation", type);
+    write_word("RiShadingInterpolation", type);
 }
 
 RtVoid RiMatte(RtBoolean onoff) {
@@ -96,11 +91,11 @@ RtVoid RiMatte(RtBoolean onoff) {
 }
 
 RtVoid RiBound(RtBound bound) {
-    write_box("RiBound", "Bound", bound);
+    write_array("RiBound", bound, 6, "the bound");
 }
 
 RtVoid RiDetail(RtBound bound) {
-    write_box("RiDetail", "Detail", bound);
+    write_array("RiDetail", bound, 6, "the bound");
 }
 
 RtVoid RiDetailRange(RtFloat minvisible, RtFloat lowertransition, RtFloat uppertransition,
@@ -118,11 +113,11 @@ RtVoid RiGeometricApproximation(RtToken type, RtFloat value) {
 }
 
 RtVoid RiGeometricRepresentation(RtToken type) {
-    write_word("RiGeometricRepresentation", "GeometricRepresentation", type);
+    write_word("RiGeometricRepresentation", type);
 }
 
 RtVoid RiOrientation(RtToken orientation) {
-    write_word("RiOrientation", "Orientation", orientation);
+    write_word("RiOrientation", orientation);
 }
 
 RtVoid RiReverseOrientation() {
@@ -133,37 +128,17 @@ RtVoid RiSides(RtInt sides) {
     write_numbers("Sides", {static_cast<float>(sides)});
 }
 
-RtLightHandle RiLightSourceV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    return write_light("RiLightSource", "LightSource", name, {n, tokens, values});
-}
+#define RI_DEFINE_LIGHT(Type, Name, parameters, names, last)                                          \
+    Type Ri##Name##V(RI_WITHOUT_BRACKETS parameters, RtInt n, RtToken tokens[], RtPointer values[]) { \
+        return write_light("Ri" #Name, last, {n, tokens, values});                                    \
+    }
 
-RtLightHandle RiAreaLightSourceV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    return write_light("RiAreaLightSource", "AreaLightSource", name, {n, tokens, values});
-}
+RI_LIGHT_CALLS(RI_DEFINE_LIGHT)
 
-RtVoid RiSurfaceV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    write_shader("RiSurface", "Surface", name, {n, tokens, values});
-}
+#define RI_DEFINE_SHADER(Type, Name, parameters, names, last) \
+    RI_DEFINE_IN_ORDER(shader, Name, parameters, names)
 
-RtVoid RiDisplacementV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    write_shader("RiDisplacement", "Displacement", name, {n, tokens, values});
-}
-
-RtVoid RiAtmosphereV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    write_shader("RiAtmosphere", "Atmosphere", name, {n, tokens, values});
-}
-
-RtVoid RiInteriorV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    write_shader("RiInterior", "Interior", name, {n, tokens, values});
-}
-
-RtVoid RiExteriorV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    write_shader("RiExterior", "Exterior", name, {n, tokens, values});
-}
-
-RtVoid RiDeformationV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
-    write_shader("RiDeformation", "Deformation", name, {n, tokens, values});
-}
+RI_SHADER_CALLS(RI_DEFINE_SHADER)
 
 RtVoid RiAttributeV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]) {
     call("RiAttribute", [&](Context& context) {

@@ -136,7 +136,7 @@ RtVoid RiWorldBegin(void);
 RtVoid RiWorldEnd(void);
 RtToken RiDeclare(RtToken name, RtToken declaration); /* the name, or RI_NULL */
 
-/* Options (RISpec 4.1) */
+/* Options (RISpec 4.1); those with parameters, and shaders, shapes and maps, are at the end */
 RtVoid RiFormat(RtInt xresolution, RtInt yresolution, RtFloat pixelaspect);
 RtVoid RiFrameAspectRatio(RtFloat aspect);
 RtVoid RiScreenWindow(RtFloat left, RtFloat right, RtFloat bottom, RtFloat top);
@@ -152,18 +152,6 @@ RtVoid RiExposure(RtFloat gain, RtFloat gamma);
 RtVoid RiQuantize(RtToken type, RtInt one, RtInt min, RtInt max, RtFloat dither);
 RtVoid RiColorSamples(RtInt n, RtFloat nRGB[], RtFloat RGBn[]);
 RtVoid RiRelativeDetail(RtFloat relativedetail);
-RtVoid RiProjection(RtToken name, ...);
-RtVoid RiProjectionV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiImager(RtToken name, ...);
-RtVoid RiImagerV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiDisplay(RtToken name, RtToken type, RtToken mode, ...);
-RtVoid RiDisplayV(RtToken name, RtToken type, RtToken mode, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiDisplayChannel(RtToken channel, ...);
-RtVoid RiDisplayChannelV(RtToken channel, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiHider(RtToken type, ...);
-RtVoid RiHiderV(RtToken type, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiOption(RtToken name, ...);
-RtVoid RiOptionV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
 
 /* Filters: those of RISpec, then others that RIB knows by name */
 RtFloat RiGaussianFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth);
@@ -196,24 +184,6 @@ RtVoid RiGeometricRepresentation(RtToken type);
 RtVoid RiOrientation(RtToken orientation);
 RtVoid RiReverseOrientation(void);
 RtVoid RiSides(RtInt sides);
-RtLightHandle RiLightSource(RtToken name, ...);
-RtLightHandle RiLightSourceV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtLightHandle RiAreaLightSource(RtToken name, ...);
-RtLightHandle RiAreaLightSourceV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiSurface(RtToken name, ...);
-RtVoid RiSurfaceV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiDisplacement(RtToken name, ...);
-RtVoid RiDisplacementV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiAtmosphere(RtToken name, ...);
-RtVoid RiAtmosphereV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiInterior(RtToken name, ...);
-RtVoid RiInteriorV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiExterior(RtToken name, ...);
-RtVoid RiExteriorV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiAttribute(RtToken name, ...);
-RtVoid RiAttributeV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiDeformation(RtToken name, ...);
-RtVoid RiDeformationV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
 
 /* Transformations (RISpec 4.3). Points are transformed in place; RI_NULL when a space is not known. */
 RtVoid RiIdentity(void);
@@ -231,67 +201,10 @@ RtPoint* RiTransformPoints(RtToken fromspace, RtToken tospace, RtInt npoints, Rt
 RtVoid RiTransformBegin(void);
 RtVoid RiTransformEnd(void);
 
-/* Geometry (RISpec 5). "P" of meshes has as many points as the largest index wants. */
+/* Geometry (RISpec 5): what its shapes depend on */
 RtVoid RiBasis(RtBasis ubasis, RtInt ustep, RtBasis vbasis, RtInt vstep);
 RtVoid RiTrimCurve(RtInt nloops, RtInt ncurves[], RtInt order[], RtFloat knot[], RtFloat min[], RtFloat max[],
                    RtInt n[], RtFloat u[], RtFloat v[], RtFloat w[]);
-RtVoid RiPolygon(RtInt nvertices, ...);
-RtVoid RiPolygonV(RtInt nvertices, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiGeneralPolygon(RtInt nloops, RtInt nvertices[], ...);
-RtVoid RiGeneralPolygonV(RtInt nloops, RtInt nvertices[], RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiPointsPolygons(RtInt npolys, RtInt nvertices[], RtInt vertices[], ...);
-RtVoid RiPointsPolygonsV(RtInt npolys, RtInt nvertices[], RtInt vertices[], RtInt n, RtToken tokens[],
-                         RtPointer values[]);
-RtVoid RiPointsGeneralPolygons(RtInt npolys, RtInt nloops[], RtInt nvertices[], RtInt vertices[], ...);
-RtVoid RiPointsGeneralPolygonsV(RtInt npolys, RtInt nloops[], RtInt nvertices[], RtInt vertices[], RtInt n,
-                                RtToken tokens[], RtPointer values[]);
-RtVoid RiSubdivisionMesh(RtToken scheme, RtInt nfaces, RtInt nvertices[], RtInt vertices[], RtInt ntags,
-                         RtToken tags[], RtInt nargs[], RtInt intargs[], RtFloat floatargs[], ...);
-RtVoid RiSubdivisionMeshV(RtToken scheme, RtInt nfaces, RtInt nvertices[], RtInt vertices[], RtInt ntags,
-                          RtToken tags[], RtInt nargs[], RtInt intargs[], RtFloat floatargs[], RtInt n,
-                          RtToken tokens[], RtPointer values[]);
-RtVoid RiPatch(RtToken type, ...);
-RtVoid RiPatchV(RtToken type, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiPatchMesh(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap, ...);
-RtVoid RiPatchMeshV(RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap, RtInt n, RtToken tokens[],
-                    RtPointer values[]);
-RtVoid RiNuPatch(RtInt nu, RtInt uorder, RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder,
-                 RtFloat vknot[], RtFloat vmin, RtFloat vmax, ...);
-RtVoid RiNuPatchV(RtInt nu, RtInt uorder, RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, RtInt vorder,
-                  RtFloat vknot[], RtFloat vmin, RtFloat vmax, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiSphere(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, ...);
-RtVoid RiSphereV(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, RtInt n, RtToken tokens[],
-                 RtPointer values[]);
-RtVoid RiCone(RtFloat height, RtFloat radius, RtFloat thetamax, ...);
-RtVoid RiConeV(RtFloat height, RtFloat radius, RtFloat thetamax, RtInt n, RtToken tokens[],
-               RtPointer values[]);
-RtVoid RiCylinder(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, ...);
-RtVoid RiCylinderV(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, RtInt n, RtToken tokens[],
-                   RtPointer values[]);
-RtVoid RiHyperboloid(RtPoint point1, RtPoint point2, RtFloat thetamax, ...);
-RtVoid RiHyperboloidV(RtPoint point1, RtPoint point2, RtFloat thetamax, RtInt n, RtToken tokens[],
-                      RtPointer values[]);
-RtVoid RiParaboloid(RtFloat rmax, RtFloat zmin, RtFloat zmax, RtFloat thetamax, ...);
-RtVoid RiParaboloidV(RtFloat rmax, RtFloat zmin, RtFloat zmax, RtFloat thetamax, RtInt n, RtToken tokens[],
-                     RtPointer values[]);
-RtVoid RiDisk(RtFloat height, RtFloat radius, RtFloat thetamax, ...);
-RtVoid RiDiskV(RtFloat height, RtFloat radius, RtFloat thetamax, RtInt n, RtToken tokens[],
-               RtPointer values[]);
-RtVoid RiTorus(RtFloat majorradius, RtFloat minorradius, RtFloat phimin, RtFloat phimax, RtFloat thetamax,
-               ...);
-RtVoid RiTorusV(RtFloat majorradius, RtFloat minorradius, RtFloat phimin, RtFloat phimax, RtFloat thetamax,
-                RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiPoints(RtInt npoints, ...);
-RtVoid RiPointsV(RtInt npoints, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiCurves(RtToken type, RtInt ncurves, RtInt nvertices[], RtToken wrap, ...);
-RtVoid RiCurvesV(RtToken type, RtInt ncurves, RtInt nvertices[], RtToken wrap, RtInt n, RtToken tokens[],
-                 RtPointer values[]);
-RtVoid RiBlobby(RtInt nleaf, RtInt ncode, RtInt code[], RtInt nfloats, RtFloat floats[], RtInt nstrings,
-                RtString strings[], ...);
-RtVoid RiBlobbyV(RtInt nleaf, RtInt ncode, RtInt code[], RtInt nfloats, RtFloat floats[], RtInt nstrings,
-                 RtString strings[], RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiGeometry(RtToken type, ...);
-RtVoid RiGeometryV(RtToken type, RtInt n, RtToken tokens[], RtPointer values[]);
 
 /* The functions below are known by name; another is called at once, for infinite detail. Then `freefunc` is
  * called. */
@@ -312,34 +225,139 @@ RtVoid RiMotionBegin(RtInt n, ...);
 RtVoid RiMotionBeginV(RtInt n, RtFloat times[]);
 RtVoid RiMotionEnd(void);
 
-/* Maps and archives (RISpec 7). The callback is called within RiReadArchive, for each comment of the archive
-   in their order: with RI_COMMENT or RI_STRUCTURE, the format "%s", and the text (an RtString) behind "#" or
-   "##". The archive itself is read when the frame is rendered. */
-RtVoid RiMakeTexture(RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,
-                     RtFloat swidth, RtFloat twidth, ...);
-RtVoid RiMakeTextureV(RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,
-                      RtFloat swidth, RtFloat twidth, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiMakeBump(RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,
-                  RtFloat swidth, RtFloat twidth, ...);
-RtVoid RiMakeBumpV(RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,
-                   RtFloat swidth, RtFloat twidth, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiMakeLatLongEnvironment(RtString picture, RtString texture, RtFilterFunc filter, RtFloat swidth,
-                                RtFloat twidth, ...);
-RtVoid RiMakeLatLongEnvironmentV(RtString picture, RtString texture, RtFilterFunc filter, RtFloat swidth,
-                                 RtFloat twidth, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiMakeCubeFaceEnvironment(RtString px, RtString nx, RtString py, RtString ny, RtString pz, RtString nz,
-                                 RtString texture, RtFloat fov, RtFilterFunc filter, RtFloat swidth,
-                                 RtFloat twidth, ...);
-RtVoid RiMakeCubeFaceEnvironmentV(RtString px, RtString nx, RtString py, RtString ny, RtString pz,
-                                  RtString nz, RtString texture, RtFloat fov, RtFilterFunc filter,
-                                  RtFloat swidth, RtFloat twidth, RtInt n, RtToken tokens[],
-                                  RtPointer values[]);
-RtVoid RiMakeShadow(RtString picture, RtString texture, ...);
-RtVoid RiMakeShadowV(RtString picture, RtString texture, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiReadArchive(RtToken name, RtArchiveCallback callback, ...);
-RtVoid RiReadArchiveV(RtToken name, RtArchiveCallback callback, RtInt n, RtToken tokens[],
-                      RtPointer values[]);
+/* Archives (RISpec 7) */
 RtVoid RiArchiveRecord(RtToken type, const char* format, ...);
+
+/* Calls with parameter lists. A row CALL(Type, Name, (parameters), (their names), the last name) is two
+ * calls: Type RiName(parameters, ...);                                              pairs up to RI_NULL Type
+ * RiNameV(parameters, RtInt n, RtToken tokens[], RtPointer values[]);   n pairs in two arrays */
+/* clang-format off */
+/* Options (RISpec 4.1) */
+#define RI_OPTION_CALLS(CALL) \
+    CALL(RtVoid, Projection, (RtToken name), (name), name) \
+    CALL(RtVoid, Imager, (RtToken name), (name), name) \
+    CALL(RtVoid, Display, (RtToken name, RtToken type, RtToken mode), (name, type, mode), mode) \
+    CALL(RtVoid, DisplayChannel, (RtToken channel), (channel), channel) \
+    CALL(RtVoid, Hider, (RtToken type), (type), type) \
+    CALL(RtVoid, Option, (RtToken name), (name), name)
+
+/* Lights (4.2): the handle is for RiIlluminate */
+#define RI_LIGHT_CALLS(CALL) \
+    CALL(RtLightHandle, LightSource, (RtToken name), (name), name) \
+    CALL(RtLightHandle, AreaLightSource, (RtToken name), (name), name)
+
+/* Shaders (4.2) */
+#define RI_SHADER_CALLS(CALL) \
+    CALL(RtVoid, Surface, (RtToken name), (name), name) \
+    CALL(RtVoid, Displacement, (RtToken name), (name), name) \
+    CALL(RtVoid, Atmosphere, (RtToken name), (name), name) \
+    CALL(RtVoid, Interior, (RtToken name), (name), name) \
+    CALL(RtVoid, Exterior, (RtToken name), (name), name) \
+    CALL(RtVoid, Deformation, (RtToken name), (name), name)
+
+/* Attributes (4.2) */
+#define RI_ATTRIBUTE_CALLS(CALL) \
+    CALL(RtVoid, Attribute, (RtToken name), (name), name)
+
+/* Polygons, patches and subdivision meshes (5.1 to 5.3). "P" of meshes has as many points as the largest
+ * index wants. */
+#define RI_MESH_CALLS(CALL) \
+    CALL(RtVoid, Polygon, (RtInt nvertices), (nvertices), nvertices) \
+    CALL(RtVoid, GeneralPolygon, (RtInt nloops, RtInt nvertices[]), (nloops, nvertices), nvertices) \
+    CALL(RtVoid, PointsPolygons, \
+         (RtInt npolys, RtInt nvertices[], RtInt vertices[]), \
+         (npolys, nvertices, vertices), vertices) \
+    CALL(RtVoid, PointsGeneralPolygons, \
+         (RtInt npolys, RtInt nloops[], RtInt nvertices[], RtInt vertices[]), \
+         (npolys, nloops, nvertices, vertices), vertices) \
+    CALL(RtVoid, SubdivisionMesh, \
+         (RtToken scheme, RtInt nfaces, RtInt nvertices[], RtInt vertices[], RtInt ntags, \
+          RtToken tags[], RtInt nargs[], RtInt intargs[], RtFloat floatargs[]), \
+         (scheme, nfaces, nvertices, vertices, ntags, tags, nargs, intargs, floatargs), floatargs) \
+    CALL(RtVoid, Patch, (RtToken type), (type), type) \
+    CALL(RtVoid, PatchMesh, \
+         (RtToken type, RtInt nu, RtToken uwrap, RtInt nv, RtToken vwrap), \
+         (type, nu, uwrap, nv, vwrap), vwrap) \
+    CALL(RtVoid, NuPatch, \
+         (RtInt nu, RtInt uorder, RtFloat uknot[], RtFloat umin, RtFloat umax, RtInt nv, \
+          RtInt vorder, RtFloat vknot[], RtFloat vmin, RtFloat vmax), \
+         (nu, uorder, uknot, umin, umax, nv, vorder, vknot, vmin, vmax), vmax)
+
+/* Quadrics (5.4) */
+#define RI_QUADRIC_CALLS(CALL) \
+    CALL(RtVoid, Sphere, \
+         (RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax), \
+         (radius, zmin, zmax, thetamax), thetamax) \
+    CALL(RtVoid, Cone, \
+         (RtFloat height, RtFloat radius, RtFloat thetamax), \
+         (height, radius, thetamax), thetamax) \
+    CALL(RtVoid, Cylinder, \
+         (RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax), \
+         (radius, zmin, zmax, thetamax), thetamax) \
+    CALL(RtVoid, Hyperboloid, \
+         (RtPoint point1, RtPoint point2, RtFloat thetamax), \
+         (point1, point2, thetamax), thetamax) \
+    CALL(RtVoid, Paraboloid, \
+         (RtFloat rmax, RtFloat zmin, RtFloat zmax, RtFloat thetamax), \
+         (rmax, zmin, zmax, thetamax), thetamax) \
+    CALL(RtVoid, Disk, \
+         (RtFloat height, RtFloat radius, RtFloat thetamax), \
+         (height, radius, thetamax), thetamax) \
+    CALL(RtVoid, Torus, \
+         (RtFloat majorradius, RtFloat minorradius, RtFloat phimin, RtFloat phimax, \
+          RtFloat thetamax), \
+         (majorradius, minorradius, phimin, phimax, thetamax), thetamax)
+
+/* Points, curves, implicit surfaces (5.5, 5.6), and shapes known by name */
+#define RI_SHAPE_CALLS(CALL) \
+    CALL(RtVoid, Points, (RtInt npoints), (npoints), npoints) \
+    CALL(RtVoid, Curves, \
+         (RtToken type, RtInt ncurves, RtInt nvertices[], RtToken wrap), \
+         (type, ncurves, nvertices, wrap), wrap) \
+    CALL(RtVoid, Blobby, \
+         (RtInt nleaf, RtInt ncode, RtInt code[], RtInt nfloats, RtFloat floats[], RtInt nstrings, \
+          RtString strings[]), \
+         (nleaf, ncode, code, nfloats, floats, nstrings, strings), strings) \
+    CALL(RtVoid, Geometry, (RtToken type), (type), type)
+
+/* Maps (7) */
+#define RI_MAP_CALLS(CALL) \
+    CALL(RtVoid, MakeTexture, \
+         (RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter, \
+          RtFloat swidth, RtFloat twidth), \
+         (picture, texture, swrap, twrap, filter, swidth, twidth), twidth) \
+    CALL(RtVoid, MakeBump, \
+         (RtString picture, RtString texture, RtToken swrap, RtToken twrap, RtFilterFunc filter, \
+          RtFloat swidth, RtFloat twidth), \
+         (picture, texture, swrap, twrap, filter, swidth, twidth), twidth) \
+    CALL(RtVoid, MakeLatLongEnvironment, \
+         (RtString picture, RtString texture, RtFilterFunc filter, RtFloat swidth, RtFloat twidth), \
+         (picture, texture, filter, swidth, twidth), twidth) \
+    CALL(RtVoid, MakeCubeFaceEnvironment, \
+         (RtString px, RtString nx, RtString py, RtString ny, RtString pz, RtString nz, \
+          RtString texture, RtFloat fov, RtFilterFunc filter, RtFloat swidth, RtFloat twidth), \
+         (px, nx, py, ny, pz, nz, texture, fov, filter, swidth, twidth), twidth) \
+    CALL(RtVoid, MakeShadow, (RtString picture, RtString texture), (picture, texture), texture)
+
+/* Archives (7). The callback is called within RiReadArchive, for each comment of the archive in their
+ * order: with RI_COMMENT or RI_STRUCTURE, the format "%s", and the text (an RtString) behind "#" or "##".
+ * The archive itself is read when the frame is rendered. */
+#define RI_ARCHIVE_CALLS(CALL) \
+    CALL(RtVoid, ReadArchive, \
+         (RtToken name, RtArchiveCallback callback), \
+         (name, callback), callback)
+
+#define RI_CALLS(CALL) \
+    RI_OPTION_CALLS(CALL) RI_LIGHT_CALLS(CALL) RI_SHADER_CALLS(CALL) RI_ATTRIBUTE_CALLS(CALL) \
+    RI_MESH_CALLS(CALL) RI_QUADRIC_CALLS(CALL) RI_SHAPE_CALLS(CALL) RI_MAP_CALLS(CALL) \
+    RI_ARCHIVE_CALLS(CALL)
+
+#define RI_WITHOUT_BRACKETS(...) __VA_ARGS__
+#define RI_DECLARE(Type, Name, parameters, arguments, last) \
+    Type Ri##Name(RI_WITHOUT_BRACKETS parameters, ...); \
+    Type Ri##Name##V(RI_WITHOUT_BRACKETS parameters, RtInt n, RtToken tokens[], RtPointer values[]);
+RI_CALLS(RI_DECLARE)
+/* clang-format on */
 
 #ifdef __cplusplus
 }
