@@ -19,24 +19,25 @@ RtBasis RiPowerBasis = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
 namespace trapeze::ri {
 namespace {
 
-RtFloat filtered(const char* name, RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return static_cast<RtFloat>(filter_value(name, double{x}, double{y}, double{xwidth}, double{ywidth}));
-}
-
 struct NamedFilter {
     RtFilterFunc filter;
     const char* name;
 };
 
-constexpr NamedFilter kFilters[] = {{RiGaussianFilter, "gaussian"},
-                                    {RiBoxFilter, "box"},
-                                    {RiTriangleFilter, "triangle"},
-                                    {RiCatmullRomFilter, "catmull-rom"},
-                                    {RiSincFilter, "sinc"},
-                                    {RiDiskFilter, "disk"},
-                                    {RiBesselFilter, "bessel"},
-                                    {RiMitchellFilter, "mitchell"},
-                                    {RiBlackmanHarrisFilter, "blackman-harris"}};
+/// Functions of ri.h and their names in RIB.
+#define RI_FILTERS(FILTER)                    \
+    FILTER(RiGaussianFilter, "gaussian")      \
+    FILTER(RiBoxFilter, "box")                \
+    FILTER(RiTriangleFilter, "triangle")      \
+    FILTER(RiCatmullRomFilter, "catmull-rom") \
+    FILTER(RiSincFilter, "sinc")              \
+    FILTER(RiDiskFilter, "disk")              \
+    FILTER(RiBesselFilter, "bessel")          \
+    FILTER(RiMitchellFilter, "mitchell")      \
+    FILTER(RiBlackmanHarrisFilter, "blackman-harris")
+
+#define RI_NAMED_FILTER(function, name) {function, name},
+constexpr NamedFilter kFilters[] = {RI_FILTERS(RI_NAMED_FILTER)};
 
 struct NamedBasis {
     const RtFloat (*basis)[4];
@@ -65,40 +66,10 @@ const char* basis_name(const RtFloat (*basis)[4]) {
 
 }  // namespace trapeze::ri
 
-using trapeze::ri::filtered;
-
-RtFloat RiGaussianFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("gaussian", x, y, xwidth, ywidth);
-}
-
-RtFloat RiBoxFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("box", x, y, xwidth, ywidth);
-}
-
-RtFloat RiTriangleFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("triangle", x, y, xwidth, ywidth);
-}
-
-RtFloat RiCatmullRomFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("catmull-rom", x, y, xwidth, ywidth);
-}
-
-RtFloat RiSincFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("sinc", x, y, xwidth, ywidth);
-}
-
-RtFloat RiDiskFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("disk", x, y, xwidth, ywidth);
-}
-
-RtFloat RiBesselFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("bessel", x, y, xwidth, ywidth);
-}
-
-RtFloat RiMitchellFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("mitchell", x, y, xwidth, ywidth);
-}
-
-RtFloat RiBlackmanHarrisFilter(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {
-    return filtered("blackman-harris", x, y, xwidth, ywidth);
-}
+// Weights of the film's own filters, for programs that call them.
+#define RI_DEFINE_FILTER(function, name)                                                        \
+    RtFloat function(RtFloat x, RtFloat y, RtFloat xwidth, RtFloat ywidth) {                    \
+        return static_cast<RtFloat>(                                                            \
+            trapeze::filter_value(name, double{x}, double{y}, double{xwidth}, double{ywidth})); \
+    }
+RI_FILTERS(RI_DEFINE_FILTER)

@@ -4,14 +4,11 @@
 
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/ri_values.h"
+#include "pipeline/rib/state/bases.h"
 #include "pipeline/rib/state/recognised_names.h"
 
 namespace trapeze::rib {
 namespace {
-
-Attributes& change(RequestContext& r) {
-    return r.state.change_attributes().attributes;
-}
 
 V3f color_of(RequestContext& r, ArgumentCursor& c, const char* what) {
     const size_t samples = r.state.scope().samples_per_color();
@@ -33,35 +30,35 @@ V3f color_of(RequestContext& r, ArgumentCursor& c, const char* what) {
 
 void opacity(RequestContext& r, ArgumentCursor& c) {
     const V3f o = color_of(r, c, "the opacity");
-    change(r).opacity = o;
+    changeable_attributes(r).opacity = o;
 }
 
 void texture_coordinates(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(8, "the coordinates");
-    std::copy(v.begin(), v.end(), change(r).texture_coordinates.begin());
+    std::copy(v.begin(), v.end(), changeable_attributes(r).texture_coordinates.begin());
 }
 
 void shading_rate(RequestContext& r, ArgumentCursor& c) {
     const float rate = c.number("the rate");
     if (!(rate > 0)) throw RequestError{"the rate must be positive", {}};
-    change(r).shading_rate = rate;
+    changeable_attributes(r).shading_rate = rate;
 }
 
 void shading_interpolation(RequestContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     if (type != "constant" && type != "smooth")
         throw RequestError{in_quotes(type) + " is neither constant nor smooth", {}};
-    change(r).smooth_shading = type == "smooth";
+    changeable_attributes(r).smooth_shading = type == "smooth";
 }
 
 void matte(RequestContext& r, ArgumentCursor& c) {
-    change(r).matte = c.integer("the flag", 0, 2);
+    changeable_attributes(r).matte = c.integer("the flag", 0, 2);
 }
 
 void sides(RequestContext& r, ArgumentCursor& c) {
     const float n = c.number("1 or 2");
     if (n != 1 && n != 2) throw RequestError{"must be 1 or 2", {}};
-    change(r).sides = static_cast<int>(n);
+    changeable_attributes(r).sides = static_cast<int>(n);
 }
 
 void orientation(RequestContext& r, ArgumentCursor& c) {
@@ -79,36 +76,26 @@ void reverse_orientation(RequestContext& r, ArgumentCursor&) {
     state.orientation_reversed = !state.orientation_reversed;
 }
 
+/// A name or a matrix, and its step, which may be left out.
+CubicBasis read_basis(ArgumentCursor& c, const char* what) {
+    CubicBasis basis;
+    if (c.next_is_string()) {
+        const std::string name = c.string(what);
+        const std::optional<CubicBasis> named = basis_named(name);
+        if (!named) throw RequestError{"no basis " + in_quotes(name), {}};
+        basis = *named;
+    } else {
+        const auto v = c.numbers(16, what);
+        for (int i = 0; i < 16; ++i) basis.matrix[i / 4][i % 4] = v[i];
+    }
+    if (c.next_is_number() && !c.next_is_array()) basis.step = c.integer("a step", 1, 4);
+    return basis;
+}
+
 void basis(RequestContext& r, ArgumentCursor& c) {
-    const auto one = [&](M44f& matrix, int& step, const char* what) {
-        if (c.next_is_string()) {
-            const std::string name = c.string(what);
-            if (name == "bezier")
-                matrix = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0), step = 3;
-            else if (name == "b-spline")
-                matrix = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1.0f / 6), step = 1;
-            else if (name == "catmull-rom")
-                matrix = M44f(-1, 3, -3, 1, 2, -5, 4, -1, -1, 0, 1, 0, 0, 2, 0, 0) * 0.5f, step = 1;
-            else if (name == "hermite")
-                matrix = M44f(2, 1, -2, 1, -3, -2, 3, -1, 0, 1, 0, 0, 1, 0, 0, 0), step = 2;
-            else if (name == "power")
-                matrix = M44f(), step = 4;
-            else
-                throw RequestError{"no basis " + in_quotes(name), {}};
-        } else {
-            const auto v = c.numbers(16, what);
-            for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = v[i];
-        }
-        if (c.next_is_number() && !c.next_is_array()) {
-            step = c.integer("a step", 1, 4);
-        }
-    };
-    M44f u, v;
-    int u_step = 3, v_step = 3;
-    one(u, u_step, "the u basis");
-    one(v, v_step, "the v basis");
+    const CubicBasis u = read_basis(c, "the u basis"), v = read_basis(c, "the v basis");
     AttributeState& state = r.state.change_attributes();
-    state.u_basis = u, state.v_basis = v, state.u_step = u_step, state.v_step = v_step;
+    state.u_basis = u.matrix, state.v_basis = v.matrix, state.u_step = u.step, state.v_step = v.step;
 }
 
 /// Older files say in words what newer ones say by numbers.
@@ -164,7 +151,7 @@ constexpr RequestRow kAttributeRequests[] = {
     {"Color",
      [](RequestContext& r, ArgumentCursor& c) {
          const V3f v = color_of(r, c, "the colour");
-         change(r).color = v;
+         changeable_attributes(r).color = v;
      }},
     {"Opacity", opacity},
     {"TextureCoordinates", texture_coordinates},

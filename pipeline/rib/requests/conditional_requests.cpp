@@ -18,7 +18,7 @@ void else_if(RequestContext& r, ArgumentCursor& c) {
 
 /// What else stands there means nothing here.
 void skip_block(RequestContext& r, ArgumentCursor& c) {
-    while (!c.done()) c.take("");
+    c.skip_rest();
     r.conditions.skip_block();
 }
 

@@ -11,8 +11,6 @@
 namespace trapeze::rib {
 namespace {
 
-constexpr int64_t kMostPoints = 1 << 28;
-
 int least_points(const Curves& curves) {
     return curves.cubic ? (curves.periodic ? 3 : 4) : 2;
 }
@@ -75,8 +73,7 @@ void curves(RequestContext& r, ArgumentCursor& c) {
     }
     if (sum > kMostPoints) throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
     Shape shape{std::move(curves), {}};
-    ParameterList list = read_variables(r, c, PointForm::Mesh);
-    if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
+    ParameterList list = read_variables_with_points(r, c, PointForm::Mesh);
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
     Curves& kept = std::get<Curves>(shape.topology);
     leave_out_short_curves(r, kept, shape.variables);
@@ -85,10 +82,9 @@ void curves(RequestContext& r, ArgumentCursor& c) {
 }
 
 void points(RequestContext& r, ArgumentCursor& c) {
-    ParameterList list = read_variables(r, c, PointForm::Mesh);
+    ParameterList list = read_variables_with_points(r, c, PointForm::Mesh);
     Points points;
     points.count = point_count_of(list);
-    if (points.count == 0) throw RequestError{"\"P\" is missing", {}};
     if (points.count > kMostPoints)
         throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
     Shape shape{points, {}};

@@ -11,9 +11,6 @@
 namespace trapeze::rib {
 namespace {
 
-constexpr int kLargestMesh = 1 << 20;  ///< control points along a side
-constexpr int64_t kMostControlPoints = 1 << 28;
-
 PatchMesh mesh_of_type(RequestContext& r, const std::string& type) {
     PatchMesh mesh;
     if (type != "bilinear" && type != "bicubic")
@@ -26,8 +23,7 @@ PatchMesh mesh_of_type(RequestContext& r, const std::string& type) {
 
 void add_patches(RequestContext& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
     Shape shape{mesh, {}};
-    ParameterList list = read_variables(r, c, PointForm::Patch);
-    if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
+    ParameterList list = read_variables_with_points(r, c, PointForm::Patch);
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
     r.scene.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
 }
@@ -41,7 +37,7 @@ void patch(RequestContext& r, ArgumentCursor& c) {
 void patch_mesh(RequestContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
-        n = c.integer((std::string("the number of points along ") + axis).c_str(), 2, kLargestMesh);
+        n = c.integer((std::string("the number of points along ") + axis).c_str(), 2, kMostPointsAlongSide);
         wraps = takes_periodic(r.report, c);
         if (!mesh.bicubic) return;
         if (wraps ? (n % step != 0 || n < 3) : (n < 4 || (n - 4) % step != 0))
@@ -51,8 +47,8 @@ void patch_mesh(RequestContext& r, ArgumentCursor& c) {
     };
     side("u", mesh.nu, mesh.u_wraps, mesh.u_step);
     side("v", mesh.nv, mesh.v_wraps, mesh.v_step);
-    if (int64_t{mesh.nu} * mesh.nv > kMostControlPoints)
-        throw RequestError{"more than " + std::to_string(kMostControlPoints) + " points", {}};
+    if (int64_t{mesh.nu} * mesh.nv > kMostPoints)
+        throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
     add_patches(r, c, "PatchMesh", mesh);
 }
 

@@ -45,7 +45,7 @@ void geometric_approximation(RequestContext& r, ArgumentCursor& c) {
     const float value = c.number("the value");
     if (type == "motionfactor" || type == "focusfactor") {
         if (value < 0) throw RequestError{"the factor must not be negative", {}};
-        Attributes& a = r.state.change_attributes().attributes;
+        Attributes& a = changeable_attributes(r);
         (type == "motionfactor" ? a.motion_factor : a.focus_factor) = value;
     } else if (type == "flatness") {  // which ShadingRate makes fine enough
         r.report.count_without_effect(" \"flatness\"");

@@ -4,6 +4,7 @@
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/teapot.h"
 #include "pipeline/rib/ris/ris_lights.h"
+#include "pipeline/rib/state/bases.h"
 
 namespace trapeze::rib {
 namespace {
@@ -19,7 +20,7 @@ void teapot(RequestContext& r, const ParameterList& given) {
     PatchMesh mesh;
     mesh.bicubic = true;
     mesh.nu = mesh.nv = 4;
-    mesh.u_basis = mesh.v_basis = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
+    mesh.u_basis = mesh.v_basis = bezier_basis();
     const ParameterList variables = checked_variables(r.report, given, mesh);
     for (const std::array<V3f, 16>& points : teapot_patches()) {
         Parameter P{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};

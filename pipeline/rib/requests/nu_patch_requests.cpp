@@ -10,13 +10,11 @@ namespace trapeze::rib {
 namespace {
 
 constexpr int kLargestOrder = 32;
-constexpr int kLargestMesh = 1 << 20;  ///< control points along a side
-constexpr int64_t kMostPoints = 1 << 28;
 
 /// One direction: the number of points, the order, the knots and the range.
 void read_direction(RequestContext& r, ArgumentCursor& c, const std::string& axis, int& points, int& order,
                     std::vector<float>& knots, float& begin, float& end) {
-    points = c.integer(("the number of points along " + axis).c_str(), 2, kLargestMesh);
+    points = c.integer(("the number of points along " + axis).c_str(), 2, kMostPointsAlongSide);
     order = c.integer(("the order along " + axis).c_str(), 2, kLargestOrder);
     const std::string name = "the knots along " + axis;
     knots = c.number_array(name.c_str());
@@ -49,9 +47,8 @@ void nu_patch(RequestContext& r, ArgumentCursor& c) {
     patch.trim_outside = r.state.attributes().trim_outside;
     const uint64_t faces = static_cast<uint64_t>(patch.segments_u()) * patch.segments_v();
     Shape shape{std::move(patch), {}};
-    ParameterList list = read_variables(r, c, PointForm::Patch);
+    ParameterList list = read_variables_with_points(r, c, PointForm::Patch);
     if (list.find("Pz")) throw RequestError{"\"Pz\" is not for this primitive", {}};
-    if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
     r.scene.add_shape("NuPatch", std::move(shape), faces);
 }
@@ -121,7 +118,8 @@ TrimCurve next_curve(TrimArrays& a) {
 
 /// Replaces the loops that trim the NuPatches to come; none end it.
 void trim_curve(RequestContext& r, ArgumentCursor& c) {
-    if (c.peek(9)) c.integer("the number of loops", 0, kLargestMesh);  // some write it before the arrays
+    if (c.peek(9))
+        c.integer("the number of loops", 0, kMostPointsAlongSide);  // some write it before the arrays
     const std::vector<int> curves_of_loops = c.int_array("the numbers of curves");
     int64_t curves = 0;
     for (const int n : curves_of_loops) {

@@ -68,9 +68,8 @@ uint64_t face_count(const SubdivisionMesh& mesh) {
 template <class Mesh>
 void add_mesh(RequestContext& r, ArgumentCursor& c, const char* request, Mesh mesh) {
     if (face_count(mesh) == 0) throw RequestError{"has no faces", {}};
-    ParameterList list = read_variables(r, c, PointForm::Mesh);
+    ParameterList list = read_variables_with_points(r, c, PointForm::Mesh);
     mesh.vertex_count = point_count_of(list);
-    if (mesh.vertex_count == 0) throw RequestError{"\"P\" is missing", {}};
     if constexpr (std::is_same_v<Mesh, SubdivisionMesh>) check_tags(r, mesh);
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);

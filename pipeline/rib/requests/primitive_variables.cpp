@@ -159,6 +159,12 @@ ParameterList read_variables(RequestContext& context, ArgumentCursor& cursor, Po
     return list;
 }
 
+ParameterList read_variables_with_points(RequestContext& context, ArgumentCursor& cursor, PointForm form) {
+    ParameterList list = read_variables(context, cursor, form);
+    if (point_count_of(list) == 0) throw RequestError{"\"P\" is missing", {}};
+    return list;
+}
+
 int point_count_of(const ParameterList& list) {
     for (const char* name : {"P", "Pw", "Pz"})
         if (const Parameter* p = list.find(name))

@@ -13,6 +13,14 @@ struct RequestRow {
     RequestHandler handler;
 };
 
+/// The options, for a request that sets some: a warning in a world, a RequestError in archives that it reads.
+Options& changeable_options(RequestContext& context);
+
+/// The attributes that primitives keep, for a request that sets some.
+inline Attributes& changeable_attributes(RequestContext& context) {
+    return context.state.change_attributes().attributes;
+}
+
 std::span<const RequestRow> structure_requests();
 std::span<const RequestRow> conditional_requests();
 std::span<const RequestRow> state_requests();
@@ -24,8 +32,6 @@ std::span<const RequestRow> display_requests();
 std::span<const RequestRow> attribute_requests();
 std::span<const RequestRow> shader_requests();
 std::span<const RequestRow> solid_requests();
-/// For requests that belong before the world: a warning in one, an error in archives that it reads.
-Options& changeable_options(RequestContext& context);
 std::span<const RequestRow> transform_requests();
 std::span<const RequestRow> polygon_requests();
 std::span<const RequestRow> curved_surface_requests();

@@ -54,7 +54,7 @@ void bxdf(RequestContext& r, ArgumentCursor& c) {
     const RisParameters parameters = RisParameters::read(c);
     RisNetwork& network = r.state.scope().ris;
     const RisLook look = network.bxdfs[handle] = known_look(network, surface.name, parameters);
-    Attributes& a = r.state.change_attributes().attributes;
+    Attributes& a = changeable_attributes(r);
     a.color = look.color.value_or(look.is_constant ? V3f(1, 1, 1) : V3f(0.5f, 0.5f, 0.5f));
     show(look, surface);
     a.surface = std::make_shared<const ShaderInstance>(std::move(surface));
@@ -78,7 +78,7 @@ void light(RequestContext& r, ArgumentCursor& c) {
 }
 
 void skip(RequestContext& r, ArgumentCursor& c) {
-    while (!c.done()) c.take("");
+    c.skip_rest();
     note(r);
 }
 

@@ -11,10 +11,6 @@ namespace {
 
 using ShaderMember = std::shared_ptr<const ShaderInstance> Attributes::*;
 
-Attributes& change(RequestContext& r) {
-    return r.state.change_attributes().attributes;
-}
-
 template <ShaderMember kWhere>
 void shader(RequestContext& r, ArgumentCursor& c, const char* kind) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
@@ -22,7 +18,7 @@ void shader(RequestContext& r, ArgumentCursor& c, const char* kind) {
     // Exporters write "null" for what does nothing; the surface of that name is a shader.
     const bool is_none =
         instance->name.empty() || (instance->name == "null" && kWhere != &Attributes::surface);
-    change(r).*kWhere = is_none ? nullptr : std::move(instance);
+    changeable_attributes(r).*kWhere = is_none ? nullptr : std::move(instance);
 }
 
 ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
@@ -42,7 +38,7 @@ void shader_layer(RequestContext& r, ArgumentCursor& c) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind.c_str()));
     instance->layer = c.string("the layer's name");
     instance->parameters = r.shader_parameters(c);
-    std::shared_ptr<const ShaderInstance>& current = change(r).*where;
+    std::shared_ptr<const ShaderInstance>& current = changeable_attributes(r).*where;
     // A shader that is no layer is replaced by the first.
     std::vector<std::shared_ptr<const ShaderInstance>> layers;
     if (current && !current->layer.empty()) {
@@ -68,7 +64,7 @@ void connect_shader_layers(RequestContext& r, ArgumentCursor& c) {
     connection.from_variable = c.string("its variable");
     connection.to_layer = c.string("the later layer");
     connection.to_variable = c.string("its variable");
-    std::shared_ptr<const ShaderInstance>& current = change(r).*where;
+    std::shared_ptr<const ShaderInstance>& current = changeable_attributes(r).*where;
     if (!current || current->layer.empty()) throw RequestError{"there are no layers to connect", {}};
     auto connected = std::make_shared<ShaderInstance>(*current);
     connected->connections.push_back(std::move(connection));
@@ -121,7 +117,7 @@ void illuminate(RequestContext& r, ArgumentCursor& c) {
     const auto light = r.scene.light(handle);
     if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
     std::erase_if(r.state.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
-    auto& lights = change(r).lights;
+    auto& lights = changeable_attributes(r).lights;
     const auto place = std::find(lights.begin(), lights.end(), light);
     if (on && place == lights.end()) lights.push_back(light);
     if (!on && place != lights.end()) lights.erase(place);

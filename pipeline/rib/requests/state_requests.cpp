@@ -5,10 +5,6 @@
 namespace trapeze::rib {
 namespace {
 
-void skip_rest(ArgumentCursor& c) {
-    while (!c.done()) c.take("");
-}
-
 /// "attributes" are saved and restored. Of the subsets of PRMan's, "transform" and all others are told apart.
 void resource(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.handle("the resource's name"), type = c.string("the type");
@@ -62,7 +58,7 @@ void camera(RequestContext& r, ArgumentCursor& c) {
 
 /// Commands of strangers are not run.
 void system(RequestContext& r, ArgumentCursor& c) {
-    skip_rest(c);
+    c.skip_rest();
     r.report.count_unsupported();
     r.report.warn_once("commands in files are never run; skipped", "unsupported-System");
 }
@@ -84,7 +80,7 @@ constexpr RequestRow kStateRequests[] = {
     {"Camera", camera},
     {"System", system},
     {"VolumePixelSamples", volume_pixel_samples},
-    {"ArchiveRecord", [](RequestContext&, ArgumentCursor& c) { skip_rest(c); }},  // a comment
+    {"ArchiveRecord", [](RequestContext&, ArgumentCursor& c) { c.skip_rest(); }},  // a comment
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace trapeze::rib {
 namespace {
 
-constexpr int kDeepest = 8;  ///< of patterns that stand behind each other
+constexpr int kDeepestPattern = 8;  ///< of patterns that stand behind each other
 /// Looked at for one colour: networks that branch at every pattern would have no end.
 constexpr int kMostPatterns = 256;
 
@@ -89,7 +89,7 @@ void add_references(const RisParameter& parameter, Walk& walk, Mean& mean) {
 
 std::optional<Tint> tint_of_pattern(const std::string& handle, Walk& walk) {
     const auto found = walk.network.patterns.find(handle);
-    if (found == walk.network.patterns.end() || walk.depth >= kDeepest || walk.seen >= kMostPatterns)
+    if (found == walk.network.patterns.end() || walk.depth >= kDeepestPattern || walk.seen >= kMostPatterns)
         return {};
     ++walk.seen;
     const RisParameters& parameters = found->second.parameters;

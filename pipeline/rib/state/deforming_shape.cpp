@@ -19,7 +19,7 @@ bool same_variables(const Shape& a, const Shape& b) {
     });
 }
 
-struct SameTopology {
+struct SameForm {
     bool operator()(const PolygonMesh& a, const PolygonMesh& b) const {
         return a.loops_per_polygon == b.loops_per_polygon && a.vertices_per_loop == b.vertices_per_loop &&
                a.vertices == b.vertices && a.vertex_count == b.vertex_count;
@@ -94,7 +94,7 @@ float key_time(float open, float close, int key, int keys) {
 bool can_deform(const std::vector<ShapePointer>& shapes) {
     const Shape& first = *shapes.front();
     return std::all_of(shapes.begin(), shapes.end(), [&](const ShapePointer& shape) {
-        return std::visit(SameTopology{}, first.topology, shape->topology) && same_variables(first, *shape);
+        return std::visit(SameForm{}, first.topology, shape->topology) && same_variables(first, *shape);
     });
 }
 

@@ -1,5 +1,7 @@
 #include "pipeline/rib/state/graphics_state_stack.h"
 
+#include "pipeline/rib/state/bases.h"
+
 namespace trapeze::rib {
 namespace {
 
@@ -7,7 +9,7 @@ constexpr size_t kDeepestBlock = 10000;  ///< each saves a state: files that onl
 
 std::shared_ptr<const AttributeState> default_attributes() {
     auto state = std::make_shared<AttributeState>();
-    state->u_basis = state->v_basis = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);  // bezier
+    state->u_basis = state->v_basis = bezier_basis();
     return state;
 }
 

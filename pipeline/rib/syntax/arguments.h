@@ -87,6 +87,8 @@ class ArgumentCursor {
     /// A handle: a string, or an integer as text.
     std::string handle(const char* what);
     Argument take(const char* what);
+    /// Passes over what is left.
+    void skip_rest() { next_ = request_.arguments.size(); }
 
   private:
     [[noreturn]] void missing(const char* what) const;

@@ -9,7 +9,7 @@
 namespace trapeze::rib {
 namespace {
 
-constexpr int kDeepest = 100;  ///< of parentheses and signs
+constexpr int kDeepestNesting = 100;  ///< of parentheses and signs
 
 struct Problem {
     std::string text;
@@ -151,8 +151,8 @@ class Evaluator {
     }
 
     ConditionValue primary() {
-        if (++depth_ > kDeepest)
-            throw Problem{"it is nested too deep, more than " + std::to_string(kDeepest) + " times"};
+        if (++depth_ > kDeepestNesting)
+            throw Problem{"it is nested too deep, more than " + std::to_string(kDeepestNesting) + " times"};
         ConditionValue value = primary_within();
         --depth_;
         return value;

@@ -5,22 +5,10 @@
 #include <cstring>
 #include <limits>
 
+#include "pipeline/rib/syntax/encoding_bytes.h"
+
 namespace trapeze::rib {
 namespace {
-
-/// The first bytes of table C.1.
-enum FirstByte : unsigned {
-    kNumber = 0200,       // + 4 * bytes of fraction + bytes - 1
-    kShortString = 0220,  // + length
-    kLongString = 0240,   // + bytes of length - 1
-    kFloat = 0244,
-    kDouble = 0245,
-    kRequest = 0246,
-    kFloats = 0310,  // + bytes of length - 1
-    kDefineRequest = 0314,
-    kDefineString = 0315,  // + bytes of code - 1
-    kDefinedString = 0317  // + bytes of code - 1
-};
 
 /// Most significant byte first; bytes that are not there count as 0.
 uint64_t big_endian(std::string_view bytes, size_t begin, size_t count) {
@@ -34,18 +22,18 @@ uint64_t big_endian(std::string_view bytes, size_t begin, size_t count) {
 
 EncodedValue encoded_value(std::string_view bytes) {
     const unsigned first = static_cast<unsigned char>(bytes[0]), width = (first & 3) + 1;
-    if (first < kShortString) return {Encoding::Number, 1 + width, 1};
-    if (first < kLongString) return {Encoding::String, 1 + (first & 15), 1};
-    if (first < kFloat) return {Encoding::String, 1 + width + big_endian(bytes, 1, width), 1 + width};
-    if (first == kFloat) return {Encoding::Float, 1 + 4, 1};
-    if (first == kDouble) return {Encoding::Double, 1 + 8, 1};
-    if (first == kRequest) return {Encoding::Request, 2, 1};
-    if (first < kFloats) return {};
-    if (first < kDefineRequest)
+    if (first < kShortStringByte) return {Encoding::Number, 1 + width, 1};
+    if (first < kLongStringByte) return {Encoding::String, 1 + (first & 15), 1};
+    if (first < kFloatByte) return {Encoding::String, 1 + width + big_endian(bytes, 1, width), 1 + width};
+    if (first == kFloatByte) return {Encoding::Float, 1 + 4, 1};
+    if (first == kDoubleByte) return {Encoding::Double, 1 + 8, 1};
+    if (first == kRequestByte) return {Encoding::Request, 2, 1};
+    if (first < kFloatsByte) return {};
+    if (first < kDefineRequestByte)
         return {Encoding::Floats, 1 + width + 4 * big_endian(bytes, 1, width), 1 + width};
-    if (first == kDefineRequest) return {Encoding::DefineRequest, 2, 1};
-    if (first < kDefinedString) return {Encoding::DefineString, 2 + first - kDefineString, 1};
-    if (first <= kDefinedString + 1) return {Encoding::DefinedString, 2 + first - kDefinedString, 1};
+    if (first == kDefineRequestByte) return {Encoding::DefineRequest, 2, 1};
+    if (first < kDefinedStringByte) return {Encoding::DefineString, 2 + first - kDefineStringByte, 1};
+    if (first <= kDefinedStringByte + 1) return {Encoding::DefinedString, 2 + first - kDefinedStringByte, 1};
     return {};
 }
 

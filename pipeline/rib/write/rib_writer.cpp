@@ -5,22 +5,13 @@
 #include <cmath>
 
 #include "pipeline/rib/syntax/arguments.h"
+#include "pipeline/rib/syntax/encoding_bytes.h"
 
 namespace trapeze::rib {
 namespace {
 
 constexpr size_t kFlushBytes = size_t{1} << 16;
 constexpr size_t kLineWidth = 110;
-
-// RISpec appendix C.2.
-constexpr int kInteger = 0200;      ///< + bytes - 1; big-endian, two's complement
-constexpr int kShortString = 0220;  ///< + length, below 16
-constexpr int kLongString = 0240;   ///< + bytes of the length - 1
-constexpr int kFloat = 0244;
-constexpr int kDouble = 0245;
-constexpr int kRequest = 0246;  ///< then its code
-constexpr int kFloats = 0310;   ///< + bytes of the count - 1
-constexpr int kDefineRequest = 0314;
 
 int bytes_of(uint64_t value) {
     int bytes = 1;
@@ -72,11 +63,11 @@ void RibWriter::request(std::string_view name) {
         auto code = codes_.find(name);
         if (code == codes_.end() && codes_.size() < 256) {
             code = codes_.emplace(name, static_cast<uint8_t>(codes_.size())).first;
-            put(static_cast<char>(kDefineRequest)), put(static_cast<char>(code->second));
+            put(static_cast<char>(kDefineRequestByte)), put(static_cast<char>(code->second));
             string(name);
         }
         if (code != codes_.end()) {
-            put(static_cast<char>(kRequest)), put(static_cast<char>(code->second));
+            put(static_cast<char>(kRequestByte)), put(static_cast<char>(code->second));
         } else {
             buffer_ += name;
             put(' ');
@@ -111,13 +102,13 @@ void RibWriter::append_number(double value) {
     if (value == std::floor(value) && value >= 0 && value < 0x7fffffff && !std::signbit(value)) {
         const auto integer = static_cast<uint64_t>(value);
         const int bytes = bytes_of(integer << 1);  // the first bit is the sign
-        put(static_cast<char>(kInteger + bytes - 1));
+        put(static_cast<char>(kIntegerByte + bytes - 1));
         append_bytes(integer, bytes);
     } else if (is_float(value)) {
-        put(static_cast<char>(kFloat));
+        put(static_cast<char>(kFloatByte));
         append_bytes(std::bit_cast<uint32_t>(static_cast<float>(value)), 4);
     } else {
-        put(static_cast<char>(kDouble));
+        put(static_cast<char>(kDoubleByte));
         append_bytes(std::bit_cast<uint64_t>(value), 8);
     }
 }
@@ -130,10 +121,10 @@ void RibWriter::number(double value) {
 void RibWriter::string(std::string_view text) {
     if (encoding_ == RibEncoding::Binary) {
         if (text.size() < 16) {
-            put(static_cast<char>(kShortString + static_cast<int>(text.size())));
+            put(static_cast<char>(kShortStringByte + text.size()));
         } else {
             const int bytes = bytes_of(text.size());
-            put(static_cast<char>(kLongString + bytes - 1));
+            put(static_cast<char>(kLongStringByte + bytes - 1));
             append_bytes(text.size(), bytes);
         }
         buffer_ += text;
@@ -155,7 +146,7 @@ void RibWriter::string(std::string_view text) {
 void RibWriter::numbers(std::span<const float> values) {
     if (encoding_ == RibEncoding::Binary) {
         const int bytes = bytes_of(values.size());
-        put(static_cast<char>(kFloats + bytes - 1));
+        put(static_cast<char>(kFloatsByte + bytes - 1));
         append_bytes(values.size(), bytes);
         for (const float value : values) append_bytes(std::bit_cast<uint32_t>(value), 4);
         return;
