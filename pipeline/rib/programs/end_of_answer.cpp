@@ -1,9 +1,12 @@
+/// A small lexer of its own, since it has to stop in the middle of anything: answers arrive in pieces, and a
+/// piece may end within a string, an escape or an encoded value.
 #include "pipeline/rib/programs/end_of_answer.h"
 
 #include "pipeline/rib/syntax/encoded_values.h"
 
 namespace trapeze::rib {
 
+/// Goes on where it stopped last; what is not complete yet is looked at again with the next bytes.
 std::optional<size_t> EndOfAnswer::find(std::string_view bytes) {
     while (next_ < bytes.size()) {
         const char c = bytes[next_];
@@ -11,6 +14,7 @@ std::optional<size_t> EndOfAnswer::find(std::string_view bytes) {
             if (c == '\n' || c == '\r') within_ = Within::Text;
             ++next_;
         } else if (within_ == Within::String) {
+            // An escape whose second byte has not arrived yet.
             if (c == '\\' && next_ + 1 >= bytes.size()) break;
             if (c == '"') within_ = Within::Text;
             next_ += c == '\\' ? 2 : 1;

@@ -11,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A file that this user may execute.
 bool is_program(const std::string& path) {
     std::error_code ignored;
     return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
@@ -18,6 +19,7 @@ bool is_program(const std::string& path) {
 
 }  // namespace
 
+/// Folders are the scene's search path "procedural"; an empty one is the working folder.
 std::string program_path(const std::string& name, const std::vector<std::string>& folders) {
     if (fs::path(name).is_relative())
         for (const std::string& folder : folders) {

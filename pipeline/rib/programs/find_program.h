@@ -1,3 +1,4 @@
+/// Where programs of procedurals are found.
 #pragma once
 
 #include <string>

@@ -1,3 +1,5 @@
+/// One conversation with a program. Both directions are open at once: a program may answer before it has read
+/// all, and one that reads nothing must not stop us.
 #include "pipeline/rib/programs/program_answer.h"
 
 #include <poll.h>
@@ -29,7 +31,9 @@ class Silence {
   public:
     explicit Silence(const AnswerLimits& limits) : limits_(limits) {}
 
+    /// To be called whenever the program has said something.
     void ends() { begin_ = Clock::now(), seconds_said_ = 0; }
+    /// Looked at whenever nothing came for a while; tells the listener of each full second.
     bool is_too_long() {
         if (limits_.cancelled && *limits_.cancelled) return true;
         const auto length = Clock::now() - begin_;
@@ -38,6 +42,7 @@ class Silence {
         if (seconds > seconds_said_ && limits_.on_wait) limits_.on_wait(seconds_said_ = seconds);
         return length >= limits_.silence;
     }
+    /// At most a fifth of a second, so that a cancelled render ends soon.
     int milliseconds_to_wait() const {
         constexpr std::chrono::milliseconds kLongest{200};
         const auto left =

@@ -1,3 +1,5 @@
+/// Programs that run beside the reader. Each is the leader of a process group of its own: what it starts ends
+/// with it, and a key pressed in our terminal does not reach it.
 #include "pipeline/rib/programs/programs.h"
 
 #include <fcntl.h>
@@ -23,12 +25,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// The most programs of one reading; a scene that names more is a mistake or worse.
 constexpr size_t kMostPrograms = 64;
 constexpr std::chrono::milliseconds kTimeToEnd{500};  ///< after its input is closed
 
-/// Of this process, the process groups of programs that run; 0: a free place. A forced end finds them here.
+/// Process groups of the programs that this process runs; 0: a free place. A forced end finds them here.
 std::array<std::atomic<pid_t>, 4 * kMostPrograms> g_groups;
 
+/// Takes or frees a place without a lock: a signal handler may read at any time.
 void note_group(pid_t from, pid_t to) {
     for (std::atomic<pid_t>& group : g_groups)
         if (pid_t expected = from; group.compare_exchange_strong(expected, to)) return;
@@ -55,6 +59,7 @@ class Descriptor {
     int fd_;
 };
 
+/// One program that runs, or has been ended.
 class Programs::Program {
   public:
     /// Why it cannot be started, or nothing.
@@ -72,6 +77,8 @@ class Programs::Program {
         output_;  ///< the program's; its input is a socket, which can be written without a signal
 };
 
+/// Descriptors close on exec but for the two that become its standard input and output; its standard error is
+/// ours.
 std::string Programs::Program::start(Command words, const std::vector<std::string>& folders) {
     if (words.empty()) return "there is no command";
     const std::string path = program_path(words[0], folders);
@@ -123,6 +130,7 @@ void Programs::Program::stop(std::chrono::milliseconds time) {
 Programs::Programs() = default;
 Programs::~Programs() = default;
 
+/// A program that failed once is not asked again: each failure may cost the whole time limit.
 ProgramAnswer Programs::ask(const Command& command, const std::string& request,
                             const std::vector<std::string>& folders, const AnswerLimits& limits) {
     const auto known = programs_.find(command);
@@ -142,6 +150,7 @@ ProgramAnswer Programs::ask(const Command& command, const std::string& request,
     return answer;
 }
 
+/// Safe in a signal handler: it takes no lock and allocates nothing.
 void end_all_programs() {
     for (const std::atomic<pid_t>& group : g_groups)
         if (const pid_t leader = group; leader > 0) kill(-leader, SIGKILL);

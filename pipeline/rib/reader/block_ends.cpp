@@ -1,3 +1,5 @@
+/// Unbalanced blocks: what is still open inside of a block that ends is closed with it, each with an error,
+/// so that one missing AttributeEnd costs one message and not the rest of the scene.
 #include "pipeline/rib/reader/block_ends.h"
 
 #include <algorithm>
@@ -7,12 +9,14 @@
 namespace trapeze::rib {
 namespace {
 
+/// What a procedural's block looks like to ReadOptions::on_request: no such request stands in the file.
 RequestText bare_request(const char* name, SourceLocation at) {
     RequestText request;
     request.name = name, request.at = at;
     return request;
 }
 
+/// The text of an error about it.
 std::string still_open(const OpenBlock& block) {
     return std::string(block_name(block.kind)) + " of line " + std::to_string(block.at.line) +
            " is still open; closed here";
@@ -20,6 +24,8 @@ std::string still_open(const OpenBlock& block) {
 
 }  // namespace
 
+/// A world is a wall for ends of blocks: one AttributeEnd too many in an archive must not close the block
+/// around the world.
 void BlockEnds::end(Block kind) {
     const auto& blocks = state_.blocks();
     const auto begin = std::find_if(blocks.rbegin(), blocks.rend(), [&](const OpenBlock& block) {
@@ -36,6 +42,7 @@ void BlockEnds::end(Block kind) {
     close_innermost();
 }
 
+/// Worlds that were never closed are delivered all the same: a file that was cut off shows what it has.
 void BlockEnds::end_all() {
     while (!state_.blocks().empty()) {
         const OpenBlock& block = state_.blocks().back();
@@ -45,6 +52,7 @@ void BlockEnds::end_all() {
     }
 }
 
+/// The world is delivered before its options are restored; all else follows once the state is what it was.
 void BlockEnds::close_innermost() {
     const Block kind = state_.blocks().back().kind;
     if (kind == Block::World) scene_.deliver_world();
@@ -55,12 +63,14 @@ void BlockEnds::close_innermost() {
     if (kind == Block::Solid) scene_.end_solid();
 }
 
+/// Attributes first: the primitive of the block, if it has one, takes the state as it is then.
 void BlockEnds::finish_motion() {
     MotionBlock block = motion_.take();
     for (const std::vector<RequestText>& keys : block.held) executor_.execute_held(keys, block.times);
     if (auto moving = motion_.resolve(std::move(block))) scene_.add_moving_shape(std::move(*moving));
 }
 
+/// Returns the depth of the block; with its id that tells later whether it is still open.
 size_t BlockEnds::begin_attribute_block() {
     state_.open(Block::Attribute, report_.at());
     executor_.hands_on(bare_request("AttributeBegin", report_.at()));

@@ -6,10 +6,13 @@
 namespace trapeze::rib {
 namespace {
 
+/// Against files that only open conditions.
 constexpr size_t kDeepestConditional = 1000;
 
+/// ElseIf, Else and IfEnd belong to the block of this name; skipped blocks have their own.
 constexpr const char* kIf = "IfBegin";
 
+/// The requests that begin and end it.
 struct SkippedBlock {
     std::string_view begin, end;
 };
@@ -17,6 +20,7 @@ struct SkippedBlock {
 constexpr SkippedBlock kSkippedBlocks[] = {
     {"EditBegin", "EditEnd"}, {"EditAttributeBegin", "EditAttributeEnd"}, {"EditWorldBegin", "EditWorldEnd"}};
 
+/// A text by its first string, else all the numbers; null is a variable that nobody set.
 ConditionValue value_of(const Parameter* parameter) {
     if (!parameter) return {};
     if (!parameter->strings.empty()) return {{}, parameter->strings[0]};
@@ -31,7 +35,7 @@ ConditionValue user_value(const std::map<std::string, ParameterList>& lists, con
     return value_of(list->second.find(colon == std::string::npos ? name : name.substr(colon + 1)));
 }
 
-/// Of what requests of their own set.
+/// Attributes that have requests of their own, by the names of those; others are the user's.
 ConditionValue attribute_value(const Attributes& a, const std::string& name) {
     if (name == "Color") return {{a.color.x, a.color.y, a.color.z}, {}};
     if (name == "Opacity") return {{a.opacity.x, a.opacity.y, a.opacity.z}, {}};
@@ -42,6 +46,7 @@ ConditionValue attribute_value(const Attributes& a, const std::string& name) {
     return user_value(a.user, name);
 }
 
+/// Options likewise; Frame is the number of FrameBegin.
 ConditionValue option_value(const Options& o, const std::string& name) {
     if (name == "Frame") return {{static_cast<double>(o.frame)}, {}};
     if (name == "Format")
@@ -63,6 +68,7 @@ bool ConditionalBlocks::is_conditional(std::string_view request) {
            });
 }
 
+/// An attribute comes before an option of the same name, and the environment last.
 ConditionValue ConditionalBlocks::value_of_variable(const std::string& name) const {
     constexpr std::string_view kAttribute = "Attribute:", kOption = "Option:";
     if (name.starts_with(kAttribute))
@@ -76,6 +82,7 @@ ConditionValue ConditionalBlocks::value_of_variable(const std::string& name) con
     return value;
 }
 
+/// A condition that cannot be understood holds not: what it guards is left out.
 bool ConditionalBlocks::holds(const std::string& expression) {
     const ConditionResult result =
         evaluate_condition(expression, [this](const std::string& name) { return value_of_variable(name); });
@@ -90,6 +97,7 @@ bool ConditionalBlocks::holds(const std::string& expression) {
     return result.holds;
 }
 
+/// A block within one that is skipped is skipped too, whatever it says.
 void ConditionalBlocks::push(std::string_view name, bool is_active) {
     if (blocks_.size() >= kDeepestConditional)
         throw RequestError{"conditions are nested more than " + std::to_string(kDeepestConditional) + " deep",
@@ -102,12 +110,14 @@ void ConditionalBlocks::if_begin(const std::string& expression) {
     push(kIf, !outer_skips && holds(expression));
 }
 
+/// A condition that another stream has opened cannot be closed here.
 ConditionalBlocks::OpenCondition& ConditionalBlocks::innermost(std::string_view name) {
     if (blocks_.size() <= first_ || blocks_.back().name != name)
         throw RequestError{"no " + std::string(name) + " is open here", {}};
     return blocks_.back();
 }
 
+/// Conditions after the branch that was taken are not evaluated, as they may name what is not there.
 void ConditionalBlocks::else_if(const std::string* expression) {
     OpenCondition& block = innermost(kIf);
     if (block.had_else) throw RequestError{"stands after Else", {}};
@@ -122,6 +132,7 @@ void ConditionalBlocks::if_end() {
     blocks_.pop_back();
 }
 
+/// These blocks nest like conditions that never hold.
 void ConditionalBlocks::skip_block() {
     for (const SkippedBlock& block : kSkippedBlocks) {
         if (report_.name() == block.begin) {

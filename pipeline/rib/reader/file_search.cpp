@@ -1,3 +1,5 @@
+/// Scenes move between machines and folders, and name their files as it was at home. All guesses are made
+/// here; each that finds something is a warning, so that nobody wonders which file was read.
 #include "pipeline/rib/reader/file_search.h"
 
 #include <filesystem>
@@ -31,6 +33,8 @@ std::string OpenFiles::current_folder() const {
     return fs::path(current_file()).parent_path().string();
 }
 
+/// Folders that are closed to the scene are left out with a warning; files in them would not be readable
+/// anyway, but their user shall know.
 void FileSearch::set_search_path(const std::string& category, const std::string& path) {
     std::vector<std::string>& folders = state_.options().search_paths[category];
     // What the user's own text reads is no longer that text.
@@ -45,6 +49,7 @@ void FileSearch::set_search_path(const std::string& category, const std::string&
                           "closed-folder " + folder);
 }
 
+/// The search path comes first: who wrote it meant it.
 std::vector<std::string> FileSearch::folders(const std::string& category) const {
     const auto& paths = state_.options().search_paths;
     const auto path = paths.find(category);
@@ -90,6 +95,7 @@ std::optional<std::string> FileSearch::find_archive(const std::string& name) {
     return {};
 }
 
+/// A pipe counts where it is named whole: nobody looks for one.
 std::optional<std::string> FileSearch::find_archive_named(const std::string& name) const {
     std::error_code ignored;
     const fs::path path(name);

@@ -1,3 +1,5 @@
+/// Motion blocks hold one of three things. Transforms become one moving factor of the current transformation;
+/// poses of a primitive become one deforming primitive; all other requests are held and carried out once.
 #include "pipeline/rib/reader/motion_collector.h"
 
 #include <algorithm>
@@ -6,7 +8,9 @@
 namespace trapeze::rib {
 namespace {
 
+/// The most times of one block: each is a pose in memory.
 constexpr size_t kMostTimes = 1000;
+/// Each is multiplied out at every key of every primitive.
 constexpr int kMostMovingFactors = 1000;  ///< motion blocks that act on one transformation
 
 /// Whether numbers may be taken between those of the two.
@@ -18,6 +22,7 @@ bool has_same_form(const RequestText& a, const RequestText& b) {
                       });
 }
 
+/// Whether the request moves at all between the two times.
 bool has_same_arguments(const RequestText& a, const RequestText& b) {
     return has_same_form(a, b) && std::equal(a.arguments.begin(), a.arguments.end(), b.arguments.begin(),
                                              [](const Argument& x, const Argument& y) {
@@ -41,6 +46,7 @@ RequestText between(const RequestText& a, const RequestText& b, float t) {
 
 }  // namespace
 
+/// Times are in the unit of Shutter, whichever that is: nothing else is compared with them.
 void MotionCollector::begin(std::vector<float> times) {
     if (is_open()) throw RequestError{"motion blocks do not nest", {}};
     if (times.empty()) throw RequestError{"no times", {}};
@@ -55,6 +61,7 @@ void MotionCollector::begin(std::vector<float> times) {
     block_.times = std::move(times);
 }
 
+/// Few different requests stand in one block: they are searched one by one.
 void MotionCollector::hold(RequestText text) {
     const auto same =
         std::find_if(block_.held.begin(), block_.held.end(),
@@ -62,6 +69,8 @@ void MotionCollector::hold(RequestText text) {
     (same == block_.held.end() ? block_.held.emplace_back() : *same).push_back(std::move(text));
 }
 
+/// A block of transforms may not turn into another kind of transform half-way: their numbers could not be
+/// mixed.
 void MotionCollector::expect(const std::string& request) {
     if (block_.request.empty()) block_.request = request;
     if (block_.request != request) throw RequestError{"this is a motion block of " + block_.request, {}};
@@ -88,6 +97,8 @@ void MotionCollector::set_transform(const TransformArguments* matrix) {
     if (matrix) state_.current().transform.concat(transform_matrix(TransformKind::Matrix, *matrix));
 }
 
+/// Shading happens once in a frame, so colours and shaders cannot move; half-way between two keys they are
+/// mixed like any numbers.
 RequestText MotionCollector::as_shutter_opens(const std::vector<RequestText>& keys,
                                               const std::vector<float>& times) {
     const std::string& name = keys[0].name;
@@ -112,6 +123,7 @@ RequestText MotionCollector::as_shutter_opens(const std::vector<RequestText>& ke
     return text;
 }
 
+/// Poses are counted against the times: a block that has fewer, or more, stands still.
 std::optional<MovingShape> MotionCollector::resolve(MotionBlock block) {
     const size_t given = std::max(block.transforms.size(), block.shapes.size());
     if (given == 0) return {};
@@ -124,6 +136,7 @@ std::optional<MovingShape> MotionCollector::resolve(MotionBlock block) {
     return {};
 }
 
+/// A motion without its full number of times stands still at its first pose.
 void MotionCollector::concat(MotionBlock block, bool complete) {
     MovingTransform& transform = state_.current().transform;
     if (block.absolute) transform = state_.root_transform();
@@ -137,6 +150,7 @@ void MotionCollector::concat(MotionBlock block, bool complete) {
             MovingFactor{block.transform_kind, std::move(block.times), std::move(block.transforms)});
 }
 
+/// Poses must have one form (can_deform); colours in them do not move (use_colors_at_open).
 MovingShape MotionCollector::resolved_shape(MotionBlock block, bool complete) {
     if (complete && use_colors_at_open(block.shapes, block.times, state_.options().shutter_open))
         report_.note(block.at,

@@ -7,7 +7,7 @@
 namespace trapeze::rib {
 namespace {
 
-/// Of instances in objects, which can double with every line of a file.
+/// The most primitives of an object: instances in objects can double them with every line of a file.
 constexpr size_t kMostInObject = size_t{1} << 20;
 
 bool same(const ParameterList& a, const ParameterList& b) {
@@ -71,6 +71,8 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
 
 }  // namespace
 
+/// The definition has a space of its own, in which nothing has happened yet, and keeps the attributes to tell
+/// later which ones it changed.
 void SceneBuilder::begin_object(const std::string& handle) {
     if (object_) throw RequestError{"object definitions do not nest", {}};
     state_.open(Block::Object, report_.at());
@@ -82,6 +84,8 @@ void SceneBuilder::begin_object(const std::string& handle) {
     state_.current().transform = MovingTransform();
 }
 
+/// Objects in objects are made flat: an instance within a definition copies its primitives. Consecutive
+/// primitives mostly share their attributes, and then also the merged ones.
 void SceneBuilder::instance(const std::string& handle) {
     if (motion_.is_open()) throw RequestError{"inside a motion block", {}};
     if (!takes_geometry()) return;
@@ -100,9 +104,11 @@ void SceneBuilder::instance(const std::string& handle) {
     }
     if (object_ && object_->primitives.size() + object.primitives.size() > kMostInObject)
         throw RequestError{"the object has more than " + std::to_string(kMostInObject) + " primitives", {}};
+    // The attributes that were merged last, and with what result.
     const AttributeState* merged_from = nullptr;
     std::shared_ptr<const AttributeState> merged;
     const int first_solid = place_solids(object.solids);
+    // Surfaces of an object that has no solids of its own bound the solid around the instance.
     const bool some_bare = std::any_of(object.primitives.begin(), object.primitives.end(),
                                        [](const ObjectPrimitive& p) { return p.solid < 0; });
     const int around = some_bare ? solid_of_surface(solids_here()) : -1;

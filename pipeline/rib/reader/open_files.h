@@ -28,7 +28,7 @@ class OpenFiles {
 
     /// The innermost that is a file on disk; may be empty.
     std::string current_file() const;
-    /// Its folder: where names in it are looked for first. Empty when the folder is the working folder.
+    /// The folder of that file, where names in it are looked for first. Empty when it is the working folder.
     std::string current_folder() const;
 
     /// A world is opened by what is read now.

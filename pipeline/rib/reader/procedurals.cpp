@@ -1,3 +1,6 @@
+/// A procedural is asked as soon as it is read, for the detail that it has in the finished picture: RISpec
+/// 5.8 lets a renderer ask late or never, which saves nothing where all geometry is kept until the frame is
+/// rendered.
 #include "pipeline/rib/reader/procedurals.h"
 
 #include <algorithm>
@@ -9,6 +12,7 @@
 
 namespace trapeze::rib {
 
+/// How messages begin that are about it.
 std::string Procedurals::Source::title() const {
     return "the " + kind + " " + in_quotes(shown);
 }
@@ -23,6 +27,7 @@ void Procedurals::delayed_archive(const std::string& name) {
     blocks_.within_attribute_block([&] { stream_.read_archive(name); });
 }
 
+/// The command is cut at spaces alone: no shell sees it, and nothing in it is expanded.
 void Procedurals::run_program(const std::string& command, const std::string& data,
                               const std::vector<float>& bound) {
     std::istringstream stream(command);
@@ -69,6 +74,8 @@ bool Procedurals::may_run(const Source& source) {
     return false;
 }
 
+/// Frames that are not wanted start no programs. The answer is read like a file of the scene's, with the
+/// places of messages in it.
 void Procedurals::read_answer(const Source& source, const std::string& data,
                               const std::vector<float>& bound) {
     if (!takes_procedural() || !may_run(source) || !scene_.frame_is_wanted()) return;

@@ -1,3 +1,5 @@
+/// Parameter lists: the pairs of a name and a value at the end of requests (RISpec, appendix C.2). A wrong
+/// pair costs itself, not its request.
 #include "pipeline/rib/reader/request_context.h"
 
 #include <algorithm>
@@ -17,6 +19,7 @@ Declaration guessed(size_t numbers, size_t strings) {
             static_cast<int>(std::clamp<size_t>(length, 1, kLongestArray))};
 }
 
+/// Whether values of this number and kind can be what the declaration says.
 bool fits(const Declaration& declaration, size_t numbers, size_t strings) {
     const size_t item = component_count(declaration.type) * static_cast<size_t>(declaration.array_length);
     const bool is_string = declaration.type == ValueType::String;
@@ -65,6 +68,7 @@ class ParameterReader {
     }
 
   private:
+    /// A token with a space in it that is no declaration was meant to be one: it is not guessed.
     std::optional<std::pair<std::string, Declaration>> declaration_of(const std::string& token,
                                                                       size_t numbers, size_t strings) {
         auto declared = state_.declarations().resolve(token);
@@ -114,6 +118,7 @@ class ParameterReader {
 
 }  // namespace
 
+/// A repeated name is a mistake of the file: its first value counts.
 ParameterList RequestContext::parameters(ArgumentCursor& cursor, Undeclared undeclared) {
     ParameterList list;
     ParameterReader reader(*this, cursor, undeclared);
@@ -122,6 +127,8 @@ ParameterList RequestContext::parameters(ArgumentCursor& cursor, Undeclared unde
     return list;
 }
 
+/// A shader's argument is one value or one array, as it is declared. What has another number of values was
+/// meant for another shader.
 ParameterList RequestContext::shader_parameters(ArgumentCursor& cursor) {
     ParameterList list = parameters(cursor, Undeclared::Guess);
     std::erase_if(list.values, [&](const Parameter& p) {
@@ -135,6 +142,7 @@ ParameterList RequestContext::shader_parameters(ArgumentCursor& cursor) {
     return list;
 }
 
+/// Shaders run in the space where their request stands ("shader" space).
 ShaderInstance RequestContext::shader(ArgumentCursor& cursor, const char* kind) {
     ShaderInstance instance;
     instance.name = cursor.string("the shader's name");

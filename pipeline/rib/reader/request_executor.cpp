@@ -1,3 +1,5 @@
+/// Errors of requests end here: a handler throws, and the request is left out with a message. What it did
+/// before it threw stays, so handlers read all of their arguments first.
 #include "pipeline/rib/reader/request_executor.h"
 
 #include "pipeline/rib/reader/conditional_blocks.h"
@@ -22,6 +24,8 @@ bool has_no_points(const RequestText& text) {
 
 }  // namespace
 
+/// The order counts: a request is counted before anything of it is judged; variables are replaced before
+/// others are told of it, and these may refuse it.
 void RequestExecutor::execute(RequestText& text) {
     RequestReport& report = context_.report;
     if (text.name != last_request_.name || !last_request_.request) {
@@ -64,6 +68,7 @@ void RequestExecutor::execute(RequestText& text) {
     }
 }
 
+/// Not told to ReadOptions::on_request again: that was done where it stood.
 void RequestExecutor::execute_held(const std::vector<RequestText>& keys, const std::vector<float>& times) {
     const OtherRequest held(context_.report, keys[0].at, keys[0].name);
     RequestText text = context_.motion.as_shutter_opens(keys, times);
@@ -74,6 +79,7 @@ void RequestExecutor::execute_held(const std::vector<RequestText>& keys, const s
     }
 }
 
+/// The handler's own name for what is wrong is enough: place and request are added where it is caught.
 void RequestExecutor::carry_out(const Request& request, RequestText& text) {
     RequestReport& report = context_.report;
     if (request.group == RequestGroup::Geometry && has_no_points(text)) {
@@ -86,6 +92,7 @@ void RequestExecutor::carry_out(const Request& request, RequestText& text) {
         report.error(cursor.peek()->at, "more arguments than the request has; the rest is ignored");
 }
 
+/// Conditions are resolved for the listener, and frames that are not wanted are not for it.
 bool RequestExecutor::hands_on(const RequestText& text) const {
     if (!read_options_.on_request || ConditionalBlocks::is_conditional(text.name) ||
         !context_.scene.frame_is_wanted())

@@ -32,10 +32,12 @@ void RequestReport::warn_once(const std::string& text, const std::string& kind) 
     say(Severity::Warning, at_, text, kind);
 }
 
+/// Shown once for each kind; what is over the limit is left out without further words.
 void RequestReport::error_of_limit(const std::string& text, const std::string& kind) {
     diagnostics_.error(at_, name_ + ": " + text, kind);
 }
 
+/// Kinds beyond the most are counted together as "further kinds", with the first of them shown.
 void RequestReport::say(Severity severity, SourceLocation at, const std::string& text,
                         const std::string& kind) {
     const std::string whole = name_ + ": " + text;
@@ -64,6 +66,7 @@ void RequestReport::set_error_handler(OnError handler) {
     errors_before_abort_ = diagnostics_.count(Severity::Error);
 }
 
+/// Asked before each request.
 bool RequestReport::must_stop() {
     has_stopped_ = has_stopped_ || (cancelled_ && *cancelled_);
     if (has_stopped_ || on_error_ != OnError::Abort) return has_stopped_;

@@ -84,7 +84,7 @@ class OtherRequest {
     OtherRequest(RequestReport& report, SourceLocation at, std::string_view name) : OtherRequest(report) {
         report.set_request(at, name);
     }
-    /// About those that are yet to be set.
+    /// About requests that are yet to be set.
     explicit OtherRequest(RequestReport& report) : report_(report), at_(report.at()), name_(report.name()) {}
     ~OtherRequest() { report_.set_request(at_, name_); }
     OtherRequest(const OtherRequest&) = delete;

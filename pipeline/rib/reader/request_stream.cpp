@@ -1,3 +1,6 @@
+/// Reading is recursive as files are: ReadArchive is a request like others, and its handler comes back here.
+/// What belongs to the text that is read (place, conditions, current request) is put aside meanwhile by
+/// in_stream().
 #include "pipeline/rib/reader/request_stream.h"
 
 #include <algorithm>
@@ -13,10 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Deeper is a mistake, or an attack on the stack: each level is one of this program too.
 constexpr size_t kDeepestInclude = 64;
 
-/// Of requests that are kept for archives that are read again; an eighth of what a scene may take, if that is
-/// less.
+/// Memory for requests of archives that are read again, in bytes; an eighth of what a scene may take, if that
+/// is less.
 constexpr uint64_t kMostReadyBytes = uint64_t{256} << 20;
 
 /// One name for each file, however it is reached.
@@ -53,6 +57,7 @@ std::shared_ptr<ReadyArchive> RequestStream::ready_archive(const std::string& pa
     return file.ready;
 }
 
+/// A file that cannot be read is an error of the request that names it; one of the command's has no request.
 void RequestStream::read_file(const std::string& path, const Access& access) {
     const bool is_archive = files_.depth() > 0;
     Diagnostics& diagnostics = report_.diagnostics();
@@ -119,6 +124,7 @@ bool RequestStream::reads_next(Lexer& lexer, RequestText& request, ReadyArchive*
     return is_there;
 }
 
+/// Requests that are skipped count for the place too: an archive that is read again has other branches taken.
 void RequestStream::read_text(std::string_view text, SourceLocation first, EncodedNames names,
                               ReadyArchive* ready) {
     report_.summary().bytes += text.size();
@@ -182,6 +188,7 @@ void RequestStream::record_archive(RequestText& request, Lexer& lexer, std::stri
                                      {}};
 }
 
+/// Recursion is found by names: of files by the one name that each has, whichever way it is reached.
 bool RequestStream::may_read_archive(const std::string& name, const std::string& key) {
     const char* problem = nullptr;
     const auto is_same = [&](const std::string& open) {
@@ -206,6 +213,7 @@ bool RequestStream::may_read_archive(const std::string& name, const std::string&
     return false;
 }
 
+/// Inline archives come before files of the same name: the scene itself defined them.
 void RequestStream::read_archive(const std::string& name) {
     if (const auto archive = inline_archives_.find(name); archive != inline_archives_.end()) {
         const std::string key = "<archive " + name + ">";

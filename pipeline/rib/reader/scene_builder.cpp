@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kMostSharpSamples = 4;  ///< along each side of a pixel, of a hider's samples without blur
 
+/// Control points, as the summary counts them; quadrics have none.
 uint64_t point_count(const Shape& shape) {
     if (std::holds_alternative<Quadric>(shape.topology)) return 0;
     return static_cast<uint64_t>(variable_counts(shape.topology).vertex);
@@ -30,10 +31,12 @@ float largest_stretch(const M44f& m) {
     return static_cast<float>(std::sqrt(largest));
 }
 
+/// A transformation that overflowed would spoil every bound that it is in.
 bool is_finite(const M44f& m) {
     return std::all_of(&m[0][0], &m[0][0] + 16, [](float v) { return std::isfinite(v); });
 }
 
+/// A primitive that does not deform has one key.
 std::vector<ShapePointer> only(ShapePointer shape) {
     std::vector<ShapePointer> keys;
     keys.push_back(std::move(shape));
@@ -42,6 +45,8 @@ std::vector<ShapePointer> only(ShapePointer shape) {
 
 }  // namespace
 
+/// Frames that are not wanted are read all the same: what they define may be used, and mistakes in them be
+/// found.
 void SceneBuilder::begin_frame(int number) {
     if (state_.in_world()) throw RequestError{"inside a world", {}};
     if (state_.is_open(Block::Frame)) throw RequestError{"a frame is open already", {}};
@@ -64,6 +69,8 @@ void SceneBuilder::begin_world() {
     instanced_primitives_ = 0;
 }
 
+/// Maps are made where they stand, so that a later world can use them; a shadow map's picture is that of an
+/// earlier world.
 void SceneBuilder::make_map(MapRequest request) {
     if (state_.in_world()) throw RequestError{"inside a world", {}};
     if (!frame_is_wanted_ || !read_options_.on_map) return;
@@ -73,6 +80,7 @@ void SceneBuilder::make_map(MapRequest request) {
     read_options_.on_map(request);
 }
 
+/// Spaces are taken as the shutter opens: shaders know no others.
 void SceneBuilder::deliver_world() {
     ++report_.summary().worlds;
     Scope& scope = state_.scope();
@@ -100,6 +108,7 @@ void SceneBuilder::deliver_world() {
     scene_bytes_ = 0;
 }
 
+/// The bound in camera space: its own length, times the most that its space stretches any length at any key.
 float SceneBuilder::displacement_length(const AttributeState& state,
                                         const std::vector<M44f>& camera_from_object) {
     const DisplacementBound& bound = state.displacement_bound;
@@ -119,6 +128,7 @@ float SceneBuilder::displacement_length(const AttributeState& state,
     return bound.sphere * stretch;
 }
 
+/// Attributes as the scene has them; primitives in a row mostly share one set, which is made once.
 std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
     const std::shared_ptr<const AttributeState>& state, const std::vector<M44f>& camera_from_object) {
     // dPdu x dPdv in camera space is the transformed outward normal times the sign of the determinant.
@@ -138,6 +148,7 @@ std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
     return attributes;
 }
 
+/// Adds to what the world takes; false, and an error, when that is too much.
 bool SceneBuilder::has_room(uint64_t bytes) {
     scene_bytes_ += bytes;
     if (scene_bytes_ <= read_options_.most_scene_bytes) return true;
@@ -148,6 +159,8 @@ bool SceneBuilder::has_room(uint64_t bytes) {
     return false;
 }
 
+/// The last step of a primitive: its keys of transformation, its attributes, and the scene. `solid` is the
+/// scene's that it bounds, or -1.
 void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> shape_keys,
                         const MovingTransform& transform, const std::shared_ptr<const AttributeState>& state,
                         SourceLocation at, int solid) {
@@ -162,6 +175,7 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     primitive.camera_from_object.reserve(static_cast<size_t>(keys));
     for (int k = 0; k < keys; ++k)
         primitive.camera_from_object.push_back(M44f(transform.at(key_time(open, close, k, keys))));
+    // A singular transformation flattens the shape: it has no inside, and its normals no direction.
     const auto& spaces = primitive.camera_from_object;
     if (!std::all_of(spaces.begin(), spaces.end(), is_finite) ||
         !(std::abs(M44d(spaces.front()).determinant()) > 0)) {
@@ -173,6 +187,7 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     report_.summary().points += point_count(primitive.shape());
     if (primitive.key_count() > 1) ++report_.summary().moving_primitives;
     if (!keeps_geometry() || state->detail.seen().are_none()) return;
+    // Shared attributes take memory once.
     const std::shared_ptr<const Attributes> last = resolved_.attributes;
     primitive.attributes = resolved_attributes(state, spaces);
     uint64_t bytes = bytes_of(primitive);
@@ -188,6 +203,7 @@ bool SceneBuilder::takes_geometry() {
     return false;
 }
 
+/// An input without any world is an archive, which may have geometry where it likes.
 void SceneBuilder::report_turned_away() {
     if (turned_away_.count == 0) return;
     const std::string count =
@@ -213,6 +229,7 @@ ShapePointer SceneBuilder::shared_or_new(Shape shape) {
     return shared;
 }
 
+/// A light that waits for its shape takes this one, in whichever of the three places it then goes to.
 void SceneBuilder::add_shape(std::string request, Shape shape, uint64_t faces) {
     if (!takes_geometry()) return;
     if (motion_.is_open()) motion_.expect(request);
@@ -229,6 +246,8 @@ void SceneBuilder::add_shape(std::string request, Shape shape, uint64_t faces) {
              report_.at(), solid_of_surface(solids_));
 }
 
+/// Poses are made at the even keys of the shutter, which later stages want; an object keeps those given,
+/// since it may be placed under another shutter.
 void SceneBuilder::add_moving_shape(MovingShape moving) {
     if (object_)
         return add_to_object(std::move(moving.request), std::move(moving.shapes), std::move(moving.times),
@@ -240,6 +259,7 @@ void SceneBuilder::add_moving_shape(MovingShape moving) {
          solid_of_surface(solids_));
 }
 
+/// The transformation is the object's own from where its definition began.
 void SceneBuilder::add_to_object(std::string request, std::vector<ShapePointer> shapes,
                                  std::vector<float> times, SourceLocation at) {
     object_->primitives.push_back({std::move(request),

@@ -8,6 +8,7 @@ constexpr size_t kMostSolids = 1'000'000;  ///< of a scene, or of an object
 
 }  // namespace
 
+/// A solid remembers which child of its parent it is: the order counts for differences.
 int SolidList::add(Solid::Operation operation, int parent) {
     if (solids.size() >= kMostSolids)
         throw RequestError{"more than " + std::to_string(kMostSolids) + " solids", {}};
@@ -19,6 +20,7 @@ int SolidList::add(Solid::Operation operation, int parent) {
     return static_cast<int>(solids.size()) - 1;
 }
 
+/// A primitive solid is bounded by surfaces, and holds no further solids.
 void SceneBuilder::begin_solid(Solid::Operation operation) {
     SolidList& list = solids_here();
     if (list.open >= 0 &&
@@ -28,6 +30,7 @@ void SceneBuilder::begin_solid(Solid::Operation operation) {
     list.open = list.add(operation, list.open);
 }
 
+/// An end that reached here without a solid open was reported by BlockEnds.
 void SceneBuilder::end_solid() {
     SolidList& list = solids_here();
     if (list.open >= 0) list.open = list.solids[static_cast<size_t>(list.open)].parent;

@@ -22,6 +22,7 @@ M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_fr
 
 }  // namespace
 
+/// A light's handle lives until the frame or world ends, its shining until the block does.
 void SceneBuilder::add_light(std::shared_ptr<const LightInstance> light) {
     if (object_) throw RequestError{"inside an object definition", {}};
     ++report_.summary().lights;
@@ -29,6 +30,7 @@ void SceneBuilder::add_light(std::shared_ptr<const LightInstance> light) {
     state_.change_attributes().attributes.lights.push_back(std::move(light));
 }
 
+/// Handles of a frame or world that ended are unknown again (Scope).
 std::shared_ptr<const LightInstance> SceneBuilder::light(const std::string& handle) const {
     const auto found = state_.scope().lights.find(handle);
     return found == state_.scope().lights.end() ? nullptr : found->second;
@@ -49,7 +51,7 @@ void SceneBuilder::add_world_light(std::shared_ptr<const LightInstance> light) {
     lights.push_back(std::move(light));
 }
 
-/// Those of an object, where it is placed.
+/// Lights of an object shine from where it is placed, once for each instance.
 void SceneBuilder::place_lights(const RetainedObject& object) {
     for (const auto& light : object.lights) {
         if (!object_ && state_.scope().ris.lights.size() >= kMostWorldLights)
@@ -60,6 +62,8 @@ void SceneBuilder::place_lights(const RetainedObject& object) {
     }
 }
 
+/// The first shape after a light that shines from shapes: RSL's area lights keep their space and move to its
+/// middle, unless they say where they are; those of RIS take its place and size.
 void SceneBuilder::place_emitter(const Shape& shape) {
     Emitter* const emitter = state_.attributes().emitter.get();
     if (!emitter || std::exchange(emitter->is_placed, true)) return;
@@ -71,6 +75,7 @@ void SceneBuilder::place_emitter(const Shape& shape) {
             with_origin(shader.camera_from_shader, middle_of(shape), state_.camera_from_current());
 }
 
+/// The light becomes the first of those that stand for it, in place: it has been handed on already.
 void SceneBuilder::place_far_emitter(FarShape shape, float angle) {
     Emitter* const emitter = state_.attributes().emitter.get();
     if (!emitter || !emitter->is_of_ris || std::exchange(emitter->is_placed, true)) return;

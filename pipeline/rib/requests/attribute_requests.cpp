@@ -10,6 +10,8 @@
 namespace trapeze::rib {
 namespace {
 
+/// A colour of as many numbers as colours have (ColorSamples). One number for all and one too many are
+/// mistakes that files have, and that renderers take.
 V3f color_of(RequestContext& r, ArgumentCursor& c, const char* what) {
     const size_t samples = r.state.scope().samples_per_color();
     const SourceLocation at = c.done() ? SourceLocation{} : c.peek()->at;
@@ -28,22 +30,26 @@ V3f color_of(RequestContext& r, ArgumentCursor& c, const char* what) {
     return {v[0], v[1], v[2]};
 }
 
+/// Opacity color: how much of what lies behind is covered, by channel.
 void opacity(RequestContext& r, ArgumentCursor& c) {
     const V3f o = color_of(r, c, "the opacity");
     changeable_attributes(r).opacity = o;
 }
 
+/// TextureCoordinates s1 t1 s2 t2 s3 t3 s4 t4: s and t at the corners (0,0), (1,0), (0,1), (1,1) of u and v.
 void texture_coordinates(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(8, "the coordinates");
     std::copy(v.begin(), v.end(), changeable_attributes(r).texture_coordinates.begin());
 }
 
+/// ShadingRate area: so many pixels a micropolygon may cover.
 void shading_rate(RequestContext& r, ArgumentCursor& c) {
     const float rate = c.number("the rate");
     if (!(rate > 0)) throw RequestError{"the rate must be positive", {}};
     changeable_attributes(r).shading_rate = rate;
 }
 
+/// ShadingInterpolation "constant" or "smooth": of a grid's colours, over each micropolygon.
 void shading_interpolation(RequestContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     if (type != "constant" && type != "smooth")
@@ -55,12 +61,15 @@ void matte(RequestContext& r, ArgumentCursor& c) {
     changeable_attributes(r).matte = c.integer("the flag", 0, 2);
 }
 
+/// Sides 1 or 2: of 1 only those that face the eye are seen.
 void sides(RequestContext& r, ArgumentCursor& c) {
     const float n = c.number("1 or 2");
     if (n != 1 && n != 2) throw RequestError{"must be 1 or 2", {}};
     changeable_attributes(r).sides = static_cast<int>(n);
 }
 
+/// "lh" and "rh" name a handedness, which is that of the current space or not: kept as inside and outside,
+/// since later reflections flip both.
 void orientation(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the orientation");
     if (name != "outside" && name != "inside" && name != "lh" && name != "rh")
@@ -71,6 +80,7 @@ void orientation(RequestContext& r, ArgumentCursor& c) {
     state.orientation_reversed = false;
 }
 
+/// ReverseOrientation: normals point to the other side from now on.
 void reverse_orientation(RequestContext& r, ArgumentCursor&) {
     AttributeState& state = r.state.change_attributes();
     state.orientation_reversed = !state.orientation_reversed;
@@ -92,6 +102,7 @@ CubicBasis read_basis(ArgumentCursor& c, const char* what) {
     return basis;
 }
 
+/// Basis u ustep v vstep (RISpec 5.2): of the bicubic patches and cubic curves to come.
 void basis(RequestContext& r, ArgumentCursor& c) {
     const CubicBasis u = read_basis(c, "the u basis"), v = read_basis(c, "the v basis");
     AttributeState& state = r.state.change_attributes();
@@ -104,12 +115,14 @@ bool is_on(const std::string& text) {
            text != "transparent";
 }
 
+/// Attribute "dice": see Attributes::Dice.
 void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
     if (name == "binary") dice.binary = value != 0;
     if (name == "rasterorient") dice.raster_oriented = value != 0;
     if (name == "minlength") dice.min_length = std::max(value, 0.0f);
 }
 
+/// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too.
 void attribute(RequestContext& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
@@ -146,6 +159,7 @@ void attribute(RequestContext& r, ArgumentCursor& c) {
     }
 }
 
+/// A motion block holds these, and has each carried out once (RequestGroup::Attribute).
 constexpr RequestRow kAttributeRequests[] = {
     {"Attribute", attribute},
     {"Color",

@@ -8,6 +8,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// RISpec 5.6: operations 0 to 7, leaves from 1000 on.
 constexpr int kMostLeaves = 1 << 24;
 constexpr int kFirstOfTwo = 4, kFirstOfOne = 6, kOperators = 8;
 constexpr int kFirstLeaf = 1000, kRepellingPlane = 1003, kImplicitField = 1004;
@@ -43,11 +44,13 @@ class ProgramCheck {
     int leaves() const { return leaves_; }
 
   private:
+    /// The next number of the code.
     int next() {
         if (at_ >= blobby_.code.size()) throw RequestError{"the code ends within an operation", {}};
         return blobby_.code[at_++];
     }
 
+    /// Leaves take one index of floats; repelling planes take the name of a depth map first.
     void leaf(int code) {
         if (code == kImplicitField) {
             has_string(next());
@@ -81,6 +84,8 @@ class ProgramCheck {
                                {}};
     }
 
+    /// Add, multiply, maximum and minimum say how many operands follow; subtract and divide have two, negate
+    /// and identity one. Operands are results of earlier operations and leaves.
     void operation(int code) {
         const int count = code < kFirstOfTwo ? next() : code < kFirstOfOne ? 2 : 1;
         if (count < 1) throw RequestError{"an operation of " + std::to_string(count) + " operands", {}};
@@ -97,6 +102,8 @@ class ProgramCheck {
     bool has_implicit_fields_ = false;
 };
 
+/// Blobby nleaf [code] [floats] [strings] parameters: a program of operations on leaves; the surface of its
+/// last result is drawn.
 void blobby(RequestContext& r, ArgumentCursor& c) {
     Blobby blobby;
     blobby.leaf_count = c.integer("the number of leaves", 0, kMostLeaves);

@@ -1,3 +1,4 @@
+/// Transfers are named as core/scene/transfer.h lists them; "" is none of them.
 #include "pipeline/rib/requests/colorspaces.h"
 
 namespace trapeze::rib {

@@ -5,12 +5,14 @@
 namespace trapeze::rib {
 namespace {
 
+/// The expression; parameters after it are PRMan's, and are read past.
 std::string condition(RequestContext& r, ArgumentCursor& c) {
     std::string expression = c.string("the condition");
     r.parameters(c, Undeclared::Guess);
     return expression;
 }
 
+/// ElseIf "condition": counts where no branch before it was taken.
 void else_if(RequestContext& r, ArgumentCursor& c) {
     const std::string expression = condition(r, c);
     r.conditions.else_if(&expression);
@@ -22,6 +24,7 @@ void skip_block(RequestContext& r, ArgumentCursor& c) {
     r.conditions.skip_block();
 }
 
+/// Carried out even where others are skipped (ConditionalBlocks::is_conditional): add a name there too.
 constexpr RequestRow kConditionalRequests[] = {
     {"IfBegin", [](RequestContext& r, ArgumentCursor& c) { r.conditions.if_begin(condition(r, c)); }},
     {"ElseIf", else_if},

@@ -11,10 +11,12 @@
 namespace trapeze::rib {
 namespace {
 
+/// RISpec 5.5: of one segment; a closed cubic may share its first points with its last.
 int least_points(const Curves& curves) {
     return curves.cubic ? (curves.periodic ? 3 : 4) : 2;
 }
 
+/// Messages about a curve begin so; curves count from 0.
 std::string has_points(int vertices, size_t number) {
     return "curve " + std::to_string(number) + " has " + std::to_string(vertices) + " points";
 }
@@ -54,6 +56,7 @@ void leave_out_short_curves(RequestContext& r, Curves& curves, ParameterList& va
     }
 }
 
+/// Counts of points are checked before the points: they say how long the arrays must be.
 void curves(RequestContext& r, ArgumentCursor& c) {
     Curves curves;
     const std::string type = c.string("the type");
@@ -81,6 +84,7 @@ void curves(RequestContext& r, ArgumentCursor& c) {
     r.scene.add_shape("Curves", std::move(shape), count);
 }
 
+/// Points parameters: disks that face the eye, as wide as "width" or "constantwidth" in object space.
 void points(RequestContext& r, ArgumentCursor& c) {
     ParameterList list = read_variables_with_points(r, c, PointForm::Mesh);
     Points points;
@@ -92,6 +96,7 @@ void points(RequestContext& r, ArgumentCursor& c) {
     r.scene.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
 }
 
+/// Both may deform in a motion block.
 constexpr RequestRow kCurveRequests[] = {
     {"Curves", curves},
     {"Points", points},

@@ -11,6 +11,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// The basis counts for bicubic patches only; bilinear ones keep it unused.
 PatchMesh mesh_of_type(RequestContext& r, const std::string& type) {
     PatchMesh mesh;
     if (type != "bilinear" && type != "bicubic")
@@ -21,6 +22,7 @@ PatchMesh mesh_of_type(RequestContext& r, const std::string& type) {
     return mesh;
 }
 
+/// "P" is in rows of u, v by v; a "Pz" gives heights over the unit square.
 void add_patches(RequestContext& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
     Shape shape{mesh, {}};
     ParameterList list = read_variables_with_points(r, c, PointForm::Patch);
@@ -28,12 +30,14 @@ void add_patches(RequestContext& r, ArgumentCursor& c, const char* request, cons
     r.scene.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
 }
 
+/// Patch type parameters: 2 by 2 or 4 by 4 points.
 void patch(RequestContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     mesh.nu = mesh.nv = mesh.bicubic ? 4 : 2;
     add_patches(r, c, "Patch", mesh);
 }
 
+/// n points of a cubic side make (n - 4) / step + 1 patches, n / step where it closes (RISpec 5.2).
 void patch_mesh(RequestContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
@@ -52,6 +56,7 @@ void patch_mesh(RequestContext& r, ArgumentCursor& c) {
     add_patches(r, c, "PatchMesh", mesh);
 }
 
+/// Their numbers as RISpec 5.4 lists them; the sweep comes last.
 struct QuadricRow {
     Quadric::Kind kind;
     const char* name;
@@ -123,6 +128,7 @@ void quadric(RequestContext& r, ArgumentCursor& c) {
     r.scene.add_shape(row.name, std::move(shape), 1);
 }
 
+/// The number of `quadric` is its row of kQuadrics.
 constexpr RequestRow kCurvedSurfaceRequests[] = {
     {"Patch", patch},           {"PatchMesh", patch_mesh}, {"Sphere", quadric<0>},
     {"Cone", quadric<1>},       {"Cylinder", quadric<2>},  {"Hyperboloid", quadric<3>},

@@ -1,3 +1,5 @@
+/// What stays of a mesh when faces are left out: the mesh's own arrays, its variables and its tags all shrink
+/// alike, so that later stages see a mesh that was whole from the beginning.
 #include "pipeline/rib/requests/degenerate_faces.h"
 
 #include <algorithm>
@@ -26,12 +28,15 @@ class FaceCheck {
         if (keeps) corner_ += static_cast<size_t>(count);
         return keeps;
     }
+    /// Corners of a loop that is left out with its face.
     void drop_next(int count) {
         std::fill_n(kept_corners_.begin() + static_cast<std::ptrdiff_t>(corner_), count, char{0});
         corner_ += static_cast<size_t>(count);
     }
+    /// To be called once for each face, after its loops.
     void end_face(bool keeps) { kept_faces_.push_back(keeps); }
 
+    /// The common case, in which nothing is copied.
     bool keeps_all() const {
         return std::find(kept_corners_.begin(), kept_corners_.end(), 0) == kept_corners_.end() &&
                std::find(kept_faces_.begin(), kept_faces_.end(), 0) == kept_faces_.end();
@@ -39,6 +44,8 @@ class FaceCheck {
     const std::vector<char>& kept_corners() const { return kept_corners_; }
     const std::vector<char>& kept_faces() const { return kept_faces_; }
 
+    /// Slivers are what exporters write; indices beyond the points are damage, and an error. The first such
+    /// index is shown.
     void report(RequestReport& report) const {
         const std::string text =
             outside_ ? "vertex " + std::to_string(*outside_) + " is outside of the " +
@@ -55,12 +62,16 @@ class FaceCheck {
   private:
     const std::vector<int>& vertices_;
     int vertex_count_;
+    /// The first corner that has not been looked at.
     size_t corner_ = 0;
+    /// Loops of fewer than three vertices.
     size_t slivers_ = 0;
     std::optional<int> outside_;
+    /// 0 or 1 for each corner of the mesh, and for each face.
     std::vector<char> kept_corners_, kept_faces_;
 };
 
+/// Class uniform goes by faces, the classes of corners by corners; values of points stay, as the points do.
 void keep(ParameterList& variables, const FaceCheck& check) {
     for (Parameter& p : variables.values) {
         const StorageClass storage = p.declaration.storage;

@@ -6,6 +6,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// xmin xmax ymin ymax zmin zmax, in the current space.
 std::vector<float> box(ArgumentCursor& c) {
     auto v = c.numbers(6, "the bound");
     for (int axis = 0; axis < 3; ++axis)
@@ -19,6 +20,7 @@ void bound(RequestContext& r, ArgumentCursor& c) {
     r.report.count_without_effect();
 }
 
+/// The size is that of the bound as it is seen now; primitives to come are chosen by it (DetailRange).
 void detail(RequestContext& r, ArgumentCursor& c) {
     const std::vector<float> bound = box(c);
     if (r.state.in_object()) {
@@ -29,6 +31,8 @@ void detail(RequestContext& r, ArgumentCursor& c) {
     r.state.change_attributes().detail.size = size;
 }
 
+/// DetailRange minvisible lowertransition uppertransition maxvisible, in pixels; an end at infinity has no
+/// transition.
 void detail_range(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(4, "the range");
     if (!(v[0] <= v[1] && v[1] <= v[2] && v[2] <= v[3]))
@@ -40,6 +44,8 @@ void detail_range(RequestContext& r, ArgumentCursor& c) {
     range.least = v[0], range.full_from = v[1], range.full_to = limit(v[2]), range.most = limit(v[3]);
 }
 
+/// GeometricApproximation type value (RISpec 4.2). The factors of motion and focus let blurred surfaces be
+/// shaded more coarsely.
 void geometric_approximation(RequestContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     const float value = c.number("the value");

@@ -23,12 +23,13 @@ constexpr Global kGlobals[] = {
     {"dPdu", ValueType::Vector}, {"dPdv", ValueType::Vector}, {"I", ValueType::Vector},
     {"E", ValueType::Point},     {"time", ValueType::Float}};
 
+/// A name that can become a channel of a picture file.
 bool is_variable_name(std::string_view name) {
     const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
     return !name.empty() && name.size() <= kLongestVariable && std::all_of(name.begin(), name.end(), fits);
 }
 
-/// Of one that has one or three numbers.
+/// A variable of one or three numbers, which files can hold; nothing for others.
 std::optional<DisplayVariable> variable_of(const std::string& name, const Declaration& declaration) {
     constexpr ValueType kTypes[] = {ValueType::Float, ValueType::Integer, ValueType::Color,
                                     ValueType::Point, ValueType::Vector,  ValueType::Normal};
@@ -79,6 +80,7 @@ std::string picture_mode(RequestContext& r, const std::string& mode) {
     return picture.empty() ? mode : picture;
 }
 
+/// "+name" adds a display to those there are; another replaces them (RISpec 4.1.2).
 void display(RequestContext& r, ArgumentCursor& c) {
     Display d;
     d.location = r.report.at();
@@ -110,6 +112,7 @@ void display(RequestContext& r, ArgumentCursor& c) {
     }
 }
 
+/// DisplayChannel declaration parameters: these are defaults of the displays that name the channel.
 void display_channel(RequestContext& r, ArgumentCursor& c) {
     const std::string token = c.string("the channel");
     ParameterList parameters = r.parameters(c, Undeclared::Guess);

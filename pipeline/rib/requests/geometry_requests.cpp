@@ -9,11 +9,13 @@
 namespace trapeze::rib {
 namespace {
 
+/// Adds a shape that the summary counts as one face.
 void add(RequestContext& r, const char* kind, Topology topology, ParameterList list) {
     Shape shape{std::move(topology), std::move(list)};
     r.scene.add_shape(kind, std::move(shape), 1);
 }
 
+/// 32 patches in one request: a motion block has no place for them.
 void teapot(RequestContext& r, const ParameterList& given) {
     if (r.state.in_motion())
         throw RequestError{"a teapot does not deform; move it by its transformation", {}};
@@ -31,6 +33,7 @@ void teapot(RequestContext& r, const ParameterList& given) {
     }
 }
 
+/// Spheres about the origin, whole: for "sphere" and for lights of that form.
 void sphere(RequestContext& r, const ParameterList& given, float radius) {
     Quadric q;
     q.values = {radius, -radius, radius, 360};
@@ -65,11 +68,14 @@ void rectangle(RequestContext& r, const ParameterList& given) {
     add(r, "Patch", mesh, std::move(list));
 }
 
+/// A parameter of the primitive itself, which no shader looks at.
 float number_of(const ParameterList& given, const char* name, float otherwise) {
     const Parameter* p = given.find(name);
     return p && p->floats.size() == 1 ? p->floats[0] : otherwise;
 }
 
+/// Geometry name parameters. RISpec leaves the names to renderers; "teapot" is customary, and RIS names
+/// shapes of lights so.
 void geometry(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the name");
     const ParameterList given = read_variables(r, c, PointForm::None);
@@ -86,6 +92,7 @@ void geometry(RequestContext& r, ArgumentCursor& c) {
         "geometry-" + name);
 }
 
+/// In a motion block a shape is a pose like any other.
 constexpr RequestRow kGeometryRequests[] = {
     {"Geometry", geometry},
 };

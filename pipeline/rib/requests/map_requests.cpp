@@ -16,13 +16,14 @@ void take_filter(ArgumentCursor& c, MapRequest& request) {
     c.numbers(2, "the filter's widths");
 }
 
-/// Of its parameters, the "colorspace" counts.
+/// Parameters end the request; "colorspace" counts among them.
 void finish(RequestContext& r, ArgumentCursor& c, MapRequest request) {
     ParameterList parameters = r.parameters(c, Undeclared::Guess);
     request.colorspace = colorspace_of(r.report, parameters);
     r.scene.make_map(std::move(request));
 }
 
+/// MakeTexture and MakeBump: the wrap modes of s and t, then the filter.
 void make_flat(RequestContext& r, ArgumentCursor& c, Kind kind) {
     MapRequest request;
     request.kind = kind;
@@ -34,6 +35,7 @@ void make_flat(RequestContext& r, ArgumentCursor& c, Kind kind) {
     finish(r, c, std::move(request));
 }
 
+/// MakeLatLongEnvironment picture map filter swidth twidth: longitude goes along x.
 void make_lat_long_environment(RequestContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::LatLongEnvironment;
@@ -43,6 +45,8 @@ void make_lat_long_environment(RequestContext& r, ArgumentCursor& c) {
     finish(r, c, std::move(request));
 }
 
+/// MakeCubeFaceEnvironment px nx py ny pz nz map fov filter swidth twidth: faces see a little more than 90
+/// degrees, so that lookups can blend.
 void make_cube_face_environment(RequestContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::CubeFaceEnvironment;
@@ -61,6 +65,7 @@ void make_cube_face_environment(RequestContext& r, ArgumentCursor& c) {
     finish(r, c, std::move(request));
 }
 
+/// The picture is a depth map, of which nothing is filtered.
 void make_shadow(RequestContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::Shadow;
@@ -69,6 +74,7 @@ void make_shadow(RequestContext& r, ArgumentCursor& c) {
     finish(r, c, std::move(request));
 }
 
+/// RISpec has them among the options: between worlds.
 constexpr RequestRow kMapRequests[] = {
     {"MakeTexture", [](RequestContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Texture); }},
     {"MakeBump", [](RequestContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Bump); }},

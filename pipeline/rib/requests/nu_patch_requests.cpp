@@ -9,6 +9,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// The degree and one. Higher ones are taken for damage.
 constexpr int kLargestOrder = 32;
 
 /// One direction: the number of points, the order, the knots and the range.
@@ -37,6 +38,7 @@ void read_direction(RequestContext& r, ArgumentCursor& c, const std::string& axi
     if (!(begin < end)) throw RequestError{"the range of " + axis + " is empty", {}};
 }
 
+/// Trim curves of the attributes are copied into the shape: they are part of its form.
 void nu_patch(RequestContext& r, ArgumentCursor& c) {
     NuPatch patch;
     read_direction(r, c, "u", patch.nu, patch.u_order, patch.u_knots, patch.u_begin, patch.u_end);
@@ -68,6 +70,7 @@ const std::vector<T>& expect_length(const std::vector<T>& array, size_t wanted, 
         std::string(what) + " are " + std::to_string(array.size()) + ", needs " + std::to_string(wanted), {}};
 }
 
+/// All lengths are checked here; next_curve() only cuts the arrays up.
 TrimArrays trim_arrays(ArgumentCursor& c, int64_t curves) {
     TrimArrays a;
     a.orders = c.int_array("the orders");
@@ -95,6 +98,7 @@ TrimArrays trim_arrays(ArgumentCursor& c, int64_t curves) {
     return a;
 }
 
+/// The range is clipped to the knots that have a curve: from knot order - 1 to knot n.
 TrimCurve next_curve(TrimArrays& a) {
     const std::string name = "curve " + std::to_string(a.curve);
     TrimCurve curve;
@@ -139,6 +143,7 @@ void trim_curve(RequestContext& r, ArgumentCursor& c) {
     r.state.change_attributes().trim_loops = std::move(loops);
 }
 
+/// An attribute like others: motion blocks hold it, and patches to come are trimmed by it.
 constexpr RequestRow kAttributeRows[] = {
     {"TrimCurve", trim_curve},
 };

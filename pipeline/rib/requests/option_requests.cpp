@@ -25,10 +25,12 @@ constexpr std::string_view kFilters[] = {"gaussian", "box",     "triangle",     
                                          "sinc",     "disk",    "bessel",          "mitchell",
                                          "b-spline", "lanczos", "blackman-harris", "separable-catmull-rom"};
 
+/// A condition on arguments, with what is said where it does not hold.
 void require(bool holds, const char* text) {
     if (!holds) throw RequestError{text, {}};
 }
 
+/// Format xresolution yresolution [pixelaspectratio]: pixels, and the width of one over its height.
 void format(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, 3, "the format");
     const float width = v[0], height = v[1], aspect = v.size() > 2 ? v[2] : 1;
@@ -40,6 +42,7 @@ void format(RequestContext& r, ArgumentCursor& c) {
     if (aspect > 0) o.pixel_aspect = aspect;  // RISpec: values below 1 ask for the default
 }
 
+/// FrameAspectRatio width/height of the picture; without it that of Format.
 void frame_aspect_ratio(RequestContext& r, ArgumentCursor& c) {
     const float aspect = c.number("the ratio");
     require(std::isfinite(aspect), "the ratio must be finite");
@@ -47,17 +50,21 @@ void frame_aspect_ratio(RequestContext& r, ArgumentCursor& c) {
     changeable_options(r).frame_aspect = aspect > 0 ? std::optional(aspect) : std::nullopt;
 }
 
+/// Four numbers, with brackets or without.
 std::array<float, 4> four(ArgumentCursor& c, const char* what) {
     const auto v = c.numbers(4, what);
     return {v[0], v[1], v[2], v[3]};
 }
 
+/// ScreenWindow left right bottom top, in screen coordinates: the part of the plane z = 1, seen by the angle
+/// of Projection, that fills the picture. A left greater than the right mirrors it.
 void screen_window(RequestContext& r, ArgumentCursor& c) {
     const auto w = four(c, "the window");
     require(w[0] != w[1] && w[2] != w[3], "the window is empty");
     changeable_options(r).screen_window = w;
 }
 
+/// CropWindow xmin xmax ymin ymax: parts of the picture, from 0 to 1. What is outside is not rendered.
 void crop_window(RequestContext& r, ArgumentCursor& c) {
     auto w = four(c, "the window");
     for (float& v : w) v = std::clamp(v, 0.0f, 1.0f);
@@ -65,6 +72,7 @@ void crop_window(RequestContext& r, ArgumentCursor& c) {
     changeable_options(r).crop_window = w;
 }
 
+/// Projection name parameters: "perspective" with "fov" in degrees along the smaller side, or "orthographic".
 void projection(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     std::string name = c.string("the projection's name");
@@ -91,6 +99,8 @@ void projection(RequestContext& r, ArgumentCursor& c) {
     if (!r.state.in_world()) r.state.current().transform = MovingTransform();
 }
 
+/// Clipping near far: distances in camera space. A near plane of 0 is put just before the eye, where
+/// perspective still has a depth.
 void clipping(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the planes");
     const float near = v[0], far = v[1];
@@ -100,6 +110,8 @@ void clipping(RequestContext& r, ArgumentCursor& c) {
     o.far_clip = std::min(far, kInfinity);
 }
 
+/// DepthOfField fstop focallength focaldistance, lengths in camera space; the lens is focallength / fstop
+/// wide.
 void depth_of_field(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     if (c.done() || c.next_is_string()) {  // "-" in older files, or nothing: a pinhole
@@ -117,6 +129,7 @@ void depth_of_field(RequestContext& r, ArgumentCursor& c) {
     o.f_stop = f_stop, o.focal_length = length, o.focal_distance = distance;
 }
 
+/// Shutter min max: seconds of the scene, the unit of MotionBegin's times.
 void shutter(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the shutter");
     const float open = v[0], close = v[1];
@@ -127,6 +140,7 @@ void shutter(RequestContext& r, ArgumentCursor& c) {
     r.state.options().shutter_close = close;
 }
 
+/// PixelSamples x y: samples along the sides of a pixel, which RIB allows to be fractions.
 void pixel_samples(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the samples");
     const float x = v[0], y = v[1];
@@ -148,6 +162,7 @@ void set_samples_of_hider(RequestContext& r) {
     r.state.options().samples_x = r.state.options().samples_y = side;
 }
 
+/// PixelFilter name xwidth ywidth: whole widths, in pixels.
 void pixel_filter(RequestContext& r, ArgumentCursor& c) {
     std::string name = c.string("the filter's name");
     const auto v = c.numbers(2, "the widths");
@@ -161,6 +176,7 @@ void pixel_filter(RequestContext& r, ArgumentCursor& c) {
     o.filter = {name, x, y};
 }
 
+/// Exposure gain gamma: colours times gain, to the power 1 / gamma (RISpec 4.1.2).
 void exposure(RequestContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the exposure");
     const float gain = v[0], gamma = v[1];
@@ -169,6 +185,7 @@ void exposure(RequestContext& r, ArgumentCursor& c) {
     r.state.options().exposure_gamma = gamma;
 }
 
+/// Quantize type one min max dither: colour value 1 becomes `one`; 0 keeps floats.
 void quantize(RequestContext& r, ArgumentCursor& c) {
     Parameter value;
     value.name = c.string("the type");
@@ -189,6 +206,7 @@ void rename_background(ParameterList& parameters) {
     }
 }
 
+/// Imager name parameters: a shader of pixels, after the surfaces'.
 void imager(RequestContext& r, ArgumentCursor& c) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, "imager"));
     instance->parameters = r.shader_parameters(c);
@@ -197,6 +215,7 @@ void imager(RequestContext& r, ArgumentCursor& c) {
     changeable_options(r).imager = is_none ? nullptr : std::move(instance);
 }
 
+/// Hider type parameters: the samples of a path tracer's count where PixelSamples has not been given.
 void hider(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     o.hider = c.string("the hider's name");
@@ -207,6 +226,8 @@ void hider(RequestContext& r, ArgumentCursor& c) {
     set_samples_of_hider(r);
 }
 
+/// Option category parameters: kept for shaders too, like attributes; a colour transfer that is not known is
+/// not kept.
 void option(RequestContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     const std::string category = c.string("the category");
@@ -222,6 +243,7 @@ void option(RequestContext& r, ArgumentCursor& c) {
     }
 }
 
+/// RelativeDetail factor: areas of Detail are multiplied by it.
 void relative_detail(RequestContext& r, ArgumentCursor& c) {
     const float factor = c.number("the factor");
     require(factor >= 0, "the factor must not be negative");
@@ -288,6 +310,8 @@ constexpr RequestRow kOptionRequests[] = {
 
 }  // namespace
 
+/// RISpec fixes options at WorldBegin. Files that set some just after it mean this world; an archive that is
+/// read within a world was a whole scene, and must not change the picture around it.
 Options& changeable_options(RequestContext& context) {
     if (context.state.in_world()) {
         if (context.files.are_below_world()) throw RequestError{"options cannot change inside a world", {}};

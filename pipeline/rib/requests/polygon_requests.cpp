@@ -24,6 +24,7 @@ int64_t checked_sum(const std::vector<int>& counts, int smallest, const char* wh
     return sum;
 }
 
+/// Throws a RequestError that says how many numbers there should be.
 void expect_length(size_t got, int64_t wanted, const char* what) {
     if (static_cast<int64_t>(got) != wanted)
         throw RequestError{
@@ -47,6 +48,7 @@ std::string problem_of(const SubdivisionMesh::Tag& tag, const SubdivisionMesh& m
     return {};
 }
 
+/// A wrong tag costs itself. Tags of unknown names are kept for later stages to pass over.
 void check_tags(RequestContext& r, SubdivisionMesh& mesh) {
     std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
         const std::string problem = problem_of(tag, mesh);
@@ -56,6 +58,7 @@ void check_tags(RequestContext& r, SubdivisionMesh& mesh) {
     });
 }
 
+/// Faces as files count them: a polygon with its holes is one.
 uint64_t face_count(const PolygonMesh& mesh) {
     return mesh.loops_per_polygon.size();
 }
@@ -88,6 +91,7 @@ PolygonMesh consecutive(std::vector<int> loops) {
     return mesh;
 }
 
+/// Polygon parameters: its vertices are the points of "P", in their order.
 void polygon(RequestContext& r, ArgumentCursor& c) {
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     const int points = point_count_of(list);
@@ -100,6 +104,7 @@ void polygon(RequestContext& r, ArgumentCursor& c) {
     r.scene.add_shape("Polygon", std::move(shape), 1);
 }
 
+/// GeneralPolygon [vertices of each loop] parameters: an outline, then holes, of consecutive points.
 void general_polygon(RequestContext& r, ArgumentCursor& c) {
     std::vector<int> loops = c.int_array("the loops");
     const int64_t sum = checked_sum(loops, 0, "a loop");
@@ -117,6 +122,7 @@ void general_polygon(RequestContext& r, ArgumentCursor& c) {
     r.scene.add_shape("GeneralPolygon", std::move(shape), 1);
 }
 
+/// PointsPolygons [vertices of each face] [indices of points] parameters.
 void points_polygons(RequestContext& r, ArgumentCursor& c) {
     PolygonMesh mesh;
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
@@ -127,6 +133,7 @@ void points_polygons(RequestContext& r, ArgumentCursor& c) {
     add_mesh(r, c, "PointsPolygons", std::move(mesh));
 }
 
+/// PointsGeneralPolygons [loops of each face] [vertices of each loop] [indices of points] parameters.
 void points_general_polygons(RequestContext& r, ArgumentCursor& c) {
     PolygonMesh mesh;
     mesh.loops_per_polygon = c.int_array("the numbers of loops");
@@ -180,6 +187,7 @@ bool has_tags(const ArgumentCursor& c) {
     return c.next_is_array() || (third && third->kind == Argument::Kind::Array);
 }
 
+/// Faces of fewer than three vertices are sorted out later (leave_out_degenerate_faces).
 SubdivisionMesh read_subdivision(ArgumentCursor& c) {
     SubdivisionMesh mesh;
     const std::string scheme = c.string("the scheme");
@@ -203,6 +211,7 @@ SubdivisionMesh read_subdivision(ArgumentCursor& c) {
     return mesh;
 }
 
+/// SubdivisionMesh scheme [vertices of each face] [indices] [tags] [counts] [integers] [floats] parameters.
 void subdivision_mesh(RequestContext& r, ArgumentCursor& c) {
     add_mesh(r, c, "SubdivisionMesh", read_subdivision(c));
 }

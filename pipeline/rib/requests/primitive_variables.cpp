@@ -12,6 +12,7 @@ struct StandardVariable {
     bool is_points = false;
 };
 
+/// RISpec, table 5.1: what dicing and shading look for by name.
 constexpr StandardVariable kStandard[] = {
     {"P", ValueType::Point, 1, true},  {"Pw", ValueType::HPoint, 1, true},
     {"Pz", ValueType::Float, 1, true}, {"N", ValueType::Normal},
@@ -21,6 +22,7 @@ constexpr StandardVariable kStandard[] = {
     {"width", ValueType::Float},       {"constantwidth", ValueType::Float},
 };
 
+/// Lists have one value for a name at most.
 void remove(ParameterList& list, std::string_view name) {
     std::erase_if(list.values, [&](const Parameter& p) { return p.name == name; });
 }
@@ -43,6 +45,7 @@ void check_types(RequestReport& report, ParameterList& list) {
     });
 }
 
+/// Surfaces have s and t; "st" is a pair of them for each item.
 void split_st(RequestReport& report, ParameterList& list) {
     const Parameter* st = list.find("st");
     if (!st) return;
@@ -64,12 +67,14 @@ void split_st(RequestReport& report, ParameterList& list) {
     remove(list, "st");
 }
 
+/// A point at infinity cannot be diced.
 void check_weights(const Parameter& pw) {
     for (size_t i = 3; i < pw.floats.size(); i += 4)
         if (pw.floats[i] == 0)
             throw RequestError{"point " + std::to_string(i / 4) + " of \"Pw\" has the weight 0", {}};
 }
 
+/// For shapes of flat faces, where the weight of a vertex has no other meaning.
 Parameter divided_by_weights(const Parameter& pw) {
     Parameter p{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
     p.floats.reserve(pw.floats.size() / 4 * 3);
@@ -78,6 +83,7 @@ Parameter divided_by_weights(const Parameter& pw) {
     return p;
 }
 
+/// "P" wins over "Pw", that over "Pz".
 void choose_points(RequestReport& report, ParameterList& list, PointForm form) {
     const auto leave_out = [&](const char* name) {
         if (!list.find(name)) return;
@@ -172,6 +178,8 @@ int point_count_of(const ParameterList& list) {
     return 0;
 }
 
+/// In this order: heights become points before points are counted, and "st" is split once its length is
+/// right.
 ParameterList checked_variables(RequestReport& report, ParameterList list, const Topology& topology) {
     expand_pz(list, topology);
     const VariableCounts counts = variable_counts(topology);

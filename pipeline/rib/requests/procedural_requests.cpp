@@ -5,6 +5,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// A known kind that is not supported, or an unknown one.
 [[noreturn]] void refuse(const std::string& kind) {
     if (kind == "DynamicLoad" || kind == "DynamicLoad2")
         throw RequestError{
@@ -12,6 +13,7 @@ namespace {
     throw RequestError{"no procedural " + in_quotes(kind), {}};
 }
 
+/// The bound may be left out; a program is told the area 0 then.
 void procedural(RequestContext& r, ArgumentCursor& c) {
     const std::string kind = c.string("the procedural's name");
     std::vector<std::string> data = c.string_array("the arguments");
@@ -50,6 +52,7 @@ void procedural2(RequestContext& r, ArgumentCursor& c) {
     }
 }
 
+/// What they read may be anything, worlds included.
 constexpr RequestRow kProceduralRequests[] = {{"Procedural", procedural}, {"Procedural2", procedural2}};
 
 }  // namespace

@@ -12,8 +12,10 @@ constexpr const char* kUnsupported[] = {"Deformation",  "Volume",        "MakeOc
                                         "MakeBrickMap", "MakeTexture3D", "VPInterior",
                                         "VPAtmosphere", "VPSurface",     "Shader"};
 
+/// A map by name that can be asked with a piece of the text, without a copy.
 using Table = std::map<std::string, Request, std::less<>>;
 
+/// Made once, from the groups' tables: a group says what motion blocks do with its requests.
 const Table& table() {
     static const Table all = [] {
         Table rows;
@@ -79,6 +81,7 @@ std::vector<std::string> request_names() {
     return names;
 }
 
+/// Up to a quarter of the letters may be wrong, and one more.
 std::string suggestion_for(const std::string& name) {
     if (name.size() > 40) return {};
     std::string best;

@@ -8,6 +8,7 @@
 
 namespace trapeze::rib {
 
+/// A request's name as RIB writes it, and its handler.
 struct RequestRow {
     const char* name;
     RequestHandler handler;
@@ -21,6 +22,8 @@ inline Attributes& changeable_attributes(RequestContext& context) {
     return context.state.change_attributes().attributes;
 }
 
+/// One table for each file of handlers; request_table.cpp puts them together. A new request is a handler and
+/// a row in the file of its family (and a row in ri.h, if C programs shall call it).
 std::span<const RequestRow> structure_requests();
 std::span<const RequestRow> conditional_requests();
 std::span<const RequestRow> state_requests();

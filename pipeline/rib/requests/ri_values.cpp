@@ -6,6 +6,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// The value's name, the request that sets it, and arguments that the request has before and after it.
 struct RiValue {
     std::string_view value, request;
     double before[2] = {0, 0};  ///< arguments before the value's
@@ -33,6 +34,7 @@ constexpr RiValue kValues[] = {
     {"DetailRange", "DetailRange"},
 };
 
+/// Arguments of requests that stand in no file: their place is that of the value.
 Argument text_argument(const std::string& value, SourceLocation at) {
     Argument argument;
     argument.kind = Argument::Kind::String;
@@ -40,6 +42,7 @@ Argument text_argument(const std::string& value, SourceLocation at) {
     return argument;
 }
 
+/// A number without brackets, as files write it.
 Argument number(double value, SourceLocation at) {
     Argument argument;
     argument.at = at, argument.number = value;
@@ -64,6 +67,7 @@ bool execute_filter(RequestContext& context, const Parameter& value) {
     return true;
 }
 
+/// "Frame" is the number that "Frame" of conditions and file names shows.
 bool set_frame(RequestContext& context, const Parameter& value) {
     if (value.name != "Frame" || value.floats.size() != 1 || !(std::abs(value.floats[0]) < 1e9f))
         return false;
@@ -73,6 +77,8 @@ bool set_frame(RequestContext& context, const Parameter& value) {
 
 }  // namespace
 
+/// The value becomes the arguments of a request, whose handler does what it always does, checks and messages
+/// included.
 bool execute_ri_value(RequestContext& context, const Parameter& value) {
     if (execute_filter(context, value) || set_frame(context, value)) return true;
     for (const RiValue& known : kValues) {

@@ -12,6 +12,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// Said once in a reading, whatever the scene has of RIS.
 void note(RequestContext& r) {
     r.report.count_unsupported();
     r.report.warn_once(
@@ -19,6 +20,7 @@ void note(RequestContext& r) {
         "ris");
 }
 
+/// Black is the default of the stand-in's colours: scenes stay small without it.
 void set_color(ShaderInstance& shader, const char* name, const V3f& v) {
     if (v.x != 0 || v.y != 0 || v.z != 0) set_triple(shader, name, ValueType::Color, v);
 }
@@ -48,6 +50,8 @@ RisLook known_look(RisNetwork& network, const std::string& shader, const RisPara
     return look;
 }
 
+/// The colour goes into Color, as the stand-in's other arguments go into its parameters: a Color after it
+/// would win, as in RSL.
 void bxdf(RequestContext& r, ArgumentCursor& c) {
     ShaderInstance surface = r.shader(c, "bxdf");
     const std::string handle = c.handle("the handle");
@@ -61,6 +65,7 @@ void bxdf(RequestContext& r, ArgumentCursor& c) {
     note(r);
 }
 
+/// Kept until the frame or world ends, for Bxdfs to follow.
 void pattern(RequestContext& r, ArgumentCursor& c) {
     RisPattern made;
     made.shader = c.string("the pattern's name");
@@ -70,6 +75,7 @@ void pattern(RequestContext& r, ArgumentCursor& c) {
     note(r);
 }
 
+/// Light "shader" "handle" parameters.
 void light(RequestContext& r, ArgumentCursor& c) {
     const ShaderInstance shader = r.shader(c, "light");
     const std::string handle = c.handle("the handle");
@@ -77,6 +83,7 @@ void light(RequestContext& r, ArgumentCursor& c) {
     note(r);
 }
 
+/// What only a path tracer can use, read past whole.
 void skip(RequestContext& r, ArgumentCursor& c) {
     c.skip_rest();
     note(r);

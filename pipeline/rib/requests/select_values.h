@@ -8,7 +8,7 @@
 
 namespace trapeze::rib {
 
-/// Of runs of `item` values those that are kept.
+/// Keeps those runs of `item` values whose place in `kept` is not 0, in their order.
 template <class Value>
 void select_values(std::vector<Value>& values, const std::vector<char>& kept, size_t item = 1) {
     size_t to = 0;
@@ -20,7 +20,7 @@ void select_values(std::vector<Value>& values, const std::vector<char>& kept, si
     values.resize(to);
 }
 
-/// Of a variable's items, an array as one, those that are kept.
+/// Keeps items of a variable, each of which may be an array, in the same way.
 inline void select_items(Parameter& variable, const std::vector<char>& kept) {
     if (variable.is_string())
         select_values(variable.strings, kept, static_cast<size_t>(variable.declaration.array_length));

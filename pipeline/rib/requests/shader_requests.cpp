@@ -9,8 +9,11 @@
 namespace trapeze::rib {
 namespace {
 
+/// Where Attributes keeps the shader of a kind.
 using ShaderMember = std::shared_ptr<const ShaderInstance> Attributes::*;
 
+/// Surface, Displacement and the like: name parameters. Replaces the shader of its kind, with all of its
+/// layers.
 template <ShaderMember kWhere>
 void shader(RequestContext& r, ArgumentCursor& c, const char* kind) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
@@ -21,6 +24,7 @@ void shader(RequestContext& r, ArgumentCursor& c, const char* kind) {
     changeable_attributes(r).*kWhere = is_none ? nullptr : std::move(instance);
 }
 
+/// Where layers of the kind stand; `kind` is the word itself, for the summary.
 ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
     kind = c.string("the kind of shader");
     if (kind == "surface") return &Attributes::surface;
@@ -78,6 +82,7 @@ bool has_handle(const ArgumentCursor& c) {
     return second->kind == Argument::Kind::String;
 }
 
+/// A light of RSL: its shader, then its handle, which is text here whether it was a number or not.
 std::shared_ptr<LightInstance> light_of(RequestContext& r, ArgumentCursor& c) {
     auto light = std::make_shared<LightInstance>();
     light->shader = r.shader(c, "light");
@@ -111,6 +116,7 @@ void area_light_source(RequestContext& r, ArgumentCursor& c) {
     r.state.change_attributes().emitter = std::move(emitter);
 }
 
+/// A light that was once named is no stray any more, on or off (SceneBuilder::add_strays).
 void illuminate(RequestContext& r, ArgumentCursor& c) {
     const std::string handle = c.handle("the light's handle");
     const bool on = c.done() || c.number("0 or 1") != 0;
@@ -123,6 +129,7 @@ void illuminate(RequestContext& r, ArgumentCursor& c) {
     if (!on && place != lights.end()) lights.erase(place);
 }
 
+/// Motion blocks hold all of these: shaders do not change while the shutter is open.
 constexpr RequestRow kShaderRequests[] = {
     {"Surface", [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
     {"Displacement",

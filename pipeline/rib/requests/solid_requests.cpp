@@ -6,6 +6,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// RISpec 5.7; "primitive" is the one that geometry may stand in.
 Solid::Operation operation_of(ArgumentCursor& c) {
     const std::string name = c.string("the operation");
     if (name == "primitive") return Solid::Operation::Primitive;
@@ -15,6 +16,7 @@ Solid::Operation operation_of(ArgumentCursor& c) {
     throw RequestError{in_quotes(name) + " is none of primitive, union, intersection, difference", {}};
 }
 
+/// SolidBegin "operation" and SolidEnd.
 constexpr RequestRow kSolidRequests[] = {
     {"SolidBegin", [](RequestContext& r, ArgumentCursor& c) { r.scene.begin_solid(operation_of(c)); }},
     {"SolidEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::Solid); }},

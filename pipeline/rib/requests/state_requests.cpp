@@ -27,6 +27,7 @@ void resource(RequestContext& r, ArgumentCursor& c) {
     }
 }
 
+/// RISpec's handlers by their names; others, which only a program could have, are passed over.
 void error_handler(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the handler");
     r.parameters(c, Undeclared::Guess);
@@ -63,11 +64,13 @@ void system(RequestContext& r, ArgumentCursor& c) {
     r.report.warn_once("commands in files are never run; skipped", "unsupported-System");
 }
 
+/// VolumePixelSamples x y: volumes are sampled like surfaces here.
 void volume_pixel_samples(RequestContext& r, ArgumentCursor& c) {
     c.numbers(2, "the samples");
     r.report.count_without_effect();
 }
 
+/// Structure, as far as motion blocks go: none of these is held back by one.
 constexpr RequestRow kStateRequests[] = {
     {"Resource", resource},
     {"ResourceBegin", [](RequestContext& r, ArgumentCursor&) { r.state.saved_states().begin_block(); }},

@@ -11,10 +11,12 @@
 namespace trapeze::rib {
 namespace {
 
+/// The version of RIB; all are read alike.
 void version(RequestContext&, ArgumentCursor& c) {
     c.number("the version");
 }
 
+/// Replaces what the name meant, RISpec's own included.
 void declare(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the name"), text = c.string("the declaration");
     if (text.empty()) return r.state.declarations().forget(name);  // as Liquid and others write it
@@ -23,27 +25,32 @@ void declare(RequestContext& r, ArgumentCursor& c) {
     r.state.declarations().declare(name, *declaration);
 }
 
+/// FrameBegin number: any integer; frames need not be in order.
 void frame_begin(RequestContext& r, ArgumentCursor& c) {
     r.scene.begin_frame(c.integer("the frame's number", INT32_MIN, INT32_MAX));
 }
 
+/// WorldBegin: from here on options stand, and the current space is named "world".
 void world_begin(RequestContext& r, ArgumentCursor&) {
     r.scene.begin_world();
     r.files.begin_world();
 }
 
+/// The times stand in an array, in older files without brackets.
 void motion_begin(RequestContext& r, ArgumentCursor& c) {
     std::vector<float> times = c.number_array("the times");
     while (c.next_is_number()) times.push_back(c.number("a time"));
     r.motion.begin(std::move(times));
 }
 
+/// Parameters are PRMan's, and are read past.
 void read_archive(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the archive's name");
     r.parameters(c, Undeclared::Guess);
     r.stream.read_archive(name);
 }
 
+/// Requests that make the order of a file: no motion block holds them back.
 constexpr RequestRow kStructureRequests[] = {
     {"version", version},
     {"Declare", declare},

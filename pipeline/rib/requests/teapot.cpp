@@ -1,3 +1,5 @@
+/// The teapot of 1975 as it is published: points by number, patches by the numbers of their points, which are
+/// mirrored to make the whole.
 #include "pipeline/rib/requests/teapot.h"
 
 #include <cstdint>

@@ -7,17 +7,21 @@
 namespace trapeze::rib {
 namespace {
 
+/// A request of so many numbers, which is multiplied to the current transformation or collected by a motion
+/// block.
 template <TransformKind kKind, size_t kCount>
 void concat(RequestContext& r, ArgumentCursor& c) {
     r.motion.transform(kKind, c.numbers(kCount, "the transformation"));
 }
 
+/// Degrees, of the whole angle (RISpec 4.3).
 void perspective(RequestContext& r, ArgumentCursor& c) {
     const std::vector<float> fov = c.numbers(1, "the field of view");
     if (!(fov[0] > 0 && fov[0] < 180)) throw RequestError{"the field of view must be between 0 and 180", {}};
     r.motion.transform(TransformKind::Perspective, fov);
 }
 
+/// Rotate angle dx dy dz: degrees about an axis through the origin.
 void rotate(RequestContext& r, ArgumentCursor& c) {
     std::vector<float> v = c.numbers(4, "the transformation");
     if (v[1] == 0 && v[2] == 0 && v[3] == 0) {
@@ -38,11 +42,13 @@ void skew(RequestContext& r, ArgumentCursor& c) {
     r.motion.transform(TransformKind::Skew, v);
 }
 
+/// Row by row, for row vectors: the translation is in the last row.
 void set_transform(RequestContext& r, ArgumentCursor& c) {
     const TransformArguments matrix = c.numbers(16, "the matrix");
     r.motion.set_transform(&matrix);
 }
 
+/// All of these move in motion blocks, but for the two that deal with named spaces.
 constexpr RequestRow kTransformRequests[] = {
     {"Identity", [](RequestContext& r, ArgumentCursor&) { r.motion.set_transform(nullptr); }},
     {"Transform", set_transform},

@@ -15,7 +15,7 @@ bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != std::string_view::npos;
 }
 
-/// Its radiance.
+/// Radiance that a light's colour, intensity and exposure (stops: powers of 2) make.
 V3f power(const RisParameters& p, float default_intensity = 1) {
     const float scale = p.number_or("intensity", default_intensity) *
                         std::exp2(std::clamp(p.number_or("exposure", 0), -64.0f, 64.0f));
@@ -25,6 +25,7 @@ V3f power(const RisParameters& p, float default_intensity = 1) {
     return color * (std::isfinite(scale) ? scale : 1.0f);
 }
 
+/// A light of RSL at the place and in the space of `from`, with its radiance as "lightcolor".
 std::shared_ptr<LightInstance> make(const std::string& handle, const ShaderInstance& from, const char* name,
                                     const V3f& radiance) {
     auto light = std::make_shared<LightInstance>();
@@ -36,7 +37,7 @@ std::shared_ptr<LightInstance> make(const std::string& handle, const ShaderInsta
     return light;
 }
 
-/// Along `direction` of its space.
+/// A light from infinitely far, which shines along `direction` of its space.
 std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderInstance& from,
                                        const V3f& radiance, const V3f& direction) {
     auto light = make(handle, from, "distantlight", radiance);
@@ -69,6 +70,7 @@ V3f power_of_disk(const RisParameters& p) {
     return radiance * share_of_disk(is_suns ? kSunAngle : given);
 }
 
+/// Three lights: from all sides, from above, and from the eye (kDomeAmbient and the like).
 std::vector<std::shared_ptr<LightInstance>> dome(const std::string& handle, const ShaderInstance& from,
                                                  const V3f& radiance) {
     ShaderInstance eye = from;
@@ -78,6 +80,7 @@ std::vector<std::shared_ptr<LightInstance>> dome(const std::string& handle, cons
             distant(handle, eye, radiance * kDomeEye, V3f(0, 0, 1))};
 }
 
+/// A `rislight`, whose normalized form does not shine more when it is larger.
 std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderInstance& from,
                                         const RisParameters& p, const char* shape) {
     auto light = make(handle, from, "rislight", power(p));
@@ -91,10 +94,13 @@ std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderI
     return light;
 }
 
+/// A box about a shape, in object space.
 struct Box {
     V3f low{0, 0, 0}, high{0, 0, 0};
 };
 
+/// Whole quadrics about z, but for hyperboloids and paraboloids, of which the first number is taken as a
+/// radius.
 Box box_of(const Quadric& q) {
     const auto& v = q.values;
     switch (q.kind) {
@@ -131,12 +137,14 @@ Box box_of(const Shape& shape) {
 
 }  // namespace
 
+/// By the prefix of RIS's own plugins, with or without a folder before it.
 bool is_ris_light(std::string_view shader) {
     const size_t slash = shader.find_last_of("/\\");
     const std::string_view name = slash == std::string_view::npos ? shader : shader.substr(slash + 1);
     return name.starts_with("Pxr");
 }
 
+/// PxrMeshLight, and area lights of the first versions, which have no shape of their own.
 bool is_mesh_light(std::string_view shader, bool is_area_light) {
     if (contains(shader, "MeshLight")) return true;
     return is_area_light && contains(shader, "AreaLight");
@@ -147,6 +155,7 @@ std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const Shade
     return of_shape(handle, shader, parameters, "sphere");
 }
 
+/// A flat shape shines from a rectangle, to both sides; others from a ball that fills their box.
 void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape) {
     const Box box = box_of(shape);
     const V3f size = box.high - box.low, middle = (box.low + box.high) * 0.5f;
@@ -183,6 +192,7 @@ std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& ligh
     return {distant(light.handle, from, radiance * share, V3f(0, 0, -1))};
 }
 
+/// For lights that are a point there.
 V3f middle_of(const Shape& shape) {
     const Box box = box_of(shape);
     return (box.low + box.high) * 0.5f;

@@ -26,7 +26,7 @@ std::vector<std::shared_ptr<const LightInstance>> ris_lights(const std::string& 
 bool is_mesh_light(std::string_view shader, bool is_area_light);
 std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
                                           const RisParameters& parameters);
-/// Of a mesh light: the shape, in the space that camera_from_shape is from.
+/// Gives a mesh light the shape that it shines from, in the space that camera_from_shape is from.
 void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape);
 
 /// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. The first is
@@ -36,10 +36,10 @@ enum class FarShape { Dome, Direction };
 std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& light, FarShape shape,
                                                        const M44f& camera_from_shape, float angle);
 
-/// Of the box about the shape, in its space.
+/// The middle of the box about the shape, in its space.
 V3f middle_of(const Shape& shape);
 
-/// From the eye, for worlds of Bxdfs that nothing lights.
+/// A light from the eye along the view, for worlds of Bxdfs that nothing lights.
 std::shared_ptr<const LightInstance> headlight();
 
 }  // namespace trapeze::rib

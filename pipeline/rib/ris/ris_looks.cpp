@@ -1,3 +1,5 @@
+/// A guess at how a Bxdf looks, from the parameters of the common ones. What it looks at are names, which the
+/// shaders of one renderer share.
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -31,7 +33,7 @@ std::string handle_of(const std::string& reference) {
     return reference.substr(0, reference.find(':'));
 }
 
-/// Of a pattern that reads a file: where its manifold lays it.
+/// The texture of a pattern that reads a file, where its manifold lays it.
 Tint texture_of(const std::string& file, const RisParameters& parameters, const RisNetwork& network) {
     Tint tint{V3f(1, 1, 1), file};
     if (parameters.number_or("linearize", 0) != 0) tint.colorspace = "srgb";
@@ -82,11 +84,13 @@ void add_colors(const RisParameter& parameter, Mean& mean) {
     }
 }
 
+/// Outputs of other patterns; those that lead nowhere add nothing.
 void add_references(const RisParameter& parameter, Walk& walk, Mean& mean) {
     for (const std::string& reference : parameter.strings)
         if (const auto tint = tint_of_pattern(handle_of(reference), walk)) mean.add(*tint);
 }
 
+/// A pattern with a file is that file; another is the mean of the colours in it and behind it.
 std::optional<Tint> tint_of_pattern(const std::string& handle, Walk& walk) {
     const auto found = walk.network.patterns.find(handle);
     if (found == walk.network.patterns.end() || walk.depth >= kDeepestPattern || walk.seen >= kMostPatterns)
@@ -137,6 +141,7 @@ V3f reflected(const RisParameters& parameters) {
     return result;
 }
 
+/// The last texture counts: a look has one.
 void take_texture(const Tint& tint, RisLook& look) {
     if (tint.texture.empty()) return;
     look.texture = tint.texture;
@@ -193,6 +198,7 @@ constexpr std::string_view kColorParameters[] = {
     "color",        "emitColor",    "emissionColor", "transmissionColor",
     "reflectivity", "albedo",       "tint"};
 
+/// Takes the first of kColorParameters that is there.
 void take_any_color(const RisParameters& parameters, const RisNetwork& network, RisLook& look) {
     for (const std::string_view name : kColorParameters)
         if (const auto tint = tint_of(parameters, name, network)) {
@@ -208,6 +214,7 @@ bool is_one_of(std::string_view shader, std::initializer_list<std::string_view> 
 
 }  // namespace
 
+/// PxrSurface by its lobes, layers by what is under them, all others by the first colour that they have.
 RisLook look_of_bxdf(const std::string& shader, const RisParameters& parameters, const RisNetwork& network) {
     RisLook look;
     if (shader == "PxrBlack") return {.color = V3f(0, 0, 0), .texture = {}, .is_constant = true};

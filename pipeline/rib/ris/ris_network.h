@@ -42,7 +42,8 @@ struct RisNetwork {
     std::vector<std::shared_ptr<const LightInstance>> lights;
 };
 
-/// Of the Bxdf `shader` with these parameters.
+/// How the Bxdf `shader` with these parameters looks; patterns and Bxdfs that it names are those of the
+/// network so far.
 RisLook look_of_bxdf(const std::string& shader, const RisParameters& parameters, const RisNetwork& network);
 
 }  // namespace trapeze::rib

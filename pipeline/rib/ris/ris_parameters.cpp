@@ -1,3 +1,5 @@
+/// RIS writes its parameters with their types ("color diffuseColor", "reference float gain"), so nothing is
+/// looked up in declarations, and an odd one is kept as it is.
 #include "pipeline/rib/ris/ris_parameters.h"
 
 #include <algorithm>
@@ -7,16 +9,19 @@
 namespace trapeze::rib {
 namespace {
 
+/// Odd numbers are passed over: other renderers draw such scenes too.
 bool all_finite(const std::vector<float>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](float v) { return std::isfinite(v); });
 }
 
 }  // namespace
 
+/// Older files leave the type out; then the name tells.
 bool RisParameter::is_color() const {
     return type.starts_with("color") || (type.empty() && name.find("olor") != std::string::npos);
 }
 
+/// The last word of a token is the name, the one before it the type.
 RisParameters RisParameters::read(ArgumentCursor& c) {
     RisParameters result;
     while (!c.done()) {
@@ -39,6 +44,7 @@ RisParameters RisParameters::read(ArgumentCursor& c) {
     return result;
 }
 
+/// The last one of a name counts.
 const RisParameter* RisParameters::find(std::string_view name) const {
     for (size_t i = values_.size(); i-- > 0;)
         if (values_[i].name == name) return &values_[i];
@@ -64,6 +70,7 @@ std::string RisParameters::text(std::string_view name) const {
     return found && !found->is_reference && !found->strings.empty() ? found->strings[0] : std::string();
 }
 
+/// Declared like a parameter that RSL passes by name: uniform.
 void set_number(ShaderInstance& shader, const char* name, float value) {
     shader.parameters.set({name, {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}});
 }

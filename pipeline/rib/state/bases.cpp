@@ -1,3 +1,4 @@
+/// Rows go with powers of u from the third down, columns with the control points (RISpec 5.2).
 #include "pipeline/rib/state/bases.h"
 
 namespace trapeze::rib {

@@ -12,12 +12,14 @@ namespace {
 constexpr std::string_view kStorageNames[] = {"constant", "uniform",     "varying",
                                               "vertex",   "facevarying", "facevertex"};
 
+/// RISpec 5; "facevertex" is PRMan's.
 std::optional<StorageClass> storage_named(std::string_view word) {
     const auto* found = std::find(std::begin(kStorageNames), std::end(kStorageNames), word);
     if (found == std::end(kStorageNames)) return {};
     return static_cast<StorageClass>(found - std::begin(kStorageNames));
 }
 
+/// Names of RISpec 3.2, and those that exporters write for the same.
 std::optional<ValueType> type_named(std::string_view word) {
     if (word == "float") return ValueType::Float;
     if (word == "integer" || word == "int") return ValueType::Integer;
@@ -56,6 +58,7 @@ std::vector<std::string> words_of(std::string_view text) {
     return words;
 }
 
+/// Class and length may be left out: uniform, 1. Nothing when a word is left over.
 std::optional<Declaration> declaration_of(const std::vector<std::string>& words) {
     Declaration declaration;
     size_t i = 0;
@@ -82,6 +85,7 @@ std::optional<Declaration> declaration_of(const std::vector<std::string>& words)
     return declaration;
 }
 
+/// RISpec, table 5.1: variables of primitives.
 struct Predeclared {
     const char* name;
     Declaration declaration;
@@ -105,6 +109,8 @@ const Predeclared kPredeclared[] = {
     {"patchaspectratio", {StorageClass::Varying, ValueType::Float, 1}},
 };
 
+/// Parameters of RISpec's standard shaders and options, and some that files use as if they were: uniform, of
+/// one value.
 const char* const kFloats[] = {"Ka",
                                "Kd",
                                "Ks",
@@ -128,6 +134,7 @@ const char* const kFloats[] = {"Ka",
                                "enable gaussian",
                                "enable lerp",
                                "veining"};
+/// Colours by their names, likewise; then points, and strings.
 const char* const kShaderColors[] = {"specularcolor", "lightcolor", "background", "opacity",
                                      "bgcolor",       "fogcolor",   "color"};
 const char* const kShaderPoints[] = {"from", "to"};
@@ -143,10 +150,12 @@ std::string_view name_of(StorageClass storage) {
     return kStorageNames[static_cast<size_t>(storage)];
 }
 
+/// Declare's second argument.
 std::optional<Declaration> parse_declaration(std::string_view text) {
     return declaration_of(words_of(text));
 }
 
+/// Names of shaders' parameters are RISpec's too, and files use them without declaring them.
 Declarations::Declarations() {
     for (const Predeclared& entry : kPredeclared) known_[entry.name] = entry.declaration;
     const auto add = [&](const auto& names, ValueType type) {
@@ -160,6 +169,8 @@ Declarations::Declarations() {
     for (const auto& [name, declaration] : known_) predeclared_.insert(name);
 }
 
+/// An inline declaration ("uniform color tint") is only looked for where the whole token is no known name:
+/// names with a space in them may be declared.
 std::optional<std::pair<std::string, Declaration>> Declarations::resolve(const std::string& token) const {
     if (const auto known = known_.find(token); known != known_.end()) return {{token, known->second}};
     std::vector<std::string> words = words_of(token);

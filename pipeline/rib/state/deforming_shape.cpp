@@ -1,3 +1,5 @@
+/// Poses of a primitive in a motion block. What deforms is each number that can be mixed: points, variables,
+/// a quadric's sizes, a blobby's floats. What tells the form must be the same in all poses.
 #include "pipeline/rib/state/deforming_shape.h"
 
 #include <algorithm>
@@ -7,6 +9,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// Declared alike and as long: values can be mixed one by one.
 bool same_form(const Parameter& a, const Parameter& b) {
     return a.declaration == b.declaration && a.floats.size() == b.floats.size();
 }
@@ -35,12 +38,14 @@ struct SameForm {
         return a.bicubic == b.bicubic && a.nu == b.nu && a.nv == b.nv && a.u_wraps == b.u_wraps &&
                a.v_wraps == b.v_wraps && a.u_step == b.u_step && a.v_step == b.v_step;
     }
+    /// Trim curves may differ: those of the first pose are kept.
     bool operator()(const NuPatch& a, const NuPatch& b) const {
         return a.nu == b.nu && a.nv == b.nv && a.u_order == b.u_order && a.v_order == b.v_order &&
                a.u_knots == b.u_knots && a.v_knots == b.v_knots && a.u_begin == b.u_begin &&
                a.u_end == b.u_end && a.v_begin == b.v_begin && a.v_end == b.v_end;
     }
     bool operator()(const Points& a, const Points& b) const { return a.count == b.count; }
+    /// The program is the form; floats of its leaves move.
     bool operator()(const Blobby& a, const Blobby& b) const {
         return a.leaf_count == b.leaf_count && a.code == b.code && a.floats.size() == b.floats.size() &&
                a.strings == b.strings;
@@ -75,6 +80,7 @@ ShapePointer between(const Shape& a, const Shape& b, float t) {
     return shape;
 }
 
+/// The pose at a time of the scene, mixed linearly (RISpec 6). One that was given is shared and not copied.
 ShapePointer shape_at(const std::vector<ShapePointer>& shapes, const std::vector<float>& times, float time) {
     if (shapes.size() == 1 || time <= times.front()) return shapes.front();
     if (time >= times.back()) return shapes.back();
@@ -91,6 +97,7 @@ float key_time(float open, float close, int key, int keys) {
                      : open + (close - open) * (static_cast<float>(key) / static_cast<float>(keys - 1));
 }
 
+/// Order of variables does not matter; exporters write them as they come.
 bool can_deform(const std::vector<ShapePointer>& shapes) {
     const Shape& first = *shapes.front();
     return std::all_of(shapes.begin(), shapes.end(), [&](const ShapePointer& shape) {
@@ -98,6 +105,8 @@ bool can_deform(const std::vector<ShapePointer>& shapes) {
     });
 }
 
+/// A shape of another class or length for its colours is given those of the pose before the shutter opens, or
+/// none: the later poses have to be of one form.
 bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<float>& times, float open) {
     const size_t after = std::upper_bound(times.begin(), times.end(), open) - times.begin();
     const ShapePointer at_open = shapes[after > 0 ? after - 1 : 0];
@@ -118,6 +127,7 @@ bool use_colors_at_open(std::vector<ShapePointer>& shapes, const std::vector<flo
     return moves;
 }
 
+/// Poses at times outside of the shutter count where they bound a motion within.
 std::vector<ShapePointer> shapes_at_keys(const std::vector<ShapePointer>& shapes,
                                          const std::vector<float>& times, float open, float close) {
     const bool moves = shapes.size() > 1 && close > open && close > times.front() && open < times.back();

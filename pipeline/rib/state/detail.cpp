@@ -17,6 +17,8 @@ SeenNumbers Detail::seen() const {
     return {0, 1};
 }
 
+/// The eight corners are projected, those behind the eye from just before it: what reaches round the eye is
+/// as large as can be.
 float GraphicsStateStack::raster_area(const std::vector<float>& bound) const {
     constexpr float kInfinite = std::numeric_limits<float>::infinity();
     if (in_object()) return kInfinite;

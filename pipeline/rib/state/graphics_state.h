@@ -35,7 +35,7 @@ struct Detail {
     float least = 0, full_from = 0;                       ///< grows in between
     float full_to = std::numeric_limits<float>::infinity(), most = full_to;  ///< fades in between
 
-    /// Of the samples that see the primitive.
+    /// The part of the samples that see the primitive at this size.
     SeenNumbers seen() const;
 };
 

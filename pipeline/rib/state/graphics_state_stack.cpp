@@ -35,6 +35,7 @@ const char* block_name(Block kind) {
     return "";
 }
 
+/// Row vectors: a colour of n samples times the matrix of n rows (RISpec 4.1.4).
 std::vector<float> Scope::rgb(std::vector<float> colors) const {
     if (!color_samples) return colors;
     const auto& [n, matrix] = *color_samples;
@@ -50,12 +51,15 @@ GraphicsStateStack::GraphicsStateStack() {
     state_.attributes = default_attributes();
 }
 
+/// Copy on write: thousands of blocks and primitives share one state, and most change little of it. The only
+/// owner may write where it stands.
 AttributeState& GraphicsStateStack::change_attributes() {
     if (state_.attributes.use_count() > 1)
         state_.attributes = std::make_shared<AttributeState>(*state_.attributes);
     return const_cast<AttributeState&>(*state_.attributes);
 }
 
+/// States are shared and not copied: a block saves three pointers, but for frames and worlds.
 void GraphicsStateStack::open(Block kind, SourceLocation at) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     if (blocks_.size() >= kDeepestBlock)
@@ -79,6 +83,7 @@ void GraphicsStateStack::close() {
         state_ = std::move(block.saved);
 }
 
+/// A saved state outlives the block that it was saved in.
 bool GraphicsStateStack::restore(const std::string& name, bool attributes, bool transform) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     const GraphicsState* const saved = saved_states_.find(name);
@@ -88,6 +93,7 @@ bool GraphicsStateStack::restore(const std::string& name, bool attributes, bool 
     return true;
 }
 
+/// Inside of an object a transformation is relative to the object, though a world may be open around it.
 MovingTransform GraphicsStateStack::root_transform() const {
     return in_world() && !in_object() ? camera_from_world_ : MovingTransform();
 }
@@ -105,6 +111,7 @@ void GraphicsStateStack::name_scoped_coordinate_system(const std::string& name) 
     scope_.named_spaces.try_emplace(name, state_.transform);
 }
 
+/// Scoped names hide others.
 const MovingTransform* GraphicsStateStack::named_space(const std::string& name) const {
     if (state_.scoped_spaces)
         if (const auto space = state_.scoped_spaces->find(name); space != state_.scoped_spaces->end())
@@ -113,6 +120,7 @@ const MovingTransform* GraphicsStateStack::named_space(const std::string& name) 
     return space == scope_.named_spaces.end() ? nullptr : &space->second;
 }
 
+/// The name "camera" is known without a definition: there nothing has been transformed.
 void GraphicsStateStack::use_coordinate_system(const std::string& name) {
     if (in_motion()) throw RequestError{"inside a motion block", {}};
     if (in_object()) throw RequestError{"inside an object definition", {}};
@@ -121,10 +129,12 @@ void GraphicsStateStack::use_coordinate_system(const std::string& name) {
     state_.transform = space ? *space : MovingTransform();
 }
 
+/// Row vectors: p_camera = p_current * M.
 M44f GraphicsStateStack::camera_from_current() const {
     return M44f(state_.transform.at(scope_.options.shutter_open));
 }
 
+/// A negative determinant turns left-handed camera space into a right-handed one.
 bool GraphicsStateStack::is_right_handed() const {
     const float open = scope_.options.shutter_open;
     bool right = state_.transform.at(open).determinant() < 0;

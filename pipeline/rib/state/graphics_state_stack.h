@@ -40,7 +40,7 @@ class GraphicsStateStack {
     /// of a motion block nothing.
     void close();
     bool is_open(Block kind) const { return open_counts_[static_cast<size_t>(kind)] > 0; }
-    /// Of all open blocks, the outermost first.
+    /// All open blocks, the outermost first.
     const std::vector<OpenBlock>& blocks() const { return blocks_; }
     bool in_world() const { return is_open(Block::World); }
     bool in_object() const { return is_open(Block::Object); }
@@ -69,7 +69,7 @@ class GraphicsStateStack {
     const MovingTransform* named_space(const std::string& name) const;
     /// The current space as the shutter opens.
     M44f camera_from_current() const;
-    /// Of the current space as the shutter opens. Camera space is left-handed (RISpec 4.1.1).
+    /// Handedness of the current space as the shutter opens. Camera space is left-handed (RISpec 4.1.1).
     bool is_right_handed() const;
     /// Pixels of the smallest upright rectangle round a box of the current space (xmin xmax ymin ymax zmin
     /// zmax) on the picture, times RelativeDetail (RISpec 4.2.7). Infinite in an object's definition, whose

@@ -8,11 +8,13 @@
 namespace trapeze::rib {
 namespace {
 
+/// Pixels that a chord may be off its path.
 constexpr float kMostPixels = 0.25f;
 /// Nearer than this part of a point's distance from the eye, a depth is taken to be this part: what comes
 /// close to the eye would want any number of keys.
 constexpr double kLeastDepth = 0.05;
 
+/// Whole quadrics, whatever their angles: about the z axis, from the lowest to the highest z.
 void extend(Box3f& box, const Quadric& quadric) {
     const auto& v = quadric.values;
     const auto round = [&](float radius, float low, float high) {
@@ -36,9 +38,11 @@ void extend(Box3f& box, const Quadric& quadric) {
     }
 }
 
-/// Of the leaves' extents: twice as far as where they are drawn.
+/// Extents of a blobby's leaves: twice as far as where they are drawn.
 void extend(Box3f& box, const Blobby& blobby) {
     const auto& f = blobby.floats;
+    // Steps over operations by the number of their operands (RISpec 5.6): 1001 is an ellipsoid, whose
+    // sixteen floats are its matrix; 1002 a segment of two ends, a radius and a matrix.
     for (size_t at = 0, next; at < blobby.code.size(); at = next) {
         const int op = blobby.code[at];
         next = at + (op == 1004 ? 6 : op == 1003 ? 3 : op >= 1000 ? 2 : op < 4 ? 2 + blobby.code[at + 1] : 3);
@@ -63,6 +67,7 @@ void extend(Box3f& box, const Blobby& blobby) {
     }
 }
 
+/// Points "P", and "Pw" over their weights; points without a positive weight have no place.
 void extend(Box3f& box, const ParameterList& variables) {
     if (const Parameter* P = variables.find("P"); P && P->declaration.floats_per_item() == 3)
         for (size_t i = 0; i + 3 <= P->floats.size(); i += 3)
@@ -77,6 +82,7 @@ void extend(Box3f& box, const ParameterList& variables) {
 float pixels_between(const V3d& a, const V3d& b, const Camera& camera) {
     const double depth =
         camera.perspective ? std::max(std::min(a.z, b.z), kLeastDepth * std::max(a.length(), b.length())) : 1;
+    // Points behind the eye are not seen, and do not count.
     if (camera.perspective && !(std::max(a.z, b.z) > 0)) return 0;
     const V2f pixels = camera.pixels_per_length(static_cast<float>(depth));
     // Towards the eye a point moves on the picture as its place times the change of depth.
@@ -86,6 +92,7 @@ float pixels_between(const V3d& a, const V3d& b, const Camera& camera) {
     return static_cast<float>(std::hypot(x * pixels.x, y * pixels.y));
 }
 
+/// In double: the error that is looked for is far below a float's of large scenes.
 V3d transformed(const M44d& m, const V3f& p) {
     V3d out;
     m.multVecMatrix(V3d(p), out);
@@ -109,6 +116,7 @@ std::vector<V3f> corners_of(const std::vector<std::shared_ptr<const Shape>>& sha
     return corners;
 }
 
+/// A path bends most in the middle of a segment, where the chord is compared with it.
 float chord_error(const MovingTransform& transform, float open, float close, int keys,
                   const std::vector<V3f>& points, const Camera& camera) {
     const double segment = (static_cast<double>(close) - open) / (keys - 1);
@@ -126,6 +134,7 @@ float chord_error(const MovingTransform& transform, float open, float close, int
     return most;
 }
 
+/// Doubles the segments: keys that were met stay met.
 int keys_for_paths(const MovingTransform& transform, float open, float close,
                    const std::vector<std::shared_ptr<const Shape>>& shape_keys, const Camera& camera) {
     int keys = transform.wanted_keys(open, close);

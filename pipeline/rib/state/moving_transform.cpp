@@ -8,10 +8,13 @@
 namespace trapeze::rib {
 namespace {
 
+/// A shutter is divided into 16 for given times at most.
 constexpr int kMostKeysForTimes = 17;
+/// A chord of ten degrees is 0.4 % of the radius off its arc.
 constexpr float kDegreesPerSegment = 10;
 constexpr double kLinearTolerance = 0.004;  ///< 1 - cos(5 degrees): as far as a chord of ten degrees is off
 
+/// RISpec gives angles in degrees.
 double radians(double degrees) {
     return degrees * (M_PI / 180);
 }
@@ -54,6 +57,8 @@ M44d skew(const TransformArguments& a) {
 
 }  // namespace
 
+/// RISpec 4.3. Perspective divides by z times the tangent of half the angle: z = 1 comes to 0, what is
+/// infinitely far to 1.
 M44d transform_matrix(TransformKind kind, const TransformArguments& a) {
     M44d m;
     switch (kind) {
@@ -81,6 +86,7 @@ M44d transform_matrix(TransformKind kind, const TransformArguments& a) {
     return m;
 }
 
+/// Arguments are mixed, not matrices: half of a rotation is a rotation by half the angle.
 M44d MovingFactor::at(float time) const {
     if (time <= times.front()) return transform_matrix(kind, arguments.front());
     if (time >= times.back()) return transform_matrix(kind, arguments.back());
@@ -91,12 +97,14 @@ M44d MovingFactor::at(float time) const {
     return transform_matrix(kind, between);
 }
 
+/// Nothing moves in a shutter that closes before the first time or opens after the last.
 bool MovingFactor::moves_between(float open, float close) const {
     if (!(close > open) || close <= times.front() || open >= times.back()) return false;
     return std::any_of(arguments.begin(), arguments.end(),
                        [&](const auto& a) { return a != arguments.front(); });
 }
 
+/// The angle is taken from the request: axes that change are seen by is_nearly_linear().
 float MovingFactor::fastest_turn(float open, float close) const {
     if (kind != TransformKind::Rotate) return 0;
     float fastest = 0;
@@ -109,6 +117,7 @@ float MovingFactor::fastest_turn(float open, float close) const {
     return fastest;
 }
 
+/// Neighbouring fixed matrices are multiplied at once; the chain is as long as there are motions.
 void MovingTransform::concat(const M44d& matrix) {
     auto factor = std::make_shared<Factor>();
     factor->fixed = matrix;
@@ -120,6 +129,7 @@ void MovingTransform::concat(const M44d& matrix) {
     newest_ = std::move(factor);
 }
 
+/// A moving factor starts a new link of the chain; what was before it is shared.
 void MovingTransform::concat(MovingFactor moving) {
     auto factor = std::make_shared<Factor>();
     factor->moving_factors = moving_factors() + 1;
@@ -128,6 +138,7 @@ void MovingTransform::concat(MovingFactor moving) {
     newest_ = std::move(factor);
 }
 
+/// Oldest of the newer ones first, each as if it had been given here.
 void MovingTransform::concat(const MovingTransform& newer) {
     std::vector<const Factor*> factors;
     for (const Factor* f = newer.newest_.get(); f; f = f->older.get()) factors.push_back(f);
@@ -138,6 +149,7 @@ void MovingTransform::concat(const MovingTransform& newer) {
             concat(factors[i]->fixed);
 }
 
+/// Newest first, for row vectors: p' = p * newest * ... * oldest.
 M44d MovingTransform::at(float time) const {
     if (!newest_) return M44d();
     M44d m = newest_->at(time);
@@ -151,6 +163,7 @@ bool MovingTransform::moves_between(float open, float close) const {
     return false;
 }
 
+/// Scales and translations alone move every point along a line, at a steady speed within a segment.
 bool MovingTransform::may_bend(float open, float close) const {
     int moving = 0;
     for (const Factor* f = newest_.get(); f; f = f->older.get()) {
@@ -161,6 +174,7 @@ bool MovingTransform::may_bend(float open, float close) const {
     return false;
 }
 
+/// Matrix elements halfway between two keys, against the mean of the keys', relative to the largest.
 bool MovingTransform::is_nearly_linear(float open, float close, int keys) const {
     const auto segment = static_cast<double>(close - open) / (keys - 1);
     M44d from = at(open);
@@ -179,6 +193,7 @@ bool MovingTransform::is_nearly_linear(float open, float close, int keys) const 
     return true;
 }
 
+/// The most that any of its motions wants, and more while their product bends.
 int MovingTransform::wanted_keys(float open, float close) const {
     int keys = 1, moving = 0;
     for (const Factor* f = newest_.get(); f; f = f->older.get()) {
@@ -194,6 +209,7 @@ int MovingTransform::wanted_keys(float open, float close) const {
     return keys;
 }
 
+/// A ten-thousandth of a segment is taken as met: times are floats.
 int keys_meeting(const std::vector<float>& times, float open, float close) {
     for (int keys = 2; keys < kMostKeysForTimes; keys = 2 * keys - 1) {
         const bool all_met = std::all_of(times.begin(), times.end(), [&](float time) {

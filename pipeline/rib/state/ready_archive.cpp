@@ -7,6 +7,7 @@
 namespace trapeze::rib {
 namespace {
 
+/// About: 256 for what each request has in any case.
 uint64_t bytes_of(const RequestText& request) {
     uint64_t bytes = 256 + request.name.size() + request.problem.size();
     for (const Argument& argument : request.arguments) {
@@ -19,6 +20,7 @@ uint64_t bytes_of(const RequestText& request) {
 
 }  // namespace
 
+/// A file that was written anew has another number, size or time.
 std::optional<FileStamp> stamp_of(const std::string& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
@@ -26,6 +28,7 @@ std::optional<FileStamp> stamp_of(const std::string& path) {
                      status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
+/// An archive that would take more than is left is given up as a whole: half of one is of no use.
 void ReadyArchive::add(const RequestText& request) {
     if (is_given_up_) return;
     const uint64_t bytes = bytes_of(request);
@@ -35,6 +38,7 @@ void ReadyArchive::add(const RequestText& request) {
         {request.name, request.at, request.arguments, request.problem, request.problem_at, {}});
 }
 
+/// What it took can serve other archives.
 void ReadyArchive::give_up() {
     is_given_up_ = true, is_complete_ = false;
     *bytes_left_ += taken_;
@@ -42,6 +46,7 @@ void ReadyArchive::give_up() {
     requests_ = {};
 }
 
+/// Places are those of this reading, so that messages say through which ReadArchive the request came.
 void ReadyArchive::copy(size_t index, uint32_t source, RequestText& request) const {
     const Known& known = requests_[index];
     request.clear();
@@ -53,6 +58,7 @@ void ReadyArchive::copy(size_t index, uint32_t source, RequestText& request) con
     for (Argument& argument : request.arguments) argument.at.source = source;
 }
 
+/// Shapes are held weakly: an archive that is known keeps none alive that no scene has.
 bool ReadyArchive::share(size_t index, size_t ordinal, std::shared_ptr<const Shape>& shape) {
     if (index >= requests_.size()) return false;
     std::vector<std::weak_ptr<const Shape>>& shapes = requests_[index].shapes;

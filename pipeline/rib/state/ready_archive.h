@@ -14,14 +14,14 @@
 
 namespace trapeze::rib {
 
-/// By what a file is known to be the one that was read before.
+/// A file's identity and state: the same stamp means the same text as before.
 struct FileStamp {
     uint64_t device = 0, number = 0, size = 0;
     int64_t seconds = 0, nanoseconds = 0;  ///< of the last change
 
     bool operator==(const FileStamp&) const = default;
 };
-/// Of regular files; nothing for others, which are read as they come.
+/// Stamps of regular files; nothing for pipes and the like, which are read as they come.
 std::optional<FileStamp> stamp_of(const std::string& path);
 
 /// A text's requests, in its order, while and after it is read for the first time.
@@ -44,7 +44,7 @@ class ReadyArchive {
     uint64_t text_bytes() const { return text_bytes_; }
     size_t size() const { return requests_.size(); }
     const std::string& name(size_t request) const { return requests_[request].name; }
-    /// Into `request`, whose memory serves again; places are those of `source`.
+    /// Copies into `request`, whose memory serves again; places are those of `source`.
     void copy(size_t index, uint32_t source, RequestText& request) const;
 
     /// The `ordinal`-th shape of request `index`: that of an earlier time where it is there still and the

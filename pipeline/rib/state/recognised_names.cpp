@@ -1,3 +1,5 @@
+/// Tables of what this renderer looks at. A new option, attribute or parameter needs its row here, or
+/// `trapeze check` says that nothing looks at it.
 #include "pipeline/rib/state/recognised_names.h"
 
 #include <algorithm>
@@ -6,10 +8,12 @@
 namespace trapeze::rib {
 namespace {
 
+/// Sets of names are short, and are searched one by one.
 struct Value {
     std::string_view category, name;  ///< an empty name: all of the category
 };
 
+/// Options by category and name.
 constexpr Value kOptions[] = {{"user", ""},
                               {"color", "transfer"},
                               {"searchpath", "archive"},
@@ -22,6 +26,7 @@ constexpr Value kOptions[] = {{"user", ""},
                               {"shadow", "bias"},
                               {"shadow", "bias0"}};
 
+/// Attributes likewise. An empty name stands for all of a category.
 constexpr Value kAttributes[] = {{"user", ""},
                                  {"identifier", "name"},
                                  {"bound", "displacement"},
@@ -33,6 +38,7 @@ constexpr Value kAttributes[] = {{"user", ""},
                                  {"dice", "minlength"},
                                  {"trimcurve", "sense"}};
 
+/// Asked for by many exporters; the reason is shown to their users.
 constexpr UnneededAttribute kUnneededAttributes[] = {
     {"cull", "backfacing", "all that is in view is shaded, whichever way it faces"},
     {"cull", "hidden", "all that is in view is shaded, hidden or not"},
@@ -42,8 +48,10 @@ constexpr UnneededAttribute kUnneededAttributes[] = {
     {"stitch", "traceenable", "grids join without cracks in any case"},
 };
 
+/// Parameters of Hider, whichever it is.
 constexpr std::string_view kHider[] = {"depthfilter", "jitter", "maxsamples", "minsamples", "samplemotion"};
 
+/// Display "exrheader_NAME" writes an attribute of that name into the file: any name.
 constexpr std::string_view kHeaderPrefix = "exrheader_", kHeaderAttributes = "exrheader_NAME";
 constexpr std::string_view kDisplay[] = {"quantize",       "dither",      "type",       "exrpixeltype",
                                          "exrcompression", "compression", "colorspace", kHeaderAttributes};
@@ -60,6 +68,7 @@ bool has(const std::string_view (&names)[kCount], std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+/// For COMPLIANCE.md, in the order of the alphabet.
 template <size_t kCount>
 std::vector<std::string> listed(const Value (&values)[kCount]) {
     std::vector<std::string> names;

@@ -1,3 +1,5 @@
+/// Compares shapes whole, cheap differences first: an archive's shapes are compared each time that it is
+/// read.
 #include "pipeline/rib/state/same_shape.h"
 
 #include <algorithm>
@@ -19,6 +21,7 @@ bool is_same_curve(const TrimCurve& a, const TrimCurve& b) {
            a.points == b.points;
 }
 
+/// Unlike can_deform(), values count too: bases, trims, sharpness.
 struct SameTopology {
     bool operator()(const PolygonMesh& a, const PolygonMesh& b) const {
         return a.vertex_count == b.vertex_count && a.loops_per_polygon == b.loops_per_polygon &&
@@ -68,6 +71,7 @@ bool is_same_variable(const Parameter& a, const Parameter& b) {
 
 }  // namespace
 
+/// Topologies come first: where shapes differ they mostly do, and they are shorter than points.
 bool is_same(const Shape& a, const Shape& b) {
     return std::visit(SameTopology{}, a.topology, b.topology) &&
            all_same(a.variables.values, b.variables.values, is_same_variable);

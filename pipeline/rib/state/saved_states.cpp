@@ -9,6 +9,7 @@ constexpr size_t kMostSavedStates = 10000;
 
 }  // namespace
 
+/// A name that is there is replaced.
 void SavedStates::save(const std::string& name, const GraphicsState& state) {
     if (states_->size() >= kMostSavedStates && !states_->contains(name))
         throw RequestError{"more than " + std::to_string(kMostSavedStates) + " resources", {}};
@@ -21,6 +22,7 @@ const GraphicsState* SavedStates::find(const std::string& name) const {
     return saved == states_->end() ? nullptr : &saved->second;
 }
 
+/// The names are shared with the block around it until one of the two saves.
 void SavedStates::begin_block() {
     if (outer_.size() >= kDeepestResources)
         throw RequestError{"blocks are nested more than " + std::to_string(kDeepestResources) + " deep", {}};

@@ -1,3 +1,5 @@
+/// Counts capacities, which is what memory is taken for; small strings and allocators' own needs are left
+/// out.
 #include "pipeline/rib/state/scene_size.h"
 
 #include <string>
@@ -24,6 +26,7 @@ size_t bytes_of(const ParameterList& list) {
     return bytes;
 }
 
+/// What a primitive has beside its variables: indices, knots, code.
 struct OfTopology {
     size_t operator()(const PolygonMesh& mesh) const {
         return bytes_of(mesh.loops_per_polygon) + bytes_of(mesh.vertices_per_loop) + bytes_of(mesh.vertices);
@@ -52,6 +55,7 @@ struct OfTopology {
 
 }  // namespace
 
+/// The shape with all that it owns.
 size_t bytes_of(const Shape& shape) {
     return sizeof shape + std::visit(OfTopology(), shape.topology) + bytes_of(shape.variables);
 }

@@ -8,9 +8,9 @@
 namespace trapeze::rib {
 
 size_t bytes_of(const Shape& shape);
-/// Without what attributes share: shaders and lights.
+/// Bytes of attributes without what many share: shaders and lights.
 size_t bytes_of(const Attributes& attributes);
-/// Without its shapes and attributes.
+/// Bytes of a primitive without its shapes and attributes.
 size_t bytes_of(const Primitive& primitive);
 
 }  // namespace trapeze::rib

@@ -1,3 +1,4 @@
+/// The place is that of the XDG base directory specification.
 #include "pipeline/rib/state/user_defaults.h"
 
 #include <cstdlib>
@@ -5,6 +6,7 @@
 
 namespace trapeze {
 
+/// A variable that is set but empty counts as not set, as the specification says.
 std::string user_defaults_file() {
     namespace fs = std::filesystem;
     const char* const config = std::getenv("XDG_CONFIG_HOME");

@@ -1,3 +1,5 @@
+/// Requests as text: what stands between one request's name and the next. A mistake in the text is noted with
+/// the request, which is skipped as a whole by its executor; the next request is not lost with it.
 #include "pipeline/rib/syntax/arguments.h"
 
 #include <cmath>
@@ -6,18 +8,24 @@
 namespace trapeze::rib {
 namespace {
 
+/// Integers beyond it are kept as doubles too: indices and handles must not be rounded.
 constexpr double kLargestExactFloatInteger = 1 << 24;
 constexpr size_t kMostArguments = 100000;  ///< of one request; arrays count once
+/// Memory of so many strings is kept from one request for the next.
 constexpr size_t kMostSpareStrings = 16;
+/// Characters of a file that a message shows.
 constexpr size_t kLongestShown = 100;
+/// Infinite or not a number, also by rounding to float.
 constexpr const char* kNotFinite = "a value is not a finite number";
 
+/// Keeps the first problem of a request: what follows is mostly its consequence.
 void note_problem(RequestText& request, SourceLocation at, std::string text) {
     if (!request.problem.empty()) return;
     request.problem = std::move(text);
     request.problem_at = at;
 }
 
+/// Rounds each number once: the lexer has seen to that (read_number).
 void append_numbers(Argument& array, std::span<const double> values) {
     float floats[Lexer::kNumbersAtOnce];
     for (size_t i = 0; i < values.size(); ++i) {
@@ -32,6 +40,7 @@ void append_numbers(Argument& array, std::span<const double> values) {
 
 constexpr size_t kMostStringBytes = size_t{1} << 26;  ///< of an array of strings, which codes can make short
 
+/// The floats of an encoded array, as they are.
 void append_encoded(RequestText& request, const Token& token, Argument& array) {
     if (!append_floats(token.text, array.floats)) note_problem(request, token.at, kNotFinite);
 }
@@ -41,6 +50,7 @@ void read_array(Lexer& lexer, Argument& array, RequestText& request, IsRequest i
     array.kind = Argument::Kind::Array;
     array.at = lexer.peek().at;
     lexer.skip();
+    // Codes of strings make a few bytes of a file stand for thousands.
     size_t string_bytes = 0;
     bool closed = false;
     while (!closed) {
@@ -127,6 +137,7 @@ std::vector<float> Argument::take_numbers() {
     return std::move(floats);
 }
 
+/// Strings keep their memory: a scene has millions of short ones.
 void RequestText::clear() {
     problem.clear();
     for (Argument& argument : arguments)
@@ -137,6 +148,8 @@ void RequestText::clear() {
     arguments.clear();
 }
 
+/// A loop over tokens up to the next word outside of brackets. It is one function as its cases are one table:
+/// a token kind each.
 bool read_request(Lexer& lexer, RequestText& request, IsRequest is_request, Diagnostics& diagnostics) {
     request.clear();
     if (!find_request_name(lexer, diagnostics)) return false;
@@ -195,6 +208,7 @@ bool read_request(Lexer& lexer, RequestText& request, IsRequest is_request, Diag
     }
 }
 
+/// Two texts: at the end of the request something is missing, elsewhere something else stands in its place.
 void ArgumentCursor::missing(const char* what) const {
     if (done()) throw RequestError{std::string(what) + " is missing", {}};
     throw RequestError{std::string(what) + " is expected here", peek()->at};
@@ -205,6 +219,7 @@ float ArgumentCursor::number(const char* what) {
     return request_.arguments[next_++].take_numbers()[0];
 }
 
+/// The limits are those that the caller can work with, and are said where they do not hold.
 int ArgumentCursor::integer(const char* what, int lowest, int highest) {
     const SourceLocation at = done() ? SourceLocation{} : peek()->at;
     const std::vector<int> values = int_array(what);
@@ -216,6 +231,8 @@ int ArgumentCursor::integer(const char* what, int lowest, int highest) {
     return values[0];
 }
 
+/// RISpec's appendix C.2 lets a fixed number of values stand with brackets or without; files also mix the
+/// two.
 std::vector<float> ArgumentCursor::numbers(size_t least, size_t most, const char* what) {
     if (!next_is_number()) missing(what);
     const SourceLocation at = peek()->at;
@@ -246,6 +263,7 @@ std::vector<float> ArgumentCursor::number_array(const char* what) {
     return request_.arguments[next_++].take_numbers();
 }
 
+/// Integers are floats in RIB until here: those beyond 2^24 are looked up where they were kept.
 std::vector<int> ArgumentCursor::int_array(const char* what) {
     if (!next_is_number()) missing(what);
     const Argument& argument = request_.arguments[next_++];
@@ -266,11 +284,14 @@ std::vector<int> ArgumentCursor::int_array(const char* what) {
     return ints;
 }
 
+/// An empty array is one of strings, as it is one of numbers.
 std::vector<std::string> ArgumentCursor::string_array(const char* what) {
     if (done() || (!peek()->is_text() && peek()->number_count() > 0)) missing(what);
     return std::move(request_.arguments[next_++].strings);
 }
 
+/// Handles of lights and objects are integers in RISpec 3.2, strings in later versions; both name the same
+/// thing when they print alike.
 std::string ArgumentCursor::handle(const char* what) {
     if (next_is_string()) return string(what);
     return std::to_string(integer(what, INT32_MIN, INT32_MAX));

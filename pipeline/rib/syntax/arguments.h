@@ -61,6 +61,8 @@ struct RequestError {
     SourceLocation at;  ///< line 0: the request's own place
 };
 
+/// Takes the arguments of one request from left to right. All that take throw a RequestError that calls the
+/// argument `what`, where it is missing or of another kind; what is taken is moved out of the request.
 class ArgumentCursor {
   public:
     explicit ArgumentCursor(RequestText& request) : request_(request) {}
@@ -70,22 +72,30 @@ class ArgumentCursor {
     const Argument* peek(size_t ahead = 0) const {
         return next_ + ahead < request_.arguments.size() ? &request_.arguments[next_ + ahead] : nullptr;
     }
+    /// Kinds of what comes next; all are false at the end. An array is also a number or a string, by its
+    /// elements.
     bool next_is_number() const { return !done() && !peek()->is_text(); }
     bool next_is_string() const { return !done() && peek()->is_text(); }
     bool next_is_array() const { return !done() && peek()->kind == Argument::Kind::Array; }
 
+    /// One number, or an array of one.
     float number(const char* what);
+    /// A whole number within limits, both included.
     int integer(const char* what, int lowest, int highest);
     /// `count` numbers, as arrays or one by one.
     std::vector<float> numbers(size_t count, const char* what) { return numbers(count, count, what); }
     std::vector<float> numbers(size_t least, size_t most, const char* what);
+    /// One string, or an array of one.
     std::string string(const char* what);
     /// An array of any length; a single number counts as an array of one.
     std::vector<float> number_array(const char* what);
+    /// Whole numbers of 32 bits, exact although arrays are kept as floats.
     std::vector<int> int_array(const char* what);
+    /// Strings of any number; an empty array will do.
     std::vector<std::string> string_array(const char* what);
     /// A handle: a string, or an integer as text.
     std::string handle(const char* what);
+    /// The next argument, of whatever kind.
     Argument take(const char* what);
     /// Passes over what is left.
     void skip_rest() { next_ = request_.arguments.size(); }

@@ -1,3 +1,4 @@
+/// Comments are what the lexer passes over: it is run for them alone, and its tokens are dropped.
 #include "pipeline/rib/syntax/comments.h"
 
 #include "pipeline/rib/syntax/lexer.h"

@@ -1,3 +1,5 @@
+/// Evaluates expressions of conditions. Both sides of && and || are evaluated, so that all undefined names
+/// are known; nothing in an expression has an effect.
 #include "pipeline/rib/syntax/conditions.h"
 
 #include <algorithm>
@@ -11,18 +13,22 @@ namespace {
 
 constexpr int kDeepestNesting = 100;  ///< of parentheses and signs
 
+/// Thrown within this file only.
 struct Problem {
     std::string text;
 };
 
+/// Names have colons within: "Option:user:quality".
 bool is_name_character(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == ':';
 }
 
+/// A truth is a number too: 1 or 0.
 ConditionValue number(double value) {
     return {{value}, {}};
 }
 
+/// Any number other than 0 in an array, or a text that is not empty; what nobody set is false.
 bool is_true(const ConditionValue& value) {
     if (value.text) return !value.text->empty();
     return std::any_of(value.numbers.begin(), value.numbers.end(), [](double v) { return v != 0; });
@@ -59,6 +65,7 @@ bool compare_values(const ConditionValue& a, std::string_view op, const Conditio
     return compare(x.numbers, op, y.numbers);
 }
 
+/// Only numbers, and texts that are one; an array is none.
 ConditionValue arithmetic(const ConditionValue& a, char op, const ConditionValue& b) {
     const ConditionValue x = as_numbers(a), y = as_numbers(b);
     if (x.numbers.size() != 1 || y.numbers.size() != 1)
@@ -74,6 +81,7 @@ class Evaluator {
     Evaluator(std::string_view text, const ConditionVariables& variables)
         : text_(text), variables_(variables) {}
 
+    /// The value of the text, which must be one expression and nothing after it.
     ConditionValue whole() {
         ConditionValue value = either();
         if (!at_end()) throw Problem{"what follows " + place() + " is not understood"};
@@ -90,6 +98,7 @@ class Evaluator {
         return next_ >= text_.size();
     }
     std::string place() const { return "character " + std::to_string(next_ + 1); }
+    /// Takes the token if it comes next, blanks before it aside. Whether it did.
     bool take(std::string_view token) {
         skip_space();
         if (!text_.substr(next_).starts_with(token)) return false;
@@ -99,6 +108,7 @@ class Evaluator {
     void expect(std::string_view token) {
         if (!take(token)) throw Problem{"'" + std::string(token) + "' is expected at " + place()};
     }
+    /// A name as it stands after "$".
     std::string name() {
         skip_space();
         const size_t first = next_;
@@ -107,6 +117,8 @@ class Evaluator {
         return std::string(text_.substr(first, next_ - first));
     }
 
+    /// The grammar, loosest first: either, both, comparison, sum, product, primary. A comparison does not
+    /// chain.
     ConditionValue either() {
         ConditionValue value = both();
         while (take("||")) {
@@ -123,6 +135,7 @@ class Evaluator {
         }
         return value;
     }
+    /// Longer operators come first in the list, so that "<=" is not taken for "<".
     ConditionValue comparison() {
         const ConditionValue left = sum();
         for (const std::string_view op : {"==", "!=", "=~", "<=", ">=", "<", ">"})
@@ -150,6 +163,7 @@ class Evaluator {
                 return value;
     }
 
+    /// A sign, a bracket or an operand. The depth is that of the recursion, which a file must not choose.
     ConditionValue primary() {
         if (++depth_ > kDeepestNesting)
             throw Problem{"it is nested too deep, more than " + std::to_string(kDeepestNesting) + " times"};
@@ -173,6 +187,7 @@ class Evaluator {
         if (std::isdigit(static_cast<unsigned char>(c)) || c == '.') return literal();
         return call();
     }
+    /// $name, ${name}, or $(expression) whose text is the name.
     ConditionValue variable() {
         ++next_;
         std::string asked;
@@ -202,6 +217,7 @@ class Evaluator {
         }
         throw Problem{"the string at " + place() + " is never closed"};
     }
+    /// Decimal, with an exponent if it likes; signs are primary()'s.
     ConditionValue literal() {
         double value = 0;
         const auto [stop, error] = std::from_chars(text_.data() + next_, text_.data() + text_.size(), value);
@@ -209,6 +225,7 @@ class Evaluator {
         next_ = static_cast<size_t>(stop - text_.data());
         return number(value);
     }
+    /// Numbers apart by spaces, with signs; no expressions within.
     ConditionValue array() {
         ConditionValue value;
         expect("[");
@@ -249,6 +266,7 @@ class Evaluator {
 
 }  // namespace
 
+/// As a float: options are floats, and 0.1 shall not read 0.10000000149011612.
 std::string text_of(const ConditionValue& value) {
     if (value.text) return *value.text;
     std::string text;
@@ -261,6 +279,7 @@ std::string text_of(const ConditionValue& value) {
     return text;
 }
 
+/// Undefined names are told even where the expression turns out wrong.
 ConditionResult evaluate_condition(std::string_view expression, const ConditionVariables& variables) {
     Evaluator evaluator(expression, variables);
     ConditionResult result;
@@ -273,6 +292,7 @@ ConditionResult evaluate_condition(std::string_view expression, const ConditionV
     return result;
 }
 
+/// A name ends where no name character follows; colons at its end are the text's ("$name: ").
 std::string substitute_variables(const std::string& text, const std::string& marker,
                                  const ConditionVariables& variables) {
     if (marker.empty()) return text;

@@ -20,6 +20,8 @@ uint64_t big_endian(std::string_view bytes, size_t begin, size_t count) {
 
 }  // namespace
 
+/// The length of a string or an array may be any 32-bit number here: who reads it compares it with the bytes
+/// that there are.
 EncodedValue encoded_value(std::string_view bytes) {
     const unsigned first = static_cast<unsigned char>(bytes[0]), width = (first & 3) + 1;
     if (first < kShortStringByte) return {Encoding::Number, 1 + width, 1};
@@ -37,6 +39,7 @@ EncodedValue encoded_value(std::string_view bytes) {
     return {};
 }
 
+/// Integers are two's complement; fixed-point numbers are integers with so many bytes behind the point.
 double decoded_number(const EncodedValue& value, std::string_view bytes) {
     const unsigned first = static_cast<unsigned char>(bytes[0]);
     if (value.encoding == Encoding::Float)
@@ -54,6 +57,8 @@ unsigned decoded_code(const EncodedValue& value, std::string_view bytes) {
     return static_cast<unsigned>(big_endian(bytes, 1, static_cast<size_t>(value.length) - 1));
 }
 
+/// The loop has no branches, so that it is made of vector instructions: an exponent of all ones (infinite,
+/// NaN) leaves no headroom, and the least of all tells whether there was one.
 bool append_floats(std::string_view contents, std::vector<float>& floats) {
     const size_t old = floats.size(), count = contents.size() / 4;
     floats.resize(old + count);

@@ -26,12 +26,12 @@ enum class Encoding : uint8_t {
 
 struct EncodedValue {
     Encoding encoding = Encoding::None;
-    /// Of the value with its first byte; of definitions without the string. May be more than there are.
+    /// Bytes of the value with its first one; of definitions without the string. May be more than there are.
     uint64_t length = 1;
     size_t header = 1;  ///< bytes before the contents
 };
 
-/// Of bytes that begin with one above 0177.
+/// What stands at the beginning of bytes, the first of which is above 0177.
 EncodedValue encoded_value(std::string_view bytes);
 
 /// A Number, Float or Double, whole. Infinite when it is no finite float.

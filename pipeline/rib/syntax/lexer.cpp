@@ -1,3 +1,6 @@
+/// The lexer. Most of a scene's bytes are numbers in long arrays: these have a path of their own
+/// (fast_numbers, read_plain_number), which hands over to the general one wherever it meets anything else.
+/// Both give the same values to the bit.
 #include "pipeline/rib/syntax/lexer.h"
 
 #include <algorithm>
@@ -10,15 +13,18 @@
 namespace trapeze::rib {
 namespace {
 
+/// Exact as doubles: 10^22 is the last power of ten that is.
 constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
+/// What a word may begin with; digits may follow.
 bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
+/// Bytes that begin an encoded value, and those of UTF-8 beyond ASCII.
 bool is_high(char c) {
     return static_cast<unsigned char>(c) >= 0x80;
 }
@@ -27,6 +33,7 @@ constexpr bool is_separator(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\f' || c == '\v';
 }
 
+/// A table by byte: what may stand right behind a number. Anything else ("1.5x", "3d") makes a word of it.
 constexpr auto kEndsNumber = [] {
     std::array<bool, 256> ends{};
     for (size_t c = 0; c < ends.size(); ++c) ends[c] = is_separator(static_cast<char>(c));
@@ -124,6 +131,8 @@ const char* read_plain_number(const char* p, double* value) {
     return p;
 }
 
+/// "nan", "inf" and "infinity", as exporters print them, are numbers that are not finite, and no requests.
+/// Lower or upper case.
 bool is_non_finite_word(std::string_view word) {
     if ((word[0] | 0x20) != 'n' && (word[0] | 0x20) != 'i') return false;
     std::string lower;
@@ -133,6 +142,8 @@ bool is_non_finite_word(std::string_view word) {
 
 }  // namespace
 
+/// The last stop lets the fast path look ahead without asking at each byte whether the text ends: a number
+/// before it ends in time.
 Lexer::Lexer(std::string_view text, SourceLocation first, EncodedNames names)
     : begin_(text.data()),
       next_(text.data()),
@@ -147,6 +158,7 @@ Lexer::Lexer(std::string_view text, SourceLocation first, EncodedNames names)
     while (last_stop_ > begin_ && (last_stop_ == end_ || !ends_number(*last_stop_))) --last_stop_;
 }
 
+/// Blanks, ends of lines and comments. Lines end with \n, \r\n or \r, and are counted here and in strings.
 void Lexer::skip_space() {
     while (next_ < end_) {
         const char c = *next_;
@@ -197,7 +209,10 @@ size_t Lexer::fast_numbers(std::span<double> numbers) {
     return count;
 }
 
+/// Reads the token that begins at next_ or after it. Encoded values and text may alternate from token to
+/// token (RISpec C.2).
 void Lexer::scan() {
+    // Definitions of codes are no tokens: the loop goes on behind them.
     do {
         skip_space();
         token_begin_ = next_;
@@ -237,6 +252,7 @@ void Lexer::scan() {
     }
 }
 
+/// False where no number begins; the caller makes a word or a mistake of it.
 bool Lexer::scan_number() {
     if (const char* const stop = number_at(next_, &token_.number)) {
         token_.kind = TokenKind::Number;
@@ -346,6 +362,8 @@ bool Lexer::scan_single_quoted() {
     return true;
 }
 
+/// Strings reach from quote to quote, over ends of lines if need be. Escapes are those of C: \n and the like,
+/// up to three octal digits, and a backslash before the end of a line, which joins it to the next.
 void Lexer::scan_string() {
     token_.kind = TokenKind::String;
     token_.string.clear();

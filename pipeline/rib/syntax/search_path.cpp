@@ -18,15 +18,19 @@ bool is_name(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
+/// Empty when it is not set.
 std::string environment(const std::string& name) {
     const char* value = std::getenv(name.c_str());
     return value ? value : "";
 }
 
+/// Whether the entry asks for the environment, which confined scenes must not see.
 bool has_variables(const std::string& text) {
     return text[0] == '~' || text.find_first_of("$%") != std::string::npos;
 }
 
+/// $NAME ends at the first other character; %NAME% is the form of Windows. A mark without its end stands for
+/// itself.
 std::string expand_variables(const std::string& text) {
     std::string expanded;
     const bool is_home = text[0] == '~' && (text.size() == 1 || text[1] == '/');
@@ -52,6 +56,7 @@ std::string expand_variables(const std::string& text) {
     return expanded;
 }
 
+/// False also where the scene may not look.
 bool is_folder(const std::string& path, const Access& access) {
     std::error_code ignored;
     return access.may_read(path) && fs::is_directory(path, ignored);
@@ -94,6 +99,7 @@ std::vector<std::string> expand_search_path(const std::string& path, const std::
         const std::string folder = expand_variables(entry);
         if (folder.empty()) continue;
         std::vector<std::string> places;
+        // Folders that do not exist yet are kept: maps may be made in them.
         if (fs::path(folder).is_absolute()) {
             places = {folder};
         } else {

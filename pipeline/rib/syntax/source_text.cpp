@@ -17,8 +17,10 @@
 namespace trapeze::rib {
 namespace {
 
+/// Bytes that are read or inflated at once.
 constexpr size_t kChunk = size_t{1} << 20;
 
+/// A file's size is only a hint: pipes have none, and files grow while they are read.
 std::string read_all(std::FILE* file, size_t max_bytes, std::string* problem) {
     std::string bytes;
     struct stat status {};
@@ -41,6 +43,7 @@ std::string read_all(std::FILE* file, size_t max_bytes, std::string* problem) {
     return bytes;
 }
 
+/// One character, by its code.
 void append_utf8(std::string& bytes, uint32_t code) {
     if (code < 0x80) {
         bytes += static_cast<char>(code);
@@ -56,6 +59,7 @@ bool is_utf16(const std::string& text) {
     return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
 }
 
+/// Pairs of surrogates become one character; a single one is kept as it is.
 std::string utf8_of_utf16(const std::string& text) {
     const bool is_big = text.starts_with("\xfe\xff");
     const auto unit_at = [&](size_t i) -> uint32_t {
@@ -78,6 +82,8 @@ std::string utf8_of_utf16(const std::string& text) {
 
 }  // namespace
 
+/// Memory grows with what comes out, never beyond max_bytes by more than a chunk: a small file can inflate to
+/// anything.
 std::string inflated(const std::string& packed, Packing packing, size_t max_bytes, std::string* problem) {
     z_stream stream{};
     std::string bytes;
@@ -104,6 +110,7 @@ std::string inflated(const std::string& packed, Packing packing, size_t max_byte
                 "inflates to more than " + std::to_string(max_bytes >> 20) + " MiB; the rest is not read";
             break;
         }
+        // gzip files may be several, one behind the other; a member of an archive is one.
         if (status == Z_STREAM_END) {
             if (left == 0 || packing == Packing::Deflate || inflateReset(&stream) != Z_OK) break;
         } else if (status != Z_OK) {
@@ -118,6 +125,8 @@ std::string inflated(const std::string& packed, Packing packing, size_t max_byte
     return bytes;
 }
 
+/// A file whose own name has a "!" comes before a member of an archive. Packing is undone first, the encoding
+/// of the text after.
 std::optional<SourceText> read_source(const std::string& path, size_t max_bytes, std::string* error,
                                       const Access& access) {
     std::error_code ignored;

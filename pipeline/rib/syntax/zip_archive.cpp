@@ -1,3 +1,5 @@
+/// Reads single members of zip archives. Nothing is kept between calls: the directory is at the archive's end
+/// and is read again, which costs little beside the member.
 #include "pipeline/rib/syntax/zip_archive.h"
 
 #include <algorithm>
@@ -33,10 +35,12 @@ std::string read_at(std::FILE* file, uint64_t offset, uint64_t count) {
     return bytes;
 }
 
+/// 0 when it cannot be told.
 uint64_t size_of(std::FILE* file) {
     return fseeko(file, 0, SEEK_END) == 0 ? static_cast<uint64_t>(ftello(file)) : 0;
 }
 
+/// What the directory says of a member; its place is that of its own header, which comes before its bytes.
 struct Entry {
     unsigned flags = 0, method = 0;
     uint64_t packed_size = 0, header_at = 0;
@@ -57,6 +61,7 @@ std::string read_directory(std::FILE* file) {
     return {};
 }
 
+/// A damaged directory has no members from the damage on.
 std::optional<Entry> find_entry(const std::string& directory, const std::string& name) {
     for (size_t at = 0; at + kCentralSize <= directory.size();) {
         if (number(directory, at, 4) != kCentralHeader) return {};
@@ -71,6 +76,7 @@ std::optional<Entry> find_entry(const std::string& directory, const std::string&
     return {};
 }
 
+/// Null, and why, where it cannot be opened.
 InputFile open_archive(const std::string& path, const Access& access, std::string* error) {
     InputFile file(access.open_to_read(path));
     if (!file) *error = "the archive cannot be opened";
@@ -79,6 +85,7 @@ InputFile open_archive(const std::string& path, const Access& access, std::strin
 
 }  // namespace
 
+/// The last mark separates: folders of members have none.
 std::optional<ZipMember> zip_member_named(const std::string& path) {
     const size_t mark = path.rfind('!');
     if (mark == std::string::npos || mark == 0 || mark + 1 == path.size()) return {};
@@ -99,6 +106,7 @@ std::optional<std::string> read_zip_member(const ZipMember& member, size_t max_b
         *error = "the member is too large, encrypted or packed in an unknown way";
         return {};
     }
+    // The member's own header repeats the name, and may have other extra fields than the directory.
     const std::string header = read_at(file.get(), entry->header_at, kLocalSize);
     std::string packed;
     if (!header.empty() && number(header, 0, 4) == kLocalHeader) {

@@ -1,3 +1,4 @@
+/// The reader tells of each request as it carries it out, and this writes them down; no scene is made.
 #include "pipeline/rib/write/cat_rib.h"
 
 #include <memory>
@@ -9,10 +10,12 @@ namespace trapeze::rib {
 
 namespace {
 
+/// Programs are not run by this: their requests are written as they are.
 bool is_procedural(const RequestText& request) {
     return request.name == "Procedural" || request.name == "Procedural2";
 }
 
+/// Whether the request is replaced by what it reads.
 bool reads_archive(const RequestText& request) {
     if (request.name == "ReadArchive") return true;
     if (!is_procedural(request) || request.arguments.empty()) return false;

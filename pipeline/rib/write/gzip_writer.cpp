@@ -9,6 +9,7 @@
 
 namespace trapeze::rib {
 
+/// zlib's stream, kept out of the header: few files know zlib.
 struct GzipWriter::State {
     z_stream stream{};
     std::array<char, 1 << 16> out;
@@ -25,6 +26,7 @@ GzipWriter::~GzipWriter() {
     deflateEnd(&state_->stream);
 }
 
+/// Until zlib has no more to give: with Z_NO_FLUSH it keeps some of the input for later.
 void GzipWriter::deflate_all(int flush) {
     z_stream& stream = state_->stream;
     do {
@@ -35,6 +37,7 @@ void GzipWriter::deflate_all(int flush) {
     } while (stream.avail_out == 0);
 }
 
+/// zlib counts in 32 bits: longer pieces are cut.
 void GzipWriter::add(std::string_view bytes) {
     while (!bytes.empty()) {
         const size_t part = std::min<size_t>(bytes.size(), std::numeric_limits<uInt>::max());

@@ -7,6 +7,7 @@
 
 namespace trapeze::rib {
 
+/// One stream, from the first byte to finish(). Level 6, as gzip has it.
 class GzipWriter {
   public:
     /// `write` takes the compressed bytes as they come. Throws std::bad_alloc.

@@ -10,19 +10,24 @@
 namespace trapeze::rib {
 namespace {
 
+/// Bytes are handed on in pieces of about so many.
 constexpr size_t kFlushBytes = size_t{1} << 16;
+/// ASCII: columns; a number or string may reach beyond.
 constexpr size_t kLineWidth = 110;
 
+/// How many bytes a number takes: 1 to 4.
 int bytes_of(uint64_t value) {
     int bytes = 1;
     while (bytes < 4 && value >> (8 * bytes) != 0) ++bytes;
     return bytes;
 }
 
+/// Whether it is the same number as a float: then that has the shorter text.
 bool is_float(double value) {
     return static_cast<double>(static_cast<float>(value)) == value;
 }
 
+/// Blocks are told by the name alone, so that those of other renderers are indented too.
 bool ends_block(std::string_view name) {
     return name.ends_with("End") && name != "End";
 }
@@ -35,6 +40,7 @@ bool begins_block(std::string_view name) {
 RibWriter::RibWriter(RibEncoding encoding, std::function<void(std::string_view)> write)
     : encoding_(encoding), write_(std::move(write)) {}
 
+/// What was begun ends its line: more may be written after it.
 void RibWriter::flush() {
     if (in_line_) put('\n'), in_line_ = false;
     if (!buffer_.empty()) write_(buffer_);
@@ -42,6 +48,7 @@ void RibWriter::flush() {
     line_start_ = 0;
 }
 
+/// Begins a line in ASCII. Bytes are handed on here, where the line before is whole.
 void RibWriter::begin_line() {
     if (in_line_) put('\n');
     if (buffer_.size() > kFlushBytes) {
@@ -52,6 +59,7 @@ void RibWriter::begin_line() {
     in_line_ = true;
 }
 
+/// In binary the first use of a name defines a code for it, while there are codes: 256.
 void RibWriter::request(std::string_view name) {
     if (ends_block(name) && depth_ > 0) --depth_;
     if (encoding_ == RibEncoding::Ascii) {
@@ -76,6 +84,7 @@ void RibWriter::request(std::string_view name) {
     if (begins_block(name)) ++depth_;
 }
 
+/// ASCII only. Long lists are broken, and go on indented.
 void RibWriter::space() {
     if (encoding_ == RibEncoding::Binary) return;
     if (buffer_.size() - line_start_ > kLineWidth) {
@@ -91,6 +100,8 @@ void RibWriter::append_bytes(uint64_t value, int bytes) {
     for (int i = bytes; i-- > 0;) put(static_cast<char>(value >> (8 * i) & 0xff));
 }
 
+/// The shortest text that reads back as the same number; in binary an integer of as many bytes as it wants, a
+/// float, or a double.
 void RibWriter::append_number(double value) {
     if (encoding_ == RibEncoding::Ascii) {
         char text[40];
@@ -118,6 +129,7 @@ void RibWriter::number(double value) {
     append_number(value);
 }
 
+/// Binary strings are bytes as they are; in text, quotes and backslashes are escaped.
 void RibWriter::string(std::string_view text) {
     if (encoding_ == RibEncoding::Binary) {
         if (text.size() < 16) {
@@ -143,6 +155,7 @@ void RibWriter::string(std::string_view text) {
     put('"');
 }
 
+/// Binary arrays of floats are four bytes each, exact; in text each has its shortest form.
 void RibWriter::numbers(std::span<const float> values) {
     if (encoding_ == RibEncoding::Binary) {
         const int bytes = bytes_of(values.size());
@@ -171,6 +184,7 @@ void RibWriter::strings(std::span<const std::string> values) {
     put(']');
 }
 
+/// Binary RIB may hold comments between requests, and begins with one.
 void RibWriter::comment(std::string_view text) {
     // Binary RIB may hold ASCII, and a comment ends with its line.
     if (encoding_ == RibEncoding::Ascii) begin_line();
@@ -180,6 +194,7 @@ void RibWriter::comment(std::string_view text) {
     line_start_ = buffer_.size();
 }
 
+/// Integers that are no floats are written as they were read.
 void RibWriter::append_array(const Argument& argument) {
     if (!argument.strings.empty()) return strings(argument.strings);
     if (argument.large_integers.empty()) return numbers(argument.floats);
