@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "accel/paper/sah_cost.h"
 #include "pipeline/compare/value_text.h"
 #include "pipeline/study/paper_figures.h"
+#include "pipeline/study/sah_cost.h"
 #include "pipeline/study/studies.h"
 #include "pipeline/study/study_scenes.h"
 

@@ -1,4 +1,4 @@
-#include "accel/paper/sah_cost.h"
+#include "pipeline/study/sah_cost.h"
 
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"

@@ -1,5 +1,5 @@
 /// Costs of sheets for which they can be counted by hand, and what must not change them.
-#include "accel/paper/sah_cost.h"
+#include "pipeline/study/sah_cost.h"
 
 #include <gtest/gtest.h>
 
