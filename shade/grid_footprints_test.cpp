@@ -6,7 +6,7 @@
 namespace trapeze {
 namespace {
 
-using vm::test::ShaderRun;
+using vm::testing::ShaderRun;
 
 /// So that the test grid's steps of 1/4 along u and 1/2 along v, at z = 4, are this many pixels.
 void set_pixels(TestScene& scene, float along_u, float along_v) {

@@ -179,7 +179,7 @@ TEST_P(BatchOf, GivesEachGridTheSameBits) {
     EXPECT_EQ(stats.shaded_vertices, alone_stats.shaded_vertices);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shading, BatchOf, testing::Values("brick", "plain", "placed"),
+INSTANTIATE_TEST_SUITE_P(Shading, BatchOf, ::testing::Values("brick", "plain", "placed"),
                          [](const auto& shader) { return std::string(shader.param); });
 
 }  // namespace

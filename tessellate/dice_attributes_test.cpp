@@ -10,9 +10,9 @@
 namespace trapeze {
 namespace {
 
-using test::DicedScene;
-using test::TestScene;
-using test::translation;
+using testing::DicedScene;
+using testing::TestScene;
+using testing::translation;
 
 /// A square of 2 x 2 at z = 4, where the picture is 8 high: 100 x 100 pixels.
 struct Square {
@@ -22,8 +22,8 @@ struct Square {
         scene.scene.options.width = scene.scene.options.height = 400;
         PatchMesh mesh;
         ParameterList variables;
-        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                      {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0}));
+        variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                         {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0}));
         const double angle = turned_degrees * M_PI / 180;
         M44f turned;
         turned[0][0] = turned[2][2] = static_cast<float>(std::cos(angle));
@@ -31,7 +31,7 @@ struct Square {
         turned[2][0] = -turned[0][2];
         std::vector<M44f> keys{turned * translation(0, 0, 4)};
         if (moved != 0) keys.push_back(turned * translation(moved, 0, 4));
-        scene.add({test::shape_of(mesh, variables)}, keys);
+        scene.add({testing::shape_of(mesh, variables)}, keys);
     }
     uint64_t micropolygons() { return DicedScene(scene).stats.micropolygons; }
 };
@@ -97,10 +97,10 @@ struct Floor {
         scene.scene.options.width = scene.scene.options.height = 400;
         PatchMesh mesh;
         ParameterList variables;
-        variables.set(test::parameter(
+        variables.set(testing::parameter(
             "P", StorageClass::Vertex, ValueType::Point,
             {-half_width, -1, from, half_width, -1, from, -half_width, -1, to, half_width, -1, to}));
-        scene.add(test::shape_of(mesh, variables), M44f());
+        scene.add(testing::shape_of(mesh, variables), M44f());
     }
     double micropolygons() { return static_cast<double>(DicedScene(scene).stats.micropolygons); }
 };
@@ -150,7 +150,8 @@ TEST(DiceAttributes, WhatTurnsToTheViewerIsDicedForIt) {
 TEST(DiceAttributes, SilhouettesAreSmooth) {
     TestScene scene;
     scene.scene.options.width = scene.scene.options.height = 400;
-    scene.add(test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), translation(0, 0, 5));
+    scene.add(testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})),
+              translation(0, 0, 5));
     const DicedScene diced(scene);
     const RenderContext context = scene.context();
     // The outline's radius: 200 pixels times the tangent of asin(1 / 5).

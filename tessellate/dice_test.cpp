@@ -12,17 +12,18 @@
 namespace trapeze {
 namespace {
 
-using test::TestScene;
+using testing::TestScene;
 
 std::shared_ptr<const Shape> sphere(float theta = 360, ParameterList variables = {}) {
-    return test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, theta}), std::move(variables));
+    return testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, theta}),
+                             std::move(variables));
 }
 
 /// A bilinear square of 2 x 2 at z = 0, facing the eye (dPdu x dPdv along +z: see the first test).
 std::shared_ptr<const Shape> square(ParameterList variables = {}, float z = 0) {
-    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                  {-1, -1, z, 1, -1, z, -1, 1, z, 1, 1, z}));
-    return test::shape_of(PatchMesh{}, std::move(variables));
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                     {-1, -1, z, 1, -1, z, -1, 1, z, 1, 1, z}));
+    return testing::shape_of(PatchMesh{}, std::move(variables));
 }
 
 /// All grids of a scene before they are shaded.
@@ -60,7 +61,7 @@ TEST(Dice, SquareHasTheShadingRateAndLooksAtTheEye) {
         TestScene scene;
         scene.attributes->shading_rate = rate;
         scene.scene.options.width = scene.scene.options.height = 200;
-        scene.add(square(), test::translation(0, 0, 2));  // fills the middle half: 100 x 100 pixels
+        scene.add(square(), testing::translation(0, 0, 2));  // fills the middle half: 100 x 100 pixels
         const Diced diced(scene);
         // Rates are rounded up to whole segments: never fewer micropolygons, and a third more at most.
         const double wanted = 100 * 100 / static_cast<double>(rate);
@@ -83,10 +84,10 @@ TEST(Dice, SquareHasTheShadingRateAndLooksAtTheEye) {
 TEST(Dice, SameBitsWheneverAndWithWhateverScratch) {
     TestScene scene;
     ParameterList variables;
-    variables.set(test::parameter("tint", StorageClass::Varying, ValueType::Color,
-                                  {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}));
-    scene.add({sphere(360, variables)}, {test::translation(0, 0, 3), test::translation(0.5f, 0, 3)});
-    scene.add(square(), test::translation(0, 0, 4));
+    variables.set(testing::parameter("tint", StorageClass::Varying, ValueType::Color,
+                                     {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}));
+    scene.add({sphere(360, variables)}, {testing::translation(0, 0, 3), testing::translation(0.5f, 0, 3)});
+    scene.add(square(), testing::translation(0, 0, 4));
     const Diced diced(scene);
     const RenderContext context = scene.context();
     const Tessellation again(context);
@@ -106,7 +107,7 @@ TEST(Dice, SphereNormalsPointOutsideAlsoAtThePoles) {
     for (const bool reverse : {false, true}) {
         TestScene scene;
         scene.attributes->reverse_orientation = reverse;
-        scene.keep_all().add(sphere(), test::translation(0, 0, 3));
+        scene.keep_all().add(sphere(), testing::translation(0, 0, 3));
         const Diced diced(scene);
         for (const ShadingGrid& grid : diced.grids) {
             EXPECT_EQ(grid.reverse_orientation, reverse);
@@ -122,7 +123,7 @@ TEST(Dice, SphereNormalsPointOutsideAlsoAtThePoles) {
 
 TEST(Dice, DerivativesAreByTheWholeSurfacesParameters) {
     TestScene scene;
-    scene.add(sphere(180), test::translation(0, 0, 3));
+    scene.add(sphere(180), testing::translation(0, 0, 3));
     const Diced diced(scene);
     for (const ShadingGrid& grid : diced.grids)
         for (size_t i = 0; i < grid.vertex_count(); ++i) {
@@ -136,9 +137,9 @@ TEST(Dice, DerivativesAreByTheWholeSurfacesParameters) {
 TEST(Dice, NoNormalAnywhereLooksAtTheEye) {
     TestScene scene;
     ParameterList variables;
-    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                  {-1, 0, 3, 1, 0, 3, -1, 0, 3, 1, 0, 3}));  // a line
-    scene.keep_all().add(test::shape_of(PatchMesh{}, variables), M44f());
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                     {-1, 0, 3, 1, 0, 3, -1, 0, 3, 1, 0, 3}));  // a line
+    scene.keep_all().add(testing::shape_of(PatchMesh{}, variables), M44f());
     const Diced diced(scene);
     ASSERT_FALSE(diced.grids.empty());
     for (const ShadingGrid& grid : diced.grids)
@@ -149,11 +150,11 @@ TEST(Dice, MotionKeysMixShapesAndTransforms) {
     TestScene scene;
     const auto shape = [](float z) { return square({}, z); };
     std::vector<M44f> matrices;
-    for (int k = 0; k < 5; ++k) matrices.push_back(test::translation(0.1f * static_cast<float>(k), 0, 4));
+    for (int k = 0; k < 5; ++k) matrices.push_back(testing::translation(0.1f * static_cast<float>(k), 0, 4));
     scene.add({shape(0), shape(1), shape(3)}, matrices);
     scene.add({shape(0), shape(1)},
-              {test::translation(0, 0, 4), test::translation(0, 0, 4), test::translation(0, 1, 4)});
-    scene.add({square()}, {test::translation(0, 0, 4), test::translation(0, 0, 4)});  // does not move
+              {testing::translation(0, 0, 4), testing::translation(0, 0, 4), testing::translation(0, 1, 4)});
+    scene.add({square()}, {testing::translation(0, 0, 4), testing::translation(0, 0, 4)});  // does not move
     const Diced diced(scene);
     for (const ShadingGrid& grid : diced.grids)
         for (size_t i = 0; i < grid.vertex_count(); ++i) {
@@ -181,7 +182,7 @@ TEST(Dice, MotionKeysMixShapesAndTransforms) {
 
 TEST(Dice, StillFramesHaveOneKey) {
     TestScene scene;
-    scene.add({square()}, {test::translation(0, 0, 4), test::translation(0, 1, 4)});
+    scene.add({square()}, {testing::translation(0, 0, 4), testing::translation(0, 1, 4)});
     RenderContext context = scene.context();
     context.motion = false;
     const Tessellation tessellation(context);
@@ -196,16 +197,16 @@ TEST(Dice, GeometryGoesToCameraSpace) {
         for (int i = 0; i < 4; ++i) values.insert(values.end(), {v.x, v.y, v.z});
         return values;
     };
-    variables.set(test::parameter("N", StorageClass::Varying, ValueType::Normal, four({1, 1, 0})));
-    variables.set(test::parameter("where", StorageClass::Varying, ValueType::Point, four({1, 2, 3})));
-    variables.set(test::parameter("way", StorageClass::Constant, ValueType::Vector, {1, 2, 3}));
-    variables.set(test::parameter("across", StorageClass::Constant, ValueType::Normal, {1, 1, 0}));
-    variables.set(test::parameter("tint", StorageClass::Constant, ValueType::Color, {1, 2, 3}));
+    variables.set(testing::parameter("N", StorageClass::Varying, ValueType::Normal, four({1, 1, 0})));
+    variables.set(testing::parameter("where", StorageClass::Varying, ValueType::Point, four({1, 2, 3})));
+    variables.set(testing::parameter("way", StorageClass::Constant, ValueType::Vector, {1, 2, 3}));
+    variables.set(testing::parameter("across", StorageClass::Constant, ValueType::Normal, {1, 1, 0}));
+    variables.set(testing::parameter("tint", StorageClass::Constant, ValueType::Color, {1, 2, 3}));
     M44f stretch;
     // Normals go by the inverse transpose: (1, 1, 0) becomes (1/2, 1, 0).
     stretch.setScale(V3f(2, 1, 1));
     scene.attributes->color = {0.5f, 0.25f, 1};
-    scene.add(square(variables), stretch * test::translation(0, 0, 4));
+    scene.add(square(variables), stretch * testing::translation(0, 0, 4));
     const Diced diced(scene);
     for (const ShadingGrid& grid : diced.grids) {
         const V3f n = V3f(0.5f, 1, 0).normalized();
@@ -240,7 +241,7 @@ std::vector<float> values_of_piece(const ShadingGrid& pieces, size_t first) {
 TEST(Dice, DisplacedBordersShareWhatDisplacementReads) {
     TestScene scene;
     scene.attributes->displacement = std::make_shared<ShaderInstance>();
-    scene.keep_all().add(sphere(), test::translation(0.4f, 0.2f, 1.3f));
+    scene.keep_all().add(sphere(), testing::translation(0.4f, 0.2f, 1.3f));
     const Diced diced(scene);
     std::map<std::array<float, 3>, std::vector<float>> shared_pieces;
     size_t shared = 0;
@@ -265,7 +266,7 @@ TEST(Dice, DisplacedBordersShareWhatDisplacementReads) {
 TEST(Dice, BorderPiecesHaveTheSizeOfMicropolygons) {
     TestScene scene;
     scene.attributes->displacement = std::make_shared<ShaderInstance>();
-    scene.keep_all().add(square(), test::translation(0, 0, 4));
+    scene.keep_all().add(square(), testing::translation(0, 0, 4));
     const Diced diced(scene);
     for (const ShadingGrid& grid : diced.grids) {
         const float side = (grid.P[0].at(1) - grid.P[0].at(0)).length();
@@ -279,7 +280,7 @@ TEST(Dice, BorderPiecesHaveTheSizeOfMicropolygons) {
 
 TEST(Dice, MemoryIsReusedBetweenGridsOfAPrimitive) {
     TestScene scene;
-    scene.add({sphere()}, {test::translation(0, 0, 3), test::translation(0.5f, 0, 3)});
+    scene.add({sphere()}, {testing::translation(0, 0, 3), testing::translation(0.5f, 0, 3)});
     const RenderContext context = scene.context();
     const Tessellation tessellation(context);
     DiceScratch scratch;
@@ -300,7 +301,7 @@ TEST(Dice, MemoryIsReusedBetweenGridsOfAPrimitive) {
 TEST(Tessellation, SubpatchesAreSmall) {
     TestScene scene;
     scene.scene.options.width = 640, scene.scene.options.height = 480;
-    scene.add(sphere(), test::translation(0, 0, 2));
+    scene.add(sphere(), testing::translation(0, 0, 2));
     const RenderContext context = scene.context();
     const Tessellation tessellation(context);
     EXPECT_GT(tessellation.subpatches().size(), 200u);
@@ -314,8 +315,8 @@ TEST(Tessellation, SurfacesBeyondAllBoundsAreLeftOut) {
         TestScene scene;
         M44f tilt;
         tilt.rotate(V3f(0.5f, 0, 0));
-        scene.add(test::shape_of(test::quadric(Quadric::Kind::Disk, {0, radius, 360})),
-                  tilt * test::translation(0, 0, 4));
+        scene.add(testing::shape_of(testing::quadric(Quadric::Kind::Disk, {0, radius, 360})),
+                  tilt * testing::translation(0, 0, 4));
         const Diced diced(scene);
         const bool too_far = radius > 1e12f;
         EXPECT_EQ(scene.diagnostics.count(Severity::Error), too_far ? 1u : 0u);
@@ -326,7 +327,7 @@ TEST(Tessellation, SurfacesBeyondAllBoundsAreLeftOut) {
 
 TEST(Tessellation, InvisibleAndBrokenPrimitivesAreLeftOut) {
     TestScene scene;
-    scene.add(test::shape_of(PatchMesh{}));  // no points
+    scene.add(testing::shape_of(PatchMesh{}));  // no points
     scene.add(square());
     auto hidden = std::make_shared<Attributes>();
     hidden->visible_to_camera = false;

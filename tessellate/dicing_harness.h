@@ -11,7 +11,7 @@
 #include "tessellate/tessellate.h"
 #include "tessellate/topology/surface.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 
 inline M44f translation(float x, float y, float z) {
     M44f m;
@@ -105,4 +105,4 @@ struct DicedScene {
     int64_t bad_values = 0;
 };
 
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

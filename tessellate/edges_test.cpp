@@ -9,7 +9,7 @@
 namespace trapeze {
 namespace {
 
-using test::TestScene;
+using testing::TestScene;
 
 /// The left edge of a long bilinear patch that leads away from the eye, at x = -1, y = -1.
 struct LongEdge {
@@ -24,10 +24,10 @@ struct LongEdge {
     LongEdge(float z0, float z1, float pixels_per_segment) {
         PatchMesh mesh;
         ParameterList variables;
-        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                      {-1, -1, z0, 1, -1, z0, -1, -1, z1, 1, -1, z1}));
+        variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                         {-1, -1, z0, 1, -1, z0, -1, -1, z1, 1, -1, z1}));
         scene.scene.options.width = 1000, scene.scene.options.height = 1000;
-        scene.add(test::shape_of(mesh, variables), M44f());
+        scene.add(testing::shape_of(mesh, variables), M44f());
         surface = make_surface(scene.scene.primitives[0], scene.diagnostics);
         context = scene.context();
         placed = std::make_unique<PlacedSurface>(*surface, scene.scene.primitives[0], false);
@@ -87,9 +87,9 @@ TEST(Edges, EyePlaneAndBehindNeedFewSegments) {
     TestScene scene;
     PatchMesh mesh;
     ParameterList variables;
-    variables.set(
-        test::parameter("P", StorageClass::Vertex, ValueType::Point, {0, 0, -3, 1, 0, -3, 0, 0, 5, 1, 0, 5}));
-    scene.keep_all().add(test::shape_of(mesh, variables), M44f());
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                     {0, 0, -3, 1, 0, -3, 0, 0, 5, 1, 0, 5}));
+    scene.keep_all().add(testing::shape_of(mesh, variables), M44f());
     const RenderContext context = scene.context();
     const Tessellation tessellation(context);
     EXPECT_GT(tessellation.subpatches().size(), 0u);

@@ -16,7 +16,7 @@
 #include "core/rays.h"
 #include "tessellate/dicing_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 
 struct LeakCount {
     int64_t rays = 0;
@@ -174,4 +174,4 @@ inline LeakCount count_leaks(TestScene& test, const std::function<V3f(uint32_t, 
     return {int64_t{batches} * kBatch, leaks, wrong, hits, count_open_sides(diced.grids)};
 }
 
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

@@ -10,7 +10,7 @@
 
 #include "tessellate/topology/surface.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 
 /// A mesh as requests give it: positions, corners of each face, vertices of all corners.
 struct Cage {
@@ -226,4 +226,4 @@ inline void expect_bounded_and_differentiated(const Surface& surface, float tole
     }
 }
 
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

@@ -13,16 +13,16 @@
 namespace trapeze {
 namespace {
 
-using test::Cage;
-using test::LeakCount;
-using test::TestScene;
+using testing::Cage;
+using testing::LeakCount;
+using testing::TestScene;
 using Scheme = SubdivisionMesh::Scheme;
 using Tag = SubdivisionMesh::Tag;
 
 M44f place(const V3f& angles, const V3f& at) {
     M44f m;
     m.rotate(angles);
-    return m * test::translation(at.x, at.y, at.z);
+    return m * testing::translation(at.x, at.y, at.z);
 }
 
 /// The numbers in the first brackets after a place in a RIB archive.
@@ -70,15 +70,15 @@ void expect_closed(const Cage& cage, const Topology& topology, const Pose& pose,
     std::vector<M44f> places = {pose.from};
     const bool moves = pose.to != M44f();
     for (const float amount : {0.0f, 0.5f, 1.0f}) {
-        shapes.push_back(test::shape_of(topology, {{test::points(moved(cage, amount * pose.wobble))}}));
+        shapes.push_back(testing::shape_of(topology, {{testing::points(moved(cage, amount * pose.wobble))}}));
         if (!moves) break;
     }
     if (moves) places.push_back(pose.to);
     scene.keep_all().add(shapes, places);
-    const LeakCount count = test::count_leaks(
+    const LeakCount count = testing::count_leaks(
         scene,
         [&](uint32_t number, float time) {
-            const V3f p = pose.centre + test::random_direction(number, 7) *
+            const V3f p = pose.centre + testing::random_direction(number, 7) *
                                             (pose.radius * std::cbrt(unit_float(hash(number, 8))));
             return moves ? p * pose.from * (1 - time) + p * pose.to * time : p * pose.from;
         },
@@ -107,35 +107,36 @@ const M44f kNear = place({0.3f, 0.5f, 0.1f}, {0.3f, 0.2f, 0.95f});
 const M44f kLater = place({0.5f, 0.3f, 0.2f}, {0.2f, 0.25f, 1.05f});
 
 TEST(MeshWatertight, Cube) {
-    const Cage cage = test::cube_cage();
-    expect_closed(cage, test::subdivision_of(cage), still(kNear));
-    expect_closed(cage, test::subdivision_of(cage), moving(kNear, kLater));
-    expect_closed(cage, test::subdivision_of(cage), still(kNear), 500, kFewRays);
+    const Cage cage = testing::cube_cage();
+    expect_closed(cage, testing::subdivision_of(cage), still(kNear));
+    expect_closed(cage, testing::subdivision_of(cage), moving(kNear, kLater));
+    expect_closed(cage, testing::subdivision_of(cage), still(kNear), 500, kFewRays);
 }
 
 TEST(MeshWatertight, CreasesAndExtraordinaryVertices) {
-    const Cage cage = test::prism_cage(7);
+    const Cage cage = testing::prism_cage(7);
     const std::vector<Tag> tags = {{"crease", {7, 8, 9, 10, 11, 12, 13, 7}, {10, 2.5f, 1, 10, 10, 3, 1}, {}},
                                    {"crease", {0, 1, 2, 3}, {2}, {}},
                                    {"corner", {4, 14}, {10, 1.5f}, {}}};
-    expect_closed(cage, test::subdivision_of(cage, tags), still(kNear));
-    expect_closed(cage, test::subdivision_of(cage, tags), moving(kNear, kLater));
+    expect_closed(cage, testing::subdivision_of(cage, tags), still(kNear));
+    expect_closed(cage, testing::subdivision_of(cage, tags), moving(kNear, kLater));
 }
 
 TEST(MeshWatertight, PolygonsOfManySides) {
-    const Cage cage = test::prism_cage(5);
-    expect_closed(cage, test::subdivision_of(cage), still(kNear), 1, kFewRays);
-    expect_closed(cage, test::subdivision_of(cage, {}, Scheme::Bilinear), moving(kNear, kLater), 1, kFewRays);
-    expect_closed(cage, test::polygons_of(cage), still(kNear), 1, kFewRays);
-    expect_closed(cage, test::polygons_of(cage), moving(kNear, kLater), 1, kFewRays);
+    const Cage cage = testing::prism_cage(5);
+    expect_closed(cage, testing::subdivision_of(cage), still(kNear), 1, kFewRays);
+    expect_closed(cage, testing::subdivision_of(cage, {}, Scheme::Bilinear), moving(kNear, kLater), 1,
+                  kFewRays);
+    expect_closed(cage, testing::polygons_of(cage), still(kNear), 1, kFewRays);
+    expect_closed(cage, testing::polygons_of(cage), moving(kNear, kLater), 1, kFewRays);
 }
 
 TEST(MeshWatertight, Loop) {
-    const Cage cage = test::octahedron_cage();
+    const Cage cage = testing::octahedron_cage();
     const std::vector<Tag> tags = {{"crease", {0, 1, 2}, {1.5f}, {}}};
     Pose pose = moving(place({0.3f, 0.5f, 0.1f}, {0.1f, 0.1f, 0.5f}), place({0.4f, 0.4f, 0}, {0, 0, 0.5f}));
     pose.radius = 0.1f;
-    expect_closed(cage, test::subdivision_of(cage, tags, Scheme::Loop), pose, 1, kFewRays);
+    expect_closed(cage, testing::subdivision_of(cage, tags, Scheme::Loop), pose, 1, kFewRays);
 }
 
 TEST(MeshWatertight, Spot) {
@@ -145,11 +146,11 @@ TEST(MeshWatertight, Spot) {
     Pose pose = still(place({0, 0.8f, 0}, {-0.5f, 0.1f, 0.9f}));
     pose.centre = {0, -0.15f, 0.4f}, pose.radius = 0.08f;
     const Tag interpolate{"interpolateboundary", {1}, {}, {}};
-    expect_closed(cage, test::subdivision_of(cage, {interpolate}), pose);
+    expect_closed(cage, testing::subdivision_of(cage, {interpolate}), pose);
     pose.to = place({0.1f, 1.0f, 0.1f}, {-0.45f, 0.15f, 0.8f});
     pose.wobble = 0.03f;
-    expect_closed(cage, test::subdivision_of(cage, {interpolate}), pose);
-    expect_closed(cage, test::polygons_of(cage), pose, 1, kFewRays);
+    expect_closed(cage, testing::subdivision_of(cage, {interpolate}), pose);
+    expect_closed(cage, testing::polygons_of(cage), pose, 1, kFewRays);
 }
 
 }  // namespace

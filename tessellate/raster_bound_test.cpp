@@ -11,7 +11,7 @@
 namespace trapeze {
 namespace {
 
-using test::TestScene;
+using testing::TestScene;
 
 /// What a ray hits first, by brute force over all subpatches' micropolygons.
 struct Nearest {
@@ -42,7 +42,7 @@ void expect_same_picture(const std::function<void(TestScene&)>& build, uint32_t 
     const RenderContext context = culled.context();
     const Tessellation tessellation(context);
     const std::vector<SubpatchInfo>& infos = tessellation.subpatches();
-    const test::DicedScene seen(culled), all(kept);
+    const testing::DicedScene seen(culled), all(kept);
     ASSERT_EQ(infos.size(), seen.grids.size());
     EXPECT_LT(seen.grids.size(), all.grids.size());
     const PixelRect picture = sampled_pixels(context.camera, culled.scene.options);
@@ -69,11 +69,11 @@ void expect_same_picture(const std::function<void(TestScene&)>& build, uint32_t 
 M44f turned(float angle, float x, float y, float z) {
     M44f m;
     m.rotate(V3f(angle, 0.4f * angle, 0.2f * angle));
-    return m * test::translation(x, y, z);
+    return m * testing::translation(x, y, z);
 }
 
 std::shared_ptr<const Shape> sphere() {
-    return test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}));
+    return testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}));
 }
 
 TEST(RasterBound, StaticPinhole) {
@@ -109,10 +109,10 @@ TEST(RasterBound, SurfacesThroughTheEyePlane) {
     const auto floor = [](TestScene& s) {
         PatchMesh mesh;
         ParameterList variables;
-        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                      {-20, -1, -20, 20, -1, -20, -20, -1.2f, 40, 20, -1, 40}));
+        variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                         {-20, -1, -20, 20, -1, -20, -20, -1.2f, 40, 20, -1, 40}));
         s.scene.options.width = 40, s.scene.options.height = 30;
-        s.add(test::shape_of(mesh, variables), M44f());
+        s.add(testing::shape_of(mesh, variables), M44f());
     };
     expect_same_picture(floor, 4, 150);
     // What lies beside the eye and behind it is not diced.
@@ -165,9 +165,9 @@ TEST(RasterBound, HoldsEveryVertexThoughCornersSnap) {
         scene.add({sphere()}, {turned(0.3f, 0.3f, 0.2f, 1.1f), turned(0.6f, 0.3f, 0.2f, 1.1f)});
         PatchMesh mesh;  // a floor whose near edge has many times the far edge's segments
         ParameterList variables;
-        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                      {-8, -1, 1.05f, 8, -1, 1.05f, -8, -1, 30, 8, -1, 25}));
-        scene.add(test::shape_of(mesh, variables), M44f());
+        variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                         {-8, -1, 1.05f, 8, -1, 1.05f, -8, -1, 30, 8, -1, 25}));
+        scene.add(testing::shape_of(mesh, variables), M44f());
         const RenderContext context = scene.context();
         const Tessellation tessellation(context);
         const PixelRect picture = sampled_pixels(context.camera, scene.scene.options);

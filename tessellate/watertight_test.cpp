@@ -9,9 +9,9 @@
 namespace trapeze {
 namespace {
 
-using test::count_leaks;
-using test::LeakCount;
-using test::TestScene;
+using testing::count_leaks;
+using testing::LeakCount;
+using testing::TestScene;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
@@ -27,7 +27,7 @@ void expect_closed(const LeakCount& count) {
 
 /// Evenly in the unit ball, by number.
 V3f in_unit_ball(uint32_t number) {
-    return test::random_direction(number, 7) * std::cbrt(unit_float(hash(number, 8)));
+    return testing::random_direction(number, 7) * std::cbrt(unit_float(hash(number, 8)));
 }
 
 M44f turned(float angle, const M44f& then) {
@@ -36,19 +36,19 @@ M44f turned(float angle, const M44f& then) {
     return m * then;
 }
 
-const M44f kNear = test::translation(0.3f, 0.2f, 1.1f);
+const M44f kNear = testing::translation(0.3f, 0.2f, 1.1f);
 
 /// Tiles of very different sizes: the near side of the sphere is 0.05 away.
 TEST(Watertight, Sphere) {
     TestScene scene;
-    scene.keep_all().add(test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), kNear);
+    scene.keep_all().add(testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), kNear);
     expect_closed(count_leaks(scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.9f * kNear; }));
 }
 
 TEST(Watertight, SphereCoarselyDiced) {
     TestScene scene;
     scene.attributes->shading_rate = 2000;
-    scene.keep_all().add(test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, -360})), kNear);
+    scene.keep_all().add(testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, -360})), kNear);
     expect_closed(count_leaks(scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.4f * kNear; }));
 }
 
@@ -56,9 +56,9 @@ TEST(Watertight, MovingSphere) {
     TestScene scene;
     std::vector<M44f> keys;
     for (int k = 0; k <= 4; ++k)
-        keys.push_back(
-            turned(0.7f * static_cast<float>(k), test::translation(0.1f * static_cast<float>(k), 0, 1.05f)));
-    scene.keep_all().add({test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}))}, keys);
+        keys.push_back(turned(0.7f * static_cast<float>(k),
+                              testing::translation(0.1f * static_cast<float>(k), 0, 1.05f)));
+    scene.keep_all().add({testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}))}, keys);
     // The chords between keys of a turning sphere go no deeper than cos(angle / 2).
     expect_closed(count_leaks(
         scene, [](uint32_t n, float t) { return in_unit_ball(n) * 0.5f + V3f(0.4f * t, 0, 1.05f); }));
@@ -76,7 +76,7 @@ void displace_by_texture(ShadingGrid& grid) {
 TEST(Watertight, DisplacedMovingSphere) {
     TestScene scene;
     scene.attributes->displacement = std::make_shared<ShaderInstance>();
-    scene.keep_all().add({test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}))},
+    scene.keep_all().add({testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}))},
                          {kNear, turned(0.3f, kNear)});
     expect_closed(count_leaks(
         scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.8f * kNear; }, 1'000'000,
@@ -92,17 +92,18 @@ V3f inside_torus(uint32_t number, float minor) {
 
 TEST(Watertight, Torus) {
     TestScene scene;
-    const M44f place = turned(1.2f, test::translation(0, 0, 1.3f));
-    scene.keep_all().add(test::shape_of(test::quadric(Quadric::Kind::Torus, {1, 0.3f, 0, 360, 360})), place);
+    const M44f place = turned(1.2f, testing::translation(0, 0, 1.3f));
+    scene.keep_all().add(testing::shape_of(testing::quadric(Quadric::Kind::Torus, {1, 0.3f, 0, 360, 360})),
+                         place);
     expect_closed(count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.25f) * place; }));
 }
 
 TEST(Watertight, DeformingTorus) {
     TestScene scene;
     const auto torus = [](float minor) {
-        return test::shape_of(test::quadric(Quadric::Kind::Torus, {1, minor, 10, 370, 360}));
+        return testing::shape_of(testing::quadric(Quadric::Kind::Torus, {1, minor, 10, 370, 360}));
     };
-    const M44f place = turned(1.2f, test::translation(0, 0, 1.3f));
+    const M44f place = turned(1.2f, testing::translation(0, 0, 1.3f));
     scene.keep_all().add({torus(0.3f), torus(0.2f), torus(0.4f)}, {place});
     expect_closed(count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.15f) * place; }));
 }
@@ -130,13 +131,13 @@ std::shared_ptr<const Shape> lumpy_torus(float lumps) {
             P.insert(P.end(), {r * std::cos(theta), r * std::sin(theta), minor * std::sin(phi)});
         }
     ParameterList variables;
-    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point, P));
-    return test::shape_of(mesh, variables);
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, P));
+    return testing::shape_of(mesh, variables);
 }
 
 TEST(Watertight, ClosedBicubicMesh) {
     TestScene scene;
-    const M44f place = turned(0.4f, test::translation(0.9f, 0, 0.4f));
+    const M44f place = turned(0.4f, testing::translation(0.9f, 0, 0.4f));
     scene.keep_all().add(lumpy_torus(0.05f), place);
     expect_closed(
         count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.05f) * 0.93f * place; }));
@@ -144,8 +145,8 @@ TEST(Watertight, ClosedBicubicMesh) {
 
 TEST(Watertight, ClosedBicubicMeshThatMoves) {
     TestScene scene;
-    const M44f place = turned(0.4f, test::translation(0.9f, 0, 0.4f));
-    const M44f later = turned(0.5f, test::translation(0.9f, 0.02f, 0.4f));
+    const M44f place = turned(0.4f, testing::translation(0.9f, 0, 0.4f));
+    const M44f later = turned(0.5f, testing::translation(0.9f, 0.02f, 0.4f));
     scene.keep_all().add({lumpy_torus(0.02f), lumpy_torus(0.06f), lumpy_torus(0.1f)}, {place, later});
     expect_closed(count_leaks(scene, [&](uint32_t n, float t) {
         const V3f p = inside_torus(n, 0.03f) * 0.93f;

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "pipeline/rib/read_rib.h"
-#include "tests/program.h"
+#include "tests/program_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "tests/program.h"
+#include "tests/program_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "pipeline/rib/write/cat_rib.h"
-#include "tests/program.h"
+#include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
 namespace trapeze {

@@ -1,7 +1,7 @@
 /// The program from outside: compare, study and the scenes that they measure.
 #include <nlohmann/json.hpp>
 
-#include "tests/command_line.h"
+#include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {

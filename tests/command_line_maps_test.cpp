@@ -2,7 +2,7 @@
 
 #include "core/files/temporary_folder_harness.h"
 #include "core/random.h"
-#include "tests/command_line.h"
+#include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "tests/command_line.h"
+#include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tests/command_line.h"
+#include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -1,7 +1,7 @@
 /// The program from outside: what it says of command lines, on which stream, and where it cannot be said.
 #include <nlohmann/json.hpp>
 
-#include "tests/command_line.h"
+#include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {

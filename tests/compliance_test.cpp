@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/cli/commands/compliance_page.h"
-#include "tests/program.h"
+#include "tests/program_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/simd/simd_limit.h"
-#include "tests/program.h"
+#include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
 namespace trapeze::testing {

@@ -11,7 +11,7 @@
 namespace trapeze {
 namespace {
 
-using test::TestScene;
+using testing::TestScene;
 
 /// A scene of one closed surface, and its displacement through the language.
 struct DisplacedScene {
@@ -34,10 +34,10 @@ struct DisplacedScene {
         ShadeScratch scratch;
         ShadeStats stats;
         float farthest = 0;
-        const auto count = test::count_leaks(
+        const auto count = testing::count_leaks(
             scene,
             [&](uint32_t n, float) {
-                return centre + test::random_direction(n, 7) * radius * unit_float(hash(n, 8));
+                return centre + testing::random_direction(n, 7) * radius * unit_float(hash(n, 8));
             },
             rays,
             [&](ShadingGrid& grid) {
@@ -54,10 +54,10 @@ struct DisplacedScene {
     }
 };
 
-const M44f kNear = test::translation(0.3f, 0.2f, 1.2f);
+const M44f kNear = testing::translation(0.3f, 0.2f, 1.2f);
 
 std::shared_ptr<const Shape> sphere() {
-    return test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}));
+    return testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}));
 }
 
 /// s jumps at the seam, u and v run over it, and the poles have all s at once.
@@ -73,7 +73,7 @@ TEST(DisplacedWatertight, DerivativesAndRandomNumbers) {
         "  float slope = length(Du(P)) * 0.01 + area(P) * 5 + length(calculatenormal(P)) * 0.01;"
         "  P += normalize(N) * (slope + 0.03 * random() + 0.05 * filterstep(0.3, mod(10 * v, 1)));"
         "  N = calculatenormal(P); }");
-    test.scene.add({sphere()}, {kNear, test::translation(0.4f, 0.1f, 1.3f)});
+    test.scene.add({sphere()}, {kNear, testing::translation(0.4f, 0.1f, 1.3f)});
     test.expect_closed(V3f(0.35f, 0.15f, 1.25f), 0.5f);
 }
 
@@ -82,7 +82,7 @@ TEST(DisplacedWatertight, MeshWithSeamsAndUniformVariables) {
     DisplacedScene test(
         "displacement bumps(float deep = 0; varying float st2 = 0;) {"
         "  P += normalize(N) * (deep + 0.05 * noise(20 * st2, 7 * t)); }");
-    const test::Cage cage = test::cube_cage();
+    const testing::Cage cage = testing::cube_cage();
     SubdivisionMesh mesh;
     mesh.vertices_per_face = cage.sizes;
     mesh.vertices = cage.vertices;
@@ -91,13 +91,13 @@ TEST(DisplacedWatertight, MeshWithSeamsAndUniformVariables) {
     for (size_t i = 0; i < cage.vertices.size(); ++i) corners.push_back(unit_float(hash(uint32_t(i), 3)));
     for (size_t i = 0; i < cage.sizes.size(); ++i) deep.push_back(0.02f * static_cast<float>(i));
     ParameterList variables;
-    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point, cage.P));
-    variables.set(test::parameter("st2", StorageClass::FaceVarying, ValueType::Float, corners));
-    variables.set(test::parameter("deep", StorageClass::Uniform, ValueType::Float, deep));
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, cage.P));
+    variables.set(testing::parameter("st2", StorageClass::FaceVarying, ValueType::Float, corners));
+    variables.set(testing::parameter("deep", StorageClass::Uniform, ValueType::Float, deep));
     for (const auto scheme : {SubdivisionMesh::Scheme::CatmullClark, SubdivisionMesh::Scheme::Bilinear}) {
         mesh.scheme = scheme;
         test.scene.scene.primitives.clear();
-        test.scene.add(test::shape_of(mesh, variables), test::translation(0.1f, 0.2f, 1.6f));
+        test.scene.add(testing::shape_of(mesh, variables), testing::translation(0.1f, 0.2f, 1.6f));
         test.expect_closed(V3f(0.1f, 0.2f, 1.6f), 0.3f);
     }
 }

@@ -14,7 +14,7 @@
 #include "pipeline/rib/read_rib.h"
 #include "pipeline/rib/syntax/arguments.h"
 #include "pipeline/rib/write/rib_writer.h"
-#include "tests/program.h"
+#include "tests/program_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -4,7 +4,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
-#include "tests/program.h"
+#include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
 namespace trapeze::testing {

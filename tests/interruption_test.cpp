@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "tests/command_line.h"
+#include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "tests/program.h"
+#include "tests/program_harness.h"
 
 namespace trapeze::testing {
 namespace {

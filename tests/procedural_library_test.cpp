@@ -1,7 +1,7 @@
 /// Procedural "DynamicLoad": libraries in C, compiled outside of this build, loaded by the program.
 #include <OpenImageIO/imagebuf.h>
 
-#include "tests/program.h"
+#include "tests/program_harness.h"
 
 namespace trapeze::testing {
 namespace {

@@ -27,7 +27,7 @@ const std::vector<Ball> kBalls = {{{0, 0, 5}, {0.2f, 0, 0}, 1},
 
 /// Balls of a scene, ball i bounding solid leaf[i]; diced, packed and sampled.
 struct BallScene {
-    test::TestScene scene;
+    testing::TestScene scene;
     RenderContext context;
     Grids grids;
 
@@ -38,11 +38,11 @@ struct BallScene {
         options.shutter_close = 1;
         scene.attributes->shading_rate = 0.1f;
         for (const Ball& ball : kBalls) {
-            const auto shape = test::shape_of(
-                test::quadric(Quadric::Kind::Sphere, {ball.radius, -ball.radius, ball.radius, 360}));
+            const auto shape = testing::shape_of(
+                testing::quadric(Quadric::Kind::Sphere, {ball.radius, -ball.radius, ball.radius, 360}));
             const V3f end = ball.centre + ball.travel;
-            scene.add({shape}, {test::translation(ball.centre.x, ball.centre.y, ball.centre.z),
-                                test::translation(end.x, end.y, end.z)});
+            scene.add({shape}, {testing::translation(ball.centre.x, ball.centre.y, ball.centre.z),
+                                testing::translation(end.x, end.y, end.z)});
         }
         scene.scene.solids = std::move(solids);
         for (size_t i = 0; i < leaf.size(); ++i) scene.scene.primitives[i].solid = leaf[i];

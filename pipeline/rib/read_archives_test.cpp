@@ -3,7 +3,7 @@
 
 #include <zlib.h>
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::Contains;
@@ -299,4 +299,4 @@ TEST(ReadText, BlocksThatStayOpenAreClosed) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -1,7 +1,7 @@
 /// IfBegin and its kin, blocks skipped whole, variables in texts.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -148,4 +148,4 @@ TEST(ReadConditionals, TextsNameVariablesOnceAskedTo) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

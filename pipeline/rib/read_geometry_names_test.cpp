@@ -2,7 +2,7 @@
 #include "pipeline/rib/reading_harness.h"
 #include "pipeline/rib/requests/teapot.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(Teapot, HasItsSizeAndSymmetry) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -1,7 +1,7 @@
 /// Every primitive, valid and with arrays of the wrong lengths.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -288,4 +288,4 @@ TEST(ReadGeometry, SingularAndOverflowingSpacesAreReported) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

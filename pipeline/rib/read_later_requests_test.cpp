@@ -1,7 +1,7 @@
 /// Requests that RISpec 3.2 does not have, and its rarer ones.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -244,7 +244,7 @@ TEST(Settings, ThatAskForWhatIsSoInAnyCaseAreNotCalledIgnored) {
         "Attribute \"stitch\" \"enable\" [1] Attribute \"stitch\" \"enable\" [0] "
         "Attribute \"stitch\" \"other\" [1]");
     EXPECT_THAT(outcome.summary.without_effect,
-                ElementsAre(testing::Pair("Attribute \"stitch\" \"other\"", 1u)));
+                ElementsAre(::testing::Pair("Attribute \"stitch\" \"other\"", 1u)));
     const auto& not_needed = outcome.summary.not_needed;
     EXPECT_EQ(not_needed.size(), 4u);
     EXPECT_EQ(not_needed.at("Attribute \"stitch\" \"enable\": grids join without cracks in any case"), 2u);
@@ -293,4 +293,4 @@ TEST(Ris, SurfacesHaveTheirColourAndOneNoteSaysSo) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -3,10 +3,10 @@
 namespace trapeze::rib {
 namespace {
 
-using namespace test;
+using namespace testing;
 using Kind = MapRequest::Kind;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 struct Read {
     std::vector<MapRequest> maps;
@@ -36,7 +36,7 @@ TEST(ReadMaps, RequestsAreReadWhole) {
         "MakeLatLongEnvironment \"c.tif\" \"c.env\" \"catmull-rom\" 3 3\n"
         "MakeCubeFaceEnvironment \"px\" \"nx\" \"py\" \"ny\" \"pz\" \"nz\" \"d.env\" 95 \"box\" 1 1\n"
         "MakeShadow \"e.z\" \"e.shd\"\n");
-    EXPECT_THAT(read.messages, testing::IsEmpty());
+    EXPECT_THAT(read.messages, ::testing::IsEmpty());
     ASSERT_EQ(read.maps.size(), 5u);
     const MapRequest& texture = read.maps[0];
     EXPECT_EQ(texture.kind, Kind::Texture);
@@ -64,7 +64,7 @@ TEST(ReadMaps, ACubeMayHaveWrapModes) {
     const Read read = read_maps(
         "MakeCubeFaceEnvironment \"px\" \"nx\" \"py\" \"ny\" \"pz\" \"nz\" \"d.env\" 90 \"black\" \"clamp\" "
         "\"sinc\" 2 2\n");
-    EXPECT_THAT(read.messages, testing::IsEmpty());
+    EXPECT_THAT(read.messages, ::testing::IsEmpty());
     ASSERT_EQ(read.maps.size(), 1u);
     EXPECT_EQ(read.maps[0].filter, "sinc");
 }

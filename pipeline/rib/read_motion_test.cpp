@@ -1,7 +1,7 @@
 /// Motion blocks round transformations, geometry and all else.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -193,7 +193,7 @@ TEST(ReadMotion, WhatStaysTheSameIsNotNoted) {
     EXPECT_THAT(few.messages, ElementsAre(HasSubstr("Color occurs 1 times for 2 times")));
     const Outcome bad = read_shutter(
         "0 1", "MotionBegin [0 1] Color 1 Color 1 MotionEnd ErrorHandler 3 " + std::string(kSphere));
-    EXPECT_THAT(bad.messages, Not(testing::IsEmpty()));
+    EXPECT_THAT(bad.messages, Not(::testing::IsEmpty()));
     EXPECT_EQ(bad.count(), 1u);
 }
 
@@ -229,4 +229,4 @@ TEST(ReadMotion, TransformationsDoNotPileUpWithoutEnd) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

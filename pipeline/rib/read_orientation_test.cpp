@@ -1,7 +1,7 @@
 /// Orientation and ReverseOrientation, in spaces that are mirrored before and afterwards.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::IsEmpty;
@@ -88,4 +88,4 @@ TEST(ReadOrientation, InstancesKeepOrTurnTheOrientationOfTheirObject) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

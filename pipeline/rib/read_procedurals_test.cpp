@@ -3,7 +3,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -191,4 +191,4 @@ TEST_F(RunProgram, MayAskForItself) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -3,7 +3,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -249,4 +249,4 @@ TEST(ReadRis, OddParametersAreNoErrors) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -12,7 +12,7 @@
 
 #include "pipeline/rib/read_rib.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 
 /// A folder that goes when the test ends.
 class Folder {
@@ -76,4 +76,4 @@ inline Outcome read_world(const std::string& text, const ReadOptions& options = 
 
 inline const std::string kSphere = "Sphere 1 -1 1 360 ";
 
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -2,7 +2,7 @@
 #include "pipeline/rib/reading_harness.h"
 #include "pipeline/rib/state/ready_archive.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -181,4 +181,4 @@ TEST(ReadyArchive, RequestsAreKeptWithinTheirBudget) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -72,7 +72,7 @@ TEST_F(DepthHeightTest, MissingFilesAreReportedOnce) {
     EXPECT_FALSE(textures_.height_over(path("none.tif"), {}, M44f()));
     EXPECT_FALSE(textures_.height_over("", {}, M44f()));
     ASSERT_EQ(reported_.size(), 1u);
-    EXPECT_THAT(reported_[0].text, testing::HasSubstr("none.tif"));
+    EXPECT_THAT(reported_[0].text, ::testing::HasSubstr("none.tif"));
 }
 
 }  // namespace

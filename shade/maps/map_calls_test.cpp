@@ -7,7 +7,7 @@
 namespace trapeze {
 namespace {
 
-using vm::test::ShaderRun;
+using vm::testing::ShaderRun;
 
 /// What a shader's text calls its coordinates.
 struct Storage {

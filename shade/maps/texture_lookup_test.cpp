@@ -11,8 +11,8 @@ namespace {
 
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-using testing::Each;
-using testing::FloatNear;
+using ::testing::Each;
+using ::testing::FloatNear;
 
 class TextureLookupTest : public MapFilesTest {
   protected:

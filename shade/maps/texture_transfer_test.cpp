@@ -86,7 +86,7 @@ TEST_F(TextureTransferTest, UnknownWordsAreSaidOnce) {
                 1e-3f);
     ASSERT_EQ(reported_.size(), 1u);
     EXPECT_EQ(reported_[0].severity, Severity::Warning);
-    EXPECT_THAT(reported_[0].text, testing::HasSubstr("\"gamma\" is not known"));
+    EXPECT_THAT(reported_[0].text, ::testing::HasSubstr("\"gamma\" is not known"));
 }
 
 /// Red of 188 at half alpha, not multiplied by it in the file.

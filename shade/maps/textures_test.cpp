@@ -20,8 +20,9 @@ class TexturesTest : public ::testing::Test {
   protected:
     TexturesTest() {
         OIIO::attribute("threads", 1);  // its own threads are not known to sanitizers
-        folder_ = fs::temp_directory_path() / ("trapeze_textures_" + std::to_string(::getpid()) + "_" +
-                                               testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder_ =
+            fs::temp_directory_path() / ("trapeze_textures_" + std::to_string(::getpid()) + "_" +
+                                         ::testing::UnitTest::GetInstance()->current_test_info()->name());
         fs::create_directories(folder_);
     }
     ~TexturesTest() override { fs::remove_all(folder_); }

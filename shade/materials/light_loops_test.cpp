@@ -176,7 +176,7 @@ TEST(Messages, WhereThereIsNoShaderTheValueStays) {
 }
 
 TEST(Messages, IncidentIsTheAtmosphere) {
-    vm::test::ShaderRun volume(
+    vm::testing::ShaderRun volume(
         "volume fog(float density = 0.25; output varying float depth = 0;) { depth = s; }");
     volume.run();
     TestScene scene;
@@ -196,7 +196,7 @@ TEST(Messages, IncidentIsTheAtmosphere) {
 /// Runs a light over the grid as its own surface.
 void expect_light(const std::string& body, const std::function<float(const V3f& Ps)>& red,
                   const std::function<bool(const V3f& Ps)>& is_lit) {
-    vm::test::ShaderRun run("light test(output varying float r = 0;) { " + body + " r = comp(Cl, 0); }");
+    vm::testing::ShaderRun run("light test(output varying float r = 0;) { " + body + " r = comp(Cl, 0); }");
     std::vector<float> L(3 * padded_size(run.vertices()));
     std::vector<uint32_t> lit(padded_size(run.vertices()), 0);
     vm::LightOutput output{L.data(), lit.data()};
@@ -239,7 +239,7 @@ TEST(Solar, LightsAlongAnAxisOrFromAllSides) {
 
 TEST(Gather, TakesTheOtherHalfForEachRayThatMisses) {
     for (const bool optimised : {false, true}) {
-        vm::test::ShaderRun run(
+        vm::testing::ShaderRun run(
             "surface test(output varying float r = 0, left = 0, none = 0;) { color c = 0; float n = 6;"
             "gather(\"illuminance\", P, N, 0.5, n, \"surface:Ci\", c) { r += 100; } else { r += 1; }"
             "gather(\"illuminance\", P, N, 0.5, n, \"surface:Ci\", c) { left += 100; }"

@@ -1,6 +1,6 @@
 #include "shade/rsl/front_end_harness.h"
 
-namespace trapeze::rsl::test {
+namespace trapeze::rsl::testing {
 namespace {
 
 template <class T, class Same>
@@ -46,4 +46,4 @@ bool same(const TranslationUnit& a, const TranslationUnit& b) {
     return same_list(a.functions, b.functions, same_function) && same_list(a.shaders, b.shaders, same_shader);
 }
 
-}  // namespace trapeze::rsl::test
+}  // namespace trapeze::rsl::testing

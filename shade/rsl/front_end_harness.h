@@ -11,7 +11,7 @@
 
 #include "shade/rsl/front_end.h"
 
-namespace trapeze::rsl::test {
+namespace trapeze::rsl::testing {
 
 /// Collects messages as "error 3:5: text", without the file's name.
 struct Heard {
@@ -50,4 +50,4 @@ inline std::vector<std::filesystem::path> shaders_in(const std::string& folder) 
 
 bool same(const TranslationUnit& a, const TranslationUnit& b);
 
-}  // namespace trapeze::rsl::test
+}  // namespace trapeze::rsl::testing

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 
 #define TRAPEZE_GIVES(...) [](double x, double y) -> double { return (void)x, (void)y, __VA_ARGS__; }
 
@@ -163,4 +163,4 @@ std::vector<BuiltinCase> geometry_cases() {
     return cases;
 }
 
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

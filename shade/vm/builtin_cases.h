@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 
 /// `code` sets r from the floats X and Y. Where they are the same at all vertices, `flat` tells what to
 /// expect if that is something else: derivatives are 0 then.
@@ -26,4 +26,4 @@ std::vector<BuiltinCase> geometry_cases();
 /// What asks others: lights, rays, maps and messages (15.6 to 15.8), as builtin_overloads_test.cpp answers.
 std::vector<BuiltinCase> asking_cases();
 
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

@@ -7,7 +7,7 @@
 #include "shade/vm/builtin_cases.h"
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 namespace {
 
 /// How X and Y come to a case.
@@ -143,4 +143,4 @@ TEST(BuiltinOverloads, AllHaveACase) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

@@ -5,7 +5,7 @@
 #include "shade/vm/builtin_cases.h"
 #include "shade/vm/kernels/exact_noise.h"
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 namespace {
 
 #define TRAPEZE_GIVES(...) [](double x, double y) -> double { return (void)x, (void)y, __VA_ARGS__; }
@@ -214,4 +214,4 @@ std::vector<BuiltinCase> asking_cases() {
     return cases;
 }
 
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

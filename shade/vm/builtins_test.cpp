@@ -6,7 +6,7 @@
 
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 namespace {
 
 constexpr float kTurn = 6.28318531f;
@@ -247,4 +247,4 @@ TEST(Builtins, PrintfSpeaksOnceForWhatIsUniformAndElseForEachVertex) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

@@ -5,7 +5,7 @@
 #include "shade/materials/shader_folder_harness.h"
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 namespace {
 
 TEST(RunDefaults, FollowThePoint) {
@@ -121,4 +121,4 @@ TEST(RunDefaults, ConnectedParametersTakeTheConnection) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

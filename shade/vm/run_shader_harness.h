@@ -12,7 +12,7 @@
 #include "shade/shading_harness.h"
 #include "shade/vm/compile_shader.h"
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 
 class ShaderRun {
   public:
@@ -97,4 +97,4 @@ void expect_values(const std::string& body, const Expected& expected, float tole
     }
 }
 
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

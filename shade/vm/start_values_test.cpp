@@ -3,7 +3,7 @@
 
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 namespace {
 
 /// Of Ci, in a surface with this body, with and without the optimiser.
@@ -65,4 +65,4 @@ TEST(StartValues, KnowEveryNameOfTheTables) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

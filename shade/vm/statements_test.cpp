@@ -4,7 +4,7 @@
 
 #include "shade/vm/run_shader_harness.h"
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 namespace {
 
 TEST(Statements, IfByLaneAndWhole) {
@@ -285,4 +285,4 @@ TEST(Statements, WhatIsUniformIsFound) {
 }
 
 }  // namespace
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

@@ -12,7 +12,7 @@
 namespace trapeze {
 namespace {
 
-using test::parameter;
+using testing::parameter;
 
 const M44f kBezier(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
 const M44f kBSpline = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1 / 6.0f);
@@ -53,12 +53,12 @@ struct MadeCurves {
     std::unique_ptr<Surface> surface;
 
     MadeCurves(const Curves& curves, std::vector<Parameter> variables,
-               std::vector<M44f> camera_from_object = {test::translation(0, 0, 6)},
+               std::vector<M44f> camera_from_object = {testing::translation(0, 0, 6)},
                const Camera* camera = nullptr) {
         ParameterList list;
         for (Parameter& variable : variables) list.set(std::move(variable));
         primitive.attributes = attributes;
-        primitive.shape_keys = {test::shape_of(curves, std::move(list))};
+        primitive.shape_keys = {testing::shape_of(curves, std::move(list))};
         primitive.camera_from_object = std::move(camera_from_object);
         surface = make_surface(primitive, diagnostics, {camera, nullptr});
     }
@@ -130,11 +130,11 @@ TEST(Curves, CentreLinesAreThoseOfTheirBasis) {
 TEST(Curves, RibbonsWithoutNormalsFaceTheCamera) {
     Camera orthographic;
     orthographic.perspective = false;
-    M44f mirrored = test::translation(0.5f, 1, 7);
+    M44f mirrored = testing::translation(0.5f, 1, 7);
     mirrored[0][0] = -2;  // mirrored and stretched
     for (const Camera* camera :
          {static_cast<const Camera*>(nullptr), const_cast<const Camera*>(&orthographic)})
-        for (const M44f& place : {test::translation(1, 2, 6), mirrored}) {
+        for (const M44f& place : {testing::translation(1, 2, 6), mirrored}) {
             const MadeCurves made(cubic({4}, kBezier, 3),
                                   {points({-1, 0, 0, 0, 1, 0.5f, 1, -1, 0, 2, 1, 1}),
                                    parameter("width", StorageClass::Varying, ValueType::Float, {0.2f, 0.6f})},
@@ -162,8 +162,8 @@ TEST(Curves, RibbonsWithoutNormalsFaceTheCamera) {
 TEST(Curves, EveryMotionKeyFacesTheCameraByItself) {
     M44f turned;
     turned.rotate(V3f(0, 1.2f, 0));
-    const std::vector<M44f> keys{test::translation(0, 0, 6), turned * test::translation(2, 0, 6),
-                                 test::translation(4, 0, 6)};
+    const std::vector<M44f> keys{testing::translation(0, 0, 6), turned * testing::translation(2, 0, 6),
+                                 testing::translation(4, 0, 6)};
     const MadeCurves made(linear({2}), {points({0, -1, 0, 0, 1, 0})}, keys);
     ASSERT_TRUE(made.surface->has_motion_keys());
     for (int key = 0; key < 3; ++key) {
@@ -218,7 +218,7 @@ TEST(Curves, VariablesOfEveryClass) {
 TEST(Curves, LinesMeetInAMitre) {
     Camera orthographic;
     orthographic.perspective = false;
-    const MadeCurves made(linear({3}), {points({0, 0, 0, 1, 0, 0, 1, 1, 0})}, {test::translation(0, 0, 6)},
+    const MadeCurves made(linear({3}), {points({0, 0, 0, 1, 0, 0, 1, 1, 0})}, {testing::translation(0, 0, 6)},
                           &orthographic);
     ASSERT_EQ(made.surface->face_count(), 2);
     for (const float u : {0.0f, 1.0f}) {
@@ -280,13 +280,13 @@ TEST(Curves, JointsHaveNoGaps) {
     for (const bool periodic : {false, true})
         for (const bool smooth : {false, true})
             for (const float width : {0.02f, 0.3f}) {
-                test::TestScene scene;
+                testing::TestScene scene;
                 ParameterList list;
                 list.set(points(random_points(12, 21)));
                 list.set(parameter("constantwidth", StorageClass::Constant, ValueType::Float, {width}));
                 const Curves curves = smooth ? cubic({12}, kCatmullRom, 1, periodic) : linear({12}, periodic);
-                scene.keep_all().add(test::shape_of(curves, std::move(list)));
-                const test::DicedScene diced(scene);
+                scene.keep_all().add(testing::shape_of(curves, std::move(list)));
+                const testing::DicedScene diced(scene);
                 const size_t open = open_ends(diced.grids);
                 if (periodic)
                     EXPECT_EQ(open, 0u);
@@ -300,14 +300,14 @@ TEST(Curves, JointsHaveNoGaps) {
 /// Attribute "dice" "minlength": micropolygons of so many pixels along the curve at the least.
 TEST(Curves, MicropolygonsHaveTheirLeastLength) {
     const auto count = [](float least) {
-        test::TestScene scene;
+        testing::TestScene scene;
         scene.attributes->dice.min_length = least;
         ParameterList list;
         list.set(points({-1, 0, 0, -0.3f, 0, 0, 0.3f, 0, 0, 1, 0, 0}));
         list.set(parameter("constantwidth", StorageClass::Constant, ValueType::Float, {0.01f}));
-        scene.keep_all().add(test::shape_of(cubic({4}, kBezier, 3), std::move(list)));
+        scene.keep_all().add(testing::shape_of(cubic({4}, kBezier, 3), std::move(list)));
         int micropolygons = 0;
-        for (const Grid& grid : test::DicedScene(scene).grids)
+        for (const Grid& grid : testing::DicedScene(scene).grids)
             micropolygons += grid.shape.micropolygon_count();
         return micropolygons;
     };
@@ -318,12 +318,12 @@ TEST(Curves, MicropolygonsHaveTheirLeastLength) {
 }
 
 TEST(Curves, ThinHairsAreOneMicropolygonWide) {
-    test::TestScene scene;
+    testing::TestScene scene;
     ParameterList list;
     list.set(points({-1, -1, 0, -0.5f, 0, 0, 0.5f, 0, 0, 1, 1, 0}));
     list.set(parameter("constantwidth", StorageClass::Constant, ValueType::Float, {0.02f}));
-    scene.keep_all().add(test::shape_of(cubic({4}, kBezier, 3), std::move(list)));
-    const test::DicedScene diced(scene);
+    scene.keep_all().add(testing::shape_of(cubic({4}, kBezier, 3), std::move(list)));
+    const testing::DicedScene diced(scene);
     ASSERT_GT(diced.grids.size(), 0u);
     for (const Grid& grid : diced.grids) EXPECT_EQ(grid.shape.nu, 1);
 }

@@ -40,14 +40,14 @@ struct MadePatches {
 
     MadePatches(const PatchMesh& mesh, ParameterList variables) {
         primitive.attributes = attributes;
-        primitive.shape_keys = {test::shape_of(mesh, std::move(variables))};
+        primitive.shape_keys = {testing::shape_of(mesh, std::move(variables))};
         primitive.camera_from_object = {M44f()};
         surface = make_surface(primitive, diagnostics);
     }
     static MadePatches random(const PatchMesh& mesh, uint32_t seed) {
         ParameterList variables;
-        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                      random_floats(static_cast<size_t>(mesh.nu) * mesh.nv * 3, seed)));
+        variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                         random_floats(static_cast<size_t>(mesh.nu) * mesh.nv * 3, seed)));
         return {mesh, std::move(variables)};
     }
     V3f at(int face, V2f uv, V3f* dPdu = nullptr, V3f* dPdv = nullptr) const {
@@ -166,7 +166,7 @@ TEST(Patches, RationalQuarterCircle) {
     for (int j = 0; j < 4; ++j)
         for (const auto& p : arc) Pw.insert(Pw.end(), {p[0], p[1], p[2] * static_cast<float>(j), p[2]});
     ParameterList variables;
-    variables.set(test::parameter("Pw", StorageClass::Vertex, ValueType::HPoint, Pw));
+    variables.set(testing::parameter("Pw", StorageClass::Vertex, ValueType::HPoint, Pw));
     const MadePatches made(mesh, variables);
     const Box3f box = made.surface->bound(0, {0, 0}, {1, 1}, 0);
     for (float u = 0; u <= 1; u += 0.125f) {
@@ -195,16 +195,16 @@ TEST(Patches, VariablesOfAllClasses) {
     PatchMesh mesh;  // bilinear, 2 x 2 patches, closed along u
     mesh.nu = 2, mesh.nv = 3, mesh.u_wraps = true;
     ParameterList variables;
-    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point, random_floats(18, 9)));
-    variables.set(test::parameter("constant_one", StorageClass::Constant, ValueType::Float, {7}));
-    variables.set(test::parameter("uniform_one", StorageClass::Uniform, ValueType::Float, {1, 2, 3, 4}));
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, random_floats(18, 9)));
+    variables.set(testing::parameter("constant_one", StorageClass::Constant, ValueType::Float, {7}));
+    variables.set(testing::parameter("uniform_one", StorageClass::Uniform, ValueType::Float, {1, 2, 3, 4}));
     variables.set(
-        test::parameter("varying_one", StorageClass::Varying, ValueType::Float, {0, 1, 10, 11, 20, 21}));
+        testing::parameter("varying_one", StorageClass::Varying, ValueType::Float, {0, 1, 10, 11, 20, 21}));
     variables.set(
-        test::parameter("vertex_one", StorageClass::Vertex, ValueType::Float, {0, 1, 10, 11, 20, 21}));
+        testing::parameter("vertex_one", StorageClass::Vertex, ValueType::Float, {0, 1, 10, 11, 20, 21}));
     std::vector<float> corners(16);
     for (int i = 0; i < 16; ++i) corners[i] = static_cast<float>(i);
-    variables.set(test::parameter("corner_one", StorageClass::FaceVarying, ValueType::Float, corners));
+    variables.set(testing::parameter("corner_one", StorageClass::FaceVarying, ValueType::Float, corners));
     const MadePatches made(mesh, variables);
     const ShadingGrid grid = variables_of(made, 3, {{0.25f, 0.5f}, {1, 0}});  // second column, second row
     EXPECT_FLOAT_EQ(grid.u[0], 0.625f);
@@ -224,8 +224,8 @@ TEST(Patches, VertexVariablesFollowTheBasis) {
     const PatchMesh mesh = bicubic(4, 4, kBSpline, 1, kBSpline, 1);
     ParameterList variables;
     const std::vector<float> P = random_floats(48, 2);
-    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point, P));
-    variables.set(test::parameter("where", StorageClass::Vertex, ValueType::Color, P));
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, P));
+    variables.set(testing::parameter("where", StorageClass::Vertex, ValueType::Color, P));
     const MadePatches made(mesh, variables);
     const ShadingGrid grid = variables_of(made, 0, {{0.3f, 0.6f}});
     const V3f at = made.at(0, {0.3f, 0.6f});
@@ -243,9 +243,9 @@ TEST(Patches, VertexVariablesThatRunOneWayAreThatAlone) {
         ParameterList variables;
         std::vector<float> s;
         for (int i = 0; i < side * side; ++i) s.push_back(0.1f + 0.2f * static_cast<float>(i % side));
-        variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                                      random_floats(static_cast<size_t>(3 * side * side), 5)));
-        variables.set(test::parameter("s", StorageClass::Vertex, ValueType::Float, s));
+        variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                         random_floats(static_cast<size_t>(3 * side * side), 5)));
+        variables.set(testing::parameter("s", StorageClass::Vertex, ValueType::Float, s));
         const MadePatches made(mesh, variables);
         for (int i = 0; i <= 40; ++i) {
             std::vector<V2f> column;
@@ -260,7 +260,7 @@ TEST(Patches, VertexVariablesThatRunOneWayAreThatAlone) {
 TEST(Patches, MissingPointsAreReported) {
     Primitive primitive;
     primitive.attributes = std::make_shared<Attributes>();
-    primitive.shape_keys = {test::shape_of(PatchMesh{})};
+    primitive.shape_keys = {testing::shape_of(PatchMesh{})};
     Diagnostics diagnostics;
     EXPECT_EQ(make_surface(primitive, diagnostics), nullptr);
     EXPECT_EQ(diagnostics.count(Severity::Error), 1u);

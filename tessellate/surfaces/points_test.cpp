@@ -10,7 +10,7 @@
 namespace trapeze {
 namespace {
 
-using test::parameter;
+using testing::parameter;
 constexpr double kPi = std::numbers::pi;
 
 Parameter places(std::vector<float> floats) {
@@ -25,7 +25,7 @@ Primitive primitive_of(std::vector<Parameter> variables, std::vector<M44f> camer
     for (Parameter& variable : variables) list.set(std::move(variable));
     Primitive primitive;
     primitive.attributes = std::make_shared<Attributes>();
-    primitive.shape_keys = {test::shape_of(points, std::move(list))};
+    primitive.shape_keys = {testing::shape_of(points, std::move(list))};
     primitive.camera_from_object = std::move(camera_from_object);
     return primitive;
 }
@@ -33,7 +33,7 @@ Primitive primitive_of(std::vector<Parameter> variables, std::vector<M44f> camer
 TEST(Points, AreDisksParallelToThePicture) {
     M44f place;
     place.rotate(V3f(0.4f, 0.9f, -0.2f));
-    place = place * test::translation(1, 2, 6);
+    place = place * testing::translation(1, 2, 6);
     M44f mirrored = place;
     for (int k = 0; k < 3; ++k) mirrored[0][k] *= -1;
     for (const M44f& m : {place, mirrored}) {
@@ -68,7 +68,7 @@ TEST(Points, AreDisksParallelToThePicture) {
 }
 
 TEST(Points, DerivativesAreThoseOfTheDisk) {
-    const Primitive primitive = primitive_of({places({0, 0, 0})}, {test::translation(0, 0, 5)});
+    const Primitive primitive = primitive_of({places({0, 0, 0})}, {testing::translation(0, 0, 5)});
     Diagnostics diagnostics;
     const auto surface = make_surface(primitive, diagnostics);
     for (const V2f& uv : {V2f(0.9f, 0.3f), V2f(0.2f, 0.4f), V2f(0.4f, 0.8f), V2f(0.6f, 0.1f)}) {
@@ -82,8 +82,8 @@ TEST(Points, DerivativesAreThoseOfTheDisk) {
 }
 
 /// The area on the screen of what is diced, in pixels.
-double diced_area(test::TestScene& scene, size_t* micropolygons = nullptr) {
-    const test::DicedScene diced(scene);
+double diced_area(testing::TestScene& scene, size_t* micropolygons = nullptr) {
+    const testing::DicedScene diced(scene);
     const Camera camera = make_camera(scene.scene.options);
     double area = 0;
     for (const Grid& grid : diced.grids)
@@ -101,7 +101,7 @@ double diced_area(test::TestScene& scene, size_t* micropolygons = nullptr) {
 
 TEST(Points, EverySizeCoversTheAreaOfItsCircle) {
     for (const double diameter : {0.1, 0.8, 1.1, 1.16, 1.2, 1.3, 1.9, 2.44, 2.5, 4.0, 7.0, 10.3, 30.0}) {
-        test::TestScene scene;
+        testing::TestScene scene;
         const Camera camera = make_camera(scene.scene.options);
         const auto width = static_cast<float>(diameter) / camera.pixels_per_length(5).x;
         const Primitive primitive =
@@ -119,11 +119,11 @@ TEST(Points, EverySizeCoversTheAreaOfItsCircle) {
 }
 
 TEST(Points, ThoseInTheEyesPlaneAreLeftOut) {
-    test::TestScene scene;
+    testing::TestScene scene;
     const Primitive primitive =
         primitive_of({places({0, 0, -5, 0.2f, 0, -5.0000005f, 0, 0, -9, 0, 0, 0})}, {});
     scene.add(primitive.shape_keys[0]);
-    const test::DicedScene diced(scene);
+    const testing::DicedScene diced(scene);
     ASSERT_GT(diced.grids.size(), 0u);  // the last one's
     for (const Grid& grid : diced.grids) EXPECT_NEAR(grid.vertex_at_key(0, 0, 0, 1).z, 5, 1e-5f);
 }
@@ -136,12 +136,12 @@ TEST(Points, MoveWithTheirWidths) {
         ParameterList list;
         list.set(places({width, 0, 0}));
         list.set(parameter("width", StorageClass::Varying, ValueType::Float, {width}));
-        keys.push_back(test::shape_of(points, std::move(list)));
+        keys.push_back(testing::shape_of(points, std::move(list)));
     }
     Primitive primitive;
     primitive.attributes = std::make_shared<Attributes>();
     primitive.shape_keys = keys;
-    primitive.camera_from_object = std::vector(5, test::translation(0, 0, 9));
+    primitive.camera_from_object = std::vector(5, testing::translation(0, 0, 9));
     Diagnostics diagnostics;
     const auto surface = make_surface(primitive, diagnostics);
     for (int key = 0; key < 5; ++key) {
@@ -169,7 +169,7 @@ TEST(Points, PicturesAreRectanglesTurnedByTheirAngle) {
         {places({0, 0, 0, 3, 0, 0}), parameter("width", StorageClass::Varying, ValueType::Float, {2, 1}),
          parameter("patchangle", StorageClass::Varying, ValueType::Float, {0, 90}),
          parameter("patchaspectratio", StorageClass::Constant, ValueType::Float, {4}), text("type", "patch")},
-        {test::translation(0, 0, 9)});
+        {testing::translation(0, 0, 9)});
     Diagnostics diagnostics;
     const auto surface = make_surface(primitive, diagnostics);
     const V2f corners[4] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
@@ -192,7 +192,7 @@ TEST(Points, PicturesAreRectanglesTurnedByTheirAngle) {
 TEST(Points, SpheresHaveASpheresNormals) {
     for (const char* type : {"particle", "blobby"}) {
         const Primitive primitive =
-            primitive_of({places({0, 0, 0}), text("type", type)}, {test::translation(0, 0, 5)});
+            primitive_of({places({0, 0, 0}), text("type", type)}, {testing::translation(0, 0, 5)});
         Diagnostics diagnostics;
         const auto surface = make_surface(primitive, diagnostics);
         std::vector<V2f> uv;

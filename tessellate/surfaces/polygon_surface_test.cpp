@@ -12,10 +12,10 @@
 namespace trapeze {
 namespace {
 
-using test::Cage;
-using test::evaluate;
-using test::Evaluated;
-using test::variables_at;
+using testing::Cage;
+using testing::evaluate;
+using testing::Evaluated;
+using testing::variables_at;
 
 /// A polygon mesh with the primitive that it refers to.
 struct Made {
@@ -24,9 +24,9 @@ struct Made {
     std::unique_ptr<Surface> surface;
 
     Made(PolygonMesh mesh, ParameterList variables)
-        : primitive(test::primitive_of(std::move(mesh), std::move(variables))),
+        : primitive(testing::primitive_of(std::move(mesh), std::move(variables))),
           surface(make_polygon_surface(primitive, diagnostics)) {}
-    explicit Made(const Cage& cage) : Made(test::polygons_of(cage), {{test::points(cage.P)}}) {}
+    explicit Made(const Cage& cage) : Made(testing::polygons_of(cage), {{testing::points(cage.P)}}) {}
     const Surface& operator*() const { return *surface; }
 };
 
@@ -42,7 +42,7 @@ Made one_polygon(const std::vector<std::vector<V3f>>& loops, ParameterList more 
     mesh.vertex_count = static_cast<int>(P.size() / 3);
     mesh.vertices.resize(mesh.vertex_count);
     std::iota(mesh.vertices.begin(), mesh.vertices.end(), 0);
-    more.values.push_back(test::points(P));
+    more.values.push_back(testing::points(P));
     return {mesh, more};
 }
 
@@ -59,9 +59,9 @@ V3f area_of(const Surface& surface) {
 
 void expect_area(const Made& made, const V3f& area) {
     ASSERT_TRUE(made.surface);
-    test::expect_near(area_of(*made), area, 1e-5f * (1 + area.length()), "area");
-    test::expect_joined(*made, 1e-5f);
-    test::expect_bounded_and_differentiated(*made, 1e-2f);
+    testing::expect_near(area_of(*made), area, 1e-5f * (1 + area.length()), "area");
+    testing::expect_joined(*made, 1e-5f);
+    testing::expect_bounded_and_differentiated(*made, 1e-2f);
 }
 
 TEST(PolygonSurface, AreasAndOrientation) {
@@ -89,16 +89,16 @@ TEST(PolygonSurface, QuadsThatAreNotFlatOrConvexBecomeTriangles) {
 }
 
 TEST(PolygonSurface, NeighboursShareEdges) {
-    for (const Cage& cage : {test::cube_cage(), test::prism_cage(7), test::octahedron_cage()}) {
+    for (const Cage& cage : {testing::cube_cage(), testing::prism_cage(7), testing::octahedron_cage()}) {
         const Made made(cage);
-        test::expect_joined(*made, 1e-6f);
+        testing::expect_joined(*made, 1e-6f);
         // A closed mesh: all sides of pieces come in pairs that cover their edges.
         std::vector<float> covered((*made).edge_count());
         for (int face = 0; face < (*made).face_count(); ++face)
             for (const SurfaceSide& side : (*made).sides(face))
                 covered[side.edge] += std::abs(side.end - side.begin);
         for (float length : covered) EXPECT_EQ(length, 2);
-        test::expect_near(area_of(*made), {0, 0, 0}, 1e-5f, "closed");
+        testing::expect_near(area_of(*made), {0, 0, 0}, 1e-5f, "closed");
     }
 }
 
@@ -109,8 +109,8 @@ TEST(PolygonSurface, DegenerateInput) {
     EXPECT_TRUE(one_polygon({{a, a, a, a}}).surface);
     expect_area(one_polygon({{a, b, b, c, c, d}}), {0, 0, 1});
     // The same vertex again and again.
-    PolygonMesh again = test::polygons_of({{0, 0, 0, 1, 0, 0, 1, 1, 0}, {6}, {0, 0, 1, 2, 2, 0}});
-    const ParameterList P{{test::points({0, 0, 0, 1, 0, 0, 1, 1, 0})}};
+    PolygonMesh again = testing::polygons_of({{0, 0, 0, 1, 0, 0, 1, 1, 0}, {6}, {0, 0, 1, 2, 2, 0}});
+    const ParameterList P{{testing::points({0, 0, 0, 1, 0, 0, 1, 1, 0})}};
     expect_area(Made(again, P), {0, 0, 0.5f});
     again.vertices = {0, 1, 0, 1, 0, 1};
     const Made nothing(again, P);
@@ -162,11 +162,11 @@ TEST(PolygonSurface, NormalsMakeItSmooth) {
 }
 
 TEST(PolygonSurface, UniformVariablesFollowThePolygon) {
-    Cage cage = test::prism_cage(5);
-    PolygonMesh mesh = test::polygons_of(cage);
+    Cage cage = testing::prism_cage(5);
+    PolygonMesh mesh = testing::polygons_of(cage);
     std::vector<float> numbers(cage.sizes.size());
     std::iota(numbers.begin(), numbers.end(), 0.0f);
-    ParameterList variables{{test::points(cage.P)}};
+    ParameterList variables{{testing::points(cage.P)}};
     variables.values.push_back({"number", {StorageClass::Uniform, ValueType::Float, 1}, numbers, {}});
     const Made made(mesh, variables);
     std::vector<int> faces(numbers.size());

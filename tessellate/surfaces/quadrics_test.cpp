@@ -20,7 +20,7 @@ struct MadeQuadric {
 
     MadeQuadric(Kind kind, std::initializer_list<float> values) {
         primitive.attributes = std::make_shared<Attributes>();
-        primitive.shape_keys = {test::shape_of(test::quadric(kind, values))};
+        primitive.shape_keys = {testing::shape_of(testing::quadric(kind, values))};
         primitive.camera_from_object = {M44f()};
         surface = make_surface(primitive, diagnostics);
     }
@@ -208,9 +208,10 @@ TEST(Quadrics, PoleIsOneExactPoint) {
 TEST(Quadrics, VariablesAreBilinear) {
     MadeQuadric made(Kind::Cylinder, {1, 0, 1, 360});
     ParameterList variables;
-    variables.set(test::parameter("heat", StorageClass::Varying, ValueType::Float, {0, 1, 10, 11}));
-    variables.set(test::parameter("Cs", StorageClass::Constant, ValueType::Color, {0.1f, 0.2f, 0.3f}));
-    made.primitive.shape_keys = {test::shape_of(test::quadric(Kind::Cylinder, {1, 0, 1, 360}), variables)};
+    variables.set(testing::parameter("heat", StorageClass::Varying, ValueType::Float, {0, 1, 10, 11}));
+    variables.set(testing::parameter("Cs", StorageClass::Constant, ValueType::Color, {0.1f, 0.2f, 0.3f}));
+    made.primitive.shape_keys = {
+        testing::shape_of(testing::quadric(Kind::Cylinder, {1, 0, 1, 360}), variables)};
     auto attributes = std::make_shared<Attributes>();
     attributes->texture_coordinates = {0, 1, 2, 1, 0, 5, 2, 5};
     made.primitive.attributes = attributes;

@@ -12,7 +12,7 @@
 namespace trapeze {
 namespace {
 
-using test::TestScene;
+using testing::TestScene;
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
@@ -36,8 +36,8 @@ std::shared_ptr<const Shape> bspline_torus(int nu, int nv) {
             P.insert(P.end(), {r * std::cos(theta), r * std::sin(theta), 0.4f * std::sin(phi)});
         }
     ParameterList variables;
-    variables.set(test::parameter("P", StorageClass::Vertex, ValueType::Point, P));
-    return test::shape_of(mesh, variables);
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, P));
+    return testing::shape_of(mesh, variables);
 }
 
 std::shared_ptr<const Shape> subdivision_torus(int nu, int nv) {
@@ -50,7 +50,7 @@ std::shared_ptr<const Shape> subdivision_torus(int nu, int nv) {
             mesh.vertices_per_face.push_back(4);
             mesh.vertices.insert(mesh.vertices.end(), {j * nu + i, j * nu + i1, j1 * nu + i1, j1 * nu + i});
         }
-    return test::shape_of(mesh, patches->variables);
+    return testing::shape_of(mesh, patches->variables);
 }
 
 TestScene& place(TestScene& scene, std::shared_ptr<const Shape> shape, int keys) {
@@ -59,7 +59,7 @@ TestScene& place(TestScene& scene, std::shared_ptr<const Shape> shape, int keys)
     for (int k = 0; k < keys; ++k) {
         M44f turn;
         turn.rotate(V3f(0.8f + 0.02f * static_cast<float>(k), 0, 0));
-        matrices.push_back(turn * test::translation(0, 0, 2.2f));
+        matrices.push_back(turn * testing::translation(0, 0, 2.2f));
     }
     return scene.add({std::move(shape)}, matrices);
 }
@@ -102,7 +102,7 @@ void split_only(benchmark::State& state, TestScene& scene) {
 /// range(0): motion keys.
 void sphere(benchmark::State& state) {
     TestScene scene;
-    place(scene, test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})),
+    place(scene, testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})),
           static_cast<int>(state.range(0)));
     run(state, scene);
 }
@@ -137,7 +137,7 @@ BENCHMARK(subdivision_mesh)
 
 void split_sphere(benchmark::State& state) {
     TestScene scene;
-    place(scene, test::shape_of(test::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), 1);
+    place(scene, testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), 1);
     split_only(state, scene);
 }
 BENCHMARK(split_sphere)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -1,9 +1,9 @@
 /// Curves of every basis, step and wrap (RISpec 5.6): centre lines against blending functions, widths, and
 /// which way ribbons lie. Points (5.5) as disks.
-#include "tests/primitives/blends.h"
-#include "tests/primitives/dice_rib.h"
+#include "tests/primitives/blends_harness.h"
+#include "tests/primitives/dice_rib_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -195,4 +195,4 @@ TEST(PointForms, DisksFaceTheCamera) {
 }
 
 }  // namespace
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

@@ -1,9 +1,9 @@
 /// Derivatives as shaders see them: Du(P) and Dv(P) over a grid are dPdu and dPdv, for every kind of surface.
 #include "shade/materials/shader_folder_harness.h"
 #include "shade/shading.h"
-#include "tests/primitives/dice_rib.h"
+#include "tests/primitives/dice_rib_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 namespace {
 
 /// Vertices whose differences go to both sides alone: those on borders may have gone to their edges', whose
@@ -17,7 +17,7 @@ bool is_inside(const GridShape& shape, size_t vertex) {
 /// Visits the vertices of a scene's shaded grids; Ci is what the shader found.
 void shade_primitives(const std::string& text, const std::string& found,
                       const std::function<void(const ShadingGrid&, size_t)>& visit) {
-    rib::test::Outcome read = rib::test::read_text(
+    rib::testing::Outcome read = rib::testing::read_text(
         "Format 100 100 1 ScreenWindow -3 3 -3 3 Projection \"orthographic\" Clipping 0.01 1000\nWorldBegin "
         "Translate 0 0 10 ShadingRate 0.25 Surface \"errors\" " +
         text + " WorldEnd");
@@ -223,4 +223,4 @@ TEST(Derivatives, StepsOfPolygonsReachTheNextVertex) {
 }
 
 }  // namespace
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

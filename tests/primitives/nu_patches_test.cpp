@@ -2,10 +2,10 @@
 /// it stands in books; its trim curves by area; and blobbies of one ball.
 #include <algorithm>
 
-#include "tests/primitives/blends.h"
-#include "tests/primitives/dice_rib.h"
+#include "tests/primitives/blends_harness.h"
+#include "tests/primitives/dice_rib_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -201,4 +201,4 @@ TEST(BlobbyForms, OneBallHasNoHoles) {
 }
 
 }  // namespace
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

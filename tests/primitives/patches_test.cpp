@@ -1,9 +1,9 @@
 /// Patches and meshes of every type, basis, step and wrap (RISpec 5.2), polynomial and rational, against
 /// blending functions written out one by one.
-#include "tests/primitives/blends.h"
-#include "tests/primitives/dice_rib.h"
+#include "tests/primitives/blends_harness.h"
+#include "tests/primitives/dice_rib_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 namespace {
 
 /// Bilinear meshes have two points a side and go on by one.
@@ -236,4 +236,4 @@ TEST(PatchForms, ClosedMeshesOfCoefficientsHaveNoHoles) {
 }
 
 }  // namespace
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

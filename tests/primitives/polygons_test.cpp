@@ -1,9 +1,9 @@
 /// The four polygon requests (RISpec 5.1): areas, planes, normals and default variables of what is diced,
 /// from the loops alone.
-#include "tests/primitives/blends.h"
-#include "tests/primitives/dice_rib.h"
+#include "tests/primitives/blends_harness.h"
+#include "tests/primitives/dice_rib_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 namespace {
 
 using Loop = std::vector<V3d>;
@@ -146,4 +146,4 @@ TEST(PolygonForms, ClosedOnesHaveNoHoles) {
 }
 
 }  // namespace
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

@@ -1,8 +1,8 @@
 /// The seven quadrics (RISpec 5.4): every partial sweep and range against the equations of the specification.
-#include "tests/primitives/blends.h"
-#include "tests/primitives/dice_rib.h"
+#include "tests/primitives/blends_harness.h"
+#include "tests/primitives/dice_rib_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -214,4 +214,4 @@ TEST(QuadricForms, ClosedOnesHaveNoHoles) {
 }
 
 }  // namespace
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

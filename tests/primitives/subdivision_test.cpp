@@ -1,9 +1,9 @@
 /// Subdivision meshes where their limits are known: B-splines away from extraordinary vertices, at borders
 /// and at sharp creases; the limit point and normal of vertices of any valence.
-#include "tests/primitives/blends.h"
-#include "tests/primitives/dice_rib.h"
+#include "tests/primitives/blends_harness.h"
+#include "tests/primitives/dice_rib_harness.h"
 
-namespace trapeze::test {
+namespace trapeze::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -194,4 +194,4 @@ TEST(SubdivisionForms, ClosedOnesHaveNoHoles) {
 }
 
 }  // namespace
-}  // namespace trapeze::test
+}  // namespace trapeze::testing

@@ -1,7 +1,7 @@
 /// Meshes with faces that are none: the rest of them is drawn.
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -86,4 +86,4 @@ TEST(WholeFaces, WithoutAWholeFaceThereIsNoMesh) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

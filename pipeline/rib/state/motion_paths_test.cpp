@@ -2,7 +2,7 @@
 #include "core/motion_keys.h"
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 /// A bar of that half-length, turned about z by some degrees in the shutter, at depth 10: 64 pixels wide are
@@ -15,7 +15,7 @@ Primitive turning_bar(float half_length, float degrees, int width, float fov = 9
                                 "Rotate " +
                                 std::to_string(degrees) + " 0 0 1 MotionEnd Polygon \"P\" [-" + x +
                                 " -.01 0 " + x + " -.01 0 " + x + " .01 0 -" + x + " .01 0] WorldEnd");
-    EXPECT_THAT(r.messages, testing::IsEmpty());
+    EXPECT_THAT(r.messages, ::testing::IsEmpty());
     return r.primitive();
 }
 
@@ -92,4 +92,4 @@ TEST(MotionPaths, AllSurfacesHaveTheirExtent) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -2,7 +2,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 std::shared_ptr<const Shape> shape_of(const std::string& text) {
@@ -48,4 +48,4 @@ TEST(SameShape, ShapesAreLikeThemselvesAlone) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

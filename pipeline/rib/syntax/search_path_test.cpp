@@ -5,7 +5,7 @@
 
 #include "pipeline/rib/reading_harness.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 using Paths = std::vector<std::string>;
@@ -57,4 +57,4 @@ TEST_F(SearchPath, WorldsHaveTheFoldersAboveTheirFile) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -10,7 +10,7 @@
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/write/gzip_writer.h"
 
-namespace trapeze::rib::test {
+namespace trapeze::rib::testing {
 namespace {
 
 std::string written(RibEncoding encoding, const std::function<void(RibWriter&)>& write) {
@@ -147,4 +147,4 @@ TEST(GzipWriter, WhatIsPackedUnpacks) {
 }
 
 }  // namespace
-}  // namespace trapeze::rib::test
+}  // namespace trapeze::rib::testing

@@ -10,7 +10,7 @@
 
 namespace trapeze::rsl {
 
-using test::Heard;
+using testing::Heard;
 
 inline std::unique_ptr<TranslationUnit> compiled(const std::string& text, Heard& heard) {
     return compile_front({"t.sl", text}, {}, heard.diagnostics);

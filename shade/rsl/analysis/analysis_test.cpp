@@ -62,9 +62,9 @@ std::string tree(const std::string& statement) {
 
 TEST(Analysis, ShadersAreRight) {
     for (const char* folder : {"/shade/shaders", "/shade/rsl/test_shaders"})
-        for (const auto& path : test::shaders_in(std::string(TRAPEZE_SOURCE_DIR) + folder)) {
+        for (const auto& path : testing::shaders_in(std::string(TRAPEZE_SOURCE_DIR) + folder)) {
             Heard heard;
-            const auto unit = compile_front({path.string(), test::read_text(path)}, {}, heard.diagnostics);
+            const auto unit = compile_front({path.string(), testing::read_text(path)}, {}, heard.diagnostics);
             EXPECT_TRUE(unit) << path << "\n" << heard.all();
             // These use what is ignored, or missing.
             static const std::map<std::string, size_t> kWarnings{

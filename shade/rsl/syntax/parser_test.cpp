@@ -5,7 +5,7 @@
 namespace trapeze::rsl {
 namespace {
 
-using test::Heard;
+using testing::Heard;
 
 /// What an expression is printed as, parentheses only where the tree needs them.
 std::string printed(const std::string& expression) {
@@ -245,17 +245,17 @@ class RoundTrip : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RoundTrip, PrintedShadersParseToTheSameTree) {
     const std::string folder = std::string(TRAPEZE_SOURCE_DIR) + GetParam();
-    const auto paths = test::shaders_in(folder);
+    const auto paths = testing::shaders_in(folder);
     ASSERT_FALSE(paths.empty());
     for (const auto& path : paths) {
         Heard heard;
-        const auto first = parse({path.string(), test::read_text(path)}, {}, heard.diagnostics);
+        const auto first = parse({path.string(), testing::read_text(path)}, {}, heard.diagnostics);
         ASSERT_TRUE(first) << path << "\n" << heard.all();
         const std::string text = print(*first);
         const auto second = parse({"printed", text}, {}, heard.diagnostics);
         ASSERT_TRUE(second) << path << "\n" << heard.all() << text;
         EXPECT_EQ(print(*second), text) << path;
-        EXPECT_TRUE(test::same(*first, *second)) << path;
+        EXPECT_TRUE(testing::same(*first, *second)) << path;
     }
 }
 

@@ -11,7 +11,7 @@
 namespace trapeze::rsl {
 namespace {
 
-using test::Heard;
+using testing::Heard;
 
 struct Files {
     std::map<std::string, std::string> texts;

@@ -15,7 +15,7 @@ void check_components(Op op, int inputs, const std::function<float(const Floats&
     for (int output : {1, 3})
         for (int input : {1, 3}) {
             if (input > output) continue;
-            SCOPED_TRACE(testing::Message() << "op " << int(op) << " widths " << output << ' ' << input);
+            SCOPED_TRACE(::testing::Message() << "op " << int(op) << " widths " << output << ' ' << input);
             std::vector<int> widths(static_cast<size_t>(inputs) + 1, output);
             widths.back() = input;
             check_kernel({op, widths, [&](const auto& in, double* out) {

@@ -20,7 +20,7 @@ struct OneNumber {
 
 /// Many arguments in a range, every magnitude alike where the range is wide, at both widths.
 void check_function(const OneNumber& f) {
-    SCOPED_TRACE(testing::Message() << "op " << int(f.op) << " from " << f.least << " to " << f.most);
+    SCOPED_TRACE(::testing::Message() << "op " << int(f.op) << " from " << f.least << " to " << f.most);
     Numbers numbers;
     const auto argument = [&] {
         const float low = static_cast<float>(f.least), high = static_cast<float>(f.most);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace trapeze::vm::test {
+namespace trapeze::vm::testing {
 
 inline uint32_t hash_of(const std::vector<int64_t>& cell, uint32_t begin, uint32_t last_factor) {
     constexpr uint32_t kFactors[] = {0x8da6b343u, 0xd8163841u, 0xcb1ab31fu, 0x9e3779b1u};
@@ -67,4 +67,4 @@ inline double exact_noise(const std::vector<double>& x, const std::vector<double
     return 0.5 + kScales[n - 1] * sum;
 }
 
-}  // namespace trapeze::vm::test
+}  // namespace trapeze::vm::testing

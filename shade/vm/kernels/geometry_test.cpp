@@ -22,7 +22,7 @@ TEST(Geometry, Products) {
     Numbers numbers;
     const auto near_one = [&] { return numbers.below(9) ? numbers.between(-2, 2) : 0.0f; };
     const auto check = [&](Op op, std::vector<int> widths, const LaneFunction& exact) {
-        SCOPED_TRACE(testing::Message() << "op " << int(op));
+        SCOPED_TRACE(::testing::Message() << "op " << int(op));
         check_kernel({op, std::move(widths), exact, {near_one}, 4, 2e-6});
     };
     check(Op::Dot, {1, 3, 3}, [](const auto& in, double* out) { *out = triple(in[0]).dot(triple(in[1])); });

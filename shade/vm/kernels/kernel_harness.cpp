@@ -70,10 +70,10 @@ float Numbers::moderate() {
     return below(2) ? magnitude : -magnitude;
 }
 
-testing::AssertionResult same_float(float a, float b) {
-    if (std::isnan(a) && std::isnan(b)) return testing::AssertionSuccess();
-    if (std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b)) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << a << " and " << b;
+::testing::AssertionResult same_float(float a, float b) {
+    if (std::isnan(a) && std::isnan(b)) return ::testing::AssertionSuccess();
+    if (std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b)) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << a << " and " << b;
 }
 
 double ulps(float value, double exact) {
@@ -142,12 +142,12 @@ void check_kernel(const KernelCheck& check) {
     const size_t input_count = check.widths.size() - check.outputs;
     Numbers numbers;
     for (unsigned varying = 0; varying < 1u << input_count; ++varying) {
-        SCOPED_TRACE(testing::Message() << "varying inputs: " << varying);
+        SCOPED_TRACE(::testing::Message() << "varying inputs: " << varying);
         Registers inputs = make_inputs(check, varying, numbers);
         const Registers first = run(check, varying == 0, inputs);
         for (size_t lane = 0; lane < (varying == 0 ? kLanes : check.lanes); ++lane) {
             expect_near(check, inputs, first, lane);
-            if (testing::Test::HasFatalFailure()) return;
+            if (::testing::Test::HasFatalFailure()) return;
         }
         for_each_target([&] {
             const Registers again = run(check, varying == 0, inputs);
@@ -155,7 +155,7 @@ void check_kernel(const KernelCheck& check) {
                 for (size_t i = 0; i < first[j].planes().size(); ++i)
                     ASSERT_TRUE(same_float(again[j].planes()[i], first[j].planes()[i])) << i;
         });
-        if (testing::Test::HasFatalFailure()) return;
+        if (::testing::Test::HasFatalFailure()) return;
     }
 }
 

@@ -58,7 +58,7 @@ class Numbers {
 };
 
 /// Equal bits, or both NaN.
-testing::AssertionResult same_float(float a, float b);
+::testing::AssertionResult same_float(float a, float b);
 
 /// In units of the last place of `exact` as a float. 0 for equal infinities and two NaNs.
 double ulps(float value, double exact);

@@ -149,7 +149,7 @@ TEST_P(LightKernels, SurfacesSeeTheWayToTheLight) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Uniform, LightKernels, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Uniform, LightKernels, ::testing::Bool());
 
 }  // namespace
 }  // namespace trapeze::vm

@@ -39,7 +39,7 @@ class Matrices : public ::testing::Test {
     }
     void check(Op op, std::vector<int> widths, const LaneFunction& exact,
                std::vector<std::function<float()>> numbers) {
-        SCOPED_TRACE(testing::Message() << "op " << int(op));
+        SCOPED_TRACE(::testing::Message() << "op " << int(op));
         check_kernel({op, std::move(widths), exact, std::move(numbers), 4, 4e-6});
     }
     Numbers numbers_;

@@ -40,9 +40,9 @@ TEST(Noise, IsASumOverCorners) {
     };
     for (int dimensions = 1; dimensions <= 4; ++dimensions)
         for (int output : {1, 3}) {
-            SCOPED_TRACE(testing::Message() << dimensions << " dimensions to " << output);
+            SCOPED_TRACE(::testing::Message() << dimensions << " dimensions to " << output);
             const auto exact = [&](const Inputs& in, double* out) {
-                for (int k = 0; k < output; ++k) out[k] = test::exact_noise(flatten(in), {}, k);
+                for (int k = 0; k < output; ++k) out[k] = testing::exact_noise(flatten(in), {}, k);
             };
             check_kernel({Op::Noise, widths_of(output, dimensions, false), exact, {coordinate}, 0, 3e-6});
         }
@@ -56,12 +56,12 @@ TEST(Noise, MayBePeriodic) {
     const auto period = [&] { return numbers.between(0.5f, 9); };
     for (int dimensions = 1; dimensions <= 4; ++dimensions)
         for (int output : {1, 3}) {
-            SCOPED_TRACE(testing::Message() << dimensions << " dimensions to " << output);
+            SCOPED_TRACE(::testing::Message() << dimensions << " dimensions to " << output);
             const auto exact = [&](const Inputs& in, double* out) {
                 const auto all = flatten(in);
                 const auto half = all.begin() + dimensions;
                 for (int k = 0; k < output; ++k)
-                    out[k] = test::exact_noise({all.begin(), half}, {half, all.end()}, k);
+                    out[k] = testing::exact_noise({all.begin(), half}, {half, all.end()}, k);
             };
             KernelCheck check{
                 Op::PeriodicNoise, widths_of(output, dimensions, true), exact, {coordinate}, 0, 3e-6};
@@ -134,7 +134,7 @@ TEST(Noise, HasTheContrastOfOthersInEveryForm) {
     for (int dimensions = 1; dimensions <= 4; ++dimensions)
         for (int output : {1, 3})
             for (bool periodic : {false, true}) {
-                SCOPED_TRACE(testing::Message() << dimensions << " to " << output << ' ' << periodic);
+                SCOPED_TRACE(::testing::Message() << dimensions << " to " << output << ' ' << periodic);
                 const Scattered noise(dimensions, output, periodic);
                 for (int k = 0; k < output; ++k) {
                     const Moments m = moments(noise.registers[0], k, Scattered::kPoints);
@@ -239,7 +239,7 @@ TEST(CellNoise, HashesItsCell) {
                     cell.push_back(static_cast<int64_t>(
                         std::floor(x < 2147483520.0 ? std::max(x, -2147483520.0) : 2147483520.0)));
                 for (int k = 0; k < output; ++k)
-                    out[k] = (test::hash_of(cell, 0x3c6ef372u, kFactors[k]) >> 8) * 0x1p-24;
+                    out[k] = (testing::hash_of(cell, 0x3c6ef372u, kFactors[k]) >> 8) * 0x1p-24;
             };
             check_kernel({Op::CellNoise, widths_of(output, dimensions, false), exact, {[&] {
                               return numbers.any();

@@ -181,15 +181,16 @@ TEST(Blobby, SumsBlend) {
 std::shared_ptr<const Shape> shape_of(const Blobby& b, std::vector<Parameter> variables = {}) {
     ParameterList list;
     for (Parameter& variable : variables) list.set(std::move(variable));
-    return test::shape_of(b, std::move(list));
+    return testing::shape_of(b, std::move(list));
 }
 
 TEST(Blobby, LeavesVariablesBlendByTheirFields) {
     Primitive primitive;
     primitive.attributes = std::make_shared<Attributes>();
-    primitive.shape_keys = {shape_of(
-        two_balls(1, 0), {test::parameter("Cs", StorageClass::Varying, ValueType::Color, {1, 0, 0, 0, 0, 1}),
-                          test::parameter("k", StorageClass::Constant, ValueType::Float, {7})})};
+    primitive.shape_keys = {
+        shape_of(two_balls(1, 0),
+                 {testing::parameter("Cs", StorageClass::Varying, ValueType::Color, {1, 0, 0, 0, 0, 1}),
+                  testing::parameter("k", StorageClass::Constant, ValueType::Float, {7})})};
     primitive.camera_from_object = {M44f()};
     Diagnostics diagnostics;
     const auto surface = make_surface(primitive, diagnostics);
@@ -237,15 +238,15 @@ TEST(Blobby, PointsGoAlongWithTheLeaves) {
 
 TEST(Blobby, MeshesAreClosed) {
     for (const int operation : {0, 2}) {
-        test::TestScene scene;
-        const M44f place = test::translation(0.3f, 0.1f, 2);
+        testing::TestScene scene;
+        const M44f place = testing::translation(0.3f, 0.1f, 2);
         scene.keep_all().add({shape_of(two_balls(0.9f, operation)), shape_of(two_balls(1.1f, operation))},
                              {place});
         // Near the left ball's middle, which moves a little.
-        const test::LeakCount count = test::count_leaks(
+        const testing::LeakCount count = testing::count_leaks(
             scene,
             [&](uint32_t n, float) {
-                return (V3f(-0.5f, 0, 0) + test::random_direction(n, 1) * 0.2f) * place;
+                return (V3f(-0.5f, 0, 0) + testing::random_direction(n, 1) * 0.2f) * place;
             },
             200'000);
         EXPECT_EQ(count.leaks, 0);
@@ -379,9 +380,9 @@ TEST(Blobby, AbsurdOnesAreSurvived) {
         blobby(2, {1001, 0, 1000, 16, 5, 0, 1}, {ellipsoid({1, 1, 1}, {0, 0, 0}), {0}}),  // by zero
     };
     for (const Blobby& b : cases) {
-        test::TestScene scene;
+        testing::TestScene scene;
         scene.add(shape_of(b));
-        const test::DicedScene diced(scene);
+        const testing::DicedScene diced(scene);
         EXPECT_EQ(diced.bad_values, 0);
     }
 }

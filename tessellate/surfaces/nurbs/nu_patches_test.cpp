@@ -12,7 +12,7 @@
 namespace trapeze {
 namespace {
 
-using test::parameter;
+using testing::parameter;
 constexpr float kPi = std::numbers::pi_v<float>;
 
 struct Direction {
@@ -38,7 +38,7 @@ struct MadePatch {
         ParameterList list;
         for (Parameter& variable : variables) list.set(std::move(variable));
         primitive.attributes = attributes;
-        primitive.shape_keys = {test::shape_of(patch, std::move(list))};
+        primitive.shape_keys = {testing::shape_of(patch, std::move(list))};
         primitive.camera_from_object = {M44f()};
         surface = make_surface(primitive, diagnostics);
     }
@@ -248,7 +248,7 @@ TEST(NuPatches, BoundsHoldTheSurface) {
     }
 }
 
-void expect_closed(const test::LeakCount& count) {
+void expect_closed(const testing::LeakCount& count) {
     EXPECT_EQ(count.leaks, 0);
     EXPECT_EQ(count.wrong_sides, 0);
     EXPECT_EQ(count.open_sides, 0u);
@@ -265,16 +265,16 @@ M44f turned(float angle, const V3f& place) {
 TEST(NuPatches, ClosedOnesHaveNoHoles) {
     const std::vector<M44f> places{turned(0.2f, {0.1f, 0.2f, 1.3f}), turned(0.5f, {0.3f, 0.2f, 1.3f})};
     const MadePatch sphere = revolved(kHalfCircle, half_circle());
-    test::TestScene round;
+    testing::TestScene round;
     round.keep_all().add({sphere.primitive.shape_keys}, places);
-    expect_closed(test::count_leaks(
+    expect_closed(testing::count_leaks(
         round, [](uint32_t, float t) { return V3f(0.1f + 0.2f * t, 0.2f, 1.3f); }, 200'000));
 
     const MadePatch torus = revolved(kCircle, tube());
-    test::TestScene ring;
+    testing::TestScene ring;
     ring.keep_all().add(torus.primitive.shape_keys, {places[0]});
     const V3f inside = V3f(0, 2, 0) * places[0];
-    expect_closed(test::count_leaks(
+    expect_closed(testing::count_leaks(
         ring, [&](uint32_t, float) { return inside; }, 200'000));
 }
 
@@ -293,9 +293,9 @@ TEST(NuPatches, PeriodicKnotsClose) {
     const MadePatch made(patch_of(u, v), {points(std::move(p))});
     ASSERT_EQ(made.surface->face_count(), 20);
     ASSERT_EQ(made.surface->vertex_count(), 20u);
-    test::TestScene scene;
-    scene.keep_all().add(made.primitive.shape_keys, {test::translation(0, 0, 3)});
-    expect_closed(test::count_leaks(
+    testing::TestScene scene;
+    scene.keep_all().add(made.primitive.shape_keys, {testing::translation(0, 0, 3)});
+    expect_closed(testing::count_leaks(
         scene, [](uint32_t, float) { return V3f(0, 2, 3); }, 200'000));
 }
 
@@ -309,9 +309,9 @@ TEST(NuPatches, PolesAlongUClose) {
             pw.insert(pw.end(), {c.x * p.x * w, c.y * p.x * w, p.y * w, w});
         }
     const MadePatch made(patch, {weighted(std::move(pw))});
-    test::TestScene scene;
-    scene.keep_all().add(made.primitive.shape_keys, {test::translation(0.2f, 0, 1.2f)});
-    expect_closed(test::count_leaks(
+    testing::TestScene scene;
+    scene.keep_all().add(made.primitive.shape_keys, {testing::translation(0.2f, 0, 1.2f)});
+    expect_closed(testing::count_leaks(
         scene, [](uint32_t, float) { return V3f(0.2f, 0, 1.2f); }, 200'000));
 }
 

@@ -145,17 +145,17 @@ std::shared_ptr<const Shape> trimmed_plane(bool outside) {
     patch.trim_loops = {circle(1, 1.5f, 0.6f)};
     patch.trim_outside = outside;
     ParameterList list;
-    list.set(test::parameter("P", StorageClass::Vertex, ValueType::Point,
-                             {-1, -1.5f, 0, 1, -1.5f, 0, -1, 1.5f, 0, 1, 1.5f, 0}));
-    return test::shape_of(patch, std::move(list));
+    list.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,
+                                {-1, -1.5f, 0, 1, -1.5f, 0, -1, 1.5f, 0, 1, 1.5f, 0}));
+    return testing::shape_of(patch, std::move(list));
 }
 
 /// The plane's u and v are x + 1 and y + 1.5: the border is a circle about the origin.
 TEST(TrimmedPatch, TheBorderIsTheLoop) {
     for (const bool outside : {false, true}) {
-        test::TestScene scene;
+        testing::TestScene scene;
         scene.keep_all().add(trimmed_plane(outside));
-        const test::DicedScene diced(scene);
+        const testing::DicedScene diced(scene);
         double sum = 0;
         for (const Grid& grid : diced.grids)
             for (int v = 0; v < grid.shape.nv; ++v)
@@ -177,9 +177,9 @@ TEST(TrimmedPatch, TheBorderIsTheLoop) {
 
 /// Sides of micropolygons that have no neighbour are on the circle or on the patch's rim.
 TEST(TrimmedPatch, PiecesJoinWithoutGaps) {
-    test::TestScene scene;
+    testing::TestScene scene;
     scene.keep_all().add(trimmed_plane(true));
-    const test::DicedScene diced(scene);
+    const testing::DicedScene diced(scene);
     std::map<std::array<float, 4>, int> sides;
     for (const Grid& grid : diced.grids) {
         const auto add = [&](int i, int j, int i2, int j2) {

@@ -18,9 +18,9 @@ namespace Bfr = OpenSubdiv::Bfr;
 using OpenSubdiv::Sdc::Options;
 using Scheme = SubdivisionMesh::Scheme;
 using Tag = SubdivisionMesh::Tag;
-using test::Cage;
-using test::evaluate;
-using test::Evaluated;
+using testing::Cage;
+using testing::evaluate;
+using testing::Evaluated;
 
 const Tag kInterpolate{"interpolateboundary", {1}, {}, {}};
 
@@ -37,10 +37,11 @@ struct Made {
         : Made(cage, {cage.P}, std::move(tags), scheme) {}
     Made(const Cage& cage, const std::vector<std::vector<float>>& keys, std::vector<Tag> tags = {},
          Scheme scheme = Scheme::CatmullClark) {
-        primitive = test::primitive_of(test::subdivision_of(cage, tags, scheme), {{test::points(keys[0])}});
+        primitive =
+            testing::primitive_of(testing::subdivision_of(cage, tags, scheme), {{testing::points(keys[0])}});
         for (size_t k = 1; k < keys.size(); ++k)
             primitive.shape_keys.push_back(std::make_shared<const Shape>(
-                Shape{test::subdivision_of(cage, tags, scheme), {{test::points(keys[k])}}}));
+                Shape{testing::subdivision_of(cage, tags, scheme), {{testing::points(keys[k])}}}));
         surface = make_subdivision_surface(primitive, diagnostics);
     }
     const Surface& operator*() const { return *surface; }
@@ -58,29 +59,29 @@ std::vector<V2f> random_points(int count, unsigned seed) {
 
 /// Catmull-Clark's limit at a vertex of valence 3 is (9 v + 4 edge neighbours + face neighbours) / 24.
 TEST(SubdivisionSurface, CornerOfACube) {
-    const Made made(test::cube_cage());
+    const Made made(testing::cube_cage());
     for (uint32_t v = 0; v < 8; ++v) {
         const SurfacePoint at = (*made).vertex(v);
         const Evaluated e = evaluate(*made, at.face, {at.uv});
         const V3f corner(v & 1 ? 1.0f : -1.0f, v & 2 ? 1.0f : -1.0f, v & 4 ? 1.0f : -1.0f);
-        test::expect_near(e.P[0], corner * 0.5f, 1e-6f, "limit");
+        testing::expect_near(e.P[0], corner * 0.5f, 1e-6f, "limit");
         // The normal points outward along the diagonal.
-        test::expect_near(e.dPdu[0].cross(e.dPdv[0]).normalized(), corner.normalized(), kNormalRounding,
-                          "normal");
+        testing::expect_near(e.dPdu[0].cross(e.dPdv[0]).normalized(), corner.normalized(), kNormalRounding,
+                             "normal");
     }
 }
 
 /// Loop's limit: v (1 - n g) + g (neighbours), g = 1 / (n + 3 / (8 b)), which is 31/220 for n = 4.
 TEST(SubdivisionSurface, VerticesOfALoopOctahedron) {
-    const Cage cage = test::octahedron_cage();
+    const Cage cage = testing::octahedron_cage();
     const Made made(cage, {}, Scheme::Loop);
     EXPECT_EQ((*made).face_count(), 24);
     for (uint32_t v = 0; v < 6; ++v) {
         const V3f corner(cage.P[3 * v], cage.P[3 * v + 1], cage.P[3 * v + 2]);
         const SurfacePoint at = (*made).vertex(v);
         const Evaluated e = evaluate(*made, at.face, {at.uv});
-        test::expect_near(e.P[0], corner * (96.0f / 220), 1e-6f, "limit");
-        test::expect_near(e.dPdu[0].cross(e.dPdv[0]).normalized(), corner, kNormalRounding, "normal");
+        testing::expect_near(e.P[0], corner * (96.0f / 220), 1e-6f, "limit");
+        testing::expect_near(e.dPdu[0].cross(e.dPdv[0]).normalized(), corner, kNormalRounding, "normal");
     }
 }
 
@@ -119,20 +120,20 @@ struct Reference {
             const double at[2] = {uv[i].x, uv[i].y};
             double p[3], u[3], v[3];
             limit.Evaluate(at, patch.data(), 3, p, u, v);
-            test::expect_near(e.P[i], V3d(p[0], p[1], p[2]), tolerance, "P");
+            testing::expect_near(e.P[i], V3d(p[0], p[1], p[2]), tolerance, "P");
             const V3f du(V3d(u[0], u[1], u[2])), dv(V3d(v[0], v[1], v[2]));
             if (du.cross(dv).length() < 1e-5f) continue;  // at a smooth boundary's corners
-            test::expect_near(e.dPdu[i].cross(e.dPdv[i]).normalized(), du.cross(dv).normalized(),
-                              20 * tolerance, "normal");
+            testing::expect_near(e.dPdu[i].cross(e.dPdv[i]).normalized(), du.cross(dv).normalized(),
+                                 20 * tolerance, "normal");
             if (!limit.IsRegular()) continue;  // else the speed in u and v depends on the refinement
-            test::expect_near(e.dPdu[i], du, 10 * tolerance, "dPdu");
-            test::expect_near(e.dPdv[i], dv, 10 * tolerance, "dPdv");
+            testing::expect_near(e.dPdu[i], du, 10 * tolerance, "dPdu");
+            testing::expect_near(e.dPdv[i], dv, 10 * tolerance, "dPdv");
         }
     }
 };
 
 TEST(SubdivisionSurface, RegularFacesAreExact) {
-    const Cage cage = test::sheet_cage(5, 1);
+    const Cage cage = testing::sheet_cage(5, 1);
     for (const int rule : {1, 2}) {
         const Made made(cage, {{"interpolateboundary", {rule}, {}, {}}});
         Options options;
@@ -148,7 +149,7 @@ TEST(SubdivisionSurface, RegularFacesAreExact) {
 }
 
 TEST(SubdivisionSurface, SharpInteriorEdgesOnRegularFaces) {
-    const Cage cage = test::sheet_cage(4, 1);
+    const Cage cage = testing::sheet_cage(4, 1);
     const std::vector<int> chain = {10, 11, 12, 13, 14};
     const Made made(cage, {kInterpolate, {"crease", chain, {10}, {}}});
     Options options;
@@ -158,7 +159,7 @@ TEST(SubdivisionSurface, SharpInteriorEdgesOnRegularFaces) {
 }
 
 TEST(SubdivisionSurface, SemiSharpCreases) {
-    const Cage cage = test::cube_cage();
+    const Cage cage = testing::cube_cage();
     // One sharpness for each edge, round the top.
     const Made made(cage, {{"crease", {4, 5, 7, 6, 4}, {2, 1.5f, 2, 3}, {}}});
     const Reference reference(cage, Options(), {4, 5, 5, 7, 7, 6, 6, 4}, {2, 1.5f, 2, 3});
@@ -172,50 +173,51 @@ TEST(SubdivisionSurface, SharpCubeIsACube) {
                                    {"crease", {2, 6}, {10}, {}},
                                    {"crease", {3, 7}, {10}, {}},
                                    {"corner", {0, 1, 2, 3, 4, 5, 6, 7}, {10}, {}}};
-    const Made made(test::cube_cage(), tags);
+    const Made made(testing::cube_cage(), tags);
     for (int face = 0; face < 6; ++face)
         for (const V3f& p : evaluate(*made, face, random_points(50, 2)).P)
             EXPECT_NEAR(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1, 1e-6);
-    test::expect_near(test::position(*made, (*made).vertex(7)), V3f(1, 1, 1), 1e-6f, "corner");
+    testing::expect_near(testing::position(*made, (*made).vertex(7)), V3f(1, 1, 1), 1e-6f, "corner");
 }
 
 TEST(SubdivisionSurface, CornerKeepsItsVertex) {
-    const Made made(test::cube_cage(), {{"corner", {0, 7}, {10, 0}, {}}});
-    test::expect_near(test::position(*made, (*made).vertex(0)), V3f(-1, -1, -1), 1e-6f, "sharp");
-    test::expect_near(test::position(*made, (*made).vertex(7)), V3f(0.5f, 0.5f, 0.5f), 1e-6f, "smooth");
+    const Made made(testing::cube_cage(), {{"corner", {0, 7}, {10, 0}, {}}});
+    testing::expect_near(testing::position(*made, (*made).vertex(0)), V3f(-1, -1, -1), 1e-6f, "sharp");
+    testing::expect_near(testing::position(*made, (*made).vertex(7)), V3f(0.5f, 0.5f, 0.5f), 1e-6f, "smooth");
 }
 
 TEST(SubdivisionSurface, BilinearIsTheCage) {
-    const Cage cage = test::prism_cage(5);
+    const Cage cage = testing::prism_cage(5);
     const Made made(cage, {}, Scheme::Bilinear);
     EXPECT_EQ((*made).face_count(), 5 + 5 * (1 + 3));
     for (uint32_t v = 0; v < static_cast<uint32_t>(cage.vertex_count()); ++v)
-        test::expect_near(test::position(*made, (*made).vertex(v)),
-                          V3f(cage.P[3 * v], cage.P[3 * v + 1], cage.P[3 * v + 2]), 1e-6f, "vertex");
-    test::expect_joined(*made, 1e-6f);
-    test::expect_bounded_and_differentiated(*made, 1e-3f);
+        testing::expect_near(testing::position(*made, (*made).vertex(v)),
+                             V3f(cage.P[3 * v], cage.P[3 * v + 1], cage.P[3 * v + 2]), 1e-6f, "vertex");
+    testing::expect_joined(*made, 1e-6f);
+    testing::expect_bounded_and_differentiated(*made, 1e-3f);
 }
 
 TEST(SubdivisionSurface, FacesShareEdges) {
     const Tag crease{"crease", {0, 1, 2}, {1.5f}, {}};
     for (int n : {3, 5, 8}) {
-        const Made made(test::prism_cage(n), {crease});
+        const Made made(testing::prism_cage(n), {crease});
         EXPECT_EQ((*made).face_count(), (n == 4 ? 1 : n) + n * (1 + 3));
-        test::expect_joined(*made, 2e-5f);
-        test::expect_bounded_and_differentiated(*made, 2e-2f);
+        testing::expect_joined(*made, 2e-5f);
+        testing::expect_bounded_and_differentiated(*made, 2e-2f);
     }
-    const Made loop(test::octahedron_cage(), {{"crease", {0, 1, 2, 3, 0}, {2}, {}}}, Scheme::Loop);
-    test::expect_joined(*loop, 2e-5f);
-    test::expect_bounded_and_differentiated(*loop, 2e-2f);
-    const Made sheet(test::sheet_cage(4, 0.7f), {kInterpolate});
-    test::expect_joined(*sheet, 1e-5f);
-    test::expect_bounded_and_differentiated(*sheet, 1e-2f);
+    const Made loop(testing::octahedron_cage(), {{"crease", {0, 1, 2, 3, 0}, {2}, {}}}, Scheme::Loop);
+    testing::expect_joined(*loop, 2e-5f);
+    testing::expect_bounded_and_differentiated(*loop, 2e-2f);
+    const Made sheet(testing::sheet_cage(4, 0.7f), {kInterpolate});
+    testing::expect_joined(*sheet, 1e-5f);
+    testing::expect_bounded_and_differentiated(*sheet, 1e-2f);
 }
 
 /// One point at a time, in blocks, with and without derivatives, by any scratch.
 TEST(SubdivisionSurface, BitsDoNotDependOnTheBatch) {
-    const Made regular(test::sheet_cage(4, 0.7f), {kInterpolate}), mixed(test::prism_cage(5)),
-        loop(test::octahedron_cage(), {}, Scheme::Loop), linear(test::prism_cage(5), {}, Scheme::Bilinear);
+    const Made regular(testing::sheet_cage(4, 0.7f), {kInterpolate}), mixed(testing::prism_cage(5)),
+        loop(testing::octahedron_cage(), {}, Scheme::Loop),
+        linear(testing::prism_cage(5), {}, Scheme::Bilinear);
     for (const Made* made : {&regular, &mixed, &loop, &linear}) {
         const Surface& surface = **made;
         const auto scratch = surface.make_scratch();
@@ -237,7 +239,7 @@ TEST(SubdivisionSurface, BitsDoNotDependOnTheBatch) {
 
 /// Threads fill the library's cache of irregular patches at the same time.
 TEST(SubdivisionSurface, ThreadsGetTheSameBits) {
-    const Cage cage = test::prism_cage(9);
+    const Cage cage = testing::prism_cage(9);
     const std::vector<Tag> tags = {{"crease", {9, 10, 11, 12, 13, 14}, {1, 2, 3, 2.5f, 1.5f}, {}}};
     const std::vector<V2f> uv = random_points(9, 2);
     for (int round = 0; round < 10; ++round) {
@@ -265,7 +267,7 @@ TEST(SubdivisionSurface, ThreadsGetTheSameBits) {
 }
 
 TEST(SubdivisionSurface, BoundaryRules) {
-    const Cage cage = test::sheet_cage(3, 0);
+    const Cage cage = testing::sheet_cage(3, 0);
     const auto drawn = [](const Surface& surface) {
         int count = 0;
         for (int face = 0; face < surface.face_count(); ++face) count += !surface.is_hole(face);
@@ -274,18 +276,20 @@ TEST(SubdivisionSurface, BoundaryRules) {
     const Made none(cage);
     EXPECT_EQ(drawn(*none), 1);
     EXPECT_FALSE((*none).is_hole(4));
-    test::expect_joined(*none, 1e-6f);
+    testing::expect_joined(*none, 1e-6f);
     const Made corners(cage, {{"interpolateboundary", {}, {}, {}}});  // no number means 1
     EXPECT_EQ(drawn(*corners), 9);
-    test::expect_near(test::position(*corners, (*corners).vertex(0)), V3f(0, 0, 0), 1e-6f, "sharp corner");
+    testing::expect_near(testing::position(*corners, (*corners).vertex(0)), V3f(0, 0, 0), 1e-6f,
+                         "sharp corner");
     const Made edges(cage, {{"interpolateboundary", {2}, {}, {}}});
     EXPECT_EQ(drawn(*edges), 9);
     // The boundary curve's limit: (neighbours + 4 v) / 6.
-    test::expect_near(test::position(*edges, (*edges).vertex(0)), V3f(1 / 6.0f, 1 / 6.0f, 0), 1e-6f, "round");
+    testing::expect_near(testing::position(*edges, (*edges).vertex(0)), V3f(1 / 6.0f, 1 / 6.0f, 0), 1e-6f,
+                         "round");
 }
 
 TEST(SubdivisionSurface, HolesLeaveTheRestAsItIs) {
-    const Cage cage = test::cube_cage();
+    const Cage cage = testing::cube_cage();
     const Made whole(cage), open(cage, {{"hole", {0, 1}, {}, {}}});
     const std::vector<V2f> uv = random_points(20, 4);
     for (int face = 0; face < 6; ++face) {
@@ -295,11 +299,11 @@ TEST(SubdivisionSurface, HolesLeaveTheRestAsItIs) {
         EXPECT_EQ(std::memcmp(a.P.data(), b.P.data(), a.P.size() * sizeof(V3f)), 0);
     }
     for (uint32_t e = 0; e < (*open).edge_count(); ++e) EXPECT_FALSE((*open).is_hole((*open).edge(e).face));
-    test::expect_joined(*open, 1e-5f);
+    testing::expect_joined(*open, 1e-5f);
 }
 
 TEST(SubdivisionSurface, ShapeKeys) {
-    const Cage cage = test::prism_cage(5);
+    const Cage cage = testing::prism_cage(5);
     std::vector<float> later = cage.P;
     for (size_t i = 0; i < later.size(); ++i) later[i] = 2 * later[i] + static_cast<float>(i % 7);
     Cage moved = cage;
@@ -315,7 +319,7 @@ TEST(SubdivisionSurface, ShapeKeys) {
 }
 
 TEST(SubdivisionSurface, OptionsChangeTheSurface) {
-    const Cage cage = test::prism_cage(5);
+    const Cage cage = testing::prism_cage(5);
     // On the last face, a triangle at the top: at its centre, or at a corner of the ring below.
     const auto at = [&](int pieces_back, V2f uv, std::vector<Tag> tags) {
         const Made made(cage, std::move(tags));
@@ -342,9 +346,9 @@ TEST(SubdivisionSurface, WrongTagsAreReportedAndLeftOut) {
                                     {"interpolateboundary", {7}, {}, {}},
                                     {"facevaryinginterpolateboundary", {-1}, {}, {}},
                                     {"creasemethod", {}, {}, {"bent"}}};
-    const Made plain(test::cube_cage());
+    const Made plain(testing::cube_cage());
     for (const Tag& tag : wrong) {
-        const Made made(test::cube_cage(), {tag});
+        const Made made(testing::cube_cage(), {tag});
         ASSERT_TRUE(made.surface) << tag.name;
         EXPECT_EQ(made.warnings(), 1u) << tag.name;
         EXPECT_EQ(evaluate(*made, 3, {{0.3f, 0.6f}}).P[0], evaluate(*plain, 3, {{0.3f, 0.6f}}).P[0]);
@@ -352,19 +356,19 @@ TEST(SubdivisionSurface, WrongTagsAreReportedAndLeftOut) {
 }
 
 TEST(SubdivisionSurface, RefusesWhatHasNoSurface) {
-    Cage outside = test::cube_cage();
+    Cage outside = testing::cube_cage();
     outside.vertices[5] = 8;
-    Cage missing = test::cube_cage();
+    Cage missing = testing::cube_cage();
     missing.vertices.pop_back();
     for (const Cage& cage : {outside, missing}) {
         const Made made(cage);
         EXPECT_FALSE(made.surface);
         EXPECT_EQ(made.errors(), 1u);
     }
-    const Made loop(test::cube_cage(), {}, Scheme::Loop);  // of quads
+    const Made loop(testing::cube_cage(), {}, Scheme::Loop);  // of quads
     EXPECT_FALSE(loop.surface);
     EXPECT_EQ(loop.errors(), 1u);
-    const Made fan(test::prism_cage(300));
+    const Made fan(testing::prism_cage(300));
     EXPECT_FALSE(fan.surface);
     EXPECT_EQ(fan.errors(), 1u);
 }
@@ -376,16 +380,16 @@ TEST(SubdivisionSurface, NonManifoldMeshes) {
     fins.P = {0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 1, -1, 1, 0, -1, 1, 1, -1, -1, 0, -1, -1, 1, 9, 9, 9};
     fins.sizes = {4, 4, 4};
     fins.vertices = {0, 1, 3, 2, 0, 1, 5, 4, 0, 1, 7, 6};
-    Cage against = test::sheet_cage(2, 0.3f);
+    Cage against = testing::sheet_cage(2, 0.3f);
     std::reverse(against.vertices.begin(), against.vertices.begin() + 4);
     Cage cones;
     cones.P = {0, 0, 0, 1, 0, 1, 0, 1, 1, -1, -1, 1, 1, 0, -1, 0, 1, -1, -1, -1, -1};
     cones.sizes.assign(6, 3);
     cones.vertices = {0, 1, 2, 0, 2, 3, 0, 3, 1, 0, 4, 5, 0, 5, 6, 0, 6, 4};
-    Cage doubled = test::cube_cage();  // each face is there twice
+    Cage doubled = testing::cube_cage();  // each face is there twice
     doubled.sizes.insert(doubled.sizes.end(), 6, 4);
     for (size_t i = 0; i < 24; ++i) doubled.vertices.push_back(doubled.vertices[i]);
-    Cage pole = test::octahedron_cage();
+    Cage pole = testing::octahedron_cage();
     pole.sizes.assign(8, 4);
     for (int face = 0; face < 8; ++face)
         pole.vertices.insert(pole.vertices.begin() + 4 * face + 3, pole.vertices[4 * face + 2]);
@@ -393,9 +397,9 @@ TEST(SubdivisionSurface, NonManifoldMeshes) {
         for (const std::vector<Tag>& tags : {std::vector<Tag>{kInterpolate}, std::vector<Tag>{}}) {
             const Made made(cage, tags);
             ASSERT_TRUE(made.surface);
-            test::expect_joined(*made, 2e-5f);
+            testing::expect_joined(*made, 2e-5f);
             for (uint32_t v = 0; v < (*made).vertex_count(); ++v) {
-                const V3f p = test::position(*made, (*made).vertex(v));
+                const V3f p = testing::position(*made, (*made).vertex(v));
                 EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
             }
         }
@@ -406,7 +410,8 @@ TEST(SubdivisionSurface, RandomConnectivity) {
     int surfaces = 0;
     for (int round = 0; round < 600; ++round) {
         const bool loop = round % 3 == 0;
-        const Made made(test::random_cage(random, loop), {{"interpolateboundary", {round % 2 + 1}, {}, {}}},
+        const Made made(testing::random_cage(random, loop),
+                        {{"interpolateboundary", {round % 2 + 1}, {}, {}}},
                         loop ? Scheme::Loop : Scheme::CatmullClark);
         EXPECT_EQ(made.errors(), made.surface ? 0u : 1u);
         if (!made.surface) continue;

@@ -12,9 +12,9 @@ namespace {
 
 using Scheme = SubdivisionMesh::Scheme;
 using Tag = SubdivisionMesh::Tag;
-using test::Cage;
-using test::evaluate;
-using test::variables_at;
+using testing::Cage;
+using testing::evaluate;
+using testing::variables_at;
 
 const Tag kInterpolate{"interpolateboundary", {1}, {}, {}};
 Tag face_varying_rule(int rule) {
@@ -28,8 +28,8 @@ struct Made {
 
     Made(const Cage& cage, ParameterList variables, std::vector<Tag> tags,
          Scheme scheme = Scheme::CatmullClark) {
-        variables.values.push_back(test::points(cage.P));
-        primitive = test::primitive_of(test::subdivision_of(cage, std::move(tags), scheme), variables);
+        variables.values.push_back(testing::points(cage.P));
+        primitive = testing::primitive_of(testing::subdivision_of(cage, std::move(tags), scheme), variables);
         surface = make_subdivision_surface(primitive, diagnostics);
     }
     ShadingGrid at(int face, const std::vector<V2f>& uv) const {
@@ -53,7 +53,7 @@ std::vector<float> at_corners(const Cage& cage, int coordinate) {
 const std::vector<V2f> kPoints = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5f, 0.5f}, {0.3f, 0.9f}};
 
 TEST(SubdivisionVariables, DefaultsAreTheFacesOwn) {
-    const Made made(test::cube_cage(), {}, {});
+    const Made made(testing::cube_cage(), {}, {});
     const ShadingGrid grid = made.at(2, kPoints);
     for (size_t i = 0; i < kPoints.size(); ++i) {
         EXPECT_EQ(V2f(grid.u[i], grid.v[i]), kPoints[i]);
@@ -65,7 +65,7 @@ TEST(SubdivisionVariables, DefaultsAreTheFacesOwn) {
 /// What lies on the vertices like P is evaluated like P, whatever the kind of face.
 TEST(SubdivisionVariables, VertexVariablesAreLimits) {
     for (const Scheme scheme : {Scheme::CatmullClark, Scheme::Bilinear}) {
-        const Cage cage = test::prism_cage(5);
+        const Cage cage = testing::prism_cage(5);
         const Made made(cage, {{floats("Pref", StorageClass::Vertex, cage.P, ValueType::Point)}}, {}, scheme);
         for (int face = 0; face < made.surface->face_count(); ++face) {
             const ShadingGrid grid = made.at(face, kPoints);
@@ -77,7 +77,7 @@ TEST(SubdivisionVariables, VertexVariablesAreLimits) {
 }
 
 TEST(SubdivisionVariables, ArraysOfManyFloats) {
-    const Cage cage = test::prism_cage(5);
+    const Cage cage = testing::prism_cage(5);
     Parameter many{"many", {StorageClass::Vertex, ValueType::Float, 21}, {}, {}};
     for (int v = 0; v < cage.vertex_count(); ++v)
         for (int k = 0; k < 21; ++k)
@@ -93,7 +93,7 @@ TEST(SubdivisionVariables, ArraysOfManyFloats) {
 }
 
 TEST(SubdivisionVariables, VaryingIsLinearOverTheFace) {
-    const Cage cage = test::sheet_cage(3, 0);
+    const Cage cage = testing::sheet_cage(3, 0);
     std::vector<float> w;
     for (int v = 0; v < cage.vertex_count(); ++v) w.push_back(cage.P[3 * v] + 10 * cage.P[3 * v + 1]);
     const Made made(cage, {{floats("w", StorageClass::Varying, w)}}, {kInterpolate});
@@ -101,7 +101,7 @@ TEST(SubdivisionVariables, VaryingIsLinearOverTheFace) {
     for (size_t i = 0; i < kPoints.size(); ++i)
         EXPECT_FLOAT_EQ(grid.find("w")->planes[0][i], 2 + kPoints[i].x + 10 * (1 + kPoints[i].y));
     // On pieces of a pentagon: the centre is the mean of the corners.
-    const Cage prism = test::prism_cage(5);
+    const Cage prism = testing::prism_cage(5);
     const Made cut(prism, {{floats("w", StorageClass::Varying, {1, 2, 3, 4, 5, 0, 0, 0, 0, 0, 0})}}, {});
     EXPECT_FLOAT_EQ(cut.at(0, {{1, 1}, {0, 0}, {1, 0}}).find("w")->planes[0][0], 3);
     EXPECT_FLOAT_EQ(cut.at(0, {{1, 1}, {0, 0}, {1, 0}}).find("w")->planes[0][1], 5);
@@ -109,7 +109,7 @@ TEST(SubdivisionVariables, VaryingIsLinearOverTheFace) {
 }
 
 TEST(SubdivisionVariables, UniformAndConstant) {
-    const Cage cage = test::prism_cage(5);
+    const Cage cage = testing::prism_cage(5);
     std::vector<float> number;
     for (size_t i = 0; i < cage.sizes.size(); ++i) number.push_back(static_cast<float>(i));
     Parameter label{"label", {StorageClass::Uniform, ValueType::String, 1}, {}, {}};
@@ -129,7 +129,7 @@ TEST(SubdivisionVariables, UniformAndConstant) {
 }
 
 TEST(SubdivisionVariables, FaceVaryingIsBilinearWithoutTag) {
-    const Cage cage = test::cube_cage();
+    const Cage cage = testing::cube_cage();
     std::vector<float> s, t;
     for (int face = 0; face < 6; ++face) {
         const float first = static_cast<float>(face);
@@ -152,7 +152,7 @@ TEST(SubdivisionVariables, FaceVaryingIsBilinearWithoutTag) {
 
 /// Values that agree along all edges have no seams: they follow P.
 TEST(SubdivisionVariables, SmoothFaceVaryingFollowsTheSurface) {
-    const Cage cage = test::prism_cage(5);
+    const Cage cage = testing::prism_cage(5);
     for (const StorageClass storage : {StorageClass::FaceVarying, StorageClass::FaceVertex})
         for (const int rule : {1, 2}) {
             const Made made(
@@ -174,7 +174,7 @@ TEST(SubdivisionVariables, SmoothFaceVaryingFollowsTheSurface) {
 
 /// A seam between the left and right half of a sheet: smooth on either side, a jump across, its line kept.
 TEST(SubdivisionVariables, Seams) {
-    const Cage cage = test::sheet_cage(4, 0);
+    const Cage cage = testing::sheet_cage(4, 0);
     std::vector<float> s = at_corners(cage, 0), t = at_corners(cage, 1);
     for (size_t i = 0; i < s.size(); ++i) {
         const int column = static_cast<int>(i / 4) % 4;
@@ -200,7 +200,7 @@ TEST(SubdivisionVariables, Seams) {
 
 /// Each face an island of its own.
 TEST(SubdivisionVariables, IslandsOnRegularAndIrregularFaces) {
-    const Cage cage = test::cube_cage();
+    const Cage cage = testing::cube_cage();
     std::vector<float> s, t;
     for (int face = 0; face < 6; ++face) {
         const float first = 2 * static_cast<float>(face);
@@ -224,7 +224,7 @@ TEST(SubdivisionVariables, AnythingHasFiniteValues) {
     std::mt19937 random(23);
     for (int round = 0; round < 400; ++round) {
         const bool loop = round % 3 == 0;
-        const Cage cage = test::random_cage(random, loop);
+        const Cage cage = testing::random_cage(random, loop);
         std::vector<float> values;
         for (size_t i = 0; i < cage.vertices.size(); ++i) values.push_back(static_cast<float>(random() % 2));
         const Made made(cage, {{floats("seamed", StorageClass::FaceVertex, values)}},
@@ -240,7 +240,7 @@ TEST(SubdivisionVariables, AnythingHasFiniteValues) {
 }
 
 TEST(SubdivisionVariables, NormalsOfTheUser) {
-    const Cage cage = test::cube_cage();
+    const Cage cage = testing::cube_cage();
     const Made made(cage, {{floats("N", StorageClass::Vertex, cage.P, ValueType::Normal)}}, {});
     bool has_normals = false;
     const ShadingGrid grid = variables_at(*made.surface, 0, kPoints, &has_normals);

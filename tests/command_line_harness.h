@@ -1,7 +1,7 @@
 /// What tests of the command line share.
 #pragma once
 
-#include "tests/program.h"
+#include "tests/program_harness.h"
 
 namespace trapeze::testing {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-namespace trapeze::test {
+namespace trapeze::testing {
 
 /// Weights of four control points at t.
 using Blend = std::array<double, 4> (*)(double t);
@@ -64,4 +64,4 @@ inline std::string decimal(double value) {
     return std::to_string(value) + " ";
 }
 
-}  // namespace trapeze::test
+}  // namespace trapeze::testing
