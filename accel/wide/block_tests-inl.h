@@ -13,7 +13,7 @@
 #include <bit>
 
 #include "accel/wide/bundle_state-inl.h"
-#include "core/simd/lane_numbers-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {

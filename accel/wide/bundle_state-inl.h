@@ -16,6 +16,7 @@
 #include "accel/wide/block_hits-inl.h"
 #include "accel/wide/bundle.h"
 #include "accel/wide/bundle_scratch.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -28,17 +29,11 @@ constexpr size_t kMaskBytes = (kLanes + 7) / 8;
 constexpr uint32_t kLanesOfByte = kLanes < 8 ? kLanes : 8;  ///< of a mask as it is stored
 constexpr size_t kMetStride = BundleScratch::kMetStride;
 
-/// A mask as bits of an integer, lane 0 the lowest; targets have at most 16 lanes.
 HWY_INLINE uint32_t mask_bits(MF mask) {
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(F32(), mask, bytes);
-    return static_cast<uint32_t>(bytes[0] | bytes[1] << 8);
+    return mask_bits(F32(), mask);
 }
-
-/// The inverse of mask_bits().
 HWY_INLINE MF mask_of(uint32_t bits) {
-    const uint8_t bytes[8] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
-    return hn::LoadMaskBits(F32(), bytes);
+    return mask_of(F32(), bits);
 }
 
 HWY_INLINE float largest(VF v) {

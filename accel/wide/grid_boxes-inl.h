@@ -16,7 +16,7 @@
 #include "accel/wide/block_tests-inl.h"
 #include "accel/wide/box_codes-inl.h"
 #include "accel/wide/compact_lanes-inl.h"
-#include "core/simd/lane_numbers-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {

@@ -16,22 +16,19 @@
 #include "accel/wide/bundle_state-inl.h"
 #include "accel/wide/compact_lanes-inl.h"
 #include "accel/wide/ray_intervals-inl.h"
-#include "core/simd/lane_numbers-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// segment_at() in lanes, bit for bit: whether a time is in a segment, and where. Every time is in one
-/// segment alone.
+/// Whether a time is in a segment, and where. Every time is in one segment alone.
 HWY_INLINE MF in_segment(VF time, int key_count, int segment, VF& local) {
     const F32 d;
-    const I32 di;
-    const VF scaled = hn::Mul(time, hn::Set(d, static_cast<float>(key_count - 1)));
-    const VI index = hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Zero(di)), hn::Set(di, key_count - 2));
-    local = hn::Sub(scaled, hn::ConvertTo(d, index));
-    return hn::RebindMask(d, hn::Eq(index, hn::Set(di, segment)));
+    const auto at = segments_at(d, time, key_count);
+    local = at.local;
+    return hn::RebindMask(d, hn::Eq(at.index, hn::Set(I32(), segment)));
 }
 
 /// Turns an interval of times of the shutter into one of times local to a segment, cut to [0, 1]; false where

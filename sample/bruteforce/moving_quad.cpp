@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
 #include "core/hit_micropolygon-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -17,19 +18,12 @@ template <class Place>
 HWY_INLINE size_t find_hits_placed(const RayPlanes& rays, size_t first, size_t count, const MovingQuad& quad,
                                    uint32_t* found, float* found_depth, const Place& place) {
     const hn::ScalableTag<float> d;
-    const hn::RebindToSigned<decltype(d)> di;
     const size_t lanes = hn::Lanes(d);
-    const auto segments = hn::Set(d, static_cast<float>(quad.key_count - 1));
-    const auto last_segment = hn::Set(di, quad.key_count - 2);
     size_t hit_count = 0;
     for (size_t i = first; i < first + count; i += lanes) {
-        // segment_at()
-        const auto scaled = hn::Mul(hn::LoadU(d, rays.time + i), segments);
-        const auto segment =
-            hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Zero(di)), hn::Max(last_segment, hn::Zero(di)));
-        const auto local = hn::Sub(scaled, hn::ConvertTo(d, segment));
+        const auto at = segments_at(d, hn::LoadU(d, rays.time + i), quad.key_count);
         const auto vertex = [&](int component, int corner)
-                                HWY_ATTR { return place(d, component, corner, segment, local); };
+                                HWY_ATTR { return place(d, component, corner, at.index, at.local); };
         auto depth = hn::Zero(d);
         auto hit = hit_micropolygon(d, hn::LoadU(d, rays.ox + i), hn::LoadU(d, rays.oy + i), hn::Zero(d),
                                     hn::LoadU(d, rays.ux + i), hn::LoadU(d, rays.uy + i), vertex, quad.facing,

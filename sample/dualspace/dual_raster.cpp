@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
 #include "core/hit_micropolygon-inl.h"
+#include "core/simd/simd-inl.h"
 #include "sample/dualspace/dual_intervals-inl.h"
 #include "sample/dualspace/dual_mesh-inl.h"
 
@@ -192,11 +193,7 @@ class GridDual {
         count_ = 0;
     }
 
-    static uint32_t bits_of(hn::Mask<D> mask) {
-        uint8_t bits[8] = {};
-        hn::StoreMaskBits(D(), mask, bits);
-        return bits[0] | static_cast<uint32_t>(bits[1]) << 8;
-    }
+    static uint32_t bits_of(hn::Mask<D> mask) { return mask_bits(D(), mask); }
 
     void keep(const uint32_t* samples, hn::Mask<D> hit, V depth) {
         const D d;

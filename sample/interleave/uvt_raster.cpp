@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
 #include "core/hit_micropolygon-inl.h"
-#include "core/simd/lane_numbers-inl.h"
+#include "core/simd/simd-inl.h"
 #include "sample/interleave/uvt_mesh-inl.h"
 #include "sample/interleave/uvt_tuples-inl.h"
 
@@ -198,10 +198,8 @@ class GridRaster {
     void keep(const Tuple& at, size_t first, hn::Mask<D> hit, V depth) {
         const D d;
         HWY_ALIGN float depths[UvtQueue::kPadding];
-        uint8_t bits[8] = {};
         hn::Store(depth, d, depths);
-        hn::StoreMaskBits(d, hit, bits);
-        uint32_t left = bits[0] | static_cast<uint32_t>(bits[1]) << 8;
+        uint32_t left = mask_bits(d, hit);
         stats_.predicate_hits += hn::CountTrue(d, hit);
         float* nearest = tile_.depths(at.index);
         uint64_t* ids = tile_.ids(at.index);

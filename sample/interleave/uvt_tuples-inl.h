@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/simd/lane_numbers-inl.h"
+#include "core/simd/simd-inl.h"
 #include "sample/interleave/uvt_raster.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -118,24 +118,16 @@ void find_tuples(const UvtRaster& raster, const BoundedGrid& grid, const UvtTile
     const V width = hn::Set(d, static_cast<float>(tile.width())),
             height = hn::Set(d, static_cast<float>(tile.height()));
     for (size_t t = 0; t < tuples.count; t += lanes) {
-        // segment_at()
-        V local = zero;
-        auto segment = hn::Zero(di);
-        if (moves) {
-            const V scaled =
-                hn::Mul(hn::LoadU(d, &tuples.time[t]), hn::Set(d, static_cast<float>(last_segment + 1)));
-            segment = hn::Min(hn::Max(hn::ConvertTo(di, scaled), segment), hn::Set(di, last_segment));
-            local = hn::Sub(scaled, hn::ConvertTo(d, segment));
-        }
+        const auto at = segments_at(d, hn::LoadU(d, &tuples.time[t]), grid.grid.key_count);
         // Tuples of other times lie in other segments: their boxes are gathered.
         const auto box_at = [&](int end, int axis, bool max) HWY_ATTR {
             const float* value = max ? &boxes->max[end][axis] : &boxes->min[end][axis];
             if (last_segment == 0) return hn::Set(d, *value);
-            return hn::GatherIndex(d, value, hn::Mul(segment, hn::Set(di, kBoxFloats)));
+            return hn::GatherIndex(d, value, hn::Mul(at.index, hn::Set(di, kBoxFloats)));
         };
         const auto placed = [&](int axis, bool max) HWY_ATTR {
             const V start = box_at(0, axis, max);
-            return moves ? hn::Add(start, hn::Mul(local, hn::Sub(box_at(1, axis, max), start))) : start;
+            return moves ? hn::Add(start, hn::Mul(at.local, hn::Sub(box_at(1, axis, max), start))) : start;
         };
         const V z0 = hn::Sub(placed(2, false), z_rounding), z1 = hn::Add(placed(2, true), z_rounding);
         const auto unsafe = hn::Not(hn::Gt(z0, safe));

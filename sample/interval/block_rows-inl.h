@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/hit_micropolygon-inl.h"
+#include "core/simd/simd-inl.h"
 #include "sample/interval/slot_boxes-inl.h"
 #include "sample/interval/slot_raster.h"
 #include "sample/visibility.h"
@@ -75,18 +76,18 @@ class BlockRows {
     HWY_INLINE void place_in_time() {
         const D d;
         const hn::RebindToSigned<D> di;
-        const V scaled = hn::Mul(hn::Load(d, block_->time + lane_),
-                                 hn::Set(d, static_cast<float>(in_.grid.key_count - 1)));
+        const V time = hn::Load(d, block_->time + lane_);
         const int first = in_.parts.front().segment;
         if constexpr (kMotion == Motion::OneSegment) {
+            const V scaled = hn::Mul(time, hn::Set(d, static_cast<float>(in_.grid.key_count - 1)));
             hn::Store(hn::Sub(scaled, hn::Set(d, static_cast<float>(first))), d, local_);
             return;
         }
-        const auto at = hn::Min(hn::Max(hn::ConvertTo(di, scaled), hn::Set(di, first)),
-                                hn::Set(di, in_.parts.back().segment));
-        hn::Store(hn::Sub(scaled, hn::ConvertTo(d, at)), d, local_);
-        hn::Store(hn::Mul(hn::Sub(at, hn::Set(di, first)), hn::Set(di, rows_.components * rows_.padded)), di,
-                  segment_);
+        const auto at = segments_at(d, time, in_.grid.key_count, first, in_.parts.back().segment);
+        hn::Store(at.local, d, local_);
+        hn::Store(
+            hn::Mul(hn::Sub(at.index, hn::Set(di, first)), hn::Set(di, rows_.components * rows_.padded)), di,
+            segment_);
     }
 
     /// Two rows of vertices and the rays. Locals: stores of vectors may alias whatever is in memory.

@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "sample/interval/slot_raster.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
+#include "core/simd/simd-inl.h"
 #include "sample/interval/block_rows-inl.h"
 #include "sample/interval/slot_boxes-inl.h"
 
@@ -157,10 +158,7 @@ class CellRaster {
         const int step = static_cast<int>(hn::Lanes(BlockTag()));
         uint32_t bits = 0;
         for (int u = 0; u < in_.grid.shape.nu; u += step) {
-            uint8_t bytes[8] = {};
-            const BlockMask mask = lanes(v * row_length_ + u);
-            hn::StoreMaskBits(BlockTag(), mask, bytes);
-            bits |= (uint32_t{bytes[0]} | uint32_t{bytes[1]} << 8) << u;
+            bits |= mask_bits(BlockTag(), lanes(v * row_length_ + u)) << u;
         }
         return bits & ((uint32_t{1} << in_.grid.shape.nu) - 1);
     }
