@@ -46,9 +46,10 @@ class Tessellation {
     using IsDisplaced = std::function<bool(uint32_t)>;
 
     /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads. Without
-    /// depth maps the surfaces that would look into some go without. What `most_bytes` do not hold is left
-    /// out, from the first primitive on with which it is too much, and that is an error. Other bad primitives
-    /// are left out one by one, each with a diagnostic.
+    /// `depth_heights` Blobbies that ask for depth maps are made as if there were none. A primitive that
+    /// alone takes more than `most_bytes` is left out. When several together take more, those from the first
+    /// one on with which it is too much are left out. Both are errors. Other bad primitives are left out one
+    /// by one, each with a diagnostic.
     explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {},
                           size_t most_bytes = std::numeric_limits<size_t>::max(),
                           const IsDisplaced& is_displaced = {});

@@ -13,8 +13,8 @@ struct PaperTreeOptions {
     };
 
     Bounds bounds = Bounds::Oriented;
-    /// Where no split lowers the SAH cost: medians of the orientation-aware order; else the best split all
-    /// the same [Hou10 sec. 3.3].
+    /// What is done where no split lowers the SAH cost. True: the median of the orientation-aware order is
+    /// split at [Hou10 sec. 3.3]. False: the best of the splits is taken all the same.
     bool orient_split = true;
     /// A node above grids takes the better orientation of its children's; else it is axis-aligned.
     bool orient_propagation = true;

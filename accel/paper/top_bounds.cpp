@@ -59,7 +59,8 @@ class Bounding {
                 std::max(child[0].quad_extent, child[1].quad_extent)};
     }
 
-    /// Stores a bound as node `index`.
+    /// Stores a bound as node `index` of the tree: one KeyBox a key, side by side. Subtrees write apart from
+    /// each other, so that parallel tasks may call it.
     void set_node(size_t index, TopLink link, const NodeBound& bound) const {
         top_.nodes[index] = {bound.absolute_max, bound.quad_extent, link};
         if (top_.oriented) top_.frames[index] = FrameColumns(bound.box.frame);

@@ -51,7 +51,8 @@ HWY_INLINE void cross(const float* a, const float* b, float* to) {
     to[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/// A block's 25 vertices, in two times sixteen places; some are there twice.
+/// A block's 25 vertices, in two times sixteen places: whole vectors. The seven places to spare repeat a
+/// vertex of the block, which changes no bound.
 struct BlockVertices {
     HWY_ALIGN float own[3][16], behind[3][16];
 

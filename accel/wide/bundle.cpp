@@ -166,7 +166,8 @@ class BundleTrace {
         t_.scratch.intervals.row[row + 1][packet] = largest(v);
     }
 
-    /// One candidate: in every motion segment in which some ray looks.
+    /// One candidate: in all motion segments from that of the first ray time of the bundle to that of the
+    /// last.
     void visit_grid(const Candidate& candidate) {
         const WideGrid& grid = t_.tree.grid(candidate.grid);
         if constexpr (kHasSharpPackets && !kLens && !kMotion) {

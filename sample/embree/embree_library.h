@@ -14,7 +14,9 @@ namespace trapeze {
 
 enum class EmbreeQuality { Low, Medium, High };
 
-/// How many rays Embree is given at once.
+/// How rays are handed to Embree: one at a time, in packets of 8 or 16 that its kernels trace together, or in
+/// streams of any number, which it makes packets of itself. Fastest: what was measured to be the fastest with
+/// the geometry and the motion at hand.
 enum class EmbreeMode { Fastest, Single, Packet8, Packet16, Stream };
 
 struct EmbreeChoices {

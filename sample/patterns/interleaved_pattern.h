@@ -1,7 +1,7 @@
 /// The samples of INTERLEAVEUVT [Fatahalian09, as Hou10 sec. 5 describes it]: without jitter, from one set of
 /// tuples (place in the pixel, lens point, time) for the whole picture. The set is k * k groups of as many
-/// tuples as a pixel has samples; the pixels of a tile of k x k have a group each, which one, a hash of the
-/// tile says, so that the repetition is hard to see.
+/// tuples as a pixel has samples. Each pixel of a tile of k x k has one of the groups. A hash of the tile
+/// says which pixel has which, so that the repetition is hard to see.
 ///
 /// Groups are stratified as far as their number of tuples goes, in place, lens and time each, and all tuples
 /// together as far as theirs does. Within regions they are spread as in correlated multi-jittering

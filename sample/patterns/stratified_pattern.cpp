@@ -33,7 +33,8 @@ StratifiedPattern::StratifiedPattern(const RenderContext& context)
       lens_of_(lens_permutation(nx_, ny_, context.seed)),
       time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)),
       regions_(nx_, ny_, camera_.has_lens(), motion_, lens_of_, time_of_) {
-    // Hider "jitter" 0: depth maps want the depths at the middles of pixels.
+    // Hider "jitter" 0: samples lie at the middles of their regions of the pixel. Depth maps of one sample
+    // a pixel want the depths at the middles of pixels.
     regions_.jittered = !context.scene || context.scene->options.hider_parameters.float_or("jitter", 1) != 0;
 }
 

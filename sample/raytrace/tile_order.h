@@ -12,7 +12,7 @@
 
 namespace trapeze {
 
-/// An order of a tile's samples that may serve again.
+/// An order of a tile's samples. It serves again for tiles of the same kind and owner.
 struct KnownOrder {
     const void* owner = nullptr;  ///< who made it
     std::array<int, 6> kind{};    ///< for what tiles, how sorted

@@ -2,12 +2,13 @@
 /// foreshortened (Attribute "dice" "rasterorient" 1, PRMan's default), or as if it were seen square on (0)
 /// [decision 0014].
 ///
-/// Foreshortening is not trusted where what is seen edge-on now may be seen from its side as well: pieces
-/// that turn to the viewer while the shutter is open or to other places of the lens count as long as they are
-/// there, and curved ones are diced so finely that silhouettes are smooth. None of this takes more than a
-/// quarter of the length seen square on, which is also what displaced surfaces (who knows where to), curves
-/// and points count with at the least, and what leads out of the view: long pieces that pass under the eye
-/// would be in the way of rays all over the picture.
+/// Foreshortening is not trusted where what is seen edge-on now may be seen from its side as well. Pieces
+/// that turn to the viewer while the shutter is open, or to other places of the lens, count as long as they
+/// are seen there. Curved pieces are diced so finely that silhouettes are smooth. What both ask for is at
+/// most a quarter of the length seen square on.
+///
+/// Displaced surfaces (they may go anywhere), curves, points, and what leads out of the view count at least a
+/// quarter: long pieces that pass under the eye would be in the way of rays all over the picture.
 #pragma once
 
 #include <span>

@@ -151,7 +151,8 @@ float PointsSurface::factor(int point, const Camera* camera) const {
     // Beyond eight segments a side the polygon is as good as its circle.
     if (chords > kMostSides) return 1;
     float best = 0, best_error = kFits;  // else a square of more than one micropolygon
-    // A polygon of 4 * side corners that is diced into just so many and is as large as the circle.
+    // For each number of segments a side, the polygon of 4 * side corners that has the area of the circle, as
+    // far as it is diced into that number.
     for (int side = 1; side <= kMostSides; ++side) {
         // Clamped to what is diced into `side` segments: more than side - 1 and at most side of them.
         const float wanted = polygon_factor(4 * side), sides = static_cast<float>(side);

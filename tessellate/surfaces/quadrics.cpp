@@ -241,7 +241,8 @@ void QuadricSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, 
     const float dv = 1 / static_cast<float>(faces_.rows);
     for (size_t i = 0; i < uv.size(); ++i) {
         const V2f at = faces_.surface_uv(face, uv[i]);
-        // The profile turned about z; RISpec's derivatives by the face's u and v, hence du and dv.
+        // The profile turned about z. Derivatives are by the parameters of the face, of which the surface has
+        // several along u and v: by the chain rule, RISpec's times du and dv.
         const float theta = at.x * profile.theta_max;
         const float c = std::cos(theta), s = std::sin(theta);
         const ProfilePoint p = profile.at(at.y);

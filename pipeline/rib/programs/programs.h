@@ -20,9 +20,9 @@ class Programs {
 
     using Command = std::vector<std::string>;
 
-    /// Sends a request to the program of that command (no shell), which is
-    /// started at its first; its name is looked for in the folders, then in PATH. A program that does not
-    /// answer within the limits is ended, with all that it has started in its group, and asked no more.
+    /// Sends a request to the program of a command (no shell). The first request starts the program; its name
+    /// is looked for in the folders, then in PATH. A program that does not answer within the limits is ended,
+    /// with all that it has started in its group, and is asked no more.
     ProgramAnswer ask(const Command& command, const std::string& request,
                       const std::vector<std::string>& folders, const AnswerLimits& limits);
 

@@ -22,7 +22,7 @@ bool has_same_form(const RequestText& a, const RequestText& b) {
                       });
 }
 
-/// Whether the request moves at all between the two times.
+/// Whether the request is the same at two times: nothing moves between them.
 bool has_same_arguments(const RequestText& a, const RequestText& b) {
     return has_same_form(a, b) && std::equal(a.arguments.begin(), a.arguments.end(), b.arguments.begin(),
                                              [](const Argument& x, const Argument& y) {

@@ -64,8 +64,9 @@ class MotionCollector {
     /// One request that was held, given at some or all of the times, with its numbers as the shutter opens:
     /// between two times they are mixed. Says that they do not move where they should.
     RequestText as_shutter_opens(const std::vector<RequestText>& keys, const std::vector<float>& times);
-    /// Puts the block's transforms into the current transformation, or returns its primitive, made whole: of
-    /// wrong ones the first pose. Nothing where the block has none.
+    /// Puts the block's transforms into the current transformation, or returns its primitive. Where poses of
+    /// a primitive are missing or do not match, its first pose stands for all times. Nothing where the block
+    /// has no primitive.
     std::optional<MovingShape> resolve(MotionBlock block);
 
   private:

@@ -37,9 +37,10 @@ void format(RequestContext& r, ArgumentCursor& c) {
     require(width <= kLargestPicture && height <= kLargestPicture,
             "the picture is larger than 65536 pixels along a side");
     Options& o = changeable_options(r);
+    // RISpec: a resolution below 1 asks for the default; so does an aspect that is not positive.
     if (width >= 1) o.width = static_cast<int>(width);
     if (height >= 1) o.height = static_cast<int>(height);
-    if (aspect > 0) o.pixel_aspect = aspect;  // RISpec: values below 1 ask for the default
+    if (aspect > 0) o.pixel_aspect = aspect;
 }
 
 /// FrameAspectRatio width/height of the picture; without it that of Format.

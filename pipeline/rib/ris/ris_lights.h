@@ -26,7 +26,7 @@ std::vector<std::shared_ptr<const LightInstance>> ris_lights(const std::string& 
 bool is_mesh_light(std::string_view shader, bool is_area_light);
 std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
                                           const RisParameters& parameters);
-/// Gives a mesh light the shape that it shines from, in the space that camera_from_shape is from.
+/// Gives a mesh light the shape that it shines from, whose points are in shape space.
 void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape);
 
 /// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. The first is

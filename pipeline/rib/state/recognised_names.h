@@ -15,8 +15,8 @@ struct RecognisedNames {
 };
 RecognisedNames recognised_names();
 
-/// Attributes that say how to get what this renderer's pictures have in any case, or that save work it does
-/// not do.
+/// Attributes of other renderers that tune quality or speed where this renderer has nothing to tune: pictures
+/// are right without them.
 struct UnneededAttribute {
     std::string_view category, name, why;
 };

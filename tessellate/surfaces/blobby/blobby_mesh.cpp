@@ -16,7 +16,7 @@ bool is_inside(float value) {
     return value > kBlobbyThreshold;
 }
 
-/// A cell of a block.
+/// A cell of the octree, as a key of maps: the number of its block, and its own in the block, x fastest.
 struct CellName {
     int block = -1, cell = 0;
 

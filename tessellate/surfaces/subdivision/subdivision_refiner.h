@@ -27,7 +27,7 @@ struct SubdivisionTags {
     std::vector<Crease> creases;
     std::vector<Corner> corners;
     OpenSubdiv::Sdc::Options options;
-    /// Variables of class facevarying are bilinear on each face: what no tag means, too.
+    /// Variables of class facevarying are bilinear on each face. This is also the default without a tag.
     bool linear_face_varying = true;
 };
 
