@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "pipeline/cli/pages/pages.h"
 #include "pipeline/cli/support/command_options.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/modern_spelling.h"
@@ -127,6 +128,15 @@ int usage_error(const std::string& text, const std::vector<std::string>& words) 
     return kExitUsage;
 }
 
+/// Prints a manual page or completions, or says why not.
+int print_page(const CLI::App& app, const std::vector<std::string>& words) {
+    std::string problem;
+    const std::string page = page_for(words, app, kVersion, &problem);
+    if (!problem.empty()) return usage_error(problem, words);
+    print_text(page);
+    return kExitOk;
+}
+
 }  // namespace
 
 bool is_command(std::string_view name) {
@@ -154,6 +164,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
 
     arguments.words.assign(argv + 1, argv + argc);
     const std::vector<std::string> words = modern_spelling(arguments.words);
+    if (asks_for_page(arguments.words)) return print_page(app, arguments.words);
     if (argc > 2 && std::string_view(argv[1]) == "help" && !is_command(argv[2]))
         return usage_error("there is no command \"" + std::string(argv[2]) + "\"", words);
     try {
