@@ -1,7 +1,7 @@
 /// Manual pages and completions: all that --help names is in them, and who reads them has no complaint.
 #include <regex>
 
-#include "tests/command_line.h"
+#include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
 namespace {
