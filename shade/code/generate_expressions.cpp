@@ -117,6 +117,7 @@ RegisterId Generator::moved(RegisterId from, Base base, std::optional<RegisterId
     return compute(Op::Move, base, {from}, into);
 }
 
+/// A number's register is shared; Op::Move spreads it over a triple or matrix when `into` is one.
 RegisterId Generator::number_value(const Expression& e, std::optional<RegisterId> into) {
     return moved(constant(e.number), e.type.base, into);
 }
@@ -125,6 +126,7 @@ RegisterId Generator::number_value(const Expression& e, std::optional<RegisterId
 RegisterId Generator::combined(Operator op, Base base, RegisterId a, RegisterId b,
                                std::optional<RegisterId> into) {
     if (op == Operator::Add && base == Base::String) return compute(Op::Concat, base, {a, b}, into);
+    // Relies on the order of enum Operator: Less, LessEqual, Greater, GreaterEqual stand together.
     const bool ordered = op >= Operator::Less && op <= Operator::GreaterEqual;
     if (!ordered || width_of(base_of(a)) != 3) return compute(arithmetic_op(op, base), base, {a, b}, into);
     // Triples are ordered when all their components are.
@@ -139,6 +141,7 @@ RegisterId Generator::combined(Operator op, Base base, RegisterId a, RegisterId 
     return all;
 }
 
+/// The left operand first. && and || compute both sides, too: in a grid, leaving one out would part lanes.
 RegisterId Generator::binary_value(const Expression& e, std::optional<RegisterId> into) {
     const RegisterId a = value(*e.children[0]), b = value(*e.children[1]);
     return combined(e.op, e.type.base, a, b, into);
@@ -153,6 +156,7 @@ RegisterId Generator::conditional_value(const Expression& e, std::optional<Regis
         const RegisterId a = value(*e.children[1]), b = value(*e.children[2]);
         return compute(Op::Select, e.type.base, {decision, a, b}, into);
     }
+    // A Local, since both halves write it: temporaries are written once.
     const RegisterId result = add_register(Register::Kind::Local, e.type);
     open(Op::If, {}, {decision});
     moved(value(*e.children[1]), e.type.base, result);
@@ -177,6 +181,7 @@ RegisterId Generator::cast_value(const Expression& e, std::optional<RegisterId> 
         return compute(transform_op(to), to, {matrix, a}, into);
     }
     if (from == Base::Bool && to != Base::Bool) {
+        // A Bool is a lane mask, whose bits are no number: ToFloat makes 1 or 0 of it.
         const RegisterId number =
             compute(Op::ToFloat, Base::Float, {a}, to == Base::Float ? into : std::nullopt);
         return to == Base::Float ? number : compute(Op::Move, to, {number}, into);

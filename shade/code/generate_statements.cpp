@@ -33,6 +33,7 @@ bool assigned_in(const Expression& e, const Variable& variable) {
 
 }  // namespace
 
+/// A return that is the last statement, also within a last block, is not early: control ends there anyway.
 bool contains_early_return(const Statement& body) {
     if (body.kind != Statement::Kind::Block)
         return contains_return(body) && body.kind != Statement::Kind::Return;
@@ -61,11 +62,13 @@ bool assigns(const Statement& s, const Variable& variable) {
     return false;
 }
 
+/// Appends the code of one statement. Of an Empty that stands for a nested function nothing is left.
 void Generator::statement(const Statement& s) {
     if (s.at.line) at_ = s.at;
     switch (s.kind) {
         case Statement::Kind::Block:
             for (const StatementPtr& child : s.children) {
+                // Before the statement that declares them, so that they are 0 where it is not run.
                 if (!s.open) declare_outliving(*child);
                 statement(*child);
             }
@@ -155,6 +158,7 @@ void Generator::initialise(RegisterId id, const Expression& initial) {
     for (int i = 0; i < type.length; ++i) emit(Op::SetElement, {id}, {constant(static_cast<float>(i)), all});
 }
 
+/// A register with a lane mask in place of a number: all bits where the value is true.
 RegisterId Generator::condition(const Expression& e) {
     const RegisterId id = value(e);
     return base_of(id) == Base::Bool ? id : compute(Op::ToBool, Base::Bool, {id});
@@ -198,6 +202,7 @@ void Generator::light_block(const Statement& s) {
         op = Op::Illuminance, end = Op::EndIlluminance;
         global("N", Base::Normal);  // lights may ask for it
         outputs.push_back(global("Cl", Base::Color));
+        // The operation always has a category; without one it is empty, which means all lights.
         if (s.expressions[0]->type.base != Base::String) inputs.push_back(constant_text(""));
     } else {
         program_->directional = true;
@@ -209,6 +214,7 @@ void Generator::light_block(const Statement& s) {
     // Light from all sides comes from where the surface looks.
     if (op == Op::Solar && inputs.empty()) inputs.push_back(global("Ns", Base::Normal));
     if (op == Op::Illuminate) inputs.insert(inputs.begin(), global("Ps", Base::Point));
+    // keep_inputs() may insert copies in front of it, when all of the body is known.
     const size_t opening = code_->size();
     open(op, outputs, inputs);
     statement(*s.children[0]);
@@ -245,6 +251,7 @@ void Generator::gather_statement(const Statement& s) {
     for (const ExpressionPtr& e : s.expressions) inputs.push_back(value(*e));
     open(Op::Gather, {}, inputs);
     statement(*s.children[0]);
+    // As in turn_to_else(): the second half is a region of its own.
     region_ = open_regions_.back();
     emit(Op::GatherElse, {}, {});
     region_ = ++last_region_;

@@ -100,17 +100,17 @@ class Generator {
     const Shader& shader_;
     Diagnostics& diagnostics_;
     std::unique_ptr<Program> program_;
-    Code* code_ = nullptr;  ///< where instructions go
-    size_t instruction_count_ = 0;
-    SourceLocation at_;
+    Code* code_ = nullptr;          ///< where instructions go
+    size_t instruction_count_ = 0;  ///< in all pieces of code, for kMaxInstructions
+    SourceLocation at_;             ///< of what is being translated; goes into each instruction
     uint32_t region_ = 0, last_region_ = 0;
-    std::vector<uint32_t> open_regions_;
-    std::unordered_map<const Variable*, RegisterId> locals_;
+    std::vector<uint32_t> open_regions_;                      ///< regions around region_, the outermost first
+    std::unordered_map<const Variable*, RegisterId> locals_;  ///< of locals and functions' parameters now
     std::map<std::string, RegisterId, std::less<>> by_name_;  ///< globals and parameters
     std::map<float, RegisterId> numbers_;
     std::map<std::string, RegisterId> texts_;
     int call_depth_ = 0;
-    int32_t random_calls_ = 0;
+    int32_t random_calls_ = 0;  ///< numbers the calls of random(), so that no two give the same
     /// Of the function (or shader) whose body is being generated.
     struct Body {
         std::optional<RegisterId> result;

@@ -43,12 +43,14 @@ class Inference {
         return r.kind != Register::Kind::Temporary && r.region != instruction.region;
     }
 
+    /// Whether some lanes may not be running at an instruction.
     bool in_varying_block(size_t i) const {
         for (size_t b = blocks_.around[i]; b != Blocks::kNone; b = blocks_.around[b])
             if (code_[b].varying) return true;
         return false;
     }
 
+    /// Flags only ever go from false to true, so that passes come to an end.
     void set(bool& flag) {
         if (flag) return;
         flag = true;
@@ -71,6 +73,7 @@ class Inference {
         }
     }
 
+    /// What one instruction says of its block, its outputs and itself.
     void visit(size_t i) {
         Instruction& instruction = code_[i];
         bool any = is_varying_by_itself(instruction.op);
@@ -80,6 +83,7 @@ class Inference {
             case Op::If:
                 if (any) set(instruction.varying);
                 return;
+            // The loop around it parts lanes: some leave it in this turn and others go on.
             case Op::LoopTest:
                 if (any) set(code_[blocks_.around[i]].varying);
                 return;

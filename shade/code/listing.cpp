@@ -51,6 +51,7 @@ bool stands_out(Op op) {
 void list_code(const Program& program, const Code& code, int indent, std::string& out) {
     for (const Instruction& instruction : code) {
         if (closes_block(instruction.op)) --indent;
+        // Ends and middles of blocks stand as far out as the openings.
         const int here = stands_out(instruction.op) ? indent - 1 : indent;
         out.append(static_cast<size_t>(std::max(here, 0)) * 4, ' ');
         for (size_t k = 0; k < instruction.outputs; ++k) {

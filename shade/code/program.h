@@ -16,6 +16,7 @@
 
 namespace trapeze::rsl {
 
+/// Index into Program::registers.
 using RegisterId = uint32_t;
 
 /// A value with a name or without one. It may be written by several instructions, unless it is a temporary:
@@ -53,6 +54,7 @@ struct Instruction {
     std::vector<RegisterId> operands;  ///< outputs first
     SourceLocation at;
 
+    /// Operands are outputs and then inputs, in the order of the operation's row in op_table.def.
     RegisterId output(size_t i = 0) const { return operands[i]; }
     size_t input_count() const { return operands.size() - outputs; }
     RegisterId input(size_t i) const { return operands[outputs + i]; }
@@ -88,7 +90,7 @@ struct Program {
             if (registers[globals[i]].name == global) return &globals[i];
         return nullptr;
     }
-    std::vector<RegisterId> globals;
+    std::vector<RegisterId> globals;  ///< registers of kind Global, each name once
 };
 
 /// Text of a program, an instruction a line, for people.

@@ -13,6 +13,8 @@ class Pruner {
   public:
     explicit Pruner(Program& program) : program_(program), reads_(program.registers.size(), 0) {}
 
+    /// Each of the three removals may make work for the others. Defaults can only lose what is unread: blocks
+    /// in them are left as they are.
     void run() {
         for (ProgramParameter& parameter : program_.parameters) count_reads(parameter.initial);
         count_reads(program_.code);
@@ -65,6 +67,7 @@ class Pruner {
         return changed;
     }
 
+    /// Pure instructions whose outputs nobody reads.
     bool remove_unread(Code& code) {
         std::vector<bool> gone(code.size(), false);
         // Backwards, so that what fed an unread instruction goes in the same pass.
@@ -81,6 +84,7 @@ class Pruner {
     /// A variable set twice, with nothing in between that reads it or jumps.
     bool remove_overwritten(Code& code) {
         std::vector<bool> gone(code.size(), false);
+        // For each local, the instruction that set it last, while nothing has read it since.
         std::map<RegisterId, size_t> pending;
         for (size_t i = 0; i < code.size(); ++i) {
             const Instruction& instruction = code[i];
@@ -91,6 +95,7 @@ class Pruner {
             for (size_t k = 0; k < instruction.input_count(); ++k) pending.erase(instruction.input(k));
             for (size_t k = 0; k < instruction.outputs; ++k) {
                 const RegisterId id = instruction.operands[k];
+                // SetElement and its like leave part of the old value, and so read it.
                 const bool whole =
                     !keeps_output(instruction.op) && program_.reg(id).kind == Register::Kind::Local;
                 const auto before = pending.find(id);

@@ -13,6 +13,7 @@
 namespace trapeze::rsl {
 namespace {
 
+// Each call is compared with all of them.
 constexpr size_t kMostOverloads = 32;  // written functions of one name
 
 std::string in_quotes(std::string_view name) {
@@ -49,6 +50,7 @@ void Analyser::run() {
         if (same_name.size() > kMostOverloads)
             return error(function->at, "too many functions are called " + in_quotes(function->name));
     }
+    // Two shaders of one name: a scene could not say which it means.
     std::set<std::string_view> names;
     for (const auto& shader : unit_.shaders) {
         if (reporter_.full()) return;
@@ -78,6 +80,7 @@ void Analyser::analyse_shader(Shader& shader) {
     for (const auto& parameter : shader.parameters) {
         check_array(*parameter);
         if (parameter->external) error(parameter->at, "a shader's parameter cannot be extern");
+        // Parameters come from the scene, once for all vertices, unless they say otherwise.
         if (parameter->storage == Storage::Unspecified) parameter->storage = Storage::Uniform;
         initial_value(*parameter);
         declare(*parameter);
@@ -118,10 +121,12 @@ Analyser::Instance* Analyser::instance_of(const Function& original, bool nested,
     } else {
         file_instances_[&original] = &instance;
     }
-    // What is analysed now has to wait.
+    // What is analysed now has to wait: a call is met in the middle of an expression, whose choices are put
+    // aside while the function's own expressions are walked.
     auto choices = std::move(choices_);
     const Expression* channel = std::exchange(channel_, nullptr);
     const int height = std::exchange(height_, 0);
+    // The tree's height as code generation will meet it, with the function in place of its call.
     const int entered = body().depth + height;
     depth_ += entered;
     choices_.clear();
@@ -182,6 +187,7 @@ void Analyser::copy_written_parameters(Function& function) {
         local->storage = parameter->storage;
         local->at = parameter->at;
         replace_variable(*function.body, parameter.get(), local.get());
+        // Functions nested in this one may name its parameter, and mean the local now.
         for (const Instance& other : instances_)
             if (other.complete && other.function->inside == function.name)
                 replace_variable(*other.function->body, parameter.get(), local.get());
@@ -226,6 +232,7 @@ void Analyser::check_array(Variable& variable) {
             variable.type.length = 1;
         }
     }
+    // Strings have no floats, yet each costs something.
     const uint64_t floats = static_cast<uint64_t>(variable.type.length) *
                             static_cast<uint64_t>(std::max(width_of(variable.type.base), 1));
     if (floats > kMostArrayFloats)
@@ -304,7 +311,9 @@ Variable* Analyser::find_variable(std::string_view name) {
     return nullptr;
 }
 
-/// Of a nested function, what encloses it; of another, the shader's parameters and outermost variables.
+/// What body `number` sees outside itself. Of a nested function: what encloses it, body by body. Of another:
+/// the shader's parameters and outermost variables, which are the first two scopes; what the callers in
+/// between declare is not seen.
 Variable* Analyser::find_outside(std::string_view name, size_t number) {
     const Body& inner = bodies_[number];
     if (number == 0) return nullptr;

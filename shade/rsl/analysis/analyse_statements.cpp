@@ -7,7 +7,8 @@
 
 namespace trapeze::rsl {
 
-/// Both walks over one expression: see analyser.h. What they learn of it is of no use afterwards.
+/// Both walks over one expression: see analyser.h. What they learn of it is of no use afterwards. `wanted`
+/// is the type that it is converted to; Void lets it have its own.
 void Analyser::value(ExpressionPtr& e, Base wanted) {
     choices_.clear();
     height_ = e->height;
@@ -22,6 +23,7 @@ void Analyser::value(ExpressionPtr& e, Base wanted) {
 /// have it, unless the name already means something there.
 void Analyser::scoped(StatementPtr& s) {
     if (s->kind == Statement::Kind::Declare) declare_again(s);
+    // Only names that mean nothing yet live on; otherwise code behind would change its meaning.
     const bool declares =
         s->kind == Statement::Kind::Declare && std::ranges::none_of(s->variables, [&](const auto& v) {
             return v->external || find_variable(v->name) || find_global(shader_->kind, v->name);
@@ -104,6 +106,7 @@ void Analyser::statement(StatementPtr& s) {
     --body().depth;
 }
 
+/// Statements in order. A block that the parser made without braces is open: its names belong outside.
 void Analyser::block(Statement& s) {
     if (!s.open) scopes_.emplace_back();
     for (StatementPtr& child : s.children) statement(child);
@@ -127,11 +130,13 @@ void Analyser::declaration(Statement& s) {
     s.variables = std::move(kept);
 }
 
+/// while and for: expression 0 and 1 are the conditions, the others are run for what they do.
 void Analyser::loop(Statement& s) {
     for (size_t i = 0; i < s.expressions.size(); ++i) {
         const bool is_condition = s.kind == Statement::Kind::While || i == 1;
         if (s.expressions[i]) value(s.expressions[i], is_condition ? Base::Bool : Base::Void);
     }
+    // Counted for break and continue, which name loops by their number.
     ++body().loops;
     scoped(s.children[0]);
     --body().loops;
@@ -184,6 +189,7 @@ void Analyser::light_loop(Statement& s) {
     } else {
         for (size_t i = 0; i < given; ++i) value(s.expressions[i], wanted[i]);
     }
+    // The statement's body reads or sets these, named in the source or not.
     global("L");
     global(illuminance ? "Cl" : "Ps");
     body().loops += illuminance ? 1 : 0;
@@ -235,6 +241,7 @@ void Analyser::return_statement(Statement& s) {
         return;
     }
     if (result != Base::Void) return value(s.expressions[0], result);
+    // An error, but the value is analysed all the same, for what else is wrong with it.
     value(s.expressions[0], Base::Void);
     error(s.at,
           body().instance ? "this function returns nothing: its type is void" : "a shader returns no value");

@@ -12,7 +12,7 @@ namespace trapeze::rsl {
 namespace {
 
 /// Overloads that are listed where none fits.
-constexpr size_t kMostCandidatesShown = 8;
+constexpr size_t kMostCandidatesShown = 8;  // some names have dozens
 
 // Of later renderers; known to be missing here.
 constexpr std::string_view kNotSupported[] = {"blinn", "cosinelight_rate", "getlights", "hair", "push",
@@ -164,6 +164,7 @@ void Analyser::explain(std::vector<Signature> all, const Expression& call) {
         }
     }
     std::string given;
+    // Several fit by their number, or none: the arguments' types and the overloads are shown side by side.
     for (const ExpressionPtr& argument : call.children)
         given += (given.empty() ? "" : ", ") +
                  (argument->type.is_array() ? print(argument->type) : choices_of(*argument).text());
@@ -227,6 +228,7 @@ void Analyser::choose_argument(Expression& call, size_t i, const Signature& sign
 
 /// Finds or makes this shader's copy of a written function.
 void Analyser::enter_function(Expression& call, const Function& function) {
+    // A nested function was copied where it was declared, one of the file is copied at its first call.
     const auto nested = instance_of_copy_.find(&function);
     const auto known = file_instances_.find(&function);
     Instance* instance = nested != instance_of_copy_.end() ? nested->second
@@ -238,6 +240,7 @@ void Analyser::enter_function(Expression& call, const Function& function) {
         return;
     }
     call.function = instance->function.get();
+    // All of the function is inlined in place of this call.
     body().operations += instance->operations;
     body().array_floats += instance->array_floats;
     body().deepest = std::max(body().deepest, body().depth + call.height + instance->depth);

@@ -9,11 +9,13 @@ namespace trapeze::rsl {
 void Analyser::choose_type(ExpressionPtr& e, Base wanted) {
     const Choices choices = choices_of(*e);
     if (choices.is_unknown()) return;
+    // An array as a whole has no choice of types: it goes where arrays are taken, and nowhere else.
     if (e->type.is_array() && choices.none()) {
         if (e->kind == Expression::Kind::Assignment) choose_array_assignment(*e);
         if (wanted != Base::Void) error(e->at, "this is an array; one of its elements is wanted here");
         return;
     }
+    // A colour where a vector is wanted, or the reverse, is no conversion of the language; shaders do it.
     auto base = choices.best_for(wanted);
     if (!base && (base = choices.foreign_triple_for(wanted)))
         reporter_.warning(e->at, "a " + std::string(name_of(*base)) + " becomes a " +
@@ -59,6 +61,7 @@ void Analyser::give_type(Expression& e, Base base) {
         case Expression::Kind::Variable:
         case Expression::Kind::List:
             break;
+        // The array has its type from its declaration; a texture's name with a channel is a text.
         case Expression::Kind::Element:
             choose_type(e.children[1], Base::Float);
             if (e.children[0]->kind != Expression::Kind::Variable) choose_type(e.children[0], Base::Void);

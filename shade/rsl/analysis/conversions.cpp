@@ -5,8 +5,11 @@
 namespace trapeze::rsl {
 namespace {
 
-// What choices cost. Only their order matters: taking a point for a vector is nothing, filling a triple with
-// a float is worse than choosing an overload that gives the triple.
+// What choices cost. Only their order matters: taking a normal for a vector is almost nothing, filling a
+// triple with a float is worse than choosing an overload that gives the triple. kSameFamily: among vectors
+// and normals; kUnusual: where a point is involved; kTruth: between a condition and a float; kFill: a float
+// becomes all three components; kFillMatrix: a float becomes the diagonal; kOdd: operators on triples that
+// are seldom meant (products of vectors, which is greater).
 constexpr int kSameFamily = 1, kUnusual = 2, kTruth = 3, kFill = 4, kFillMatrix = 5, kOdd = 6;
 
 bool is_geometric(Base base) {
@@ -22,6 +25,7 @@ std::optional<OperatorPlan> plan_sum(Operator op, Base a, Base b) {
     if (is_triple(a) && b == Base::Float) return OperatorPlan{a, a, b, kFill};
     if (!is_triple(a) || !same_family(a, b)) return {};
     if (a == Base::Color) return OperatorPlan{a, a, b, 0};
+    // The affine rules: differences of points are vectors; a vector minus a point is one, too, but unusual.
     const bool point_a = a == Base::Point, point_b = b == Base::Point;
     if (op == Operator::Subtract && point_a == point_b && a != Base::Normal)
         return OperatorPlan{Base::Vector, a, b, 0};
@@ -161,6 +165,7 @@ std::optional<Base> Choices::foreign_triple_for(Base to) const {
     return best;
 }
 
+/// The cheapest choices alone: the types that the source itself gives, before conversions.
 std::string Choices::text() const {
     int least = kNever;
     for (const Base base : kAllBases) least = std::min(least, cost(base));

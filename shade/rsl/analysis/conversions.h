@@ -15,6 +15,7 @@ namespace trapeze::rsl {
 inline constexpr Base kAllBases[] = {Base::Float,  Base::Color,  Base::Point, Base::Vector, Base::Normal,
                                      Base::Matrix, Base::String, Base::Bool,  Base::Void};
 
+/// Colours, points, vectors and normals: what has three floats.
 bool is_triple(Base base);
 /// Points, vectors and normals among each other; otherwise equal types.
 bool same_family(Base a, Base b);
@@ -23,6 +24,7 @@ bool same_family(Base a, Base b);
 /// conversions within it that the source does not name.
 class Choices {
   public:
+    /// A cost that no sum of conversions reaches, and of which a few can be added without running over.
     static constexpr int kNever = 1 << 28;
 
     Choices() { costs_.fill(kNever); }
@@ -34,6 +36,7 @@ class Choices {
         return choices;
     }
 
+    /// Adds a way to a type; of several the cheapest stays.
     void offer(Base base, int cost) {
         int& entry = costs_[static_cast<size_t>(base)];
         entry = std::min(entry, cost);
@@ -53,7 +56,7 @@ class Choices {
     std::string text() const;
 
   private:
-    std::array<int, 9> costs_;
+    std::array<int, 9> costs_;  ///< by Base; kNever where it cannot have the type
     bool unknown_ = false;
 };
 

@@ -76,6 +76,7 @@ constexpr GlobalVariable kImager[] = {
 
 }  // namespace
 
+/// The tables live as long as the program, so that variables may view their names.
 std::span<const GlobalVariable> global_variables(ShaderKind kind) {
     switch (kind) {
         case ShaderKind::Surface:

@@ -40,6 +40,8 @@ Choices Analyser::possible_types_once(Expression& e) {
     return known != choices_.end() ? known->second : possible_types(e);
 }
 
+/// One kind of expression each. What has no fitting type is reported here, once, and is unknown from then on,
+/// so that nothing around it is reported for the same reason.
 Choices Analyser::possible_types_within(Expression& e) {
     switch (e.kind) {
         case Expression::Kind::Number:
@@ -54,6 +56,7 @@ Choices Analyser::possible_types_within(Expression& e) {
             const Choices operand = possible_types(*e.children[0]);
             Choices choices;
             if (operand.is_unknown()) return operand;
+            // ! wants truth; - keeps triples and matrices what they are, and makes truth a float.
             if (e.op == Operator::Not) {
                 choices.offer(Base::Bool, operand.cost_to(Base::Bool));
             } else {
@@ -116,6 +119,7 @@ bool Analyser::is_component(const Expression& e) const {
 /// before a texture call is the name with a channel.
 Choices Analyser::element_types(Expression& e) {
     Expression& of = *e.children[0];
+    // m[i][j]: two Elements around a matrix become one call with two indices.
     if (of.kind == Expression::Kind::Element && of.children[0]->kind == Expression::Kind::Variable) {
         const Choices matrix = possible_types(*of.children[0]);
         if (!of.children[0]->type.is_array() && !matrix.is_unknown() && matrix.has(Base::Matrix)) {
@@ -158,6 +162,7 @@ void Analyser::check_index(const Expression& element) {
     const bool negative = index->kind == Expression::Kind::Unary && index->op == Operator::Negate;
     if (negative) index = index->children[0].get();
     if (index->kind != Expression::Kind::Number || length <= 0) return;
+    // Indices are rounded down, as the machine does.
     const double value = std::floor(negative ? -static_cast<double>(index->number) : index->number);
     if (value >= 0 && value < length) return;
     error(element.children[1]->at,
@@ -244,6 +249,7 @@ Choices Analyser::cast_types(Expression& e) {
     return Choices(base);
 }
 
+/// A variable or an element of one. Components have been turned into calls by then.
 bool Analyser::is_place(const Expression& e) const {
     return e.kind == Expression::Kind::Variable ||
            (e.kind == Expression::Kind::Element && e.children[0]->kind == Expression::Kind::Variable);
@@ -352,6 +358,7 @@ void Analyser::check_written(const Expression& place) {
             if (!variable->output && warned_.insert(variable).second)
                 reporter_.warning(place.at, "parameter " + name + " is assigned to, and is not output");
             break;
+        // Of this function or of one around it: that one makes a local of it (copy_written_parameters()).
         case Variable::Kind::FunctionParameter: {
             if (variable->output) break;
             if (variable->type.is_array()) {

@@ -10,6 +10,9 @@
 namespace trapeze::rsl {
 namespace {
 
+// Walks after which no more is found out and all that is assigned to becomes varying: right, only slower to
+// run. Each walk costs as much as the tree is large, and a chain of assignments written backwards through a
+// loop needs one for each of its links.
 constexpr int kMostPasses = 10;  // then all that may be varying is
 
 /// An answer to a question: found or not, and the value in an output argument. Answers are taken to be the
@@ -35,6 +38,7 @@ class Propagation {
     Propagation(Shader& shader, const std::vector<Function*>& functions, Reporter& reporter)
         : shader_(shader), functions_(functions), reporter_(reporter) {}
 
+    /// Until nothing changes, or kMostPasses. Variables only ever go from uniform to varying, so it ends.
     void run() {
         for (int pass = 0; pass < kMostPasses; ++pass) {
             changed_ = false;
@@ -53,6 +57,7 @@ class Propagation {
         bool called_apart = false;  ///< where not all vertices take part
     };
 
+    /// One walk over the shader and each function that it calls.
     void pass_over_all() {
         function_ = nullptr;
         depth_.clear();
@@ -66,6 +71,8 @@ class Propagation {
         }
     }
 
+    /// A body with an exit that only some vertices take is apart as a whole: behind the exit not all may run.
+    /// What it declares itself is declared apart, too, and so need not vary for that.
     void enter_body(Statement& body) {
         exits_apart_.clear();
         statement(body, find_exits(body).apart ? 1 : 0);
@@ -78,6 +85,8 @@ class Propagation {
         bool apart = false;  ///< one that only some vertices take
     };
 
+    /// What leaves the statement, from the leaves up. Statements with an exit that only some vertices take go
+    /// into exits_apart_: a loop among them goes on for the others, which makes its turns apart.
     Exits find_exits(const Statement& s) {
         Exits exits;
         const bool jump = s.kind == Statement::Kind::Break || s.kind == Statement::Kind::Continue ||
@@ -116,6 +125,8 @@ class Propagation {
         const bool loop = s.kind == Statement::Kind::While || s.kind == Statement::Kind::For;
         const bool inside = parts(s) || (loop && exits_apart_.contains(&s));
         const int within = apart + (inside ? 1 : 0);
+        // A loop's condition and step are run by the vertices that are still in it, a for's first part by
+        // all.
         for (size_t i = 0; i < s.expressions.size(); ++i) {
             const bool each_turn = loop && !(s.kind == Statement::Kind::For && i == 0);
             if (s.expressions[i]) expression(*s.expressions[i], each_turn ? within : apart);
@@ -127,12 +138,15 @@ class Propagation {
         for (const StatementPtr& child : s.children) statement(*child, within);
     }
 
+    /// What rays bring back differs from vertex to vertex: the values of "surface:Ci" and its like.
     void gather_outputs(const Statement& s, int apart) {
         for (size_t i = 6; i < s.expressions.size(); i += 2)
             if (s.expressions[i - 1]->text.find(':') != std::string::npos)
                 assign(*s.expressions[i], true, apart, false);
     }
 
+    /// A variable is at home where it is declared: only assignments in places that are further apart make it
+    /// varying. One that outlives its statement is at home outside.
     void declare(Variable& variable, int apart) {
         depth_[&variable] = variable.outlives ? 0 : apart;
         if (!variable.initial) return;
@@ -168,6 +182,8 @@ class Propagation {
         }
     }
 
+    /// Strings are always uniform. An unspecified local is varying, an unspecified parameter of a function
+    /// what its calls make it; those of output may be set to anything.
     bool varying(const Variable& variable) const {
         if (variable.type.base == Base::String) return false;
         if (variable.storage != Storage::Unspecified) return variable.storage == Storage::Varying;
@@ -175,6 +191,7 @@ class Propagation {
         return all_varying_ || variable.output || varying_parameters_.contains(&variable);
     }
 
+    /// All that assigns within the expression, the innermost first.
     void expression(const Expression& e, int apart) {
         for (const ExpressionPtr& child : e.children) expression(*child, apart);
         if (e.kind == Expression::Kind::Assignment)
@@ -185,6 +202,7 @@ class Propagation {
             builtin_outputs(e, apart);
     }
 
+    /// Arguments that a built-in function sets are varying when any that it reads is.
     void builtin_outputs(const Expression& e, int apart) {
         const Signature signature = signature_of(*e.builtin);
         bool given_varying = false;
@@ -196,6 +214,8 @@ class Propagation {
             if (signature.parameters[i].output) assign(*e.children[i], given_varying, apart, true);
     }
 
+    /// Arguments make parameters varying, and parameters that are output their arguments. A call that is
+    /// apart makes apart all that the function calls.
     void call(const Expression& e, int apart) {
         const bool outer_apart = function_ && facts_[function_].called_apart;
         note(facts_[e.function].called_apart, apart > 0 || outer_apart);
@@ -250,7 +270,7 @@ class Propagation {
     Reporter& reporter_;
     const Function* function_ = nullptr;  // whose body is looked at; null: the shader's
     std::unordered_map<const Function*, Facts> facts_;
-    std::unordered_map<const Variable*, int> depth_;
+    std::unordered_map<const Variable*, int> depth_;  // places where control had parted at the declaration
     std::unordered_set<const Variable*> varying_parameters_;
     std::unordered_set<const Statement*> exits_apart_;
     bool changed_ = false, all_varying_ = false;

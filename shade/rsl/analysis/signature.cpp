@@ -5,7 +5,8 @@
 namespace trapeze::rsl {
 namespace {
 
-/// A letter of Builtin::parameters, small or capital.
+/// A letter of Builtin::parameters, small or capital: setting bit 5 of an ASCII letter makes it small. Void
+/// for "w" and for all that is no type.
 Base base_of(char letter) {
     switch (letter | 32) {
         case 'f':
@@ -29,6 +30,7 @@ Base base_of(char letter) {
 
 }  // namespace
 
+/// Reads the row's letters from left to right; "[" changes the parameter before it. See Builtin for them.
 Signature signature_of(const Builtin& builtin) {
     Signature signature;
     signature.name = builtin.name;
@@ -63,6 +65,7 @@ Signature signature_of(const Function& function) {
     return signature;
 }
 
+/// As a reader of messages knows it: with "..." where more may follow.
 std::string print(const Signature& signature) {
     std::string text = print(signature.result) + " " + std::string(signature.name) + "(";
     const char* separator = "";

@@ -11,6 +11,8 @@ namespace trapeze::rsl {
 
 /// A function's result and parameters, in the form that the choice of overloads works with.
 struct Signature {
+    /// One parameter. `output`: the argument must be a place, and is set. With `any` or `any_array` the type
+    /// says nothing.
     struct Parameter {
         Type type;
         bool output = false;
@@ -20,6 +22,7 @@ struct Signature {
     std::string_view name;
     Type result;
     std::vector<Parameter> parameters;
+    /// At most one of these three is set; all are about arguments behind the parameters.
     bool more = false;      ///< further arguments are like the last
     bool pairs = false;     ///< pairs of a string and any value follow
     bool anything = false;  ///< any values follow
@@ -27,6 +30,8 @@ struct Signature {
     const Function* function = nullptr;
 };
 
+/// Views of the table's or the function's names: the function must live as long. One of `builtin` and
+/// `function` is set, and tells afterwards what the call means.
 Signature signature_of(const Builtin& builtin);
 Signature signature_of(const Function& function);
 /// "float pow(float, float)".

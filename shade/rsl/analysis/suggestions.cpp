@@ -10,7 +10,8 @@ namespace {
 constexpr size_t kLongest = 64;  // names compared
 
 /// Letters to insert, leave out, replace or exchange with the next, counting upper and lower case as one half
-/// of a change: twice the number of changes.
+/// of a change: twice the number of changes. The usual table by dynamic programming, of which only the last
+/// three rows are kept; now[j] is the distance of the first i letters of `a` and the first j of `b`.
 size_t distance(std::string_view a, std::string_view b) {
     const auto same = [](char x, char y) {
         return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
@@ -33,7 +34,7 @@ size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-// A third of the letters may differ, of very short names only the case.
+// A third of the letters may differ, at most three; of very short names only the case.
 Suggestion::Suggestion(std::string_view written)
     : written_(written), least_(written.size() < 3 ? 2 : std::min<size_t>(2 * (written.size() / 3) + 1, 7)) {}
 

@@ -15,9 +15,10 @@ class Suggestion {
     std::string text() const;
 
   private:
-    static constexpr int kMostConsidered = 1000;
+    static constexpr int kMostConsidered = 1000;  ///< distances worked out for one name
 
     std::string_view written_, best_;
+    /// Twice the number of changes, as distance() in the .cpp counts.
     size_t least_;  // the distance that is too far
     int considered_ = 0;
 };

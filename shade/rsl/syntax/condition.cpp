@@ -7,8 +7,9 @@ namespace trapeze::rsl {
 namespace {
 
 /// Parentheses and operators within each other: the evaluation recurses.
-constexpr int kDeepest = 200;
+constexpr int kDeepest = 200;  // far more than people write, little of a thread's stack
 
+/// Thrown after an error is reported; evaluate_condition() catches it.
 struct BadCondition {};
 
 /// A whole number as in C: decimal, octal, hexadecimal, and with U or L behind it.
@@ -47,6 +48,7 @@ class Condition {
     Condition(const std::vector<Token>& tokens, SourceLocation at, Reporter& reporter)
         : tokens_(tokens), at_(at), reporter_(reporter) {}
 
+    /// The value of all tokens; one that is left over is an error.
     int64_t whole() {
         const int64_t value = conditional();
         if (next_ < tokens_.size()) fail("this does not belong to the condition");
@@ -60,11 +62,13 @@ class Condition {
         return is;
     }
 
+    /// Reports at the next token or, behind the last, at the directive.
     [[noreturn]] void fail(const std::string& text) {
         reporter_.error(next_ < tokens_.size() ? tokens_[next_].at : at_, text);
         throw BadCondition();
     }
 
+    /// condition ? a : b. Both are parsed; only the one that is taken is judged.
     int64_t conditional() {
         if (++depth_ > kDeepest) fail("this condition nests too deeply");
         int64_t value = binary(1);
@@ -82,6 +86,7 @@ class Condition {
         return value;
     }
 
+    /// Operators that bind at least as tightly as `lowest`, left-associative.
     int64_t binary(int lowest) {
         int64_t left = unary();
         while (next_ < tokens_.size()) {
@@ -98,7 +103,9 @@ class Condition {
         return left;
     }
 
-    /// Sums wrap around.
+    /// One operator on two values of 64 bits. Sums, differences and products wrap around, a shift by 64 or
+    /// more leaves 0 or, to the right, the sign, and the one quotient that does not fit (the lowest number by
+    /// -1) wraps: no condition makes the compiler do what C++ leaves undefined.
     int64_t apply(const Token& mark, int64_t left, int64_t right) {
         const auto a = static_cast<uint64_t>(left), b = static_cast<uint64_t>(right);
         const std::string_view op = mark.text;
@@ -134,6 +141,7 @@ class Condition {
         return value;
     }
 
+    /// ! - + ~, parentheses, numbers, and names, which are no macros any more and count as 0.
     int64_t unary_within() {
         if (take("!")) return unary() == 0;
         if (take("-")) return static_cast<int64_t>(0 - static_cast<uint64_t>(unary()));

@@ -21,6 +21,7 @@ bool is_name_part(char c) {
     return is_name_start(c) || is_digit(c);
 }
 
+/// A text may begin with joined lines: the first token then stands in a later line than the first.
 Lexer::Lexer(const SourceText& text, uint32_t source, Reporter& reporter)
     : text_(text.text), joints_(text.joints), reporter_(reporter), source_(source) {
     while (next_joint_ < joints_.size() && joints_[next_joint_] == 0)
@@ -114,6 +115,7 @@ void Lexer::scan_number() {
     if (peek() == '.') advance();
     while (is_digit(peek())) advance();
     if (peek() == 'e' || peek() == 'E') {
+        // An e without digits behind it is no exponent, but the letter that follows the number.
         const size_t sign = peek(1) == '+' || peek(1) == '-' ? 1 : 0;
         if (is_digit(peek(1 + sign)))
             for (size_t i = 0; i < 1 + sign; ++i) advance();

@@ -35,7 +35,7 @@ class Lexer {
     void scan_mark();
 
     std::string_view text_;
-    const std::vector<size_t>& joints_;
+    const std::vector<size_t>& joints_;  ///< SourceText::joints; from next_joint_ on they lie ahead
     Reporter& reporter_;
     size_t position_ = 0, next_joint_ = 0;
     uint32_t source_, line_ = 1, column_ = 1, physical_line_ = 1;
@@ -45,6 +45,8 @@ class Lexer {
 /// The one token that the whole of `text` is, if it is one.
 bool is_one_token(std::string_view text, Token::Kind& kind);
 
+/// Letters of ASCII, digits (not first) and the underscore. Locales say nothing here: a shader means the same
+/// on every machine.
 bool is_name_start(char c);
 bool is_name_part(char c);
 

@@ -146,6 +146,7 @@ bool Expander::collect_arguments(const Token& name, const Macro& macro, Argument
         else
             arguments.back().push_back(token);
     }
+    // "f()" reads as one empty argument: none for a macro without parameters. "..." may be left out.
     if (wanted == 0 && arguments.size() == 1 && arguments[0].empty()) arguments.clear();
     if (macro.variadic && arguments.size() + 1 == wanted) arguments.emplace_back();
     if (arguments.size() == wanted) return true;
@@ -158,8 +159,10 @@ bool Expander::collect_arguments(const Token& name, const Macro& macro, Argument
 /// The macro's text with its arguments in place. Tokens of the text stand where the macro is used.
 std::vector<Token> Expander::substitute(const Token& name, const Macro& macro, const Arguments& arguments) {
     std::vector<Token> out;
+    // Arguments after expansion: each is expanded at most once, and not at all where # or ## takes it.
     std::vector<std::vector<Token>> cache(arguments.size());
     std::vector<bool> cached(arguments.size(), false);
+    // paste: a ## stands before this piece. left_empty: nothing stands to its left that could be pasted to.
     bool paste = false, left_empty = true;
     const std::vector<Token>& body = macro.body;
     for (size_t i = 0; i < body.size() && !budget_.exceeded; ++i) {

@@ -23,6 +23,7 @@ struct Macro {
     int disabled = 0;  ///< how many expansions of it are being read
 };
 
+/// The table of macros. Names are views of texts that the TokenStream keeps, tokens of bodies too.
 class Macros {
   public:
     /// Null for what is no macro. Shared, since a directive among a macro's arguments may remove it.
@@ -36,7 +37,9 @@ class Macros {
     std::unordered_map<std::string_view, std::shared_ptr<Macro>> table_;
 };
 
-/// How much expansion has cost in one compilation. Beyond its bounds everything ends.
+/// How much expansion has cost in one compilation. Macros that use macros can grow without end in a few
+/// lines of source; beyond these bounds all expansion ends, with one error. Shared by all expanders of a
+/// compilation, those of arguments and directives included.
 struct ExpansionBudget {
     static constexpr size_t kMostTokens = size_t{1} << 21;     ///< written by all expansions together
     static constexpr size_t kMostMadeBytes = size_t{1} << 25;  ///< by # and ##
@@ -63,6 +66,8 @@ class Expander {
     Token next();
 
   private:
+    /// A macro's text that is being read. The macro is disabled while it is on the stack, so that its name in
+    /// its own text stays as it is.
     struct Context {
         std::vector<Token> tokens;
         size_t position = 0;
@@ -70,6 +75,7 @@ class Expander {
     };
     using Arguments = std::vector<std::vector<Token>>;
 
+    /// The next token before expansion.
     Token pull();
     bool next_is_open_parenthesis();
     void leave_context();
@@ -85,7 +91,7 @@ class Expander {
     Read read_;
     Macros& macros_;
     ExpansionBudget& budget_;
-    std::deque<std::string>& made_;
+    std::deque<std::string>& made_;  ///< TokenStream::made
     Reporter& reporter_;
     std::vector<Context> contexts_;
     std::vector<Token> put_back_;  ///< read to see whether a parenthesis follows

@@ -122,7 +122,8 @@ ExpressionPtr Parser::unary() {
     return postfix();
 }
 
-/// type ["space"] operand, or as in C, (type) operand.
+/// type ["space"] operand, or as in C, (type) operand. Casts bind tighter than any binary operator: in
+/// "float a + b", a alone is converted.
 ExpressionPtr Parser::cast() {
     const Nesting nesting(*this);
     const bool parenthesised = accept("(");
@@ -130,6 +131,7 @@ ExpressionPtr Parser::cast() {
     if (parenthesised) take();
     ExpressionPtr e = make(Expression::Kind::Cast, word);
     e->type.base = base_named(word.text);
+    // color "hsv" (...), point "world" (...), matrix "shader" 1: floats and strings are in no space.
     const bool has_spaces = e->type.base != Base::Float && e->type.base != Base::String;
     if (has_spaces && now().kind == Token::Kind::Text) e->text = take().text;
     e->children.push_back(unary());
@@ -192,7 +194,7 @@ ExpressionPtr Parser::parentheses() {
     return finished(std::move(e));
 }
 
-/// "(" ... ")"
+/// "(" ... ")", of a call as of a parenthesis: a comma behind the last value is let pass.
 std::vector<ExpressionPtr> Parser::arguments() {
     std::vector<ExpressionPtr> values;
     expect("(", "before arguments");

@@ -28,11 +28,14 @@ StatementPtr Parser::block() {
     return block;
 }
 
+/// One statement of any kind, counted as one level of nesting.
 StatementPtr Parser::statement() {
     const Nesting nesting(*this);
     return statement_within();
 }
 
+/// The first word decides. Declarations and functions both begin with a type, as casts do, so what follows
+/// the type is looked at; whatever else comes is an expression.
 StatementPtr Parser::statement_within() {
     if (at("{")) return block();
     if (at(";")) return make(Statement::Kind::Empty, take());
@@ -149,6 +152,7 @@ StatementPtr Parser::for_statement() {
     StatementPtr around;
     expect("(", "after \"for\"");
     if (now().kind == Token::Kind::Name && at_declaration()) {
+        // Variables of the head have a scope of their own, that of this block.
         around = make(Statement::Kind::Block, tokens_[next_ - 1]);
         around->children.push_back(declaration());
         loop->expressions.push_back(nullptr);

@@ -8,6 +8,7 @@
 namespace trapeze::rsl {
 namespace {
 
+/// Nothing for other words. Kinds are no reserved words: what follows has to be looked at, too.
 std::optional<ShaderKind> shader_kind_named(std::string_view name) {
     for (int kind = 0; kind <= static_cast<int>(ShaderKind::Imager); ++kind)
         if (name_of(static_cast<ShaderKind>(kind)) == name) return static_cast<ShaderKind>(kind);
@@ -165,6 +166,7 @@ void Parser::definition() {
         return shader();
     if (at("transformation") && ahead(1).kind == Token::Kind::Name)
         fail(now(), "transformation shaders are not supported (no renderer ever had them)");
+    // Looks past the words and the type for "name (": a function; then begins again from them.
     const size_t before = next_;
     while (at_any({"uniform", "varying", "extern", "output"})) take();
     const size_t name = next_ + (base_named(now().text) != Base::Void || at("void") ? 1 : 0);

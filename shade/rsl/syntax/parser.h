@@ -37,18 +37,21 @@ class Parser {
     class Nesting;
 
     // Tokens.
+    /// The End is the last of tokens_ and is never passed, so that now() and ahead() always have a token.
     const Token& now() const { return tokens_[next_]; }
     const Token& ahead(size_t n) const { return tokens_[std::min(next_ + n, tokens_.size() - 1)]; }
     bool at(std::string_view text) const { return now().is(text); }
     bool at_any(std::initializer_list<std::string_view> texts) const;
     bool at_end() const { return now().kind == Token::Kind::End; }
     const Token& take();
+    /// accept() takes a token if it is the one named, expect() reports when it is not.
     bool accept(std::string_view text);
     void expect(std::string_view text, std::string_view where);
     std::string new_name(std::string_view what);
     size_t behind_parentheses(size_t open) const;
     [[noreturn]] void fail(const Token& token, std::string text);
     [[noreturn]] void fail_expecting(std::string_view what);
+    /// Where reading goes on after an error: both leave the End in place.
     void skip_statement();
     void skip_definition();
     void refuse_rsl2();
@@ -58,6 +61,7 @@ class Parser {
     void shader();
     void function(std::string inside);
     std::vector<std::unique_ptr<Variable>> formals(Variable::Kind kind);
+    /// at_...() look ahead and take nothing.
     bool at_specifier() const;
     Specifier specifier();
     std::unique_ptr<Variable> declarator(const Specifier& specifier, Variable::Kind kind);
@@ -83,6 +87,7 @@ class Parser {
     ExpressionPtr parenthesised_condition(std::string_view where);
 
     // Expressions.
+    /// From loosest to tightest: each function reads one level and calls the next.
     ExpressionPtr expression();
     ExpressionPtr conditional();
     ExpressionPtr binary(int lowest);
@@ -92,6 +97,7 @@ class Parser {
     ExpressionPtr primary();
     ExpressionPtr parentheses();
     std::vector<ExpressionPtr> arguments();
+    /// Every node is handed through this when its children are complete.
     ExpressionPtr finished(ExpressionPtr e);
 
     const std::vector<Token>& tokens_;

@@ -44,6 +44,7 @@ void FileReader::enter(const std::string& name, const std::string& path, std::st
     files_.push_back({path, name, from, source.as_written, Lexer(source, number, reporter_)});
 }
 
+/// Read as a line of a file of its own, so that it obeys the rules of #define and messages have a place.
 void FileReader::define_from_outside(const std::string& name, const std::string& value) {
     enter("<command line>", "", "#define " + name + " " + value + "\n", {});
     while (next().kind != Token::Kind::End) {}
@@ -72,6 +73,7 @@ Token FileReader::next() {
     return {};
 }
 
+/// Ends a file. Conditions belong to the file that opened them: what is open still is an error.
 void FileReader::leave() {
     for (const Conditional& open : files_.back().conditionals)
         reporter_.error(open.at, "this condition has no #endif");
@@ -202,6 +204,7 @@ bool FileReader::read_parameters(const Line& line, size_t& i, Macro& macro) {
         } else {
             return false;
         }
+        // More than 256 are not written by people; each name in the text is compared with all of them.
         if (macro.parameters.size() > 256 || ++i == line.size()) return false;
         if (line[i].is(")")) {
             ++i;
@@ -268,9 +271,11 @@ void FileReader::say(const Token& at, const Line& line, bool error) {
 /// #include, whose file is looked for, in this order: where the including file and the search path say, among
 /// the headers that the program carries, and in the folders beside, of which there is a warning.
 void FileReader::include(const Token& at, const Line& line_as_written) {
+    // A macro may stand for the file's name. Text in quotation marks and <...> is taken as written.
     Line line = line_as_written;
     if (!line.empty() && line[0].kind == Token::Kind::Name) line = expanded(line);
     std::string name;
+    // "file" or <file>, which was lexed as marks and names: spaces in it are put back.
     const bool quoted = !line.empty() && line[0].kind == Token::Kind::Text;
     if (quoted) {
         name = file_name_of(line[0].text);
@@ -379,6 +384,7 @@ void FileReader::line(const Token& at, const Line& line_as_written) {
     if (++renumberings_ > kMostRenumberings) return;
     File& file = files_.back();
     if (line.size() > 1 && line[1].kind == Token::Kind::Text) file.name = file_name_of(line[1].text);
+    // Diagnostics knows the lines as renumbered and, by the shift, the line of the text to show.
     const int64_t shift = static_cast<int64_t>(number) - file.lexer.physical_line();
     file.lexer.renumber(reporter_.diagnostics().add_source(file.name, file.from, file.text, shift), number);
 }

@@ -28,19 +28,22 @@ class FileReader {
     Token next();
 
   private:
-    /// An #if that is open.
+    /// An #if that is open. outer_counts: the lines around it are compiled; counts: those of the branch that
+    /// is read now; taken: some branch has been compiled, so that no later one is.
     struct Conditional {
         SourceLocation at;
         bool outer_counts, counts, taken, had_else = false;
     };
+    /// A file that is open: the last of files_ is read, the others wait behind their #include.
     struct File {
         std::string path;  ///< where it was found, for includes beside it
         std::string name;  ///< as messages and #line call it
         SourceLocation from;
-        std::shared_ptr<const std::string> text;
+        std::shared_ptr<const std::string> text;  ///< as written, for what messages show
         Lexer lexer;
         std::vector<Conditional> conditionals = {};
     };
+    /// What stands in a directive's line behind its word.
     using Line = std::vector<Token>;
 
     bool counts() const;
@@ -70,7 +73,7 @@ class FileReader {
     std::vector<File> files_;
     std::unordered_set<std::string> once_;  ///< files with #pragma once
     size_t bytes_ = 0, includes_ = 0, renumberings_ = 0;
-    bool stopped_ = false;
+    bool stopped_ = false;  ///< a bound was passed: nothing more is read
 };
 
 }  // namespace trapeze::rsl

@@ -5,6 +5,7 @@
 namespace trapeze::rsl {
 namespace {
 
+// A bound on memory and time for files from strangers.
 constexpr size_t kMostTokens = size_t{1} << 20;  // that the parser gets
 
 /// __FILE__ and __LINE__, and TRAPEZE, by which shaders tell this compiler from others.
@@ -42,6 +43,7 @@ TokenStream preprocess(const Source& source, const CompileOptions& options, Repo
         }
         stream.tokens.push_back(token);
     }
+    // The End stands behind the last token, for messages about what is missing.
     Token end;
     if (!stream.tokens.empty()) {
         const Token& last = stream.tokens.back();

@@ -9,7 +9,8 @@
 namespace trapeze::rsl {
 namespace {
 
-// Precedences as the parser has them; a primary's is the highest.
+// Precedences as the parser has them: those of kBinary in parse_expressions.cpp, then - and ! and casts, and
+// above all what needs no parentheses anywhere.
 constexpr int kUnary = 9, kPrimary = 10;
 
 struct Written {
@@ -71,6 +72,7 @@ std::string number_text(float value) {
     return {text, end};
 }
 
+/// A string in quotation marks; token_values.cpp reads its escapes. Bytes beyond ASCII stay as they are.
 std::string escaped(std::string_view value) {
     std::string text = "\"";
     for (const char c : value) {
@@ -111,7 +113,8 @@ class Printer {
         text += '\n';
     }
 
-    /// In parentheses when it binds less than `least`. 0 stands for assignments, 0.5 rounded up for "?:".
+    /// In parentheses when it binds less tightly than `least`: -1 is an assignment, 0 a "?:", and from 1 on
+    /// the precedences of written(). -1 lets everything stand bare.
     void expression(const Expression& e, int least = -1) {
         const bool wrap = precedence(e) < least;
         if (wrap) text += '(';
@@ -120,6 +123,7 @@ class Printer {
     }
 
   private:
+    /// Each level of blocks is four blanks further in.
     void line_start() { text += '\n' + std::string(static_cast<size_t>(indent_) * 4, ' '); }
 
     /// "(float a = 1; color c) ".
@@ -141,6 +145,7 @@ class Printer {
         declarator(v);
     }
 
+    /// "a[3] = {1, 2, 3}": what stands behind the type.
     void declarator(const Variable& v) {
         text += v.name;
         if (v.type.length == Type::kUnsized) text += "[]";
@@ -162,11 +167,13 @@ class Printer {
         text += '}';
     }
 
+    /// The statement of an if or loop: behind its head, on the same line.
     void body(const Statement& s) {
         text += ' ';
         statement(s);
     }
 
+    /// Values with commas between them; null stands for one that was left out.
     void list(const std::vector<ExpressionPtr>& expressions) {
         bool first = true;
         for (const ExpressionPtr& e : expressions) {
@@ -189,6 +196,7 @@ class Printer {
         body(*s.children[1]);
     }
 
+    /// "for (a; b; c, d, ...)": the first three expressions are the head's parts, the rest further steps.
     void for_statement(const Statement& s) {
         text += "for (";
         for (size_t i = 0; i < s.expressions.size(); ++i) {
@@ -199,6 +207,7 @@ class Printer {
         body(*s.children[0]);
     }
 
+    /// "break;", or with the number of loops if it is not one.
     void jump(std::string_view word, const Statement& s) {
         text += word;
         if (s.levels != 1) text += " " + std::to_string(s.levels);
@@ -217,6 +226,7 @@ class Printer {
         body(*s.children[1]);
     }
 
+    /// Whether an "else" right behind the statement would belong to an if within it. Braces end the search.
     static bool ends_with_open_if(const Statement& s) {
         if (s.kind == Statement::Kind::Block || s.children.empty()) return false;
         if ((s.kind == Statement::Kind::If || s.kind == Statement::Kind::Gather) && s.children.size() == 1)
@@ -231,6 +241,8 @@ class Printer {
     int indent_ = 0;
 };
 
+/// How tightly the expression's outermost operator binds. A cast that is left out has that of its operand,
+/// and a number below 0 is a - and a number.
 int Printer::precedence(const Expression& e) {
     switch (e.kind) {
         case Expression::Kind::Assignment:
@@ -250,6 +262,7 @@ int Printer::precedence(const Expression& e) {
     }
 }
 
+/// The expression without parentheses of its own.
 void Printer::bare(const Expression& e) {
     switch (e.kind) {
         case Expression::Kind::Number:
@@ -272,6 +285,7 @@ void Printer::bare(const Expression& e) {
             expression(*e.children[0], kUnary);
             break;
         case Expression::Kind::Binary: {
+            // Left-associative: the right operand needs parentheses already when it binds as tightly.
             const Written op = written(e.op);
             expression(*e.children[0], op.precedence);
             text += " " + std::string(op.mark) + " ";
@@ -317,6 +331,8 @@ void Printer::bare(const Expression& e) {
     }
 }
 
+/// One statement, from where the line stands now. A nested function is printed in the place of the Empty
+/// statement that it left behind.
 void Printer::statement(const Statement& s) {
     switch (s.kind) {
         case Statement::Kind::Block:

@@ -2,6 +2,8 @@
 
 namespace trapeze::rsl {
 
+/// A second error at the place of the last one is dropped: it is most likely a consequence. Places without a
+/// line (line 0) are not compared.
 void Reporter::error(SourceLocation at, std::string text) {
     const bool same_place = errors_ > 0 && at.line > 0 && at.source == last_error_.source &&
                             at.line == last_error_.line && at.column == last_error_.column;

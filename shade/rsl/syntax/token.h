@@ -12,6 +12,7 @@
 
 namespace trapeze::rsl {
 
+/// One word of the source. Cheap to copy: its text is a view, and the TokenStream keeps what it views.
 struct Token {
     enum class Kind : uint8_t {
         End,
@@ -38,7 +39,8 @@ struct Token {
 /// Tokens and the texts that they point into.
 struct TokenStream {
     std::vector<Token> tokens;  ///< the last one is an End
-    std::deque<SourceText> sources;
+    std::deque<SourceText>
+        sources;                   ///< files in the order read; deques, since what tokens view must not move
     std::deque<std::string> made;  ///< texts that stand in no source
 };
 

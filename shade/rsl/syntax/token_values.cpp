@@ -15,6 +15,7 @@ std::optional<float> number_of(std::string_view text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (end != text.data() + text.size() || error == std::errc::invalid_argument) return {};
+    // from_chars() gives no value here; the sign of the exponent tells which end it ran over.
     if (error == std::errc::result_out_of_range) {
         const size_t exponent = text.find_first_of("eE");
         const bool small = exponent != std::string_view::npos && text[exponent + 1] == '-';
@@ -25,6 +26,7 @@ std::optional<float> number_of(std::string_view text) {
 
 /// What an escape stands for; `i` is behind the backslash, and then behind the escape.
 char escaped(std::string_view text, size_t& i) {
+    // Letters and their values in the same order. Any other letter stands for itself.
     static constexpr std::string_view kLetters = "ntrbfav0", kValues("\n\t\r\b\f\a\v\0", 8);
     const char c = text[i++];
     if (c >= '0' && c <= '7') {
@@ -64,8 +66,9 @@ std::string description(const Token& token) {
 
 void read_values(TokenStream& stream, Reporter& reporter) {
     std::vector<Token>& tokens = stream.tokens;
+    // Tokens are moved forward in place over those that are left out or joined.
     size_t kept = 0;
-    bool after_unknown = false;
+    bool after_unknown = false;  // one message for a run of them
     for (size_t i = 0; i < tokens.size(); ++i) {
         Token token = tokens[i];
         if (token.kind == Token::Kind::Unknown) {
@@ -86,6 +89,7 @@ void read_values(TokenStream& stream, Reporter& reporter) {
         } else if (token.kind == Token::Kind::Text) {
             std::string& value = stream.made.emplace_back();
             append_value(token.text, value);
+            // The last token is the End, so that i + 1 is always there.
             while (tokens[i + 1].kind == Token::Kind::Text) append_value(tokens[++i].text, value);
             token.text = value;
         }

@@ -6,6 +6,7 @@
 
 namespace trapeze::rsl {
 
+/// Letters of a name beyond which it is reported and cut, so that no message or table has to hold more.
 inline constexpr size_t kLongestName = 1000;
 
 /// Gives numbers their values and strings theirs (escapes read, strings beside each other joined). Reports

@@ -9,10 +9,14 @@ namespace trapeze::rsl {
 enum class Base : uint8_t { Void, Bool, Float, Color, Point, Vector, Normal, Matrix, String };
 
 /// How often a variable has a value: once, or at each vertex.
+/// Unspecified is what the source leaves open: a shader's parameter is uniform then, a local varying, and a
+/// function's parameter what its arguments are (propagate_varying.h).
 enum class Storage : uint8_t { Unspecified, Uniform, Varying };
 
 enum class ShaderKind : uint8_t { Surface, Displacement, Light, Volume, Imager };
 
+/// A base type and, for arrays, a length. Storage is no part of it: it belongs to variables. Types are equal
+/// when both fields are, so an array of any length is equal to none of a known length.
 struct Type {
     static constexpr int kUnsized = -1;  ///< `float a[]`: a function's array parameter of any length
 

@@ -14,7 +14,8 @@ constexpr struct {
               {"vector", Base::Vector}, {"normal", Base::Normal}, {"matrix", Base::Matrix},
               {"string", Base::String}, {"void", Base::Void}};
 
-// Kinds of shaders are not among them: "light" and "surface" are names in many shaders.
+// Words that cannot name variables or functions (RISpec 3.2, appendix B). Kinds of shaders are not among
+// them: "light" and "surface" are names in many shaders.
 constexpr std::string_view kReserved[] = {
     "break", "color",       "continue",   "else",    "extern", "float",  "for",   "gather",
     "if",    "illuminance", "illuminate", "matrix",  "normal", "output", "point", "return",

@@ -15,6 +15,7 @@ namespace {
 
 using rsl::Op;
 
+// Comparisons with NaN are false, but for NotEqual.
 HWY_INLINE V less(V a, V b) {
     return hn::VecFromMask(D(), hn::Lt(a, b));
 }
@@ -40,11 +41,12 @@ HWY_INLINE V complement(V a) {
 HWY_INLINE V to_bool(V a) {
     return hn::VecFromMask(D(), hn::Not(hn::Eq(a, hn::Zero(D()))));
 }
+/// 1 where all bits are set, 0 where none: And with the bits of 1.
 HWY_INLINE V to_float(V a) {
     return hn::And(a, set(1));
 }
 
-/// Whether all components are equal; with `negate`, whether any is not.
+/// Whether all components are equal; when negated, whether any is not.
 template <int width, bool negated>
 void equal(size_t lanes, Operands o) {
     const Output out(o[0]);

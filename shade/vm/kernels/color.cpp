@@ -11,6 +11,8 @@
 #define TRAPEZE_SHADE_VM_COLOR_ONCE_
 namespace trapeze::vm {
 
+/// The spaces of ctransform() and of casts (RISpec 3.2, section 11). Hue counts turns of the
+/// circle, 0 to 1.
 enum class ColorSpace : uint8_t { Rgb, Hsv, Hsl, Xyz, XyY, Yiq };
 
 using ColorMatrix = std::array<std::array<double, 3>, 3>;
@@ -179,6 +181,7 @@ Kernel find_to(ColorSpace to) {
     return nullptr;
 }
 
+/// Both spaces become part of the kernel's type: no kernel decides anything by lane.
 Kernel find_conversion(ColorSpace from, ColorSpace to) {
     switch (from) {
         case ColorSpace::Rgb:
@@ -210,6 +213,7 @@ HWY_EXPORT(find_conversion);
 
 namespace {
 
+/// Nothing for unknown names. Both spellings of YIQ and XYZ are in use.
 std::optional<ColorSpace> color_space(std::string_view name) {
     constexpr std::pair<std::string_view, ColorSpace> kNames[] = {
         {"rgb", ColorSpace::Rgb}, {"hsv", ColorSpace::Hsv}, {"hsl", ColorSpace::Hsl},

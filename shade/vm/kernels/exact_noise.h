@@ -8,6 +8,9 @@
 
 namespace trapeze::vm::testing {
 
+/// The hash of a lattice cell of 1 to 4 coordinates, by the same factors as noise-inl.h: they are written out
+/// again, so that a change there does not pass unnoticed. `begin` and `last_factor` are what noise and cell
+/// noise differ in.
 inline uint32_t hash_of(const std::vector<int64_t>& cell, uint32_t begin, uint32_t last_factor) {
     constexpr uint32_t kFactors[] = {0x8da6b343u, 0xd8163841u, 0xcb1ab31fu, 0x9e3779b1u};
     uint32_t h = begin;
@@ -42,7 +45,9 @@ inline std::vector<double> gradient(uint32_t h, size_t dimensions) {
     }
 }
 
-/// As a sum over the corners of the cell, in doubles.
+/// Noise at a point of 1 to 4 dimensions as a sum over the corners of its cell, in doubles: gradient times
+/// offset, weighted by the fade 6 t^5 - 15 t^4 + 10 t^3 of [Perlin02]. `period`: empty, or one for each axis.
+/// `component`: 0 of a float, 0 to 2 of a triple, which take other bits of the same hash.
 inline double exact_noise(const std::vector<double>& x, const std::vector<double>& period, int component) {
     constexpr double kScales[] = {0.0703, 0.1762, 0.3259, 0.3006};
     const size_t n = x.size();

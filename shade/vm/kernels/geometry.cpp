@@ -35,6 +35,7 @@ void length(size_t lanes, Operands o) {
     }
 }
 
+// Differences first: points far from the origin and near each other keep their digits.
 void distance(size_t lanes, Operands o) {
     const Output out(o[0]);
     const Input a(o[1]), b(o[2]);
@@ -60,6 +61,7 @@ void face_forward(size_t lanes, Operands o) {
     const Input N(o[1]), I(o[2]), reference(o[3]);
     for (size_t i = 0; i < lanes; i += lane_count()) {
         const M behind = hn::Gt(dot(I.get3(i), reference.get3(i)), hn::Zero(D()));
+        // The sign bit alone: Xor with it negates, Xor with 0 leaves N.
         const V turn = hn::IfThenElseZero(behind, set(-0.0f));
         const V3 n = N.get3(i);
         out.put3({hn::Xor(n.x, turn), hn::Xor(n.y, turn), hn::Xor(n.z, turn)}, i);
@@ -154,6 +156,7 @@ void line_distance(size_t lanes, Operands o) {
     const Input from(o[1]), to(o[2]), point(o[3]);
     for (size_t i = 0; i < lanes; i += lane_count()) {
         const V3 a = from.get3(i), line = subtract(to.get3(i), a), q = subtract(point.get3(i), a);
+        // A segment of no length gives 0 / 0 here, a NaN, of which positive() makes 0: its one point.
         const V t = at_most(positive(hn::Div(dot(q, line), dot(line, line))), set(1));
         const V3 apart = subtract(q, scale(line, t));
         out.put(hn::Sqrt(dot(apart, apart)), i);

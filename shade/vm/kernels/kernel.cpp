@@ -5,6 +5,7 @@
 
 namespace trapeze::vm {
 
+/// The table of operations names the family; the family's own table chooses by the widths.
 Kernel find_kernel(rsl::Op op, std::span<const int> widths) {
     using rsl::KernelFamily;
     switch (rsl::row_of(op).kernels) {

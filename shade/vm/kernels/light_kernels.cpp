@@ -21,6 +21,7 @@ HWY_INLINE void add_scaled(const Output& out, const Input& color, V s, size_t i)
     for (int k = 0; k < 3; ++k) out.put(hn::Add(out.get(i, k), hn::Mul(color.get(i, k), s)), i, k);
 }
 
+/// Ambient light: no direction, no normal.
 void sum_light(size_t lanes, const Operand& Cl, float share, const Operand& result) {
     const Output out(result);
     const Input color(Cl);
@@ -38,7 +39,8 @@ void sum_diffuse(size_t lanes, const Operand& N, const Operand& L, const Operand
     }
 }
 
-/// Of roughness 1. RISpec 3.2 writes 1 / roughness; what roughnesses were chosen with had 8 / roughness.
+/// The exponent of roughness 1. RISpec 3.2 writes 1 / roughness; the roughnesses in shaders were chosen with
+/// renderers that had 8 / roughness.
 constexpr float kSpecularExponent = 8;
 
 /// pow() is the quick one, in floats: a highlight's exponent needs no more.
@@ -49,6 +51,7 @@ HWY_INLINE V specular_lobe(const V3& N, const V3& view, const V3& L, V roughness
     return hn::IfThenElseZero(hn::Gt(dot(N, L), hn::Zero(D())), lobe);
 }
 
+/// Blinn's highlight: the cosine between the normal and the vector halfway to the light.
 void sum_specular(size_t lanes, const Operand& N, const Operand& view, const Operand& roughness,
                   const Operand& L, const Operand& Cl, float share, const Operand& result) {
     const Output out(result);
@@ -59,6 +62,8 @@ void sum_specular(size_t lanes, const Operand& N, const Operand& view, const Ope
     }
 }
 
+/// Phong's highlight: the cosine between the mirrored view and the light. The normal is made of unit length
+/// here, as shaders pass it as they have it.
 void sum_phong(size_t lanes, const Operand& N, const Operand& view, const Operand& size, const Operand& L,
                const Operand& Cl, float share, const Operand& result) {
     const Output out(result);
@@ -75,6 +80,7 @@ void sum_phong(size_t lanes, const Operand& N, const Operand& view, const Operan
     }
 }
 
+/// Compares cosines: v.a >= |v| |a| cos(angle) needs no arc cosine and no division.
 void find_cone(size_t lanes, const Operand& vectors, const Operand& axes, const Operand& angles,
                const Operand& result) {
     const Output out(result);
@@ -100,6 +106,7 @@ void turn_to_surface(size_t lanes, const Operand& lit, const Operand& color, con
         const V3 way = from_light.get3(i);
         const V3 back{hn::Neg(way.x), hn::Neg(way.y), hn::Neg(way.z)};
         const V3 u = scale(back, inverse_length(back));
+        // inverse_length() is 0 where there is no direction: the light stands at the point.
         const M apart = hn::Or(hn::Or(hn::Ne(u.x, zero), hn::Ne(u.y, zero)), hn::Ne(u.z, zero));
         const M shines = hn::And(reached.mask(i), apart);
         for (int k = 0; k < 3; ++k) arriving.put(hn::IfThenElseZero(shines, sent.get(i, k)), i, k);
@@ -121,6 +128,7 @@ void specular_brdf(size_t lanes, Operands o) {
     }
 }
 
+/// The result may be a colour: the same lobe in all three components.
 Kernel find_specular_brdf(std::span<const int> widths) {
     if (are(widths, {1, 3, 3, 3, 1})) return specular_brdf<1>;
     return are(widths, {3, 3, 3, 3, 1}) ? specular_brdf<3> : nullptr;

@@ -31,6 +31,7 @@ HWY_INLINE void write(const Matrix& m, const Output& out, size_t i) {
     for (int k = 0; k < 16; ++k) out.put(m.m[k], i, k);
 }
 
+/// Row vectors go through a first, then b. Sums run in the order of k.
 HWY_INLINE Matrix product(const Matrix& a, const Matrix& b) {
     Matrix out;
     for (int row = 0; row < 4; ++row)
@@ -57,6 +58,8 @@ HWY_INLINE Minors minors(const Matrix& m) {
     }
     return result;
 }
+/// Laplace's expansion along the upper two rows: each minor of them times the one of the lower two rows and
+/// the other columns, with alternating signs.
 HWY_INLINE V determinant(const Minors& n) {
     V sum = hn::Mul(n.first[0], n.last[5]);
     sum = hn::Sub(sum, hn::Mul(n.first[1], n.last[4]));
@@ -75,6 +78,7 @@ HWY_INLINE V alternating(V a, V x, V b, V y, V c, V z) {
 HWY_INLINE Matrix inverse(const Matrix& m) {
     const Minors n = minors(m);
     const V d = determinant(n), inverse_determinant = hn::Div(set(1), d);
+    // Neither a determinant of 0 or NaN, nor one whose reciprocal is no float.
     const M regular =
         hn::And(hn::Gt(hn::Abs(d), hn::Zero(D())), hn::Lt(hn::Abs(inverse_determinant), set(3e38f)));
     Matrix out;
@@ -157,9 +161,11 @@ void rotate(size_t lanes, Operands o) {
         const V3 line = axis.get3(i);
         const V inverse = inverse_length(line);
         const V3 a = scale(line, inverse);
+        // Without an axis the angle is taken as 0, which leaves m as it was.
         const SineCosine turn = sin_cos(hn::IfThenZeroElse(hn::Eq(inverse, hn::Zero(D())), angle.get(i)));
         const V rest = hn::Sub(set(1), turn.cosine);
         const V3 s = scale(a, turn.sine), r = scale(a, rest);
+        // Rodrigues' matrix for row vectors: cos I + (1 - cos) a a^T + sin [a]x, transposed.
         const V3 rotation[3] = {{hn::Add(hn::Mul(a.x, r.x), turn.cosine), hn::Add(hn::Mul(a.x, r.y), s.z),
                                  hn::Sub(hn::Mul(a.x, r.z), s.y)},
                                 {hn::Sub(hn::Mul(a.y, r.x), s.z), hn::Add(hn::Mul(a.y, r.y), turn.cosine),

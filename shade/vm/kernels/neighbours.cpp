@@ -88,7 +88,7 @@ HWY_INLINE void for_rows(GridSpans spans, size_t lanes, int width, const Operand
     }
 }
 
-/// 0 where b is no more than rounding.
+/// a / b for the first `count` vertices of a row; 0 where b is no more than rounding.
 HWY_INLINE void divide_rows(const Row& a, const Row& b, float rounding, int count, float* HWY_RESTRICT out) {
     for (int i = 0; i < count; ++i) {
         const bool counts = std::fabs(b.lanes[i]) > rounding;
@@ -115,6 +115,8 @@ HWY_INLINE bool is_straight(const RowOf& row, Axis along, const Operand& p, cons
     return others == 0;
 }
 
+/// Where the steps of p are never 0 and q stands still, or the steps of p are known to be equal: a quotient
+/// of steps, found everywhere.
 HWY_INLINE void straight_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
                                      const Row& dp, float rounding, Derivatives& out) {
     Row step;
@@ -185,6 +187,7 @@ void take_from_inside(const Derivatives& inside, const RowOf& row, int width, De
     }
 }
 
+/// Derivatives at all vertices of a row. What is missing in it comes from the row inside the grid.
 HWY_INLINE void all_derivatives(const RowOf& row, int width, Axis along, const Operand& value,
                                 const Operand& p, const Operand& q, float rounding, Derivatives& here) {
     row_derivatives(row, width, along, value, p, q, rounding, here);
@@ -195,6 +198,7 @@ HWY_INLINE void all_derivatives(const RowOf& row, int width, Axis along, const O
     take_from_inside(inside, row, width, here);
 }
 
+/// Du or Dv of each component, row by row.
 HWY_INLINE void differentiate(GridSpans spans, size_t lanes, int width, Axis along, const Operand& value,
                               const Operand& p, const Operand& q, const Operand& out) {
     for_rows(spans, lanes, width, out, [&](const RowOf& row) HWY_ATTR {
@@ -215,7 +219,8 @@ void along_v(GridSpans spans, size_t lanes, int width, const Operand& value, con
     differentiate(spans, lanes, width, Axis::V, value, v, u, out);
 }
 
-/// What the rounding of a span's values makes of steps between them.
+/// The largest step between a span's values that rounding alone may make, from the largest of them. A uniform
+/// value has no steps.
 float rounding_of(const GridSpan& span, const Operand& value) {
     if (value.lane_mask == 0) return 0;
     float largest = 0;
@@ -240,6 +245,8 @@ void derive_plain_row(const RowOf& row, int width, const Operand& num, const Ope
     }
 }
 
+/// Deriv() by the chain rule, where an axis may change both parameters: the sum of (dnum/du) / (dden/du) and
+/// (dnum/dv) / (dden/dv) (RISpec 3.2, section 15.1).
 void derive_row(const RowOf& row, int width, const Operand& num, const Operand& den, const Operand& u,
                 const Operand& v, float rounding, const Operand& out) {
     Derivatives num_u, num_v, den_u, den_v;
@@ -256,6 +263,7 @@ void derive_row(const RowOf& row, int width, const Operand& num, const Operand& 
     }
 }
 
+/// Deriv(num, den). The rounding of den is measured once for each grid of the batch.
 void along_both(GridSpans spans, size_t lanes, int width, const Operand& num, const Operand& den,
                 const Operand& u, const Operand& v, const Operand& out) {
     const GridSpan* measured = nullptr;
@@ -360,6 +368,7 @@ void find_normals(GridSpans spans, size_t lanes, const Operand& P, const Operand
     });
 }
 
+/// |step along u| + |step along v|: how far x goes over one micropolygon.
 void find_filter_widths(GridSpans spans, size_t lanes, const Operand& x, const Operand& out) {
     for_rows(spans, lanes, 1, out, [&](const RowOf& row) HWY_ATTR {
         Row u, v;

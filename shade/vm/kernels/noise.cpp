@@ -52,6 +52,7 @@ void noise_kernel(size_t lanes, Operands o) {
             if constexpr (periodic) period = at_least(hn::Floor(clamp_to_lattice(periods[k].get(i))), period);
             axes[k] = noise_axis<periodic>(point[k].get(i), period, kAxisFactors[k]);
         }
+        // One walk over the cell's corners makes all components.
         V values[width];
         gradient_noise(axes, values);
         for (int k = 0; k < width; ++k) out.put(values[k], i, k);
@@ -133,6 +134,7 @@ Kernel find_cell_noise(int dimensions) {
     }
 }
 
+/// The output's width is that of the result: float or triple.
 Kernel choose_noise(std::span<const int> widths) {
     const int dimensions = dimensions_of(widths.subspan(1));
     if (widths[0] == 1) return find_noise<false, 1>(dimensions);

@@ -44,6 +44,7 @@ struct Input {
         return hn::Load(D(), data + static_cast<size_t>(k) * stride + (i & lane_mask));
     }
     HWY_INLINE V3 get3(size_t i) const { return {get(i, 0), get(i, 1), get(i, 2)}; }
+    /// Of a Bool: all bits of a lane or none.
     HWY_INLINE M mask(size_t i) const { return hn::MaskFromVec(get(i)); }
 
     const float* data;
@@ -60,6 +61,7 @@ struct Output {
         hn::Store(v, D(), data + static_cast<size_t>(k) * stride + i);
     }
     HWY_INLINE void put3(const V3& v, size_t i) const { put(v.x, i, 0), put(v.y, i, 1), put(v.z, i, 2); }
+    /// A Bool, in the form that Input::mask() reads.
     HWY_INLINE void put_mask(M m, size_t i) const { put(hn::VecFromMask(D(), m), i); }
 
     float* data;
@@ -77,6 +79,7 @@ HWY_INLINE void map_components(size_t lanes, Operands o, std::index_sequence<n..
     const Output out(o[0]);
     const Input in[] = {Input(o[n + 1])...};
     for (size_t i = 0; i < lanes; i += lane_count()) {
+        // All components are computed before one is stored: the output may be one of the inputs.
         V result[width];
         for (int k = 0; k < width; ++k) result[k] = function(in[n].get(i, k)...);
         for (int k = 0; k < width; ++k) out.put(result[k], i, k);

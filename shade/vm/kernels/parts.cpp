@@ -47,6 +47,7 @@ void component(size_t lanes, Operands o) {
     }
 }
 
+/// setcomp(c, k, x) and c[k] = x: all three components are rewritten, so that no lane needs a scatter.
 void set_component(size_t lanes, Operands o) {
     const Output v(o[0]);
     const Input index(o[1]), in(o[2]);
@@ -58,6 +59,7 @@ void set_component(size_t lanes, Operands o) {
     }
 }
 
+/// Which of the sixteen planes an element lies in: they go by rows of four.
 HWY_INLINE VI matrix_index(V row, V column) {
     return hn::Add(hn::ShiftLeft<2>(index_below(row, 4)), index_below(column, 4));
 }
@@ -72,6 +74,7 @@ void matrix_element(size_t lanes, Operands o) {
     }
 }
 
+/// Each lane writes one float of its own: the other elements keep what they have.
 void set_matrix_element(size_t lanes, Operands o) {
     const Output m(o[0]);
     const Input row(o[1]), column(o[2]), x(o[3]);
@@ -81,7 +84,8 @@ void set_matrix_element(size_t lanes, Operands o) {
     }
 }
 
-/// An array whose elements are taken, or set, at an index that is uniform.
+/// The operand of one element of an array, at an index that all lanes share; clamped to the array, and NaN
+/// is 0, as in index_below().
 Operand element_at(const Operand& array, float index) {
     const float last = static_cast<float>(std::max(array.length, 1) - 1);
     Operand element = array;
