@@ -283,6 +283,7 @@ void Analyser::value_of_array(Variable& variable) {
 bool Analyser::bind_external(const Variable& variable) {
     Variable* found =
         bodies_.size() == 1 ? find_variable(variable.name) : find_outside(variable.name, bodies_.size() - 1);
+    // The renderer's variables are outside of all.
     if (!found) found = global(variable.name);
     if (!found) {
         Suggestion suggestion(variable.name);

@@ -98,6 +98,7 @@ void Analyser::statement(StatementPtr& s) {
             return_statement(*s);
             break;
         case Statement::Kind::Empty:
+            // A nested function: it is analysed where it is written, and known from here on.
             if (s->defines)
                 if (const Instance* instance = instance_of(*s->defines, true, s->at))
                     s->defines = instance->function.get();
@@ -166,6 +167,7 @@ void Analyser::light_loop(Statement& s) {
         error(s.at, word + " belongs into " + (illuminance ? "surface and volume" : "light") + " shaders");
 
     ignore_options(s, word);
+    // What each argument is converted to; there are as many as the form that was meant has arguments.
     std::vector<Base> wanted;
     const size_t given = s.expressions.size();
     if (illuminance && given > 0) {
@@ -205,6 +207,7 @@ void Analyser::gather(Statement& s) {
     if (given < 5 || (given - 5) % 2 != 0)
         error(s.at, "gather takes (category, P, direction, angle, samples, \"name\", value, ...)");
     for (size_t i = 0; i < given; ++i) {
+        // Behind the first five, names and values in turn.
         const bool is_name = i >= 5 && (i - 5) % 2 == 0;
         value(s.expressions[i], i < 5 ? kWanted[i] : is_name ? Base::String : Base::Void);
         if (i < 5 || is_name) continue;

@@ -42,16 +42,16 @@ class Analyser {
     };
     /// A shader or a function whose body is analysed.
     struct Body {
-        Instance* instance = nullptr;  ///< null: the shader
-        bool nested = false;           ///< a function defined within the body below
-        size_t first_scope = 0;
-        int loops = 0;
-        bool returns = false;
+        Instance* instance = nullptr;               ///< null: the shader
+        bool nested = false;                        ///< a function defined within the body below
+        size_t first_scope = 0;                     ///< its outermost one, in scopes_
+        int loops = 0;                              ///< around the statement that is analysed
+        bool returns = false;                       ///< a return with a value was met
         int depth = 0;                              ///< of the statement that is analysed
         uint64_t operations = 0, array_floats = 0;  ///< with those of called functions
-        uint64_t own_operations = 0;
-        int deepest = 0;
-        std::set<Variable*> written_parameters;  ///< not output, and assigned to
+        uint64_t own_operations = 0;                ///< without those of called functions
+        int deepest = 0;                            ///< the greatest depth met, called functions written out
+        std::set<Variable*> written_parameters;     ///< not output, and assigned to
     };
 
     // Shaders, functions and names.
@@ -86,7 +86,8 @@ class Analyser {
     void value(ExpressionPtr& e, Base wanted);
     void value_of_array(Variable& variable);
 
-    // What an expression can be.
+    /// The walk up. Each part looks at one kind of expression, reports what cannot be, and gives the types
+    /// that the expression can have.
     Choices possible_types(Expression& e);
     Choices possible_types_within(Expression& e);
     Choices possible_types_once(Expression& e);
@@ -107,6 +108,7 @@ class Analyser {
     void check_index(const Expression& element);
 
     // What it becomes.
+    /// The walk down. Each part settles Expression::type, and of calls the function, and puts the casts in.
     void choose_type(ExpressionPtr& e, Base wanted);
     void give_type(Expression& e, Base base);
     void choose_binary(Expression& e, Base base);
@@ -119,6 +121,7 @@ class Analyser {
     void check_written(const Expression& place);
 
     // Calls.
+    /// A cost of Choices::kNever says that the call does not fit.
     std::vector<Signature> candidates(const Expression& call);
     int cost_of(const Signature& signature, const Expression& call) const;
     int cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const;
@@ -138,13 +141,14 @@ class Analyser {
 
     // Of the shader that is analysed.
     Shader* shader_ = nullptr;
-    std::map<const Function*, Instance*> file_instances_;
-    std::deque<Instance> instances_;
-    std::unordered_map<const Function*, Instance*> instance_of_copy_;
-    std::map<std::string, Variable*, std::less<>> globals_;
-    std::deque<Scope> scopes_;
-    std::deque<Body> bodies_;
-    std::set<const Variable*> warned_;
+    std::map<const Function*, Instance*> file_instances_;  ///< of the file's functions, by the original
+    std::deque<Instance> instances_;  ///< nested ones, too; a deque, since others point to them
+    std::unordered_map<const Function*, Instance*> instance_of_copy_;  ///< by Instance::function
+    std::map<std::string, Variable*, std::less<>>
+        globals_;                             ///< those named so far; Shader::globals owns them
+    std::deque<Scope> scopes_;                ///< of all bodies, the innermost last
+    std::deque<Body> bodies_;                 ///< the shader's, then those of functions that are entered
+    std::set<const Variable*> warned_;        ///< variables that were warned of, once each
     std::set<std::string_view> unavailable_;  ///< functions that were warned of
     int depth_ = 0;                           ///< of all frames together
 

@@ -314,6 +314,7 @@ std::span<const Builtin> builtins() {
 }
 
 std::span<const Builtin> builtins_named(std::string_view name) {
+    // Made at the first call; C++ makes threads that come meanwhile wait.
     static const ByName kByName = by_name();
     const auto entry = kByName.find(name);
     return entry == kByName.end() ? std::span<const Builtin>() : entry->second;

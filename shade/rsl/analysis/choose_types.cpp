@@ -134,6 +134,7 @@ void Analyser::choose_assignment(Expression& e) {
     int least = Choices::kNever;
     for (const Base from : kAllBases) {
         const auto planned = given.has(from) ? plan(e.op, to, from) : std::nullopt;
+        // The variable itself is not converted, and what the operator gives must fit into it again.
         if (!planned || planned->left != to || !conversion_cost(planned->result, to)) continue;
         const int cost = given.cost(from) + planned->cost + *conversion_cost(planned->result, to);
         if (cost < least) best = planned, least = cost;

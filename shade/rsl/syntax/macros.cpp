@@ -86,6 +86,7 @@ Token Expander::next() {
         if (token.kind != Token::Kind::Name || token.painted) return token;
         const std::shared_ptr<Macro> macro = macros_.find(token.text);
         if (!macro) return token;
+        // Met while its own text is read: this token stays a plain name from now on, wherever it goes.
         if (macro->disabled > 0) {
             token.painted = true;
             return token;

@@ -210,6 +210,7 @@ void Parser::function(std::string inside) {
     expect(")", "after the parameters");
     if (accept(";")) return;  // a prototype says nothing new
     if (!at("{")) fail_expecting("\"{\" before the function's body");
+    // A nested function is read in the middle of another one, whose state is put back behind it.
     const std::string outer = std::exchange(inside_, function->name);
     const bool outer_returns = std::exchange(returns_value_, false);
     function->body = block();

@@ -58,6 +58,7 @@ bool FileReader::counts() const {
 /// Obeys directives on the way, enters files that are included and leaves them at their ends.
 Token FileReader::next() {
     while (!files_.empty()) {
+        // After a bound was passed, or too many errors, the source ends here.
         if (stopped_ || reporter_.full()) {
             files_.clear();
             break;
@@ -132,6 +133,7 @@ bool FileReader::obey_conditional(std::string_view name, const Token& at, const 
             stopped_ = true;
             return true;
         }
+        // In lines that do not count conditions are not evaluated: they may name what is not there.
         const bool outer = counts();
         const bool is =
             outer && (name == "if" ? condition(at, line) : name_is_defined(at, line) == (name == "ifdef"));

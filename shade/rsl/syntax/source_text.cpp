@@ -45,6 +45,7 @@ std::optional<std::string> read_file_from_disk(const std::string& path, size_t m
     std::ifstream file(path, std::ios::binary);
     if (!file) return {};
     std::string text;
+    // Piece by piece, so that a file that has no end is given up at the bound.
     char buffer[1 << 16];
     while (file.read(buffer, sizeof buffer) || file.gcount() > 0) {
         text.append(buffer, static_cast<size_t>(file.gcount()));

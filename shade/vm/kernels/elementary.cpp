@@ -14,6 +14,7 @@ namespace {
 
 using rsl::Op;
 
+// Each is a function of vectors from elementary-inl.h, for floats and for triples.
 constexpr KernelRow kRows[] = {
     {Op::Exp, component_kernel<exponential>},
     {Op::Log, component_kernel<logarithm>},
