@@ -37,6 +37,8 @@ bool SolidState::holds(int solid) const {
     return inside_[s];
 }
 
+/// Turns a leaf's inside over and goes up while that changes its parents. True when the root has changed: the
+/// surface is then one of the whole solid.
 bool SolidState::cross(int leaf) {
     int solid = leaf;
     touched_.push_back(solid);
@@ -58,6 +60,7 @@ bool SolidState::cross(int leaf) {
 
 namespace {
 
+/// Another method's hits without those that clipping planes or solids take away.
 class CutVisibility : public Visibility {
   public:
     CutVisibility(std::unique_ptr<Visibility> method, const Scene& scene, const Grids& grids)

@@ -29,6 +29,7 @@ void buffer_of_lists(const SampleScratch& scratch, size_t sample_count, HitBuffe
     hits.first[sample_count] = static_cast<uint32_t>(hits.hits.size());
 }
 
+/// A counting sort by sample, leaving out what an opaque hit hides; then each sample's list by depth.
 void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
     const auto visible = [&](size_t i) {
         return !in_front(scratch.nearest[scratch.hit_sample[i]], scratch.hits[i]);

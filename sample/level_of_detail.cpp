@@ -15,6 +15,7 @@ float detail_number(uint32_t seed, int px, int py, int sample) {
 
 namespace {
 
+/// Another method's hits without those of primitives whose range of numbers the sample's is not in.
 class DetailVisibility : public Visibility {
   public:
     DetailVisibility(std::unique_ptr<Visibility> method, const RenderContext& context, const Grids& grids)

@@ -46,6 +46,7 @@ void SweptBound::add(float xf, float yf, float zf) {
     x_min_ = std::min(x_min_, x), x_max_ = std::max(x_max_, x);
     y_min_ = std::min(y_min_, y), y_max_ = std::max(y_max_, y);
     absolute_max_ = std::max({absolute_max_, std::abs(x), std::abs(y), std::abs(z)});
+    // Only points in front of the eye have a place in the image plane.
     if (!(z > 0)) return;
     px_min_ = std::min(px_min_, x / z), px_max_ = std::max(px_max_, x / z);
     py_min_ = std::min(py_min_, y / z), py_max_ = std::max(py_max_, y / z);

@@ -18,6 +18,8 @@ struct BruteForceScratch {
     std::vector<uint32_t> found;              ///< samples that the predicate answered yes for
     std::vector<float> found_depth;           ///< along each of them
 
+    /// Copies the tile's rays to planes, in the order of samples. Padding is 0: vectors may read past the
+    /// end.
     void load(const SampleTile& samples) {
         const size_t n = samples.size(), padded = n + kRayPadding;
         for (auto* plane : {&ox, &oy, &ux, &uy, &time}) plane->assign(padded, 0.0f);
@@ -31,6 +33,7 @@ struct BruteForceScratch {
     RayPlanes planes() const { return {ox.data(), oy.data(), ux.data(), uy.data(), time.data()}; }
 };
 
+/// Holds nothing but a box for each grid: no tree, no order. Grids and camera must outlive it.
 class BruteForce final : public Visibility {
   public:
     BruteForce(const RenderContext& context, const Grids& grids)
@@ -58,6 +61,7 @@ class BruteForce final : public Visibility {
     }
 
   private:
+    /// Each micropolygon's own box decides which pixels it is tested in: over the whole shutter and lens.
     void test_grid(size_t index, const SampleTile& samples, SampleScratch& scratch,
                    SampleStats& stats) const {
         const Grid& grid = grids_.grids[index];
@@ -74,6 +78,7 @@ class BruteForce final : public Visibility {
             }
     }
 
+    /// All samples of the pixels, row by row: those of a row of pixels lie one after the other.
     void test_micropolygon(const MovingQuad& quad, const MicropolygonId& id, bool opaque,
                            const PixelRect& pixels, const SampleTile& samples, SampleScratch& scratch,
                            SampleStats& stats) const {
@@ -89,6 +94,8 @@ class BruteForce final : public Visibility {
         }
     }
 
+    /// Hits outside the clipping range do not count, nor those behind the nearest opaque one so far. Others
+    /// are listed, and those that a later hit hides are taken out at the end.
     void keep(uint32_t sample, const Hit& hit, bool opaque, SampleScratch& scratch) const {
         if (!(hit.depth >= camera_.near_clip && hit.depth <= camera_.far_clip)) return;
         if (!in_front(hit, scratch.nearest[sample])) return;

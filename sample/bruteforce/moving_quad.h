@@ -15,6 +15,8 @@ struct MovingQuad {
     float start[3][4][kMaxKeyCount - 1];  ///< component, corner, segment
     float delta[3][4][kMaxKeyCount - 1];
 
+    /// Copies the corners of micropolygon (u, v) of a grid: 00, 10, 01, 11, camera space. Without motion
+    /// there is one segment, whose delta is 0.
     MovingQuad(const Grid& grid, int u, int v);
 };
 

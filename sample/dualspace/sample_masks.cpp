@@ -2,6 +2,9 @@
 
 namespace trapeze {
 
+/// For each pixel and axis, a row of kBins + 1 sets of its samples (64 a word): set b holds those whose bin
+/// is below b, so that a range of bins is a difference of two sets. Axes are u, v, time; u and v are lens
+/// coordinates or, without a lens, places in the pixel.
 void SampleMasks::build(const SampleTile& samples, bool lens) {
     const auto per_pixel = static_cast<size_t>(samples.samples_per_pixel);
     const size_t pixels = static_cast<size_t>(samples.pixels.width()) * samples.pixels.height();

@@ -12,6 +12,7 @@
 
 namespace trapeze {
 
+/// How much work Embree puts into its tree, in its own three steps.
 enum class EmbreeQuality { Low, Medium, High };
 
 /// How rays are handed to Embree: one at a time, in packets of 8 or 16 that its kernels trace together, or in
@@ -19,6 +20,7 @@ enum class EmbreeQuality { Low, Medium, High };
 /// the geometry and the motion at hand.
 enum class EmbreeMode { Fastest, Single, Packet8, Packet16, Stream };
 
+/// What the method's options and the scene decide. Clipping planes are in camera-space z, like hits' depths.
 struct EmbreeChoices {
     bool quads = false;  ///< else grids
     EmbreeQuality quality = EmbreeQuality::Medium;
@@ -41,6 +43,7 @@ class EmbreeTracer {
     virtual const BuildStats& stats() const = 0;
 };
 
+/// What the module offers: the program itself is not linked with Embree.
 class EmbreeLibrary {
   public:
     /// Throws where Embree does not run or memory does not suffice.

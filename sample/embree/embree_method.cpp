@@ -45,6 +45,8 @@ std::string device_config() {
     return "";
 }
 
+/// Throws when the module cannot be opened; the method's check, which choose_sampler() asks, has said so
+/// before.
 std::unique_ptr<EmbreeTracer> build(const Grids& grids, const EmbreeChoices& choices) {
     std::string problem;
     const EmbreeLibrary* const library = embree_library(&problem);
@@ -52,6 +54,7 @@ std::unique_ptr<EmbreeTracer> build(const Grids& grids, const EmbreeChoices& cho
     return library->build(grids, choices);
 }
 
+/// Brings tiles into an order, has them traced, and makes hit lists of what comes back.
 class EmbreeTraced final : public Visibility {
   public:
     EmbreeTraced(const VisibilityInput& input, const EmbreeChoices& choices)
@@ -71,6 +74,7 @@ class EmbreeTraced final : public Visibility {
             buffer_of_nearest(scratch, samples.size(), hits);
             return;
         }
+        // Opaque hits join the loose ones, so that one sort by depth orders both.
         for (size_t sample = 0; sample < samples.size(); ++sample) {
             if (scratch.nearest[sample].id == MicropolygonId::kNone) continue;
             scratch.hits.push_back(scratch.nearest[sample]);

@@ -26,6 +26,7 @@ RTCBuildQuality quality_of(EmbreeQuality quality) {
     return RTC_BUILD_QUALITY_MEDIUM;
 }
 
+/// Embree reports errors by device, and only when asked: this asks, and throws.
 void check(RTCDevice device) {
     switch (rtcGetDeviceError(device)) {
         case RTC_ERROR_NONE:
@@ -37,6 +38,7 @@ void check(RTCDevice device) {
     }
 }
 
+/// Called by Embree from any of its threads, for each block that it takes or gives back. True: go on.
 bool monitor_memory(void* bytes, ssize_t change, bool) {
     *static_cast<std::atomic<int64_t>*>(bytes) += change;
     return true;
@@ -58,6 +60,7 @@ void copy_key(const Grid& grid, int key, float* out) {
         }
 }
 
+/// Fills the vertex buffer: all grids of key 0, then all of key 1, and so on, as Embree wants time steps.
 void copy_positions(EmbreeMesh& mesh) {
     const size_t count = mesh.vertex_count * static_cast<size_t>(mesh.key_count) * 3;
     mesh.positions = std::make_unique_for_overwrite<float[]>(count + kFloatPadding);
@@ -70,6 +73,8 @@ void copy_positions(EmbreeMesh& mesh) {
     });
 }
 
+/// Corners and ids of all micropolygons, for the geometry "quad": 10, 00, 01, 11 of each, for in the buffer u
+/// falls along a row.
 void list_quads(EmbreeMesh& mesh) {
     std::vector<size_t> first(mesh.grids.size() + 1, 0);
     for (size_t i = 0; i < mesh.grids.size(); ++i)
@@ -92,6 +97,7 @@ void list_quads(EmbreeMesh& mesh) {
     });
 }
 
+/// A grid as Embree describes one: first vertex, stride of a row, vertices along a row, rows.
 RTCGrid window_of(const GridShape& shape, size_t first_vertex) {
     const auto width = static_cast<unsigned short>(shape.vertices_u());
     return {static_cast<unsigned>(first_vertex), width, width,
@@ -116,6 +122,7 @@ EmbreeScene::~EmbreeScene() {
     if (device_) rtcReleaseDevice(device_);
 }
 
+/// One mesh for each number of keys, filtered and not: unfiltered ones are spared the call for each hit.
 void EmbreeScene::gather_meshes(const Grids& grids, bool quads) {
     std::map<std::pair<int, bool>, EmbreeMesh> kinds;
     for (size_t i = 0; i < grids.grids.size(); ++i) {
@@ -169,6 +176,7 @@ void EmbreeScene::attach(EmbreeMesh& mesh, const EmbreeChoices& choices, RTCFilt
     rtcReleaseGeometry(geometry);
 }
 
+/// Of a grid, Embree gives coordinates over all of it, 0 to 1; they tell the cell. Its u falls as ours grows.
 uint64_t EmbreeScene::micropolygon(const EmbreeMesh& mesh, unsigned primitive, float u, float v) {
     if (mesh.quads) return mesh.quads[primitive];
     const auto cell = [](float at, int count) {

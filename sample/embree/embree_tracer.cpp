@@ -17,6 +17,7 @@ struct Collector {
     SampleScratch* scratch;
 };
 
+/// Whether the side that the ray meets is to be seen: by the sign of normal times direction.
 bool faces(const Grid& grid, const RTCFilterFunctionNArguments& args, unsigned i) {
     if (grid.facing == Facing::Both) return true;
     const float along = RTCHitN_Ng_x(args.hit, args.N, i) * RTCRayN_dir_x(args.ray, args.N, i) +
@@ -30,6 +31,7 @@ void filter_hits(const RTCFilterFunctionNArguments* args) {
     const auto& mesh = *static_cast<const EmbreeMesh*>(args->geometryUserPtr);
     SampleScratch& scratch = *reinterpret_cast<Collector*>(args->context)->scratch;
     for (unsigned i = 0; i < args->N; ++i) {
+        // Embree's masks: -1 is a lane with a hit, 0 one without; setting 0 rejects the hit.
         if (args->valid[i] != -1) continue;
         const unsigned primitive = RTCHitN_primID(args->hit, args->N, i);
         const uint64_t id = EmbreeScene::micropolygon(mesh, primitive, RTCHitN_u(args->hit, args->N, i),
@@ -82,6 +84,7 @@ class Tracer final : public EmbreeTracer {
     }
 
   private:
+    /// A ray with direction z of 1, so that the distance along it is camera-space depth.
     void set_ray(const AxisRay& from, uint32_t sample, RTCRayHit& to) const {
         to.ray.org_x = from.ox, to.ray.org_y = from.oy, to.ray.org_z = from.oz;
         to.ray.dir_x = from.ux, to.ray.dir_y = from.uy, to.ray.dir_z = 1;  // distance is camera-space z
@@ -95,6 +98,7 @@ class Tracer final : public EmbreeTracer {
                                    scene_.micropolygon(ray.hit.geomID, ray.hit.primID, ray.hit.u, ray.hit.v)};
     }
 
+    /// A call for each ray.
     void trace_singly(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
                       RTCIntersectContext* context) const {
         RTCRayHit ray;
@@ -117,6 +121,7 @@ class Tracer final : public EmbreeTracer {
         }
     }
 
+    /// kLanes rays a call. The last packet is filled up with copies of its last ray, which are masked off.
     template <size_t kLanes, class Packet, class Intersect>
     void trace_packets(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
                        RTCIntersectContext* context, Intersect intersect) const {

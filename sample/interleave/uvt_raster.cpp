@@ -81,6 +81,7 @@ class GridRaster {
         }
     }
 
+    /// A grid as one tuple sees it: vertices are placed at its time and lens point, boxes made and visited.
     void raster_tuple(size_t listed, bool moves) {
         if (raster_.cull && is_hidden(listed)) return;
         const Tuple at = tuple(listed);
@@ -162,6 +163,7 @@ class GridRaster {
         if (queue.count >= UvtQueue::kFull) test_queue(at);
     }
 
+    /// Tests the queued pairs of micropolygon and sample, a vector of them at once, and empties the queue.
     void test_queue(const Tuple& at) {
         const D d;
         const DI di;
@@ -195,6 +197,8 @@ class GridRaster {
         queue.count = 0;
     }
 
+    /// Goes over the lanes that hit: `left` has a bit for each. Two lanes may be of one sample, so they are
+    /// taken one after the other.
     void keep(const Tuple& at, size_t first, hn::Mask<D> hit, V depth) {
         const D d;
         HWY_ALIGN float depths[UvtQueue::kPadding];
@@ -219,6 +223,7 @@ class GridRaster {
         }
     }
 
+    /// For pictures of where the work is: here a test counts as a node, too.
     void count_heat(const Tuple& at, size_t first, size_t count) {
         for (size_t i = first; i < first + count; ++i) {
             const size_t sample = sample_of(at, i);

@@ -44,6 +44,8 @@ struct UvtQueue {
     int32_t pixel[kFull + 2 * kPadding];  ///< as cell_pixels()
 };
 
+/// A thread's memory, kept from tile to tile. Planes of vertices are in the order of `rows`, padded to whole
+/// vectors; what is at a tuple's time is overwritten by the next tuple.
 struct UvtScratch {
     UvtTile tile;
     UvtGridTuples tuples;
@@ -69,6 +71,8 @@ struct UvtRaster {
 };
 
 /// Runs on the best instruction set at hand.
+/// Adds what a grid's micropolygons give the tile's samples: nearest opaque hits in raster.own.tile, others
+/// listed in raster.scratch. Grids may come in any order.
 void raster_grid_uvt(UvtRaster& raster, const BoundedGrid& grid, SampleStats& stats);
 
 }  // namespace trapeze

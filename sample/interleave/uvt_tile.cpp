@@ -17,6 +17,8 @@ int floor_to_multiple(int at, int of) {
 
 }  // namespace
 
+/// A ray through lens point l runs from l towards its place on the plane in focus: l / focal distance is what
+/// its slope loses.
 UvtTuples::UvtTuples(const InterleavedPattern& pattern, const Camera& camera)
     : count(static_cast<size_t>(pattern.tuple_count())) {
     for (auto* plane : {&lens_x, &lens_y, &slope_x, &slope_y, &time}) plane->assign(count + kPadding, 0.0f);
@@ -43,6 +45,8 @@ void UvtTile::build(const PixelRect& pixels, const InterleavedPattern& pattern, 
     clear_hits(pattern);
 }
 
+/// Infinitely far where a pixel has the tuple; -infinity where none has, so that no hit is nearer and culling
+/// takes the cell for covered.
 void UvtTile::clear_hits(const InterleavedPattern& pattern) {
     constexpr float kInfinite = std::numeric_limits<float>::infinity();
     const auto tuples = static_cast<size_t>(pattern.tuple_count());
@@ -56,6 +60,7 @@ void UvtTile::clear_hits(const InterleavedPattern& pattern) {
     }
 }
 
+/// Which pixel of each cell has which group of tuples; the pattern permutes groups from cell to cell.
 void UvtTile::build_cells(const PixelRect& pixels, const InterleavedPattern& pattern) {
     const int group_count = pattern.group_count();
     cell_pixels_.assign(cell_count_ * static_cast<size_t>(group_count), kNoPixel);
@@ -76,6 +81,7 @@ void UvtTile::build_cells(const PixelRect& pixels, const InterleavedPattern& pat
         }
 }
 
+/// By the same function as the samples' rays, so that both agree to the bit.
 void UvtTile::build_rays(const InterleavedPattern& pattern, const Camera& camera) {
     const auto tuples = static_cast<size_t>(pattern.tuple_count());
     columns_.resize(tuples * static_cast<size_t>(width_));
@@ -98,6 +104,7 @@ void UvtTile::build_rays(const InterleavedPattern& pattern, const Camera& camera
     }
 }
 
+/// A pixel's samples are consecutive tuples, at the same cell of consecutive planes.
 void UvtTile::copy_nearest(std::vector<Hit>& nearest) const {
     size_t sample = 0, pixel = 0;
     for (int y = pixels_.y0 - y0_; y < height_; ++y)

@@ -11,6 +11,8 @@ constexpr uint32_t kLanes = SampleBlock::kLanes;
 
 }  // namespace
 
+/// Cells are squares of 2^cell_shift pixels, numbered row by row, with one more for the block that keeps
+/// slots apart.
 void SampleSlots::build(const SampleTile& samples, const SlotTable& table, int cell_shift, bool places) {
     const auto cells_along = [cell_shift](int pixels) {
         return (pixels + (1 << cell_shift) - 1) >> cell_shift;
@@ -99,6 +101,7 @@ void SampleSlots::merge_into(std::vector<Hit>& nearest) const {
             for (size_t i = first_block_[at]; i < first_block_[at + 1]; ++i) merge_block(i, nearest);
 }
 
+/// The nearer of a lane's hit and what the sample has already.
 void SampleSlots::merge_block(size_t index, std::vector<Hit>& nearest) const {
     const SampleBlock& block = blocks_[index];
     for (size_t lane = 0; lane < lane_counts_[index]; ++lane) {

@@ -24,6 +24,7 @@ std::string_view take_until(char separator, std::string_view& rest) {
 
 }  // namespace
 
+/// Text is "name" or "name:key=value,key=value"; which names and keys there are is not looked at here.
 std::optional<MethodSpec> parse_spec(std::string_view text, std::string* error) {
     MethodSpec spec;
     std::string_view rest = text;
@@ -44,6 +45,7 @@ std::optional<MethodSpec> parse_spec(std::string_view text, std::string* error) 
     return spec;
 }
 
+/// Checks what was given, then adds the defaults: an option's first value.
 bool complete_spec(MethodSpec& spec, const std::vector<SpecOption>& options, std::string* error) {
     for (const auto& [key, value] : spec.options) {
         const SpecOption* option = find_named(options, key);
