@@ -19,6 +19,7 @@ constexpr Named kJpeg[] = {{"jpeg", "jpeg"}};
 constexpr Named kTarga[] = {{"none", "none"}, {"rle", "rle"}};
 constexpr Named kBmp[] = {{"none", "none"}};
 
+/// A format's compressions, in the order in which messages list them.
 std::span<const Named> table(FileFormat format) {
     switch (format) {
         case FileFormat::OpenExr:

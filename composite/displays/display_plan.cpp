@@ -13,6 +13,7 @@
 namespace trapeze {
 namespace {
 
+/// Names of drivers, modes and extensions are compared without regard to case.
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     return text;
@@ -23,6 +24,7 @@ struct NamedFormat {
     FileFormat format;
 };
 
+// The first of a format is the one that a display without a name gets.
 constexpr NamedFormat kExtensions[] = {{".exr", FileFormat::OpenExr}, {".tif", FileFormat::Tiff},
                                        {".tiff", FileFormat::Tiff},   {".png", FileFormat::Png},
                                        {".jpg", FileFormat::Jpeg},    {".jpeg", FileFormat::Jpeg},
@@ -31,7 +33,9 @@ constexpr NamedFormat kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", Fi
                                     {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
                                     {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
                                     {"bmp", FileFormat::Bmp}};
+// "exrheader_NAME" of a Display becomes the attribute NAME of its OpenEXR file.
 constexpr std::string_view kAttributePrefix = "exrheader_";
+// Drivers of other renderers that open a window, which this program does not.
 constexpr std::string_view kWindowDrivers[] = {
     "framebuffer", "it",    "x11",     "windows", "idisplay", "piqsl",     "houdini",
     "rgl",         "mplay", "xwindow", "window",  "agshow",   "i-display", "zframebuffer"};
@@ -166,6 +170,7 @@ bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPl
     return true;
 }
 
+/// Null when the parameter is not there or has fewer than `count` floats.
 const Parameter* floats_of(const ParameterList& list, std::string_view name, size_t count) {
     const Parameter* parameter = list.find(name);
     return parameter && parameter->floats.size() >= count ? parameter : nullptr;
@@ -189,6 +194,9 @@ bool is_encoded(const Display& display, const Options& options, const DisplayPla
            (transfer == Transfer::Auto && options.exposure_gamma == 1 && !plan.quantization.has_16_bits());
 }
 
+/// How numbers become the file's. What the display says ("quantize", "dither", "type") comes before the
+/// options' Quantize of the variable, and that before Quantize of "rgba" or "z". Variables that are no
+/// colours stay floats unless Quantize names them or the display has its own.
 void choose_pixel_type(const Display& display, const Options& options, DisplayPlan& plan) {
     const Parameter* own = floats_of(display.parameters, "quantize", 4);
     const bool color = plan.rgb || plan.alpha || plan.aov_is_color;
@@ -214,6 +222,7 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
     plan.srgb = is_encoded(display, options, plan);
 }
 
+/// "exrcompression" is OpenEXR's alone and comes before "compression". Empty: what the format usually has.
 void choose_compression(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
     std::string name = display.parameters.string_or("compression", "");
     if (plan.format == FileFormat::OpenExr) name = display.parameters.string_or("exrcompression", name);
@@ -229,6 +238,7 @@ void choose_compression(const Display& display, Diagnostics& diagnostics, Displa
         "display-compression " + name + ' ' + plan.path);
 }
 
+/// Attributes that the scene asks for; each that cannot be written is left out with a warning.
 void take_attributes(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
     for (const Parameter& parameter : display.parameters.values) {
         if (!parameter.name.starts_with(kAttributePrefix)) continue;
@@ -259,6 +269,7 @@ bool makes_depth_map(const Display& display) {
 }
 
 std::optional<FileFormat> file_format(const Display& display) {
+    // plan_display() will say all that is to be said, once.
     Diagnostics unheard;
     DisplayPlan plan;
     return choose_format(display, unheard, plan) ? std::optional(plan.format) : std::nullopt;
@@ -267,6 +278,7 @@ std::optional<FileFormat> file_format(const Display& display) {
 void rename(Display& display, std::string name) {
     const auto before = file_format(display);
     display.name = std::move(name), display.type = "file";
+    // Another format has other compressions, and perhaps no attributes.
     if (file_format(display) == before) return;
     std::erase_if(display.parameters.values, [](const Parameter& parameter) {
         return parameter.name == "compression" || parameter.name == "exrcompression" ||

@@ -23,12 +23,15 @@ constexpr std::string_view kOfTheFile[] = {
     "maxSamplesPerPixel", "multiView",         "name",        "part",       "pixelAspectRatio", "preview",
     "screenWindowCenter", "screenWindowWidth", "tiles",       "type",       "version",          "view"};
 
+/// Erases first: OpenEXR throws where an attribute exists with another type.
 template <class Attribute, class Value>
 void insert(Imf::Header& header, const std::string& name, Value value) {
     header.erase(name.c_str());
     header.insert(name.c_str(), Attribute(value));
 }
 
+/// One to three whole numbers have a type in OpenEXR; more become floats. Values come as floats, and are kept
+/// within what an int holds: 2147483520 is the largest float below 2^31.
 void insert_integers(Imf::Header& header, const std::string& name, const std::vector<float>& v) {
     const auto whole = [&](size_t i) {
         return static_cast<int>(std::clamp(v[i], -2147483520.0f, 2147483520.0f));

@@ -47,6 +47,8 @@ struct Encoding {
     bool to_float() const { return type == NumberType::Float; }
 };
 
+/// Colours are associated (premultiplied) in the picture and in TIFF; other formats with alpha want them
+/// divided by it. JPEG holds no alpha. A variable has its own channels and no alpha.
 Encoding encoding_of(const PictureToWrite& picture) {
     const DisplayPlan& plan = picture.plan;
     Encoding e;
@@ -87,6 +89,7 @@ int quantized(const Quantization& q, float value, int x, int y, int channel) {
     return static_cast<int>(std::clamp(std::floor(level + 0.5f), low, high));
 }
 
+/// The window's pixels, row by row, channels side by side, in the file's numbers.
 template <class Value>
 std::vector<Value> encode_pixels(const Image& image, const Encoding& e) {
     std::vector<Value> out;
@@ -127,6 +130,9 @@ std::string description(const PictureToWrite& picture, const Encoding& e) {
     return text;
 }
 
+/// All that the file says beside its pixels. width and height are the crop window's, full_width and
+/// full_height the whole picture's. The matrices of a TIFF say where the camera stood, as readers of
+/// shadow maps want to know.
 ImageForm make_form(const PictureToWrite& picture, const Encoding& e) {
     const Image& image = picture.image;
     ImageForm form;
@@ -168,6 +174,7 @@ ImageForm make_form(const PictureToWrite& picture, const Encoding& e) {
     return form;
 }
 
+/// Depth goes as it is; all else is brought into the file's numbers first.
 ImageBytes encode(const ImageLibrary& library, const Image& image, const Encoding& e, const ImageForm& form) {
     if (e.depth) return library.encode(form, NumberType::Float, image.z.data());
     if (e.type == NumberType::Float)

@@ -6,6 +6,7 @@
 
 namespace trapeze {
 
+/// The bytes are taken as sRGB and written as they are.
 std::vector<unsigned char> png_bytes(int width, int height, std::span<const uint8_t> rgb) {
     ImageForm form;
     form.format = "png";

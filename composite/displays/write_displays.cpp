@@ -41,7 +41,7 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
     Diagnostics& diagnostics = *context.diagnostics;
     const AovLayout layout = aov_layout(context.scene->options);
     bool good = true;
-    std::set<std::string> places;
+    std::set<std::string> places;  // taken so far, so that no display overwrites another's file
     for (const Display& display : context.scene->options.displays) {
         if (context.is_cancelled()) return false;
         const auto begin = std::chrono::steady_clock::now();
@@ -73,6 +73,7 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
                 info.before_picture(plan->path, display.location);
             error = write_picture({image, context, *plan, info}, place);
         }
+        // A file that was given up because the user stops is no error.
         if (context.is_cancelled() && !error.empty()) return false;
         if (error.empty()) {
             const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;

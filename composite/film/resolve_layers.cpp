@@ -19,6 +19,7 @@ bool resolve_opaque(const Hit& hit, const Grids& grids, const LayerOf& layer_of,
     return true;
 }
 
+/// Whether a layer counts for depth and id: matte ones and those that leave no trace do not.
 bool shows(const Grid& grid, const Layer& layer) {
     return !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));
 }
@@ -26,6 +27,7 @@ bool shows(const Grid& grid, const Layer& layer) {
 /// Adds a layer's values, weighed by what reaches it.
 void add_aovs(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, const AovLayout& layout,
               const V3f& transmission, float* values) {
+    // A grid that is not smooth shows the values of each micropolygon's first corner.
     QuadWeights weights{{1, 0, 0, 0}};
     if (grid.smooth) weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
     const int corners = grid.smooth ? 4 : 1;
@@ -65,6 +67,7 @@ SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint
             if (layers == 1) sample.depth = hit.depth, sample.primitive = grid.primitive;
             if (layers == 2 && midpoint) sample.depth = (sample.depth + hit.depth) / 2;
         }
+        // Nothing behind is seen any more; "midpoint" still wants the depth of a second layer.
         if (transmission == V3f(0) && (!midpoint || layers >= 2)) break;
     }
     if (midpoint && layers == 1) sample.depth = kInfinity;

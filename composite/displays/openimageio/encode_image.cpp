@@ -21,6 +21,7 @@ OIIO::TypeDesc type_of(NumberType type) {
     return OIIO::TypeDesc::UNKNOWN;
 }
 
+/// Visitor of ImageForm::Value: each type of value has its own call in OpenImageIO.
 struct SetAttribute {
     OIIO::ImageSpec& spec;
     const std::string& name;
@@ -31,6 +32,7 @@ struct SetAttribute {
     void operator()(const M44f& value) const { spec.attribute(name, OIIO::TypeMatrix, &value); }
 };
 
+/// ImageForm in OpenImageIO's words. Channels without names get OpenImageIO's own: R G B A.
 OIIO::ImageSpec spec_of(const ImageForm& form) {
     OIIO::ImageSpec spec(form.width, form.height, form.channels, type_of(form.type));
     spec.x = form.x, spec.y = form.y;
@@ -43,10 +45,13 @@ OIIO::ImageSpec spec_of(const ImageForm& form) {
     return spec;
 }
 
+/// The one object that the module offers. It holds nothing, so any thread may use it.
 class OpenImageIo final : public ImageLibrary {
   public:
     ImageBytes encode(const ImageForm& form, NumberType numbers, const void* pixels) const override {
         OIIO::Filesystem::IOVecOutput memory;
+        // Null where OpenImageIO was built without the format; the error is then the library's, not the
+        // output's.
         const auto out = OIIO::ImageOutput::create(form.format);
         if (!out) return {{}, OIIO::geterror()};
         const bool good = out->set_ioproxy(&memory) && out->open(form.format, spec_of(form)) &&
