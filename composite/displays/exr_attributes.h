@@ -13,8 +13,9 @@ namespace trapeze {
 /// Why a header cannot have the attribute, whose name is without the prefix; empty: it can.
 std::string problem_of_attribute(const Parameter& attribute);
 
-/// Instead of what it may have by these names. Floats, integers and strings, arrays of them, colours, points,
-/// vectors, normals and matrices, each as OpenEXR's type.
+/// Adds the attributes to the header, instead of what it may have by these names. Floats, integers and
+/// strings, arrays of them, colours, points, vectors, normals and matrices, each as OpenEXR's type. None of
+/// them may have a problem_of_attribute().
 void add_attributes(Imf::Header& header, const std::vector<Parameter>& attributes);
 
 }  // namespace trapeze

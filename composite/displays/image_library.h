@@ -35,6 +35,7 @@ struct ImageBytes {
     std::string problem;
 };
 
+/// What the module offers: the program itself is not linked with OpenImageIO. Any thread may use it.
 class ImageLibrary {
   public:
     /// The pixels row by row, `form.channels` numbers of type `numbers` each.

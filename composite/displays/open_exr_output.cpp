@@ -40,6 +40,7 @@ class Stream : public Imf::OStream {
     OutputFile& file_;
 };
 
+/// ZIP where no name is given: lossless, and what most readers expect.
 Imf::Compression compression_of(const std::string& name) {
     constexpr std::pair<std::string_view, Imf::Compression> kNames[] = {
         {"none", Imf::NO_COMPRESSION},   {"rle", Imf::RLE_COMPRESSION},     {"zips", Imf::ZIPS_COMPRESSION},
@@ -99,6 +100,7 @@ void to_halves(const float* from, size_t count, Imath::half* to) {
     for (size_t i = 0; i < count; ++i) to[i] = Imath::half(std::clamp(from[i], -65504.0f, 65504.0f));
 }
 
+/// Writes some rows at a time, so that only those rows are ever there as halves.
 class RowWriter {
   public:
     RowWriter(const PictureToWrite& picture, Imf::OutputFile& out) : picture_(picture), out_(out) {}

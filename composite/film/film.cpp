@@ -10,10 +10,12 @@
 namespace trapeze {
 namespace {
 
+/// Rounds towards minus infinity: samples may lie left of and above the image, as far as the filter reaches.
 int tile_of(int pixel) {
     return pixel >= 0 ? pixel / kTileSide : -((kTileSide - 1 - pixel) / kTileSide);
 }
 
+/// With x more columns and y more rows on either side.
 PixelRect grown(const PixelRect& r, int x, int y) {
     return {r.x0 - x, r.y0 - y, r.x1 + x, r.y1 + y};
 }
@@ -108,6 +110,7 @@ PixelRect Film::tile_pixels(int tile) const {
     return intersection(tile_square(tile), sampled_);
 }
 
+/// Whether samples of one tile have a part in pixels of another one that are kept.
 bool Film::reaches(int from, int to) const {
     const PixelRect reached = grown(tile_pixels(from), kernel_.reach_x(), kernel_.reach_y());
     return !intersection(intersection(reached, tile_pixels(to)), image_.window).empty();
@@ -135,6 +138,7 @@ void Film::add_tile(int column, int row, const SampleTile& samples, const HitBuf
     if (column < 0 || column >= tiles_x_ || row < 0 || row >= tiles_y_) return;
     const int index = row * tiles_x_ + column;
     Tile& tile = tiles_[index];
+    // A tile counts once, whoever brings it.
     if (tile.added.exchange(true)) return;
     const FilmPart part{intersection(tile_square(index), samples.pixels), samples, hits, grids};
     auto sums = std::make_unique<TileSums>(part.pixels, kernel_, part.hits_anything(), aovs_.channel_count);

@@ -48,6 +48,7 @@ class BruteForce final : public Visibility {
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
         scratch.own.of<BruteForceScratch>().load(samples);
+        // Every sample begins with nothing, infinitely far away.
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
         scratch.hits.clear();
         scratch.hit_sample.clear();
@@ -67,6 +68,7 @@ class BruteForce final : public Visibility {
         const Grid& grid = grids_.grids[index];
         for (int v = 0; v < grid.shape.nv; ++v)
             for (int u = 0; u < grid.shape.nu; ++u) {
+                // Each vertex at the ends of all its motion segments; between them it goes straight.
                 SweptBound bound;
                 for (int corner = 0; corner < 4; ++corner)
                     add_vertex(grid, u + (corner & 1), v + (corner >> 1), bound);

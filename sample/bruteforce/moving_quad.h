@@ -24,6 +24,7 @@ struct MovingQuad {
 struct RayPlanes {
     const float *ox, *oy, *ux, *uy, *time;
 };
+/// At least the floats of the longest vector of any instruction set.
 inline constexpr size_t kRayPadding = 64;
 
 /// Tests rays first .. first + count - 1; lists those that hit, ascending, with their depths. Returns how

@@ -79,6 +79,8 @@ class GridDual {
         return DualMesh<kMoves, kLens>(raster_, bound_).place(within);
     }
 
+    /// All micropolygons that show in the tile during the part: place() has left their boxes in pixels, both
+    /// ends included, and -1 where there is none.
     void raster_part() {
         const DualMeshScratch& mesh = scratch_.mesh;
         for (quad_ = 0; quad_ < vertices_.quad_end(); ++quad_)
@@ -86,6 +88,8 @@ class GridDual {
                 raster_quad({mesh.x0[quad_], mesh.y0[quad_], mesh.x1[quad_] + 1, mesh.y1[quad_] + 1});
     }
 
+    /// One micropolygon: which samples of which columns and rows may see it, then the tests of those. Where
+    /// it cannot be bounded all samples of the box are tested.
     void raster_quad(const PixelRect& box) {
         DualIntervals &columns = scratch_.columns, &rows = scratch_.rows;
         if (bound_.boundable) {

@@ -23,7 +23,8 @@ struct EmbreeMesh {
     size_t vertex_count = 0;
     std::unique_ptr<float[]> positions;   ///< x y z of all vertices, key after key
     std::unique_ptr<uint32_t[]> corners;  ///< of quads: four vertices each
-    std::unique_ptr<uint64_t[]> quads;    ///< of quads: MicropolygonId::packed()
+    /// Null for grids: their micropolygons follow from where in the grid a hit is.
+    std::unique_ptr<uint64_t[]> quads;  ///< of quads: MicropolygonId::packed()
     size_t quad_count = 0;
     const Grids* all_grids = nullptr;
 
@@ -57,7 +58,10 @@ class EmbreeScene {
     void commit(const EmbreeChoices& choices, RTCFilterFunctionN filter);
     void attach(EmbreeMesh& mesh, const EmbreeChoices& choices, RTCFilterFunctionN filter);
 
+    /// Embree's threads change it until the device is released.
     std::atomic<int64_t> bytes_{0};  ///< what Embree has allocated
+    /// Complete before the first is attached: Embree and its filters keep pointers to them and to their
+    /// buffers.
     std::vector<EmbreeMesh> meshes_;
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;

@@ -20,6 +20,7 @@
 namespace trapeze {
 namespace {
 
+/// Pixels. Both plans are made once, for the pattern, and serve every tile.
 constexpr int kIntervalTileSide = 64;
 
 /// Parts of the shutter with boxes of their own when pairing is shuffled. Each has its samples scattered
@@ -54,6 +55,7 @@ class Interval final : public Rasterizer {
         still.clear();
         blurred.clear();
         for (const uint32_t index : grids) {
+            // What neither moves nor can be out of focus has one box for all slots.
             const bool blurs = camera().has_lens() || (context().motion && grid(index).moves());
             (blurs ? blurred : still).push_back(index);
         }

@@ -49,6 +49,7 @@ OIIO::ImageSpec spec_of(const ImageForm& form) {
 class OpenImageIo final : public ImageLibrary {
   public:
     ImageBytes encode(const ImageForm& form, NumberType numbers, const void* pixels) const override {
+        // A file in memory, which grows as it is written. It must outlive `out`, and so stands before it.
         OIIO::Filesystem::IOVecOutput memory;
         // Null where OpenImageIO was built without the format; the error is then the library's, not the
         // output's.
@@ -57,6 +58,7 @@ class OpenImageIo final : public ImageLibrary {
         const bool good = out->set_ioproxy(&memory) && out->open(form.format, spec_of(form)) &&
                           out->write_image(type_of(numbers), pixels) && out->close();
         if (good) return {memory.buffer(), {}};
+        // Some formats fail and say nothing.
         const std::string problem = out->geterror();
         return {{}, problem.empty() ? "cannot be encoded" : problem};
     }

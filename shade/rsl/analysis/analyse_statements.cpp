@@ -42,6 +42,7 @@ void Analyser::declare_again(StatementPtr& s) {
     if (s->variables.size() != 1 || !s->variables.front()->initial) return;
     Variable& again = *s->variables.front();
     const Variable* known = find_variable(again.name);
+    // "if (a) float x = 1; else float x = 2;" is meant as one variable with two values.
     if (!known || !known->outlives || known->type != again.type || again.type.is_array()) return;
     auto place = std::make_unique<Expression>();
     place->kind = Expression::Kind::Variable;
@@ -212,6 +213,7 @@ void Analyser::gather(Statement& s) {
         value(s.expressions[i], i < 5 ? kWanted[i] : is_name ? Base::String : Base::Void);
         if (i < 5 || is_name) continue;
         const Expression& name = *s.expressions[i - 1];
+        // "send:..." goes to the shaders that rays hit; all other names with a colon bring something back.
         const bool output = name.kind == Expression::Kind::Text && name.text.find(':') != std::string::npos &&
                             !name.text.starts_with("send:");
         if (!output) continue;

@@ -195,6 +195,7 @@ void Analyser::choose_call(Expression& e, Base base) {
     const Signature* best = nullptr;
     int least = Choices::kNever;
     for (const Signature& signature : all) {
+        // As in call_types(): a function of the source that fits hides the built-in ones.
         if (signature.result.base != base || (signature.builtin && best && !best->builtin)) continue;
         const int cost = cost_of(signature, e);
         if (cost < least) best = &signature, least = cost;

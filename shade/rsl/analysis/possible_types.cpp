@@ -159,6 +159,7 @@ Choices Analyser::element_types(Expression& e) {
 void Analyser::check_index(const Expression& element) {
     const int length = element.children[0]->type.length;
     const Expression* index = element.children[1].get();
+    // A number with a minus sign is no number yet, but an operator and a number.
     const bool negative = index->kind == Expression::Kind::Unary && index->op == Operator::Negate;
     if (negative) index = index->children[0].get();
     if (index->kind != Expression::Kind::Number || length <= 0) return;
@@ -226,6 +227,7 @@ Choices Analyser::tuple_types(Expression& e) {
         if (!is_whole_array(*child, reporter_) && part.cost_to(Base::Float) >= Choices::kNever)
             error(child->at, "a float is wanted here, not a " + part.text());
     }
+    // Three numbers cost nothing as any triple: what stands around them decides.
     if (e.kind == Expression::Kind::Sixteen) return Choices(Base::Matrix);
     Choices choices;
     for (const Base base : kAllBases)
