@@ -232,6 +232,7 @@ void Film::settle(int tile) {
     });
 }
 
+/// One reader less; the last one frees the tile's sums.
 void Film::release(int tile) {
     if (tiles_[tile].readers.fetch_sub(1, std::memory_order_acq_rel) != 1 || !tiles_[tile].sums) return;
     waiting_bytes_.fetch_sub(tiles_[tile].sums->bytes(), std::memory_order_relaxed);

@@ -15,6 +15,8 @@ class PixelDepth {
   public:
     explicit PixelDepth(DepthFilter filter) : filter_(filter) {}
 
+    /// A sample that sees nothing (infinite depth) does not count. The depths of "midpoint" are already
+    /// halfway ones, of which the least is kept.
     void add(float depth) {
         if (depth >= kInfinity) return;
         if (count_ == 0)

@@ -72,6 +72,8 @@ class BruteForce final : public Visibility {
                 SweptBound bound;
                 for (int corner = 0; corner < 4; ++corner)
                     add_vertex(grid, u + (corner & 1), v + (corner >> 1), bound);
+                // The box is grown by the lens and by rounding: it holds every sample that can see the
+                // micropolygon.
                 const PixelRect pixels = pixels_within(bound.raster(camera_), samples.pixels);
                 if (pixels.empty()) continue;
                 const MicropolygonId id{static_cast<uint32_t>(index), static_cast<uint8_t>(u),
@@ -109,7 +111,7 @@ class BruteForce final : public Visibility {
 
     const Camera& camera_;
     const Grids& grids_;
-    bool all_opaque_;
+    bool all_opaque_;  ///< nothing but the nearest hit of each sample is wanted
     std::vector<RasterBox> boxes_;
 };
 

@@ -57,6 +57,7 @@ size_t find_hits(const RayPlanes& rays, size_t first, size_t count, const Moving
         };
         return find_hits_placed(rays, first, count, quad, found, depth, linear);
     }
+    // Rays of one vector may be in different segments: each lane gathers its own.
     const auto piecewise = [&quad](auto d, int component, int corner, auto segment, auto local) HWY_ATTR {
         return position_at(hn::GatherIndex(d, quad.start[component][corner], segment),
                            hn::GatherIndex(d, quad.delta[component][corner], segment), local);

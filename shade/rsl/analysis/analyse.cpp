@@ -228,6 +228,7 @@ void Analyser::check_array(Variable& variable) {
             variable.initial->children.size() <= static_cast<size_t>(kLongestArray)) {
             variable.type.length = static_cast<int>(variable.initial->children.size());
         } else {
+            // Taken as of length 1 from here on, so that the error is the only one.
             error(variable.at, "array " + in_quotes(variable.name) + " needs a length");
             variable.type.length = 1;
         }
@@ -258,6 +259,7 @@ void Analyser::initial_value(Variable& variable) {
 
 /// A list, another array, or one value for all elements.
 void Analyser::value_of_array(Variable& variable) {
+    // Without braces: an array that is copied, or one value for all.
     if (variable.initial->kind != Expression::Kind::List) {
         const Expression& from = *variable.initial;
         const bool is_array = from.kind == Expression::Kind::Variable && find_variable(from.text) &&

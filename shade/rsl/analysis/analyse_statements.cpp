@@ -132,7 +132,7 @@ void Analyser::declaration(Statement& s) {
     s.variables = std::move(kept);
 }
 
-/// while and for: expression 0 and 1 are the conditions, the others are run for what they do.
+/// while and for. The condition is expression 0 of a while, 1 of a for; the others are run for what they do.
 void Analyser::loop(Statement& s) {
     for (size_t i = 0; i < s.expressions.size(); ++i) {
         const bool is_condition = s.kind == Statement::Kind::While || i == 1;

@@ -144,8 +144,8 @@ class Analyser {
     std::map<const Function*, Instance*> file_instances_;  ///< of the file's functions, by the original
     std::deque<Instance> instances_;  ///< nested ones, too; a deque, since others point to them
     std::unordered_map<const Function*, Instance*> instance_of_copy_;  ///< by Instance::function
-    std::map<std::string, Variable*, std::less<>>
-        globals_;                             ///< those named so far; Shader::globals owns them
+    /// Those named so far; Shader::globals owns them.
+    std::map<std::string, Variable*, std::less<>> globals_;
     std::deque<Scope> scopes_;                ///< of all bodies, the innermost last
     std::deque<Body> bodies_;                 ///< the shader's, then those of functions that are entered
     std::set<const Variable*> warned_;        ///< variables that were warned of, once each

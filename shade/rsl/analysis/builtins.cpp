@@ -11,9 +11,9 @@ namespace {
 // Overloads of a name stand together, the preferred one first: where nothing says which result is wanted, the
 // first whose arguments fit best is taken. xcomp and its like are Component and SetComponent with the number
 // that their name says; those of transform with one space name have the current space for the other.
-// Every row is {name, result, parameters, operation, last resort}; builtins.h explains the letters. What no
-// renderer but others' later ones can answer has Op::Unavailable: it compiles with one warning, and gives 0,
-// an empty text or, as the distance to what a ray hits, 1e30.
+// Every row is {name, result, parameters, operation, last resort}; builtins.h explains the letters. Functions
+// of later renderers have Op::Unavailable: a call compiles with one warning, and gives 0, an empty text or,
+// as the distance to what a ray hits, 1e30.
 constexpr Builtin kBuiltins[] = {
     // Mathematics (RISpec 3.2, section 15.1).
     {"radians", 'f', "f", Op::Radians},

@@ -9,7 +9,7 @@ namespace {
 // triple with a float is worse than choosing an overload that gives the triple. kSameFamily: among vectors
 // and normals; kUnusual: where a point is involved; kTruth: between a condition and a float; kFill: a float
 // becomes all three components; kFillMatrix: a float becomes the diagonal; kOdd: operators on triples that
-// are seldom meant (products of vectors, which is greater).
+// are seldom meant (products of vectors, comparisons by size).
 constexpr int kSameFamily = 1, kUnusual = 2, kTruth = 3, kFill = 4, kFillMatrix = 5, kOdd = 6;
 
 bool is_geometric(Base base) {

@@ -54,6 +54,7 @@ constexpr GlobalVariable kVolume[] = {
     {"dtime", Base::Float, kUniform, false},  {"Ci", Base::Color, kVarying, true},
     {"Oi", Base::Color, kVarying, true}};
 
+// P and N are what a displacement is there to change.
 constexpr GlobalVariable kDisplacement[] = {
     {"P", Base::Point, kVarying, true},        {"dPdu", Base::Vector, kVarying, false},
     {"dPdv", Base::Vector, kVarying, false},   {"N", Base::Normal, kVarying, true},

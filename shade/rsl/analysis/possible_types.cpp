@@ -354,7 +354,7 @@ void Analyser::check_written(const Expression& place) {
                 reporter_.warning(place.at, name + " is not to be assigned to in " +
                                                 std::string(name_of(shader_->kind)) +
                                                 " shaders: only this one sees the change");
-            // Code generation makes the copy in front of all else.
+            // Code generation makes the copy at the body's beginning.
             variable->copied = variable->copied || !variable->output;
             break;
         case Variable::Kind::Parameter:

@@ -79,6 +79,7 @@ StatementPtr Parser::evaluation() {
 bool Parser::at_function() const {
     size_t name = next_;
     while (tokens_[name].is("uniform") || tokens_[name].is("varying")) ++name;
+    // A "void" is always a function's; another type may be a cast of a call, which no "{" follows.
     const bool is_void = tokens_[name].is("void");
     if (!is_void && base_named(tokens_[name].text) == Base::Void) return false;
     ++name;

@@ -39,8 +39,8 @@ struct Token {
 /// Tokens and the texts that they point into.
 struct TokenStream {
     std::vector<Token> tokens;  ///< the last one is an End
-    std::deque<SourceText>
-        sources;                   ///< files in the order read; deques, since what tokens view must not move
+    /// Files in the order read. Deques, since what tokens view must not move.
+    std::deque<SourceText> sources;
     std::deque<std::string> made;  ///< texts that stand in no source
 };
 
