@@ -56,7 +56,8 @@ class UvtTile {
     const float* columns(size_t tuple) const { return columns_.data() + tuple * static_cast<size_t>(width_); }
     const float* rows(size_t tuple) const { return rows_.data() + tuple * static_cast<size_t>(height_); }
 
-    /// Cell -> nearest opaque hit of a tuple's sample; where there is none, depth -infinity.
+    /// Cell -> depth of the nearest opaque hit of a tuple's sample: infinity where nothing was hit yet,
+    /// -infinity where the tuple has no pixel of the tile.
     float* depths(size_t tuple) { return depths_.data() + tuple * plane_size_; }
     uint64_t* ids(size_t tuple) { return ids_.data() + tuple * plane_size_; }
 

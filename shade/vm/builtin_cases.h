@@ -8,8 +8,9 @@
 
 namespace trapeze::vm::testing {
 
-/// `code` sets r from the floats X and Y. Where they are the same at all vertices, `flat` tells what to
-/// expect if that is something else: derivatives are 0 then.
+/// One call. `code` sets r from the floats X and Y, `expected` is what r must be at a vertex. `flat`, where
+/// it is given, takes the place of `expected` in runs where X and Y are the same at all vertices: there,
+/// derivatives are 0.
 struct BuiltinCase {
     std::string code;
     std::function<double(double x, double y)> expected;

@@ -70,7 +70,7 @@ void no_ray(Run& run, const Step& step, std::span<const Operand> operands) {
     std::string function(rsl::row_of(step.op).name);  // as in RSL but for capitals
     for (char& c : function) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     run.warn(step, function + "() sees nothing yet: its rays miss everything", "rsl-no-rays " + function);
-    // What is asked about a way between two points is that it is free.
+    // transmission() and visibility() return 1: nothing is in the way.
     const bool open = step.op == Op::Transmission || step.op == Op::Visibility;
     const int width = operands[0].stride ? 3 : 1;
     const float miss = step.op == Op::Trace && width == 1 ? 1e30f : open ? 1.0f : 0.0f;

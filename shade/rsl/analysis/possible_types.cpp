@@ -11,7 +11,8 @@ namespace {
 
 constexpr float kPi = 3.14159265358979323846f;  // RISpec 3.2, section 12: PI is predefined
 
-/// Whether an expression can be a text.
+/// Whether an expression can be one text: then a number in brackets behind it is the channel of a map, as in
+/// texture("name"[2]), and no index. Arrays, and what has no known type yet, are none.
 bool is_string(const Expression& e, const Choices& choices) {
     return !e.type.is_array() && !choices.is_unknown() && choices.has(Base::String);
 }

@@ -43,7 +43,7 @@ enum class Operator : uint8_t {
     Not,
 };
 
-/// A variable that is declared: global, parameter, local, or a function's parameter.
+/// A variable. There is one object for each declaration, and every expression that names it points to it.
 struct Variable {
     enum class Kind : uint8_t { Global, Parameter, Local, FunctionParameter };
     std::string name;

@@ -16,7 +16,7 @@ namespace {
 /// Below this a highlight is smaller than any micropolygon, and its exponent leaves what pow() is good for.
 constexpr float kMinRoughness = 1e-5f;
 
-/// out += s * color, by component.
+/// Adds a light's share, `s` of its colour, to the sum over lights.
 HWY_INLINE void add_scaled(const Output& out, const Input& color, V s, size_t i) {
     for (int k = 0; k < 3; ++k) out.put(hn::Add(out.get(i, k), hn::Mul(color.get(i, k), s)), i, k);
 }

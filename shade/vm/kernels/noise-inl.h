@@ -1,11 +1,11 @@
 /// Noise on an integer lattice of one to four dimensions, from a hash of the lattice point.
 ///
-/// Gradient noise is Perlin's improved noise [Perlin02] with a hash for his table: a
-/// polynomial of fifth degree fades between the corners of a cell, and each corner's hash picks a gradient:
+/// Gradient noise is Perlin's improved noise [Perlin02] with a hash in place of his table: a polynomial of
+/// fifth degree fades between the corners of a cell, and each corner's hash picks a gradient:
 /// +-1 to +-8 in one dimension, the (+-1, +-2) and (+-2, +-1) in two, the edges of a cube in three and of a
-/// hypercube in four. Sums are scaled to the contrast that noise has elsewhere, a standard deviation of about
-/// 0.085 around 0.5, which leaves them within 0.1..0.9. Noise at lattice points is exactly 0.5. Three values
-/// come from different bits of one hash.
+/// hypercube in four. Sums are scaled to the contrast of other renderers' noise (docs/fidelity.md), a
+/// standard deviation of about 0.085 around 0.5, which leaves them within 0.1..0.9. Noise at lattice points
+/// is exactly 0.5. Three values come from different bits of one hash.
 ///
 /// Coordinates are clamped to +-2^22, where floats still have halves; NaN is taken as 2^22.
 #if defined(TRAPEZE_SHADE_VM_NOISE_INL_H_) == defined(HWY_TARGET_TOGGLE)
