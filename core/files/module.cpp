@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <link.h>
+#include <sys/auxv.h>
 
 #include <filesystem>
 
@@ -18,7 +19,10 @@ fs::path own_folder() {
     const bool known = dladdr1(own, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) != 0;
     const fs::path file = known && map && map->l_name && *map->l_name ? map->l_name : "/proc/self/exe";
     std::error_code problem;
-    const fs::path place = fs::canonical(file, problem);
+    fs::path place = fs::canonical(file, problem);
+    // What was executed, as the kernel says, where /proc is not mounted.
+    const auto* const executed = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+    if (problem && executed) place = fs::canonical(executed, problem);
     return problem ? fs::path() : place.parent_path();
 }
 
