@@ -1,0 +1,28 @@
+# Lets PROGRAM write its manual pages and completions into FOLDER, which is laid out as an install's share.
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER}/man/man1)
+
+function(write_page file)
+    execute_process(COMMAND ${PROGRAM} help ${ARGN} OUTPUT_VARIABLE page COMMAND_ERROR_IS_FATAL ANY)
+    file(WRITE ${FOLDER}/${file} "${page}")
+endfunction()
+
+execute_process(COMMAND ${PROGRAM} help --completions bash OUTPUT_VARIABLE script COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCH "words='([a-z ]+) help'" unused "${script}")
+string(REPLACE " " ";" commands "${CMAKE_MATCH_1}")
+if(NOT commands)
+    message(FATAL_ERROR "${PROGRAM} names no commands")
+endif()
+write_page(man/man1/trapeze.1 --man)
+foreach(command ${commands})
+    write_page(man/man1/trapeze-${command}.1 --man ${command})
+endforeach()
+write_page(bash-completion/completions/trapeze --completions bash)
+write_page(zsh/site-functions/_trapeze --completions zsh)
+write_page(fish/vendor_completions.d/trapeze.fish --completions fish)
+
+find_program(GZIP gzip)
+if(GZIP)
+    file(GLOB pages ${FOLDER}/man/man1/*.1)
+    execute_process(COMMAND ${GZIP} -9n ${pages} COMMAND_ERROR_IS_FATAL ANY)
+endif()
