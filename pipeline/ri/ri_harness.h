@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "core/files/file_text_harness.h"
 #include "core/files/temporary_folder_harness.h"
 #include "pipeline/ri/ri.h"
 
@@ -29,13 +28,6 @@ inline std::vector<Reported>& reported() {
 
 inline void take_report(RtInt code, RtInt severity, char* message) {
     reported().push_back({code, severity, message});
-}
-
-inline std::string bytes_of(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
 }
 
 /// Long requests go on in further lines, which begin with no letter: here they are one line.
@@ -70,7 +62,8 @@ class Ri : public ::testing::Test {
         RiBegin(file.c_str());
         calls();
         RiEnd();
-        const std::string text = bytes_of(file), head = "##RenderMan RIB-Structure 1.0\nversion 3.03\n";
+        const std::string text = trapeze::testing::file_text(file),
+                          head = "##RenderMan RIB-Structure 1.0\nversion 3.03\n";
         EXPECT_TRUE(text.starts_with(head)) << text;
         return unwrapped(text.substr(std::min(head.size(), text.size())));
     }

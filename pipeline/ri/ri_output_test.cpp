@@ -77,9 +77,10 @@ TEST_F(RiOutput, EveryFormatReadsBackTheSameBits) {
     EXPECT_EQ(written("d.rib"), ascii);
 
     const std::string gzip_magic = "\x1f\x8b";
-    EXPECT_TRUE(bytes_of(path("b.rib.gz")).starts_with(gzip_magic));
-    EXPECT_TRUE(bytes_of(path("d.rib")).starts_with(gzip_magic));
-    EXPECT_NE(bytes_of(path("c.rib")).find('\246'), std::string::npos);  // an encoded request
+    EXPECT_TRUE(trapeze::testing::file_text(path("b.rib.gz")).starts_with(gzip_magic));
+    EXPECT_TRUE(trapeze::testing::file_text(path("d.rib")).starts_with(gzip_magic));
+    EXPECT_NE(trapeze::testing::file_text(path("c.rib")).find('\246'),
+              std::string::npos);  // an encoded request
     EXPECT_TRUE(reported().empty());
 }
 
@@ -123,9 +124,9 @@ TEST_F(RiOutput, ContextsAreApart) {
     RiContext(first);  // is no more
     RiContext(second);
     RiEnd();
-    EXPECT_THAT(bytes_of(one),
+    EXPECT_THAT(trapeze::testing::file_text(one),
                 ::testing::EndsWith("Declare \"mine\" \"float\"\nSurface \"matte\" \"mine\" [1]\n"));
-    EXPECT_THAT(bytes_of(two), ::testing::EndsWith("Surface \"matte\"\n"));
+    EXPECT_THAT(trapeze::testing::file_text(two), ::testing::EndsWith("Surface \"matte\"\n"));
     EXPECT_THAT(reported_codes(), ElementsAre(RIE_BADTOKEN, RIE_BADHANDLE));
 }
 

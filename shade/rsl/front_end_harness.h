@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "core/files/file_text_harness.h"
 #include "shade/rsl/front_end.h"
 
 namespace trapeze::rsl::testing {
@@ -31,13 +30,6 @@ struct Heard {
     /// The first line, or nothing.
     std::string first() const { return lines.empty() ? "" : lines[0]; }
 };
-
-inline std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 /// The shaders in a folder, in a fixed order.
 inline std::vector<std::filesystem::path> shaders_in(const std::string& folder) {

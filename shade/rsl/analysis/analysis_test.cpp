@@ -64,7 +64,8 @@ TEST(Analysis, ShadersAreRight) {
     for (const char* folder : {"/shade/shaders", "/shade/rsl/test_shaders"})
         for (const auto& path : testing::shaders_in(std::string(TRAPEZE_SOURCE_DIR) + folder)) {
             Heard heard;
-            const auto unit = compile_front({path.string(), testing::read_text(path)}, {}, heard.diagnostics);
+            const auto unit =
+                compile_front({path.string(), trapeze::testing::file_text(path)}, {}, heard.diagnostics);
             EXPECT_TRUE(unit) << path << "\n" << heard.all();
             // These use what is ignored, or missing.
             static const std::map<std::string, size_t> kWarnings{

@@ -249,7 +249,7 @@ TEST_P(RoundTrip, PrintedShadersParseToTheSameTree) {
     ASSERT_FALSE(paths.empty());
     for (const auto& path : paths) {
         Heard heard;
-        const auto first = parse({path.string(), testing::read_text(path)}, {}, heard.diagnostics);
+        const auto first = parse({path.string(), trapeze::testing::file_text(path)}, {}, heard.diagnostics);
         ASSERT_TRUE(first) << path << "\n" << heard.all();
         const std::string text = print(*first);
         const auto second = parse({"printed", text}, {}, heard.diagnostics);
