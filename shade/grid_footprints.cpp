@@ -11,9 +11,9 @@
 namespace trapeze {
 namespace {
 
-/// The shortest axis, pixels. A pixel's samples lie about so far apart, and together cover it; a whole pixel,
-/// which the pixel's filter would spread once more, is farther from the truth and blurred.
-constexpr float kLeastAxis = 0.5f;
+/// The shortest axis, pixels: what a micropolygon that is seen square on covers at a shading rate of 1. Half
+/// of it is a little nearer to the truth, since the pixel filter spreads once more, but far rows show grain.
+constexpr float kLeastAxis = 1.0f;
 /// Bounds a footprint that is seen edge-on: in micropolygons.
 constexpr float kMostStretch = 4096;
 /// The least cosine of the angle to the view's axis of what is projected.

@@ -80,7 +80,7 @@ float LineMeasure::lens_angle(const V3f& p) const {
 /// What counts of a length along a line where the surface's other lines are seen to cross it at a slant:
 /// less, along both, so that micropolygons are slivers of an area nearer to that of a pixel.
 float LineMeasure::slant(const V3f& p, const V3f& along, const V3f& across) const {
-    constexpr float kSlantedSine = 0.5f, kLeast = 0.4f;
+    constexpr float kSlantedSine = 0.5f, kLeast = 0.3f;
     const V3f ray = perspective_ ? p : V3f(0, 0, 1);
     const V3f a = ray.cross(along), b = ray.cross(across);  // as seen, but turned
     const float lengths = std::sqrt(a.dot(a) * b.dot(b));
