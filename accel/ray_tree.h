@@ -25,7 +25,7 @@ struct Visits {
 
     /// The second place is filled too: the loop copies both and then counts.
     static Visits one(const Visit& v, bool met) { return {{v, v}, met ? 1u : 0u}; }
-    /// Those of two children that the ray meets, the farther one first.
+    /// The visits of those of two children that the ray meets, the farther one first.
     static Visits two(const std::array<Visit, 2>& v, bool met_first, bool met_second) {
         // Children of equal depth keep their order, so that a traversal is the same on all machines.
         const bool swap = !met_first || (met_second && v[0].depth < v[1].depth);

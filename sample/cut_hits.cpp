@@ -37,8 +37,8 @@ bool SolidState::holds(int solid) const {
     return inside_[s];
 }
 
-/// Turns a leaf's inside over and goes up while that changes its parents. True when the root has changed: the
-/// surface is then one of the whole solid.
+/// Flips whether the ray is inside a leaf, and tells its parents as long as that changes them. True when the
+/// root changes: the surface then borders the whole solid.
 bool SolidState::cross(int leaf) {
     int solid = leaf;
     touched_.push_back(solid);

@@ -1,4 +1,4 @@
-/// From what methods find, in whatever order, to the hit buffer.
+/// The hit buffer, made from what methods find in whatever order.
 #pragma once
 
 #include "core/hit_buffer.h"

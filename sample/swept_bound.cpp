@@ -16,7 +16,7 @@ struct Interval {
     double min, max;
 };
 
-/// From a range of the image plane, grown, to raster coordinates.
+/// Raster coordinates of a range of the image plane, which is first grown by `grow`.
 Interval raster_range(Interval plane, double grow, double scale, double offset) {
     const double a = (plane.min - grow - offset) / scale, b = (plane.max + grow - offset) / scale;
     return {std::min(a, b), std::max(a, b)};

@@ -45,7 +45,7 @@ void add_vertex(const Grid& grid, int i, int j, SweptBound& bound);
 /// The bound of a whole grid.
 RasterBox raster_bound(const Grid& grid, const Camera& camera);
 
-/// Those of some pixels whose samples may lie in a box; all zero when there are none.
+/// The part of `pixels` whose samples may lie in a box; all zero when there is none.
 PixelRect pixels_within(const RasterBox& box, const PixelRect& pixels);
 
 }  // namespace trapeze

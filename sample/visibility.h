@@ -69,7 +69,8 @@ struct Sampler {
     std::unique_ptr<SamplePattern> make_pattern(const RenderContext& context) const {
         return make_sample_pattern(context, pattern);
     }
-    /// For samples of make_pattern()'s with the same context.
+    /// Prepares the method for some grids. Samples must come from the pattern that make_pattern() makes with
+    /// the same context.
     std::unique_ptr<Visibility> prepare(const RenderContext& context, const Grids& grids) const;
     /// The method as a user would name it, without options at their default.
     std::string name() const;
@@ -90,7 +91,7 @@ VisibilityMethod interleave_uvt_method();
 VisibilityMethod dual_space_method();
 VisibilityMethod embree_method();  ///< in the table where Embree was found at build time
 
-/// For methods that take any sample as it comes.
+/// The pattern of methods that take any sample as it comes.
 inline std::string stratified_pattern(const MethodSpec&) {
     return "stratified";
 }

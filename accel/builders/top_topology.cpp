@@ -12,8 +12,8 @@ TopTopology build_top_topology(std::span<const GridSummary> grids, bool orient_s
 
     SahOptions options;
     options.split_anyway = !orient_split;
-    // With one direction for all, the codes are an order of space alone: for the few parts that have no
-    // split.
+    // Parts for which no split is found are ordered by codes of place and direction. With one direction for
+    // all, that is an order of space alone.
     options.fallback_order = [&](std::span<SahItem> part) {
         sort_by_orientation(
             part, [&](uint32_t grid) { return orient_split ? grids[grid].main_direction : V3f(0, 0, 1); });

@@ -193,8 +193,8 @@ class CornerLookup {
     }
 
   private:
-    /// Of micropolygon v * 4 + u: the places of corners 10, 01 and 11 in two registers; 16 and more are the
-    /// second one's.
+    /// Where micropolygon v * 4 + u has its corners 10, 01 and 11 in two registers: places of 16 and more are
+    /// in the second one.
     alignas(64) static constexpr int32_t kCorners[3][16] = {
         {1, 2, 3, 16, 5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19},
         {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 22, 23},

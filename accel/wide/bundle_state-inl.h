@@ -87,7 +87,7 @@ struct BundleState {
     }
 
     /// Takes in a hit of a ray, within the depths that count: as its nearest, if opaque and in front of the
-    /// one known (equal depths by id), or as a layer. Whether it is the nearest opaque hit now.
+    /// one known (equal depths by id), or as a layer. Returns whether it is the nearest opaque hit now.
     HWY_INLINE bool keep_hit(uint32_t ray, float depth, uint32_t id, bool opaque) {
         ++stats.predicate_hits;
         float& nearest = rays.depth[ray];

@@ -1,6 +1,6 @@
-/// A bundle in the nodes above grids. It goes there in groups of packets, each by its intervals as one: where
-/// grids are smaller than what the bundle sees a group meets far fewer than the bundle. Compiled once a
-/// target.
+/// Finds the grids that a bundle may meet: takes it through the nodes above grids in groups of packets, each
+/// group as one, by the intervals that hold its rays. Where grids are smaller than what the bundle sees, a
+/// group meets far fewer of them than the whole bundle would. Compiled once a target.
 #if defined(TRAPEZE_ACCEL_CANDIDATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_CANDIDATES_INL_H_
 #undef TRAPEZE_ACCEL_CANDIDATES_INL_H_
@@ -128,7 +128,7 @@ void collect_candidates(BundleState& t) {
             meet_children<kMotion, kLens>(t, ChildLanes<kMotion>(t.tree, at.node, i), at.groups, met);
             for (; met.any != 0; met.any &= met.any - 1) {
                 const int lane = std::countr_zero(met.any);
-                // From a bit a child for each group to a bit a group for this child.
+                // Turns a bit a child for each group into a bit a group for this child.
                 uint32_t groups = 0;
                 for (uint32_t left = at.groups; left != 0; left &= left - 1) {
                     const int g = std::countr_zero(left);

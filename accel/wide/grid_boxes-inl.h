@@ -26,7 +26,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Finding a block's slabs pays for so many rays or more.
 inline constexpr size_t kFewForSlabs = 12;
 
-/// So many rays or fewer, and a byte of them at most, meet a grid's boxes one by one, lanes being boxes.
+/// Up to so many rays meet a grid's boxes one ray at a time, lanes being boxes; their number fits the bits of
+/// a byte.
 inline constexpr size_t kFewInGrid = std::min<size_t>(kLanes / 2, 8);
 
 /// Tests a vector of active rays, those from `i` on, against one box after another, and writes a mask for

@@ -88,7 +88,8 @@ struct ReadSummary {
 ReadSummary read_rib(std::span<const std::string> files, const ReadOptions& options, Diagnostics& diagnostics,
                      const std::function<void(Scene&&)>& on_world);
 
-/// The same of a text; messages name it `name`. Relative names in it are looked for in the current folder.
+/// Reads a text as read_rib() reads a file; messages name it `name`. Relative names in it are looked for in
+/// the current folder.
 ReadSummary read_rib_text(std::string_view text, const std::string& name, const ReadOptions& options,
                           Diagnostics& diagnostics, const std::function<void(Scene&&)>& on_world);
 

@@ -62,7 +62,8 @@ class BruteForce final : public Visibility {
     }
 
   private:
-    /// Each micropolygon's own box decides which pixels it is tested in: over the whole shutter and lens.
+    /// Tests a grid's micropolygons, each in the pixels that its own box over the whole shutter and lens
+    /// allows.
     void test_grid(size_t index, const SampleTile& samples, SampleScratch& scratch,
                    SampleStats& stats) const {
         const Grid& grid = grids_.grids[index];

@@ -32,10 +32,10 @@ struct DualIntervals {
     void see_all(int first, int last);
 };
 
-/// A grid during a part of the shutter.
+/// A grid during a part of a motion segment, as DualMesh sets it; one entry for each vertex or micropolygon.
 struct DualMeshScratch {
-    std::vector<float> at[2][3];  ///< vertices at its ends; component
-    std::vector<float> lens[2];   ///< camera-space radius of the lens times 1 - z / F there
+    std::vector<float> at[2][3];  ///< [end of the part][component]: vertices in camera space
+    std::vector<float> lens[2];   ///< [end]: camera-space radius of the lens times 1 - z / F
     std::vector<float> min[3],
         max[3];  ///< of vertices, in the image plane through any part of the lens; depth
     std::vector<int32_t> x0, x1, y0,

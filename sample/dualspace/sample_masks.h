@@ -18,7 +18,8 @@ class SampleMasks {
     static constexpr int kBins = 32;
     enum Axis { kU, kV, kTime, kAxes };
 
-    /// Of all pixels of a tile. Without a lens the axes u and v are those of the place within the pixel.
+    /// Builds the sets of all pixels of a tile. Without a lens the axes u and v are those of the place within
+    /// the pixel.
     void build(const SampleTile& samples, bool lens);
 
     /// The bin of a place on an axis that runs from 0 to 1.

@@ -176,7 +176,8 @@ void EmbreeScene::attach(EmbreeMesh& mesh, const EmbreeChoices& choices, RTCFilt
     rtcReleaseGeometry(geometry);
 }
 
-/// Of a grid, Embree gives coordinates over all of it, 0 to 1; they tell the cell. Its u falls as ours grows.
+/// The micropolygon of a hit. On a grid, Embree's coordinates run over all of it, 0 to 1, and so tell the
+/// cell; its u falls where ours grows.
 uint64_t EmbreeScene::micropolygon(const EmbreeMesh& mesh, unsigned primitive, float u, float v) {
     if (mesh.quads) return mesh.quads[primitive];
     const auto cell = [](float at, int count) {

@@ -223,7 +223,8 @@ class GridRaster {
         }
     }
 
-    /// For pictures of where the work is: here a test counts as a node, too.
+    /// Counts costs by sample (SampleHeat), for pictures of where the work is: here a test counts as a node,
+    /// too.
     void count_heat(const Tuple& at, size_t first, size_t count) {
         for (size_t i = first; i < first + count; ++i) {
             const size_t sample = sample_of(at, i);

@@ -22,11 +22,12 @@ struct UvtGridTuples {
     std::vector<int32_t> tuple;
     std::vector<float> slack;    ///< see RoundingSlack; in the image plane
     std::vector<float> careful;  ///< not 0: parts may be too near to be bounded, or clipped
-    /// For culling: no deeper than the grid, and the cells that it may cover.
+    /// For culling, at each tuple: a depth that nothing of the grid is nearer than, and the first and last
+    /// cells that the grid may cover.
     std::vector<float> z_min;
     std::vector<int32_t> first_x, last_x, first_y, last_y;
 
-    /// None yet, of `size` at most.
+    /// Starts with no tuples; there will be `size` at most.
     void clear(size_t size) {
         count = 0;
         for (auto* plane : {&slack, &careful, &z_min}) plane->resize(size);

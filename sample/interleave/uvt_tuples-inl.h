@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using UvtLanes = hn::CappedTag<float, UvtQueue::kPadding>;
 
-/// From the image plane to pixels from a tile's corner.
+/// Scale from the image plane to pixels counted from a tile's corner.
 struct TileScale {
     float scale_x, offset_x, scale_y, offset_y;
 

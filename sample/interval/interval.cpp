@@ -20,17 +20,19 @@
 namespace trapeze {
 namespace {
 
-/// Pixels. Both plans are made once, for the pattern, and serve every tile.
+/// Side of a tile, in pixels. Both plans are made once, for the pattern, and serve every tile.
 constexpr int kIntervalTileSide = 64;
 
-/// Parts of the shutter with boxes of their own when pairing is shuffled. Each has its samples scattered
-/// among the pixels, and boxes to set up: 4 were fastest of 1 to 64 at 60 pixels of motion, 20 of blur.
+/// How many parts of the shutter have boxes of their own when pairing is shuffled. More parts have smaller
+/// boxes but fewer samples in each, scattered among the pixels, and more boxes to set up: 4 were fastest of 1
+/// to 64 at 60 pixels of motion, 20 of blur.
 constexpr int kShuffledTimeSlots = 4;
 
-/// Cells of 4 x 4 pixels: a block of each slot.
+/// Binary logarithm of a cell's side in pixels: cells of 4 x 4 pixels, one block of each slot.
 constexpr int kSlotCellShift = 2;
 
-/// One of kShuffledTimeSlots pixels has its time in a slot: cells of as many as fill a block.
+/// Binary logarithm of a cell's side where only one of kShuffledTimeSlots pixels has its time in a slot: a
+/// cell then has as many pixels as fill a block.
 constexpr int kSparseCellShift = 3;
 
 class Interval final : public Rasterizer {

@@ -36,7 +36,7 @@ struct VertexRows {
     }
 };
 
-/// From tiles of 4x4 to rows.
+/// Copies a grid's vertices from tiles of 4x4 to rows.
 HWY_INLINE VertexRows vertex_rows(const GridInSlot& in, SlotGridScratch& scratch) {
     const Grid& grid = in.grid;
     const GridShape& shape = grid.shape;
@@ -138,7 +138,7 @@ HWY_INLINE void bound_vertices(const BoxConstants& c, const GridInSlot& in, cons
     }
 }
 
-/// From the image plane to pixels of the tile.
+/// Scale from the image plane to pixels of the tile, along one axis.
 struct PixelScale {
     float scale, offset;
     int size;

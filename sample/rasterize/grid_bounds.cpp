@@ -26,7 +26,7 @@ Range product(const Range& a, const Range& b) {
     return {*std::min_element(p, p + 4), *std::max_element(p, p + 4)};
 }
 
-/// From the image plane to raster coordinates along an axis; either may run against the other.
+/// Raster coordinates of a range of the image plane, along an axis; either may run against the other.
 Range to_raster(const Range& plane, double scale, double offset) {
     const double a = (plane.min - offset) / scale, b = (plane.max - offset) / scale;
     return {std::min(a, b), std::max(a, b)};

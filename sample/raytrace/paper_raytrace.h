@@ -11,7 +11,7 @@
 
 namespace trapeze {
 
-/// Of the row "raytrace" with tree=paper.
+/// Builds the trees of the method "raytrace" with tree=paper.
 std::unique_ptr<Visibility> prepare_paper_raytrace(const VisibilityInput& input);
 
 }  // namespace trapeze

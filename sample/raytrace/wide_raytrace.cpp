@@ -66,7 +66,9 @@ class WideRayTraced final : public Visibility {
     BuildStats build_stats() const override { return tree_.stats(); }
 
   private:
-    /// How many of the rays hit nothing opaque.
+    /// Traces up to RayBundle::kRays samples, those that `order` lists: writes the nearest opaque hit of
+    /// each, or none, to `nearest` and appends hits of grids that are not opaque to the scratch. Returns how
+    /// many samples hit nothing opaque.
     size_t resolve_bundle(const SampleTile& samples, std::span<const uint32_t> order,
                           std::vector<Hit>& nearest, WideScratch& own, SampleScratch& scratch,
                           SampleStats& stats) const {
@@ -107,7 +109,7 @@ class WideRayTraced final : public Visibility {
         }
     }
 
-    /// From a hit for every sample, some of them none, to a list.
+    /// Makes a list of hits from one entry for each sample, of which `misses` hold no hit.
     static void close_gaps(size_t misses, HitBuffer& hits) {
         const size_t sample_count = hits.hits.size();
         hits.first.resize(sample_count + 1);
@@ -126,7 +128,7 @@ class WideRayTraced final : public Visibility {
         hits.hits.resize(next);
     }
 
-    /// Layers and nearest opaque hits together.
+    /// Makes the list from nearest opaque hits and the hits that are not opaque.
     static void join_layers(HitBuffer& hits, SampleScratch& scratch) {
         for (size_t s = 0; s < scratch.nearest.size(); ++s)
             if (scratch.nearest[s].id != MicropolygonId::kNone) {
@@ -139,7 +141,7 @@ class WideRayTraced final : public Visibility {
     const Camera& camera_;
     bool lens_, all_opaque_;
     WideTree tree_;
-    bool motion_;  ///< of grids; samples may have times all the same
+    bool motion_;  ///< any grid moves; the samples' times may still be all the same
     TileOrder order_;
 };
 

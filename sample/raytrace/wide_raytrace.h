@@ -13,7 +13,7 @@ struct WideScratch {
     std::vector<uint32_t> tests, nodes;  ///< what the rays of a bundle cost
 };
 
-/// Of the row "raytrace" with tree=wide.
+/// Builds the tree of the method "raytrace" with tree=wide.
 std::unique_ptr<Visibility> prepare_wide_raytrace(const VisibilityInput& input);
 
 }  // namespace trapeze

@@ -196,7 +196,7 @@ bool Run::enter_lights() {
     return true;
 }
 
-/// On with the first light, from the one that is next, that reaches a lane; past the block when there is
+/// Goes on with the first light, from the next one on, that reaches any lane; past the block when there is
 /// none.
 size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
     const Step& step = steps[opening];

@@ -81,7 +81,7 @@ class Executable {
     /// The default of program().parameters[i] is to be computed in each run, by initial(i).
     bool has_run_default(size_t i) const { return run_defaults_[i]; }
 
-    /// Of program().globals.
+    /// How each of program().globals gets the value with which a run starts.
     const std::vector<StartValue>& start_values() const { return start_values_; }
 
     /// The program never sets P.

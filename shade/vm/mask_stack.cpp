@@ -64,7 +64,7 @@ void MaskStack::run_none() {
     state_ = State::None;
 }
 
-/// Those that run now go on behind the block.
+/// Opens a block; the lanes that run now run on behind it.
 MaskStack::Block& MaskStack::push(Kind kind) {
     Block& block = blocks_.emplace_back();
     block.kind = kind;
@@ -148,7 +148,8 @@ void MaskStack::break_loops(int levels) {
     run_none();
 }
 
-/// As break_loops(), but the last loop still has them among its live lanes: next_turn() wakes them.
+/// Takes lanes out of the loops as break_loops() does, but the last of those loops keeps them among its live
+/// lanes: next_turn() wakes them.
 void MaskStack::continue_loop(int levels) {
     for (size_t i = blocks_.size(); i-- > 0;) {
         Block& block = blocks_[i];

@@ -32,7 +32,7 @@ class MaskStack {
     State state() const { return state_; }
     bool none() const { return state_ == State::None; }
     bool all() const { return state_ == State::All; }
-    /// Of the lanes that run; meaningful in every state.
+    /// The mask of the lanes that run; meaningful in every state.
     const uint32_t* current() const { return current_; }
 
     /// Lanes go on in the first half where the condition holds, and in the second where it does not.
@@ -66,7 +66,7 @@ class MaskStack {
         uint32_t* live = nullptr;    ///< of a loop: lanes that have not left it
     };
 
-    /// A plane of its own for a block, from those given back or new; contents are undefined.
+    /// A plane for the masks of one block, from those given back or a new one; its contents are undefined.
     uint32_t* take();
     void give_back(uint32_t* plane) { free_.push_back(plane); }
     Block& push(Kind kind);

@@ -12,7 +12,8 @@ namespace {
 using rsl::Blocks;
 using rsl::Register;
 
-/// From the first instruction that names a register to the last, both included.
+/// The instructions during which a register's value is needed: from the first that names it to the last, both
+/// included.
 struct Lifetime {
     size_t first = Blocks::kNone, last = 0;
     uint32_t id = 0;

@@ -25,7 +25,7 @@ class Registers {
     size_t lanes() const { return lanes_; }
 
     const Operand& operand(rsl::RegisterId id) const { return by_id_[id]; }
-    /// Those of a step, in a row, outputs first.
+    /// A step's operands in a row, outputs first.
     std::span<const Operand> operands_of(const Step& step) const {
         return {operands_.data() + step.first, step.count};
     }
@@ -42,7 +42,7 @@ class Registers {
         return texts_[executable_->places()[id].at + element];
     }
 
-    /// Of a step's input, counted from 0.
+    /// Input number i of a step, counted from 0.
     const Operand& input(const Step& step, size_t i) const {
         return operands_[step.first + step.outputs + i];
     }

@@ -23,7 +23,7 @@ struct BezierPatch {
     /// The first component of a net of numbers. Where control points are equal along u or along v there is
     /// nothing but their value in between, without rounding, as in between.h.
     float number_at(V2f uv) const;
-    /// The same surface over a rectangle of its parameters.
+    /// The same surface over a rectangle of its parameters, which becomes 0..1.
     BezierPatch restricted(V2f lo, V2f hi) const;
 };
 
@@ -32,7 +32,7 @@ struct BezierCurve {
     std::array<Control, 4> p{};
 
     void at(float t, Control* value, Control* by_t) const;
-    /// The same curve over a part of its parameter.
+    /// The same curve over a part of its parameter, which becomes 0..1.
     BezierCurve restricted(float lo, float hi) const;
 };
 

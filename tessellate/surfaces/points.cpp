@@ -247,7 +247,7 @@ bool PointsSurface::evaluate_variables(int face, std::span<const V2f> uv, Surfac
     return true;
 }
 
-/// As the half of a sphere that faces the camera has them.
+/// Sets the normals that the half of a sphere has which faces the camera.
 void PointsSurface::set_sphere_normals(const Disk& disk, std::span<const V2f> uv, ShadingGrid& grid) const {
     // x and y lie in the picture's plane, z towards the eye.
     const V3f x = facing_[0].u_axis().normalized(), y = facing_[0].v_axis().normalized(), z = x.cross(y);

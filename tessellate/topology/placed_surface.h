@@ -80,8 +80,8 @@ V3f transform_point(const M44f& m, const V3f& p);
 /// Transforms a direction: without the matrix' translation.
 V3f transform_vector(const M44f& m, const V3f& v);
 
-/// For normals: the cofactors of the upper 3x3 with the determinant's sign, that is the inverse transpose but
-/// for a positive factor; exists for singular matrices too.
+/// The matrix that takes normals along with `m`: the cofactors of the upper 3x3 with the determinant's sign,
+/// that is the inverse transpose but for a positive factor; exists for singular matrices too.
 M44f normal_matrix(const M44f& m);
 
 }  // namespace trapeze

@@ -142,7 +142,8 @@ Triangulator::Triangulator(std::span<const V2d> points, std::span<const int> loo
         }
         first += size;
     }
-    // From the left: bridges to the left meet only the outline and holes that are part of it by then.
+    // Holes are joined from the left on: bridges lead to the left, where they meet only the outline and holes
+    // that are part of it by then.
     std::stable_sort(holes.begin(), holes.end(),
                      [&](const Hole& a, const Hole& b) { return at(a.leftmost).x < at(b.leftmost).x; });
     for (const Hole& hole : holes) {

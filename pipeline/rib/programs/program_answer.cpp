@@ -26,7 +26,7 @@ bool read_some(int output, std::string& text) {
     return got > 0 || (got < 0 && errno == EINTR);
 }
 
-/// For how long a program has said nothing.
+/// Measures for how long a program has said nothing.
 class Silence {
   public:
     explicit Silence(const AnswerLimits& limits) : limits_(limits) {}

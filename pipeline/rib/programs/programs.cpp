@@ -111,7 +111,8 @@ std::string Programs::Program::start(Command words, const std::vector<std::strin
     return std::strerror(error);
 }
 
-/// Ends it and its group: kindly at first.
+/// Ends the program and its process group: closes its pipes, waits up to `time` for it to leave by itself,
+/// then kills the group.
 void Programs::Program::stop(std::chrono::milliseconds time) {
     input_.close();
     output_.close();

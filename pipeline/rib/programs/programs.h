@@ -31,7 +31,8 @@ class Programs {
     std::map<Command, std::unique_ptr<Program>> programs_;  ///< null: has failed
 };
 
-/// Ends all programs of the process at once, for its own forced end; from any thread.
+/// Ends all programs that this process runs, at once; for a process that is about to be ended by force. May
+/// be called from any thread.
 void end_all_programs();
 
 }  // namespace trapeze::rib

@@ -41,7 +41,7 @@ struct RequestContext {
     /// Name and value pairs to the end of the request, colours as RGB; wrong ones are reported and left out.
     /// Whether they fit to a primitive is not looked at (checked_variables).
     ParameterList parameters(ArgumentCursor& cursor, Undeclared undeclared = Undeclared::LeaveOut);
-    /// The same of a shader: each has one value (which may be an array).
+    /// A shader's parameter list: each parameter has one value (which may be an array).
     ParameterList shader_parameters(ArgumentCursor& cursor);
     /// The name of a shader, placed in the current space; its other arguments are still to come. `kind` is
     /// what the summary counts it as.

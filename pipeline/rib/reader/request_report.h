@@ -29,7 +29,7 @@ class RequestReport {
     /// An error of the current request, or a warning under ErrorHandler "ignore". Its kind is its text
     /// without the numbers.
     void error(const std::string& text) { error(at_, text); }
-    /// The same at a place within the request; line 0 is the request's own.
+    /// Reports an error at a place within the request; line 0 stands for the request's own place.
     void error(SourceLocation at, const std::string& text);
     /// A warning whose kind is told: texts with names from the file in them would all be different.
     void warn_once(const std::string& text, const std::string& kind);
@@ -45,9 +45,9 @@ class RequestReport {
 
     /// The request was understood as one that is not honoured.
     void count_unsupported() { ++summary_.unsupported[name_]; }
-    /// It was understood, but changes nothing; `what` follows the request's name.
+    /// Counts the request as understood, but without effect; `what` follows the request's name.
     void count_without_effect(const std::string& what = {}) { ++summary_.without_effect[name_ + what]; }
-    /// It asks for what is so in any case; `what` says why.
+    /// Counts the request as not needed, since it asks for what is so in any case; `what` says why.
     void count_not_needed(const std::string& what) { ++summary_.not_needed[name_ + what]; }
 
     /// ErrorHandler (RISpec 3): Print is the default.
@@ -56,7 +56,7 @@ class RequestReport {
     /// Whether reading ends here: it was cancelled, or ErrorHandler "abort" has met an error, which is said
     /// once.
     bool must_stop();
-    /// The same as it was found last, without a look at what has happened since.
+    /// What must_stop() found last, without a look at what has happened since.
     bool has_stopped() const { return has_stopped_; }
 
     ReadSummary& summary() { return summary_; }

@@ -144,7 +144,7 @@ void RequestStream::read_text(std::string_view text, SourceLocation first, Encod
     if (ready && !report_.has_stopped()) ready->complete(text.size());
 }
 
-/// The same of a text that was read before; messages are about places of `source`.
+/// Carries out the requests of a text that was read before; messages are about places of `source`.
 void RequestStream::read_again(ReadyArchive& ready, uint32_t source) {
     report_.summary().bytes += ready.text_bytes();
     RequestText request;
@@ -231,7 +231,7 @@ void RequestStream::read_archive(const std::string& name) {
 
 void RequestStream::read_inline_archive(InlineArchive& archive, const std::string& key) {
     if (!archive.ready) archive.ready = std::make_shared<ReadyArchive>(&ready_bytes_left_);
-    // They stay while they are read, whatever is defined meanwhile.
+    // Text and requests stay while they are read, whatever is defined under their name meanwhile.
     const std::shared_ptr<const std::string> text = archive.text;
     const std::shared_ptr<ReadyArchive> ready = archive.ready;
     SourceLocation first = archive.first;

@@ -17,8 +17,8 @@ uint64_t point_count(const Shape& shape) {
     return static_cast<uint64_t>(variable_counts(shape.topology).vertex);
 }
 
-/// No vector becomes longer than so many times its length: a bound that is exact when all grow alike.
-/// With A = the linear part and G = A A^T, the largest eigenvalue of G is at most its largest row sum.
+/// The most by which a matrix makes a vector longer, or somewhat more: exact when it scales all vectors
+/// alike. With A = the linear part and G = A A^T, the largest eigenvalue of G is at most its largest row sum.
 float largest_stretch(const M44f& m) {
     V3d rows[3];
     for (int i = 0; i < 3; ++i) rows[i] = V3d(m[i][0], m[i][1], m[i][2]);

@@ -41,7 +41,8 @@ class SceneBuilder {
     /// Whether the worlds and maps of the open frame are to be made, and programs run for them.
     bool frame_is_wanted() const { return frame_is_wanted_; }
     void begin_world();
-    /// As the world ends, while its options and names are still there.
+    /// Completes the Scene and hands it to on_world. To be called as the world ends, while its options and
+    /// names are still there.
     void deliver_world();
     /// Hands on a request that is complete but for its place and folders.
     void make_map(MapRequest request);
@@ -65,9 +66,9 @@ class SceneBuilder {
     void add_moving_shape(MovingShape moving);
 
     // --- lights ---
-    /// One that shines on the primitives to come.
+    /// Adds a light that shines on the primitives to come.
     void add_light(std::shared_ptr<const LightInstance> light);
-    /// One that shines on all of the world, or on where its object is placed (RIS).
+    /// Adds a light that shines on all of the world, or on where its object is placed (RIS).
     void add_world_light(std::shared_ptr<const LightInstance> light);
     /// Geometry too far away to be seen, for the light that waits for its shape, if one does. `angle`: that
     /// which a FarShape::Direction takes in the sky, in degrees; 0 if unknown.

@@ -10,10 +10,10 @@
 namespace trapeze::rib {
 namespace {
 
-/// Each is looked at by every surface.
+/// Limits the lights that shine on the whole world: every surface looks at each of them.
 constexpr size_t kMostWorldLights = 64;
 
-/// The space with another origin: a point of the shape's.
+/// The space moved so that its origin is at a point of the shape's space.
 M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_from_shape) {
     const V3f origin = point * camera_from_shape;
     for (int axis = 0; axis < 3; ++axis) camera_from_space[3][axis] = origin[axis];

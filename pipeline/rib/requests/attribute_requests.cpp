@@ -68,8 +68,8 @@ void sides(RequestContext& r, ArgumentCursor& c) {
     changeable_attributes(r).sides = static_cast<int>(n);
 }
 
-/// "lh" and "rh" name a handedness, which is that of the current space or not: kept as inside and outside,
-/// since later reflections flip both.
+/// Orientation. "lh" and "rh" are kept as "outside" where they name the handedness of the current space and
+/// as "inside" where they name the other one: later reflections flip both kinds alike.
 void orientation(RequestContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the orientation");
     if (name != "outside" && name != "inside" && name != "lh" && name != "rh")

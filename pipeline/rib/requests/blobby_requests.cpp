@@ -115,7 +115,7 @@ void blobby(RequestContext& r, ArgumentCursor& c) {
     ProgramCheck check(blobby);
     check.run();
     if (check.leaves() != blobby.leaf_count) {
-        // As in an example that Pixar published: the code is what counts.
+        // An example that Pixar published has a wrong count, too: the code is what counts.
         r.report.warn_once("the code has " + std::to_string(check.leaves()) + " leaves, not " +
                                std::to_string(blobby.leaf_count) + "; the code is right",
                            "blobby-leaves");

@@ -96,7 +96,7 @@ void points(RequestContext& r, ArgumentCursor& c) {
     r.scene.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
 }
 
-/// Both may deform in a motion block.
+/// Requests of this file; both may deform in a motion block.
 constexpr RequestRow kCurveRequests[] = {
     {"Curves", curves},
     {"Points", points},

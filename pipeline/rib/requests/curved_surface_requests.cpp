@@ -91,7 +91,8 @@ void end_with_surface(RequestContext& r, Quadric& q) {
     }
 }
 
-/// Each turn is drawn over the last one: of a great many, so many as nobody meant, work has no end.
+/// Limits how far a quadric turns, and says so. Each turn is drawn over the last one: with a great many,
+/// which nobody means, work would have no end.
 void end_turning(RequestContext& r, Quadric& q) {
     constexpr float kMost = 3600;  // degrees
     const auto limited = [&](float sweep) {

@@ -74,7 +74,8 @@ void check_weights(const Parameter& pw) {
             throw RequestError{"point " + std::to_string(i / 4) + " of \"Pw\" has the weight 0", {}};
 }
 
-/// For shapes of flat faces, where the weight of a vertex has no other meaning.
+/// "P" from "Pw", divided by its weights: for shapes of flat faces, where the weight of a vertex has no other
+/// meaning.
 Parameter divided_by_weights(const Parameter& pw) {
     Parameter p{"P", {StorageClass::Vertex, ValueType::Point, 1}, {}, {}};
     p.floats.reserve(pw.floats.size() / 4 * 3);

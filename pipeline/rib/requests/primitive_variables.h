@@ -19,7 +19,8 @@ enum class PointForm { Mesh, Patch, None };
 /// all forms of points only one is left.
 ParameterList read_variables(RequestContext& context, ArgumentCursor& cursor, PointForm form);
 
-/// The same of a primitive that has points: "P" is missing otherwise, and the request ends.
+/// The parameter list of a primitive that must have points; without them the request ends with the error that
+/// "P" is missing.
 ParameterList read_variables_with_points(RequestContext& context, ArgumentCursor& cursor, PointForm form);
 
 /// Number of points in such a list; 0 when there are none.

@@ -6,16 +6,17 @@
 namespace trapeze::rib {
 namespace {
 
-/// The value's name, the request that sets it, and arguments that the request has before and after it.
+/// An option or attribute of Ri ("Format", "Shutter"...) given as a value: its name, the request that sets
+/// it, and the arguments that complete that request.
 struct RiValue {
     std::string_view value, request;
-    double before[2] = {0, 0};  ///< arguments before the value's
-    int before_count = 0;
-    double after = 0;
+    double before[2] = {0, 0};  ///< arguments that stand before the value in the request
+    int before_count = 0;       ///< how many of `before` the request has
+    double after = 0;           ///< an argument that stands behind the value
     bool has_after = false;
 };
 
-/// Sizes and aspects below 0 leave Format's as they are.
+/// Requests that set each value. Sizes and aspects below 0 leave what Format has set.
 constexpr RiValue kValues[] = {
     {"FormatResolution", "Format", {}, 0, -1, true},
     {"FormatPixelAspectRatio", "Format", {-1, -1}, 2, 0, false},
@@ -34,7 +35,7 @@ constexpr RiValue kValues[] = {
     {"DetailRange", "DetailRange"},
 };
 
-/// Arguments of requests that stand in no file: their place is that of the value.
+/// Arguments of a request that stands in no file: their location is the value's.
 Argument text_argument(const std::string& value, SourceLocation at) {
     Argument argument;
     argument.kind = Argument::Kind::String;
@@ -49,7 +50,8 @@ Argument number(double value, SourceLocation at) {
     return argument;
 }
 
-/// Each of these is half of a PixelFilter: the other stays.
+/// Sets PixelFilterName or PixelFilterWidth, each of which is half of a PixelFilter request: the other half
+/// stays. False for another name.
 bool execute_filter(RequestContext& context, const Parameter& value) {
     PixelFilter filter = context.state.options().filter;
     if (value.name == "PixelFilterName" && value.strings.size() == 1)
@@ -67,7 +69,7 @@ bool execute_filter(RequestContext& context, const Parameter& value) {
     return true;
 }
 
-/// "Frame" is the number that "Frame" of conditions and file names shows.
+/// Sets "Frame", the number that "Frame" of conditions and file names shows. False for another name.
 bool set_frame(RequestContext& context, const Parameter& value) {
     if (value.name != "Frame" || value.floats.size() != 1 || !(std::abs(value.floats[0]) < 1e9f))
         return false;

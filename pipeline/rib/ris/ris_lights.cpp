@@ -85,7 +85,7 @@ std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderI
                                         const RisParameters& p, const char* shape) {
     auto light = make(handle, from, "rislight", power(p));
     set_text(light->shader, "shape", shape);
-    // Those of the first versions are in any case.
+    // The lights of the first versions (PxrStd...) are normalized in any case.
     const bool is_normalized = contains(from.name, "PxrStd") || p.number_or("areaNormalize", 0) != 0;
     set_number(light->shader, "normalized", is_normalized ? 1.0f : 0.0f);
     set_number(light->shader, "focus", std::clamp(p.number_or("emissionFocus", 0), 0.0f, 100.0f));
@@ -192,7 +192,7 @@ std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& ligh
     return {distant(light.handle, from, radiance * share, V3f(0, 0, -1))};
 }
 
-/// For lights that are a point there.
+/// The place of a light that is a point here: the middle of its shape.
 V3f middle_of(const Shape& shape) {
     const Box box = box_of(shape);
     return (box.low + box.high) * 0.5f;

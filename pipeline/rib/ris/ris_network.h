@@ -38,7 +38,7 @@ struct RisNetwork {
     std::map<std::string, RisPattern> patterns;
     std::map<std::string, RisLook> bxdfs;
     std::map<std::string, RisLook> materials;  ///< by "__materialid", which later Bxdfs may name alone
-    /// They shine on all of the world, wherever they stand in it.
+    /// Lights that shine on all of the world, wherever they stand in it.
     std::vector<std::shared_ptr<const LightInstance>> lights;
 };
 

@@ -54,7 +54,7 @@ class GraphicsStateStack {
     bool restore(const std::string& name, bool attributes, bool transform);
 
     // --- spaces; all transformations are camera_from_..., for row vectors ---
-    /// As the last world opened.
+    /// The camera's transformation as the last world opened.
     const MovingTransform& camera_from_world() const { return camera_from_world_; }
     /// What Identity and Transform are relative to: the world in a world, the camera before it, and the
     /// object in its definition.

@@ -52,7 +52,7 @@ bool read_request(Lexer& lexer, RequestText& request, IsRequest is_request, Diag
 
 /// Text from a file as messages show it: in quotes, clipped, one line.
 std::string in_quotes(std::string_view text);
-/// The same without quotes, for names of requests.
+/// Text from a file for messages as in_quotes() makes it, but without quotes: for names of requests.
 std::string clipped(std::string_view text);
 
 /// Thrown by handlers through the cursor below and caught by the reader of requests: the request is skipped.
@@ -89,7 +89,7 @@ class ArgumentCursor {
     std::string string(const char* what);
     /// An array of any length; a single number counts as an array of one.
     std::vector<float> number_array(const char* what);
-    /// Whole numbers of 32 bits, exact although arrays are kept as floats.
+    /// An array of whole numbers of 32 bits, which are exact although arrays are kept as floats.
     std::vector<int> int_array(const char* what);
     /// Strings of any number; an empty array will do.
     std::vector<std::string> string_array(const char* what);

@@ -23,7 +23,7 @@ bool is_name_character(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == ':';
 }
 
-/// A truth is a number too: 1 or 0.
+/// A number as a condition's value. Truth values are numbers too: 1 or 0.
 ConditionValue number(double value) {
     return {{value}, {}};
 }
@@ -34,7 +34,7 @@ bool is_true(const ConditionValue& value) {
     return std::any_of(value.numbers.begin(), value.numbers.end(), [](double v) { return v != 0; });
 }
 
-/// A text that is a number, as one: options say "1" or 1.
+/// A text that is a number becomes that number, as options may say "1" or 1; another text becomes no value.
 ConditionValue as_numbers(const ConditionValue& value) {
     if (!value.text) return value;
     double parsed = 0;
@@ -266,7 +266,8 @@ class Evaluator {
 
 }  // namespace
 
-/// As a float: options are floats, and 0.1 shall not read 0.10000000149011612.
+/// The value as text. Numbers are written as floats: options are floats, and 0.1 shall not read
+/// 0.10000000149011612.
 std::string text_of(const ConditionValue& value) {
     if (value.text) return *value.text;
     std::string text;

@@ -106,8 +106,8 @@ const char* read_number(const char* p, const char* end, double* value) {
     return p;
 }
 
-/// The same without an exponent, in a text that goes on beyond the number; null where read_number() must
-/// decide.
+/// Reads numbers as read_number() does, but only those without an exponent, in a text that goes on beyond the
+/// number; null where read_number() must decide.
 const char* read_plain_number(const char* p, double* value) {
     const bool negative = *p == '-';
     p += negative;

@@ -8,7 +8,7 @@
 
 namespace trapeze::rib {
 
-/// So far up files are looked for that are not where their names say.
+/// How many folders up a file is looked for that is not where its name says.
 inline constexpr int kMostFoldersAbove = 4;
 
 /// Expands "&" (the previous path), "@" and empty entries (standard places: none), $NAME, ${NAME} and %NAME%

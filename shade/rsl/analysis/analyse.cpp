@@ -13,7 +13,7 @@
 namespace trapeze::rsl {
 namespace {
 
-// Each call is compared with all of them.
+// Bounds a call's cost, which is compared with every function of its name.
 constexpr size_t kMostOverloads = 32;  // written functions of one name
 
 std::string in_quotes(std::string_view name) {

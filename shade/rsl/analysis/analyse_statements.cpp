@@ -7,8 +7,8 @@
 
 namespace trapeze::rsl {
 
-/// Both walks over one expression: see analyser.h. What they learn of it is of no use afterwards. `wanted`
-/// is the type that it is converted to; Void lets it have its own.
+/// Takes one expression through both walks (see analyser.h). What they learn of it is of no use afterwards.
+/// `wanted` is the type that it is converted to; Void lets it have its own.
 void Analyser::value(ExpressionPtr& e, Base wanted) {
     choices_.clear();
     height_ = e->height;

@@ -139,12 +139,12 @@ class Analyser {
     std::vector<std::unique_ptr<Function>> kept_;  ///< instances of shaders that are done
     uint64_t copied_ = 0;                          ///< operations in all instances
 
-    // Of the shader that is analysed.
+    // What is known of the shader that is analysed now.
     Shader* shader_ = nullptr;
     std::map<const Function*, Instance*> file_instances_;  ///< of the file's functions, by the original
     std::deque<Instance> instances_;  ///< nested ones, too; a deque, since others point to them
     std::unordered_map<const Function*, Instance*> instance_of_copy_;  ///< by Instance::function
-    /// Those named so far; Shader::globals owns them.
+    /// Predefined variables that the shader has named so far; Shader::globals owns them.
     std::map<std::string, Variable*, std::less<>> globals_;
     std::deque<Scope> scopes_;                ///< of all bodies, the innermost last
     std::deque<Body> bodies_;                 ///< the shader's, then those of functions that are entered

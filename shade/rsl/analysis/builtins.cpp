@@ -270,11 +270,11 @@ constexpr Builtin kBuiltins[] = {
     {"shadername", 's', "", Op::ShaderName},
     {"shadername", 's', "s", Op::ShaderName},
 
-    // Of variables.
+    // Questions about variables.
     {"arraylength", 'f', "#", Op::ArrayLength},
     {"isoutput", 'f', ".", Op::IsOutput},
 
-    // Of later renderers (bakes, point clouds, photon maps, older ray tracers).
+    // Functions of later renderers (bakes, point clouds, photon maps, older ray tracers).
     {"bake", 'f', ".", Op::Unavailable},
     {"bake3d", 'f', ".", Op::Unavailable},
     {"texture3d", 'f', ".", Op::Unavailable},

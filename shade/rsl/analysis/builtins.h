@@ -35,7 +35,7 @@ constexpr bool sets_arguments(const Builtin& builtin) {
 /// All overloads of all names.
 std::span<const Builtin> builtins();
 
-/// Those of a name, in the order of preference; empty for an unknown name.
+/// The overloads of a name, in the order of preference; empty for an unknown name.
 std::span<const Builtin> builtins_named(std::string_view name);
 
 }  // namespace trapeze::rsl

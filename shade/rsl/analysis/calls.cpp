@@ -14,7 +14,7 @@ namespace {
 /// Overloads that are listed where none fits.
 constexpr size_t kMostCandidatesShown = 8;  // some names have dozens
 
-// Of later renderers; known to be missing here.
+// Functions of later renderers; known to be missing here.
 constexpr std::string_view kNotSupported[] = {"blinn", "cosinelight_rate", "getlights", "hair", "push",
                                               "pop"};
 
@@ -81,7 +81,7 @@ int Analyser::cost_of_argument(const Signature::Parameter& parameter, const Expr
     return choices.cost_to(parameter.type.base);
 }
 
-/// Of all its arguments; kNever when the call does not fit.
+/// Cost of converting all arguments of a call; kNever when the call does not fit.
 int Analyser::cost_of(const Signature& signature, const Expression& call) const {
     if (!count_fits(signature, call.children.size())) return Choices::kNever;
     int cost = signature.builtin && signature.builtin->last_resort ? kLastResort : 0;

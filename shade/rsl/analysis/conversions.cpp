@@ -51,12 +51,12 @@ std::optional<OperatorPlan> plan_product(Base a, Base b) {
                         a, b, kOdd};
 }
 
-/// So that triples in products of vectors become vectors.
+/// A small cost of triples that are no vectors, so that triples in products of vectors become vectors.
 int unlike_vector(Base base) {
     return base == Base::Vector || !is_triple(base) ? 0 : kSameFamily;
 }
 
-/// Both as one type: dot products and comparisons.
+/// An operator whose operands are converted to one type: dot products and comparisons.
 std::optional<OperatorPlan> plan_alike(Base result, Base a, Base b) {
     if (same_family(a, b)) return OperatorPlan{result, a, b, unlike_vector(a) + unlike_vector(b)};
     if (a == Base::Float && (is_triple(b) || b == Base::Matrix)) return OperatorPlan{result, b, b, kFill};
@@ -97,7 +97,7 @@ std::optional<OperatorPlan> plan_values(Operator op, Base a, Base b) {
         case Operator::LessEqual:
         case Operator::Greater:
         case Operator::GreaterEqual:
-            // Of triples: whether it holds for all components.
+            // For triples: whether the comparison holds for all components.
             if (a == Base::Float && b == Base::Float) return OperatorPlan{Base::Bool, a, b, 0};
             if (!is_triple(a) && !is_triple(b)) return {};
             return plan_order(a, b);
@@ -165,7 +165,8 @@ std::optional<Base> Choices::foreign_triple_for(Base to) const {
     return best;
 }
 
-/// The cheapest choices alone: the types that the source itself gives, before conversions.
+/// Names of the cheapest choices, "point or vector": the types that the source itself gives, before
+/// conversions.
 std::string Choices::text() const {
     int least = kNever;
     for (const Base base : kAllBases) least = std::min(least, cost(base));

@@ -29,7 +29,8 @@ class Choices {
 
     Choices() { costs_.fill(kNever); }
     explicit Choices(Base base) : Choices() { offer(base, 0); }
-    /// Of an expression with an error: goes with everything, and says nothing more.
+    /// Choices of an expression with an error: it goes with everything, so that no second error follows from
+    /// it.
     static Choices unknown() {
         Choices choices;
         choices.unknown_ = true;
@@ -72,7 +73,8 @@ struct OperatorPlan {
     Base left, right;  ///< what the operands are converted to; floats beside triples stay what they are
     int cost;
 };
-/// Nothing where the operator does not go with the types. And and Or take all that can be true.
+/// What an operator makes of operands of two types; nothing where it does not go with them. && and || take
+/// whatever can be a condition.
 std::optional<OperatorPlan> plan(Operator op, Base left, Base right);
 
 std::string_view text_of(Operator op);

@@ -39,7 +39,8 @@ constexpr GlobalVariable kLight[] = {
     {"dtime", Base::Float, kUniform, false},  {"Cl", Base::Color, kVarying, true},
     {"Ol", Base::Color, kVarying, true}};
 
-// With what illuminance gives, and the surface that the ray comes from, which the table leaves out.
+// RISpec's table of volume shaders, and what it leaves out: what illuminance gives, and the surface that the
+// ray comes from.
 constexpr GlobalVariable kVolume[] = {
     {"P", Base::Point, kVarying, false},      {"I", Base::Vector, kVarying, false},
     {"E", Base::Point, kUniform, false},      {"L", Base::Vector, kVarying, true},

@@ -16,7 +16,7 @@ struct GlobalVariable {
     bool writable;
 };
 
-/// Those of one kind of shader, in the tables' order.
+/// The predefined variables of one kind of shader, in the order of RISpec's tables.
 std::span<const GlobalVariable> global_variables(ShaderKind kind);
 
 /// Null for a name that the renderer does not give to shaders of that kind.

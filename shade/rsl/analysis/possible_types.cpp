@@ -35,7 +35,7 @@ Choices Analyser::possible_types(Expression& e) {
     return choices;
 }
 
-/// Of an expression that may have been examined before it became an argument.
+/// Possible types of an expression that may have been examined already, before it became an argument.
 Choices Analyser::possible_types_once(Expression& e) {
     const auto known = choices_.find(&e);
     return known != choices_.end() ? known->second : possible_types(e);
@@ -362,7 +362,8 @@ void Analyser::check_written(const Expression& place) {
             if (!variable->output && warned_.insert(variable).second)
                 reporter_.warning(place.at, "parameter " + name + " is assigned to, and is not output");
             break;
-        // Of this function or of one around it: that one makes a local of it (copy_written_parameters()).
+        // A parameter of this function or of one around it, which makes a local variable of it
+        // (copy_written_parameters()).
         case Variable::Kind::FunctionParameter: {
             if (variable->output) break;
             if (variable->type.is_array()) {

@@ -21,8 +21,8 @@ bool is_message(Op op) {
     return keeps_output(op) && asks_surroundings(op);
 }
 
-/// Gives other values at other vertices whatever its arguments are: what sums up light, which is asked for at
-/// P, and textures without coordinates, which are looked up at s and t.
+/// Whether a call's result differs between vertices even where all arguments are uniform: sums over lights,
+/// since light is asked for at P, and texture() without coordinates, which reads at s and t.
 bool is_varying(const Expression& call) {
     if (call.builtin->op == Op::Texture)
         return call.children.size() == 1 || call.children[1]->type.base == Base::String;
@@ -234,7 +234,8 @@ class Propagation {
         Variable* variable = element ? place.children[0]->variable : place.variable;
         if (!variable) return;
         const auto declared = depth_.find(variable);
-        // Those of outside a function stand before all places where it is called.
+        // A variable that this walk has not seen declared is the caller's: its value is apart from the
+        // declaration if the assignment is, or if the whole function was called apart.
         const bool parted = declared != depth_.end()
                                 ? apart > declared->second
                                 : apart > 0 || (function_ && facts_[function_].called_apart);
@@ -244,7 +245,7 @@ class Propagation {
         if (parted || all_varying_) make_varying(*variable, place.at, false);
     }
 
-    /// With `warn`, says that what the source calls uniform is not.
+    /// Makes a variable varying. With `warn`, warns where the source declares it uniform.
     void make_varying(Variable& variable, SourceLocation at, bool warn) {
         if (variable.type.base == Base::String || varying(variable)) return;
         changed_ = true;

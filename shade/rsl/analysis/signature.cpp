@@ -65,7 +65,7 @@ Signature signature_of(const Function& function) {
     return signature;
 }
 
-/// As a reader of messages knows it: with "..." where more may follow.
+/// A signature as messages show it: with "..." where more arguments may follow.
 std::string print(const Signature& signature) {
     std::string text = print(signature.result) + " " + std::string(signature.name) + "(";
     const char* separator = "";

@@ -27,7 +27,7 @@ std::optional<int64_t> integer_of(std::string_view text) {
     return static_cast<int64_t>(value);
 }
 
-/// As in C; 0 for what is no binary operator.
+/// How tightly a binary operator binds, as in C; 0 for a token that is none.
 int precedence_of(const Token& token) {
     if (token.kind != Token::Kind::Mark) return 0;
     static constexpr struct {

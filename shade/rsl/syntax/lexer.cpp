@@ -37,7 +37,7 @@ void Lexer::advance() {
         ++next_joint_, ++line_, ++physical_line_, column_ = 1;
 }
 
-/// Both forms of comments. True when there was one.
+/// Skips a comment of either form. True when there was one.
 bool Lexer::skip_comment() {
     if (peek() != '/') return false;
     if (peek(1) == '/') {
@@ -151,7 +151,7 @@ void Lexer::renumber(uint32_t source, uint32_t line) {
     source_ = source, line_ = line;
 }
 
-/// For ##, whose result must be a token again.
+/// Whether a text is a single token, and of what kind, as the result of ## must be.
 bool is_one_token(std::string_view text, Token::Kind& kind) {
     SourceText source;
     source.text = text;

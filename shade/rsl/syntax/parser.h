@@ -128,7 +128,7 @@ class Parser::Nesting {
 
 /// Void for what names no type.
 Base base_named(std::string_view name);
-/// As the language calls it; "float".
+/// The type as the language calls it, such as "float".
 std::string_view name_of(Base base);
 std::string_view name_of(ShaderKind kind);
 /// Words that cannot name variables or functions.

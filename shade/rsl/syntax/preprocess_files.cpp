@@ -190,7 +190,8 @@ bool FileReader::name_is_defined(const Token& at, const Line& line) {
     return macros_.contains(line[0].text);
 }
 
-/// Of "( a, b, ... )", from the token after the parenthesis; leaves `i` behind the closing one.
+/// Reads a macro's parameters, "( a, b, ... )", from the token after the parenthesis; leaves `i` behind the
+/// closing one.
 bool FileReader::read_parameters(const Line& line, size_t& i, Macro& macro) {
     if (i < line.size() && line[i].is(")")) {
         ++i;

@@ -123,7 +123,7 @@ class Printer {
     }
 
   private:
-    /// Each level of blocks is four blanks further in.
+    /// Begins a line, four blanks further in for each level of blocks.
     void line_start() { text += '\n' + std::string(static_cast<size_t>(indent_) * 4, ' '); }
 
     /// "(float a = 1; color c) ".
@@ -241,8 +241,8 @@ class Printer {
     int indent_ = 0;
 };
 
-/// How tightly the expression's outermost operator binds. A cast that is left out has that of its operand,
-/// and a number below 0 is a - and a number.
+/// How tightly the expression's outermost operator binds. A cast that is not printed binds as its operand
+/// does, and a negative number as the minus sign that it is printed with.
 int Printer::precedence(const Expression& e) {
     switch (e.kind) {
         case Expression::Kind::Assignment:

@@ -17,7 +17,7 @@ class Reporter {
 
     explicit Reporter(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-    /// Of several errors at one place the first is shown.
+    /// Reports an error; of several at one place only the first is shown.
     void error(SourceLocation at, std::string text);
     void warning(SourceLocation at, std::string text);
     /// Belongs to the error before it, and is shown if that was.

@@ -147,7 +147,8 @@ Kernel find_select(std::span<const int> widths) {
     return widths[0] == 1 ? select<1> : widths[0] == 3 ? select<3> : widths[0] == 16 ? select<16> : nullptr;
 }
 
-/// Sums of matrices, too.
+/// Chooses the kernel of a sum, a difference or a negation: floats and triples as all component kernels take
+/// them, and matrices component by component.
 template <auto function>
 Kernel sum_kernel(std::span<const int> widths) {
     if (!widths.empty() && std::count(widths.begin(), widths.end(), 16) == std::ssize(widths) &&

@@ -35,7 +35,7 @@ constexpr ColorMatrix inverse(const ColorMatrix& m) {
     return result;
 }
 
-/// From rgb; each row makes one component.
+/// Matrices from rgb to another space; each row makes one component of that space.
 inline constexpr ColorMatrix kXyzFromRgb{{{0.412453, 0.357580, 0.180423},  // Rec. 709 with white D65
                                           {0.212671, 0.715160, 0.072169},
                                           {0.019334, 0.119193, 0.950227}}};
@@ -181,7 +181,8 @@ Kernel find_to(ColorSpace to) {
     return nullptr;
 }
 
-/// Both spaces become part of the kernel's type: no kernel decides anything by lane.
+/// Chooses the kernel that converts between two spaces. Both are part of its type: no kernel decides anything
+/// by lane.
 Kernel find_conversion(ColorSpace from, ColorSpace to) {
     switch (from) {
         case ColorSpace::Rgb:

@@ -89,7 +89,7 @@ HWY_INLINE Angle reduce_angle(V angle) {
     return {to_floats(r), low_words(quadrants)};
 }
 
-/// For |r| <= pi / 4, with rr = r * r.
+/// sin(r) for |r| <= pi / 4, where rr = r * r: Cephes' sinf.
 HWY_INLINE V sine_near_zero(V r, V rr) {
     V p = set(-1.9515295891e-4f);
     p = step(p, rr, 8.3321608736e-3f);
@@ -103,7 +103,7 @@ HWY_INLINE V cosine_near_zero(V rr) {
     return hn::Add(hn::Sub(hn::Mul(hn::Mul(p, rr), rr), hn::Mul(rr, set(0.5f))), set(1));
 }
 
-/// Of the angle that is `quadrants` more.
+/// Sine of the angle that is `quadrants` quarter turns beyond the one whose sine and cosine are given.
 HWY_INLINE V sine_of(V sine, V cosine, VI quadrants) {
     const DI di;
     const M odd = hn::RebindMask(D(), hn::Ne(hn::And(quadrants, hn::Set(di, 1)), hn::Zero(di)));
@@ -114,7 +114,7 @@ HWY_INLINE V sine_of(V sine, V cosine, VI quadrants) {
 struct SineCosine {
     V sine, cosine;
 };
-/// Both at once, for rotations: the reduction costs as much as a polynomial.
+/// Sine and cosine at once, for rotations: the reduction of the angle costs as much as a polynomial.
 HWY_INLINE SineCosine sin_cos(V x) {
     const Angle angle = reduce_angle(x);
     const V rr = hn::Mul(angle.r, angle.r);
@@ -144,7 +144,7 @@ HWY_INLINE V tangent(V x) {
     return hn::IfThenElse(odd, hn::Div(set(-1), t), t);
 }
 
-/// Of s in 0..0.5, given s * s.
+/// asin(s) for s in 0..0.5, where ss = s * s: Cephes' asinf.
 HWY_INLINE V arc_sine_near_zero(V s, V ss) {
     V p = set(4.2163199048e-2f);
     p = step(p, ss, 2.4181311049e-2f);

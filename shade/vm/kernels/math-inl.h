@@ -83,7 +83,7 @@ HWY_INLINE V logarithm_series(V f) {
     return step(p, f, 3.3333331174e-1f);
 }
 
-/// Of a normal positive number.
+/// Binary logarithm of a normal positive number.
 HWY_INLINE V log2(V x) {
     const auto [exponent, f] = split_exponent(x);
     const V ff = hn::Mul(f, f);
@@ -91,7 +91,7 @@ HWY_INLINE V log2(V x) {
     return hn::Add(hn::ConvertTo(D(), exponent), hn::Mul(ln, set(1.44269504f)));
 }
 
-/// Cephes' exp2f; 0 below 2^-126 and no more than about 2^127.
+/// 2^x by Cephes' exp2f; 0 for x below -126, and no more than about 2^127.
 HWY_INLINE V exp2(V x) {
     const DI di;
     const V clamped = at_least(at_most(x, set(127)), set(-126));

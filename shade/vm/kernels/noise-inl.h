@@ -38,14 +38,16 @@ struct NoiseAxis {
     V weight;
 };
 
-/// Whole number modulo a whole period, both exact in floats; the quotient may be off by one.
+/// A whole number modulo a whole period, both exact in floats. The quotient may be off by one, which the last
+/// two steps correct.
 HWY_INLINE V wrap(V x, V period) {
     const V r = hn::Sub(x, hn::Mul(period, hn::Floor(hn::Div(x, period))));
     const V up = hn::Add(r, hn::IfThenElseZero(hn::Lt(r, hn::Zero(D())), period));
     return hn::Sub(up, hn::IfThenElseZero(hn::Ge(up, period), period));
 }
 
-/// With a period (whole, at least 1) the lattice repeats.
+/// Finds the cell of a coordinate. `periodic`: the lattice repeats after `period`, a whole number of at
+/// least 1. `factor`: multiplies the lattice's whole numbers, a different one on each axis, for the hash.
 template <bool periodic>
 HWY_INLINE NoiseAxis noise_axis(V coordinate, V period, uint32_t factor) {
     const DI di;
@@ -65,7 +67,7 @@ HWY_INLINE NoiseAxis noise_axis(V coordinate, V period, uint32_t factor) {
             fade(offset)};
 }
 
-/// With the sign flipped where the highest bit is set.
+/// x with its sign flipped where the highest bit of `bits` is set.
 HWY_INLINE V flip(V x, VU bits) {
     return hn::Xor(x, hn::BitCast(D(), hn::And(bits, hn::Set(DU(), 0x80000000u))));
 }

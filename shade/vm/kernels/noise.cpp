@@ -23,7 +23,8 @@ struct Coordinate {
     int component = 0;
 };
 
-/// From one operand on: floats make up one or two dimensions, a triple the first three of more.
+/// Coordinates of the point that operands o[0] and on hold: one or two floats; a triple; or a triple and a
+/// float.
 template <int dimensions>
 std::array<Coordinate, dimensions> coordinates(Operands o) {
     std::array<Coordinate, dimensions> result;

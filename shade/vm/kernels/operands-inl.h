@@ -44,7 +44,7 @@ struct Input {
         return hn::Load(D(), data + static_cast<size_t>(k) * stride + (i & lane_mask));
     }
     HWY_INLINE V3 get3(size_t i) const { return {get(i, 0), get(i, 1), get(i, 2)}; }
-    /// Of a Bool: all bits of a lane or none.
+    /// The lanes where a Bool is true: it has all bits of a lane set, or none.
     HWY_INLINE M mask(size_t i) const { return hn::MaskFromVec(get(i)); }
 
     const float* data;
@@ -126,7 +126,7 @@ Kernel counted(std::span<const int> widths) {
     return widths.size() == count ? kernel : nullptr;
 }
 
-/// With the sign of x also where that is zero, which targets' own Floor() do not all keep.
+/// Floor that keeps the sign of x where the result is zero; the Floor() of some targets does not.
 HWY_INLINE V floor_of(V x) {
     return hn::CopySign(hn::Floor(x), x);
 }

@@ -74,7 +74,7 @@ void matrix_element(size_t lanes, Operands o) {
     }
 }
 
-/// Each lane writes one float of its own: the other elements keep what they have.
+/// Sets one float of a matrix, another one in each lane; the other elements keep what they have.
 void set_matrix_element(size_t lanes, Operands o) {
     const Output m(o[0]);
     const Input row(o[1]), column(o[2]), x(o[3]);

@@ -13,8 +13,8 @@
 #define TRAPEZE_SHADE_VM_SPLINE_ONCE_
 namespace trapeze::vm {
 
-/// From one segment's knots to the next, and the powers of the place in it, cubes first, to the weights of
-/// four knots: the basis matrices of RiBasis.
+/// A cubic basis of RiBasis: how many knots a segment is from the next, and the matrix that takes the powers
+/// of the place in a segment, cubes first, to the weights of its four knots.
 struct SplineRule {
     int step;
     float matrix[4][4];
@@ -70,7 +70,7 @@ HWY_INLINE void pick_in_turn(const Knots& knots, int step, int segments, V segme
     }
 }
 
-/// From an array: each lane loads the four knots of its own segment.
+/// Loads knots from an array: each lane the four of its own segment.
 HWY_INLINE void gather(const Operand& array, int step, V segment, size_t i, int k, V (&out)[4]) {
     const DI di;
     const size_t distance = array.element_stride;

@@ -13,7 +13,7 @@ namespace trapeze::vm {
 /// In the order of the rules in spline.cpp.
 enum class SplineBasis : uint8_t { CatmullRom, Bezier, BSpline, Hermite, Linear, Constant };
 
-/// As shaders name it; empty for an unknown name.
+/// The basis that shaders call `name`; nothing for an unknown name.
 std::optional<SplineBasis> spline_basis(std::string_view name);
 
 /// Knots that a spline of `count` of them uses: 4 + a multiple of 3 (bezier) or 2 (hermite) or any number

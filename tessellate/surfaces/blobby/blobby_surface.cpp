@@ -61,7 +61,8 @@ class ScreenCells {
           scale_(CameraFacing(camera_from_object_.front(), &camera).scale()),
           nearest_(kNearest * diagonal * scale_),
           side_(kMicropolygonsPerCell * std::sqrt(std::max(primitive.attributes->shading_rate, 1e-4f))) {
-        // With some to spare, for displacement and for the lens.
+        // The picture's farther side, in the image plane, and half as much to spare, for displacement and the
+        // lens.
         const auto reach = [](float scale, float offset, int pixels) {
             return 1.5f * std::max(std::abs(offset), std::abs(scale * static_cast<float>(pixels) + offset));
         };

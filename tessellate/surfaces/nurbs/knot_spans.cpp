@@ -67,7 +67,7 @@ BasisValues KnotSpans::basis(int span, float t) const {
     return b;
 }
 
-/// Each Bezier control point is the blossom at some of lo and the rest of hi.
+/// Each Bezier control point is the blossom (polar form) with some of its arguments at lo and the rest at hi.
 void KnotSpans::bezier_weights(int span, float lo, float hi, std::span<double> weights) const {
     const int knot = spans_[span].knot, degree = order_ - 1;
     const double from = parameter(span, lo), to = parameter(span, hi);

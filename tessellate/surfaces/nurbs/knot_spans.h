@@ -30,7 +30,7 @@ class KnotSpans {
     int segment(int span) const { return spans_[span].knot - (order_ - 1); }
     /// The spline's parameter at 0..1 of a span; exact at its ends.
     double parameter(int span, float t) const;
-    /// Of the spline's parameter: of one span, and of all together.
+    /// Length in the spline's parameter, of one span and of all together.
     double length(int span) const { return spans_[span].end - spans_[span].begin; }
     double total_length() const { return spans_.back().end - spans_.front().begin; }
     /// Where a span's share t is in the whole range and in its knot interval, both 0..1.

@@ -176,7 +176,7 @@ bool Cutter::corner_kept(int i, int j) const {
 /// The nodes of one side of a cell from its corner `from` on, without the corner at its end. What is kept
 /// along an edge is counted from its least corner, for both cells alike.
 void Cutter::add_side(std::vector<BorderNode>& nodes, const Edge& edge, bool forwards, int from) {
-    // Each crossing changes sides.
+    // At each crossing the side changes from kept to cut away, or back.
     const bool kept = corner_kept(edge[1], edge[2]);
     const auto found = edge_crossings_.find(edge);
     const int count = found == edge_crossings_.end() ? 0 : static_cast<int>(found->second.size());

@@ -62,7 +62,7 @@ class TriangleChart {
     V2f corners_[4];
 };
 
-/// Whole quads: the library's parameters are ours.
+/// The chart of a whole quad: the library's parameters are ours.
 struct WholeChart {
     ChartPoint at(V2f uv) const { return {{uv.x, uv.y}, {1, 0}, {0, 1}}; }
 };

@@ -26,7 +26,7 @@ class LimitPatch {
     void set_vertex(const Factory& factory, int mesh_face, std::span<const int> corners);
     void set_face_varying(const Factory& factory, int mesh_face, int channel, std::span<const int> corners);
 
-    /// For faces without limit surface: linear between the values at the corners.
+    /// Makes the patch linear between the values at its corners, for faces without a limit surface.
     void set_linear(std::span<const int> corners);
 
     bool is_bspline() const { return form_ == Form::Bspline; }
