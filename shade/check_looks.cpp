@@ -9,7 +9,8 @@
 namespace trapeze {
 namespace {
 
-/// Names of variables that any primitive has: shaders may find other values in their parameters' places.
+/// Names of the variables of all primitives. A primitive's variable replaces the shader parameter of its
+/// name, so that such a parameter's value is not known here.
 std::set<std::string> variables_of(const Scene& scene) {
     std::set<std::string> names;
     for (const Primitive& primitive : scene.primitives)

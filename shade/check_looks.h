@@ -1,4 +1,5 @@
-/// What can be said of a scene's shaders and maps without a grid.
+/// Problems of a scene's shaders and maps that can be found without rendering it, for `trapeze` runs that
+/// only check.
 #pragma once
 
 #include <functional>
@@ -9,7 +10,7 @@
 
 namespace trapeze {
 
-/// Whether a map of this name will have been made when it is looked up.
+/// Whether the map of a name will have been made by the time that it is looked up, and so may be missing now.
 using MapIsMade = std::function<bool(std::string_view name)>;
 
 /// Makes every shader of the scene and opens the maps that they name; reports to the context's diagnostics

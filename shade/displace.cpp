@@ -11,7 +11,8 @@
 namespace trapeze {
 namespace {
 
-/// A primitive's matrices, at a key of the grid's possibly finer ones; points between keys move linearly.
+/// A primitive's matrix at a key of the grid, which may have more keys than the primitive. Matrices are mixed
+/// linearly between their keys, as points move between them.
 M44d pose_at_key(const std::vector<M44f>& poses, int key, int key_count) {
     const int count = static_cast<int>(poses.size());
     if (count <= 1) return count ? M44d(poses.front()) : M44d();
@@ -21,7 +22,7 @@ M44d pose_at_key(const std::vector<M44f>& poses, int key, int key_count) {
     return M44d(poses[segment.index]) * (1 - w) + M44d(poses[segment.index + 1]) * w;
 }
 
-/// Displacement vectors, written over the displaced positions.
+/// Turns displaced positions into displacement vectors, in place; those that are not finite become zero.
 void subtract_positions(const Triples& P, size_t vertices, Plane3 moved) {
     for (size_t i = 0; i < vertices; ++i) {
         const V3f move = V3f(moved.x[i], moved.y[i], moved.z[i]) - P.at(i);
@@ -30,7 +31,8 @@ void subtract_positions(const Triples& P, size_t vertices, Plane3 moved) {
     }
 }
 
-/// Adds the vectors, taken from key 0 to a key, to that key's positions; returns the longest.
+/// Adds displacement vectors to the positions of a key, turned from the first key's pose to that key's;
+/// returns the longest.
 float move_key(const Plane3& moves, const M44d& key_from_first, Triples& P) {
     double longest = 0;
     for (size_t i = 0; i < P.size(); ++i) {
@@ -43,6 +45,7 @@ float move_key(const Plane3& moves, const M44d& key_from_first, Triples& P) {
     return static_cast<float>(longest);
 }
 
+/// Vertices first .. first + count - 1 of three planes.
 Plane3 part(const Plane3& planes, size_t first, size_t count) {
     return {planes.x.subspan(first, count), planes.y.subspan(first, count), planes.z.subspan(first, count)};
 }
@@ -99,7 +102,7 @@ float displace_grid(const Displaced& displaced, ShadingGrid& grid, PlanePool& po
 
 float longest_move(const Displaced& displaced, const ShadingGrid& grid) {
     if (displaced.P.size() == 0) return 0;
-    constexpr float kRounding = 1e-5f;  // of the distance
+    constexpr float kRounding = 1e-5f;  // of the distance from the eye: less is rounding, not displacement
     const Triples& P = grid.P.front();
     float longest = 0;
     for (size_t i = 0; i < grid.vertex_count(); ++i) {

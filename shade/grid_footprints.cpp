@@ -11,12 +11,14 @@
 namespace trapeze {
 namespace {
 
-/// The shortest axis, pixels: what a micropolygon that is seen square on covers at a shading rate of 1. Half
-/// of it is a little nearer to the truth, since the pixel filter spreads once more, but far rows show grain.
+/// The least length of a footprint's axis, in pixels: what a micropolygon that is seen square on covers at a
+/// shading rate of 1. Half of it is a little nearer to the truth, since the pixel filter spreads once more,
+/// but far rows show grain.
 constexpr float kLeastAxis = 1.0f;
-/// Bounds a footprint that is seen edge-on: in micropolygons.
+/// The most that a footprint seen edge-on is stretched, as a multiple of its micropolygon.
 constexpr float kMostStretch = 4096;
-/// The least cosine of the angle to the view's axis of what is projected.
+/// The least cosine of the angle between the view's axis and a point that is projected: points farther aside
+/// are left as they are.
 constexpr float kLeastCosine = 0.05f;
 
 /// How far the parameters (u, v) go from a vertex to the next along each of a grid's axes.
@@ -24,8 +26,8 @@ struct ParameterSteps {
     V2f along_u, along_v;
 };
 
-/// Along the middle of a piece: vertices of its borders may be moved along them to where a neighbour has its
-/// own.
+/// The mean parameter steps of a piece, measured along its middle: vertices of its borders may be moved along
+/// them to where a neighbour has its own. `first` is the piece's first vertex.
 ParameterSteps mean_steps(const ShadingGrid& grid, size_t first) {
     const GridShape& shape = grid.shape;
     const auto step = [&](const std::vector<float>& values, int from, int to, int count, float alone) {
@@ -40,7 +42,8 @@ ParameterSteps mean_steps(const ShadingGrid& grid, size_t first) {
             {step(grid.u, v0, v1, shape.nv, 0), step(grid.v, v0, v1, shape.nv, 1)}};
 }
 
-/// u goes along the first axis and v along the second, but for polygons, where they are places.
+/// Parameter steps of a piece: u goes along the first axis and v along the second, except on polygons, where
+/// they are places in object space.
 ParameterSteps parameter_steps(const ShadingGrid& grid, size_t first) {
     ParameterSteps steps = mean_steps(grid, first);
     if (has_places_as_parameters(grid)) {
@@ -52,15 +55,16 @@ ParameterSteps parameter_steps(const ShadingGrid& grid, size_t first) {
     return steps;
 }
 
-/// How far a parameter goes over both steps, which are so many times as wide.
+/// How far a parameter goes over both steps together, each made wider by a factor: du and dv of the language,
+/// with which textures are filtered.
 float way_of(float along_u, float wider_u, float along_v, float wider_v) {
     if (along_v == 0) return along_u * wider_u;
     if (along_u == 0) return along_v * wider_v;
     return std::abs(along_u) * wider_u + std::abs(along_v) * wider_v;
 }
 
-/// From a vertex of a displaced piece to the next along an axis: of one inside, since those of borders may
-/// share places. `index` is of row order in the piece.
+/// The step from a vertex of a displaced piece to the next along an axis, taken at a vertex inside, since
+/// border vertices may share places. `index` is in row order in the piece.
 V3f displaced_step(const ShadingGrid& grid, size_t piece, int index, GridAxis axis) {
     const GridShape& shape = grid.shape;
     const auto inside = [](int i, int last) { return last >= 2 ? std::clamp(i, 1, last - 1) : i; };
@@ -75,7 +79,7 @@ V3f displaced_step(const ShadingGrid& grid, size_t piece, int index, GridAxis ax
     return way / static_cast<float>(std::max(i1 - i0 + j1 - j0, 1));
 }
 
-/// The steps along u and v that a vertex stands for.
+/// The steps along u and v, camera space, that a vertex's micropolygon has.
 struct VertexSteps {
     V3f u, v;
 
@@ -90,14 +94,15 @@ struct VertexSteps {
         u = displaced_step(grid, piece, index, GridAxis::U);
         v = displaced_step(grid, piece, index, GridAxis::V);
     }
-    /// False where the surface has no plane there.
+    /// Whether the steps make a plane: false where the surface has none, as at a pole.
     bool span_a_plane() const {
         constexpr float kLeastSine = 1e-4f;
         return u.cross(v).length2() > kLeastSine * kLeastSine * u.length2() * v.length2();
     }
 };
 
-/// A vector from P as it is seen: in pixels.
+/// A small vector `d` at P as it is seen, in pixels: the derivative of the projection. `pixels` is how many
+/// one unit is at depth 1 (at any depth without perspective).
 V2f seen(const V3f& P, const V3f& d, const V2f& pixels, bool perspective) {
     if (!perspective) return {d.x * pixels.x, d.y * pixels.y};
     const float nearness = 1 / P.z;
@@ -105,13 +110,14 @@ V2f seen(const V3f& P, const V3f& d, const V2f& pixels, bool perspective) {
             (d.y - P.y * nearness * d.z) * nearness * pixels.y};
 }
 
-/// A symmetric matrix that stretches the unit circle.
+/// A symmetric matrix by which the two steps are mixed so that their ellipse has no short axis.
 struct Stretch {
     float uu = 1, uv = 0, vv = 1;
 };
 
-/// Of steps that are seen as `u` and `v`, so that no axis of the ellipse that they span is shorter than
-/// `least` pixels.
+/// The stretch for steps that are seen as `u` and `v` (pixels), so that no axis of the ellipse that they span
+/// is shorter than `least` pixels. The ellipse's axes are the singular values of the matrix (u v); the
+/// stretch multiplies each by what it lacks.
 Stretch stretch(const V2f& u, const V2f& v, float least) {
     const float a = u.dot(u), b = u.dot(v), c = v.dot(v), area = u.x * v.y - u.y * v.x;
     const float middle = (a + c) / 2, apart = std::sqrt((a - c) * (a - c) / 4 + b * b);
@@ -125,7 +131,7 @@ Stretch stretch(const V2f& u, const V2f& v, float least) {
     return {of_shorter + more * (a - shorter), more * b, of_shorter + more * (c - shorter)};
 }
 
-/// Of a micropolygon at P; none behind the eye and beside it.
+/// The stretch of a micropolygon at P; none behind the eye, far aside, or where the surface has no plane.
 Stretch stretch_at(const V3f& P, const VertexSteps& along, const Camera& camera, float least) {
     if (camera.perspective && !(P.z > 0 && P.z * P.z > kLeastCosine * kLeastCosine * P.length2())) return {};
     const V2f pixels(std::abs(1 / camera.plane_scale_x), std::abs(1 / camera.plane_scale_y));
@@ -135,8 +141,8 @@ Stretch stretch_at(const V3f& P, const VertexSteps& along, const Camera& camera,
     return std::isfinite(found.uu + found.uv + found.vv) ? found : Stretch{};
 }
 
-/// Which vertices of a piece that is not displaced stretch_at() may stretch: 1, else 0. Most need not be
-/// looked at closer: their micropolygon's area is so large that no axis is short.
+/// Marks with 1 the vertices of a piece that stretch_at() may stretch, the others with 0; for a piece that is
+/// not displaced. Most need no closer look: their micropolygon's area is so large that no axis is short.
 void find_thin(const ShadingGrid& grid, size_t piece, const ParameterSteps& step, const Camera& camera,
                float least, Plane thin) {
     const auto from = [piece](const Triples& triples, int k) { return triples.c[k].data() + piece; };

@@ -14,11 +14,12 @@
 
 namespace trapeze {
 
-/// Found when first asked for. For grids side by side, which are to stay as they are meanwhile.
+/// Finds footprints when first asked for them. The grids lie side by side in the lanes, and are to stay as
+/// they are meanwhile.
 class GridFootprints : public vm::Footprints {
   public:
-    /// Not `stretched`: micropolygons as they are. So displacement has them: how what is yet to be moved lies
-    /// to the eye says nothing.
+    /// Not `stretched`: footprints are the micropolygons as they are, which is what displacement shaders
+    /// take. What is yet to be moved may lie to the eye in any way.
     GridFootprints(std::span<const ShadingGrid* const> grids, const Camera& camera, bool stretched = true)
         : grids_(grids), camera_(camera), stretched_(stretched) {}
 

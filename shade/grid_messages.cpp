@@ -9,11 +9,13 @@ namespace {
 using rsl::Base;
 using rsl::Op;
 
+/// Distance of a register's planes: all lanes, or the padding of a uniform one.
 size_t plane_of(const vm::Operand& out, size_t lanes) {
     return out.lane_mask ? lanes : kLanes;
 }
 
-/// A variable of another shader: its parameter, or a predefined one.
+/// Copies a variable of another shader, a parameter or a predefined one, to `out` or `text`. False when there
+/// is none of the type.
 bool copy_variable(const vm::Registers* registers, std::string_view name, rsl::Type type,
                    const vm::Operand& out, std::string* text) {
     if (!registers) return false;
@@ -42,14 +44,14 @@ bool copy_variable(const vm::Registers* registers, std::string_view name, rsl::T
     return true;
 }
 
-/// One value for all lanes.
+/// Sets all lanes of `out` to one value; false when there are too few numbers.
 bool set_value(std::span<const float> values, rsl::Type type, const vm::Operand& out) {
     const size_t wanted = static_cast<size_t>(rsl::width_of(type.base) * std::max(type.length, 1));
     if (wanted == 0 || values.size() < wanted) return false;
     const size_t width = static_cast<size_t>(rsl::width_of(type.base));
     for (size_t p = 0; p < wanted; ++p) {
         float* plane = out.data + (p / width) * out.element_stride + (p % width) * out.stride;
-        // A component's planes lie one after the other, and so tell their size.
+        // The planes of an element's components lie one after the other, and so tell their size.
         const size_t size = out.lane_mask ? out.element_stride / width : kLanes;
         std::fill_n(plane, size, values[p]);
     }
@@ -66,7 +68,7 @@ bool set_parameter(const Parameter* parameter, rsl::Type type, const vm::Operand
     return set_value(parameter->floats, type, out);
 }
 
-/// "category:name" in lists by category.
+/// The value that "category:name" asks for, in lists by category; without a category it is "user".
 const Parameter* find_user(const std::map<std::string, ParameterList>& lists, std::string_view name) {
     const size_t colon = name.find(':');
     const std::string category(colon == std::string_view::npos ? "user" : name.substr(0, colon));

@@ -7,11 +7,14 @@
 
 namespace trapeze {
 
+/// Answers for the run that goes on. Each find() is false for a name that is not known, or known by another
+/// type; then the shader's variable keeps its value.
 class GridMessages : public vm::Messages {
   public:
     explicit GridMessages(const RenderContext& context) : context_(context) {}
 
-    /// Registers of shaders that have run on the grid (or are running); may be null.
+    /// Registers of the shaders that have run on the grid, or run now; null where there is none. They have
+    /// the lanes of the run.
     const vm::Registers* surface = nullptr;
     const vm::Registers* displacement = nullptr;
     const vm::Registers* atmosphere = nullptr;

@@ -10,12 +10,14 @@
 namespace trapeze {
 namespace {
 
+/// Raises a maximum that several threads share.
 void raise(std::atomic<float>& maximum, float value) {
     float seen = maximum.load(std::memory_order_relaxed);
     while (value > seen && !maximum.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
 }
 
-/// Values of a variable that a run would take from its first grid alone.
+/// Whether a run may take both variables from the first grid alone: they are not uniform, or have the same
+/// values.
 bool same_uniform(const GridVariable* a, const GridVariable* b) {
     if (!a || !b) return a == b;
     if (a->uniform != b->uniform || a->strings != b->strings) return false;
@@ -35,7 +37,7 @@ bool same_uniforms(const LayeredShader* shader, const ShadingGrid& a, const Shad
     return true;
 }
 
-/// Parts of a list, all elements of each of which can share a run.
+/// Calls use(grids) for the parts of a list that can share a run of the shader, each in one run.
 template <class Use>
 void for_each_run(std::vector<ShadingGrid*> grids, const LayeredShader& shader, const Use& use) {
     while (!grids.empty()) {
@@ -98,7 +100,7 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
                                   std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
                                   bool shaded, LayerRegisters& layers) {
     const BoundShader& bound = *shader.layers[layer];
-    // Layers may be the same shader twice.
+    // Two layers may be the same shader: each has registers of its own, by its number.
     vm::Registers& registers = scratch_.machine.registers(bound.executable(), layer);
     layers.push_back(&registers);
     registers.start(batch.lanes);
@@ -128,12 +130,12 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     return registers;
 }
 
-/// All layers over the pieces of the grids' borders: what those who share a border point take of it.
+/// Displaces the pieces of the grids' borders by all layers: what those who share a border point take of it.
 void GridRun::move_borders(const LayeredShader& shader) {
     std::vector<ShadingGrid*> borders;
     for (ShadingGrid* grid : grids_)
         for (ShadingGrid& pieces : grid->border) borders.push_back(&pieces);
-    // Of another run, with other lanes.
+    // Messages would be answered from the grids' run, which has other lanes.
     const vm::Registers* const of_grids = std::exchange(messages_.displacement, nullptr);
     for_each_run(std::move(borders), shader, [&](std::span<ShadingGrid* const> run) {
         const std::vector<const ShadingGrid*> read = to_read(run);
@@ -153,7 +155,7 @@ void GridRun::move_borders(const LayeredShader& shader) {
     messages_.displacement = of_grids;
 }
 
-/// By what a shader that has run on them made of P and N.
+/// Moves the grids by what a shader that has run on them made of P and N.
 void GridRun::move_grids(const vm::Registers& registers) {
     size_t first = 0;
     for (ShadingGrid* grid : grids_) {
@@ -163,7 +165,7 @@ void GridRun::move_grids(const vm::Registers& registers) {
     }
 }
 
-/// How far a surface shader would move the grids.
+/// Records how far a surface shader would move the grids, for report_displacement_bounds().
 void GridRun::note_moves(const vm::Registers& registers) {
     if (!writes_variable(registers.program(), "P")) return;
     size_t first = 0;
@@ -188,7 +190,8 @@ GridRun::LayerRegisters GridRun::displace() {
     return layers;
 }
 
-/// A surface shader that moves P displaces the surface behind it, as a displacement shader does.
+/// Runs a shader that sets colours. A surface shader that moves P displaces the surface behind it, as a
+/// displacement shader does; `announced` becomes the registers that messages are answered from.
 GridRun::LayerRegisters GridRun::color(const LayeredShader& shader, bool shaded,
                                        const vm::Registers*& announced) {
     const bool moves = &shader == material_.surface && material_.surface_moves;

@@ -24,23 +24,26 @@ struct GridRunScratch {
 /// are the same, and so is the primitive, as far as the material asks.
 bool can_share_run(const Material& material, const ShadingGrid& a, const ShadingGrid& b);
 
+/// One run of a material's shaders over a batch of grids: what the machine's lanes, the lights and the
+/// messages are set up for.
 class GridRun {
   public:
-    /// The grids can share a run, each with each. All must outlive this.
+    /// The grids can share a run (can_share_run()), each with each. All must outlive this.
     GridRun(const RenderContext& context, Textures& textures, const Material& material,
             std::span<ShadingGrid* const> grids, GridRunScratch& scratch);
 
-    /// `aovs` are those that the grids are to carry.
+    /// Displaces the grids at all keys, sets Ci and Oi, and fills the output variables `aovs`.
     void run(const AovLayout& aovs);
 
   private:
     using LayerRegisters = std::vector<vm::Registers*>;
 
-    /// Shades points, which are those of `grids`; returns the layer's registers.
+    /// Runs one layer on `grids`, whose lanes `batch` describes; `shaded`: Ci and Oi begin as the grids have
+    /// them. Adds the layer's registers to `layers` and returns them.
     vm::Registers& run_layer(const LayeredShader& shader, size_t layer,
                              std::span<const ShadingGrid* const> grids, const vm::Batch& batch, bool shaded,
                              LayerRegisters& layers);
-    // These return the layers' layers.
+    // These return the registers of all layers of their shader.
     LayerRegisters displace();
     LayerRegisters color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
     void move_borders(const LayeredShader& shader);
@@ -50,7 +53,7 @@ class GridRun {
     const RenderContext& context_;
     const Material& material_;
     const std::span<ShadingGrid* const> grids_;
-    const std::vector<const ShadingGrid*> read_;  ///< the same, to be read
+    const std::vector<const ShadingGrid*> read_;  ///< grids_ again, as functions that only read want them
     GridRunScratch& scratch_;
     MapService maps_;
     GridMessages messages_;

@@ -14,16 +14,16 @@
 namespace trapeze {
 namespace {
 
-constexpr int kBatch = 256;  ///< pixels run together: about as many as a grid has vertices
+constexpr int kBatch = 256;  ///< pixels that run together: about as many as a grid has vertices
 
-/// Of a variable that the program may not name: then null.
+/// The register of a variable; null when the program does not name it.
 const vm::Operand* variable(const vm::Registers& registers, std::string_view name) {
     const rsl::RegisterId* id = registers.program().find_global(name);
     return id ? &registers.operand(*id) : nullptr;
 }
 
-/// Imagers of exporters mostly put a colour behind the picture: where theirs is missing and has such a
-/// colour, ours does.
+/// A stand-in for an imager that is missing. Imagers of exporters mostly put a colour behind the picture:
+/// where the missing one was given such a colour, the standard background does so.
 std::optional<ShaderInstance> stand_in(const ShaderInstance& missing) {
     for (const Parameter& parameter : missing.parameters.values)
         for (const char* name : {"bgcolor", "background", "backgroundcolor", "color"})
@@ -39,7 +39,8 @@ std::optional<ShaderInstance> stand_in(const ShaderInstance& missing) {
     return {};
 }
 
-/// Each pixel is a grid of its own: it has no neighbours, and its random numbers follow from its place.
+/// The lanes of a row's pixels. Each pixel is a grid of its own: it has no neighbours, and its random numbers
+/// follow from its place in the picture.
 vm::Batch batch_of(int x0, int y, size_t pixels) {
     vm::Batch batch;
     batch.vertices = pixels;
@@ -59,6 +60,7 @@ void load(const vm::Operand* out, int component, size_t pixels, size_t lanes, co
     for (size_t i = 0; i < lanes; ++i) to[i] = value_of(std::min(i, pixels - 1));
 }
 
+/// Pixels must stay numbers, whatever a shader does.
 float finite(float value) {
     return std::isfinite(value) ? value : 0.0f;
 }

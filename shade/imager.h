@@ -11,19 +11,20 @@ namespace trapeze {
 
 class BoundShader;
 
+/// A scene's imager shader, ready to run; or none, and then pictures stay as they are.
 class Imager {
   public:
-    /// The shader that Options::imager names. One that is not known, is no imager or has errors is reported;
-    /// then there is none, and pictures stay as they are. The context, its scene and `access`, to files, must
-    /// outlive this.
+    /// Finds the shader that Options::imager names. One that is not known, is no imager or has errors is
+    /// reported; then there is none, or `background` in place of one that had a background colour. The
+    /// context, its scene and `access`, to files, must outlive this.
     explicit Imager(const RenderContext& context, const Access& access = kEverything);
     ~Imager();
 
     bool is_there() const;
     const BoundShader* shader() const;  ///< null: none
 
-    /// Runs it over one row of pixels in place: `count` of them, red green blue alpha each, from pixel
-    /// (x0, y) on. Thread-safe; what becomes of a pixel depends on the pixel alone.
+    /// Runs the shader over one row of pixels in place: `count` of them, red green blue alpha each, from
+    /// pixel (x0, y) on. Thread-safe; what becomes of a pixel depends on the pixel alone.
     ///
     /// The shader sees (table 12.5) P, the raster position of the pixel's centre, z 0; s and u, t and v, the
     /// same from 0 to 1 over the whole picture, whatever is cropped; Ci; alpha; Oi, which

@@ -10,7 +10,7 @@
 namespace trapeze {
 namespace {
 
-/// A bound met but for rounding is kept.
+/// Displacement beyond the bound by this factor is not reported: it is rounding.
 constexpr float kBoundTolerance = 1.0001f;
 
 }  // namespace
@@ -39,7 +39,7 @@ struct Shading::Impl {
     Textures textures;
     Materials materials;
     AovLayout aovs;
-    size_t known_endless = 0;
+    size_t known_endless = 0;  ///< endless shaders at the last found_endless_loops()
 };
 
 Shading::Shading(const RenderContext& context, const Access& access)

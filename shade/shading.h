@@ -13,7 +13,7 @@
 
 namespace trapeze {
 
-/// A thread's memory for shading, reused from grid to grid.
+/// A thread's memory for shading: registers, planes and lights, reused from grid to grid.
 class ShadeScratch {
   public:
     ShadeScratch();
@@ -24,6 +24,7 @@ class ShadeScratch {
     std::unique_ptr<State> state;
 };
 
+/// All shading of one render: its materials, its maps, and the variables that its displays ask for.
 class Shading {
   public:
     /// Makes every shader that the scene names. One that is not known is reported once for each name, where
@@ -52,11 +53,11 @@ class Shading {
     /// on each runs alone, for a batch shares its limits.
     bool found_endless_loops();
 
-    /// Of the scene's depth maps, as shadow() finds them; valid as long as this.
+    /// Finds heights over the scene's depth maps, by names as shadow() finds them; valid as long as this.
     FindDepthHeight depth_heights() const;
 
-    /// Which primitives of the scene, by their indices, their surface shaders displace; valid as long as
-    /// this.
+    /// Tells of a primitive, by its index in the scene, whether its surface shader displaces it; valid as
+    /// long as this.
     std::function<bool(uint32_t)> displacing_surfaces() const;
 
     /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond

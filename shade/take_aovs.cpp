@@ -9,6 +9,7 @@
 namespace trapeze {
 namespace {
 
+/// Variables that grids have by themselves, by name and type.
 using TriplesMember = Triples ShadingGrid::*;
 using FloatsMember = std::vector<float> ShadingGrid::*;
 
@@ -30,7 +31,7 @@ FloatsMember floats_named(std::string_view name) {
     return nullptr;
 }
 
-/// A channel of what the grid itself has; null for another variable.
+/// A channel of a variable that the grid itself has; null for another variable.
 const std::vector<float>* own_plane(const ShadingGrid& grid, const Aov& aov, int channel) {
     if (aov.channels == 3) {
         if (aov.name == "P") return &grid.P.front().c[channel];
@@ -46,7 +47,8 @@ bool grids_have(const Aov& aov) {
     return aov.name == "P" || triples_named(aov.name);
 }
 
-/// The atmosphere changes these after the surface has run.
+/// Whether a variable is a result, Ci or Oi: the atmosphere changes these after the surface has run, so they
+/// are taken from the grid.
 bool is_result(const Aov& aov) {
     return aov.name == "Ci" || aov.name == "Oi";
 }
@@ -55,14 +57,14 @@ bool fits(const rsl::Type& type, const Aov& aov) {
     return !type.is_array() && rsl::width_of(type.base) == aov.channels;
 }
 
-/// The register of an output parameter; null when the program has none of as many numbers.
+/// The register of an output parameter; null when the program has none of that name and as many numbers.
 const rsl::RegisterId* output_of(const rsl::Program& program, const Aov& aov) {
     for (const rsl::ProgramParameter& parameter : program.parameters)
         if (parameter.output && parameter.name == aov.name && fits(parameter.type, aov)) return &parameter.id;
     return nullptr;
 }
 
-/// The register of a variable that the program has; null when it has none of as many numbers.
+/// The register of any variable that the program has; null when it has none of that name and as many numbers.
 const rsl::RegisterId* register_of(const rsl::Program& program, const Aov& aov) {
     const rsl::RegisterId* id = program.find_global(aov.name);
     for (const rsl::ProgramParameter& parameter : program.parameters)
@@ -72,7 +74,8 @@ const rsl::RegisterId* register_of(const rsl::Program& program, const Aov& aov) 
 
 using LayerRegisters = std::span<vm::Registers* const>;
 
-/// Where shaders hold a variable; null when they have none.
+/// The register from which a variable is taken, in the order that take_aovs() tells; null when no shader has
+/// it.
 const vm::Operand* operand_of(const Aov& aov, LayerRegisters surface, LayerRegisters displacement) {
     if (is_result(aov)) return nullptr;
     for (const LayerRegisters layers : {surface, displacement})
@@ -92,7 +95,7 @@ bool provides(const Material& material, const Aov& aov) {
     return register_of(material.surface->last().program(), aov) != nullptr;
 }
 
-/// One channel of one grid, whose lanes begin at `first`.
+/// Takes one channel of one grid, whose lanes begin at `first`. `from` null: the grid's own, or 0.
 void take_channel(const Aov& aov, int channel, const vm::Operand* from, size_t first, ShadingGrid& grid) {
     const size_t count = grid.vertex_count();
     std::vector<float>& to = grid.aovs[static_cast<size_t>(aov.offset + channel)];

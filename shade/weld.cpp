@@ -5,10 +5,12 @@
 namespace trapeze {
 namespace {
 
-/// Surfaces that meet at more than some twenty degrees meet in a crease, over which nothing is shaded alike.
+/// Two normals whose cosine is below this (an angle of about twenty degrees) meet in a crease, over which
+/// nothing is shaded alike.
 constexpr float kCreaseCosine = 0.94f;
 
-/// A vertex counted through all of the border's pieces.
+/// A vertex of a grid's border: the pieces that have it, and its number in them. Border vertices are counted
+/// through all pieces.
 struct InBorder {
     const ShadingGrid* pieces = nullptr;
     size_t vertex = 0;

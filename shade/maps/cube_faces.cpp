@@ -7,17 +7,18 @@ namespace trapeze {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-constexpr int kSamplesAcross = 2;  ///< of a pixel
+constexpr int kSamplesAcross = 2;  ///< samples of a pixel along each axis
 
+/// The axes of a view: what is in its middle, to its right and up.
 struct Face {
     V3f forward, right, up;
 };
-/// RISpec 3.2, section 7: +x, -x, +y, -y, +z, -z.
+/// The faces of RISpec 3.2, section 7, in its order: +x, -x, +y, -y, +z, -z.
 const Face kFaces[6] = {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
                         {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}},
                         {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};
 
-/// Adds the bilinear value at x, y (0..1 across the picture and down it).
+/// Adds a face's bilinear value at x, y (0..1 across the picture and down it) to `sum`.
 void add_sample(const Raster& face, float x, float y, float* sum) {
     const auto place = [](float at, int size, int& low, int& high) {
         const float texel =
@@ -33,6 +34,7 @@ void add_sample(const Raster& face, float x, float y, float* sum) {
         sum[k] += (a[k] * (1 - u) + b[k] * u) * (1 - v) + (c[k] * (1 - u) + d[k] * u) * v;
 }
 
+/// Adds what the faces show in a direction. `widening`: tangent of half the faces' field of view.
 void add_direction(const std::array<Raster, 6>& faces, float widening, const V3f& d, float* sum) {
     int axis = 0;
     for (int k = 1; k < 3; ++k)

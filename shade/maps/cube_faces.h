@@ -8,7 +8,7 @@
 
 namespace trapeze {
 
-/// Pixels row by row from the top left, `channels` floats each.
+/// A picture in memory: pixels row by row from the top left, `channels` floats each.
 struct Raster {
     int width = 0, height = 0, channels = 0;
     std::vector<float> pixels;
@@ -19,8 +19,9 @@ struct Raster {
     float* at(int x, int y) { return const_cast<float*>(static_cast<const Raster*>(this)->at(x, y)); }
 };
 
-/// As make_maps.h orders and orients the faces, which all have the same number of channels; fov in degrees.
-/// Four times as wide as the widest face.
+/// The picture of all directions that six faces see, which make_maps.h orders and orients. All have the same
+/// number of channels; fov, in degrees, is theirs. Four times as wide as the widest face and half as high, so
+/// that pixels at the equator are as wide as a face's on average.
 Raster lat_long_from_cube(const std::array<Raster, 6>& faces, float fov);
 
 }  // namespace trapeze

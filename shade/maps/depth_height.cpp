@@ -9,9 +9,9 @@
 namespace trapeze {
 namespace {
 
-constexpr int64_t kMostPixels = int64_t{1} << 26;
+constexpr int64_t kMostPixels = int64_t{1} << 26;  ///< of a map that is kept whole: 256 MB
 
-/// A whole map in memory: a polygoniser looks up millions of points all over it.
+/// Heights over a map that is whole in memory: a polygoniser looks up millions of points all over it.
 class Heights {
   public:
     Heights(const DepthView& map, const M44f& camera_from_world,
@@ -24,6 +24,9 @@ class Heights {
           perspective_(map.perspective),
           depths_(std::move(depths)) {}
 
+    /// Height of a current-space point over what the map saw, along the map's depth: positive on the side of
+    /// the map's camera. Infinite where the map has nothing. Bilinear between the middles of four pixels in
+    /// what is linear over planes; pixels that saw nothing are left out.
     float at(const V3f& p) const {
         const MapPoint here = space_(p);
         if (!here.seen) return kInfinity;

@@ -17,9 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t kMostFloats = uint64_t{1} << 28;  ///< of a cube's faces together
-constexpr float kNothing = 1e30f;                    ///< what is as deep
+constexpr uint64_t kMostFloats = uint64_t{1} << 28;  ///< that a cube's faces may have together: 1 GiB
+constexpr float kNothing = 1e30f;                    ///< depths from here on mean that nothing was seen
 
+/// Ends the making of a map; caught by made().
 struct MakingError {
     MapProblem problem;
 };
@@ -46,7 +47,7 @@ SourcePicture read_picture(const std::string& name, Transfer transfer) {
     return picture;
 }
 
-/// Where a file is made that becomes `target` when all has gone well.
+/// A file under a temporary name beside `target`, which it becomes by finish(); else it is removed.
 class Unfinished {
   public:
     explicit Unfinished(const std::string& target)
@@ -79,7 +80,7 @@ MapForm form_of(const MapMaking& making) {
     return {wrap_mode(making.swrap) + "," + wrap_mode(making.twrap), making.filter, false};
 }
 
-/// Whole, or not at all.
+/// Writes a map's file whole, or not at all.
 void write_map(const MapBytes& map, const std::string& name) {
     check(map.problem.empty(), map.problem);
     OutputFile file(name);
@@ -87,7 +88,7 @@ void write_map(const MapBytes& map, const std::string& name) {
                  file.error());
 }
 
-/// Runs what may throw, and says what went wrong.
+/// Makes a map, and turns what is thrown into the problem that is returned.
 template <class Make>
 MapProblem made(Make&& make) {
     try {
@@ -100,6 +101,7 @@ MapProblem made(Make&& make) {
     }
 }
 
+/// The tail of texture and bump maps: one picture, kept as halves where these hold its numbers.
 void make_flat(SourcePicture picture, const std::string& texture, const MapMaking& making) {
     MapForm form = form_of(making);
     form.halves = picture.fits_halves;
@@ -114,6 +116,7 @@ void make_environment(Raster& raster, const std::string& texture, const MapMakin
     file.finish();
 }
 
+/// A depth for each pixel, from channel Z or the only channel. What was not seen becomes the largest float.
 std::vector<float> depths_of(const SourcePicture& picture) {
     const std::vector<std::string>& names = picture.channel_names;
     const auto named = std::find_if(names.begin(), names.end(),

@@ -26,8 +26,8 @@ struct MapMatrices {
 /// What a file says of its first picture.
 struct MapFacts {
     int full_width = 0, full_height = 0, channels = 0;
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;                  ///< the pixels of the whole picture that it has
-    bool is_one_float = false;                           ///< one channel of floats, as depths are
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< the pixels of the whole picture that the file has
+    bool is_one_float = false;           ///< one channel of floats, as depths are
     bool srgb_if_asked = false, srgb_by_itself = false;  ///< is_srgb_encoded() for Srgb and Auto
     std::string wrap_modes;                              ///< "periodic,clamp", or empty
     std::string texture_format;                          ///< "Shadow", "LatLong Environment", or empty
@@ -45,7 +45,7 @@ class OpenMap {
 using ReadFailed = std::function<void(std::string)>;
 
 /// Files of one render, in bounded memory. Opening is for one thread at a time; lookups are thread-safe.
-/// Problems are empty where all is well.
+/// Texts that say what went wrong are empty where all is well.
 class MapCache {
   public:
     virtual ~MapCache() = default;
@@ -56,7 +56,7 @@ class MapCache {
     virtual std::unique_ptr<OpenMap> open_decoded(const OpenMap& map, const std::string& file,
                                                   std::string* problem) = 0;
 
-    /// As Textures has them, but for maps that are not there.
+    /// As Textures has these, but the map must be there.
     virtual void texture(const OpenMap& map, const TextureLookup& at, const MapOptions& options, Lanes lanes,
                          std::span<const Plane> out, const ReadFailed& failed) = 0;
     virtual void environment(const OpenMap& map, const EnvironmentLookup& at, const MapOptions& options,
@@ -70,15 +70,16 @@ class MapCache {
     virtual void shadow(const ShadowMap& map, const ShadowLookup& at, const M44f& camera_from_world,
                         const MapOptions& options, Lanes lanes, Plane out, const ReadFailed& failed) = 0;
 
-    /// All depths of a map, row by row.
+    /// Reads all depths of a map, row by row. Returns what went wrong.
     virtual std::string read_depths(const OpenMap& map, std::vector<float>& depths) = 0;
 };
 
 /// A picture read whole, as floats.
 struct SourcePicture {
     Raster raster;
-    bool fits_halves = false;  ///< what the file has are halves or 8 bits
+    bool fits_halves = false;  ///< the file's numbers are halves or of 8 bits, which halves hold exactly
     std::vector<std::string> channel_names;
+    /// The place of the first pixel in the whole picture, and the size of that.
     int x = 0, y = 0, full_width = 0, full_height = 0;
     std::optional<MapMatrices> matrices;
 };
@@ -97,27 +98,31 @@ struct MapBytes {
     std::string problem;
 };
 
+/// The library of pictures.
 class MapLibrary {
   public:
+    /// A cache of files for one render. `megabytes` bounds its memory.
     virtual std::unique_ptr<MapCache> make_cache(float megabytes) const = 0;
 
-    /// Returns what went wrong. Numbers that are encoded, as `transfer` takes them, are decoded.
+    /// Reads a picture whole. Returns what went wrong. Numbers that are encoded by the sRGB curve, as
+    /// `transfer` tells, are decoded.
     virtual std::string read(const std::string& file, Transfer transfer, SourcePicture& picture) const = 0;
 
-    /// OpenEXR, with smaller and smaller pictures.
+    /// A map as an OpenEXR file, with smaller and smaller pictures.
     virtual MapBytes texture_map(Raster& picture, const MapForm& form) const = 0;
-    /// TIFF: OpenEXR's maps have another up. Is written to a file, as OpenImageIO makes a TIFF of several
-    /// pictures on the disk only. Returns what went wrong.
+    /// Writes an environment map to a file, as OpenImageIO makes a TIFF of several pictures on the disk only.
+    /// TIFF, since maps in OpenEXR have another direction up. Returns what went wrong.
     virtual std::string write_environment_map(Raster& picture, const MapForm& form,
                                               const std::string& file) const = 0;
-    /// TIFF, of a picture's depths.
+    /// A picture's depths as a TIFF file, with the matrices in its metadata.
     virtual MapBytes shadow_map(const SourcePicture& picture, const std::vector<float>& depths) const = 0;
 
   protected:
     ~MapLibrary() = default;
 };
 
-/// Null, with *problem set, where the module cannot be opened.
+/// The library, from the module "maps", which is opened once; null, with *problem set, where that cannot be
+/// opened.
 const MapLibrary* map_library(std::string* problem);
 
 }  // namespace trapeze

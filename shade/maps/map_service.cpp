@@ -23,7 +23,7 @@ class CallLanes {
     CallLanes(Run& run, const Operand& result)
         : run_(run), plane_(vm::plane_size(run, result)), is_uniform_(!result.lane_mask) {}
 
-    /// Floats in a plane.
+    /// Floats in a plane: all lanes, or kLanes of a uniform call.
     size_t plane() const { return plane_; }
     Plane scratch() const { return {run_.scratch(1), plane_}; }
 
@@ -36,7 +36,7 @@ class CallLanes {
         return lanes;
     }
 
-    /// A component of an input, written out for each lane when it is uniform.
+    /// A component of an input as a plane of the call's size; a uniform input is written out.
     ConstPlane plane_of(const Operand& operand, size_t component = 0) const {
         const float* data = operand.data + component * operand.stride;
         if (operand.lane_mask || is_uniform_) return {data, plane_};
@@ -45,7 +45,8 @@ class CallLanes {
         return written;
     }
 
-    /// Changes from vertex to vertex, grid by grid; zero in the lanes past the last.
+    /// Differences of values from vertex to vertex along an axis, grid by grid; zero in the lanes past the
+    /// last vertex.
     Plane differences(GridAxis axis, ConstPlane values) const {
         const Plane out = scratch();
         std::fill(out.begin(), out.end(), 0.0f);
@@ -57,7 +58,7 @@ class CallLanes {
         return out;
     }
 
-    /// A component's changes along both axes of the vertices' footprints.
+    /// How a component changes along both axes of the vertices' footprints (vm::Footprint).
     std::array<Plane, 2> changes(const Operand& operand, size_t component, ConstPlane values) const {
         const vm::Context& context = run_.context();
         if (!context.footprints || !context.batch || is_uniform_ || !operand.lane_mask)
@@ -98,7 +99,7 @@ LaneNumber number_of(const Operand& operand, size_t lanes) {
     return operand.lane_mask ? LaneNumber(ConstPlane(operand.data, lanes)) : LaneNumber(operand.data[0]);
 }
 
-/// The named arguments.
+/// Options from a call's named arguments, such as "sblur", .01.
 MapOptions options_of(Run& run, const Step& step, std::span<const Operand> operands) {
     MapOptions options;
     const vm::Registers& registers = run.registers();
@@ -140,7 +141,8 @@ struct Coordinate {
     ConstPlane middle, along_u, along_v;
 };
 
-/// Of a coordinate at the corners of a quadrilateral: inputs 0, step, 2 * step, 3 * step from `first`.
+/// A coordinate at the middle of a quadrilateral, and its sides, from its corners: inputs `first`, + step, +
+/// 2 * step, + 3 * step.
 Coordinate quad(const CallLanes& lanes, std::span<const Operand> operands, size_t first, size_t stride,
                 size_t component) {
     const Plane middle = lanes.scratch(), along_u = lanes.scratch(), along_v = lanes.scratch();
@@ -156,7 +158,7 @@ Coordinate vertex_values(const CallLanes& lanes, const Operand& operand, size_t 
     return {values, along_a, along_b};
 }
 
-/// s and t from inputs `first` and the next, or from four corners.
+/// s and t of a call, from inputs `first` and the next, or from four corners.
 struct MapPlace {
     Coordinate s, t;
 };
@@ -177,8 +179,8 @@ std::array<Coordinate, 3> triple_values(const CallLanes& lanes, const Step& step
     return values;
 }
 
-/// Of a picture that cannot be read. White leaves a surface its own colour, and a light its own; what is
-/// displaced by a picture stays where it is, and no name is no picture.
+/// The value of a picture that cannot be read: white, which leaves a surface its own colour and a light its
+/// own; but 0 for what is displaced by the picture, which then stays where it is, and for an empty name.
 float stand_in(const vm::Registers& registers, const Step& step) {
     return registers.text_input(step, 0).empty() || registers.program().kind == rsl::ShaderKind::Displacement
                ? 0.0f
@@ -204,7 +206,8 @@ void MapService::look_up(Run& run, const Step& step, std::span<const Operand> op
     }
 }
 
-/// The picture that a lookup names. One of floats reads numbers, unless it says that they are encoded.
+/// The picture that a lookup names; null when it cannot be read. A lookup of a float reads numbers, unless it
+/// says that they are encoded.
 const Textures::Picture* MapService::picture_of(Run& run, const Step& step, bool of_color) {
     return textures_.find(run.registers().text_input(step, 0), step.at,
                           textures_.transfer_of_lookup(colorspace_of(run, step), of_color, step.at));

@@ -8,7 +8,7 @@
 
 namespace trapeze {
 
-/// One for each thread and grid; all it refers to must outlive it.
+/// Carries out the calls of one grid's shaders, in one thread. All it refers to must outlive it.
 class MapService : public vm::Maps {
   public:
     MapService(Textures& textures, const Scene& scene) : textures_(textures), scene_(scene) {}

@@ -1,4 +1,4 @@
-/// Where a point lies in a depth map.
+/// Where a point lies in a depth map, and how deep.
 #pragma once
 
 #include <cmath>
@@ -7,21 +7,23 @@
 
 namespace trapeze {
 
-/// A depth map's pixels and its camera.
+/// A depth map's pixels and its camera. Matrices are for row vectors.
 struct DepthView {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;     ///< the pixels that the file has
-    float full_width = 1, full_height = 1;  ///< of the picture they are part of
-    M44f camera_from_world, screen_from_world;
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;         ///< the pixels that the file has; x1, y1 are behind the last
+    float full_width = 1, full_height = 1;      ///< pixels of the whole picture
+    M44f camera_from_world, screen_from_world;  ///< screen: -1..1 across the picture and up it
     bool perspective = true;
 };
 
-/// A point in a map: pixels, depth, and the depth's form that is linear over planes.
+/// A point in a map: its place in pixels of the whole picture, y down; its depth from the map's camera; and
+/// `linear`, the depth (orthographic) or its inverse (perspective), which is linear over planes.
 struct MapPoint {
     float x = 0, y = 0, depth = 0, linear = 0;
-    bool seen = false;  ///< before the map's camera
+    bool seen = false;  ///< in front of the map's camera; else the place is not set
 };
 
-/// Places of current-space points, whose world is at camera_from_world.
+/// Finds points of the current space in a map. `camera_from_world` is of the render: its camera space is the
+/// current one.
 class MapSpace {
   public:
     MapSpace(const DepthView& map, const M44f& camera_from_world)

@@ -18,7 +18,7 @@ std::optional<std::string> file_named(const std::string& name, const std::vector
     return access.has_file(name) ? std::optional(name) : std::nullopt;
 }
 
-/// What texture makers of other renderers put at the end of the names of what they make.
+/// Endings that texture makers of other renderers add to, or put for, the ending of a picture's name.
 constexpr const char* kMade[] = {".tx",  ".tex", ".txt", ".txr", ".ttx", ".tdl",  ".tdx",
                                  ".rat", ".env", ".cub", ".shd", ".sm",  ".tiff", ".tif"};
 constexpr const char* kPictures[] = {".tif", ".tiff", ".png", ".jpg", ".jpeg", ".exr", ".tga",
@@ -40,7 +40,7 @@ std::optional<std::string> source_of_texture(const std::string& name, const std:
         if (!name.ends_with(made)) continue;
         const std::string stem = name.substr(0, name.size() - std::string_view(made).size());
         if (stem.empty() || stem.back() == '/') continue;
-        // picture.tif.tx
+        // A texture may be named by adding an ending: picture.tif.tx.
         if (fs::path(stem).has_extension())
             if (auto found = map_file(stem, folders, access)) return found;
         for (const char* const picture : kPictures)

@@ -24,7 +24,7 @@ float memory_megabytes_of(const Options& options) {
     return kilobytes > 0 ? kilobytes / 1024 : kDefaultMemoryMegabytes;
 }
 
-/// The name by which shaders of RenderMan ask for rays instead of a map.
+/// Whether a name asks for traced rays instead of a map, as shaders of RenderMan do.
 bool is_traced(std::string_view name) {
     return name == "raytrace";
 }
@@ -53,7 +53,7 @@ std::string Textures::Impl::start() {
     return problem;
 }
 
-/// Empty when it is open, else what is wrong.
+/// Opens a picture's file. Returns what is wrong, or nothing.
 std::string Textures::Impl::open(Picture& picture) {
     if (is_traced(picture.name)) return "rays are not traced";
     auto file = map_file(picture.name, folders, access);
@@ -83,7 +83,7 @@ Textures::Impl::Entry<Textures::Picture>& Textures::Impl::entry(std::string_view
     return made;
 }
 
-/// Of a picture that is open as it is: the same, decoded from sRGB.
+/// The entry of a picture decoded from sRGB. The picture is open already, as it is.
 Textures::Impl::Entry<Textures::Picture>& Textures::Impl::decoded_entry(const Picture& picture) {
     const auto known = decoded.find(picture.name);
     if (known != decoded.end()) return known->second;

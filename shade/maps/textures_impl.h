@@ -1,4 +1,4 @@
-/// What the files of Textures share; theirs alone.
+/// What the source files of Textures share, and nobody else sees.
 #pragma once
 
 #include <map>
@@ -9,14 +9,16 @@
 
 namespace trapeze {
 
+/// An opened picture and where it was first asked for.
 class Textures::Picture {
   public:
     std::unique_ptr<OpenMap> map;
-    std::string file;
-    std::string name;
+    std::string file;  ///< path of the picture's file
+    std::string name;  ///< as the shader gave it
     SourceLocation location;
 };
 
+/// A picture that has depths and its camera's matrices.
 class Textures::DepthMap {
   public:
     const OpenMap* map = nullptr;  ///< its picture's
@@ -29,7 +31,7 @@ struct Textures::Impl {
     std::unique_ptr<MapCache> cache;  ///< made when the first file is opened
     std::vector<std::string> folders;
     float memory_megabytes = 0;
-    float shadow_bias = -1;  ///< below zero: none is set
+    float shadow_bias = -1;  ///< of Option "shadow" "bias"; below zero: none is set
     Transfer transfer = Transfer::Linear;
     Diagnostics* diagnostics = nullptr;
     const Access& access;
@@ -41,20 +43,22 @@ struct Textures::Impl {
         std::string problem;
         bool reported = false;
     };
-    std::mutex mutex;
+    std::mutex mutex;  ///< for all maps below; `depths` has a mutex of its own
     std::map<std::string, Entry<Picture>, std::less<>> pictures;  ///< numbers as they are
     std::map<std::string, Entry<Picture>, std::less<>> decoded;   ///< the same names, from sRGB
     std::map<std::string, Entry<DepthMap>, std::less<>> depth_maps;
 
     explicit Impl(const Access& files) : access(files) {}
 
-    /// Whole depth maps, for as long as somebody uses them; with a mutex of their own.
+    /// Depths of whole maps by name, for as long as somebody uses them. Reading one takes long, hence the
+    /// mutex of its own.
     std::mutex depths_mutex;
     std::map<std::string, std::weak_ptr<const std::vector<float>>, std::less<>> depths;
+    /// The depths of a map, row by row; null, and reported, when they cannot be read or are too many.
     std::shared_ptr<const std::vector<float>> all_depths(const DepthMap& map, SourceLocation location);
 
-    /// Makes the cache, which a render without textures goes without, and opens the module that has it.
-    /// Returns why there is none. The mutex is held.
+    /// Makes the cache when the first file is opened, which also opens the module that has it. Returns why
+    /// there is none, or nothing. The mutex is held.
     std::string start();
     Entry<Picture>& entry(std::string_view name, SourceLocation location);
     Entry<Picture>& decoded_entry(const Picture& picture);
@@ -63,7 +67,7 @@ struct Textures::Impl {
     template <class Map>
     const Map* report(Entry<Map>& entry, std::string_view name, SourceLocation location);
     void report_read_error(const std::string& name, SourceLocation location, std::string error);
-    /// The same as a lookup in the map calls it.
+    /// What a lookup in the map calls when it cannot read the file.
     template <class Map>
     ReadFailed reporter(const Map& map) {
         return

@@ -11,6 +11,8 @@ namespace {
 
 using rsl::Base;
 
+/// Whether a value of a scene's type may stand for a shader's: whole numbers are floats, and points, vectors
+/// and normals stand for each other, as RISpec's declarations are often careless of them.
 bool suits(ValueType given, Base wanted) {
     switch (given) {
         case ValueType::Float:
@@ -32,7 +34,8 @@ bool suits(ValueType given, Base wanted) {
     return false;
 }
 
-/// A value that nobody declared is a string, or an array of floats: the shader says what they are.
+/// Whether an undeclared value, which the reader takes for floats, is of as many floats as the parameter: the
+/// shader then says what they are.
 bool looks_like(const Parameter& given, size_t floats) {
     return given.declaration.type == ValueType::Float && given.declaration.array_length > 1 && floats > 1 &&
            given.floats.size() == floats;
@@ -44,7 +47,7 @@ std::string_view type_name(Base base) {
     return kNames[static_cast<size_t>(base)];
 }
 
-/// From shader to camera space.
+/// Turns a triple from shader to camera space, in place; colours stay.
 void to_camera(float* values, Base base, const M44f& camera_from_shader) {
     const V3f v(values[0], values[1], values[2]);
     V3f out = v;
@@ -192,7 +195,7 @@ void BoundShader::set_run_defaults(vm::Machine& machine, vm::Registers& register
                                    std::span<const ShadingGrid* const> grids) const {
     for (const size_t i : run_defaults_) {
         const rsl::ProgramParameter& parameter = program().parameters[i];
-        // Grids that share a run all have the variable, or none has.
+        // Grids of one run all have the variable, or none has (can_share_run()).
         if (grids.empty() || !suitable_variable(*grids.front(), parameter.name, parameter.type))
             machine.run_initial(registers, i, context);
     }

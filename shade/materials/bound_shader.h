@@ -13,6 +13,8 @@ namespace trapeze {
 
 struct ShaderInstance;
 
+/// A shader and the values of its parameters, which are found once for a render. Immutable, so all threads
+/// share it.
 class BoundShader {
   public:
     /// Values of the instance that do not fit a parameter's type are reported (diagnostics may be null) and
@@ -30,15 +32,18 @@ class BoundShader {
     void set_run_defaults(vm::Machine& machine, vm::Registers& registers, const vm::Context& context,
                           std::span<const ShadingGrid* const> grids) const;
 
+    /// The shader's laid-out code, by which machines know their registers for it.
     const std::shared_ptr<const vm::Executable>& executable() const { return executable_; }
     const rsl::Program& program() const { return executable_->program(); }
     const ShaderInstance& instance() const { return instance_; }
 
+    /// A parameter's value: floats or texts, by its type.
     struct Value {
-        std::vector<float> floats;  ///< all elements
+        std::vector<float> floats;  ///< all elements, each of 1, 3 or 16 components
         std::vector<std::string> texts;
     };
-    /// Of program().parameters, as long as no primitive variable replaces them; points in camera space.
+    /// Values of program().parameters, as they hold where no primitive variable replaces them; points,
+    /// vectors and normals in camera space.
     const std::vector<Value>& values() const { return values_; }
 
   private:
@@ -51,7 +56,8 @@ class BoundShader {
     std::vector<size_t> run_defaults_;  ///< parameters that wait for the run: their values are 0
 };
 
-/// The values of a primitive variable that suit a shader's type; null when there are none.
+/// The primitive variable of a name whose values a parameter of this type can take, with as many elements;
+/// null when there is none.
 const GridVariable* suitable_variable(const ShadingGrid& grid, std::string_view name, rsl::Type type);
 
 }  // namespace trapeze

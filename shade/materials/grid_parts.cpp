@@ -10,6 +10,7 @@ namespace {
 
 using rsl::Op;
 
+/// Whether the code makes of a vertex what follows from that vertex alone.
 bool keeps_to_its_vertex(const rsl::Code& code) {
     return std::ranges::none_of(code, [](const rsl::Instruction& i) {
         return rsl::reads_neighbours(i.op) || i.op == Op::Random || i.op == Op::Print;
@@ -31,8 +32,9 @@ bool keeps_to_its_vertex(const LayeredShader* shader) {
 
 using Floats = std::vector<float>;
 
+/// Values first .. first + count - 1 of a plane.
 Floats part_of(const Floats& values, size_t first, size_t count) {
-    // Shorter planes end with a value for all that follow.
+    // A plane may be shorter than the grid: its last value then holds for all vertices that follow.
     Floats part;
     for (size_t i = first; i < first + count && !values.empty(); ++i)
         part.push_back(values[std::min(i, values.size() - 1)]);
@@ -45,6 +47,7 @@ Triples part_of(const Triples& values, size_t first, size_t count) {
     return part;
 }
 
+/// Puts a part's values in their place; makes the plane as long as the grid.
 void put(const Floats& part, size_t first, size_t vertices, Floats& whole) {
     whole.resize(vertices);
     std::copy(part.begin(), part.end(), whole.begin() + static_cast<std::ptrdiff_t>(first));

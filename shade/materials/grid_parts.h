@@ -21,10 +21,11 @@ inline constexpr size_t kFewestInPart = 48, kMostInPart = 256;
 /// kLanes.
 size_t part_size(size_t vertices, size_t parts);
 
-/// Vertices first .. first + count - 1, as a grid of one row: what such shaders read of them.
+/// Vertices first .. first + count - 1 as a grid of one row, with what shaders read of them: variables, and
+/// positions at the first key alone.
 ShadingGrid part_of(const ShadingGrid& grid, size_t first, size_t count);
 
-/// What shading made of a part, put where it comes from.
+/// Copies the colours and output variables of a shaded part to where its vertices are in the whole grid.
 void put_part(const ShadingGrid& part, size_t first, ShadingGrid& grid);
 
 }  // namespace trapeze

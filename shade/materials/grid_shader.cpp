@@ -10,12 +10,15 @@ namespace {
 
 using vm::Operand;
 
-/// Writes a grid's values behind those of the grids before it.
+/// Loads grids' values into registers, each grid's behind those of the grids before it. Lanes past the last
+/// vertex repeat its value.
 class Loader {
   public:
     Loader(vm::Registers& registers, std::span<const ShadingGrid* const> grids)
         : registers_(registers), grids_(grids) {}
 
+    /// Loads `components` planes; plane_of(grid, k) is a grid's plane, which may be shorter than the grid:
+    /// its last value then holds for the rest.
     template <class PlaneOf>
     void load(const Operand& out, int components, const PlaneOf& plane_of) const {
         for (int k = 0; k < components; ++k) {
@@ -45,6 +48,7 @@ class Loader {
              [](const ShadingGrid& grid, int k) -> const std::vector<float>& { return grid.P.front().c[k]; });
     }
 
+    /// Copies a plane that already has the run's lanes.
     void copy(const Operand& out, const float* plane) const {
         std::copy_n(plane, registers_.lanes(), out.data);
     }
@@ -54,6 +58,8 @@ class Loader {
     std::span<const ShadingGrid* const> grids_;
 };
 
+/// Sets one predefined variable (RISpec 3.2, tables 12.1 to 12.5). Spaces are the grids', camera space; the
+/// eye is at the origin.
 void set_variable(const Loader& loader, vm::Registers& registers, const vm::StartValue& value,
                   const RenderContext& context, vm::Footprints& footprints, bool shaded) {
     const Operand& out = registers.operand(value.id);
@@ -113,14 +119,15 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
             return registers.set_uniform(value.id, &open);
         }
         case Predefined::Ns:
-        case Predefined::Other: {  // E, L, Cl, dPdtime...
+        case Predefined::Other: {  // E, L, Cl, dPdtime...: blocks set them, or nothing does
             const float zeros[16] = {};
             if (rsl::width_of(registers.reg(value.id).type.base) > 0) registers.set_uniform(value.id, zeros);
         }
     }
 }
 
-/// Follows from the bits of a position.
+/// A seed of random numbers that follows from the bits of a position, and so is the same in all grids that
+/// have the point.
 uint64_t place_seed(const V3f& P) {
     uint64_t seed = 0;
     for (int k = 0; k < 3; ++k) seed = seed * 0x9e3779b97f4a7c15u + std::bit_cast<uint32_t>(P[k]);

@@ -14,6 +14,7 @@ namespace {
 
 using Layers = std::vector<const BoundShader*>;
 
+/// Index of the layer of a name; layers.size() when there is none.
 size_t find_layer(const Layers& layers, const std::string& name) {
     const auto found =
         std::ranges::find_if(layers, [&](const BoundShader* s) { return s->instance().layer == name; });
@@ -25,20 +26,21 @@ const rsl::ProgramParameter* find_parameter(const rsl::Program& program, const s
     return found == program.parameters.end() ? nullptr : &*found;
 }
 
-/// A number, triple or matrix; texts do not travel between layers.
+/// Whether a value of one type can be copied to the other: numbers, triples or matrices of as many elements.
+/// Texts do not travel between layers.
 bool same_kind(const rsl::Type& a, const rsl::Type& b) {
     const int width = rsl::width_of(a.base);
     return width > 0 && width == rsl::width_of(b.base) && a.length == b.length;
 }
 
-/// A parameter's or predefined variable's register; null when the program names no such variable.
+/// The register of a parameter or predefined variable; null when the program names no such variable.
 const rsl::RegisterId* find_variable(const rsl::Program& program, const std::string& name) {
     const rsl::ProgramParameter* parameter = find_parameter(program, name);
     return parameter ? &parameter->id : program.find_global(name);
 }
 
-/// What is wrong with a connection; else nothing, and the connection, unless it goes to a predefined variable
-/// that the shader does not look at.
+/// Resolves a connection. Returns what is wrong with it, or nothing; `resolved` is then set, unless the
+/// connection goes to a predefined variable that the shader does not look at.
 std::string resolve(const LayerConnection& wanted, const Layers& layers,
                     std::optional<LayeredShader::Connection>& resolved) {
     LayeredShader::Connection out;
@@ -61,6 +63,7 @@ std::string resolve(const LayerConnection& wanted, const Layers& layers,
     return {};
 }
 
+/// Whether the program, or a parameter's default, may ask for the space named "object".
 bool asks_object_space(const rsl::Program& program) {
     return vm::may_ask_object_space(program, program.code) ||
            std::ranges::any_of(program.parameters, [&](const rsl::ProgramParameter& parameter) {

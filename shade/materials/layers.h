@@ -9,11 +9,11 @@
 namespace trapeze {
 
 struct LayeredShader {
-    /// A parameter or predefined variable of layer `to` takes what layer `from`, which runs before it, has in
-    /// one of its own.
+    /// One variable handed on: layer `to` takes the value that layer `from`, which runs before it, has in a
+    /// variable of its own. Both are parameters or predefined variables.
     struct Connection {
-        size_t from = 0, to = 0;
-        rsl::RegisterId source = 0, target = 0;
+        size_t from = 0, to = 0;                 ///< indices into layers
+        rsl::RegisterId source = 0, target = 0;  ///< registers of the two programs
     };
 
     std::vector<const BoundShader*> layers;  ///< at least one, in the order they run; the last names it all
@@ -21,7 +21,8 @@ struct LayeredShader {
 
     const BoundShader& last() const { return *layers.back(); }
 
-    /// Whether a layer may ask for the space named "object".
+    /// Whether a layer may ask for the space named "object", which grids of different primitives do not
+    /// share.
     bool asks_object_space() const;
 
     /// Copies what earlier layers have into the variables of layer `to`. registers[i] is layer i's, all of as
@@ -29,7 +30,7 @@ struct LayeredShader {
     void connect(size_t to, std::span<vm::Registers* const> registers) const;
 };
 
-/// The parameters of a layer that connections set: they vary over grids.
+/// Names of a layer's parameters that connections set. They vary over grids, whatever the shader declares.
 std::vector<std::string> connected_parameters(const ShaderInstance& instance, const std::string& layer);
 
 /// Resolves the instance's connections; those that name no layer, no variable or another type are reported

@@ -11,9 +11,11 @@
 namespace trapeze {
 namespace {
 
+/// A light's planes in a Slot, by number: L, its direction and Cl have three planes each, the mask of lit
+/// lanes one.
 constexpr size_t kL = 0, kDirection = 3, kCl = 6, kLit = 9, kPlanes = 10;
 
-/// Of varying components.
+/// An operand whose components differ from lane to lane and lie one plane after the other.
 vm::Operand planes_of(float* first, size_t lanes) {
     vm::Operand operand;
     operand.data = first;
@@ -22,7 +24,7 @@ vm::Operand planes_of(float* first, size_t lanes) {
     return operand;
 }
 
-/// An output parameter's value at the first vertex.
+/// The value of an output parameter, a float, at the first vertex; `fallback` when there is none.
 float output_number(const vm::Registers& registers, std::string_view name, float fallback) {
     for (const rsl::ProgramParameter& parameter : registers.program().parameters)
         if (parameter.name == name && parameter.type == rsl::Type{rsl::Base::Float, 0})
@@ -30,6 +32,7 @@ float output_number(const vm::Registers& registers, std::string_view name, float
     return fallback;
 }
 
+/// Copies `width` components; a uniform target takes the first lane of a varying source.
 void copy_operand(const vm::Operand& from, int width, size_t lanes, const vm::Operand& to) {
     const size_t plane = to.lane_mask ? lanes : kLanes;
     for (int k = 0; k < width; ++k) {

@@ -12,7 +12,8 @@
 namespace trapeze {
 namespace {
 
-/// The primitive's variables that differ from vertex to vertex.
+/// Names of the primitive's variables that differ from vertex to vertex: parameters of those names are
+/// varying.
 std::set<std::string> varying_variables(const Primitive& primitive) {
     std::set<std::string> names;
     if (primitive.shape_keys.empty()) return names;
@@ -60,7 +61,7 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     const bool sets_P = std::ranges::any_of(material.surface->layers, [](const BoundShader* layer) {
         return writes_variable(layer->program(), "P");
     });
-    // Without a bound it has P for itself, which many use as just another point.
+    // Without a bound the surface stays: many surface shaders use P as just another point.
     material.surface_moves = sets_P && attributes.displacement_bound > 0;
     material.surface_only_sets_P = sets_P && !material.surface_moves && !material.displacement;
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
@@ -70,7 +71,8 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     material.shades_vertices_apart = shades_vertices_apart(material);
 }
 
-/// Null when there is no such shader, or it has errors. An earlier layer that there is not is reported.
+/// A shader with its layers. Null when there is no such shader, or it has errors. An earlier layer that is
+/// not found is reported and left out.
 const LayeredShader* Materials::layered(const ShaderInstance& instance, rsl::ShaderKind kind,
                                         const Names& varying) {
     const auto [at, is_new] = shaders_.try_emplace({&instance, varying});

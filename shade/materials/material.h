@@ -17,36 +17,41 @@
 
 namespace trapeze {
 
-/// What one set of attributes, with the variables of a primitive, makes of a grid. The shaders belong to
-/// Materials.
+/// How a grid is shaded: the shaders that a set of attributes names, laid out for a primitive with certain
+/// varying variables. They belong to Materials.
 struct Material {
     const Attributes* attributes = nullptr;
     const LayeredShader* surface = nullptr;
     const LayeredShader* displacement = nullptr;  ///< may be null
     const LayeredShader* atmosphere = nullptr;    ///< may be null
-    /// A shader asks for object space, and so grids of different primitives cannot share a run.
+    /// Whether a shader asks for object space: grids of different primitives can then not share a run.
     bool asks_object_space = false;
-    /// The surface shader sets P, and the displacement bound allows it: the surface is displaced by it, too.
+    /// Whether the surface shader sets P and there is a displacement bound: the shader then displaces the
+    /// surface, too.
     bool surface_moves = false;
-    /// It sets P, there is no bound, and no displacement shader of which reach is told: the surface stays.
+    /// Whether the surface shader sets P without effect: there is no displacement bound, and no displacement
+    /// shader whose reach would be reported instead. The surface stays, with a warning.
     bool surface_only_sets_P = false;
-    bool shades_vertices_apart = false;  ///< as grid_parts.h says
-    std::vector<const Lamp*> lights;
+    bool shades_vertices_apart = false;  ///< as of shades_vertices_apart() in grid_parts.h
+    std::vector<const Lamp*> lights;     ///< those that shine on the primitive
     /// The farthest that the displacement shader, or a surface shader that sets P, has moved a vertex or
     /// would have, in camera space.
     mutable std::atomic<float> displacement_reach{0};
 };
 
+/// All materials of a scene: one for each pair of attributes and set of varying variables that a primitive
+/// has. Compiles every shader that the scene names; what is missing is reported once, and replaced or left
+/// out. Immutable after the constructor, but for Material::displacement_reach.
 class Materials {
   public:
     Materials(const RenderContext& context, const Access& access);
 
-    /// Of a primitive of the scene, by its index.
+    /// The material of a primitive, by its index in the scene.
     const Material& of(uint32_t primitive) const { return materials_[of_primitive_[primitive]]; }
     const std::deque<Material>& all() const { return materials_; }
     /// Every shader that a primitive has, layers and lights among them.
     std::vector<const BoundShader*> shaders() const;
-    /// Shaders that have turned out to have loops without an end.
+    /// How many shaders have turned out to have loops without an end.
     size_t endless_count() const { return library_.endless_count(); }
 
   private:
@@ -65,11 +70,11 @@ class Materials {
     ShaderInstance default_instance_;
     using Key = std::pair<const ShaderInstance*, Names>;
     std::map<Key, LayeredShader> shaders_;  ///< without layers: there is no such shader
-    std::deque<BoundShader> layers_;
+    std::deque<BoundShader> layers_;  ///< a deque, since others point to its elements; as all deques here
     std::deque<ShaderInstance> stand_ins_;  ///< of lights whose shaders are not found
     std::unordered_map<const LightInstance*, std::unique_ptr<Lamp>> lamps_;
     std::deque<Material> materials_;
-    std::vector<uint32_t> of_primitive_;
+    std::vector<uint32_t> of_primitive_;  ///< primitive -> index of its material
 };
 
 }  // namespace trapeze

@@ -14,10 +14,12 @@ using rsl::Op;
 using rsl::Register;
 using rsl::RegisterId;
 
-/// Names are handed on from variable to variable, and through functions; each round follows one step.
+/// Rounds of following names, which are handed on from variable to variable and through functions: each round
+/// follows one step.
 constexpr int kMostRounds = 8;
 
-/// A shader's code with an instance's values in the places of parameters, folded as far as they tell.
+/// A copy of a shader's code in which parameters are the constants that an instance gives them, folded as far
+/// as that goes. Parameters that the code sets, arrays, and those in `varied` stay open.
 class Specialised {
   public:
     Specialised(const BoundShader& shader, const std::set<std::string>& varied) : program_(shader.program()) {
@@ -50,12 +52,15 @@ class Specialised {
     }
 
   private:
+    /// Counts the instructions that set each register: a text is followed through registers that are set
+    /// once.
     void count_writes() {
         writes_.clear();
         for (const Instruction& instruction : program_.code)
             for (size_t k = 0; k < instruction.outputs; ++k) ++writes_[instruction.output(k)];
     }
 
+    /// The text that a register always holds; null when it is not known.
     const std::string* text_of(RegisterId id) const {
         const Register& r = program_.reg(id);
         const bool is_text =

@@ -9,15 +9,16 @@
 
 namespace trapeze {
 
+/// A map that a shader will look up.
 struct NamedMap {
-    std::string name;
-    bool is_depths = false;  ///< of shadow()
-    SourceLocation location;
+    std::string name;         ///< as the shader has it, before any search
+    bool is_depths = false;   ///< of shadow()
+    SourceLocation location;  ///< of the call in the shader's source
 };
 
-/// Of texture(), environment(), bump() and shadow() those calls whose names are constants or values of the
-/// instance, put together or not; calls that such values rule out are left out, and so are names that are
-/// found while the shader runs. `varied`: parameters for which primitives bring values of their own.
+/// The maps whose names are constants or values of the instance, put together or not, in calls of texture(),
+/// environment(), bump() and shadow(). Calls that such values rule out are left out, and so are names that
+/// are found only while the shader runs. `varied`: parameters for which primitives bring values of their own.
 std::vector<NamedMap> named_maps(const BoundShader& shader, const std::set<std::string>& varied);
 
 }  // namespace trapeze

@@ -9,7 +9,8 @@
 namespace trapeze {
 namespace {
 
-/// The normal of the plane that both span, object space; its length says nothing.
+/// The normal of the plane that dPdu and dPdv (camera space) span, in object space; its length says nothing.
+/// Normals go back to object space by the transpose of the matrix that takes points forward.
 V3d object_normal(const Primitive& primitive, const V3f& dPdu, const V3f& dPdv) {
     const V3d normal = V3d(dPdu).cross(V3d(dPdv));
     const M44f& m = primitive.camera_from_object.front();
@@ -32,7 +33,7 @@ V2f steps_of_face(const ShadingGrid& grid, size_t piece) {
     const size_t first = piece * static_cast<size_t>(shape.vertex_count());
     if (has_place_derivatives(object_normal(*grid.primitive, grid.dPdu.at(first), grid.dPdv.at(first))))
         return {0, 0};
-    // Along the middle: vertices of borders may have been moved to where a neighbour has its own.
+    // Measured along the middle: vertices of borders may have been moved to where a neighbour has its own.
     const auto step = [&](const Triples& derivative, int begin, int end, int count) {
         const Triples& P = grid.P.front();
         const size_t from = first + static_cast<size_t>(begin), to = first + static_cast<size_t>(end);

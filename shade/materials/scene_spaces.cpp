@@ -3,12 +3,13 @@
 namespace trapeze {
 namespace {
 
-/// Of a matrix that can be turned back; a flat space stays as it is.
+/// The inverse of a matrix; a flat space, which has none, stays as it is.
 M44d inverse_of(const M44d& m) {
     return m.inverse();
 }
 
-/// Scales -1..1 of screen_from_camera() to the screen window, NDC (0..1, y down) or raster.
+/// The matrix from screen_from_camera()'s -1..1 to a raster-like space: the screen window, NDC (0..1, y down)
+/// or raster (pixels, y down).
 M44d screen_to(const Camera& camera, std::string_view space) {
     M44d m;
     const auto scale = [&](double sx, double sy, double tx, double ty) {

@@ -8,12 +8,16 @@
 namespace trapeze {
 
 class SceneSpaces : public vm::Spaces {
+    /// The named spaces of one shader on one primitive.
   public:
-    /// Of a shader on a primitive, both of which may be null; at shutter open. All must outlive this.
+    /// The shader and the primitive may be null: "shader" and "object" are then the world. Spaces that move
+    /// are taken as the shutter opens. All must outlive this.
     SceneSpaces(const Scene& scene, const Camera& camera, const ShaderInstance* shader,
                 const Primitive* primitive)
         : scene_(scene), camera_(camera), shader_(shader), primitive_(primitive) {}
 
+    /// The matrix that takes points (row vectors) from one space to the other; nothing for a name that is not
+    /// known.
     std::optional<M44f> matrix(std::string_view from, std::string_view to) const override;
 
   private:

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t kMostPlanes = 16384;  ///< varying floats of a shader: 20 MB a thread
-constexpr size_t kLargestSource = 16 << 20;
+constexpr uint32_t kMostPlanes = 16384;      ///< varying floats that a shader may have: 20 MB a thread
+constexpr size_t kLargestSource = 16 << 20;  ///< bytes; larger files are not read
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::optional<std::string> ShaderLibrary::file_text(const std::string& path) con
     return text;
 }
 
-/// Nameless when there is none.
+/// The source of a shader: a file of the search path, else a standard shader. Nameless when there is none.
 rsl::Source ShaderLibrary::source_named(const std::string& name) const {
     for (const std::string& folder : folders_) {
         const std::string path = (fs::path(folder) / (name + ".sl")).string();

@@ -31,10 +31,11 @@ class ShaderLibrary {
     std::shared_ptr<const vm::Executable> find(std::string_view name, rsl::ShaderKind kind,
                                                const std::set<std::string>& varying, SourceLocation asked_at);
 
-    /// Whether an error has said that this one cannot be used, and why. Else there is none of the name.
+    /// Whether an error has said that this shader cannot be used, and why. If not, and find() was null, there
+    /// is none of the name.
     bool has_said_why_not(std::string_view name) const { return reported_.contains(name); }
 
-    /// How many of them have turned out to have loops without an end.
+    /// How many shaders have turned out to have loops without an end.
     size_t endless_count() const;
 
   private:
@@ -47,8 +48,9 @@ class ShaderLibrary {
     const Access& access_;
     Diagnostics* diagnostics_;
     Diagnostics silent_;
+    /// Shaders by the name that was asked for; also those that are not there or have errors.
     std::map<std::string, std::unique_ptr<Compiled>, std::less<>> shaders_;
-    std::set<std::string, std::less<>> reported_;
+    std::set<std::string, std::less<>> reported_;  ///< names for which an error has been reported
 };
 
 /// What a kind of shader is called in messages and requests: "surface", "light"...

@@ -12,10 +12,11 @@
 namespace trapeze {
 namespace {
 
-/// Intensities from here on are taken to belong to lights that fade with the square of the distance.
+/// Intensities from here on are taken to be meant for lights that fade with the square of the distance:
+/// without it they would be far too bright.
 constexpr float kLargeIntensity = 5;
 
-/// Lower case, letters and digits alone: coneAngle and cone_angle are one.
+/// A name in lower case, letters and digits alone, so that coneAngle and cone_angle are one.
 std::string plain(std::string_view name) {
     std::string result;
     for (const char c : name)
@@ -31,11 +32,13 @@ bool has_any(std::string_view text, Names parts) {
                        [&](std::string_view part) { return text.find(part) != std::string_view::npos; });
 }
 
-/// The parameters given to the missing shader, by the names that such parameters go by.
+/// The parameters given to the missing shader, found by the names that exporters give to such parameters.
 class Given {
   public:
     explicit Given(const ShaderInstance& instance) : instance_(instance) {}
 
+    /// The first parameter that has one of the names (as plain() writes them) and so many floats; null when
+    /// none has.
     const Parameter* find(Names names, size_t floats) const {
         for (const std::string_view name : names)
             for (const Parameter& parameter : instance_.parameters.values)
@@ -48,7 +51,7 @@ class Given {
         return found->floats[0];
     }
 
-    /// The depth map of its shadows; empty if there is none, or if the renderer was to make them.
+    /// The depth map of the light's shadows; empty if there is none, or if the renderer was to make it.
     std::string shadow_map() const {
         for (const std::string_view name :
              {"shadowname", "shadname", "shadowmap", "shadowmapname", "shadowfile"})
@@ -65,6 +68,7 @@ class Given {
 
 enum class Kind { Ambient, Distant, Point, Spot };
 
+/// The kind of light that a missing shader most likely was, by its name first, then by its parameters.
 Kind kind_of(std::string_view name, const Given& given) {
     if (has_any(name, {"ambient", "environment", "envlight", "occl", "indirect", "dome", "sky", "image"}))
         return Kind::Ambient;
@@ -75,6 +79,7 @@ Kind kind_of(std::string_view name, const Given& given) {
     return given.find({"from"}, 3) && given.find({"to"}, 3) ? Kind::Distant : Kind::Point;
 }
 
+/// Builds the standard light, in the missing one's place and space.
 class Maker {
   public:
     Maker(const ShaderInstance& missing, std::string name) : given_(missing) {
@@ -100,7 +105,8 @@ class Maker {
     ShaderInstance made_;
 };
 
-/// Values beyond 4 are something else, such as a falloff in degrees. Area lights fade with the square.
+/// The power of the distance that the light is divided by. Values beyond 4 mean something else, such as a
+/// falloff in degrees. Area lights fade with the square.
 float falloff(std::string_view name, const Given& given) {
     const auto said = given.number({"decay", "decayrate", "falloff", "attenuation"});
     if (said && *said >= 0 && *said <= 4) return *said;
@@ -108,6 +114,7 @@ float falloff(std::string_view name, const Given& given) {
     return given.number({"intensity"}).value_or(1) >= kLargeIntensity ? 2.0f : 0.0f;
 }
 
+/// A cone's half angle in radians; angles above pi are whole cones in degrees.
 float half_cone(float angle) {
     return angle > std::numbers::pi_v<float> ? angle * std::numbers::pi_v<float> / 360 : angle;
 }
@@ -138,7 +145,7 @@ ShaderInstance stand_in_light(const ShaderInstance& missing) {
         maker.set("conedeltaangle", ValueType::Float,
                   {half_cone(given.number({"conedeltaangle"}).value_or(*angle / 8))});
     }
-    // Of 3D Studio Max: whole cones in degrees.
+    // Names of 3D Studio Max: whole cones in degrees, "hotspot" inside and "falloff" outside.
     const auto inner = given.number({"hotspot"}), outer = given.number({"falloff"});
     if (inner && outer && *outer > 4) {
         constexpr float kHalfDegree = std::numbers::pi_v<float> / 360;

@@ -9,7 +9,7 @@
 namespace trapeze {
 namespace {
 
-/// One line of a name that a file gives.
+/// A name from a file as messages show it: on one line, and not too long.
 std::string shown(std::string name) {
     constexpr size_t kLongest = 100;
     if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";

@@ -7,7 +7,8 @@
 
 namespace trapeze {
 
-/// A warning for each, with the parameter that may have been meant.
+/// Warns, once for each name, of parameters that the shader does not have, with the one that may have been
+/// meant.
 void report_unknown_parameters(const ShaderInstance& instance, const rsl::Program& program,
                                Diagnostics& diagnostics);
 

@@ -6,13 +6,14 @@
 namespace trapeze {
 namespace {
 
-constexpr double kParallel = 1e-5;  ///< sine of the angle
+constexpr double kParallel = 1e-5;  ///< sine of the angle below which two chords count as parallel
 
 V3f at(ConstPlane3 p, int i) {
     return {p.x[i], p.y[i], p.z[i]};
 }
 
-/// Between the vertices to both sides of (i, j) along an axis.
+/// The vector between the vertices to both sides of (i, j) along an axis; at a border, from the vertex
+/// itself.
 V3d chord(const GridShape& shape, ConstPlane3 P, GridAxis axis, int i, int j) {
     const int u = axis == GridAxis::U ? 1 : 0, v = 1 - u;
     const int after = shape.row_index(std::min<int>(i + u, shape.nu), std::min<int>(j + v, shape.nv));
@@ -20,8 +21,8 @@ V3d chord(const GridShape& shape, ConstPlane3 P, GridAxis axis, int i, int j) {
     return V3d(at(P, after)) - V3d(at(P, before));
 }
 
-/// Zero where there is none, which chords that are parallel but for rounding do not hide. Doubles, since
-/// micropolygons far from the origin are small against their coordinates' products.
+/// The unit normal at a vertex, or zero where its chords are parallel but for rounding. In doubles: the
+/// coordinates of micropolygons far from the origin are large against their size, and products would lose it.
 V3f normal_at(const GridShape& shape, ConstPlane3 P, int i, int j) {
     const V3d along_u = chord(shape, P, GridAxis::U, i, j);
     const V3d along_v = chord(shape, P, GridAxis::V, i, j);
@@ -31,7 +32,8 @@ V3f normal_at(const GridShape& shape, ConstPlane3 P, int i, int j) {
     return V3f(cross / length);
 }
 
-/// That of the vertices next to it: for a pole, and borders where several vertices are snapped to one.
+/// The mean normal of the vertices next to it: for a pole, and for borders where several vertices are snapped
+/// to one point.
 V3f normal_from_inside(const GridShape& shape, ConstPlane3 P, int i, int j) {
     V3f sum(0);
     for (const auto& [du, dv] : {std::pair{0, 1}, std::pair{0, -1}, std::pair{1, 0}, std::pair{-1, 0}}) {

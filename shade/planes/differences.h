@@ -10,6 +10,9 @@ namespace trapeze {
 
 enum class GridAxis { U, V };
 
+/// `out` = the change of `values` from a vertex to the next along an axis: half the difference of the
+/// neighbours, or at the border the difference to the one neighbour. Values are in row order; `out` must be
+/// another plane.
 void difference(const GridShape& shape, GridAxis axis, ConstPlane values, Plane out);
 
 /// Unit normals of the surface through P, along dPdu x dPdv or, if asked, against it. Where that is

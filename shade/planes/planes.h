@@ -11,8 +11,11 @@
 
 namespace trapeze {
 
+/// Vertices are padded to a multiple of this: 16 floats are a vector of AVX-512, and a cache line of 64
+/// bytes.
 inline constexpr size_t kLanes = 16;
 
+/// The size of a plane for so many vertices.
 constexpr size_t padded_size(size_t vertices) {
     return (vertices + kLanes - 1) / kLanes * kLanes;
 }
@@ -20,7 +23,7 @@ constexpr size_t padded_size(size_t vertices) {
 using Plane = std::span<float>;
 using ConstPlane = std::span<const float>;
 
-/// Points, vectors, normals or colours.
+/// Points, vectors, normals or colours, a plane for each component.
 struct Plane3 {
     Plane x, y, z;
 
@@ -44,9 +47,10 @@ class PlanePool {
     /// All planes handed out before are given back; those to come fit this many vertices.
     void start(size_t vertices);
 
-    /// Contents are undefined.
+    /// A plane from the pool; its contents are undefined.
     Plane take();
     Plane3 take3() { return {take(), take(), take()}; }
+    /// As start() was told, not rounded up.
     size_t vertices() const { return vertices_; }
 
   private:
@@ -54,11 +58,13 @@ class PlanePool {
         void operator()(float* p) const { std::free(p); }
     };
     std::vector<std::unique_ptr<float, Free>> planes_;
+    /// `capacity_`: vertices that every plane has room for; `used_`: planes handed out since start().
     size_t vertices_ = 0, capacity_ = 0, used_ = 0;
 };
 
-/// Copies a value for each vertex, or one for all, into a plane and fills its last lanes.
+/// Copies a value for each vertex, or one for all, into a plane; lanes past the last value repeat it.
 void load(std::span<const float> values, size_t vertices, Plane plane);
+/// Sets all lanes to one value.
 void fill(float value, Plane plane);
 
 }  // namespace trapeze

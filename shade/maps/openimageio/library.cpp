@@ -19,19 +19,19 @@ namespace {
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-constexpr uint64_t kMostFloats = uint64_t{1} << 28;  ///< of a picture: 1 GiB
+constexpr uint64_t kMostFloats = uint64_t{1} << 28;  ///< that a picture may have: 1 GiB
 constexpr int kTile = 64;
 
 std::string or_unreadable(std::string problem) {
     return problem.empty() ? "cannot be read" : problem;
 }
 
-/// Eight bits and halves fit halves.
+/// Whether halves hold a file's numbers exactly: it has halves or 8 bits.
 bool fits_halves(const ImageSpec& spec) {
     return spec.format == TypeDesc::UINT8 || spec.format == TypeDesc::HALF;
 }
 
-/// Returns what went wrong.
+/// Reads an open file into `picture`. Returns what went wrong.
 std::string read_picture(OIIO::ImageInput& file, const std::string& name, SourcePicture& picture) {
     ImageSpec spec;
     if (!file.open(name, spec)) return or_unreadable(file.geterror());

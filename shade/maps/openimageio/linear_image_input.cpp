@@ -8,9 +8,10 @@
 namespace trapeze {
 namespace {
 
+/// What follows a file's name in the cache for its decoded pixels.
 constexpr std::string_view kDecoded = " (decoded from sRGB)";
 
-/// IEC 61966-2-1.
+/// Linear light from a value encoded by the sRGB curve (IEC 61966-2-1).
 float linear_from_srgb(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
@@ -107,7 +108,7 @@ void LinearImageInput::deliver(const std::vector<unsigned char>& pixels, void* d
     }
 }
 
-/// `read_native` reads so many pixels from the wrapped file.
+/// Delivers pixels to `data`. `read_native` reads so many from the wrapped file into its argument.
 template <class Read>
 bool LinearImageInput::read(size_t pixels, void* data, Read&& read_native) {
     if (!decodes_) return read_native(data) || failed();

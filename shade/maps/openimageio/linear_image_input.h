@@ -19,7 +19,7 @@ bool is_srgb_encoded(const OIIO::ImageSpec& spec, Transfer transfer);
 
 class LinearImageInput : public OIIO::ImageInput {
   public:
-    /// What a cache knows the decoded pixels of a file by, beside those as they are.
+    /// The name by which a cache knows the decoded pixels of a file, beside the pixels as they are.
     static std::string decoded_name(const std::string& file);
 
     /// As OpenImageIO's caches want it. Opens files by their own or by their decoded names.
@@ -37,7 +37,7 @@ class LinearImageInput : public OIIO::ImageInput {
 
   private:
     void take_spec();
-    /// Of pixels as they are read from the wrapped file.
+    /// Converts pixels as they are read from the wrapped file and stores them at `data`.
     template <class Stored>
     void deliver(const std::vector<unsigned char>& pixels, void* data) const;
     template <class Read>

@@ -8,11 +8,11 @@
 namespace trapeze {
 namespace {
 
-/// What is being made in this thread. make_texture() makes its writer itself, of a format's name: nothing of
-/// ours comes through to it but this.
+/// The bytes that this thread makes now. make_texture() makes its writer itself, from a format's name: this
+/// is the only way to hand it anything.
 thread_local MapBytes* making = nullptr;
 
-/// Writes an OpenEXR file into memory, and hands `making` the whole when it is closed.
+/// Writes an OpenEXR file into memory, and hands it to `making` when it is closed.
 class MemoryOutput : public OIIO::ImageOutput {
   public:
     MemoryOutput() : inner_(OIIO::ImageOutput::create("openexr")) {}
@@ -66,7 +66,7 @@ OIIO::ImageOutput* make_memory_output() {
     return new MemoryOutput;
 }
 
-/// The name under which OpenImageIO finds it.
+/// Registers the writer, once. Returns the format's name by which OpenImageIO finds it.
 const char* memory_format() {
     static const bool declared = [] {
         const char* no_extensions[] = {nullptr};

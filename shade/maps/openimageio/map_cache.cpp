@@ -17,7 +17,7 @@ OpenImageIoCache::OpenImageIoCache(float megabytes) : cache_(OIIO::ImageCache::c
     cache_->attribute("deduplicate", 0);  // a file decoded is not the same as it is
     system_.reset(OIIO::TextureSystem::create(false, cache_.get()));
     system_->attribute("latlong_up", "z");
-    // All channels lie together in memory: it ends the program at an environment's poles where they do not.
+    // All channels lie together in memory: OpenImageIO ends the program at an environment's poles otherwise.
     system_->attribute("max_tile_channels", std::numeric_limits<int>::max());
 }
 
@@ -38,7 +38,8 @@ void OpenImageIoCache::give_back(OIIO::TextureSystem::Perthread* state) {
     idle_.push_back(state);
 }
 
-/// In a thread of its own, since add_file() asks get_perthread_info(). Returns what is wrong with the file.
+/// Adds a file with a reader of ours. In a thread of its own, since add_file() asks get_perthread_info().
+/// Returns what is wrong with the file.
 std::string OpenImageIoCache::add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator) {
     std::string problem;
     std::thread([&] {
@@ -47,7 +48,7 @@ std::string OpenImageIoCache::add_file(OIIO::ustring path, OIIO::ImageInput::Cre
     return problem;
 }
 
-/// By the name that the cache has for it. Empty when it is open, else what is wrong.
+/// Opens the file that the cache knows by `name`. Returns what is wrong, or nothing.
 std::string OpenImageIoCache::open_file(CachedMap& map, const std::string& name,
                                         OIIO::ImageInput::Creator creator) {
     const OIIO::ustring path(name);
@@ -76,7 +77,7 @@ std::unique_ptr<OpenMap> OpenImageIoCache::open_decoded(const OpenMap& map, cons
     return problem->empty() ? std::move(decoded) : nullptr;
 }
 
-/// Returns what lookups cannot work with.
+/// Fills map.facts. Returns what makes lookups impossible, or nothing.
 std::string OpenImageIoCache::find_facts(CachedMap& map) {
     const ThreadState thread(*this);
     OIIO::ImageSpec in_file, spec;
@@ -88,7 +89,7 @@ std::string OpenImageIoCache::find_facts(CachedMap& map) {
     return describe(map, spec);
 }
 
-/// Takes what lookups need to know. Returns what they cannot work with.
+/// Takes from a file's description what lookups need to know. Returns what they cannot work with.
 std::string OpenImageIoCache::describe(CachedMap& map, const OIIO::ImageSpec& spec) {
     if (spec.nchannels < 1 || spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
         return "is no picture of rows and columns";
@@ -113,8 +114,9 @@ std::string OpenImageIoCache::describe(CachedMap& map, const OIIO::ImageSpec& sp
     return {};
 }
 
-/// OpenImageIO repeats what is a power of two wide by a short cut, for which it takes the whole picture, of
-/// every resolution, to be one, too: it ends the program where a part or a smaller picture is not.
+/// Finds along which axes coordinates must be folded. OpenImageIO repeats a picture whose width is a power of
+/// two by a short cut, for which it takes the whole picture, of every resolution, to be one: it ends the
+/// program where a part or a smaller picture is not.
 void OpenImageIoCache::find_folds(CachedMap& map, const OIIO::ImageSpec& spec) {
     const auto is_power = [](int size) {
         return std::has_single_bit(static_cast<unsigned>(std::max(size, 0)));

@@ -13,6 +13,7 @@
 
 namespace trapeze {
 
+/// A map as this cache knows it.
 struct CachedMap final : OpenMap {
     OIIO::TextureSystem::TextureHandle* handle = nullptr;
     OIIO::ImageCache::ImageHandle* image = nullptr;  ///< the same, for the cache
@@ -81,8 +82,9 @@ class OpenImageIoCache final : public MapCache {
     std::unique_ptr<OIIO::ImageCache, DestroyCache> cache_;
     std::unique_ptr<OIIO::TextureSystem, DestroySystem> system_;
 
-    /// Not get_perthread_info(), and no call that leaves the state out and so asks it: what that leaves
-    /// behind in a thread outlives the cache, and a later cache at the same address takes it for its own.
+    /// Threads' states are made and handed out here, not by get_perthread_info() nor by calls that leave the
+    /// state out and so ask it: what that leaves behind in a thread outlives the cache, and a later cache at
+    /// the same address takes it for its own.
     std::mutex idle_mutex_;
     std::vector<OIIO::TextureSystem::Perthread*> idle_;  ///< threads' states that nobody uses now
 };

@@ -23,7 +23,7 @@ namespace {
 
 using map_lanes::value;
 
-/// The bias where none is asked for, as a part of the depth.
+/// The bias where none is asked for, as a part of P's depth.
 constexpr float kDefaultBias = 1e-3f;
 /// A plane seen nearly edge on is followed no farther than to this part of P's depth, nearer or farther.
 constexpr float kPlaneReach = 0.25f;
@@ -42,7 +42,7 @@ class DepthReader {
     DepthReader(const DepthReader&) = delete;
     DepthReader& operator=(const DepthReader&) = delete;
 
-    /// Of a pixel; kInfinity outside the file.
+    /// The depth of a pixel; kInfinity outside the file.
     float at(int x, int y) {
         if (x < map_.x0 || x >= map_.x1 || y < map_.y0 || y >= map_.y1) return kInfinity;
         Tile& tile = tiles_[static_cast<size_t>((x / kTile & 1) + 2 * (y / kTile & 1))];
@@ -158,7 +158,8 @@ float hidden_part(DepthReader& depths, const Receiver& r, float bias, int sample
     return static_cast<float>(hidden) / static_cast<float>(rows * columns);
 }
 
-/// The same for a point wherever and whenever it is looked up.
+/// A seed that follows from a point alone, so that it is shaded the same wherever and whenever it is looked
+/// up.
 uint32_t seed_of(const V3f& p) {
     return hash(std::bit_cast<uint32_t>(p.x), std::bit_cast<uint32_t>(p.y), std::bit_cast<uint32_t>(p.z));
 }

@@ -9,9 +9,10 @@ namespace {
 
 using map_lanes::value;
 
-/// What OpenImageIO is given is within these, so that its whole numbers and squares hold it.
-constexpr float kMostRegion = 1 << 10;  ///< pictures that a lookup is filtered over
-constexpr float kFarthest = 1 << 10;    ///< pictures from the first one
+/// Bounds of the coordinates and regions that OpenImageIO is given: its whole numbers, and squares of its
+/// floats, overflow beyond.
+constexpr float kMostRegion = 1 << 10;  ///< in widths of the picture, that a lookup is filtered over
+constexpr float kFarthest = 1 << 10;    ///< in widths of the picture, that a coordinate is from 0
 
 OIIO::TextureOpt::Wrap wrap_of(MapOptions::Wrap asked, OIIO::TextureOpt::Wrap of_picture) {
     switch (asked) {
@@ -33,8 +34,9 @@ bool folds(bool must_fold, OIIO::TextureOpt::Wrap wrap) {
     return must_fold && wrap == OIIO::TextureOpt::WrapPeriodic;
 }
 
-/// Times a region's width; longer ones are looked up wider instead. A lookup looks at about twice as many
-/// places, and floors far away have nearly all of them; with 32 they are no nearer to the truth.
+/// The most that a filtered region is longer than wide; longer regions are made wider instead. OpenImageIO
+/// looks at about twice as many places along it, and floors far away have nearly all such regions; with 32
+/// they come no nearer to the truth.
 constexpr int kLongestRegion = 16;
 
 OIIO::TextureOpt lookup_options(const CachedMap& picture, const MapOptions& options) {
@@ -49,13 +51,14 @@ OIIO::TextureOpt lookup_options(const CachedMap& picture, const MapOptions& opti
     return made;
 }
 
-/// Channels of `wanted` that a picture of so many has.
+/// How many of the `wanted` channels, from `first` on, a picture of so many channels has.
 int present_channels(int channels, float first, int wanted) {
     if (!(first < static_cast<float>(channels))) return 0;
     return std::min(channels - static_cast<int>(std::max(first, 0.0f)), wanted);
 }
 
-/// The same place of what repeats outside the picture, near it; very far away all else is as far as that.
+/// A coordinate within bounds. Where the picture repeats, the same place near 0; else what is very far away
+/// counts as kFarthest.
 float coordinate(float at, OIIO::TextureOpt::Wrap wrap) {
     if (std::fabs(at) <= kFarthest) return at;
     if (wrap == OIIO::TextureOpt::WrapPeriodic) return at - std::floor(at);
@@ -71,14 +74,14 @@ V3f within(const V3f& change, float most) {
     return {within(change.x, most), within(change.y, most), within(change.z, most)};
 }
 
-/// The sides of what a lookup is filtered over.
+/// The sides of the region that a lookup is filtered over, in texture coordinates.
 struct Region {
     float dsdu, dtdu, dsdv, dtdv;
 };
 
-/// OpenImageIO ends the program where a blurred region has next to no area in the file's pixels, as where t
-/// is a function of s. Such a one is given a width, which is less than that to which it widens them.
-/// `s_scale`, `t_scale`: the picture over what the file has of it.
+/// Gives a region some area. OpenImageIO ends the program where a blurred region has next to no area in the
+/// file's pixels, as where t is a function of s. The width given is less than what OpenImageIO widens regions
+/// to, so that it changes nothing else. `s_scale`, `t_scale`: the picture over what the file has of it.
 Region with_area(const Region& r, double s_scale, double t_scale) {
     constexpr double kLeast = 1.0 / 64;
     const double su = s_scale * r.dsdu, tu = t_scale * r.dtdu, sv = s_scale * r.dsdv, tv = t_scale * r.dtdv;
