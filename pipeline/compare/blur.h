@@ -8,16 +8,18 @@
 
 namespace trapeze {
 
+/// How large a kind of blur is.
 struct BlurSize {
     float largest = 0, median = 0;  ///< pixels; the median is over micropolygons
 };
 
+/// Both kinds of a frame's blur.
 struct FrameBlur {
     BlurSize defocus;  ///< diameter of the circle of confusion
     BlurSize motion;   ///< length of the way in raster space while the shutter is open
 };
 
-/// From a few vertices of each grid. What is nearer than the near clipping plane does not count.
+/// Measures blur at a few vertices of each grid. What is nearer than the near clipping plane does not count.
 FrameBlur measure_blur(const Camera& camera, const Grids& grids);
 
 /// The value that half of the weight lies at or below; 0 of none.

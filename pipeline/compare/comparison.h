@@ -19,10 +19,11 @@ namespace trapeze {
 struct ComparedMethod {
     MethodResult result;
     double ratio = 0;  ///< of its median total to the baseline's at the same rate
-    double rmse = 0;   ///< to the reference, linear
+    double rmse = 0;   ///< root mean square difference to the reference, linear light
     MethodPicture picture;
 };
 
+/// The figures and pictures of all methods on one frame.
 struct Comparison {
     std::string scene;                 ///< as the user named it
     std::vector<std::string> command;  ///< the command line's words, without the program's name
@@ -41,21 +42,23 @@ struct Comparison {
     std::vector<const ComparedMethod*> at(SampleRate rate) const;
 };
 
+/// What is compared, and who is told how far it is.
 struct CompareSettings {
-    std::vector<Sampler> samplers;
-    std::vector<SampleRate> rates;
-    MeasureSettings measure;  ///< its on_progress is not used
+    std::vector<Sampler> samplers;  ///< in the order in which they are shown
+    std::vector<SampleRate> rates;  ///< each sampler is measured at each of these
+    MeasureSettings measure;        ///< its on_progress is not used
     int reference_side = 32;
     std::function<void(const std::string& what)> on_stage = {};
     std::function<void(double)> on_progress = {};  ///< of the stage
 };
 
-/// Measures, makes the pictures and judges. Empty when cancelled. Verdict included.
+/// Measures the methods, makes their pictures and the reference, and judges. Empty when cancelled.
 std::optional<Comparison> compare(const SharedFrame& frame, const CompareSettings& settings);
 
 /// The method that ratios are to: "raytrace" as it is by default, else the first of its kind, else the first.
 std::string baseline_of(const std::vector<Sampler>& samplers);
 
+/// Whether a method is a ray tracer, a rasterizer or a reference, as its row of the table says.
 MethodKind kind_of(const MethodResult& result);
 
 /// "8x8"

@@ -15,7 +15,8 @@ struct Machine {
     int threads = 1;       ///< that the work ran on
 };
 
-/// Of this process, but for `trapeze` and `revision`; the threads are the calling task arena's.
+/// Describes the machine and this program, but for `trapeze` and `revision`; the threads are the calling task
+/// arena's.
 Machine this_machine();
 
 }  // namespace trapeze

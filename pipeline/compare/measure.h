@@ -11,7 +11,7 @@
 
 namespace trapeze {
 
-/// The middle one, or the mean of the two in the middle; 0 of none.
+/// The middle value, or the mean of the two in the middle; 0 of none.
 double median(std::vector<double> values);
 
 /// What one method did at one sample rate. Sampling time is what the paper calls so: building what the method
@@ -23,7 +23,7 @@ struct MethodResult {
     std::vector<double> build_seconds, resolve_seconds;  ///< wall clock, by round
     BuildStats build;
     SampleStats sample;  ///< counts of one round; every round's are the same
-    uint64_t hits = 0;   ///< found and kept: to the first opaque one of each sample
+    uint64_t hits = 0;   ///< hits found and kept: up to the first opaque one of each sample
     uint64_t micropolygons = 0;
     int tile_side = kTileSide;  ///< pixels
 
@@ -31,7 +31,7 @@ struct MethodResult {
     double build_median() const { return median(build_seconds); }
     double resolve_median() const { return median(resolve_seconds); }
     double total_median() const;
-    /// Of the rounds' sums.
+    /// Least and largest of the rounds' sums of building and resolving, in seconds.
     struct Spread {
         double least = 0, most = 0;
     };
@@ -39,7 +39,7 @@ struct MethodResult {
 
     double samples_per_second() const { return ratio(static_cast<double>(sample.rays), resolve_median()); }
     double tests_per_sample() const { return ratio(sample.predicate_tests, sample.rays); }
-    /// Of the tests, per one that the predicate answers with yes.
+    /// Predicate tests for each one that the predicate answers with yes.
     double tests_per_hit() const { return ratio(sample.predicate_tests, sample.predicate_hits); }
     double nodes_per_sample() const { return ratio(sample.nodes_visited, sample.rays); }
     double bytes_per_micropolygon() const { return ratio(build.tree_bytes, micropolygons); }
@@ -53,6 +53,7 @@ struct MethodResult {
     }
 };
 
+/// How much is measured.
 struct MeasureSettings {
     int rounds = 3;
     size_t sample_bytes = size_t{2} << 30;         ///< samples made ahead may take this much

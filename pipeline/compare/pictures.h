@@ -13,22 +13,24 @@
 
 namespace trapeze {
 
+/// A picture and where its samples were costly.
 struct MethodPicture {
     Image image;
     HeatMap heat;  ///< of the picture's pixels
 };
 
-/// The frame as a method sees it at a sample rate, with the threads of the calling task arena. Empty when
-/// cancelled. `on_progress` gets the part done in [0, 1], from any thread, one at a time.
+/// Renders the frame as a method sees it at a sample rate, with the threads of the calling task arena. Empty
+/// when cancelled. `on_progress` gets the part done in [0, 1], from any thread, one call at a time.
 std::optional<MethodPicture> make_picture(const SharedFrame& frame, const Sampler& sampler, SampleRate rate,
                                           const std::function<void(double)>& on_progress = {});
 
-/// The frame at side x side stratified samples a pixel, other ones than any that make_picture takes. Empty
-/// when cancelled.
+/// Renders the frame with side x side stratified samples a pixel, which are other samples than any that
+/// make_picture() takes. Empty when cancelled.
 std::optional<Image> make_reference(const SharedFrame& frame, int side,
                                     const std::function<void(double)>& on_progress = {});
 
-/// Root of the mean squared difference of red, green and blue over all pixels. The windows are the same.
+/// Root of the mean squared difference of red, green and blue over all pixels of two images of the same
+/// window.
 double rms_difference(const Image& a, const Image& b);
 
 }  // namespace trapeze

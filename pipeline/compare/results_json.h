@@ -9,7 +9,7 @@ namespace trapeze {
 
 nlohmann::ordered_json to_json(const MethodResult& result);
 nlohmann::ordered_json to_json(const Machine& machine);
-/// Every figure, without the pictures.
+/// Every figure of a comparison, without the pictures.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 
 }  // namespace trapeze

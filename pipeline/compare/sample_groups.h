@@ -9,9 +9,10 @@
 
 namespace trapeze {
 
-/// What a sample takes in a SampleTile.
+/// Bytes that one sample takes in a SampleTile: x, y, lens_u, lens_v, time and its ray.
 inline constexpr size_t kBytesPerSample = 5 * sizeof(float) + sizeof(AxisRay);
 
+/// The samples of some pixels, a group of tiles at a time.
 class SampleGroups {
   public:
     SampleGroups(const PixelRect& pixels, int tile_side, int samples_per_pixel, size_t byte_limit);

@@ -10,9 +10,9 @@
 
 namespace trapeze {
 
-/// "raytrace:tree=paper,bundle=off interval": separated by spaces or semicolons, for commas are part of a
-/// method's name. `pattern` is for all; empty: each one's natural pattern. Empty with *error set when one is
-/// wrong, or there is none.
+/// Reads a list such as "raytrace:tree=paper,bundle=off interval": separated by spaces or semicolons, since
+/// commas are part of a method's name. `pattern` is for all methods; empty: each one's natural pattern. Empty
+/// with *error set when a method or the pattern is wrong, or there is no method.
 std::optional<std::vector<Sampler>> parse_samplers(std::string_view text, std::string_view pattern,
                                                    std::string* error);
 

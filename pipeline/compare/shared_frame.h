@@ -11,6 +11,7 @@
 
 namespace trapeze {
 
+/// Samples of a pixel.
 struct SampleRate {
     int x = 1, y = 1;  ///< samples of a pixel along each axis
 
@@ -25,7 +26,8 @@ struct SharedFrame {
     Grids grids;
     FrameStats stats;  ///< of tessellation and shading
 
-    /// What is diced and shaded depends on no sample rate, so that the grids serve every one.
+    /// The context at another sample rate. What is diced and shaded depends on no sample rate, so the grids
+    /// serve every one.
     RenderContext context_at(SampleRate rate) const {
         RenderContext at_rate = context;
         at_rate.samples_x = rate.x, at_rate.samples_y = rate.y;
@@ -33,7 +35,7 @@ struct SharedFrame {
     }
 };
 
-/// The kind of the error of a frame that does not fit the memory.
+/// The Diagnostic::kind of the error that a frame does not fit the memory.
 inline constexpr const char* kTooLittleMemory = "memory-budget";
 
 /// Tessellates and shades with the threads of the calling task arena; of the settings, memory, seed, progress

@@ -9,9 +9,9 @@ namespace trapeze {
 std::string seconds_text(double seconds);
 /// Three digits, without exponents between a thousandth and ten million.
 std::string number_text(double value);
-/// The same of what some methods do not count: nothing is "-".
+/// A figure that some methods do not count: number_text(), but 0 is "-".
 std::string counted_text(double value);
-/// "1.31 million"
+/// A count in words: "1.31 million".
 std::string count_text(double count);
 
 }  // namespace trapeze

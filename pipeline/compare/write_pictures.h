@@ -14,7 +14,7 @@ namespace trapeze {
 bool write_pictures(const Comparison& comparison, const SharedFrame& frame, const std::string& folder,
                     const std::string& software);
 
-/// A method's name for a file: letters, digits, '-' and '.'.
+/// A method's name as part of a file name: what is no letter, digit or '.' becomes '-'.
 std::string file_name_of(const std::string& method);
 
 }  // namespace trapeze

@@ -11,9 +11,10 @@
 
 namespace trapeze {
 
+/// Times a frame's stages, tells how far it is, and adds up its statistics.
 class FrameRecorder {
   public:
-    /// Both are as RenderSettings has them, and outlive the recorder.
+    /// Both functions are RenderSettings', may be empty, and outlive the recorder.
     FrameRecorder(const std::function<void(double)>& on_progress,
                   const std::function<void(std::string_view)>& on_stage)
         : progress_(on_progress), on_stage_(on_stage) {}
@@ -21,7 +22,7 @@ class FrameRecorder {
     FrameStats& stats() { return stats_; }
     Progress& progress() { return progress_; }
 
-    /// Runs a step of the frame; its wall seconds are added to a stage's.
+    /// Runs a step of the frame and returns what it returns; its wall seconds are added to those of a stage.
     template <class Step>
     auto timed(double StageSeconds::*stage, const Step& step) {
         struct AtEnd {
@@ -32,19 +33,21 @@ class FrameRecorder {
         return step();
     }
 
-    /// What bounding and splitting found. Grids and micropolygons count as they are made.
+    /// Takes what bounding and splitting found. Grids and micropolygons are counted later, as they are made.
     void bounded(const TessellateStats& found);
     /// Region `index` of `count` begins with its grids, a step of progress for each of `steps`.
     void begin_grids(size_t index, size_t count, size_t steps);
     void begin_build();
-    /// A region's grids and what a method made of them, in memory at once.
+    /// Takes the bytes of a region's grids, and what the method has built for them: both are in memory at
+    /// once.
     void built(uint64_t grid_bytes, const BuildStats& build);
     /// The same region goes on with `steps` tiles of samples.
     void begin_tiles(size_t steps);
     void begin_composite();
-    /// The frame begins again: nothing counts that came after bounded().
+    /// Begins the frame again, when a shader was found to be endless: what was counted after bounded() counts
+    /// no more.
     void restart() { stats_ = at_start_; }
-    /// What is known at the end, whatever was made.
+    /// Completes the statistics, whatever has been made so far.
     FrameStats finish(const RenderContext& context);
 
   private:
@@ -52,7 +55,7 @@ class FrameRecorder {
         if (on_stage_) on_stage_(stage);
     }
 
-    FrameStats stats_, at_start_;
+    FrameStats stats_, at_start_;  ///< the second as bounded() left it
     Progress progress_;
     const std::function<void(std::string_view)>& on_stage_;
     Stopwatch total_;

@@ -9,6 +9,7 @@
 
 namespace trapeze {
 
+/// Wall seconds of a frame's stages.
 struct StageSeconds {
     double read = 0, tessellate = 0, shade = 0, build = 0, trace = 0, composite = 0, total = 0;
 
@@ -25,6 +26,7 @@ struct FrameStats {
     ShadeStats shade;
     BuildStats build;  ///< summed over regions
     SampleStats sample;
+    /// The most of any region, each by itself: bytes of grids, of grids and tree, of the tree.
     uint64_t grid_bytes = 0, peak_region_bytes = 0, tree_bytes = 0;  ///< largest region's
     uint64_t samples = 0;
     int regions = 0, threads = 0, width = 0, height = 0, frame = 0;

@@ -15,7 +15,7 @@ std::string key_of(const std::string& path) {
     return fs::path(path).lexically_normal().string();
 }
 
-/// What files of a format begin with.
+/// The first bytes of a file, which tell its format.
 std::string beginning(const std::string& path) {
     char bytes[2] = {};
     std::ifstream file(path, std::ios::binary);
@@ -23,7 +23,8 @@ std::string beginning(const std::string& path) {
     return {bytes, static_cast<size_t>(file.gcount())};
 }
 
-/// Nothing is there, or a picture of the same format, which a run before this one has left.
+/// Whether a picture may be renamed to `kept`: nothing is there, or a picture of the same format, which an
+/// earlier run has left.
 bool may_become(const std::string& path, const std::string& kept) {
     std::error_code failed;
     return !fs::exists(kept, failed) ||

@@ -9,16 +9,17 @@
 
 namespace trapeze {
 
+/// The pictures of one run by path, with the frame that wrote each.
 class KeptPictures {
   public:
     explicit KeptPictures(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-    /// A file is about to be written. One of an earlier frame there, "shot.exr" of frame 3, becomes
-    /// "shot.3.exr", which is said.
+    /// Makes way for a file that is about to be written: a picture of an earlier frame there, "shot.exr" of
+    /// frame 3, becomes "shot.3.exr", and a message says so.
     void make_way(const std::string& path, SourceLocation location);
-    /// It has been written. Frame 0: there are no frames.
+    /// Notes that a picture has been written. Frame 0: the file has no frames.
     void wrote(const std::string& path, int frame);
-    /// Nobody misses it: a map has been made of it, or it is to be replaced.
+    /// Drops a picture that nobody would miss: a map has been made of it, or it is to be replaced.
     void forget(const std::string& path);
 
   private:
@@ -26,7 +27,7 @@ class KeptPictures {
     std::map<std::string, int> frames_;  ///< by path
 };
 
-/// "shot.exr" and 3: "shot.3.exr".
+/// A name with a frame's number before its ending: "shot.exr" and 3 give "shot.3.exr".
 std::string numbered(const std::string& name, int number);
 
 }  // namespace trapeze

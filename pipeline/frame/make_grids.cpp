@@ -26,7 +26,7 @@ struct GridMaker {
     double dice_seconds = 0, shade_seconds = 0;
 };
 
-/// The fewest subpatches that a thread takes at a time, where there are many.
+/// Subpatches that a thread takes at a time, at least, where there are many.
 constexpr size_t kGrain = 4;
 /// With fewer subpatches than this for each thread, each is a task of its own, and those that can be are
 /// divided, so that there are so many tasks for each thread.
@@ -72,7 +72,7 @@ void make_many(const RenderContext& context, const Region& region, const Tessell
     });
 }
 
-/// What a thread shades at a time where there are few grids: one, or some of its vertices.
+/// What a thread shades at a time where there are few grids: a whole grid, or some of its vertices.
 struct Part {
     size_t grid = 0, first = 0;
     std::optional<ShadingGrid> own;  ///< nothing: the whole grid
@@ -93,7 +93,7 @@ std::vector<Part> divided(const std::vector<ShadingGrid>& grids, const Shading& 
     return parts;
 }
 
-/// Each of `count` things by one thread.
+/// Calls use(i, maker) for 0 <= i < count, each i as a task of its own.
 template <class Use>
 void for_each_alone(const RenderContext& context, size_t count, GridMakers& makers, const Use& use) {
     tbb::parallel_for(

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty: there is none.
+/// Where a picture of a request is; empty: in none of the places.
 std::string found_picture(const std::string& name, const std::vector<std::string>& folders,
                           const Access& access) {
     std::vector<std::string> names = other_names(name);
@@ -28,7 +28,7 @@ std::string found_picture(const std::string& name, const std::vector<std::string
     return {};
 }
 
-/// Why a picture cannot be read; empty: it is there, and may be.
+/// Why a picture cannot be read; empty when it can.
 std::string problem_with(const std::string& picture, const Access& access) {
     if (access.is_closed(picture)) return fmt::format("\"{}\" {}", picture, Access::kClosed);
     if (!access.has_file(picture)) return fmt::format("\"{}\" is not found", picture);

@@ -7,14 +7,14 @@
 
 namespace trapeze {
 
-/// Pictures are looked for where their names say, which is where displays are written, then in the request's
-/// folders; the map is written where its name says. What goes wrong is reported as an error, and
-/// nothing is written; `written` is empty then, else the map's file.
-/// False when it was the map's file that could not be written.
+/// Makes the map of a request. Pictures are looked for where their names say, which is where displays are
+/// written, then in the request's folders; the map is written where its name says. What goes wrong is
+/// reported as an error, and nothing is written; `written` is empty then, else the map's file. False when it
+/// was the map's file that could not be written.
 bool make_map(const MapRequest& request, const Access& access, Diagnostics& diagnostics,
               std::string* written = nullptr);
 
-/// The names of those pictures of a request that are in none of these places.
+/// Names of the request's pictures that are in none of these places.
 std::vector<std::string> missing_pictures(const MapRequest& request, const Access& access);
 
 }  // namespace trapeze

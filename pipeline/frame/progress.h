@@ -7,11 +7,13 @@
 
 namespace trapeze {
 
-/// Adds up the part of the frame that is done; calls back at most about a hundred times a region.
+/// The part of the frame that is done, 0 to 1. step() may be called from any thread; it calls back at most
+/// about a hundred times a part, one call at a time, and never with a smaller number than before.
 class Progress {
   public:
     explicit Progress(const std::function<void(double)>& on_progress) : on_progress_(on_progress) {}
 
+    /// The steps to come, `steps` of them, are those from one part of the frame to another.
     void begin_part(double from, double to, size_t steps) {
         from_ = from, to_ = to, steps_ = std::max<size_t>(1, steps), done_ = 0;
     }

@@ -8,7 +8,7 @@
 namespace trapeze {
 namespace {
 
-/// Of the tree in its paper form, measured for full grids; small grids carry more overhead each.
+/// Bytes of the tree in its paper form, measured for full grids; small grids carry more overhead each.
 constexpr size_t kTreeBytesPerMicropolygon = 20;
 constexpr size_t kTreeBytesPerGrid = 256;
 

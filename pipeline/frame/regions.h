@@ -20,13 +20,14 @@ struct Region {
     size_t estimated_bytes = 0;  ///< of grids and tree
 };
 
+/// What regions must keep to.
 struct RegionLimits {
     size_t bytes = 0;      ///< a region's grids and tree may take this much
     int at_least = 1;      ///< regions to make even when fewer would fit (as far as there are tiles)
     int aov_channels = 0;  ///< that every vertex carries besides its colour
 };
 
-/// Upper estimate of the memory of a subpatch's grid and its part of the tree.
+/// Upper estimate, in bytes, of the memory of a subpatch's grid and its part of the tree.
 size_t estimated_bytes(const SubpatchInfo& subpatch, int aov_channels);
 
 /// Splits `pixels` along tile borders, the longer side first, until every region fits or is a single tile.

@@ -46,7 +46,7 @@ void run_imager(const Imager& imager, Image& image) {
     });
 }
 
-/// What a frame's regions share.
+/// What all regions of a frame use.
 struct Frame {
     const RenderContext& context;
     const Tessellation& tessellation;

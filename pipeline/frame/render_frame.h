@@ -13,6 +13,7 @@
 
 namespace trapeze {
 
+/// How to render, beside what the scene says.
 struct RenderSettings {
     std::string sampler = "raytrace";  ///< visibility method, as choose_sampler() reads it
     std::string pattern;               ///< sample pattern; empty: the method's natural one
@@ -24,10 +25,12 @@ struct RenderSettings {
     /// Called at the beginning of each stage, by its name in the statistics; grids are diced while they
     /// shade.
     std::function<void(std::string_view)> on_stage;
+    /// Rendering ends early when this becomes true; null: never.
     const std::atomic<bool>* cancelled = nullptr;
     const Access* access = &kEverything;  ///< to the files that the scene names
 };
 
+/// The picture of a frame and what it cost.
 struct FrameResult {
     Image image;
     FrameStats stats;
@@ -36,13 +39,15 @@ struct FrameResult {
 /// Three quarters of the machine's memory, in bytes.
 size_t default_memory_budget();
 
-/// The kind of the error of a picture that the machine's memory cannot hold.
+/// The Diagnostic::kind of the error that the machine's memory cannot hold the picture.
 inline constexpr const char* kPictureTooLarge = "picture-too-large";
 
-/// Whether the machine's memory could hold the picture, before it is asked for; says what would help if not.
+/// Whether the machine's memory can hold the picture, asked before it is made; if not, an error says what
+/// would help.
 bool picture_fits(const RenderContext& context, const RenderSettings& settings);
 
-/// The context of a scene's render: camera, sample counts (rounded to at least 1), whether anything moves.
+/// The context of a scene's render: camera, sample counts (rounded to at least 1), whether anything moves. It
+/// refers to the scene and to diagnostics.
 RenderContext make_context(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
 
 /// Renders with the threads of the calling task arena. Empty when cancelled, or (reported) when the picture

@@ -9,7 +9,7 @@
 namespace trapeze {
 namespace {
 
-/// What a thread needs to resolve tiles.
+/// What a thread needs to resolve tiles, and what it has counted.
 struct TileResolver {
     SampleTile samples;
     HitBuffer hits;
@@ -25,7 +25,8 @@ void clear_heat(TileResolver& resolver) {
     resolver.scratch.heat = &resolver.heat;
 }
 
-/// Means over pixels; no two tiles write to the same one.
+/// Writes the means over the samples of each pixel. No two tiles have a pixel in common, so threads need no
+/// lock.
 void take_heat(const TileResolver& resolver, HeatMap& heat) {
     const SampleTile& samples = resolver.samples;
     const auto count = static_cast<size_t>(samples.samples_per_pixel);

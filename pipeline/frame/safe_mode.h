@@ -8,10 +8,11 @@ namespace trapeze {
 /// Whether TRAPEZE_SAFE is set in the environment, to anything but nothing or 0.
 bool safe_by_environment();
 
-/// Bytes, where the user says nothing: four gibibytes, or less on a small machine.
+/// The memory budget of a confined run where the user gives none, in bytes: four gibibytes, or less on a
+/// small machine.
 size_t safe_memory_budget();
 
-/// Seconds, where the user says nothing.
+/// The time limit of a confined run where the user gives none, in seconds.
 inline constexpr double kSafeSeconds = 600;
 
 }  // namespace trapeze

@@ -13,7 +13,8 @@
 namespace trapeze {
 namespace {
 
-/// Of builds that are to be repeated (reproducible-builds.org).
+/// The date that SOURCE_DATE_EPOCH asks for (reproducible-builds.org), in seconds since 1970; nothing when it
+/// is not set to a number.
 std::optional<std::time_t> date_of_environment() {
     const char* const text = std::getenv("SOURCE_DATE_EPOCH");
     if (!text) return {};
@@ -30,7 +31,7 @@ std::string date_text(std::time_t seconds) {
     return {text, std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &parts)};
 }
 
-/// Their names, without folders, which are nobody else's business.
+/// The files' names without folders, which are nobody else's business, in one text.
 std::string names_of(const std::vector<std::string>& files) {
     std::string names;
     for (const std::string& file : files)

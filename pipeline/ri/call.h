@@ -29,7 +29,8 @@ void guarded(const char* name, const Work& work) {
     if (wrong) report(std::move(*wrong));
 }
 
-/// A call that goes to the current context.
+/// Runs a call of the current context; without one the call is reported and left out. Afterwards the handler
+/// gets what the call has complained of.
 template <class Work>
 void call(const char* name, const Work& work) {
     Context* const context = current_context();
@@ -42,9 +43,9 @@ void call(const char* name, const Work& work) {
         report({message.code, message.severity, std::string(name) + ": " + message.text});
 }
 
-/// One that is written as a request of numbers.
+/// Writes a call whose request has only numbers.
 void write_numbers(const char* request, std::initializer_list<float> numbers);
-/// The same, of the options: not within a world.
+/// Writes a call that sets an option by numbers: RIE_NOTOPTIONS within a world.
 void write_option(const char* request, std::initializer_list<float> numbers);
 
 }  // namespace trapeze::ri

@@ -14,7 +14,7 @@ namespace trapeze::ri {
 
 enum class Block { Frame, World, Attribute, Transform, Solid, Object, Motion };
 
-/// What the lengths of arrays depend on: it comes back at the end of a block.
+/// What the lengths of arrays depend on. It is saved where a block begins and comes back at its end.
 struct CountingState {
     int samples_per_color = 3;   ///< RiColorSamples
     int u_step = 3, v_step = 3;  ///< RiBasis
@@ -27,18 +27,20 @@ class Context {
     const std::string& name() const { return name_; }
     rib::RibWriter& writer() { return output.writer(); }
 
-    /// Begins a block's request, or ends it: RIE_NESTING unless it is the innermost.
+    /// open() begins a block; close() ends it, and throws RIE_NESTING unless it is the innermost open one.
     void open(Block block);
     void close(Block block);
     bool is_open(Block block) const;
     size_t open_blocks() const { return blocks_.size(); }
     /// Throws RIE_NOTOPTIONS within a world.
     void expect_options() const;
-    /// Of the calls within a motion block only the first counts for what is followed here.
+    /// Whether a call counts for what is followed here (spaces, camera): within a motion block only the first
+    /// does.
     bool counts();
 
-    /// What is left out of a call that is otherwise written, and what is doubtful.
+    /// Keeps a message about what is left out of a call that is otherwise written, or about what is doubtful.
     void complain(RtInt code, RtInt severity, std::string text);
+    /// Takes the messages away that complain() has kept.
     std::vector<Message> take_messages();
 
     RibOutput output;
@@ -46,16 +48,17 @@ class Context {
     CountingState counting;
     Spaces spaces;
     std::vector<std::string> archive_folders;  ///< Option "searchpath" "archive"
-    uintptr_t lights = 0, objects = 0;         ///< so many handles have been given
-    bool may_run_programs = false;             ///< the program itself asked for RiProcRunProgram
+    uintptr_t lights = 0, objects = 0;         ///< how many handles have been given
+    bool may_run_programs = false;             ///< set when the program itself asks for RiProcRunProgram
 
   private:
+    /// What an open block brings back at its end.
     struct OpenBlock {
         Block kind;
         CountingState counting;
         M44d current;
         Options camera;
-        int calls = 0;  ///< within Motion
+        int calls = 0;  ///< made so far within a Motion block
     };
 
     std::string name_;
@@ -63,16 +66,16 @@ class Context {
     std::vector<Message> messages_;
 };
 
-/// The context that calls go to, or null. Contexts are the process's (RISpec 3).
+/// The context that calls go to, or null. Contexts belong to the process, not to a thread (RISpec 3).
 Context* current_context();
-/// Makes a new one current.
+/// Makes a new context and makes it the current one.
 void begin_context(const std::string& name, RibFormat format);
-/// Takes the current one away; there is none then.
+/// Takes the current context out of the list; there is no current one then.
 std::unique_ptr<Context> take_current_context();
-/// False when there is no such context.
+/// Makes another context current, by RiGetContext's handle. False when there is no such context.
 bool select_context(const void* handle);
 
-/// Of files that RiBegin will begin: Option "rib" before it.
+/// The format of files that RiBegin will begin, as Option "rib" before it sets it.
 RibFormat& next_format();
 
 }  // namespace trapeze::ri

@@ -14,19 +14,20 @@ struct CallError {
     std::string text;
 };
 
+/// What the error handler is called with.
 struct Message {
-    RtInt code, severity;
+    RtInt code, severity;  ///< RIE_... code; RIE_INFO to RIE_SEVERE
     std::string text;
 };
 
-/// Null: RiErrorPrint.
+/// Sets what report() calls, for the whole process; null: RiErrorPrint.
 void set_error_handler(RtErrorHandler handler);
 
-/// Sets RiLastError, but for what is no error, and calls the handler, which may not return. No exception may
-/// be in flight.
+/// Sets RiLastError, except for messages that are no errors, and calls the handler, which may not return. No
+/// exception may be in flight.
 void report(Message message);
 
-/// Throws RIE_MISSINGDATA for null.
+/// The pointer; throws RIE_MISSINGDATA for null, which messages call `what`.
 template <class T>
 T* required(T* pointer, const char* what) {
     if (!pointer) throw CallError{RIE_MISSINGDATA, std::string(what) + " is null"};

@@ -19,7 +19,8 @@ void write_named_option(Context& context, const char* request, RtToken name, con
     write_parameters(context.writer(), parameters);
 }
 
-/// Option "rib" before RiBegin: what the next files shall be. Tokens may carry their declarations.
+/// Carries out Option "rib" before RiBegin: the form of the files that follow. Tokens may carry their
+/// declarations.
 void set_next_format(const RiArguments& arguments) {
     for (int i = 0; i < arguments.count && i < 1000; ++i) {
         if (!arguments.tokens || !arguments.values || !arguments.tokens[i] || !arguments.values[i]) continue;

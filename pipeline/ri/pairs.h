@@ -9,9 +9,11 @@
 
 namespace trapeze::ri {
 
-/// Lists end here even without RI_NULL; the reader takes no longer ones either.
+/// Lists end after so many pairs even without RI_NULL: one that is not closed reads the stack. The reader of
+/// RIB takes no longer ones either.
 inline constexpr int kMostPairs = 1000;
 
+/// The pairs of one call, as arrays that the V form of the call takes.
 class PairList {
   public:
     /// Takes `arguments` up to the end of the list; va_end remains the caller's.

@@ -10,7 +10,7 @@
 
 namespace trapeze::ri {
 
-/// One that will be written. The values are the caller's still.
+/// A parameter that will be written. The values stay the caller's.
 struct RiParameter {
     std::string token;  ///< as the caller wrote it, with its declaration if it has one
     ValueType type = ValueType::Float;
@@ -18,14 +18,16 @@ struct RiParameter {
     size_t count = 0;
 };
 
+/// A call's parameter list as RISpec's V forms have it: `count` tokens and as many pointers to values.
 struct RiArguments {
     RtInt count;
     RtToken* tokens;
     RtPointer* values;
 };
 
-/// Those whose tokens are known; others are complained of and left out. `category` is the name of an option
-/// or attribute, whose usual values need no declaration, or empty.
+/// The parameters whose tokens are known; others are complained of and left out. `counts` are the
+/// primitive's, from which the lengths follow. `category` is the name of an option or attribute, whose usual
+/// values need no declaration, or empty.
 std::vector<RiParameter> checked_parameters(Context& context, const RiArguments& arguments,
                                             const VariableCounts& counts, const std::string& category = {});
 inline std::vector<RiParameter> checked_parameters(Context& context, const RiArguments& arguments,
@@ -33,9 +35,11 @@ inline std::vector<RiParameter> checked_parameters(Context& context, const RiArg
     return checked_parameters(context, arguments, VariableCounts{}, category);
 }
 
+/// Writes the list behind a request's other arguments.
 void write_parameters(rib::RibWriter& writer, const std::vector<RiParameter>& parameters);
 
-/// Arrays as std::span: RIE_RANGE for a negative count, RIE_MISSINGDATA for null unless the count is 0.
+/// An array argument as std::span. Throws RIE_RANGE for a negative count, and RIE_MISSINGDATA for null unless
+/// the count is 0; messages call it `what`.
 template <class T>
 std::span<const T> array_of(const T* values, int64_t count, const char* what) {
     if (count < 0) throw CallError{RIE_RANGE, std::string("the number of ") + what + " is negative"};
@@ -43,10 +47,10 @@ std::span<const T> array_of(const T* values, int64_t count, const char* what) {
     return {required(values, what), static_cast<size_t>(count)};
 }
 
-/// The same of strings, none of which may be null.
+/// An array of strings; throws as array_of() does, and for a string that is null.
 std::vector<std::string> strings_of(const RtString* values, int64_t count, const char* what);
 
-/// RIE_RANGE where one is below `least`, or the sum is not an int.
+/// The sum of counts. Throws RIE_RANGE where one is below `least`, or the sum is not an int.
 int sum_of(std::span<const int> counts, int least, const char* what);
 
 }  // namespace trapeze::ri

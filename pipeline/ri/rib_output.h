@@ -12,23 +12,24 @@
 
 namespace trapeze::ri {
 
-/// What Option "rib" says of the files to come.
+/// The form of RIB files, as Option "rib" sets it before RiBegin.
 struct RibFormat {
     bool binary = false, gzip = false;
 };
 
+/// The RIB of one context.
 class RibOutput {
   public:
-    /// An empty name: memory.
+    /// Writes into the file `name`, or into memory for an empty name.
     RibOutput(const std::string& name, RibFormat format);
 
     rib::RibWriter& writer() { return *writer_; }
     bool is_file() const { return file_.has_value(); }
-    /// What is in memory.
+    /// What has been written into memory so far.
     const std::string& text();
     /// Puts the file in its place; false when that, or anything before, has failed.
     bool commit();
-    /// Why it failed; empty if it did not.
+    /// Why the output failed; empty if it did not.
     const std::string& error() const;
 
   private:

@@ -13,43 +13,46 @@
 
 namespace trapeze::ri {
 
-/// Those at one time: of a motion block the first key counts. What archives do is not seen.
+/// The spaces at one time: of a motion block the first key counts. Transformations that archives make are not
+/// seen. Matrices are for row vectors.
 class Spaces {
   public:
-    /// The camera: what RISpec's options say of it.
+    /// What RISpec's options say of the camera.
     Options camera;
 
+    /// Puts a transformation request (Translate, Rotate...) in front of the current transformation.
     void concat(rib::TransformKind kind, const rib::TransformArguments& arguments);
-    /// Identity, or Transform's matrix.
+    /// Sets the current transformation: Identity, or Transform's matrix.
     void set(const M44d& matrix) { current_ = matrix; }
-    /// Projection: what came before belongs to the screen.
+    /// Begins the camera's transformation at Projection: what came before belongs to the screen.
     void begin_camera() { current_ = M44d(); }
     void begin_world();
     void end_world();
-    /// The current space of an object's definition is the object's.
+    /// Begins an object's definition, whose current space is the object's.
     void begin_object() { current_ = M44d(); }
 
+    /// CoordinateSystem: gives the current space a name.
     void name_current(const std::string& name) { named_[name] = camera_from_current(); }
-    /// False when there is none of that name.
+    /// CoordSysTransform: makes a named space the current one. False when there is none of that name.
     bool use(const std::string& name);
 
     const M44d& current() const { return current_; }
     void restore(const M44d& current) { current_ = current; }
 
-    /// Row vectors; nothing for a space that is not known or cannot be inverted.
+    /// The matrix from one space to another; nothing for a space that is not known or cannot be inverted.
     std::optional<M44d> between(const std::string& from, const std::string& to) const;
 
   private:
     M44d camera_from_current() const;
     std::optional<M44d> camera_from(const std::string& name) const;
     std::optional<M44d> from_camera(const std::string& name) const;
-    /// Screen, NDC or raster space from the camera's.
+    /// The matrix from the camera's space to screen, NDC or raster space.
     std::optional<M44d> projected(const std::string& name) const;
 
-    M44d current_;  ///< to the world, or to the camera before it
+    M44d current_;  ///< from the current space to the world; before WorldBegin, to the camera
     M44d camera_from_world_;
     bool in_world_ = false;
-    std::map<std::string, M44d> named_;  ///< to the camera
+    std::map<std::string, M44d> named_;  ///< from each named space to the camera
 };
 
 }  // namespace trapeze::ri

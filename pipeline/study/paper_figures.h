@@ -1,4 +1,4 @@
-/// Figures of Hou et al. 2010, on one NVIDIA GTX 285: seconds.
+/// Figures of Hou et al. 2010, measured on one NVIDIA GTX 285. In seconds unless something else is said.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr double kTable1[4][3] = {
 /// The columns of tables 2 and 4.
 inline constexpr std::array<std::string_view, 4> kScenes = {"Furball", "Ladybug", "Fairy", "Car"};
 
-/// Samples along each side of a pixel, of tables 2 and 5's Ref: figures 7 and 1.
+/// Samples along each side of a pixel in tables 2 and 5's Ref, as figures 7 and 1 have them.
 inline constexpr int kReferenceSide[4] = {13, 23, 13, 23};
 
 /// Table 2: by method, then by scene.

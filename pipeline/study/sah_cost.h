@@ -5,13 +5,13 @@
 
 namespace trapeze {
 
-/// Expected costs for a random line that meets the grid's box: nodes by the ratio of their area to the
-/// box's, a leaf as many tests as it has micropolygons, an inner node as much as one test.
+/// Expected costs of a random line that meets the grid's box. A node is met with the ratio of its area to the
+/// box's; a leaf costs as many tests as it has micropolygons, an inner node as much as one test.
 struct SahCosts {
     double parametric;  ///< midpoint splits, as in InGridTrees
     double greedy;      ///< at each node the best of all splits along the axes of the grid's orientation
 
-    /// Negative where the parametric splits are the better ones.
+    /// How much more the parametric splits cost, as a part of the greedy cost; negative where they cost less.
     double relative_difference() const { return greedy > 0 ? parametric / greedy - 1 : 0; }
 };
 

@@ -11,43 +11,44 @@ namespace trapeze {
 /// The power of x that y grows with between the first and the last point; 1 is linear.
 double growth_exponent(double x0, double y0, double x1, double y1);
 
-/// The largest to the smallest; 0 of none.
+/// The ratio of the largest value to the smallest; 0 of none.
 double spread(const std::vector<double>& values);
 
-/// "5.2 s", and "-" of what there is not (negative).
+/// A figure of the paper as tables show it: "5.2 s", and "-" where the paper has none (negative).
 std::string paper_seconds(double seconds);
 
-/// Checks of one row of four methods (paper::kMethods) at growing samples a pixel.
+/// What one scene costs four methods (paper::kMethods) at growing numbers of samples.
 struct RateSeries {
     std::string scene;
     std::vector<int> samples;                  ///< a pixel
     std::vector<std::vector<double>> seconds;  ///< by method, then by rate
 };
 
-/// rasterizers: cost against samples, and k = 4 against k = 2; ray tracing: what more samples do for it.
+/// Checks that rasterizers cost in proportion to samples, k = 4 against k = 2, and that ray tracing gains
+/// from more samples; against the same figures of the paper.
 std::vector<StudyCheck> checks_of_rates(const RateSeries& here, const RateSeries& paper);
 
-/// Coarser shading helps rasterizers more than ray tracing. Seconds by method, at the reference rate and with
-/// micropolygons 16 times as large.
+/// Checks that coarser shading helps rasterizers more than ray tracing. Seconds are by method, at the
+/// reference rate and with micropolygons 16 times as large.
 StudyCheck check_of_coarser_shading(const std::string& scene, const std::vector<double>& reference,
                                     const std::vector<double>& coarser,
                                     const std::vector<double>& paper_reference,
                                     const std::vector<double>& paper_coarser);
 
-/// Ray tracing against the rasterizers at one rate: by method.
+/// Checks where ray tracing stands against the rasterizers at one rate. Seconds are by method.
 StudyCheck check_of_order(const std::string& scene, const std::vector<double>& here,
                           const std::vector<double>& paper);
 
-/// That blur, which grows from none, costs little: a method's times by blur.
+/// Checks that blur, which grows from none, costs little. Seconds are by amount of blur.
 StudyCheck check_of_blur(const std::string& method, const std::vector<double>& times);
 
-/// What a ray costs in scenes of ever more micropolygons.
+/// What a ray costs in one scene with ever more micropolygons.
 struct GrowthSeries {
     std::string name;
     std::vector<double> micropolygons, nanoseconds, nodes;  ///< the latter two a ray
 };
 
-/// Of rays in bundles and of rays each by itself, in the same scenes.
+/// Checks how the cost of a ray grows, in bundles and alone, in the same scenes.
 std::vector<StudyCheck> checks_of_growth(const GrowthSeries& bundles, const GrowthSeries& alone);
 
 }  // namespace trapeze

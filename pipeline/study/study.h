@@ -29,8 +29,8 @@ struct StudyName {
 };
 std::vector<StudyName> study_names();
 
-/// With the threads of the calling task arena. Empty for an unknown name, when cancelled, and (reported)
-/// when a scene does not fit the memory.
+/// Runs a study with the threads of the calling task arena. Empty for an unknown name, when cancelled, and
+/// (reported) when a scene does not fit the memory.
 std::optional<StudyResult> run_study(std::string_view name, const StudySettings& settings,
                                      Diagnostics& diagnostics);
 

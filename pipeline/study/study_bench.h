@@ -17,30 +17,36 @@ struct StudyScene {
     SceneParameters parameters;
 };
 
-/// Ends a study: it was cancelled, or a scene (reported) could not be had.
+/// Thrown to end a study: it was cancelled, or a scene (reported) could not be had.
 struct StudyStopped {};
 
+/// Makes scenes and measures methods on them, and keeps all figures in the study's result. Throws
+/// StudyStopped.
 class StudyBench {
   public:
-    /// Writes scenes and figures into the result.
+    /// Writes scenes and figures into `result`. All must outlive this.
     StudyBench(const StudySettings& settings, Diagnostics& diagnostics, StudyResult& result);
 
     bool quick() const { return settings_.quick; }
-    /// Of the pictures where the paper supersamples 13x13 and more.
+    /// The rate of pictures that the paper supersamples 13x13 or finer.
     SampleRate reference_rate() const { return settings_.quick ? SampleRate{8, 8} : SampleRate{13, 13}; }
 
-    /// At the size that studies of this kind are measured at; `micropolygons` multiplies them at full size.
+    /// A scene at the size that a study of this kind (quick or not) is measured at; `micropolygons`
+    /// multiplies the scene's own at full size.
     StudyScene scene(const std::string& label, const std::string& name, double micropolygons) const;
 
+    /// Reads, dices and shades the scene, and notes its facts.
     SharedFrame frame(const StudyScene& scene);
+    /// Of the scene that frame() made last.
     const StudySceneFacts& last_facts() const { return result_.scenes.back(); }
 
-    /// Methods separated by spaces; results by rate, then by method.
+    /// Measures methods, which are separated by spaces; the results are by rate, then by method.
     std::vector<MethodResult> measure(const SharedFrame& frame, const StudyScene& scene,
                                       const std::string& methods, const std::vector<SampleRate>& rates);
 
     /// Ends the study when it was cancelled.
     void go_on() const;
+    /// Tells who watches what is done now.
     void stage(const std::string& what) const;
 
   private:

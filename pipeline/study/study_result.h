@@ -24,12 +24,13 @@ struct PlotSeries {
     std::vector<std::pair<double, double>> points;
 };
 
+/// A plot with linear axes.
 struct LinePlot {
     std::string title, x_title, y_title;
     std::vector<PlotSeries> series;
 };
 
-/// Equal bins from `low` on.
+/// Counts in equal bins, of which the first begins at `low`.
 struct HistogramPlot {
     std::string title, x_title;
     double low = 0, bin = 1;

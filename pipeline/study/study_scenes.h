@@ -7,13 +7,14 @@
 
 namespace trapeze {
 
-/// In the order of paper::kScenes: hair for Furball and flowers for Ladybug, both still and out of focus as
-/// there; the halberd for Fairy, cars for Car, moving and out of focus. About five micropolygons a pixel.
+/// Our four scenes in the order of paper::kScenes: hair for Furball and flowers for Ladybug, both still and
+/// out of focus as there; the halberd for Fairy, cars for Car, moving and out of focus. About five
+/// micropolygons a pixel.
 std::array<StudyScene, 4> scenes_of_the_paper(const StudyBench& bench);
 
-/// With five or more micropolygons a pixel.
+/// The counterpart of Car, with five or more micropolygons a pixel.
 StudyScene car_scene(const StudyBench& bench);
-/// Of the controlled study [Hou10 figure 8].
+/// The scene of the controlled study [Hou10 figure 8].
 StudyScene halberd_scene(const StudyBench& bench);
 
 }  // namespace trapeze

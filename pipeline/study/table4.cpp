@@ -11,8 +11,8 @@
 namespace trapeze {
 namespace {
 
-/// A row of the table: the method for moving scenes and the one for still ones, empty where the paper has
-/// none.
+/// A row of the table: the methods that stand for one of the paper's structures, for moving and for still
+/// scenes; empty where the paper has no figure.
 struct Alternative {
     const char *name, *moving, *still;
 };

@@ -6,11 +6,11 @@
 
 namespace trapeze {
 
-/// Markdown. `scenes` are RIB files (each showing something); a request is shown by the one that fits it
-/// best.
+/// The page in Markdown. `scenes` are RIB files, each showing something; a request is illustrated by the
+/// scene that fits it best.
 std::string compliance_page(const std::vector<std::string>& scenes);
 
-/// What the page says of requests, for tests: names with notes that no table of the program knows.
+/// Names with notes that no table of the program knows: there should be none, which a test checks.
 std::vector<std::string> notes_without_request();
 
 }  // namespace trapeze

@@ -10,9 +10,10 @@ class App;
 
 namespace trapeze {
 
+/// An option, or a word that stands for a file or a name.
 struct OptionText {
     std::vector<std::string> names;    ///< "-t", "--threads"; none: a word by its place
-    std::string value;                 ///< what stands for the value, as "N"; empty: a flag
+    std::string value;                 ///< what --help puts for the value, such as "N"; empty: a flag
     std::string example;               ///< of a value, as "1-10,20"; may be empty
     std::string limits;                ///< of a value, as "[1, 64]"; may be empty
     std::vector<std::string> choices;  ///< the values there are, where they are few
@@ -25,17 +26,18 @@ struct OptionText {
     bool takes_file() const;
 };
 
+/// A command, or the whole program.
 struct CommandText {
     std::string name;  ///< of the program, for the whole table
     std::string about, footer;
-    std::vector<OptionText> words, options;  ///< those that have a place, and those that have a name
+    std::vector<OptionText> words, options;  ///< arguments by place, and options by name
     std::vector<CommandText> commands;       ///< of the program; a command has none
 };
 
-/// A program's or command's table. What is hidden in --help is left out.
+/// The table of a program or of one command, made from the parser. Options that --help hides are left out.
 CommandText table_of(const CLI::App& app);
 
-/// The first words of a help text, for a list in a shell.
+/// The first words of a help text, as a shell shows them beside a name.
 std::string brief(const std::string& about);
 
 /// `words` with `separator` between them.

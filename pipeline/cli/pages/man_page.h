@@ -8,14 +8,14 @@
 
 namespace trapeze {
 
-/// A text as roff shows it, letter for letter: backslashes, hyphens and points at a line's beginning have a
-/// meaning of their own there.
+/// A text that roff shows letter for letter: backslashes, hyphens and points at the beginning of a line have
+/// a meaning there, and are escaped.
 std::string roff_text(std::string_view text);
 
-/// trapeze(1), of the program's table. Pages have no date, so that they are the same bytes for each build.
+/// The page trapeze(1), of the program's table. Pages have no date, so that each build makes the same bytes.
 std::string man_page(const CommandText& program, const std::string& version);
 
-/// trapeze-COMMAND(1), of one of the program's commands.
+/// The page trapeze-COMMAND(1), of one of the program's commands.
 std::string man_page(const CommandText& program, const CommandText& command, const std::string& version);
 
 }  // namespace trapeze

@@ -54,6 +54,7 @@ struct ShaderArguments {
     bool code = false;
 };
 
+/// All options and words of a command line. Which of them a command reads, command_options.cpp says.
 struct Arguments {
     Command command = Command::Render;
     std::vector<std::string> words;  ///< as they were given, without the program's name
@@ -61,7 +62,7 @@ struct Arguments {
     std::string output;  ///< empty: as the scene says
     std::string driver;  ///< replaces every Display's type; "null" writes nothing
     std::optional<std::pair<int, int>> resolution, samples;
-    std::optional<std::array<float, 4>> crop;
+    std::optional<std::array<float, 4>> crop;  ///< x0 x1 y0 y1, as parts of the picture
     std::optional<float> shading_rate;
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
@@ -70,7 +71,7 @@ struct Arguments {
     std::string simd = "best";  ///< as limit_simd() reads it
     int threads = 0;            ///< 0: all; negative: all but so many
     uint32_t seed = 0;
-    size_t memory_bytes = 0;
+    size_t memory_bytes = 0;  ///< for grids and trees; 0: three quarters of the machine's memory
     int regions_at_least = 1;
     std::string progress = "auto";
     std::string stats_file;
@@ -80,9 +81,9 @@ struct Arguments {
     StudyArguments study;
     ShaderArguments shader;
     std::string scenes_folder = "scenes";  ///< of `trapeze compliance`: tiny and gallery are in it
-    std::vector<std::string> first_rib;    ///< RIB to execute before the inputs
-    bool allow_programs = false;           ///< that scenes name
-    double program_seconds = 10;           ///< in which they say nothing
+    std::vector<std::string> first_rib;    ///< lines of RIB that are executed before the inputs
+    bool allow_programs = false;           ///< whether programs that scenes name are run
+    double program_seconds = 10;           ///< seconds without an answer after which a program is ended
     bool safe = false;                     ///< scenes are confined (core/files/access.h)
     std::optional<double> time_limit;      ///< seconds
     bool strict = false, quiet = false, color = true;
@@ -90,8 +91,8 @@ struct Arguments {
 
 bool is_command(std::string_view name);
 
-/// Reads the command line. When it says to stop (help, version, usage errors), prints and returns the exit
-/// code.
+/// Reads the command line. When it says to stop (help, version, usage errors), prints what is asked for and
+/// returns the exit code; else nothing.
 std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments);
 
 }  // namespace trapeze

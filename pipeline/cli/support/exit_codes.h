@@ -7,15 +7,15 @@ enum ExitCode : int {
     kExitOk = 0,
     kExitErrors = 1,  ///< rendered with errors, or with warnings under --strict
     kExitUsage = 2,
-    kExitNoInput = 3,  ///< an input file is missing or unreadable
-    kExitNothingRendered = 4,
-    kExitShaderMissing = 5,  ///< under --strict
-    kExitNoOutput = 6,       ///< an output cannot be written
-    kExitNoMemory = 7,       ///< or a picture that the machine cannot hold
-    kExitTimeLimit = 8,
-    kExitInternal = 70,
-    kExitInterrupted = 130,
-    kExitTerminated = 143,
+    kExitNoInput = 3,          ///< an input file is missing or unreadable
+    kExitNothingRendered = 4,  ///< nothing went wrong, but no picture was made
+    kExitShaderMissing = 5,    ///< under --strict
+    kExitNoOutput = 6,         ///< an output cannot be written
+    kExitNoMemory = 7,         ///< out of memory, or a picture that the machine cannot hold
+    kExitTimeLimit = 8,        ///< of --time-limit
+    kExitInternal = 70,        ///< an exception that nobody expected
+    kExitInterrupted = 130,    ///< by SIGINT: 128 + 2
+    kExitTerminated = 143,     ///< by SIGTERM: 128 + 15
 };
 
 inline constexpr const char* kExitCodeHelp =

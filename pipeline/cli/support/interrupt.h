@@ -11,13 +11,14 @@
 
 namespace trapeze {
 
-/// What is said where the time limit ends the work.
+/// The message when the time limit ends the work.
 std::string time_limit_message();
 
-/// At most one at a time in a process.
+/// Watches for signals and the time limit in a thread of its own, as long as it lives. At most one in a
+/// process.
 class Interrupt {
   public:
-    /// The limit is in seconds from now.
+    /// `time_limit`: seconds from now.
     explicit Interrupt(std::optional<double> time_limit = {});
     ~Interrupt();
     Interrupt(const Interrupt&) = delete;

@@ -1,4 +1,4 @@
-/// The files that an input has made by the time that it looks for them.
+/// The files that an input will have made by the time that it looks for them: for `check`, which makes none.
 #pragma once
 
 #include <set>
@@ -10,10 +10,10 @@ namespace trapeze {
 
 class MadeFiles {
   public:
-    /// A picture or map that a world or a request before makes, had it been carried out.
+    /// Adds a picture or map that an earlier world or request would have made.
     void add(const std::string& path);
-    /// Whether a map or picture of this name is one of them, looked for as maps are: by its own name and
-    /// by other_names(), there and in the folders.
+    /// Whether a map or picture of this name is one of the added files. It is looked for as maps are: by its
+    /// own name and by other_names(), there and in the folders.
     bool has(std::string_view name, const std::vector<std::string>& folders) const;
 
   private:

@@ -5,9 +5,9 @@
 
 namespace trapeze {
 
-/// From now on the process gets no more than four times the budget, which a file, its scene and the grids may
-/// each take, and a gibibyte for everything else. Beyond it ends with kExitNoMemory. Programs built with
-/// sanitizers, whose own memory counts, stay as they are.
+/// Bounds the process's memory from now on: four times the budget, which a file, its scene and the grids may
+/// each take, and a gibibyte for everything else. What needs more ends the process with kExitNoMemory.
+/// Programs built with sanitizers, whose own memory counts, are not bounded.
 void limit_memory(size_t budget);
 
 }  // namespace trapeze

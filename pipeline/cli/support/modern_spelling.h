@@ -6,9 +6,9 @@
 
 namespace trapeze {
 
-/// RenderMan programs' spellings turned into ours: -progress -Progress -t:N -res W H -crop a b c d -frames
-/// ... -recover N, and "render" put first when the command is left out; "help COMMAND" is "COMMAND --help".
-/// `args` without the program's name.
+/// Turns the spellings of RenderMan programs into ours: -progress -Progress -t:N -res W H -crop a b c d
+/// -frames ... -recover N. Puts "render" first when the command is left out; "help COMMAND" becomes "COMMAND
+/// --help". `args` is without the program's name.
 std::vector<std::string> modern_spelling(std::vector<std::string> args);
 
 }  // namespace trapeze

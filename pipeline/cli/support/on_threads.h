@@ -9,13 +9,13 @@
 
 namespace trapeze {
 
-/// How many "-t N" asks for: 0 is all of the machine's, -N all but N.
+/// The number of threads that "-t N" asks for: 0 is all of the machine's, -N all but N; at least 1.
 inline int thread_count(int asked) {
     const int all = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return asked > 0 ? asked : std::max(1, all + asked);
 }
 
-/// Runs something with as many, no more.
+/// Runs `work` with as many threads as are asked for, and no more anywhere in the process meanwhile.
 template <class Work>
 void on_threads(int asked, const Work& work) {
     const int threads = thread_count(asked);

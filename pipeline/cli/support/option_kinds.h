@@ -9,7 +9,7 @@
 
 namespace trapeze {
 
-/// A number from low to high; never one that is none.
+/// A number from low to high, both included; never NaN.
 template <class Number>
 CLI::Validator in_range(Number low, Number high) {
     const auto text_of = [](Number value) {
@@ -30,14 +30,14 @@ CLI::Validator in_range(Number low, Number high) {
         "in [" + text_of(low) + ", " + text_of(high) + "]");
 }
 
-/// A name of a file or folder, or another text that says something.
+/// A text that is not empty, such as the name of a file or folder.
 inline CLI::Validator a_name() {
     return CLI::Validator(
         [](std::string& text) { return text.empty() ? std::string("must not be empty") : std::string(); },
         "");
 }
 
-/// NAME or NAME=TEXT.
+/// A macro for the RIB or the shader, as NAME or NAME=TEXT; NAME is an identifier of C.
 inline CLI::Validator a_macro() {
     return CLI::Validator(
         [](std::string& text) {
@@ -50,8 +50,8 @@ inline CLI::Validator a_macro() {
         "");
 }
 
-/// An option whose text is read by one of parse_values.h's functions; `form` says what it reads, `limits`
-/// within which limits.
+/// Adds an option whose text one of parse_values.h's functions reads into `value`. `form` says in --help and
+/// in errors what is read, `limits` within which limits.
 template <class Value, class Parse>
 CLI::Option* add_parsed(CLI::App& app, const std::string& name, Value& value, Parse parse,
                         const std::string& help, const std::string& form, const std::string& limits = {}) {

@@ -17,9 +17,10 @@ std::optional<size_t> parse_size(std::string_view text);
 /// "90", "90s", "1.5m", "2h": seconds, more than none.
 std::optional<double> parse_duration(std::string_view text);
 
+/// Pixels of a picture's side, at most.
 inline constexpr int kMostPixelsOfSide = 65536;
 
-/// "640x480": from 1 to that.
+/// "640x480": width and height, each from 1 to kMostPixelsOfSide.
 std::optional<std::pair<int, int>> parse_resolution(std::string_view text);
 
 /// "8" or "8x4": samples along x and y, 1 to 64.

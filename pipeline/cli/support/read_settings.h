@@ -1,4 +1,4 @@
-/// What of the command line and of the user's settings says how scenes are read.
+/// How scenes are read, from the command line and the user's settings.
 #pragma once
 
 #include "pipeline/cli/support/arguments.h"
@@ -6,13 +6,15 @@
 
 namespace trapeze {
 
-/// The first argument with which this program is a procedural's host: `trapeze serve-procedural LIBRARY`.
+/// The first argument of the process that the program starts for Procedural "DynamicLoad": `trapeze
+/// serve-procedural LIBRARY`.
 inline constexpr const char* kServeProcedural = "serve-procedural";
 
-/// What the scenes of a command line may reach.
+/// The files that the scenes of a command line may reach: all, or with --safe some folders.
 Access scene_access(const Arguments& arguments);
 
-/// The defaults file, --option, --allow-programs, bounds on memory; `access` is scene_access().
+/// ReadOptions from the defaults file, --option, --allow-programs and the bounds on memory. `access` is
+/// scene_access() and must outlive them.
 ReadOptions read_options(const Arguments& arguments, Access& access);
 
 }  // namespace trapeze

@@ -7,15 +7,15 @@
 
 namespace trapeze {
 
-/// Before anything is opened. Streams that are closed are opened to nowhere, so that no picture takes their
-/// places; a reader that goes away is an error of writing and not the end of the process. Programs that
-/// are started have SIGPIPE as they had.
+/// Makes the streams safe; to be called before anything is opened. Streams that are closed are opened to
+/// nowhere, so that no picture takes their descriptors. A reader that goes away is an error of writing, and
+/// not the end of the process; programs that are started get SIGPIPE as it was.
 void prepare_standard_streams();
 
-/// Prints a whole text; what goes wrong is for printed_all().
+/// Prints a whole text to standard output; printed_all() says later whether that went wrong.
 void print_text(std::string_view text);
 
-/// Whether all that was printed has arrived; says why not.
+/// Whether all that was printed has arrived; says on the terminal why not.
 bool printed_all(Terminal& terminal);
 
 }  // namespace trapeze

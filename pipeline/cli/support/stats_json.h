@@ -9,7 +9,7 @@
 
 namespace trapeze {
 
-/// What is true of all of a run's frames.
+/// What is true of a whole run rather than of one of its frames.
 struct RunFacts {
     std::vector<std::string> words;  ///< the command line, without the program's name
     std::vector<std::string> files;  ///< that were read, archives among them
@@ -17,8 +17,8 @@ struct RunFacts {
     std::vector<FrameStats::Output> maps;  ///< that requests made
 };
 
-/// An object, or an array of them where there is more than one frame; what is true of the run alone where
-/// there is none.
+/// The file's text. An object, or an array of objects where there is more than one frame; without a frame, an
+/// object with what is true of the run.
 std::string stats_json(const std::vector<FrameStats>& frames, const RunFacts& facts);
 
 }  // namespace trapeze

@@ -12,9 +12,11 @@
 
 namespace trapeze {
 
+/// The forms of --progress: a bar that is drawn over, lines of percentages, lines of JSON, or lines as
+/// PRMan's "R90000" ones.
 enum class ProgressStyle { None, Bar, Lines, Json, Prman };
 
-/// "auto" is a bar on a terminal and nothing elsewhere.
+/// The style of a name. "auto" is a bar on a terminal and nothing elsewhere.
 ProgressStyle progress_style(const std::string& name);
 
 /// What is being done, as progress names it.
@@ -24,6 +26,7 @@ struct Work {
     int frame = 0;      ///< 0: the file has none
 };
 
+/// The only writer to standard error while work goes on. All functions are thread-safe.
 class Terminal {
   public:
     struct Settings {
@@ -34,19 +37,22 @@ class Terminal {
     };
     explicit Terminal(const Settings& settings);
 
+    /// Writes a message as its severity asks; after most_messages only counts it.
     void show(const Diagnostic& diagnostic);
     void say(const std::string& line);
-    /// What nobody needs in a log: only if standard error is a terminal.
+    /// Writes a line that nobody needs in a log: only if standard error is a terminal.
     void say_on_terminal(const std::string& line);
-    /// What repeated kinds were not shown: one line each.
+    /// Writes a line for each kind of message that was repeated and so not shown each time.
     void summarise(const Diagnostics& diagnostics);
 
-    /// `label` is what a bar or line begins with.
+    /// Begins the progress of a piece of work; `label` is what a bar or line begins with.
     void begin_progress(const std::string& label, Work work);
+    /// Says which stage of the work begins, by its name in the statistics.
     void stage(std::string_view name);
+    /// Says how much of the work is done, from 0 to 1.
     void progress(double fraction);
     void end_progress();
-    /// What keeps the work waiting, between two steps of it.
+    /// Says what keeps the work waiting, between two steps of it.
     void wait(const std::string& what);
 
   private:

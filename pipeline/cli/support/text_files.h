@@ -9,16 +9,16 @@
 
 namespace trapeze {
 
-/// Whether files can be made there; says where not. Before minutes are spent on what cannot be written. Empty
-/// names are left out.
+/// Whether files can be made at these paths; reports where not. Asked first, before minutes are spent on what
+/// cannot be written. Empty names are left out.
 bool can_write(std::initializer_list<std::string> paths, Diagnostics& diagnostics);
 
-/// Whether a report of the run may be written there: confined (--safe), below the working folder alone; else
-/// what is there outside of the working folder is only written over if it is such a report. Says why not, and
-/// that it lies outside.
+/// Whether a report of the run may be written at a path. Confined runs (--safe) write only below the working
+/// folder; other runs write over a file outside of the working folder only if it is such a report. Reports
+/// why not, and that the path lies outside.
 bool may_write_report(const std::string& path, const Access& access, Diagnostics& diagnostics);
 
-/// Says why not.
+/// Writes a text file whole, or not at all; reports why not.
 bool write_text(const std::string& path, const std::string& text, Diagnostics& diagnostics);
 
 }  // namespace trapeze

@@ -7,12 +7,13 @@
 
 namespace trapeze {
 
-/// & < > " ' as entities: for text and for values of attributes.
+/// A text for HTML, also for values of attributes: & < > " ' as entities.
 std::string escaped(std::string_view text);
 
+/// RFC 4648, with padding.
 std::string base64(std::span<const unsigned char> bytes);
 
-/// JSON that may stand in a <script>: no '<', so that no name in it can end the element.
+/// JSON for a <script> element: '<' is written as an escape, so that no name in it can end the element.
 std::string script_safe(std::string_view json);
 
 }  // namespace trapeze

@@ -1,4 +1,4 @@
-/// What every report is: one HTML file that loads nothing from anywhere, light and dark.
+/// The frame of every report: one HTML file that loads nothing from anywhere, light and dark.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace trapeze {
 
-/// To the open body.
+/// The page up to the open <body>, with the style sheet.
 std::string html_head(const std::string& title);
 
-/// A value with its name below it, of a line of such.
+/// A figure with its name below it; a line of these heads a report.
 std::string html_fact(const std::string& value, const std::string& name);
 
 /// An entry of a description list.
 std::string html_entry(const std::string& name, const std::string& value);
 
-/// The machine's entries.
+/// The entries that describe the machine.
 std::string html_machine(const Machine& machine);
 
 }  // namespace trapeze

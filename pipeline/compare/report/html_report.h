@@ -8,6 +8,7 @@
 
 namespace trapeze {
 
+/// The whole file's text.
 std::string html_report(const Comparison& comparison);
 
 }  // namespace trapeze

@@ -7,6 +7,7 @@
 
 namespace trapeze {
 
+/// HTML of both sections; pictures are inside it, as data: URLs.
 std::string report_pictures(const Comparison& comparison);
 
 }  // namespace trapeze

@@ -8,8 +8,8 @@
 namespace trapeze {
 
 /// Up to `count` squares of `side` pixels (less where the picture is smaller) that do not overlap, the worst
-/// first: by the sum of squared differences to the reference, at every pixel that of the worst method. Of the
-/// last sample rate.
+/// first: by the sum of squared differences to the reference, of the worst method at every pixel, at the last
+/// sample rate.
 std::vector<PixelRect> worst_places(const Comparison& comparison, int side, size_t count);
 
 }  // namespace trapeze

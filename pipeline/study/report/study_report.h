@@ -8,8 +8,11 @@
 
 namespace trapeze {
 
+/// Tables and checks for a terminal.
 std::string study_text(const StudyResult& result);
+/// Every figure, and what it takes to measure it again.
 nlohmann::ordered_json study_json(const StudyResult& result);
+/// The whole file's text, plots included.
 std::string study_html(const StudyResult& result);
 
 }  // namespace trapeze

@@ -9,43 +9,47 @@
 
 namespace trapeze::scenes {
 
+/// A cage while it is put together.
 struct Cage {
     std::vector<V3d> points, colors;  ///< no colours: that of the attributes
-    Integers sizes, corners;          ///< of the faces, as SubdivisionMesh has them
+    Integers sizes, corners;          ///< numbers of points of each face; the points, face by face
 
     Integers holes;  ///< faces that are not drawn
 
+    /// A chain of points along which the surface keeps an edge; sharpness as in RISpec's "crease".
     struct Crease {
         Integers chain;
         double sharpness;
     };
     std::vector<Crease> creases;
 
+    /// Adds a point; returns its number.
     int add(const V3d& point, const V3d& color);
     void face(const Integers& points_of_face);
-    /// None where the sharpness is 0.
+    /// Adds a crease; none where the sharpness is 0.
     void crease(const Integers& chain, double sharpness);
-    /// Faces on a border are drawn up to it.
+    /// Writes the SubdivisionMesh. Faces on a border are drawn up to it.
     void write(RibWriter& rib) const;
 };
 
-/// A ring of a turned thing about the y axis; of radius 0: its pole.
+/// A ring of a turned thing: points at a height on the y axis, round it. Radius 0: the pole at an end.
 struct Ring {
     double y, radius;
     V3d color;
     double sharpness = 0;
 };
 
+/// How rings become a surface.
 struct Lathe {
     int sides = 8;
     double width = 1, depth = 1;  ///< factors of the radius along x and z
     double ridges = 0;            ///< sharpness of the lines from ring to ring
 };
 
-/// Closed at both ends, by a pole or a flat face.
+/// Adds a turned thing, closed at both ends by a pole or a flat face.
 void add_lathe(Cage& cage, const Lathe& lathe, const std::vector<Ring>& rings);
 
-/// A ball: a cube that the subdivision rounds.
+/// Adds a ball: a cube that the subdivision rounds.
 void add_stud(Cage& cage, const V3d& center, double radius, const V3d& color);
 
 /// A flat thing in the plane of x and y: a front and a back sheet over a grid of points, with rims where the

@@ -7,7 +7,7 @@ namespace trapeze::scenes {
 
 enum class BodyPiece { kPaint, kGlass, kTrim, kTailLamps };
 
-/// The faces of that piece; their colour is that of the attributes.
+/// Writes the faces of one piece; their colour is that of the current attributes.
 void write_car_body(RibWriter& rib, BodyPiece piece);
 
 }  // namespace trapeze::scenes

@@ -6,6 +6,7 @@
 
 namespace trapeze::scenes {
 
+/// Both ends along y, in the model's units.
 inline constexpr double kHalberdButt = -3.3, kHalberdTip = 6.7;
 
 void write_halberd(RibWriter& rib);

@@ -9,21 +9,23 @@ namespace trapeze::scenes {
 
 using Corners = std::array<V3d, 4>;  ///< around the quadrilateral
 
+/// Quadrilaterals that are written as one mesh, each with corners of its own, so that colours need not be
+/// continuous.
 class QuadMesh {
   public:
     void add(const Corners& places, const Corners& colors);
     void add(const Corners& places, const V3d& color) { add(places, Corners{color, color, color, color}); }
 
-    /// Upright, its lower edge from `a` to `b`; the colour goes from `low` to `high`.
+    /// Adds an upright quadrilateral, its lower edge from `a` to `b`; the colour goes from `low` to `high`.
     void add_wall(const V3d& a, const V3d& b, double height, const V3d& low, const V3d& high);
 
-    /// On the ground: a rectangle of x and z.
+    /// Adds a rectangle of x and z on the ground.
     void add_ground(const V3d& from, const V3d& to, const V3d& color);
 
-    /// Along the axes; without a lower side.
+    /// Adds a box along the axes, without a lower side.
     void add_box(const V3d& low, const V3d& high, const V3d& color);
 
-    /// A lamp: facing along z, towards the eye.
+    /// Adds a lamp: a rectangle that faces along z, towards the eye.
     void add_lamp(const V3d& center, double half_width, double half_height, const V3d& color);
 
     void write(RibWriter& rib) const;

@@ -1,4 +1,4 @@
-/// What the scenes' generators write: requests with arguments of all kinds, through the writer of RIB, into a
+/// The writer that the scenes' generators use: requests with arguments of all kinds, into a text.
 /// text.
 #pragma once
 
@@ -16,7 +16,7 @@ using Numbers = std::vector<double>;
 using Integers = std::vector<int>;
 using Words = std::vector<std::string>;
 
-/// A block that ends with the scope.
+/// A block that ends with the C++ scope that it is in.
 class RibBlock;
 
 class RibWriter {
@@ -31,14 +31,15 @@ class RibWriter {
     void comment(std::string_view words) { writer_.comment("# " + std::string(words)); }
     void blank_line() { writer_.comment(""); }
 
-    /// Numbers as they are, strings in quotes, vectors as arrays.
+    /// Writes a request: numbers as they are, strings in quotes, vectors as arrays.
     template <class... Arguments>
     void request(std::string_view name, const Arguments&... arguments) {
         writer_.request(name);
         (argument(arguments), ...);
     }
 
-    /// A transformation at the shutter's opening and closing; once where these are the same.
+    /// Writes a transformation as a motion block from the shutter's opening to its closing; as one request
+    /// where the numbers are the same.
     void moving(std::string_view name, const Numbers& open, const Numbers& close);
 
     RibBlock block(std::string_view kind);  ///< "Attribute": AttributeBegin ... AttributeEnd
@@ -73,7 +74,7 @@ inline RibBlock RibWriter::block(std::string_view kind) {
     return RibBlock(*this, kind);
 }
 
-/// The numbers of points, colours or vectors one after another.
+/// The components of points, colours or vectors, one after another.
 Numbers flattened(std::span<const V3d> points);
 
 }  // namespace trapeze::scenes

@@ -14,14 +14,16 @@ namespace trapeze::scenes {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// Numbers of one thing, by its index: what one thing draws changes nothing for another.
+/// Random numbers of one thing, by its kind and index: what one thing draws changes nothing for another, so
+/// that more hairs or flowers leave the others as they are.
 class Chance {
   public:
     Chance(uint32_t kind, uint32_t index) : seed_(hash(kind, index)) {}
 
+    /// Uniform in [0, 1).
     double unit() { return static_cast<double>(unit_float(hash(seed_, count_++))); }
     double between(double low, double high) { return low + (high - low) * unit(); }
-    /// Uniform on the sphere.
+    /// A unit vector, uniform on the sphere.
     V3d direction() {
         const double z = between(-1, 1), angle = between(0, 2 * kPi), r = std::sqrt(1 - z * z);
         return {r * std::cos(angle), r * std::sin(angle), z};
@@ -31,28 +33,31 @@ class Chance {
     uint32_t seed_, count_ = 0;
 };
 
-/// The camera's part of a scene.
+/// The camera of a scene and its quality. Lengths are in the scene's units.
 struct Shot {
     std::string name;
     std::vector<std::string> comments;  ///< lines for the reader of the file
     V3d eye{0, 0, 0};
     double pitch = 0;  ///< degrees, downwards
     double fov = 30;
+    /// As RISpec's DepthOfField; f_stop is that at defocus 1, and 0 a pinhole.
     double f_stop = 0, focal_length = 1, focal_distance = 1;  ///< f_stop at defocus 1
     double shading_rate = 1;
 };
 
-/// A whole file: what is in the world is written by a function.
+/// A whole RIB file of one frame; `write_world` writes what is in the world.
 std::string scene_of(const Shot& shot, void (*write_world)(RibWriter&, const SceneParameters&),
                      const SceneParameters& parameters);
 
-/// A transformation whose numbers change by `change` while the shutter is open, `middle` in between.
+/// Writes a transformation whose numbers change by `change`, times parameters.motion, while the shutter is
+/// open, and are `middle` at half of it.
 void write_moving(RibWriter& rib, std::string_view request, const Numbers& middle, const Numbers& change,
                   const SceneParameters& parameters);
 
-/// A plane or sky in one piece: the corners in the order of a bilinear patch.
+/// Writes a plane or sky in one piece: the corners are in the order of a bilinear patch.
 void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
 
+// The scenes of scene_names().
 std::string hair_scene(const SceneParameters& parameters);
 std::string furball_scene(const SceneParameters& parameters);
 std::string halberd_scene(const SceneParameters& parameters);

@@ -8,6 +8,7 @@
 
 namespace trapeze {
 
+/// What makes a scene larger, faster or more blurred than it is by itself.
 struct SceneParameters {
     /// Multiplies the number of micropolygons: through the number of hairs or flowers in the scenes of that
     /// name, through ShadingRate in the others.
@@ -21,7 +22,8 @@ struct SceneParameters {
 /// The names that scene_text() knows.
 std::vector<std::string_view> scene_names();
 
-/// Empty for an unknown name. Numbers of `parameters` are finite, scale is positive, the others not negative.
+/// The scene as RIB; empty for an unknown name. Numbers of `parameters` must be finite, scale positive, the
+/// others not negative.
 std::string scene_text(std::string_view name, const SceneParameters& parameters);
 
 }  // namespace trapeze
