@@ -11,6 +11,7 @@ namespace trapeze {
 /// Image::id of a pixel that shows nothing.
 inline constexpr uint32_t kNoPrimitive = ~uint32_t{0};
 
+/// Float planes of a frame. Equal pictures are equal in every bit.
 struct Image {
     int width = 0, height = 0;  ///< of the whole picture
     PixelRect window;           ///< the pixels that are here: the crop
@@ -24,7 +25,7 @@ struct Image {
                               ///< aov_layout(); not exposed
     int aov_channels = 0;
 
-    /// Of a pixel of the window, in z and id; times 4 in rgba, times aov_channels in aovs.
+    /// Place of a pixel of the window in z and id; times 4 in rgba, times aov_channels in aovs.
     size_t index(int x, int y) const {
         return static_cast<size_t>(y - window.y0) * window.width() + static_cast<size_t>(x - window.x0);
     }

@@ -14,8 +14,8 @@ namespace trapeze {
 /// Thread-safe.
 using DepthHeight = std::function<float(const V3f& camera_point)>;
 
-/// By the name of a file; empty when it cannot be read, which is reported once, where it is first named.
-/// Thread-safe.
+/// Finds the heights over a depth map by the name of its file; empty when that cannot be read, which is
+/// reported once, where it is first named. Thread-safe.
 using FindDepthHeight = std::function<DepthHeight(const std::string& name, SourceLocation location)>;
 
 }  // namespace trapeze

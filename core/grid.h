@@ -24,6 +24,8 @@
 
 namespace trapeze {
 
+/// A grid has at most this many micropolygons along a side, so that MicropolygonId packs u and v into four
+/// bits each.
 inline constexpr int kMaxGridSide = 16;  ///< micropolygons along u or v
 inline constexpr int kMaxGridVertices = (kMaxGridSide + 1) * (kMaxGridSide + 1);
 

@@ -17,7 +17,7 @@ struct Hit {
     bool operator==(const Hit&) const = default;
 };
 
-/// Nearer first; equal depths by smaller id.
+/// The order of hits along a sample: nearer first, equal depths by smaller id.
 constexpr bool in_front(const Hit& a, const Hit& b) {
     return a.depth < b.depth || (a.depth == b.depth && a.id < b.id);
 }

@@ -52,7 +52,7 @@ HWY_INLINE hn::Mask<D> negative(D d, V v) {
     return hn::RebindMask(d, hn::Lt(hn::BitCast(di, v), hn::Zero(di)));
 }
 
-/// std::min and std::max: the first argument of equals, and where one is NaN.
+/// std::min and std::max in lanes: the first argument where both are equal, and where one is NaN.
 template <class V>
 HWY_INLINE V min_of(V a, V b) {
     return hn::IfThenElse(hn::Lt(b, a), b, a);
@@ -62,7 +62,7 @@ HWY_INLINE V max_of(V a, V b) {
     return hn::IfThenElse(hn::Lt(a, b), b, a);
 }
 
-/// Where the sign of an edge function counts as negative on both or on neither.
+/// Where both masks are true, or neither is: edge functions of the same sign.
 template <class M>
 HWY_INLINE M alike(M a, M b) {
     return hn::Not(hn::Xor(a, b));
@@ -70,15 +70,16 @@ HWY_INLINE M alike(M a, M b) {
 
 }  // namespace predicate_lanes
 
-/// A quad along lanes of rays to their plane.
+/// A quad whose corners are moved along the lanes' rays to the plane of the rays' origins, and the corners'
+/// depths.
 template <class V>
 struct QuadLanes {
     V a00, a10, a01, a11, b00, b10, b01, b11;
     V z00, z10, z01, z11;
 };
 
-/// `vertex(component, corner)` gives lanes of coordinate 0, 1, 2 (x, y, z in the rays' turned axes) of a
-/// corner at the rays' times.
+/// Moves a quad's corners along rays. `vertex(component, corner)` gives lanes of coordinate 0, 1, 2 (x, y, z
+/// in the rays' turned axes) of a corner at the rays' times.
 template <class V, class Vertex>
 HWY_INLINE QuadLanes<V> quad_lanes(V ox, V oy, V oz, V ux, V uy, const Vertex& vertex) {
     const auto offset = [](V x, V o, V u, V dz) HWY_ATTR { return hn::Sub(hn::Sub(x, o), hn::Mul(u, dz)); };

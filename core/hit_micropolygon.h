@@ -42,14 +42,14 @@ namespace trapeze {
 /// signs would depend on the order of operands.
 inline constexpr float kLargestCoordinate = 1e30f;
 
-/// Corners in the order 00, 10, 01, 11, at the ray's time, in the ray's turned axes.
+/// A quad's corners in the order 00, 10, 01, 11, at the ray's time, in the ray's turned axes (TurnedRay).
 struct Quad {
     float x[4], y[4], z[4];
 };
 
 enum QuadCorner { k00 = 0, k10 = 1, k01 = 2, k11 = 3 };
 
-/// Where a moving vertex is: never fused, the same in all methods.
+/// One coordinate of a moving vertex. Never fused into a multiply-add: all methods must round alike.
 inline float position_at(float start, float delta, float local_time) {
     return start + local_time * delta;
 }
@@ -102,7 +102,7 @@ inline bool inside(const Edges& e) {
     return crosses(e, k00, k10) ^ crosses(e, k10, k11) ^ crosses(e, k11, k01) ^ crosses(e, k01, k00);
 }
 
-/// Twice the signed area.
+/// Twice the signed area of the quad.
 inline float area(const Edges& e) {
     return (e.c_bottom + e.c_right) + (e.c_top + e.c_left);
 }

@@ -31,12 +31,13 @@ struct Frame {
 /// and their normal. Directions that vanish or are parallel leave the choice free.
 Frame frame_of(const V3d& first, const V3d& second);
 
-/// A bound of something that moves, in its own frame; time01 is 0 at shutter open, 1 at shutter close.
+/// A bound of something that moves, in its own frame. time01 is 0 at shutter open, 1 at shutter close.
 struct HyperTrapezoid {
     Frame frame;
     std::vector<Box3f> keys;  ///< in the frame; 1 or 2^m + 1 of them
 
     int key_count() const { return static_cast<int>(keys.size()); }
+    /// The box at a time, in the frame: linear between the two keys around it.
     Box3f at(float time01) const;
 
     /// Whether a point of space is inside at a time.
@@ -52,7 +53,7 @@ struct HyperTrapezoid {
     double expected_half_area() const;
 };
 
-/// Grows a box by kBoundRounding of its largest coordinate.
+/// A box grown on all sides by kBoundRounding of its largest coordinate.
 Box3f grown_for_rounding(const Box3f& box);
 
 }  // namespace trapeze

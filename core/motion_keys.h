@@ -6,7 +6,7 @@
 
 namespace trapeze {
 
-/// 2^6 + 1 keys: poses of what turns often while the shutter is open.
+/// The most keys, 2^6 + 1: enough for poses of what turns several times while the shutter is open.
 inline constexpr int kMaxKeyCount = 65;
 
 /// Whether a number of keys is 1 or 2^m + 1, so that coarser keys are a part of finer ones.
@@ -25,7 +25,7 @@ struct MotionSegment {
     float local = 0;
 };
 
-/// key_count - 1 is a power of two, so that the scaling below is exact.
+/// The segment that a time lies in. key_count - 1 is a power of two, so that the scaling below is exact.
 inline MotionSegment segment_at(float time01, int key_count) {
     if (key_count <= 1) return {};
     const float scaled = time01 * static_cast<float>(key_count - 1);

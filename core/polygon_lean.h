@@ -7,8 +7,8 @@
 
 namespace trapeze {
 
-/// Those whose normal (object space, of any length) leans less than this towards the z axis, as a sine, count
-/// as parallel to it.
+/// Polygons count as parallel to the z axis when their normal (object space, of any length) leans less than
+/// this towards it, as a sine.
 inline constexpr double kLeastPolygonLean = 1.0 / 64;
 
 inline bool has_place_derivatives(const V3d& normal) {

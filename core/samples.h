@@ -10,7 +10,8 @@
 
 namespace trapeze {
 
-/// Structure of arrays. Samples of one pixel follow each other, pixels run row by row through `pixels`.
+/// Samples as a structure of arrays. Samples of one pixel follow each other; pixels run row by row through
+/// `pixels`.
 struct SampleTile {
     PixelRect
         pixels;  ///< raster pixels, x0 y0 .. x1 y1 exclusive; may reach past the image by the filter's radius
@@ -30,7 +31,8 @@ struct SampleTile {
     }
 };
 
-/// Side of the tiles in which samples are made, traced and composited.
+/// Side, in pixels, of the tiles in which samples are made, traced and composited unless a method asks for
+/// others.
 inline constexpr int kTileSide = 16;
 
 }  // namespace trapeze

@@ -9,11 +9,11 @@
 
 namespace trapeze {
 
-/// The library's name of a compression that is asked for in lower case; nothing where the format has none
-/// such.
+/// The library's name of a compression that a Display asks for in lower case; nothing where the format has no
+/// such compression.
 std::optional<std::string> compression_named(FileFormat format, std::string_view name);
 
-/// "none, lzw, zip": what there is, as it is asked for.
+/// The compressions that a format has, as Displays ask for them: "none, lzw, zip".
 std::string compression_names(FileFormat format);
 
 }  // namespace trapeze

@@ -13,8 +13,8 @@ namespace trapeze {
 
 enum class FileFormat { OpenExr, Tiff, Png, Jpeg, Targa, Bmp };
 
-/// RISpec 4.1.2, Quantize: round(one * value + dither * random in [-1, 1)) clamped to [min, max], one = 0:
-/// floats. A Display's own "quantize" says besides where 0 goes.
+/// How numbers become a file's whole numbers (RISpec 4.1.2, Quantize): round(one * value + dither * random in
+/// [-1, 1)), clamped to [min, max]; one = 0: floats. A Display's own "quantize" also says what 0 becomes.
 struct Quantization {
     float one = 255, min = 0, max = 255, dither = 0.5f;
     float zero = 0;
@@ -24,10 +24,11 @@ struct Quantization {
     void make_float() { one = zero = 0; }
 };
 
+/// What is written to one file, and how.
 struct DisplayPlan {
     std::string path;
     FileFormat format = FileFormat::OpenExr;
-    bool depth_map = false;  ///< a depth picture for shadows, by the drivers that are for them
+    bool depth_map = false;  ///< depths for shadow maps, by a driver that is for these
     bool rgb = true, alpha = true, depth = false, id = false;
     /// An output variable, alone in its file: none of the above. Colours are named R G B and a float Y, as
     /// in any picture of one; points, vectors and normals of a variable N are N.X N.Y N.Z, as a Z alone would
@@ -41,27 +42,29 @@ struct DisplayPlan {
     bool srgb = false;                  ///< colours of whole numbers are encoded by the sRGB curve
 };
 
-/// Whether its driver writes depths for shadow maps: "zfile" and "shadow".
+/// Whether the display's driver writes depths for shadow maps: "zfile" and "shadow".
 bool makes_depth_map(const Display& display);
 
-/// Whether depths can be written to a file of this name, which a driver "file" writes as its extension says.
+/// Whether a driver "file", which chooses a format by the name's extension, can write depths to a file of
+/// this name.
 bool holds_depth(const std::string& file);
 
-/// The names of the channels of its output variable.
+/// Names of the channels of the plan's output variable.
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
 
-/// What its driver and its file's extension choose; nothing for driver "null".
+/// The format that the display's driver and its file's extension choose; nothing for driver "null".
 std::optional<FileFormat> file_format(const Display& display);
 
-/// Gives its file another name, written as the extension says. What it asks of a format that the file no
-/// longer has, a compression and attributes, it asks no more.
+/// Gives the display's file another name, written as the extension says. A compression and attributes that
+/// the new format does not have are dropped.
 void rename(Display& display, std::string name);
 
-/// Whether it asks for a file of whole numbers, by its format or by Quantize.
+/// Whether the display asks for a file of whole numbers, by its format or by Quantize.
 bool asks_for_whole_numbers(const Display& display, const Options& options);
 
-/// Nothing when there is nothing to write: driver "null", a window beside a file of the same name or picture,
-/// or a mode or driver that is not supported, of which it warns. `layout` is aov_layout(options).
+/// The plan of a display; nothing when there is nothing to write: for driver "null", for a window when
+/// another display already writes the picture or a file of that name, and, with a warning, for a mode or
+/// driver that is not supported. `layout` is aov_layout(options).
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
                                         const AovLayout& layout, Diagnostics& diagnostics);
 

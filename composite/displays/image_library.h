@@ -12,6 +12,7 @@
 
 namespace trapeze {
 
+/// How a number of a file, or of the pixels given, is stored.
 enum class NumberType { Uint8, Uint16, Float };
 
 /// A picture's file but for its pixels, in OpenImageIO's words.
@@ -29,7 +30,7 @@ struct ImageForm {
     std::vector<std::pair<std::string, Value>> attributes;  ///< in the order in which they are set
 };
 
-/// A file, or why there is none.
+/// A file's bytes, or why there are none.
 struct ImageBytes {
     std::vector<unsigned char> bytes;
     std::string problem;
@@ -38,14 +39,14 @@ struct ImageBytes {
 /// What the module offers: the program itself is not linked with OpenImageIO. Any thread may use it.
 class ImageLibrary {
   public:
-    /// The pixels row by row, `form.channels` numbers of type `numbers` each.
+    /// Encodes pixels: row by row, `form.channels` numbers of type `numbers` each.
     virtual ImageBytes encode(const ImageForm& form, NumberType numbers, const void* pixels) const = 0;
 
   protected:
     ~ImageLibrary() = default;
 };
 
-/// Null, with *problem set, where the module cannot be opened.
+/// The library, from the module "displays"; null, with *problem set, where that cannot be opened.
 const ImageLibrary* image_library(std::string* problem);
 
 }  // namespace trapeze

@@ -30,7 +30,7 @@ const char* format_name(FileFormat format) {
     return "";
 }
 
-/// Of a side; beyond, libjpeg ends the program.
+/// Pixels of a JPEG's side, at most; beyond, libjpeg ends the program.
 constexpr int kMostJpegPixels = 65500;
 
 /// How the picture's pixels become the file's.
@@ -72,7 +72,7 @@ Encoding encoding_of(const PictureToWrite& picture) {
     return e;
 }
 
-/// One channel of a pixel in the file's scale: 0..1 for what is quantized.
+/// One channel of a pixel in the file's scale: 0..1 for numbers that are quantized.
 float encoded(const Encoding& e, const float* pixel, int channel) {
     if (channel == 3) return pixel[3];
     float value = pixel[channel];
@@ -80,7 +80,8 @@ float encoded(const Encoding& e, const float* pixel, int channel) {
     return e.srgb ? srgb_encoded(value) : value;
 }
 
-/// Dither from the pixel's place, so that the file is the same for any order of work and any crop.
+/// Quantizes a value. The dither follows from the pixel's place, so that the file is the same for any order
+/// of work and any crop.
 int quantized(const Quantization& q, float value, int x, int y, int channel) {
     const uint32_t bits =
         hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(channel));
@@ -108,7 +109,7 @@ std::vector<Value> encode_pixels(const Image& image, const Encoding& e) {
     return out;
 }
 
-/// How numbers of colours stand for light; empty for others.
+/// How numbers of colours stand for light, for the file's metadata; empty for other pictures.
 std::string transfer_text(const PictureToWrite& picture, const Encoding& e) {
     const bool is_aov = picture.plan.aov.has_value();
     if (!(is_aov ? picture.plan.aov_is_color : picture.plan.rgb)) return {};
@@ -117,7 +118,7 @@ std::string transfer_text(const PictureToWrite& picture, const Encoding& e) {
     return gamma == 1 || is_aov ? "linear" : fmt::format("gamma {:g}", gamma);
 }
 
-/// "name: value; name: value"
+/// The metadata in one text: "name: value; name: value".
 std::string description(const PictureToWrite& picture, const Encoding& e) {
     auto metadata = picture.info.metadata;
     if (picture.info.frame) metadata.emplace_back("frame", std::to_string(*picture.info.frame));
@@ -130,9 +131,9 @@ std::string description(const PictureToWrite& picture, const Encoding& e) {
     return text;
 }
 
-/// All that the file says beside its pixels. width and height are the crop window's, full_width and
-/// full_height the whole picture's. The matrices of a TIFF say where the camera stood, as readers of
-/// shadow maps want to know.
+/// All that the file says besides its pixels. width and height are the crop window's, full_width and
+/// full_height the whole picture's. The matrices of a TIFF say where the camera stood, for readers of shadow
+/// maps.
 ImageForm make_form(const PictureToWrite& picture, const Encoding& e) {
     const Image& image = picture.image;
     ImageForm form;
@@ -174,7 +175,7 @@ ImageForm make_form(const PictureToWrite& picture, const Encoding& e) {
     return form;
 }
 
-/// Depth goes as it is; all else is brought into the file's numbers first.
+/// Encodes the picture's file. Depth is written as it is; all else is first brought into the file's numbers.
 ImageBytes encode(const ImageLibrary& library, const Image& image, const Encoding& e, const ImageForm& form) {
     if (e.depth) return library.encode(form, NumberType::Float, image.z.data());
     if (e.type == NumberType::Float)

@@ -21,7 +21,7 @@ namespace {
 constexpr int kRowsAtOnce =
     64;  ///< between looks at whether the render is cancelled; a multiple of a ZIP block's 16 rows
 
-/// OpenEXR's idea of a stream, on a file of ours. OutputFile remembers failures that OpenEXR's destructors
+/// A stream, as OpenEXR wants it, on a file of ours. OutputFile remembers failures that OpenEXR's destructors
 /// swallow.
 class Stream : public Imf::OStream {
   public:
@@ -40,7 +40,7 @@ class Stream : public Imf::OStream {
     OutputFile& file_;
 };
 
-/// ZIP where no name is given: lossless, and what most readers expect.
+/// OpenEXR's compression of a name; ZIP where no name is given: lossless, and what most readers expect.
 Imf::Compression compression_of(const std::string& name) {
     constexpr std::pair<std::string_view, Imf::Compression> kNames[] = {
         {"none", Imf::NO_COMPRESSION},   {"rle", Imf::RLE_COMPRESSION},     {"zips", Imf::ZIPS_COMPRESSION},
@@ -51,8 +51,8 @@ Imf::Compression compression_of(const std::string& name) {
     return found == std::end(kNames) ? Imf::ZIP_COMPRESSION : found->second;
 }
 
-/// Screen space has (0, 0) in the middle and y up; OpenEXR's NDC runs from (0, 0) at the upper left of the
-/// display window to (1, 1) at the lower right (ImfStandardAttributes.h, worldToNDC).
+/// The matrix to OpenEXR's NDC, which runs from (0, 0) at the upper left of the display window to (1, 1) at
+/// the lower right (ImfStandardAttributes.h, worldToNDC); screen space has (0, 0) in the middle and y up.
 M44f ndc_from_camera(const Camera& camera) {
     const M44f ndc_from_screen(0.5f, 0, 0, 0, 0, -0.5f, 0, 0, 0, 0, 1, 0, 0.5f, 0.5f, 0, 1);
     return screen_from_camera(camera) * ndc_from_screen;
@@ -95,7 +95,7 @@ Imf::Header make_header(const PictureToWrite& picture) {
     return header;
 }
 
-/// The largest finite half stands for what is larger: no infinities in files.
+/// Converts to halves. What is larger becomes the largest finite half: no infinities in files.
 void to_halves(const float* from, size_t count, Imath::half* to) {
     for (size_t i = 0; i < count; ++i) to[i] = Imath::half(std::clamp(from[i], -65504.0f, 65504.0f));
 }

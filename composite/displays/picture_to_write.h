@@ -6,6 +6,7 @@
 
 namespace trapeze {
 
+/// One file to be written: the picture, and how.
 struct PictureToWrite {
     const Image& image;  ///< its window is not empty
     const RenderContext& context;
@@ -13,8 +14,7 @@ struct PictureToWrite {
     const OutputInfo& info;
 };
 
-/// Whether the plan is for an output variable that the picture does not have, which is an error of these
-/// words.
+/// Whether the plan is for an output variable that the picture does not have; the error is kNoVariables.
 inline bool lacks_variable(const PictureToWrite& picture) {
     return picture.plan.aov &&
            picture.image.aov_channels < picture.plan.aov->offset + picture.plan.aov->channels;

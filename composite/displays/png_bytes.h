@@ -7,8 +7,8 @@
 
 namespace trapeze {
 
-/// Of width * height pixels of red, green and blue, row by row, already encoded by the sRGB curve. Throws
-/// std::runtime_error when OpenImageIO cannot.
+/// Encodes width * height pixels of red, green and blue, row by row, which are encoded by the sRGB curve
+/// already. Throws std::runtime_error when OpenImageIO cannot.
 std::vector<unsigned char> png_bytes(int width, int height, std::span<const uint8_t> rgb);
 
 }  // namespace trapeze

@@ -4,7 +4,7 @@
 
 namespace trapeze {
 
-/// The sRGB curve (IEC 61966-2-1), from linear values; 0 for what is negative or no number.
+/// Encodes a linear value by the sRGB curve (IEC 61966-2-1); 0 for what is negative or no number.
 inline float srgb_encoded(float linear) {
     if (!(linear > 0)) return 0;
     if (linear <= 0.0031308f) return 12.92f * linear;

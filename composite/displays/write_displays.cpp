@@ -13,7 +13,7 @@
 namespace trapeze {
 namespace {
 
-/// "a.N.exr" for a variable N in a file "a.exr" that another display of the picture has.
+/// The name for a variable N whose file "a.exr" another display of the picture has: "a.N.exr".
 std::string beside(const DisplayPlan& plan, const Display& display, const std::set<std::string>& places) {
     const std::filesystem::path path(plan.path);
     const std::string shown = plan.aov ? plan.aov->name : display.mode.empty() ? "rgba" : display.mode;
@@ -26,7 +26,7 @@ std::string beside(const DisplayPlan& plan, const Display& display, const std::s
     return apart;
 }
 
-/// Empty, or what went wrong.
+/// Writes one file. Returns what went wrong, or nothing.
 std::string write_picture(const PictureToWrite& picture, const OutputPlace& place) {
     if (!place.problem.empty()) return place.problem;
     OutputFile file(place.path);
@@ -52,7 +52,8 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
             error = "the crop window holds no pixels";
         } else {
             OutputPlace place = place_to_write(plan->path, *info.access, display.location, diagnostics);
-            // Of several pictures for other machines' folders one alone can have the name.
+            // Pictures that were meant for folders of other machines all go into the working folder: of
+            // several with the same name there only the first can have it.
             if (place.name == plan->path || !places.contains(place.name))
                 plan->path = place.name;
             else
@@ -73,7 +74,7 @@ bool write_displays(const Image& image, const RenderContext& context, const Outp
                 info.before_picture(plan->path, display.location);
             error = write_picture({image, context, *plan, info}, place);
         }
-        // A file that was given up because the user stops is no error.
+        // A file that was given up because the user stopped the render is no error.
         if (context.is_cancelled() && !error.empty()) return false;
         if (error.empty()) {
             const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;

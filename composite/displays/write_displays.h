@@ -13,6 +13,7 @@
 
 namespace trapeze {
 
+/// What files say of themselves besides their pixels, and where they may be.
 struct OutputInfo {
     std::string software;                                       ///< "Trapeze 1.2.3"
     std::vector<std::pair<std::string, std::string>> metadata;  ///< further attributes: name, value
@@ -20,11 +21,11 @@ struct OutputInfo {
     std::string scene = {};                                     ///< the file it was made from
     std::string date = {};                                      ///< "2026:01:31 23:59:59", UTC
     const Access* access = &kEverything;                        ///< where displays may be written
-    /// Called, if it is there, before a file is written that is no depth map.
+    /// Called before a file is written, unless that is a depth map; may be empty.
     std::function<void(const std::string& path, SourceLocation location)> before_picture = {};
 };
 
-/// A file that is there.
+/// A file that has been written.
 struct WrittenFile {
     std::string path;
     double seconds = 0;  ///< that it took to write, from the picture in memory
@@ -38,7 +39,7 @@ struct WrittenFile {
 bool write_displays(const Image& image, const RenderContext& context, const OutputInfo& info,
                     std::vector<WrittenFile>* written = nullptr);
 
-/// Removes what is half written, for a process about to be ended. Thread-safe.
+/// Removes the files that are half written, for a process about to be ended. Thread-safe.
 void remove_partial_outputs();
 
 }  // namespace trapeze

@@ -58,7 +58,7 @@ struct Film::Tile {
     std::unique_ptr<TileSums> sums;
     /// Tiles that this one's pixels wait for. At 0 they are developed, or none of them is in the crop.
     std::atomic<int> missing{0};
-    /// Tiles whose pixels still need `sums`.
+    /// Tiles that have yet to read `sums`; the last one frees them.
     std::atomic<int> readers{0};
     std::atomic<bool> added{false};
 };
@@ -154,7 +154,7 @@ void Film::add_tile(int column, int row, const SampleTile& samples, const HitBuf
     });
 }
 
-/// The usual filters' sizes are compiled in.
+/// Adds weights and colours of a tile's samples. The usual filters' sizes are compiled in.
 void Film::accumulate(const FilmPart& part, TileSums& sums) {
     const int taps = kernel_.taps_x() == kernel_.taps_y() ? kernel_.taps_x() : 0;
     if (taps == 1) return accumulate_taps<1>(part, sums);
@@ -199,7 +199,7 @@ void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
     }
 }
 
-/// In a pass of its own, so that pictures without output variables pay nothing.
+/// Adds output variables, in a pass of their own, so that pictures without them pay nothing.
 void Film::accumulate_aovs(const FilmPart& part, TileSums& sums) const {
     const SampleTile& samples = part.samples;
     std::vector<float> weights(kernel_.tap_count()), values(sums.channels(Sum::Aov));
@@ -215,7 +215,8 @@ void Film::accumulate_aovs(const FilmPart& part, TileSums& sums) const {
             }
 }
 
-/// Depth and id are of the samples within the pixel alone, which all lie in one tile.
+/// Records a pixel's depth and id, which are of the samples within the pixel alone; these all lie in one
+/// tile.
 void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
     const PixelRect& window = image_.window;
     if (px < window.x0 || px >= window.x1 || py < window.y0 || py >= window.y1) return;
@@ -224,7 +225,7 @@ void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
     if (!image_.id.empty()) image_.id[at] = primitive;
 }
 
-/// All that a tile's pixels wait for is there.
+/// Finishes a tile once all that its pixels wait for is there.
 void Film::settle(int tile) {
     develop(tile);
     for_each_neighbour(tile, [&](int from) {
@@ -232,7 +233,7 @@ void Film::settle(int tile) {
     });
 }
 
-/// One reader less; the last one frees the tile's sums.
+/// Counts one reader of a tile's sums less; the last one frees them.
 void Film::release(int tile) {
     if (tiles_[tile].readers.fetch_sub(1, std::memory_order_acq_rel) != 1 || !tiles_[tile].sums) return;
     waiting_bytes_.fetch_sub(tiles_[tile].sums->bytes(), std::memory_order_relaxed);
@@ -257,7 +258,7 @@ void Film::gather(int tile, Sum sum, const PixelRect& pixels, const FirstOf& fir
     });
 }
 
-/// From sums to pixels: each sum by that of the weights, 0 where that is 0.
+/// Makes pixels of sums: divides each by the sum of the weights; 0 where that is 0.
 void Film::develop(int tile) {
     const PixelRect pixels = intersection(tile_pixels(tile), image_.window);
     const auto width = static_cast<size_t>(pixels.width());
@@ -283,8 +284,8 @@ void Film::develop(int tile) {
         }
 }
 
-/// RISpec 4.1.2, Exposure: (colour * gain) ^ (1 / gamma). What filters of negative lobes make negative stays
-/// so.
+/// Applies Exposure (RISpec 4.1.2): (colour * gain) ^ (1 / gamma). What filters with negative lobes make
+/// negative stays so.
 void Film::expose(float* rgba) const {
     for (int c = 0; c < 3; ++c) {
         rgba[c] *= gain_;

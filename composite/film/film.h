@@ -52,18 +52,19 @@ class Film {
   private:
     struct Tile;
 
-    /// A tile's pixels, and those of them whose samples count.
+    /// A tile's pixels; and those of them whose samples count.
     PixelRect tile_square(int tile) const;
     PixelRect tile_pixels(int tile) const;
     void add_tile(int column, int row, const SampleTile& samples, const HitBuffer& hits, const Grids& grids);
     /// Calls visit(tile) for the tiles around a tile, itself included, in the order of tiles.
     template <class Visit>
     void for_each_neighbour(int tile, Visit&& visit) const;
-    /// Whether samples of a tile reach pixels (of the crop) of another.
+    /// Whether samples of tile `from` have a part in pixels of tile `to` that are kept.
     bool reaches(int from, int to) const;
 
+    /// Adds weights and colours of a tile's samples to its sums.
     void accumulate(const FilmPart& part, TileSums& sums);
-    /// kTaps is FilterKernel::weigh()'s.
+    /// kTaps: as FilterKernel::weigh() takes it.
     template <int kTaps>
     void accumulate_taps(const FilmPart& part, TileSums& sums);
     void accumulate_aovs(const FilmPart& part, TileSums& sums) const;

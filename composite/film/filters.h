@@ -17,10 +17,11 @@ namespace trapeze {
 /// The filter's value, straight from its formula, without its support. Unknown names give the gaussian's.
 double filter_value(std::string_view name, double x, double y, double width_x, double width_y);
 
+/// Whether the table has a filter of this name.
 bool is_known_filter(std::string_view name);
 
-/// The first of the pixels that a sample reaches; its weights on them follow row by row, taps_y() rows of
-/// taps_x().
+/// Where a sample's taps are: the first of the pixels that it reaches. Weights on these follow row by row,
+/// taps_y() rows of taps_x().
 struct FilterTaps {
     int x0 = 0, y0 = 0;
 };
@@ -62,6 +63,8 @@ class FilterKernel {
     }
 
   private:
+    /// Taps along an axis, at most; and how finely a sample's phase is tabulated, between which weights are
+    /// interpolated.
     static constexpr int kMaxTaps = 64;
     static constexpr int kPhases = 1024;
 
@@ -71,7 +74,8 @@ class FilterKernel {
     struct Axis {
         float half_width = 1;
         int taps = 2, reach = 1;
-        float rim = 0;  ///< below this phase the last tap is outside: a width between integers
+        float rim = 0;  ///< phases below this leave the last tap outside of the support (widths between
+                        ///< integers); its weight is then 0
         std::vector<float>
             phases;  ///< of a separable filter: kPhases + 2 rows of `taps` weights, interpolated
 
@@ -99,13 +103,13 @@ class FilterKernel {
             return first;
         }
     };
-    /// A function of the distance from the centre.
+    /// The table of a filter that is a function of the distance from the centre.
     struct RadialTable {
         std::vector<float>
             values;        ///< one more than `last` says, so that interpolation at the end stays inside
         float scale = 1;   ///< entries per pixel
-        float last = 0;    ///< index of the end, from which on it is 0
-        float aspect = 1;  ///< y is multiplied by it before the radius is taken
+        float last = 0;    ///< index from which on the filter is 0
+        float aspect = 1;  ///< y times this, then the distance is taken
     };
     static Axis make_axis(float width);
     FilterTaps weigh_radially(float x, float y, int pixel_x, int pixel_y, float* weights) const;

@@ -10,7 +10,7 @@
 
 namespace trapeze {
 
-/// The depths of a pixel's samples, in their order; infinite when none sees anything.
+/// Combines the depths of a pixel's samples, which come in their order; infinite when none sees anything.
 class PixelDepth {
   public:
     explicit PixelDepth(DepthFilter filter) : filter_(filter) {}
@@ -40,7 +40,7 @@ class PixelDepth {
     int count_ = 0;
 };
 
-/// What the sample nearest a pixel's centre sees; the first of equals.
+/// Keeps the primitive that the sample nearest a pixel's centre sees; of equally near samples the first.
 class CentrePrimitive {
   public:
     CentrePrimitive(int px, int py) : x_(static_cast<float>(px) + 0.5f), y_(static_cast<float>(py) + 0.5f) {}

@@ -13,6 +13,7 @@
 
 namespace trapeze {
 
+/// What one sample contributes to its pixel.
 struct SampleColor {
     float rgba[4] = {0, 0, 0,
                      0};      ///< colour premultiplied by opacity; alpha is the mean of the three opacities
@@ -30,12 +31,12 @@ struct SampleColor {
 SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids,
                            bool midpoint = false);
 
-/// The same of hits whose layers are known: hits[0] is number `first_hit` of its buffer.
+/// Composites as above, for hits whose layers are known: hits[0] is number `first_hit` of its buffer.
 SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
                            const Grids& grids, bool midpoint = false);
 
-/// The same for output variables, as aov.h says: `values` gets layout.channel_count numbers. Grids that carry
-/// other channels than the layout's count as having 0 everywhere.
+/// Composites output variables in the same way, as aov.h says: `values` gets layout.channel_count numbers.
+/// Grids that carry other channels than the layout's count as having 0 everywhere.
 void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
                   float* values);
 

@@ -14,6 +14,8 @@ namespace trapeze {
 enum class Sum : uint8_t { Weight, Color, Aov };
 inline constexpr std::array kSums{Sum::Weight, Sum::Color, Sum::Aov};
 
+/// Sums over a tile's footprint. Only the tile's own thread adds; neighbours read them when they are
+/// complete.
 class TileSums {
   public:
     /// `colored`: some sample hits something; else colours and variables are not even there.
@@ -25,7 +27,7 @@ class TileSums {
     }
 
     const PixelRect& pixels() const { return pixels_; }
-    /// 0: not there.
+    /// Floats of a pixel in a sum; 0: the sum is not there.
     size_t channels(Sum sum) const { return static_cast<size_t>(channels_[at(sum)]); }
     const float* pixel(Sum sum, int x, int y) const {
         return values_[at(sum)].data() + channels(sum) * index(x, y);

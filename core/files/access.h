@@ -12,34 +12,37 @@
 
 namespace trapeze {
 
-/// A value that is copied to whoever opens files; nothing is global.
+/// The permissions of one run: a value that is copied to whoever opens files; nothing is global.
 class Access {
   public:
-    /// Everything.
+    /// Allows everything.
     Access() = default;
-    /// Below the working folder alone; the root of all folders counts as none.
+    /// Allows what is below the working folder alone; if that is the root of all folders, nothing.
     static Access confined();
 
     bool is_confined() const { return confined_; }
     bool may_see_environment() const { return !confined_; }
 
-    /// What the user has named, and not the scene.
+    /// Allows in addition what the user, and not the scene, has named.
     void allow_reading_below(const std::string& folder);
     void allow_writing(const std::string& file);
 
     /// Whether a file of this name may be read, be it there or not.
     bool may_read(const std::string& path) const;
-    /// Whether it is a regular file that may be read.
+    /// Whether the path is a regular file that may be read.
     bool has_file(const std::string& path) const;
-    /// Why a name that starts from a folder was not even looked for, if so.
+    /// Whether a name that starts from a folder was not even looked for, because files there may not be read;
+    /// kClosed says so in messages.
     bool is_closed(const std::string& name, const std::string& folder = {}) const;
     static constexpr const char* kClosed = "lies outside of the folders that are open to scenes (--safe)";
-    /// Opens a file. Confined, a regular one that may be read, which is asked of what has been opened. Null,
-    /// with errno, when there is none.
+    /// Opens a file to read. A confined run opens only a regular file that may be read, and asks this of what
+    /// has been opened, so that no link can be put in its place between. Null, with errno set, when there is
+    /// none.
     std::FILE* open_to_read(const std::string& path) const;
-    /// Its bytes; nothing where there is none or it has more.
+    /// Reads a whole file; false where there is none or it has more than `most_bytes`.
     bool read(const std::string& path, size_t most_bytes, std::string* bytes) const;
 
+    /// Whether, and by which path, a file may be written.
     struct Writing {
         std::string problem;        ///< why it may not be written; empty: it may
         std::string path;           ///< under which to open it
@@ -48,12 +51,13 @@ class Access {
     Writing may_write(const std::string& path) const;
 
   private:
-    bool confined_ = false;
-    std::string working_folder_;        ///< as all here: without links and dots; empty: none
+    bool confined_ = false;             ///< all paths below are without links and dots
+    std::string working_folder_;        ///< empty: none
     std::vector<std::string> folders_;  ///< to read below
     std::vector<std::string> files_;    ///< to write
 };
 
+/// The permissions of whoever is not confined.
 inline const Access kEverything;
 
 }  // namespace trapeze

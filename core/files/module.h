@@ -36,7 +36,7 @@ struct OpenedModule {
 /// what it returns in a static, so that one thread opens it, once, and others wait.
 OpenedModule open_module(std::string_view name, const std::vector<std::string>& folders = module_folders());
 
-/// The same of a module that is linked in.
+/// What a module offers that is linked into the program.
 inline OpenedModule linked_module(const ModuleEntry& entry) {
     return {entry.offered, {}};
 }

@@ -30,7 +30,7 @@ Partials& partials() {
 
 constexpr size_t kNameBytes = 200;  ///< of the target's name kept in the temporary one: names end at 255
 
-constexpr int kMaxLinks = 40;  ///< as Linux has it
+constexpr int kMaxLinks = 40;  ///< symbolic links that are followed one after another, as Linux allows
 
 bool names_drive(const std::string& path) {
     return path.size() > 1 && path[1] == ':';

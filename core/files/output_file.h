@@ -11,7 +11,8 @@
 
 namespace trapeze {
 
-/// Every failure leaves a reason in error() and nothing on the disk; so does destruction before commit().
+/// The file while it is written. Every failure leaves a reason in error() and nothing on the disk; so does
+/// destruction before commit().
 class OutputFile {
   public:
     explicit OutputFile(std::string target) : target_(std::move(target)) {}
@@ -19,7 +20,7 @@ class OutputFile {
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// False, with a reason, when the temporary file cannot be made; so do the others.
+    /// Makes the temporary file. This and the functions below return false, with a reason, when they fail.
     bool open();
     bool write(const void* bytes, size_t count);
     bool seek(uint64_t position);
@@ -27,7 +28,7 @@ class OutputFile {
     /// Puts all on the disk and renames. Fails when anything before has failed.
     bool commit();
 
-    /// Why it failed, without the file's name; empty if it did not.
+    /// Why the file failed, without its name; empty if it did not.
     const std::string& error() const { return error_; }
 
     /// Removes the temporary files of all OutputFiles of the process: for a process about to be ended by a
@@ -53,10 +54,10 @@ struct OutputPlace {
     std::string problem;  ///< why it may not be written; empty: it may
 };
 
-/// There, and the folders below the working folder that it names are made: scenes come from where they were
-/// made by hand. Another folder that is not here was another machine's: what belongs there goes into the
-/// working folder, where other_names() finds it, with a warning. What is written outside of the working
-/// folder is said.
+/// The place for a file that a scene names. It is where the name says, and the folders below the working
+/// folder that it names are made: scenes come from where they were made by hand. Another folder that is not
+/// here was another machine's: what belongs there goes into the working folder, where other_names() finds it,
+/// with a warning. A message says what is written outside of the working folder.
 OutputPlace place_to_write(const std::string& name, const Access& access, SourceLocation asked_at,
                            Diagnostics& diagnostics);
 

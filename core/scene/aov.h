@@ -18,7 +18,7 @@
 
 namespace trapeze {
 
-/// All variables of a scene together take at most this many channels: a grid's vertices each have so many
+/// The most channels that all variables of a scene together take: each of a grid's vertices has so many
 /// floats.
 inline constexpr int kMostAovChannels = 192;
 
@@ -29,21 +29,22 @@ struct Aov {
     int offset = 0;    ///< of the first among the layout's channels
 };
 
-/// The variables asked for, each once for a number of channels, in the order of the Displays.
+/// Places of the variables asked for, each once for a number of channels, in the order of the Displays.
 struct AovLayout {
     std::vector<Aov> aovs;
     int channel_count = 0;
 
     bool empty() const { return aovs.empty(); }
-    /// Null when it is not there: too many were asked for.
+    /// The place of a variable; null when it is not there, since too many were asked for.
     const Aov* find(const DisplayVariable& variable) const&;
     const Aov* find(const DisplayVariable& variable) && = delete;
 };
 
-/// Follows from the Displays alone. What does not fit in kMostAovChannels is left out.
+/// The layout that a scene's Displays ask for; it follows from them alone. What does not fit in
+/// kMostAovChannels is left out.
 AovLayout aov_layout(const Options& options);
 
-/// Whether it is the depth that every picture has.
+/// Whether the variable is z, the depth that every picture has.
 bool is_depth(const DisplayVariable& variable);
 
 }  // namespace trapeze

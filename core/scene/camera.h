@@ -10,6 +10,7 @@ namespace trapeze {
 
 struct Options;
 
+/// The camera of a frame, ready for use. Its rays are the only ones that samples take.
 struct Camera {
     bool perspective = true;
     int width = 0, height = 0;  ///< pixels of the whole image
@@ -28,7 +29,8 @@ struct Camera {
     /// The ray through a raster position from a point of the lens (unit disk), at a time.
     AxisRay ray(float raster_x, float raster_y, float lens_u, float lens_v, float time01) const;
 
-    /// Where a point is seen through the middle of the lens. For perspective z must be positive.
+    /// The raster position at which a camera-space point is seen through the middle of the lens. For
+    /// perspective z must be positive.
     V2f raster_from_camera(const V3f& p) const;
 
     /// Half-width in pixels, along x and y, of the blur of a point at depth z; z is clamped to the near
@@ -39,14 +41,16 @@ struct Camera {
     V2f pixels_per_length(float z) const;
 };
 
-/// Format, FrameAspectRatio, ScreenWindow, CropWindow, Projection, Clipping, DepthOfField (RISpec 4.1.1).
+/// The camera that the options describe: Format, FrameAspectRatio, ScreenWindow, CropWindow, Projection,
+/// Clipping, DepthOfField (RISpec 4.1.1).
 Camera make_camera(const Options& options);
 
 /// The pixels whose samples reach the crop through the filter: the crop grown by half the filter's support.
 /// May reach past the image.
 PixelRect sampled_pixels(const Camera& camera, const Options& options);
 
-/// The matrix that takes camera-space points to screen or NDC space, for files' metadata (row vectors).
+/// The matrix (row vectors) that takes camera-space points to -1..1 across the whole picture and up it; for
+/// files' metadata, and as a step to screen, NDC and raster space.
 M44f screen_from_camera(const Camera& camera);
 
 }  // namespace trapeze

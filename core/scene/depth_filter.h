@@ -7,15 +7,15 @@
 
 namespace trapeze {
 
-/// Midpoint: of the depths half-way between the first two layers that each sample sees, the nearest. It wants
-/// a sample's hits beyond the first opaque one.
+/// What a pixel's depth is of its samples'. Midpoint: the nearest of the depths half-way between the first
+/// two layers that each sample sees, for which a sample's hits beyond the first opaque one are needed.
 enum class DepthFilter { Min, Max, Average, Midpoint };
 
 inline std::string depth_filter_name(const Options& options) {
     return options.hider_parameters.string_or("depthfilter", "min");
 }
 
-/// Min for a name that is not known.
+/// The scene's filter; Min for a name that is not known.
 inline DepthFilter depth_filter(const Options& options) {
     const std::string name = depth_filter_name(options);
     if (name == "max") return DepthFilter::Max;

@@ -16,7 +16,7 @@ struct SeenNumbers {
     bool contain(float number) const { return number >= from && number < to; }
 };
 
-/// They are kept among the attributes by category, as "detail" "seen", where they are not all.
+/// The numbers of a primitive's attributes, where they are kept as "detail" "seen" unless they are all.
 inline SeenNumbers seen_numbers(const Attributes& attributes) {
     const auto detail = attributes.user.find("detail");
     const Parameter* const seen = detail == attributes.user.end() ? nullptr : detail->second.find("seen");

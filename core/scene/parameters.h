@@ -13,6 +13,7 @@ namespace trapeze {
 /// How often a primitive variable occurs on a primitive (RISpec 5.1).
 enum class StorageClass : uint8_t { Constant, Uniform, Varying, Vertex, FaceVarying, FaceVertex };
 
+/// What one value of a parameter is.
 enum class ValueType : uint8_t { Float, Integer, String, Color, Point, Vector, Normal, HPoint, Matrix };
 
 /// Floats (or integers, or strings) that make one element of the type.
@@ -55,7 +56,7 @@ struct Parameter {
     bool is_string() const { return declaration.type == ValueType::String; }
 };
 
-/// In the order of the file; when a name occurs twice the last one counts.
+/// A parameter list in the order of the file; when a name occurs twice the last one counts.
 struct ParameterList {
     std::vector<Parameter> values;
 

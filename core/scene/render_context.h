@@ -10,11 +10,11 @@
 
 namespace trapeze {
 
-/// Values that hold for one render. Copied freely; the scene and the diagnostics outlive all copies.
+/// Values that hold for one render. Copied freely; the scene and the diagnostics must outlive all copies.
 struct RenderContext {
     const Scene* scene = nullptr;
     Camera camera;
-    int samples_x = 2, samples_y = 2;
+    int samples_x = 2, samples_y = 2;  ///< of a pixel along each axis, at least 1
     uint32_t seed = 0;
     bool motion = false;                 ///< the shutter is open for some time and something moves
     Diagnostics* diagnostics = nullptr;  ///< the one thing here that is written to; thread-safe

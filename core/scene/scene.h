@@ -62,7 +62,7 @@ struct ShaderInstance {
     std::vector<LayerConnection> connections;
 };
 
-/// RISpec 4.1, table 4.1 and 4.2, with its defaults.
+/// The options of RISpec 4.1, tables 4.1 and 4.2, with their defaults.
 struct Options {
     int frame = 0;
     int width = 640, height = 480;
@@ -88,13 +88,13 @@ struct Options {
         search_paths;  ///< by category; "." and the scene's folder included
 };
 
-/// A light, at shutter open.
+/// A light that a scene has made. Its space is taken at shutter open.
 struct LightInstance {
     std::string handle;
     ShaderInstance shader;
 };
 
-/// RISpec table 4.7 onwards: the graphics state attached to each primitive.
+/// The attributes of RISpec table 4.7 onwards: the graphics state attached to each primitive.
 struct Attributes {
     V3f color{1, 1, 1};
     V3f opacity{1, 1, 1};
@@ -108,11 +108,11 @@ struct Attributes {
     std::shared_ptr<const ShaderInstance> surface;                         ///< null: defaultsurface
     std::shared_ptr<const ShaderInstance> displacement;                    ///< may be null
     std::shared_ptr<const ShaderInstance> atmosphere, interior, exterior;  ///< kept
-    std::vector<std::shared_ptr<const LightInstance>> lights;              ///< those switched on
+    std::vector<std::shared_ptr<const LightInstance>> lights;              ///< lights that are switched on
     float displacement_bound = 0;                                          ///< camera-space length
     std::string name;                                                      ///< Attribute "identifier" "name"
     bool visible_to_camera = true;
-    /// Attribute "dice".
+    /// Options of dicing (Attribute "dice").
     struct Dice {
         bool binary = false;          ///< rates are powers of two
         bool raster_oriented = true;  ///< rates by the size on the screen, not by the size alone
@@ -135,7 +135,7 @@ struct Primitive {
     SourceLocation location;
     int solid = -1;  ///< index of the leaf in Scene::solids that it bounds; -1: no part of a solid
 
-    /// Keys of the moving primitive: the finer of both.
+    /// Number of keys of the moving primitive: that of its shapes or poses, whichever has more.
     int key_count() const { return static_cast<int>(std::max(shape_keys.size(), camera_from_object.size())); }
     const Shape& shape() const { return *shape_keys.front(); }
 };

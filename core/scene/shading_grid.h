@@ -43,13 +43,14 @@ struct GridVariable {
     std::vector<std::string> strings;        ///< strings are always uniform
 };
 
+/// What shaders read and make of a grid.
 struct ShadingGrid {
     GridShape shape;
-    int pieces = 1;  ///< so many grids of `shape`, one after the other in each plane; 1 but in a border
+    int pieces = 1;  ///< how many grids of `shape` follow each other in each plane; 1 except in a border
     int key_count = 1;
     const Primitive* primitive = nullptr;
     uint32_t primitive_index = 0;
-    uint64_t ordinal = 0;
+    uint64_t ordinal = 0;              ///< place in the order of the whole frame's grids
     bool reverse_orientation = false;  ///< dPdu x dPdv points inside
 
     std::vector<Triples>
@@ -90,9 +91,9 @@ struct ShadingGrid {
     }
 };
 
-/// Facing of the grid's micropolygons for Sides 1: which sign of projected area shows the outside. See grid
-/// winding in hit_micropolygon.h: with rays along +z, dPdu x dPdv points to the viewer (negative z) when the
-/// area is negative.
+/// Which side of the grid's micropolygons can be hit, for Sides: which sign of projected area shows the
+/// outside. See grid winding in hit_micropolygon.h: with rays along +z, dPdu x dPdv points to the viewer
+/// (negative z) when the area is negative.
 Facing facing_for_sides(int sides, bool reverse_orientation);
 
 /// How pack_grid() departs from what the grid's attributes say.
@@ -101,9 +102,10 @@ struct PackOptions {
     bool both_sides = false;        ///< hit from both, whatever Sides
 };
 
-/// What a scene asks of a primitive's grids. Hits behind are kept where samples may not see what they hit: it
-/// may be cut away, or be another level of detail than theirs; and where they want the second layer's depth,
-/// too. What may be cut away shows its inside; points, and curves without normals, have no back.
+/// What a scene asks of a primitive's grids. Hits behind a grid are kept where samples may not see what they
+/// hit there: it may be cut away, or be of another level of detail than theirs; and where the depth of the
+/// second layer is wanted. What may be cut away shows its inside; points, and curves without normals, have no
+/// back.
 PackOptions pack_options(const Scene& scene, const Primitive& primitive);
 
 /// Packs a shaded grid: positions into tiles, Ci and Oi into halves, output variables into floats. Values

@@ -21,7 +21,8 @@ struct PolygonMesh {
     int vertex_count = 0;
 };
 
-/// RISpec 5.3. Face vertex indices are below vertex_count; every face has at least three vertices.
+/// SubdivisionMesh (RISpec 5.3). Face vertex indices are below vertex_count; every face has at least three
+/// vertices.
 struct SubdivisionMesh {
     enum class Scheme : uint8_t { CatmullClark, Loop, Bilinear };
 
@@ -40,9 +41,9 @@ struct SubdivisionMesh {
     int vertex_count = 0;
 };
 
-/// RISpec 5.4. `values` are the numeric arguments in the order of the request, angles in degrees, thetamax
-/// last: Sphere radius zmin zmax; Cone height radius; Cylinder radius zmin zmax; Hyperboloid p1 p2 (6
-/// floats); Paraboloid rmax zmin zmax; Disk height radius; Torus majorradius minorradius phimin phimax.
+/// A quadric (RISpec 5.4). `values` are the numeric arguments in the order of the request, angles in degrees,
+/// thetamax last: Sphere radius zmin zmax; Cone height radius; Cylinder radius zmin zmax; Hyperboloid p1 p2
+/// (6 floats); Paraboloid rmax zmin zmax; Disk height radius; Torus majorradius minorradius phimin phimax.
 struct Quadric {
     enum class Kind : uint8_t { Sphere, Cone, Cylinder, Hyperboloid, Paraboloid, Disk, Torus };
 

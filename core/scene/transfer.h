@@ -15,16 +15,16 @@ namespace trapeze {
 /// linear.
 enum class Transfer : uint8_t { Linear, Srgb, Auto };
 
-/// "linear", "srgb" or "auto", in letters of any case.
+/// The transfer of a name, "linear", "srgb" or "auto" in letters of any case; nothing for another name.
 std::optional<Transfer> transfer_named(std::string_view name);
 
 /// What is said of a name that is none of them.
 inline constexpr const char* kTransferNames = "\"linear\", \"srgb\" or \"auto\"";
 
-/// Option "color" "transfer"; Linear where it is not set.
+/// The scene's Option "color" "transfer"; Linear where it is not set.
 Transfer transfer_of(const Options& options);
 
-/// Sets Option "color" "transfer".
+/// Sets Option "color" "transfer" for the whole scene, as --transfer does.
 void set_transfer(Options& options, std::string_view name);
 
 }  // namespace trapeze

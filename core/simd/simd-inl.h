@@ -16,8 +16,8 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// first, first + 1 and so on. Early Highway's Iota() from a number that is not known to the compiler stores
-/// it lane by lane and loads the vector, which waits for all of the stores.
+/// The lanes first, first + 1 and so on. Highway's own Iota() from a number that the compiler does not know
+/// stores it lane by lane, in early versions, and loads the vector, which waits for all of the stores.
 template <class D>
 HWY_INLINE hn::Vec<D> lane_numbers(D d, hn::TFromD<D> first) {
     return hn::Add(hn::Iota(d, 0), hn::Set(d, first));
@@ -55,7 +55,7 @@ HWY_INLINE SegmentLanes<D> segments_at(D d, hn::Vec<D> time, int key_count, int 
     return {index, hn::Sub(scaled, hn::ConvertTo(d, index))};
 }
 
-/// Of all segments. With one key all times are in segment 0, at its start.
+/// segments_at() over all segments. With one key all times are in segment 0, at its start.
 template <class D>
 HWY_INLINE SegmentLanes<D> segments_at(D d, hn::Vec<D> time, int key_count) {
     return segments_at(d, time, key_count, 0, key_count > 2 ? key_count - 2 : 0);

@@ -1,4 +1,4 @@
-/// The module "displays".
+/// The module "displays": pictures in the formats of OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
