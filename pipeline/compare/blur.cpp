@@ -5,10 +5,12 @@
 namespace trapeze {
 namespace {
 
+/// The blur of one micropolygon, in pixels.
 struct Blur {
     float defocus = 0, motion = 0;
 };
 
+/// The time of a key, 0 to 1 over the shutter.
 float key_time(int key, int key_count) {
     return key_count > 1 ? static_cast<float>(key) / static_cast<float>(key_count - 1) : 0.0f;
 }

@@ -11,6 +11,7 @@ namespace {
 /// Apart from the frame's own random numbers, so that no method's samples are among the reference's.
 constexpr uint32_t kReferenceSeed = 0x52454652;
 
+/// Renders the shared grids with one sampler. `with_heat`: also counts what the pixels' samples cost.
 std::optional<MethodPicture> resolve(const SharedFrame& frame, const RenderContext& context,
                                      const Sampler& sampler, const std::function<void(double)>& on_progress,
                                      bool with_heat) {

@@ -23,6 +23,7 @@ bool counts_tests(const MethodResult& r) {
     return r.sample.predicate_tests > 0;
 }
 
+/// Tests without a hit for each hit: what a method's culls let through.
 double misses_per_hit(const MethodResult& r) {
     return std::max(0.0, r.tests_per_hit() - 1);
 }
@@ -70,6 +71,8 @@ std::string disagreement_sentences(const Comparison& c) {
     return text;
 }
 
+/// Whether a method takes part in the contest: references do not, nor methods that find other hits than the
+/// rest on the same samples.
 bool takes_part(const Comparison& c, const MethodResult& r) {
     return kind_of(r) != MethodKind::Reference && !opponent_of(c, r);
 }
@@ -81,6 +84,7 @@ struct Standing {
     const MethodResult* rasterizer = nullptr;  ///< fastest rasterizer
 };
 
+/// The fastest method, ray tracer and rasterizer at a sample rate, by their median totals.
 Standing standing_at(const Comparison& c, SampleRate rate) {
     Standing s;
     const auto take = [](const MethodResult*& best, const MethodResult& r) {
@@ -112,6 +116,7 @@ std::string blur_sentence(const Comparison& c) {
     return text + "Nothing moves and everything is in focus.";
 }
 
+/// Why the ray tracer was faster, as far as counts tell; empty where they do not.
 std::string why_tracer_wins(const Comparison& c, const MethodResult& tracer, const MethodResult& raster) {
     if (!counts_tests(tracer) || !counts_tests(raster)) return {};
     const double traced = misses_per_hit(tracer), rastered = misses_per_hit(raster);
@@ -126,6 +131,7 @@ std::string why_tracer_wins(const Comparison& c, const MethodResult& tracer, con
         blur >= kBlurredPixels ? ": what is blurred may be met at many samples and covers few of them" : "");
 }
 
+/// Why the rasterizer was faster, as far as times and counts tell; empty where they do not.
 std::string why_rasterizer_wins(const MethodResult& tracer, const MethodResult& raster) {
     const double share = tracer.total_median() > 0 ? tracer.build_median() / tracer.total_median() : 0;
     if (share > kLargeBuild)

@@ -11,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// One name for a path, however it is written; links are not followed.
 std::string key_of(const std::string& path) {
     return fs::path(path).lexically_normal().string();
 }

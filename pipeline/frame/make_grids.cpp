@@ -32,6 +32,7 @@ constexpr size_t kGrain = 4;
 /// divided, so that there are so many tasks for each thread.
 constexpr size_t kFewForAThread = 16, kPartsForAThread = 2;
 
+/// Packs a shaded grid into the thread's grids, and counts its values that are not finite.
 void pack(const Scene& scene, const ShadingGrid& grid, GridMaker& maker) {
     int64_t not_finite = 0;
     maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, pack_options(scene, *grid.primitive)));
@@ -59,6 +60,7 @@ size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t
 
 using GridMakers = tbb::enumerable_thread_specific<GridMaker>;
 
+/// Many subpatches: each thread dices some, shades them as a batch and packs them.
 void make_many(const RenderContext& context, const Region& region, const Tessellation& tessellation,
                const Shading& shading, Progress& progress, GridMakers& makers) {
     const tbb::blocked_range<size_t> all(0, region.subpatches.size(), kGrain);
@@ -78,6 +80,8 @@ struct Part {
     std::optional<ShadingGrid> own;  ///< nothing: the whole grid
 };
 
+/// The work of shading a few grids: whole grids, or parts of those that can be parted, about `wanted` tasks
+/// in all.
 std::vector<Part> divided(const std::vector<ShadingGrid>& grids, const Shading& shading, size_t wanted) {
     std::vector<Part> parts;
     const size_t for_each_grid = std::max<size_t>(wanted / grids.size(), 1);

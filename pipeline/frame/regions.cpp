@@ -12,11 +12,13 @@ namespace {
 constexpr size_t kTreeBytesPerMicropolygon = 20;
 constexpr size_t kTreeBytesPerGrid = 256;
 
+/// The next multiple of `side` at or below a pixel, which may be negative.
 int floor_to(int pixel, int side) {
     const int rest = ((pixel % side) + side) % side;
     return pixel - rest;
 }
 
+/// The part of a region in a rectangle: the subpatches that it may see, and the memory for these.
 Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                int aov_channels) {
     Region part{pixels, {}, 0};

@@ -22,12 +22,14 @@ namespace {
 
 constexpr int kPictureChannels = 6;  ///< colour, opacity, depth and a weight or id, of four bytes each
 
+/// Bytes of physical memory; two gibibytes where the system does not tell.
 size_t machine_memory() {
     const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGE_SIZE);
     if (pages <= 0 || page_bytes <= 0) return size_t{1} << 31;
     return static_cast<size_t>(pages) * static_cast<size_t>(page_bytes);
 }
 
+/// Warns of a region that takes more than the budget: its estimate was too low, or it is a single tile.
 void check_memory(const RenderContext& context, const PixelRect& pixels, size_t used, size_t budget) {
     if (used <= budget) return;
     const auto mib = [](size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; };
@@ -38,6 +40,7 @@ void check_memory(const RenderContext& context, const PixelRect& pixels, size_t 
                                  "memory-budget");
 }
 
+/// Runs the imager shader over all pixels, a row at a time in parallel.
 void run_imager(const Imager& imager, Image& image) {
     if (!imager.is_there()) return;
     const PixelRect& window = image.window;

@@ -19,6 +19,7 @@ struct TileResolver {
     double trace_seconds = 0, composite_seconds = 0;
 };
 
+/// Lets the method count the costs of this tile's samples.
 void clear_heat(TileResolver& resolver) {
     resolver.heat.tests.assign(resolver.samples.size(), 0);
     resolver.heat.nodes.assign(resolver.samples.size(), 0);

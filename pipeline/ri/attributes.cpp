@@ -4,7 +4,7 @@
 namespace trapeze::ri {
 namespace {
 
-/// A request of one array, of `count` numbers.
+/// Writes a call whose request has one array of `count` numbers.
 void write_array(const char* name, const RtFloat* array, size_t count, const char* what) {
     call(name, [&](Context& context) {
         required(array, what);
@@ -21,7 +21,7 @@ void write_color(const char* name, const RtFloat* color) {
     });
 }
 
-/// A request of one word.
+/// Writes a call whose request has one word.
 void write_word(const char* name, RtToken word) {
     call(name, [&](Context& context) {
         required(word, "the word");
@@ -30,7 +30,7 @@ void write_word(const char* name, RtToken word) {
     });
 }
 
-/// Handles count from 1; that of a call that is left out is null.
+/// Writes a light. Handles count from 1 on; the handle of a call that is left out is null.
 RtLightHandle write_light(const char* name, RtToken shader, const RiArguments& arguments) {
     RtLightHandle handle = nullptr;
     call(name, [&](Context& context) {

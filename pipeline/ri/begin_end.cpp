@@ -6,7 +6,8 @@
 namespace trapeze::ri {
 namespace {
 
-/// What is to be said at the end of a context.
+/// Ends a context: renders what it has in memory, or puts its file in place. Returns what is to be said of
+/// it.
 std::vector<Message> finish(Context& context) {
     std::vector<Message> messages;
     if (context.open_blocks() > 0)
@@ -22,6 +23,7 @@ std::vector<Message> finish(Context& context) {
     return messages;
 }
 
+/// Begins a context that writes to the file `name`, or, for an empty name, renders at RiEnd.
 void begin(const std::string& name) {
     RibFormat format = next_format();
     if (name.ends_with(".gz")) format.gzip = true;

@@ -5,6 +5,7 @@
 namespace trapeze::ri {
 namespace {
 
+/// All contexts of the process, and which of them calls go to.
 struct Contexts {
     std::vector<std::unique_ptr<Context>> all;
     Context* current = nullptr;

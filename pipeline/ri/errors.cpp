@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-// RISpec's interface has no argument that could carry these: they are the process's (and so is the current
-// context).
+// RISpec's interface has no argument that could carry these: they belong to the process, as the current
+// context does.
 RtInt RiLastError = RIE_NOERROR;
 
 namespace trapeze::ri {

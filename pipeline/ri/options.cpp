@@ -9,7 +9,7 @@
 namespace trapeze::ri {
 namespace {
 
-/// Name and parameters, outside of worlds.
+/// Writes a request of a name and parameters; RIE_NOTOPTIONS within a world.
 void write_named_option(Context& context, const char* request, RtToken name, const RiArguments& arguments) {
     context.expect_options();
     required(name, "the name");

@@ -53,6 +53,8 @@ constexpr UsualValue kUsual[] = {
     {"display", "origin", ValueType::Integer, 2},
 };
 
+/// The name and declaration of a token: among the usual ones of its category, as RiDeclare has it, or within
+/// the token itself.
 std::optional<std::pair<std::string, Declaration>> declared(const Context& context, const std::string& token,
                                                             const std::string& category) {
     for (const UsualValue& usual : kUsual)
@@ -61,7 +63,8 @@ std::optional<std::pair<std::string, Declaration>> declared(const Context& conte
     return context.declarations.resolve(token);
 }
 
-/// Points are the vertices' whatever a program declares them to be, as for the reader.
+/// Whether a variable is the points: one for each vertex whatever the program declares them to be, as the
+/// reader takes them.
 bool is_points(std::string_view name) {
     return name == "P" || name == "Pw" || name == "Pz";
 }

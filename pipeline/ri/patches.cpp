@@ -8,9 +8,10 @@
 namespace trapeze::ri {
 namespace {
 
-constexpr int kLargestMesh = 1 << 20;  ///< control points along a side, as in the reader
-constexpr int64_t kMostPoints = 1 << 28;
+constexpr int kLargestMesh = 1 << 20;     ///< control points along a side, at most; as the reader has it
+constexpr int64_t kMostPoints = 1 << 28;  ///< control points in all, at most
 
+/// Throws for a mesh that is too small or too large.
 void check_size(int nu, int nv) {
     if (nu < 2 || nv < 2) throw CallError{RIE_RANGE, "needs 2 points or more along each side"};
     if (nu > kLargestMesh || nv > kLargestMesh || int64_t{nu} * nv > kMostPoints)
@@ -35,6 +36,7 @@ bool wraps(RtToken wrap) {
     return name == "periodic";
 }
 
+/// Throws unless control points make whole segments of a cubic basis.
 void check_fit(int points, bool periodic, int step) {
     if (periodic ? points % step == 0 : points >= 4 && (points - 4) % step == 0) return;
     throw CallError{RIE_CONSISTENCY,
@@ -49,6 +51,7 @@ void write_basis(rib::RibWriter& writer, const RtFloat (*basis)[4], RtInt step) 
     writer.number(step);
 }
 
+/// A NuPatch's points, order, knots and range along one direction.
 struct Direction {
     int points, order;
     const RtFloat* knots;

@@ -5,6 +5,7 @@
 namespace trapeze::ri {
 namespace {
 
+/// Whether a word is `first`, and not `second`; throws RIE_BADTOKEN when it is neither.
 bool is_first_of(RtToken word, const std::string& first, const std::string& second) {
     const std::string name = required(word, "the word");
     if (name != first && name != second)
@@ -12,6 +13,7 @@ bool is_first_of(RtToken word, const std::string& first, const std::string& seco
     return name == first;
 }
 
+/// Throws for curves whose points do not make whole segments.
 void check_curves(const Curves& curves) {
     const int least = curves.cubic && !curves.periodic ? 4 : curves.periodic ? 3 : 2;
     for (const int points : curves.vertices_per_curve) {

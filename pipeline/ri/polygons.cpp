@@ -8,7 +8,7 @@
 namespace trapeze::ri {
 namespace {
 
-/// As many points as the largest index wants.
+/// The number of points that vertex indices need: one more than the largest.
 int points_for(std::span<const int> indices) {
     int points = 0;
     for (const int index : indices) {
@@ -19,7 +19,8 @@ int points_for(std::span<const int> indices) {
     return points;
 }
 
-/// Corners as often as they occur, faces, points.
+/// How many values variables of each class have on a mesh; face-varying ones have one for each corner of each
+/// face.
 VariableCounts mesh_counts(size_t faces, size_t corners, int points) {
     return {static_cast<int>(faces), points, points, static_cast<int>(corners)};
 }
@@ -31,13 +32,14 @@ void write_mesh(Context& context, const char* request, std::initializer_list<std
     write_parameters(context.writer(), parameters);
 }
 
+/// A subdivision mesh's tags and all of their arguments.
 struct Tags {
     std::vector<std::string> names;
     std::span<const int> counts, ints;
     std::span<const float> floats;
 };
 
-/// Two counts for each tag: of its integers and of its floats.
+/// The tags of RiSubdivisionMesh; `counts` has two numbers for each: of its integers and of its floats.
 Tags tags_of(RtInt ntags, const RtToken* names, const RtInt* counts, const RtInt* ints,
              const RtFloat* floats) {
     Tags tags;

@@ -7,9 +7,11 @@
 namespace trapeze::ri {
 namespace {
 
-/// Procedurals within procedurals: each asks for infinite detail, and some would go on for ever.
+/// How deep procedurals may be nested. Each is asked for infinite detail, so that one that calls itself would
+/// go on for ever.
 constexpr int kDeepest = 100;
 
+/// A procedural of RISpec's, which RIB can name; `strings` of its data are its arguments.
 struct Known {
     RtProcSubdivFunc function;
     const char* name;
@@ -37,7 +39,8 @@ void write_procedural(Context& context, const Known& procedural, RtPointer data,
     context.writer().numbers({bound, 6});
 }
 
-/// Calls a function of the program. It may change attributes, and calls back into the interface.
+/// Runs a procedural of the program's own: calls its function at once, with infinite detail, within an
+/// AttributeBegin and End. The function calls back into the interface.
 void run(RtPointer data, RtProcSubdivFunc function) {
     thread_local int depth = 0;
     if (depth >= kDeepest)

@@ -17,6 +17,7 @@
 namespace trapeze::ri {
 namespace {
 
+/// A message of the renderer as one of the interface.
 Message message_of(const Diagnostic& diagnostic) {
     RtInt severity = RIE_ERROR;
     if (diagnostic.severity == Severity::Warning) severity = RIE_WARNING;
@@ -25,7 +26,7 @@ Message message_of(const Diagnostic& diagnostic) {
     return {code, severity, to_string(diagnostic)};
 }
 
-/// Asks for the end of the work after some time; a process of others' cannot be ended.
+/// Asks for the end of the work after some seconds; the process is not ended, as it is the caller's.
 class TimeLimit {
   public:
     TimeLimit(double seconds, std::atomic<bool>& cancelled)

@@ -44,6 +44,7 @@ struct Sweep {
     double growth(size_t method) const { return seconds[method].back() / seconds[method].front(); }
 };
 
+/// Measures the methods and single rays at one point of a sweep.
 void measure_point(StudyBench& bench, const StudyScene& scene, const SharedFrame& frame, double x,
                    Sweep& sweep) {
     const auto results = bench.measure(frame, scene, kMethods, {{8, 8}});

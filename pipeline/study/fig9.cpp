@@ -15,6 +15,7 @@
 namespace trapeze {
 namespace {
 
+/// Leaves have fewer micropolygons than this in both trees; and the width of the histogram's bins.
 constexpr int kLeafBelow = 8;
 constexpr double kBin = .05;
 

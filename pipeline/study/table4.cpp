@@ -34,6 +34,7 @@ constexpr size_t kOurs = 0, kAxisAlignedHyper = 1, kWholeMotion = 2, kGreedySah 
 /// Ours, the wide tree, is not of the paper: a row for orientation.
 constexpr const char* kWide = "raytrace";
 
+/// What was measured on one scene.
 struct SceneRun {
     std::string label;
     bool moves = false;

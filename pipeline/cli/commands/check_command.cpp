@@ -51,6 +51,7 @@ class CheckJob {
     MadeFiles made_;
 };
 
+/// Checks a world's shaders and maps, and remembers the pictures that its displays would have made.
 void CheckJob::take_world(const Scene& scene) {
     if (interrupt_.requested()) return;
     RenderSettings settings;
@@ -68,6 +69,7 @@ void CheckJob::take_world(const Scene& scene) {
         if (const auto plan = plan_display(display, scene.options, layout, unsaid)) made_.add(plan->path);
 }
 
+/// Reports the pictures of a map request that neither are there nor would have been made.
 void CheckJob::take_map(const MapRequest& request) {
     for (const std::string& picture : missing_pictures(request, access_))
         if (!made_.has(picture, request.folders))

@@ -26,6 +26,7 @@ struct SceneRequests {
     std::set<std::string> requests;
 };
 
+/// The requests that a scene's file has, read without its geometry.
 SceneRequests requests_of(const std::string& path) {
     const std::filesystem::path file(path);
     SceneRequests scene{(file.parent_path().filename() / file.filename()).string(), {}};

@@ -90,6 +90,7 @@ class RenderJob {
     bool output_failed_ = false;
 };
 
+/// Puts the command line's values in place of the scene's options.
 void RenderJob::override_options(Options& options) const {
     if (arguments_.resolution) std::tie(options.width, options.height) = *arguments_.resolution;
     if (arguments_.crop) options.crop_window = *arguments_.crop;
@@ -129,6 +130,7 @@ void RenderJob::name_output(Scene& scene) {
     if (for_viewing && encode_for_viewing(first, scene.options)) encoded_.insert(first.name);
 }
 
+/// Puts -o, --driver and the default display in place of the scene's displays.
 void RenderJob::override_displays(Scene& scene) {
     std::vector<Display>& displays = scene.options.displays;
     if (displays.empty()) {
@@ -170,6 +172,7 @@ void RenderJob::say_what_is_written(const FrameStats& stats) {
                                               stats.height, stats.seconds.total));
 }
 
+/// Renders one world and writes its pictures. Shadow passes keep the scene's own options and displays.
 void RenderJob::render_world(Scene&& scene) {
     if (interrupt_.requested()) return;
     Stopwatch watch;
@@ -225,6 +228,7 @@ bool RenderJob::write_stats() const {
     return write_text(arguments_.stats_file, stats_json(frames_, facts), diagnostics_);
 }
 
+/// The exit code of the whole run: of the first of these reasons that applies.
 int RenderJob::exit_code() const {
     if (interrupt_.requested()) return interrupt_.exit_code();
     if (output_failed_) return kExitNoOutput;

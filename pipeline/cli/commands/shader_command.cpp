@@ -17,6 +17,7 @@
 namespace trapeze {
 namespace {
 
+/// Bytes of a header that is included, at most.
 constexpr size_t kLargestHeader = 16 << 20;
 
 std::string kind_name(rsl::ShaderKind kind) {

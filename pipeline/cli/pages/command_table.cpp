@@ -42,6 +42,7 @@ void describe_value(const CLI::Option& option, OptionText& text) {
     text.by_default = option.get_default_str();
 }
 
+/// What the parser knows of an option, as a value.
 OptionText text_of(const CLI::Option& option) {
     OptionText text;
     for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);

@@ -50,6 +50,7 @@ bool samplers_are_right(const Arguments& a, std::string* error) {
     return a.compare.samplers.empty() || parse_samplers(a.compare.samplers, a.pattern, error);
 }
 
+/// Whether two names are of the same file, if it exists.
 bool is_one_file(const std::string& a, const std::string& b) {
     std::error_code failed;
     return !a.empty() && !b.empty() && (a == b || (std::filesystem::equivalent(a, b, failed) && !failed));
@@ -91,7 +92,7 @@ bool settle_safety(Arguments& a, std::string* error) {
     return true;
 }
 
-/// What is wrong with the options together, or nothing.
+/// Whether -o is a file's name: pictures cannot go to standard output. All of these functions say why not.
 bool output_is_a_file(const Arguments& a, std::string* error) {
     if (a.command != Command::Render || a.output != "-") return true;
     *error =
@@ -99,6 +100,7 @@ bool output_is_a_file(const Arguments& a, std::string* error) {
     return false;
 }
 
+/// What is wrong with options that are right each by itself; empty: nothing. Also sets what --safe implies.
 std::string contradiction(Arguments& a) {
     std::string error;
     static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) &&
@@ -117,6 +119,7 @@ bool wants_json(const std::vector<std::string>& words) {
     return progress == "json";
 }
 
+/// Reports a usage error as the command line wants its messages, and returns the exit code.
 int usage_error(const std::string& text, const std::vector<std::string>& words) {
     const bool json = wants_json(words);
     Terminal({json ? ProgressStyle::Json : ProgressStyle::None, true, false})

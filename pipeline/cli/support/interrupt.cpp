@@ -19,6 +19,7 @@ void on_signal(int signal) {
     g_signal = signal;
 }
 
+/// How often the watcher looks for a signal, and how long work that has been asked to stop may take.
 constexpr auto kPoll = std::chrono::milliseconds(20);
 constexpr auto kPatience = std::chrono::milliseconds(700);
 

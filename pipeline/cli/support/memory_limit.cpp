@@ -14,6 +14,7 @@
 namespace trapeze {
 namespace {
 
+/// Bytes for everything that the budget does not cover: the program, its libraries, threads' memory.
 constexpr size_t kRest = size_t{1} << 30;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

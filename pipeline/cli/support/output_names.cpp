@@ -10,8 +10,10 @@
 namespace trapeze {
 namespace {
 
+/// Digits that a number is padded to, at most.
 constexpr size_t kMostDigits = 20;
 
+/// Where a name has a frame's number.
 struct Place {
     size_t length = 0;  ///< of what stands for the number; 0: nothing does
     size_t digits = 0;  ///< at least

@@ -17,6 +17,7 @@ bool stderr_is_terminal() {
     return isatty(STDERR_FILENO) == 1;
 }
 
+/// Seconds as m:ss or h:mm:ss.
 std::string clock_text(double seconds) {
     const int s = static_cast<int>(seconds + 0.5);
     return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)

@@ -39,6 +39,7 @@ struct Axis {
     }
 };
 
+/// The axis for the bars' values; logarithmic where they differ much.
 Axis axis_for(const std::vector<Bar>& bars) {
     double least = 0, most = 0;
     for (const Bar& bar : bars) {
@@ -59,6 +60,7 @@ std::string bar_element(const std::string& kind, double x, double y, double widt
                        kMargin + x, y, std::max(width, 0.0), kBarHeight);
 }
 
+/// A bar with its label above and its text behind, `index` rows from the top.
 std::string row(const Bar& bar, const Axis& axis, size_t index) {
     const double top = static_cast<double>(index) * kRow, y = top + kLabelHeight, text_y = y + 13;
     const double end = axis.place(bar.value), first = axis.logarithmic ? 0 : axis.place(bar.first_part);

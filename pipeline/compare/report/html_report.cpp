@@ -29,6 +29,7 @@ const char* style_class(const MethodResult& result) {
     return "";
 }
 
+/// The report's head: scene, verdict and the frame's figures.
 std::string title(const Comparison& c) {
     std::string out = fmt::format(
         "<header>\n<p class=\"kicker\">Trapeze {} &middot; compare</p>\n<h1>{}</h1>\n<p "

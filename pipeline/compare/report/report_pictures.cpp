@@ -13,6 +13,7 @@
 namespace trapeze {
 namespace {
 
+/// Close-ups: pixels of a side, how many, and how much they are enlarged.
 constexpr int kPlaceSide = 96, kPlaces = 3, kMagnification = 4;
 /// Of all whole pictures together; about three bytes of the file each.
 constexpr double kPixelBudget = 16e6;
@@ -24,6 +25,8 @@ struct Scales {
     HeatScale tests, nodes;
 };
 
+/// Scales that all pictures of a report share, so that they can be compared by eye. Pictures are shrunk by
+/// the least factor that keeps all of them within kPixelBudget.
 Scales scales_of(const Comparison& c) {
     Scales scales;
     const double pixels =
@@ -43,6 +46,7 @@ std::string image(const std::string& url, const char* kind, const std::string& d
     return fmt::format("<img data-kind=\"{}\" alt=\"{}\" src=\"{}\">\n", kind, escaped(description), url);
 }
 
+/// A heat map, or a sentence where the method does not count such costs.
 std::string heat_image(const std::vector<float>& map, const PixelRect& window, int shrink,
                        const HeatScale& scale, const char* kind, const std::string& method) {
     if (std::all_of(map.begin(), map.end(), [](float value) { return value == 0; }))
@@ -52,6 +56,8 @@ std::string heat_image(const std::vector<float>& map, const PixelRect& window, i
                  std::string(kind) + " of " + method);
 }
 
+/// A method's picture, its difference to the reference, and its heat maps at one sample rate; a script shows
+/// one of them at a time.
 std::string method_figure(const ComparedMethod& m, const Comparison& c, const Scales& scales) {
     const auto rate = std::find(c.rates.begin(), c.rates.end(), m.result.rate);
     const float difference = scales.differences[static_cast<size_t>(rate - c.rates.begin())];
@@ -126,6 +132,7 @@ std::string whole_pictures(const Comparison& c, const Scales& scales) {
     return out + "</div>\n</section>\n";
 }
 
+/// A close-up of a picture, enlarged kMagnification times.
 std::string crop(const Image& picture, const PixelRect& place, const std::string& rate,
                  const std::string& name) {
     return fmt::format(

@@ -94,6 +94,7 @@ struct Station {
     double belt_x, belt, pillar_x, pillar, rail_x, rail, top;
 };
 
+/// Cross sections of the body from nose to tail, in metres; columns as in Station.
 const std::array<Station, 16> kStations = {{
     {1.83, .10, .21, .945, .72, .81, .76, .69, .770, .55, .770, .780},
     {1.69, .08, .635, .955, .78, .82, .815, .70, .810, .56, .795, .805},
@@ -117,6 +118,8 @@ const std::array<Station, 16> kStations = {{
 constexpr int kFrontEdge = 3, kArchEnd = 8, kCowl = 9, kScreenTop = 11, kDoorPost = 12;
 constexpr int kRearTop = 14, kRearFoot = 17, kLid = 20, kSections = 23;
 
+/// The points of a cross section, one for each column of the cage. The section is bent: the middle leads the
+/// sides by `lead`.
 Section section_of(const Station& s) {
     const auto at = [&](double x, double y) {
         return V3d(x, y, s.z - s.lead * (x * x) / (s.width * s.width) + s.lead);

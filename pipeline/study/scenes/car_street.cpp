@@ -8,6 +8,7 @@
 namespace trapeze::scenes {
 namespace {
 
+/// Where the street begins and ends along z, in metres.
 constexpr double kNear = .5, kFar = 320;
 
 const V3d kSodium(1, .46, .13), kWhite(1, .90, .74), kRed(1, .07, .03), kGreen(.08, 1, .55);

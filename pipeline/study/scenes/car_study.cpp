@@ -40,6 +40,7 @@ void write_distant_traffic(RibWriter& rib, const SceneParameters& p) {
     }
 }
 
+/// A spotlight of the street: where it is, what it points at, and its cone's angle in radians.
 struct Spot {
     V3d from, to, color;
     double intensity, angle;

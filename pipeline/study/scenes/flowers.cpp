@@ -9,6 +9,7 @@
 namespace trapeze::scenes {
 namespace {
 
+/// Numbers of plants; where the field begins and ends along z.
 constexpr double kFlowers = 520, kTufts = 1100;  ///< at scale 1
 constexpr double kNear = 2.3, kFar = 34;
 constexpr double kFlowerShadingRate = 5;
