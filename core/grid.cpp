@@ -6,6 +6,7 @@
 namespace trapeze {
 namespace {
 
+/// Bytes: what a grid's memory is aligned to, and the size of a chunk unless a grid needs more.
 constexpr size_t kAlignment = 64;
 constexpr size_t kReadable = 64;  // past the end of every grid, for whole vectors
 constexpr size_t kChunkBytes = size_t{1} << 20;

@@ -6,6 +6,7 @@
 namespace trapeze {
 namespace {
 
+/// The largest absolute coordinate of a box: what rounding errors are relative to.
 float largest_coordinate(const Box3f& box) {
     float largest = 0;
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});

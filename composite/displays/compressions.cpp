@@ -9,6 +9,7 @@ struct Named {
     std::string_view asked, written;  ///< `written`: OpenImageIO's and OpenEXR's name of it
 };
 
+/// What each format can be compressed with.
 constexpr Named kOpenExr[] = {{"none", "none"}, {"rle", "rle"},     {"zips", "zips"}, {"zip", "zip"},
                               {"piz", "piz"},   {"pxr24", "pxr24"}, {"b44", "b44"},   {"b44a", "b44a"},
                               {"dwaa", "dwaa"}, {"dwab", "dwab"}};

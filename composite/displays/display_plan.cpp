@@ -51,6 +51,7 @@ std::optional<FileFormat> format_by_extension(const std::string& file) {
     return look_up(kExtensions, lower(std::filesystem::path(file).extension().string()));
 }
 
+/// Whether the driver would open a window, which this program does not.
 bool opens_window(const Display& display) {
     return std::find(std::begin(kWindowDrivers), std::end(kWindowDrivers), lower(display.type)) !=
            std::end(kWindowDrivers);

@@ -164,6 +164,8 @@ void Film::accumulate(const FilmPart& part, TileSums& sums) {
     accumulate_taps<0>(part, sums);
 }
 
+/// Adds a tile's samples and records its pixels' depths. kTaps: taps along both axes; 0: as the kernel has
+/// them.
 template <int kTaps>
 void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
     constexpr float kOne = 1;

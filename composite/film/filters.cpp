@@ -26,6 +26,7 @@ double triangle(double x, double width) {
     return std::max(0.0, 1 - std::abs(2 * x / width));
 }
 
+/// RISpec's gaussian: exp(-2 (2x / width)^2), so that it is exp(-2) at the support's end.
 double gaussian(double x, double width) {
     const double s = 2 * x / width;
     return std::exp(-2 * s * s);
@@ -38,6 +39,7 @@ double windowed_sinc(double x, double width) {
     return std::abs(2 * x) >= width ? 0 : sinc(x) * std::cos(kPi * x / width);
 }
 
+/// The sinc, windowed by a wider sinc that ends at the support.
 double lanczos(double x, double width) {
     return std::abs(2 * x) >= width ? 0 : sinc(x) * sinc(2 * x / width);
 }
@@ -121,6 +123,7 @@ double radial_aspect(const FilterRow& row, double width_x, double width_y) {
     return row.form == Form::Elliptic ? width_x / width_y : 1;
 }
 
+/// A width that a kernel can be made for.
 float sane_width(float width) {
     return width >= kMinWidth ? std::min(width, kMaxWidth) : kMinWidth;  // NaN too
 }

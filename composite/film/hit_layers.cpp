@@ -94,6 +94,7 @@ HWY_EXPORT(blend_hits);
 
 namespace {
 
+/// Gathers the halves of three planes at a hit's four corners, as lane `lane` of twelve rows.
 void gather_halves(const Grid& grid, int first_plane, const int* at, size_t lane,
                    GatheredHits::Lanes<uint16_t>* rows) {
     const auto size = static_cast<size_t>(grid.shape.vertex_count());
@@ -103,6 +104,7 @@ void gather_halves(const Grid& grid, int first_plane, const int* at, size_t lane
     }
 }
 
+/// Gathers what interpolation needs of a hit: its ray, corners, colours and opacities, as lane `lane`.
 void gather_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, size_t lane,
                 GatheredHits& to) {
     to.ox[lane] = ray.ox, to.oy[lane] = ray.oy, to.oz[lane] = ray.oz;

@@ -48,6 +48,7 @@ std::string resolved_folder(const std::string& folder) {
     return path == "/" ? std::string() : path;
 }
 
+/// Whether a path is a folder or in it; both resolved. Below an empty folder is nothing.
 bool is_below(const std::string& path, const std::string& folder) {
     return !folder.empty() && path.starts_with(folder) &&
            (path.size() == folder.size() || path[folder.size()] == '/');

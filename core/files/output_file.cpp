@@ -32,6 +32,7 @@ constexpr size_t kNameBytes = 200;  ///< of the target's name kept in the tempor
 
 constexpr int kMaxLinks = 40;  ///< symbolic links that are followed one after another, as Linux allows
 
+/// Whether the path begins with a drive's letter, as on another system.
 bool names_drive(const std::string& path) {
     return path.size() > 1 && path[1] == ':';
 }
@@ -47,6 +48,7 @@ void make_folder_of(const std::string& path) {
     fs::create_directories(folder, failed);
 }
 
+/// Whether the folder of a file exists; no folder is the working folder.
 bool has_folder(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     std::error_code failed;

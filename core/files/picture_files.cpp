@@ -15,6 +15,7 @@ struct Beginning {
     std::string_view bytes, format;
 };
 
+/// The first bytes of the formats; TIFF and BigTIFF in both byte orders.
 constexpr Beginning kBeginnings[] = {
     {"\x76\x2f\x31\x01"sv, "openexr"},
     {"II*\0"sv, "tiff"},

@@ -10,12 +10,15 @@
 namespace trapeze {
 namespace {
 
+/// The value, or the fallback, counted, where it is not finite.
 float finite_or(float value, float fallback, int64_t* not_finite) {
     if (std::isfinite(value)) return value;
     ++*not_finite;
     return fallback;
 }
 
+/// As finite_or(); coordinates beyond kLargestCoordinate count as not finite, too, since the predicate needs
+/// them to be smaller.
 float coordinate_or(float value, float fallback, int64_t* not_finite) {
     return finite_or(std::abs(value) <= kLargestCoordinate ? value : HUGE_VALF, fallback, not_finite);
 }
@@ -33,6 +36,7 @@ void pack_plane(const GridShape& shape, const float* rows, float* tiles, int64_t
             }
 }
 
+/// The nearest half; what is larger than any becomes the largest finite one.
 Imath::half to_half(float value) {
     return Imath::half(std::clamp(value, -65504.0f, 65504.0f));
 }
@@ -57,6 +61,7 @@ bool all_opaque(const Triples& opacity, size_t count) {
     return true;
 }
 
+/// Whether the primitive's surface turns to the viewer: it then has no back.
 bool faces_the_eye(const Shape& shape) {
     if (std::holds_alternative<Points>(shape.topology)) return true;
     return std::holds_alternative<Curves>(shape.topology) && !shape.variables.find("N");

@@ -25,6 +25,7 @@ struct MakingError {
     MapProblem problem;
 };
 
+/// Throws for the pictures' side, with a text that may be empty; check_output() throws for the map's.
 void check(bool good, const std::string& text) {
     if (!good) throw MakingError{{text.empty() ? "cannot be read" : text}};
 }

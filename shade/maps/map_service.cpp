@@ -91,10 +91,12 @@ class CallLanes {
     bool is_uniform_;
 };
 
+/// The operand of a step where its named arguments begin: behind the plain ones, which the immediate counts.
 size_t first_named(const Step& step) {
     return step.outputs + 2u + static_cast<size_t>(step.immediate);
 }
 
+/// A named argument's number: of each lane where it varies.
 LaneNumber number_of(const Operand& operand, size_t lanes) {
     return operand.lane_mask ? LaneNumber(ConstPlane(operand.data, lanes)) : LaneNumber(operand.data[0]);
 }
@@ -137,6 +139,7 @@ std::string_view colorspace_of(Run& run, const Step& step) {
     return {};
 }
 
+/// A coordinate of a lookup and how it changes along u and v, as the lookup is filtered over.
 struct Coordinate {
     ConstPlane middle, along_u, along_v;
 };

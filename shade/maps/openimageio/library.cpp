@@ -56,6 +56,8 @@ std::string read_numbers(const std::string& name, SourcePicture& picture) {
     return file ? read_picture(*file, name, picture) : or_unreadable(OIIO::geterror());
 }
 
+/// OpenImageIO's name of a filter. Names that it does not know but RISpec does become the nearest it has;
+/// others become "box".
 std::string filter_name(const std::string& name) {
     if (name == "b-spline" || name == "radial-bspline") return "bspline";
     if (name == "bessel" || name == "lanczos") return "lanczos3";

@@ -25,6 +25,7 @@ std::vector<float> decoding_table() {
     return table;
 }
 
+/// Whether all channels are whole numbers of 8 or of 16 bits.
 bool is_whole(const OIIO::ImageSpec& spec) {
     return (spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16) &&
            spec.channelformats.empty();

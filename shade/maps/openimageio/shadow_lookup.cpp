@@ -105,6 +105,8 @@ struct Receiver {
     }
 };
 
+/// The region of a lookup and the plane through P, from the map's places of P and of its neighbours along u
+/// and v.
 Receiver make_receiver(const DepthView& map, const MapSpace& space, const MapPoint& at,
                        const std::array<V3f, 2>& neighbours, const MapOptions& options, size_t lane) {
     Receiver r;
