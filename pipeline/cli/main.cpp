@@ -14,10 +14,10 @@
 
 namespace {
 
-/// Of a shader that prints, say, before it is only counted.
+/// Messages of a confined run that are shown, at most: a stranger's shader may print at every vertex.
 constexpr uint64_t kMostSafeMessages = 10'000;
 
-/// What is of the process and not of its scenes.
+/// Bounds the process of a confined run, as opposed to what its scenes may reach (Access).
 void be_safe(const trapeze::Arguments& arguments) {
     trapeze::limit_memory(arguments.memory_bytes);
     // Where OpenImageIO looks for libraries to load, beside the loader, which is done.

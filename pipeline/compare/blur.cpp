@@ -15,7 +15,7 @@ float key_time(int key, int key_count) {
     return key_count > 1 ? static_cast<float>(key) / static_cast<float>(key_count - 1) : 0.0f;
 }
 
-/// Of a vertex; false when it is never before the near clipping plane.
+/// The blur of a vertex, over the shutter; false when the vertex is always outside of the clipping range.
 bool blur_of_vertex(const Camera& camera, const Grid& grid, int i, int j, Blur& blur) {
     bool seen = false;
     V2f last(0, 0);

@@ -42,7 +42,8 @@ bool equal_times(const MethodResult& fast, const MethodResult& slow) {
     return slow.total_spread().least <= fast.total_spread().most;
 }
 
-/// On the same samples methods see the same, or (other code than ours) nearly so.
+/// The part by which numbers of hits may differ: on the same samples methods see the same, or, with other
+/// code than ours, nearly so.
 constexpr double kEqualHits = 0.01;
 
 /// The method that a method disagrees with: the baseline, or the first, of its pattern at its rate. Null when
@@ -184,7 +185,8 @@ std::string growth_sentence(const Comparison& c) {
     return text + ".";
 }
 
-/// Of the most samples; patterns differ, and so do their errors.
+/// Which method has the least and the largest error at the most samples. They differ since sample patterns
+/// do.
 std::string error_sentence(const Comparison& c) {
     if (c.rates.empty()) return {};
     auto methods = c.at(c.rates.back());

@@ -13,7 +13,7 @@ std::optional<M44d> inverse_of(const M44d& matrix) {
     return matrix.inverse();
 }
 
-/// From where the screen window spans [-1, 1] to [0, 1], y down.
+/// The matrix from the space in which the screen window spans [-1, 1] to NDC, 0 to 1 and y down.
 M44d ndc_from_window() {
     return M44d(0.5, 0, 0, 0, 0, -0.5, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1);
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr int kLeafBelow = 8;
 constexpr double kBin = .05;
 
-/// Of every grid that is split at all.
+/// The relative difference in SAH cost of every grid that is split at all.
 std::vector<double> relative_differences(const SharedFrame& frame) {
     std::vector<double> all(frame.grids.grids.size(), std::nan(""));
     tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {

@@ -40,7 +40,7 @@ bool is_complete(const RateSeries& series) {
     return true;
 }
 
-/// The same words of both, or "-" of an illegible paper.
+/// Sets what a check says of both series, in the same words; "-" where the paper is not legible.
 template <class Text>
 void set_texts(StudyCheck& check, const RateSeries& here, const RateSeries& paper, Text text) {
     check.here = text(here);

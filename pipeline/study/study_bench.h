@@ -37,7 +37,7 @@ class StudyBench {
 
     /// Reads, dices and shades the scene, and notes its facts.
     SharedFrame frame(const StudyScene& scene);
-    /// Of the scene that frame() made last.
+    /// The facts of the scene that frame() made last.
     const StudySceneFacts& last_facts() const { return result_.scenes.back(); }
 
     /// Measures methods, which are separated by spaces; the results are by rate, then by method.

@@ -33,7 +33,7 @@ std::string zsh_value(const OptionText& option) {
     return text;
 }
 
-/// As '(-t --threads)'{-t+,--threads=}'[threads]:N: '.
+/// An option as _arguments takes it, such as '(-t --threads)'{-t+,--threads=}'[threads]:N: '.
 std::string zsh_option(const OptionText& option) {
     std::vector<std::string> names = option.names;
     for (std::string& name : names)

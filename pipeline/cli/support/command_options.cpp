@@ -140,7 +140,7 @@ void add_frame_options(CLI::App& app, Arguments& a) {
     add_work_options(app, a);
 }
 
-/// Of commands that measure methods in turns.
+/// Adds the option of commands that measure methods in turns.
 void add_rounds_option(CLI::App& app, int& rounds) {
     add_number(app, "--repeat", rounds, 1, 1000,
                "rounds in which every method takes its turn; medians are reported", "R")

@@ -15,9 +15,10 @@ namespace {
 constexpr double kWidth = 580, kTexts = 140, kBars = kWidth - kTexts;
 constexpr double kRow = 46, kLabelHeight = 19, kBarHeight = 16, kAxis = 46;
 constexpr double kMargin = 4;  ///< left of the bars
+/// Ratio of the largest to the smallest value from which on the axis is logarithmic.
 constexpr double kLogarithmicFrom = 25;
 
-/// From values to places along the bars.
+/// Places of values along the bars.
 struct Axis {
     bool logarithmic = false;
     double low = 0, high = 1;

@@ -15,7 +15,7 @@ namespace {
 
 /// Close-ups: pixels of a side, how many, and how much they are enlarged.
 constexpr int kPlaceSide = 96, kPlaces = 3, kMagnification = 4;
-/// Of all whole pictures together; about three bytes of the file each.
+/// The most pixels of all whole pictures together; each takes about three bytes of the file.
 constexpr double kPixelBudget = 16e6;
 
 /// What whole pictures share.

@@ -133,7 +133,8 @@ class PlateBuilder {
         }
     }
 
-    /// From the front sheet to the back one; the cell goes round from `i` to `j`.
+    /// Adds a wall from the front sheet to the back one, at the side of a cell that goes round from point `i`
+    /// to `j`.
     void add_border(size_t i, size_t j) {
         const bool thin_i = front_[i] == back_[i], thin_j = front_[j] == back_[j];
         if (thin_i && thin_j) return cage_.crease({front_[i], front_[j]}, plate_.edge);

@@ -142,7 +142,7 @@ void add_points(Cage& cage) {
         }
 }
 
-/// Of the face behind section i and above the half's column j.
+/// The piece that a face belongs to: the face behind section i and above column j of a half.
 BodyPiece piece_of(int i, int j) {
     const bool side_window = j == kBelt && i >= kCowl && i < kRearTop;
     if (side_window) return i == kDoorPost ? BodyPiece::kTrim : BodyPiece::kGlass;

@@ -29,7 +29,7 @@ void add_spoke(QuadMesh& mesh, double angle) {
     }
 }
 
-// Of wheels about the z axis, their outer sides towards positive z.
+// Parts of a wheel about the z axis, its outer side towards positive z.
 
 void write_tyre(RibWriter& rib) {
     {

@@ -59,7 +59,7 @@ Place scattered(Chance& chance) {
     return {(.5 * z + .5) * chance.between(-1, 1), z};
 }
 
-/// Of a plant's size: low where it would stand before the flowers in focus.
+/// A factor of a plant's height: less than 1 where it would hide the flowers in focus.
 double fitting(const Place& place) {
     const double aside = std::abs(place.x / place.z - kGroupX / kGroupZ);
     return place.z < 5.7 && aside < .19 ? .5 : 1;

@@ -30,7 +30,7 @@ const std::array<Ball, 5> kBalls = {{
     {{-.95, .66, 5.2}, .27, {.98, .80, .20}, .45, {.12, -.22, 0}, 20},
 }};
 
-/// The ball is of radius 1 here.
+/// Writes one hair as a ribbon. Lengths are in radii of the ball, which is at the origin.
 void write_hair(RibWriter& rib, const Ball& ball, double width, Chance chance) {
     const V3d n = chance.direction(), up(0, 1, 0), down(0, -1, 0);
     V3d direction = n + .75 * up.cross(n) + .35 * chance.direction();

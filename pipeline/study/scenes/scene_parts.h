@@ -40,7 +40,7 @@ struct Shot {
     V3d eye{0, 0, 0};
     double pitch = 0;  ///< degrees, downwards
     double fov = 30;
-    /// As RISpec's DepthOfField; f_stop is that at defocus 1, and 0 a pinhole.
+    /// As RISpec's DepthOfField.
     double f_stop = 0, focal_length = 1, focal_distance = 1;  ///< f_stop at defocus 1
     double shading_rate = 1;
 };
