@@ -49,7 +49,7 @@ class Diagnostics {
 
     /// Registers a file (or "<stdin>", an inline archive...) so that locations can refer to it.
     uint32_t add_source(std::string name, SourceLocation included_from = {});
-    /// The same for a source whose lines messages shall show. Line n of `text` is called n + `line_shift`, as
+    /// Registers a source whose lines messages shall show. Line n of `text` is called n + `line_shift`, as
     /// after a #line.
     uint32_t add_source(std::string name, SourceLocation included_from,
                         std::shared_ptr<const std::string> text, int64_t line_shift = 0);

@@ -41,7 +41,7 @@ class Shading {
     /// operation is small against the operation, few enough that the planes stay in the second cache.
     static constexpr size_t kBatchVertices = 256;
 
-    /// The same for several grids: small ones that come one after the other and have the same attributes and
+    /// Shades several grids: small ones that come one after the other and have the same attributes and
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
 

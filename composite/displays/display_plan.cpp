@@ -57,7 +57,7 @@ bool opens_window(const Display& display) {
            std::end(kWindowDrivers);
 }
 
-/// The same of the picture, whether with alpha or without.
+/// Whether two displays show the same of the picture, whether with alpha or without.
 bool show_the_same(const Display& a, const Display& b) {
     const auto without_alpha = [](const Display& display) {
         const std::string mode = lower(display.mode.empty() ? "rgba" : display.mode);
@@ -78,14 +78,14 @@ const Display* file_beside_window(const Display& display, const Options& options
     return found == options.displays.end() ? nullptr : &*found;
 }
 
-/// Of a display that has none.
+/// The file of a display without a name.
 std::string usual_path(const DisplayPlan& plan) {
     const auto row = std::find_if(std::begin(kExtensions), std::end(kExtensions),
                                   [&](const NamedFormat& named) { return named.format == plan.format; });
     return "untitled" + std::string(plan.depth_map ? ".z" : row->name);
 }
 
-/// Driver and extension to format and path. Nothing: driver "null".
+/// Chooses format and path by driver and extension. False for driver "null".
 bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
     const std::string driver = lower(display.type);
     if (driver == "null") return false;
@@ -171,7 +171,7 @@ bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPl
     return true;
 }
 
-/// Null when the parameter is not there or has fewer than `count` floats.
+/// A parameter that has at least `count` floats; else null.
 const Parameter* floats_of(const ParameterList& list, std::string_view name, size_t count) {
     const Parameter* parameter = list.find(name);
     return parameter && parameter->floats.size() >= count ? parameter : nullptr;

@@ -15,9 +15,9 @@
 namespace trapeze {
 namespace {
 
-constexpr size_t kLongestName = 255;  ///< OpenEXR's
+constexpr size_t kLongestName = 255;  ///< the most that OpenEXR takes
 
-/// They say how the file's pixels lie, which is not for scenes to say.
+/// Attributes that say how the file's pixels lie, which scenes must not change.
 constexpr std::string_view kOfTheFile[] = {
     "channels",           "chunkCount",        "compression", "dataWindow", "displayWindow",    "lineOrder",
     "maxSamplesPerPixel", "multiView",         "name",        "part",       "pixelAspectRatio", "preview",

@@ -15,7 +15,7 @@ int tile_of(int pixel) {
     return pixel >= 0 ? pixel / kTileSide : -((kTileSide - 1 - pixel) / kTileSide);
 }
 
-/// With x more columns and y more rows on either side.
+/// A rectangle with x more columns and y more rows on either side.
 PixelRect grown(const PixelRect& r, int x, int y) {
     return {r.x0 - x, r.y0 - y, r.x1 + x, r.y1 + y};
 }

@@ -108,7 +108,8 @@ std::FILE* Access::open_to_read(const std::string& path) const {
         errno = may_read(path) ? ENOENT : EACCES;
         return nullptr;
     }
-    // It may have been exchanged meanwhile, for a pipe that nobody writes or a link.
+    // Between the two the file may have been replaced, by a pipe that nobody writes or by a link: so what has
+    // been opened is asked once more.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
     if (descriptor < 0) return nullptr;
     struct stat status {};

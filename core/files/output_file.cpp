@@ -107,7 +107,7 @@ bool OutputFile::open() {
                                 ".part-" + std::to_string(++partials().count);
     file_ = std::fopen(partial.c_str(), "wbx");
     if (!file_ && errno == EEXIST) {
-        // Of a process of the same number that was killed.
+        // It was left by a process of the same number, which was killed.
         ::unlink(partial.c_str());
         file_ = std::fopen(partial.c_str(), "wbx");
     }

@@ -2,13 +2,13 @@
 /// (RISpec 3.2, section 4.1.2, Display: "varying color foo"), and where each stands among the channels that
 /// grids, the film and the picture carry for them.
 ///
-/// They go through the renderer as Ci does: a micropolygon's value is its vertex 00's, or interpolated when
-/// shading is smooth; a sample's layers are added up from front to back, each weighed by what the layers
-/// before it let through (1 - Oi of each, by channel; the mean of the three for a float), so that a value is
-/// taken to be premultiplied as Ci is; then they are filtered as colour is. A held-out (Matte) layer adds
-/// nothing and hides what is behind it; neither does a layer add anything that shows nothing at all, its Ci
-/// and Oi both 0. Pixels where nothing is have 0. Exposure and imager shaders leave them alone. The variable
-/// z is no such channel but the depth of the picture, by the hider's depth filter.
+/// Output variables go through the renderer as Ci does: a micropolygon's value is its vertex 00's, or
+/// interpolated when shading is smooth; a sample's layers are added up from front to back, each weighed by
+/// what the layers before it let through (1 - Oi of each, by channel; the mean of the three for a float), so
+/// that a value is taken to be premultiplied as Ci is; then they are filtered as colour is. A held-out
+/// (Matte) layer adds nothing and hides what is behind it; neither does a layer add anything that shows
+/// nothing at all, its Ci and Oi both 0. Pixels where nothing is have 0. Exposure and imager shaders leave
+/// them alone. The variable z is no such channel but the depth of the picture, by the hider's depth filter.
 #pragma once
 
 #include <string>

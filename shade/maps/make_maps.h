@@ -1,8 +1,8 @@
-/// From pictures to the files that shaders look up: RISpec 3.2's MakeTexture, MakeLatLongEnvironment,
+/// Makes files that shaders look up from pictures: RISpec 3.2's MakeTexture, MakeLatLongEnvironment,
 /// MakeCubeFaceEnvironment and MakeShadow (section 7), and MakeBump of version 3.1.
 ///
-/// They never throw. Files appear whole or not at all: written beside the target, then renamed. Names are
-/// used as they are.
+/// These functions never throw. Files appear whole or not at all: written beside the target, then renamed.
+/// Names are used as they are.
 ///
 /// What is made are OpenImageIO's textures: tiled, with smaller and smaller pictures in linear light.
 #pragma once

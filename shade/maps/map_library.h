@@ -52,7 +52,7 @@ class MapCache {
 
     /// Null, with *problem set, when the file cannot be read or is no picture of rows and columns.
     virtual std::unique_ptr<OpenMap> open(const std::string& file, std::string* problem) = 0;
-    /// The same picture again, decoded from sRGB.
+    /// Opens the picture of `map` again, decoded from sRGB.
     virtual std::unique_ptr<OpenMap> open_decoded(const OpenMap& map, const std::string& file,
                                                   std::string* problem) = 0;
 

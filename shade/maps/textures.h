@@ -50,12 +50,12 @@ class Textures {
     /// "transfer" says. An unknown name is reported once. What is "auto" are numbers for lookups of floats.
     Transfer transfer_of_lookup(std::string_view colorspace, bool of_color, SourceLocation location) const;
 
-    /// The same as a shadow map: null, and reported once, when it has no depths or no matrices.
+    /// Opens a picture as a shadow map: null, and reported once, when it has no depths or no matrices.
     class DepthMap;
     const DepthMap* find_shadow(std::string_view name, SourceLocation location);
 
-    /// For textureinfo() (RISpec 3.2, section 15.7); nothing when the file cannot be read, which is not
-    /// reported. Thread-safe.
+    /// What textureinfo() asks of a file (RISpec 3.2, section 15.7); nothing when it cannot be read, which is
+    /// not reported. Thread-safe.
     struct Info {
         int width = 0, height = 0, channels = 0;
         std::string type;                       ///< "texture", "environment" or "shadow"

@@ -22,7 +22,8 @@ class LinearImageInput : public OIIO::ImageInput {
     /// The name by which a cache knows the decoded pixels of a file, beside the pixels as they are.
     static std::string decoded_name(const std::string& file);
 
-    /// As OpenImageIO's caches want it. Opens files by their own or by their decoded names.
+    /// Makes a reader, as OpenImageIO's caches want it. It opens files by their own or by their decoded
+    /// names.
     static OIIO::ImageInput* create() { return new LinearImageInput; }
 
     const char* format_name() const override { return "linear"; }
