@@ -8,7 +8,7 @@
 
 namespace trapeze {
 
-/// How large a kind of blur is.
+/// Sizes of one kind of blur over a whole frame.
 struct BlurSize {
     float largest = 0, median = 0;  ///< pixels; the median is over micropolygons
 };

@@ -61,7 +61,7 @@ std::string Textures::Impl::open(Picture& picture) {
         diagnostics->warning(picture.location,
                              fmt::format("texture \"{}\" is not found; \"{}\" is used", picture.name, *file));
     if (!file) return access.is_closed(picture.name) ? Access::kClosed : "is not found";
-    // What is behind rarer formats is wide: films, for one, which may name further files.
+    // Rarer formats are read by large libraries: those of films, for one, may open further files.
     if (access.is_confined() && !is_common_picture(*file))
         return "is of a format that is not open to scenes (--safe)";
     std::string problem = start();

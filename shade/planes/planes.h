@@ -50,7 +50,7 @@ class PlanePool {
     /// A plane from the pool; its contents are undefined.
     Plane take();
     Plane3 take3() { return {take(), take(), take()}; }
-    /// As start() was told, not rounded up.
+    /// The number of vertices that start() was given, not rounded up.
     size_t vertices() const { return vertices_; }
 
   private:

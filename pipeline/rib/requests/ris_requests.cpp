@@ -12,7 +12,7 @@
 namespace trapeze::rib {
 namespace {
 
-/// Said once in a reading, whatever the scene has of RIS.
+/// Counts a request of RIS, and warns of them once, whatever the scene has of it.
 void note(RequestContext& r) {
     r.report.count_unsupported();
     r.report.warn_once(

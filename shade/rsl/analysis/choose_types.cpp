@@ -112,7 +112,8 @@ void Analyser::choose_binary(Expression& e, Base base) {
     choose_type(e.children[1], best->right);
 }
 
-/// A cast takes what needs no conversion before it; what is filled before it is taken from a space is said.
+/// The operand gets the type from which the cast is cheapest, and is not converted before. But a float that
+/// is cast to a triple of a named space is: it is filled first, and then taken from that space.
 void Analyser::choose_cast(Expression& e) {
     const Base to = e.type.base;
     const Choices operand = choices_of(*e.children[0]);
@@ -123,8 +124,8 @@ void Analyser::choose_cast(Expression& e) {
                                                                        : Base::Void);
 }
 
-/// What is assigned becomes of the variable's type; with an operator (+= and such) it gets the type that the
-/// operator takes beside the variable.
+/// The assigned value gets the variable's type; with an operator (+= and such), the type that the operator
+/// takes beside the variable.
 void Analyser::choose_assignment(Expression& e) {
     const Base to = e.type.base;
     if (e.children[0]->kind == Expression::Kind::Element) choose_type(e.children[0], to);
