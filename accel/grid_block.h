@@ -54,8 +54,8 @@ namespace grid_block_detail {
 /// Vertices of a leaf block at the ray's time, row by row, u fastest, in the ray's turned axes. Moved by
 /// Grid::vertex()'s arithmetic, because the predicate's answer must not depend on who moves the vertices.
 struct Vertices {
-    static constexpr int kMaxVertices =
-        2 * kMostSplitFrom;  ///< of n x 1 micropolygons, the most for their number
+    /// A block of n x 1 micropolygons has the most vertices for its number.
+    static constexpr int kMaxVertices = 2 * kMostSplitFrom;
     float x[kMaxVertices], y[kMaxVertices], z[kMaxVertices];
 };
 

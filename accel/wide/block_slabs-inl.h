@@ -120,9 +120,9 @@ HWY_INLINE bool slab_axes(const BlockView& block, BlockSlabs& slabs) {
     return scale_to_one(slabs.side[0].axis) && scale_to_one(slabs.side[1].axis);
 }
 
-/// Finds a block's slabs; false where it has no planes worth the name. `grow`: what rounds away between a
-/// vertex and the test of a ray, WideTree's for vertices and rays like these. Linear in time between slabs
-/// about the segment's ends, which holds vertices at all times, because they move linearly.
+/// Finds a block's slabs; false where its vertices make no plane. `grow`: what rounds away between a vertex
+/// and the test of a ray, WideTree's for vertices and rays like these. Slabs are linear in time between those
+/// at the segment's ends, and so hold vertices, which move linearly, at all times.
 template <bool kMoves>
 HWY_INLINE bool slabs_of(const BlockView& block, float grow, BlockSlabs& slabs) {
     if (!slab_axes(block, slabs)) return false;

@@ -39,7 +39,7 @@ HWY_INLINE bool is_hidden(SlotRaster& raster, const GridInSlot& in) {
     return true;
 }
 
-/// Micropolygons into a slot, cell by cell.
+/// Rasterizes a grid's micropolygons into the samples of a slot, cell by cell.
 template <Motion kMotion, bool kOrigins>
 class CellRaster {
   public:

@@ -59,8 +59,8 @@ struct CubicWeights {
     }
 };
 
-/// The sums of four terms a lane, in one order of operations; the other form has the same values in all
-/// lanes.
+/// The sum of four products in each lane. Both forms add in the same order, and so round alike; in the second
+/// one all lanes share the values.
 inline void combine(const Lanes (&w)[4], const Lanes (&c)[4], Lanes& sum) {
     for (size_t l = 0; l < kLanes; ++l)
         sum[l] = (w[0][l] * c[0][l] + w[1][l] * c[1][l]) + (w[2][l] * c[2][l] + w[3][l] * c[3][l]);
