@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  ///< as Linux has it
+constexpr int kMostLinks = 40;  ///< symbolic links that a path may lead through, as Linux allows
 
 /// Where a path leads, after all links, those to what is not there too; empty when they go round in circles.
 std::string resolved(const fs::path& path) {

@@ -7,8 +7,9 @@
 
 namespace trapeze {
 
-/// What a pixel's depth is of its samples'. Midpoint: the nearest of the depths half-way between the first
-/// two layers that each sample sees, for which a sample's hits beyond the first opaque one are needed.
+/// Which depth a pixel gets from those of its samples. Midpoint: the nearest of the depths half-way between
+/// the first two layers that each sample sees, for which a sample's hits beyond the first opaque one are
+/// needed.
 enum class DepthFilter { Min, Max, Average, Midpoint };
 
 inline std::string depth_filter_name(const Options& options) {

@@ -16,7 +16,8 @@ struct SeenNumbers {
     bool contain(float number) const { return number >= from && number < to; }
 };
 
-/// The numbers of a primitive's attributes, where they are kept as "detail" "seen" unless they are all.
+/// Which samples see a primitive with these attributes; they keep it as "detail" "seen", unless all samples
+/// do.
 inline SeenNumbers seen_numbers(const Attributes& attributes) {
     const auto detail = attributes.user.find("detail");
     const Parameter* const seen = detail == attributes.user.end() ? nullptr : detail->second.find("seen");
