@@ -370,6 +370,18 @@ TEST_P(Agreement, DualSpaceFindsWhatBruteForceFinds) {
     }
 }
 
+/// What a new method is tested by, before it has tests of its own.
+TEST_P(Agreement, EveryRowOfTheTableFindsWhatBruteForceFinds) {
+    for (const VisibilityMethod& method : visibility_methods()) {
+        if (!method.is_exact) continue;
+        std::string error;
+        const std::string pattern = method.natural_pattern(choose_sampler(method.name, "", &error)->method);
+        const auto truth = resolve(scene(), "bruteforce", pattern);
+        EXPECT_EQ(differing_samples(resolve(scene(), std::string(method.name), pattern), truth), 0u)
+            << method.name;
+    }
+}
+
 TEST_P(Agreement, OfAnyNumberOfThreads) {
     for (const char* method : {"interleaveuvt:cull=on", "dualspace", "raytrace", "raytrace:tree=paper",
                                "raytrace:tree=paper,bundle=off", "raytrace:tree=paper,split=sah",

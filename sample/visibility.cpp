@@ -7,8 +7,9 @@ namespace trapeze {
 
 const std::vector<VisibilityMethod>& visibility_methods() {
     static const std::vector<VisibilityMethod> methods = {
-        raytrace_method(),       brute_force_method(), interval_method(),
-        interleave_uvt_method(), dual_space_method(),
+#define TRAPEZE_METHOD(row) row(),
+#include "sample/visibility_methods.def"
+#undef TRAPEZE_METHOD
 #ifdef TRAPEZE_HAVE_EMBREE
         embree_method(),
 #endif

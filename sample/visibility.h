@@ -58,6 +58,8 @@ struct VisibilityMethod {
     std::unique_ptr<Visibility> (*prepare)(const VisibilityInput& input);
     /// What is wrong with options that do not go together; empty when nothing is. May be null.
     std::string (*check)(const MethodSpec& method) = nullptr;
+    /// Whether the hits are those of brute force, bit for bit. Other libraries have predicates of their own.
+    bool is_exact = true;
 };
 
 const std::vector<VisibilityMethod>& visibility_methods();
@@ -84,11 +86,9 @@ std::optional<Sampler> choose_sampler(std::string_view method, std::string_view 
 std::string_view simd_target_name();
 
 /// The rows of the table, one file each.
-VisibilityMethod raytrace_method();
-VisibilityMethod brute_force_method();
-VisibilityMethod interval_method();
-VisibilityMethod interleave_uvt_method();
-VisibilityMethod dual_space_method();
+#define TRAPEZE_METHOD(row) VisibilityMethod row();
+#include "sample/visibility_methods.def"
+#undef TRAPEZE_METHOD
 VisibilityMethod embree_method();  ///< in the table where Embree was found at build time
 
 /// The pattern of methods that take any sample as it comes.

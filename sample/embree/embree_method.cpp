@@ -132,7 +132,8 @@ VisibilityMethod embree_method() {
                 std::string problem;
                 embree_library(&problem);
                 return problem;
-            }};
+            },
+            false};
 }
 
 }  // namespace trapeze

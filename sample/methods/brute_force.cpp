@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "sample/bruteforce/moving_quad.h"
 #include "sample/hit_lists.h"
+#include "sample/methods/moving_quad.h"
 #include "sample/swept_bound.h"
 #include "sample/visibility.h"
 

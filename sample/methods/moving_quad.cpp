@@ -1,9 +1,9 @@
-#include "sample/bruteforce/moving_quad.h"
+#include "sample/methods/moving_quad.h"
 
 #include "sample/visibility.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sample/bruteforce/moving_quad.cpp"
+#define HWY_TARGET_INCLUDE "sample/methods/moving_quad.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once a target
 
 #include "core/hit_micropolygon-inl.h"
