@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "core/scene/scene.h"
 #include "shade/materials/polygon_parameters.h"
 #include "shade/planes/differences.h"
@@ -224,7 +225,7 @@ void GridFootprints::find(const ShadingGrid& grid, size_t first) {
             if (thin[i - piece] == 0) continue;
             const Stretch s = stretch_at(P.at(i), VertexSteps(grid, piece, i, step), camera_, least);
             const size_t to = first + i;
-            const float wider_u = std::hypot(s.uu, s.uv), wider_v = std::hypot(s.uv, s.vv);
+            const float wider_u = portable::hypot(s.uu, s.uv), wider_v = portable::hypot(s.uv, s.vv);
             u_of_a_[to] = U.x * s.uu + V.x * s.uv, v_of_a_[to] = U.y * s.uu + V.y * s.uv;
             u_of_b_[to] = U.x * s.uv + V.x * s.vv, v_of_b_[to] = U.y * s.uv + V.y * s.vv;
             du_[to] = way_of(U.x, wider_u, V.x, wider_v), dv_[to] = way_of(U.y, wider_u, V.y, wider_v);

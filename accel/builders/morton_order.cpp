@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -25,10 +27,10 @@ V2f square_from_disk(const V2f& p) {
     constexpr auto kQuarterPi = static_cast<float>(M_PI / 4);
     if (std::abs(p.x) >= std::abs(p.y)) {
         const float a = std::copysign(r, p.x);
-        return {a, std::abs(a) * std::atan2(p.y, std::abs(p.x)) / kQuarterPi};
+        return {a, std::abs(a) * portable::atan2(p.y, std::abs(p.x)) / kQuarterPi};
     }
     const float b = std::copysign(r, p.y);
-    return {std::abs(b) * std::atan2(p.x, std::abs(p.y)) / kQuarterPi, b};
+    return {std::abs(b) * portable::atan2(p.x, std::abs(p.y)) / kQuarterPi, b};
 }
 
 }  // namespace

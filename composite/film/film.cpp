@@ -6,6 +6,7 @@
 #include "composite/film/pixel_depth.h"
 #include "composite/film/resolve_layers.h"
 #include "composite/film/tile_sums.h"
+#include "core/portable_math.h"
 
 namespace trapeze {
 namespace {
@@ -293,7 +294,7 @@ void Film::expose(float* rgba) const {
         rgba[c] *= gain_;
         if (inverse_gamma_ == 1) continue;
         const double power =
-            std::pow(std::abs(static_cast<double>(rgba[c])), static_cast<double>(inverse_gamma_));
+            portable::pow(std::abs(static_cast<double>(rgba[c])), static_cast<double>(inverse_gamma_));
         rgba[c] = static_cast<float>(std::copysign(power, static_cast<double>(rgba[c])));
     }
 }

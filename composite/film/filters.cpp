@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr float kMaxWidth = 64;  ///< a bound on what absurd input costs
 constexpr int kRadialEntriesPerPixel = 512;
 
 double sinc(double x) {
-    return std::abs(x) < 1e-9 ? 1.0 : std::sin(kPi * x) / (kPi * x);
+    return std::abs(x) < 1e-9 ? 1.0 : portable::sin(kPi * x) / (kPi * x);
 }
 
 double box(double, double) {
@@ -29,14 +31,14 @@ double triangle(double x, double width) {
 /// RISpec's gaussian: exp(-2 (2x / width)^2), so that it is exp(-2) at the support's end.
 double gaussian(double x, double width) {
     const double s = 2 * x / width;
-    return std::exp(-2 * s * s);
+    return portable::exp(-2 * s * s);
 }
 
 /// RISpec prints sin(x) / x with x in pixels, three times too wide to be the ideal filter of the pixel grid,
 /// and cuts it off at the width. As in most renderers: zero at the neighbouring pixels, and a cosine window
 /// that ends at the support.
 double windowed_sinc(double x, double width) {
-    return std::abs(2 * x) >= width ? 0 : sinc(x) * std::cos(kPi * x / width);
+    return std::abs(2 * x) >= width ? 0 : sinc(x) * portable::cos(kPi * x / width);
 }
 
 /// The sinc, windowed by a wider sinc that ends at the support.
@@ -71,8 +73,8 @@ double mitchell(double x, double width) {
 double blackman_harris(double x, double width) {
     if (std::abs(2 * x) >= width) return 0;
     const double phase = 2 * kPi * (std::abs(x) / width + 0.5);
-    return 0.35875 - 0.48829 * std::cos(phase) + 0.14128 * std::cos(2 * phase) -
-           0.01168 * std::cos(3 * phase);
+    return 0.35875 - 0.48829 * portable::cos(phase) + 0.14128 * portable::cos(2 * phase) -
+           0.01168 * portable::cos(3 * phase);
 }
 
 double disk(double r, double width) {
@@ -82,8 +84,8 @@ double disk(double r, double width) {
 /// The circular twin of sinc: the transform of a disk, windowed by the same cosine.
 double bessel(double r, double width) {
     if (2 * r >= width) return 0;
-    const double jinc = r < 1e-9 ? 1.0 : 2 * std::cyl_bessel_j(1.0, kPi * r) / (kPi * r);
-    return jinc * std::cos(kPi * r / width);
+    const double jinc = r < 1e-9 ? 1.0 : 2 * portable::bessel_j1(kPi * r) / (kPi * r);
+    return jinc * portable::cos(kPi * r / width);
 }
 
 enum class Form {

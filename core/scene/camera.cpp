@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "core/scene/scene.h"
 
 namespace trapeze {
@@ -48,7 +49,7 @@ Camera make_camera(const Options& options) {
     if (options.screen_window) window = *options.screen_window;
     camera.left = window[0], camera.right = window[1], camera.bottom = window[2], camera.top = window[3];
     camera.tan_half_fov =
-        camera.perspective ? static_cast<float>(std::tan(options.fov * (M_PI / 360))) : 1.0f;
+        camera.perspective ? static_cast<float>(portable::tan(options.fov * (M_PI / 360))) : 1.0f;
     camera.plane_scale_x = (window[1] - window[0]) * camera.tan_half_fov / static_cast<float>(options.width);
     camera.plane_offset_x = window[0] * camera.tan_half_fov;
     camera.plane_scale_y = (window[2] - window[3]) * camera.tan_half_fov / static_cast<float>(options.height);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/portable_math.h"
 #include "core/random.h"
 
 namespace trapeze {
@@ -21,8 +22,8 @@ struct Range {
 /// The disk's x of a point of the square [-1, 1]^2; y is the same with a and b exchanged.
 double disk_x(double a, double b) {
     if (a == 0) return 0;
-    if (std::abs(a) > std::abs(b)) return a * std::cos(M_PI / 4 * (b / a));
-    return b * std::sin(M_PI / 4 * (a / b));
+    if (std::abs(a) > std::abs(b)) return a * portable::cos(M_PI / 4 * (b / a));
+    return b * portable::sin(M_PI / 4 * (a / b));
 }
 
 /// The range of disk_x over a rectangle. It grows with a. For given a it is even in b; its magnitude is

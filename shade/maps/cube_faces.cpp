@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -52,7 +54,7 @@ Raster lat_long_from_cube(const std::array<Raster, 6>& faces, float fov) {
     for (const Raster& face : faces) widest = std::max({widest, face.width, face.height});
     Raster out{4 * widest, 2 * widest, faces[0].channels, {}};
     out.pixels.assign(static_cast<size_t>(out.width) * out.height * out.channels, 0.0f);
-    const float widening = std::tan((fov >= 90 ? std::min(fov, 170.0f) : 90.0f) * kPi / 360);
+    const float widening = portable::tan((fov >= 90 ? std::min(fov, 170.0f) : 90.0f) * kPi / 360);
     constexpr float kStep = 1.0f / kSamplesAcross;
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
@@ -64,8 +66,8 @@ Raster lat_long_from_cube(const std::array<Raster, 6>& faces, float fov) {
                     static_cast<float>(y) + (static_cast<float>(sample / kSamplesAcross) + 0.5f) * kStep;
                 const float longitude = px / static_cast<float>(out.width) * 2 * kPi;
                 const float polar = py / static_cast<float>(out.height) * kPi;
-                const V3f d(std::sin(polar) * std::cos(longitude), std::sin(polar) * std::sin(longitude),
-                            std::cos(polar));
+                const V3f d(portable::sin(polar) * portable::cos(longitude),
+                            portable::sin(polar) * portable::sin(longitude), portable::cos(polar));
                 add_direction(faces, widening, d, sum);
             }
             for (int k = 0; k < out.channels; ++k) sum[k] *= kStep * kStep;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -26,7 +28,7 @@ ScreenMetric::ScreenMetric(const Camera& camera)
     const float x = std::max(std::abs(x0), std::abs(x1)), y = std::max(std::abs(y0), std::abs(y1));
     view_cosine_ = 1 / std::sqrt(1 + x * x + y * y);
     center_ = {(x0 + x1) / 2, (y0 + y1) / 2};
-    radius_ = std::hypot(x1 - x0, y1 - y0) / 2;
+    radius_ = portable::hypot(x1 - x0, y1 - y0) / 2;
 }
 
 PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
@@ -40,7 +42,7 @@ PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
         const float y = (q.y * q_scale - p.y * p_scale) * pixels_y_;
         return {std::sqrt(x * x + y * y), std::sqrt(d.dot(d)) * pixels_ * 2 / (p.z + q.z)};
     }
-    const float angle = std::atan2(p.cross(q).length(), p.dot(q));
+    const float angle = portable::atan2(p.cross(q).length(), p.dot(q));
     const float nearest = (p + d * nearest_to_origin(p, d)).length();
     // A bound for pieces through the eye itself, whose splitting the depth limit ends.
     const float distance = std::max(nearest, d.length() / 64);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "tessellate/topology/placed_surface.h"
 
 namespace trapeze {
@@ -21,7 +22,7 @@ CameraFacing::CameraFacing(const M44f& camera_from_object, const Camera* camera)
     // In double: determinants of small scales underflow in float.
     const double determinant = M44d(camera_from_object).determinant();
     outside_ = determinant < 0 ? -1.0f : 1.0f;
-    scale_ = static_cast<float>(std::cbrt(std::abs(determinant)));
+    scale_ = static_cast<float>(portable::cbrt(std::abs(determinant)));
     // Camera x and, unless mirrored, minus y: their cross product is -z, towards the eye.
     u_axis_ = to_object({scale_, 0, 0});
     v_axis_ = to_object({0, -outside_ * scale_, 0});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "tessellate/surfaces/camera_facing.h"
 #include "tessellate/surfaces/surface_variables.h"
 #include "tessellate/topology/placed_surface.h"
@@ -31,7 +32,7 @@ DiskPoint disk_point(V2f uv) {
     const bool sideways = std::abs(a) >= std::abs(b);
     const float r = sideways ? a : b, other = sideways ? b : a;
     const float angle = r != 0 ? kQuarter * other / r : 0.0f;
-    const float c = std::cos(angle), s = std::sin(angle);
+    const auto [s, c] = portable::sine_and_cosine(angle);
     // In the sector about the u axis; the one about the v axis has u and v exchanged.
     const V2f at(r * c, r * s), by_r = V2f(c + angle * s, s - angle * c) * 2.0f;
     const V2f by_other = V2f(-s, c) * (2 * kQuarter);
@@ -43,7 +44,7 @@ DiskPoint disk_point(V2f uv) {
 /// How much larger than its circle a polygon's circle is, when both are to have the same area.
 float polygon_factor(int corners) {
     const float turn = 2 * kHalfTurn / static_cast<float>(corners);
-    return std::sqrt(turn / std::sin(turn));
+    return std::sqrt(turn / portable::sin(turn));
 }
 
 /// A float for each point or one for all.
@@ -145,7 +146,7 @@ float PointsSurface::factor(int point, const Camera* camera) const {
     // At most a micropolygon wide: nobody sees corners.
     if (size * kSquare <= 1) return 0;
     // A side of the disk is diced by the length of four chords; its number of segments and the area must fit.
-    const float chords = size * 4 * std::sin(kHalfTurn / 16);
+    const float chords = size * 4 * portable::sin(kHalfTurn / 16);
     constexpr int kMostSides = 8;
     constexpr float kFits = 0.012f;
     // Beyond eight segments a side the polygon is as good as its circle.
@@ -200,8 +201,8 @@ PointsSurface::Disk PointsSurface::disk(int point, int key) const {
         const float angle = keys_[mix.first].angle[point] * kHalfTurn / 180,
                     aspect = keys_[mix.first].aspect[point];
         // v runs down, as a texture's t does.
-        disk.x = u * std::cos(angle) - v * std::sin(angle);
-        disk.y = (v * std::cos(angle) + u * std::sin(angle)) * (aspect > 0 ? 1 / aspect : 0.0f);
+        disk.x = u * portable::cos(angle) - v * portable::sin(angle);
+        disk.y = (v * portable::cos(angle) + u * portable::sin(angle)) * (aspect > 0 ? 1 / aspect : 0.0f);
         disk.rectangle = true;
         return disk;
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
 #include "tessellate/surfaces/between.h"
 #include "tessellate/surfaces/surface_variables.h"
 #include "tessellate/topology/face_grid.h"
@@ -35,7 +36,7 @@ struct Range {
 /// The range of the cosine over an interval of angles in radians, a little wide for rounding.
 Range cosine(Range angle) {
     constexpr float kSlack = 2e-6f;
-    Range c = Range::of(std::cos(angle.lo), std::cos(angle.hi));
+    Range c = Range::of(portable::cos(angle.lo), portable::cos(angle.hi));
     /// Whether a multiple of the turn, shifted by `phase`, lies in the interval: an extremum of the cosine.
     const auto passes = [&](float phase) {
         return std::floor((angle.hi - phase) / (2 * kPi)) != std::floor((angle.lo - phase) / (2 * kPi));
@@ -85,7 +86,7 @@ Profile sphere_profile(const std::array<float, 7>& q) {
     Profile p;
     p.a = q[0];
     // zmin and zmax are cut to the radius.
-    const auto latitude = [&](float z) { return std::asin(std::clamp(z / q[0], -1.0f, 1.0f)); };
+    const auto latitude = [&](float z) { return portable::asin(std::clamp(z / q[0], -1.0f, 1.0f)); };
     p.from = latitude(q[1]), p.to = latitude(q[2]);
     // zmin and zmax at or beyond the radius: the sphere is closed there.
     p.bottom_is_point = std::abs(q[1]) >= std::abs(q[0]);
@@ -131,7 +132,8 @@ ProfilePoint Profile::at(float v) const {
     const bool at_point = (bottom_is_point && v == 0) || (top_is_point && v == 1);
     switch (kind) {
         case Kind::Sphere: {
-            const float c = at_point ? 0.0f : std::cos(along), s = std::sin(along);
+            auto [s, c] = portable::sine_and_cosine(along);
+            if (at_point) c = 0;
             return {a * c, 0, a * s, -a * s * span, 0, a * c * span};
         }
         case Kind::Cone:
@@ -153,7 +155,7 @@ ProfilePoint Profile::at(float v) const {
         case Kind::Disk:
             return {b * (1 - v), 0, a, -b, 0, 0};
         case Kind::Torus: {
-            const float c = std::cos(along), s = std::sin(along);
+            const auto [s, c] = portable::sine_and_cosine(along);
             return {a + b * c, 0, b * s, -b * s * span, 0, b * c * span};
         }
     }
@@ -244,7 +246,7 @@ void QuadricSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, 
         // The profile turned about z. Derivatives are by the parameters of the face, of which the surface has
         // several along u and v: by the chain rule, RISpec's times du and dv.
         const float theta = at.x * profile.theta_max;
-        const float c = std::cos(theta), s = std::sin(theta);
+        const auto [s, c] = portable::sine_and_cosine(theta);
         const ProfilePoint p = profile.at(at.y);
         P[i] = {p.x * c - p.y * s, p.x * s + p.y * c, p.z};
         if (!dPdu.empty()) dPdu[i] = V3f(-P[i].y, P[i].x, 0) * du;

@@ -1,6 +1,7 @@
 /// RISpec 4.3.
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "pipeline/rib/reader/motion_collector.h"
 #include "pipeline/rib/requests/request_table.h"
 
@@ -36,7 +37,7 @@ void skew(RequestContext& r, ArgumentCursor& c) {
     const std::vector<float> v = c.numbers(7, "the transformation");
     const V3d from(v[1], v[2], v[3]), to(v[4], v[5], v[6]);
     if (from.length() == 0 || to.length() == 0) throw RequestError{"an axis is 0", {}};
-    const double between = std::atan2(from.cross(to).length(), from.dot(to)) * (180 / M_PI);
+    const double between = portable::atan2(from.cross(to).length(), from.dot(to)) * (180 / M_PI);
     if (!(v[0] < between && v[0] > between - 180))
         throw RequestError{"the angle must be smaller than that between the axes", {}};
     r.motion.transform(TransformKind::Skew, v);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/portable_math.h"
+
 namespace trapeze::rib {
 namespace {
 
@@ -18,7 +20,7 @@ bool contains(std::string_view text, std::string_view part) {
 /// Radiance that a light's colour, intensity and exposure (stops: powers of 2) make.
 V3f power(const RisParameters& p, float default_intensity = 1) {
     const float scale = p.number_or("intensity", default_intensity) *
-                        std::exp2(std::clamp(p.number_or("exposure", 0), -64.0f, 64.0f));
+                        portable::exp2(std::clamp(p.number_or("exposure", 0), -64.0f, 64.0f));
     V3f color(1, 1, 1);
     for (const char* name : {"lightColor", "envTint", "skyTint", "lightcolor"})
         if (const auto given = p.color(name)) color = *given;
@@ -49,7 +51,7 @@ std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderIn
 /// What a disk in the sky lights: a face turned to it is as bright as the disk times sin^2 of half the angle
 /// that it takes.
 float share_of_disk(float angle) {
-    const float sine = std::sin(std::clamp(angle, 0.0f, 180.0f) * (std::numbers::pi_v<float> / 360));
+    const float sine = portable::sin(std::clamp(angle, 0.0f, 180.0f) * (std::numbers::pi_v<float> / 360));
     return sine * sine;
 }
 

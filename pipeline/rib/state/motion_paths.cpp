@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/motion_keys.h"
+#include "core/portable_math.h"
 
 namespace trapeze::rib {
 namespace {
@@ -34,7 +35,7 @@ void extend(Box3f& box, const Quadric& quadric) {
         case Quadric::Kind::Torus:
             return round(std::abs(v[0]) + std::abs(v[1]), -std::abs(v[1]), std::abs(v[1]));
         case Quadric::Kind::Hyperboloid:
-            return round(std::max(std::hypot(v[0], v[1]), std::hypot(v[3], v[4])), v[2], v[5]);
+            return round(std::max(portable::hypot(v[0], v[1]), portable::hypot(v[3], v[4])), v[2], v[5]);
     }
 }
 
@@ -89,7 +90,7 @@ float pixels_between(const V3d& a, const V3d& b, const Camera& camera) {
     const V3d d = a - b;
     double x = d.x, y = d.y;
     if (camera.perspective) x -= d.z * a.x / depth, y -= d.z * a.y / depth;
-    return static_cast<float>(std::hypot(x * pixels.x, y * pixels.y));
+    return static_cast<float>(portable::hypot(x * pixels.x, y * pixels.y));
 }
 
 /// In double: the error that is looked for is far below a float's of large scenes.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/motion_keys.h"
+#include "core/portable_math.h"
 
 namespace trapeze::rib {
 namespace {
@@ -24,7 +25,7 @@ M44d rotation(const TransformArguments& a) {
     V3d axis(a[1], a[2], a[3]);
     if (axis.length() == 0) return M44d();
     axis.normalize();
-    const double c = std::cos(radians(a[0])), s = std::sin(radians(a[0])), k = 1 - c;
+    const double c = portable::cos(radians(a[0])), s = portable::sin(radians(a[0])), k = 1 - c;
     const double x = axis.x, y = axis.y, z = axis.z;
     return M44d(k * x * x + c, k * x * y + s * z, k * x * z - s * y, 0,  //
                 k * x * y - s * z, k * y * y + c, k * y * z + s * x, 0,  //
@@ -44,10 +45,11 @@ M44d skew(const TransformArguments& a) {
     const V3d across = across_vector / sine;
     // In the plane of both, `from` is (cosine along `to`, sine across): after the shear its angle to `to` is
     // smaller.
-    const double angle = std::atan2(sine, cosine);
+    const double angle = portable::atan2(sine, cosine);
     const double shifted = angle - radians(a[0]);
-    const double shear =
-        std::abs(std::sin(shifted)) < 1e-9 ? 0 : sine * std::cos(shifted) / std::sin(shifted) - cosine;
+    const double shear = std::abs(portable::sin(shifted)) < 1e-9
+                             ? 0
+                             : sine * portable::cos(shifted) / portable::sin(shifted) - cosine;
     const double amount = shear / sine;
     M44d m;
     for (int i = 0; i < 3; ++i)
@@ -78,7 +80,7 @@ M44d transform_matrix(TransformKind kind, const TransformArguments& a) {
             for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = a[i];
             break;
         case TransformKind::Perspective: {
-            const double t = std::tan(radians(a[0]) / 2);
+            const double t = portable::tan(radians(a[0]) / 2);
             m = M44d(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, t, t, 0, 0, -t, 0);
             break;
         }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr std::string_view kDecoded = " (decoded from sRGB)";
 
 /// Linear light from a value encoded by the sRGB curve (IEC 61966-2-1).
 float linear_from_srgb(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    return encoded <= 0.04045f ? encoded / 12.92f : portable::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 template <class Stored>

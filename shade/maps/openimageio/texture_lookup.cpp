@@ -1,6 +1,7 @@
 /// Lookups of colours: by place in a picture, and by direction.
 #include <algorithm>
 
+#include "core/portable_math.h"
 #include "shade/maps/map_lanes.h"
 #include "shade/maps/openimageio/map_cache.h"
 
@@ -86,10 +87,11 @@ Region with_area(const Region& r, double s_scale, double t_scale) {
     constexpr double kLeast = 1.0 / 64;
     const double su = s_scale * r.dsdu, tu = t_scale * r.dtdu, sv = s_scale * r.dsdv, tv = t_scale * r.dtdv;
     const double A = tu * tu + tv * tv, B = su * tu + sv * tv, C = su * su + sv * sv;
-    const double root = std::hypot(A - C, 2 * B), longest = (A + C + root) / 2, least = (A + C - root) / 2;
+    const double root = portable::hypot(A - C, 2 * B), longest = (A + C + root) / 2,
+                 least = (A + C - root) / 2;
     if (least > longest * kLeast * kLeast) return r;
-    const bool is_along_u = std::hypot(su, tu) >= std::hypot(sv, tv);
-    const double s = is_along_u ? su : sv, t = is_along_u ? tu : tv, length = std::hypot(s, t);
+    const bool is_along_u = portable::hypot(su, tu) >= portable::hypot(sv, tv);
+    const double s = is_along_u ? su : sv, t = is_along_u ? tu : tv, length = portable::hypot(s, t);
     if (!(length > 0)) return r;
     const double scale = std::sqrt(longest) / length, across = scale * kLeast;
     return {static_cast<float>(s * scale / s_scale), static_cast<float>(t * scale / t_scale),
