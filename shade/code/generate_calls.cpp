@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "shade/code/generator.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze::rsl {
 namespace {

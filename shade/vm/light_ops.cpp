@@ -2,6 +2,7 @@
 #include <cctype>
 #include <string>
 
+#include "shade/operations/op_table.h"
 #include "shade/vm/context_ops.h"
 #include "shade/vm/kernels/light_kernels.h"
 

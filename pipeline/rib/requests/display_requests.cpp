@@ -108,7 +108,8 @@ void display(RequestContext& r, ArgumentCursor& c) {
         d.name.erase(0, 1);
         o.displays.push_back(std::move(d));
     } else {
-        o.displays.assign(1, std::move(d));
+        o.displays.clear();
+        o.displays.push_back(std::move(d));
     }
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "pipeline/rib/reader/known_requests.h"
+
 namespace trapeze::rib {
 namespace {
 
