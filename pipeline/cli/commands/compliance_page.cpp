@@ -74,7 +74,7 @@ std::string request_table(std::span<const std::string> names, const std::vector<
     std::string text = "| Request | Standing | Limits | Shown by |\n|---|---|---|---|\n";
     for (const std::string& name : names) {
         const rib::Request* request = rib::find_request(name);
-        const bool done = request && request->handler;
+        const bool done = request && request->group != rib::RequestGroup::Unsupported;
         const std::string note = note_of(request_notes(), name);
         text += fmt::format("| {} | {} | {} | {} |\n", name,
                             !done          ? "skipped, with a warning"

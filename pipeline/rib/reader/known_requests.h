@@ -4,12 +4,22 @@
 
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace trapeze::rib {
 
 class ArgumentCursor;
-struct RequestContext;
+class GeometryContext;
+class LightContext;
+class MapContext;
+class RequestContext;
+struct ConditionalContext;
+struct OptionContext;
+struct ProceduralContext;
+struct StateContext;
+struct StructureContext;
+struct TransformContext;
 
 /// What a motion block does with requests (RISpec 6): transforms and geometry have a motion of their own;
 /// options and attributes have their values as the shutter opens; structure is not held back.
@@ -17,11 +27,20 @@ enum class RequestGroup { Structure, Option, Attribute, Transform, Geometry, Uns
 
 /// Takes the arguments of one request and does what it says. Throws a RequestError where the request has to
 /// be skipped; an argument that it leaves is reported by its caller.
-using RequestHandler = void (*)(RequestContext& context, ArgumentCursor& cursor);
+template <class Context>
+using HandlerWith = void (*)(Context& context, ArgumentCursor& cursor);
+
+/// A handler with the context of its family (request_context.h), of which it has what its requests need.
+/// std::monostate: none.
+using RequestHandler =
+    std::variant<std::monostate, HandlerWith<RequestContext>, HandlerWith<StateContext>,
+                 HandlerWith<OptionContext>, HandlerWith<TransformContext>, HandlerWith<LightContext>,
+                 HandlerWith<GeometryContext>, HandlerWith<MapContext>, HandlerWith<StructureContext>,
+                 HandlerWith<ConditionalContext>, HandlerWith<ProceduralContext>>;
 
 struct Request {
-    RequestHandler handler = nullptr;  ///< null: known, not supported
-    RequestGroup group = RequestGroup::Unsupported;
+    RequestHandler handler;
+    RequestGroup group = RequestGroup::Unsupported;  ///< then it is known, and has no handler
 };
 
 /// Null for unknown names.

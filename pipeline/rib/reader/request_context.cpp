@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "pipeline/rib/map_request.h"
 #include "pipeline/rib/reader/request_report.h"
+#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/state/graphics_state_stack.h"
 
 namespace trapeze::rib {
@@ -30,8 +32,9 @@ bool fits(const Declaration& declaration, size_t numbers, size_t strings) {
 /// One name and value pair, checked against its declaration. A name without a value throws a RequestError.
 class ParameterReader {
   public:
-    ParameterReader(RequestContext& context, ArgumentCursor& cursor, Undeclared undeclared)
-        : report_(context.report), state_(context.state), cursor_(cursor), undeclared_(undeclared) {}
+    ParameterReader(RequestReport& report, const GraphicsStateStack& state, ArgumentCursor& cursor,
+                    Undeclared undeclared)
+        : report_(report), state_(state), cursor_(cursor), undeclared_(undeclared) {}
 
     /// Nothing when the pair is wrong, which has been reported.
     std::optional<Parameter> read(const ParameterList& earlier) {
@@ -110,7 +113,7 @@ class ParameterReader {
     }
 
     RequestReport& report_;
-    GraphicsStateStack& state_;
+    const GraphicsStateStack& state_;
     ArgumentCursor& cursor_;
     const Undeclared undeclared_;
     SourceLocation name_at_;
@@ -119,9 +122,9 @@ class ParameterReader {
 }  // namespace
 
 /// A repeated name is a mistake of the file: its first value counts.
-ParameterList RequestContext::parameters(ArgumentCursor& cursor, Undeclared undeclared) {
+ParameterList RequestContext::parameters(ArgumentCursor& cursor, Undeclared undeclared) const {
     ParameterList list;
-    ParameterReader reader(*this, cursor, undeclared);
+    ParameterReader reader(report, declared_, cursor, undeclared);
     while (!cursor.done())
         if (auto parameter = reader.read(list)) list.values.push_back(std::move(*parameter));
     return list;
@@ -129,7 +132,7 @@ ParameterList RequestContext::parameters(ArgumentCursor& cursor, Undeclared unde
 
 /// A shader's argument is one value or one array, as it is declared. What has another number of values was
 /// meant for another shader.
-ParameterList RequestContext::shader_parameters(ArgumentCursor& cursor) {
+ParameterList RequestContext::shader_parameters(ArgumentCursor& cursor) const {
     ParameterList list = parameters(cursor, Undeclared::Guess);
     std::erase_if(list.values, [&](const Parameter& p) {
         const size_t got = p.is_string() ? p.strings.size() : p.floats.size();
@@ -143,13 +146,37 @@ ParameterList RequestContext::shader_parameters(ArgumentCursor& cursor) {
 }
 
 /// Shaders run in the space where their request stands ("shader" space).
-ShaderInstance RequestContext::shader(ArgumentCursor& cursor, const char* kind) {
+ShaderInstance RequestContext::shader(ArgumentCursor& cursor, const char* kind) const {
     ShaderInstance instance;
     instance.name = cursor.string("the shader's name");
     instance.location = report.at();
-    instance.camera_from_shader = state.camera_from_current();
+    instance.camera_from_shader = declared_.camera_from_current();
     ++report.summary().shaders[std::string(kind) + " " + instance.name];
     return instance;
+}
+
+void LightContext::add_light(std::shared_ptr<const LightInstance> light) {
+    scene_.add_light(std::move(light));
+}
+
+void LightContext::add_world_light(std::shared_ptr<const LightInstance> light) {
+    scene_.add_world_light(std::move(light));
+}
+
+std::shared_ptr<const LightInstance> LightContext::light(const std::string& handle) const {
+    return scene_.light(handle);
+}
+
+void GeometryContext::add_shape(std::string request, Shape shape, uint64_t faces) {
+    scene_.add_shape(std::move(request), std::move(shape), faces);
+}
+
+void GeometryContext::place_far_emitter(FarShape shape, float angle) {
+    scene_.place_far_emitter(shape, angle);
+}
+
+void MapContext::make_map(MapRequest request) {
+    scene_.make_map(std::move(request));
 }
 
 }  // namespace trapeze::rib

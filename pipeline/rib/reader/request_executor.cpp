@@ -22,80 +22,90 @@ bool has_no_points(const RequestText& text) {
     return false;
 }
 
+/// Gives a handler the context that it names.
+struct HandlerCall {
+    RequestContexts& contexts;
+    ArgumentCursor& cursor;
+
+    template <class Context>
+    void operator()(HandlerWith<Context> handler) const {
+        handler(std::get<Context>(contexts), cursor);
+    }
+    void operator()(std::monostate) const {}
+};
+
 }  // namespace
 
 /// The order counts: a request is counted before anything of it is judged; variables are replaced before
 /// others are told of it, and these may refuse it.
 void RequestExecutor::execute(RequestText& text) {
-    RequestReport& report = context_.report;
     if (text.name != last_request_.name || !last_request_.request) {
         last_request_ = {text.name, find_request(text.name), nullptr};
-        if (last_request_.request) last_request_.count = &report.summary().requests[text.name];
+        if (last_request_.request) last_request_.count = &report_.summary().requests[text.name];
     }
     const Request* const request = last_request_.request;
     if (!request) {
-        report.set_request(text.at, clipped(text.name));
-        report.report_unknown_request(text.name);
+        report_.set_request(text.at, clipped(text.name));
+        report_.report_unknown_request(text.name);
         return;
     }
-    report.set_request(text.at, text.name);
+    report_.set_request(text.at, text.name);
     ++*last_request_.count;
-    if (!request->handler) {
+    if (request->group == RequestGroup::Unsupported) {
         if (text.problem.empty()) hands_on(text);
-        report.count_unsupported();
-        report.diagnostics().warning(text.at, text.name + " is not supported yet; skipped",
-                                     "unsupported-" + text.name);
+        report_.count_unsupported();
+        report_.diagnostics().warning(text.at, text.name + " is not supported yet; skipped",
+                                      "unsupported-" + text.name);
         return;
     }
     if (!text.problem.empty()) {
         // A stray character must not take a whole block with it.
         const bool is_block = request->group == RequestGroup::Structure && text.arguments.empty();
-        report.error(text.problem_at, text.problem + (is_block ? "; ignored" : "; request skipped"));
+        report_.error(text.problem_at, text.problem + (is_block ? "; ignored" : "; request skipped"));
         if (!is_block) return;
     }
     try {
-        context_.conditions.substitute(text);
+        conditions_.substitute(text);
         if (!hands_on(text)) return;
         const bool moves =
             request->group != RequestGroup::Attribute && request->group != RequestGroup::Option;
-        if (context_.motion.is_open() && !moves)
-            context_.motion.hold(std::move(text));
+        if (motion_.is_open() && !moves)
+            motion_.hold(std::move(text));
         else
             carry_out(*request, text);
     } catch (const RequestError& problem) {
         const bool is_shape = request->group == RequestGroup::Geometry;
-        report.error(problem.at, problem.text + (is_shape ? "; primitive skipped" : "; request skipped"));
+        report_.error(problem.at, problem.text + (is_shape ? "; primitive skipped" : "; request skipped"));
     }
 }
 
 /// Not told to ReadOptions::on_request again: that was done where it stood.
 void RequestExecutor::execute_held(const std::vector<RequestText>& keys, const std::vector<float>& times) {
-    const OtherRequest held(context_.report, keys[0].at, keys[0].name);
-    RequestText text = context_.motion.as_shutter_opens(keys, times);
+    const OtherRequest held(report_, keys[0].at, keys[0].name);
+    RequestText text = motion_.as_shutter_opens(keys, times);
     try {
         carry_out(*find_request(text.name), text);
     } catch (const RequestError& problem) {
-        context_.report.error(problem.at, problem.text + "; request skipped");
+        report_.error(problem.at, problem.text + "; request skipped");
     }
 }
 
 /// The handler's own name for what is wrong is enough: place and request are added where it is caught.
 void RequestExecutor::carry_out(const Request& request, RequestText& text) {
-    RequestReport& report = context_.report;
     if (request.group == RequestGroup::Geometry && has_no_points(text)) {
-        report.warn_once("\"P\" is empty; there is nothing to draw", "empty-" + text.name);
+        report_.warn_once("\"P\" is empty; there is nothing to draw", "empty-" + text.name);
         return;
     }
     ArgumentCursor cursor(text);
-    request.handler(context_, cursor);
+    std::visit(HandlerCall{contexts_, cursor}, request.handler);
     if (!cursor.done())
-        report.error(cursor.peek()->at, "more arguments than the request has; the rest is ignored");
+        report_.error(cursor.peek()->at, "more arguments than the request has; the rest is ignored");
 }
 
 /// Conditions are resolved for the listener, and frames that are not wanted are not for it.
 bool RequestExecutor::hands_on(const RequestText& text) const {
     if (!read_options_.on_request || ConditionalBlocks::is_conditional(text.name) ||
-        !context_.scene.frame_is_wanted())
+        !scene_.frame_is_wanted())
         return true;
     return read_options_.on_request(text);
 }

@@ -12,8 +12,14 @@ namespace trapeze::rib {
 /// is wrong with the others.
 class RequestExecutor {
   public:
-    RequestExecutor(const ReadOptions& options, RequestContext& context)
-        : read_options_(options), context_(context) {}
+    RequestExecutor(const ReadOptions& options, RequestReport& report, MotionCollector& motion,
+                    const ConditionalBlocks& conditions, const SceneBuilder& scene, RequestContexts& contexts)
+        : read_options_(options),
+          report_(report),
+          motion_(motion),
+          conditions_(conditions),
+          scene_(scene),
+          contexts_(contexts) {}
     RequestExecutor(const RequestExecutor&) = delete;
     RequestExecutor& operator=(const RequestExecutor&) = delete;
 
@@ -28,7 +34,11 @@ class RequestExecutor {
     void carry_out(const Request& request, RequestText& text);
 
     const ReadOptions& read_options_;
-    RequestContext& context_;
+    RequestReport& report_;
+    MotionCollector& motion_;
+    const ConditionalBlocks& conditions_;
+    const SceneBuilder& scene_;
+    RequestContexts& contexts_;
     /// The last name looked up: requests mostly come in rows. `count` is in the summary.
     struct {
         std::string name;

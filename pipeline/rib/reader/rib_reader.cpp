@@ -33,8 +33,14 @@ struct RibReader {
           blocks(report, state, motion, scene, executor),
           stream(options, access, report, files, search, conditions, place, executor),
           procedurals(options, access, report, state, scene, blocks, files, search, stream),
-          context{report, state, motion, scene, blocks, conditions, files, search, stream, procedurals},
-          executor(options, context) {}
+          contexts(rib::RequestContext(report, state), rib::StateContext(report, state),
+                   rib::OptionContext{{report, state}, files, search},
+                   rib::TransformContext{{report, state}, motion}, rib::LightContext({report, state}, scene),
+                   rib::GeometryContext({report, state}, scene), rib::MapContext({report, state}, scene),
+                   rib::StructureContext{{report, state}, motion, scene, blocks, files, stream},
+                   rib::ConditionalContext{{report, state}, conditions},
+                   rib::ProceduralContext{{report, state}, procedurals}),
+          executor(options, report, motion, conditions, scene, contexts) {}
     RibReader(const RibReader&) = delete;
     RibReader& operator=(const RibReader&) = delete;
 
@@ -59,7 +65,7 @@ struct RibReader {
     rib::BlockEnds blocks;
     rib::RequestStream stream;
     rib::Procedurals procedurals;
-    rib::RequestContext context;
+    rib::RequestContexts contexts;
     rib::RequestExecutor executor;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 /// A colour of as many numbers as colours have (ColorSamples). One number for all and one too many are
 /// mistakes that files have, and that renderers take.
-V3f color_of(RequestContext& r, ArgumentCursor& c, const char* what) {
+V3f color_of(StateContext& r, ArgumentCursor& c, const char* what) {
     const size_t samples = r.state.scope().samples_per_color();
     const SourceLocation at = c.done() ? SourceLocation{} : c.peek()->at;
     std::vector<float> given = c.next_is_array() ? c.number_array(what) : c.numbers(1, samples, what);
@@ -31,38 +31,38 @@ V3f color_of(RequestContext& r, ArgumentCursor& c, const char* what) {
 }
 
 /// Opacity color: how much of what lies behind is covered, by channel.
-void opacity(RequestContext& r, ArgumentCursor& c) {
+void opacity(StateContext& r, ArgumentCursor& c) {
     const V3f o = color_of(r, c, "the opacity");
     changeable_attributes(r).opacity = o;
 }
 
 /// TextureCoordinates s1 t1 s2 t2 s3 t3 s4 t4: s and t at the corners (0,0), (1,0), (0,1), (1,1) of u and v.
-void texture_coordinates(RequestContext& r, ArgumentCursor& c) {
+void texture_coordinates(StateContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(8, "the coordinates");
     std::copy(v.begin(), v.end(), changeable_attributes(r).texture_coordinates.begin());
 }
 
 /// ShadingRate area: so many pixels a micropolygon may cover.
-void shading_rate(RequestContext& r, ArgumentCursor& c) {
+void shading_rate(StateContext& r, ArgumentCursor& c) {
     const float rate = c.number("the rate");
     if (!(rate > 0)) throw RequestError{"the rate must be positive", {}};
     changeable_attributes(r).shading_rate = rate;
 }
 
 /// ShadingInterpolation "constant" or "smooth": of a grid's colours, over each micropolygon.
-void shading_interpolation(RequestContext& r, ArgumentCursor& c) {
+void shading_interpolation(StateContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     if (type != "constant" && type != "smooth")
         throw RequestError{in_quotes(type) + " is neither constant nor smooth", {}};
     changeable_attributes(r).smooth_shading = type == "smooth";
 }
 
-void matte(RequestContext& r, ArgumentCursor& c) {
+void matte(StateContext& r, ArgumentCursor& c) {
     changeable_attributes(r).matte = c.integer("the flag", 0, 2);
 }
 
 /// Sides 1 or 2: of 1 only those that face the eye are seen.
-void sides(RequestContext& r, ArgumentCursor& c) {
+void sides(StateContext& r, ArgumentCursor& c) {
     const float n = c.number("1 or 2");
     if (n != 1 && n != 2) throw RequestError{"must be 1 or 2", {}};
     changeable_attributes(r).sides = static_cast<int>(n);
@@ -70,7 +70,7 @@ void sides(RequestContext& r, ArgumentCursor& c) {
 
 /// Orientation. "lh" and "rh" are kept as "outside" where they name the handedness of the current space and
 /// as "inside" where they name the other one: later reflections flip both kinds alike.
-void orientation(RequestContext& r, ArgumentCursor& c) {
+void orientation(StateContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the orientation");
     if (name != "outside" && name != "inside" && name != "lh" && name != "rh")
         throw RequestError{in_quotes(name) + " is none of outside, inside, lh, rh", {}};
@@ -81,7 +81,7 @@ void orientation(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// ReverseOrientation: normals point to the other side from now on.
-void reverse_orientation(RequestContext& r, ArgumentCursor&) {
+void reverse_orientation(StateContext& r, ArgumentCursor&) {
     AttributeState& state = r.state.change_attributes();
     state.orientation_reversed = !state.orientation_reversed;
 }
@@ -103,7 +103,7 @@ CubicBasis read_basis(ArgumentCursor& c, const char* what) {
 }
 
 /// Basis u ustep v vstep (RISpec 5.2): of the bicubic patches and cubic curves to come.
-void basis(RequestContext& r, ArgumentCursor& c) {
+void basis(StateContext& r, ArgumentCursor& c) {
     const CubicBasis u = read_basis(c, "the u basis"), v = read_basis(c, "the v basis");
     AttributeState& state = r.state.change_attributes();
     state.u_basis = u.matrix, state.v_basis = v.matrix, state.u_step = u.step, state.v_step = v.step;
@@ -123,7 +123,7 @@ void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
 }
 
 /// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too.
-void attribute(RequestContext& r, ArgumentCursor& c) {
+void attribute(OptionContext& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
     AttributeState& state = r.state.change_attributes();
@@ -163,7 +163,7 @@ void attribute(RequestContext& r, ArgumentCursor& c) {
 constexpr RequestRow kAttributeRequests[] = {
     {"Attribute", attribute},
     {"Color",
-     [](RequestContext& r, ArgumentCursor& c) {
+     [](StateContext& r, ArgumentCursor& c) {
          const V3f v = color_of(r, c, "the colour");
          changeable_attributes(r).color = v;
      }},

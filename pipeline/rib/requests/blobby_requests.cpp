@@ -1,7 +1,6 @@
 /// RISpec 5.6: Blobby.
 #include <cstdint>
 
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 
@@ -104,7 +103,7 @@ class ProgramCheck {
 
 /// Blobby nleaf [code] [floats] [strings] parameters: a program of operations on leaves; the surface of its
 /// last result is drawn.
-void blobby(RequestContext& r, ArgumentCursor& c) {
+void blobby(GeometryContext& r, ArgumentCursor& c) {
     Blobby blobby;
     blobby.leaf_count = c.integer("the number of leaves", 0, kMostLeaves);
     blobby.code = c.int_array("the code");
@@ -127,7 +126,7 @@ void blobby(RequestContext& r, ArgumentCursor& c) {
     const auto leaves = static_cast<uint64_t>(blobby.leaf_count);
     Shape shape{std::move(blobby), {}};
     shape.variables = checked_variables(r.report, read_variables(r, c, PointForm::None), shape.topology);
-    r.scene.add_shape("Blobby", std::move(shape), leaves);
+    r.add_shape("Blobby", std::move(shape), leaves);
 }
 
 constexpr RequestRow kBlobbyRequests[] = {

@@ -1,6 +1,8 @@
 /// Transfers are named as core/scene/transfer.h lists them; "" is none of them.
 #include "pipeline/rib/requests/colorspaces.h"
 
+#include "pipeline/rib/syntax/arguments.h"
+
 namespace trapeze::rib {
 
 bool names_transfer(RequestReport& report, const Parameter& value) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/select_values.h"
@@ -22,7 +21,7 @@ std::string has_points(int vertices, size_t number) {
 }
 
 /// Points beyond the last whole segment are left over, but where the curve closes.
-void check_step(RequestContext& r, const Curves& curves, int vertices, size_t number) {
+void check_step(GeometryContext& r, const Curves& curves, int vertices, size_t number) {
     if (!curves.cubic || (curves.periodic ? vertices : vertices - 4) % curves.step == 0) return;
     const std::string misfit =
         has_points(vertices, number) + ", which do not fit the basis' step of " + std::to_string(curves.step);
@@ -31,7 +30,7 @@ void check_step(RequestContext& r, const Curves& curves, int vertices, size_t nu
 }
 
 /// Leaves out curves that have too few points for one segment, unless all have.
-void leave_out_short_curves(RequestContext& r, Curves& curves, ParameterList& variables) {
+void leave_out_short_curves(GeometryContext& r, Curves& curves, ParameterList& variables) {
     std::vector<char> kept, kept_varying, kept_points;
     const int least = least_points(curves);
     std::string first;
@@ -57,7 +56,7 @@ void leave_out_short_curves(RequestContext& r, Curves& curves, ParameterList& va
 }
 
 /// Counts of points are checked before the points: they say how long the arrays must be.
-void curves(RequestContext& r, ArgumentCursor& c) {
+void curves(GeometryContext& r, ArgumentCursor& c) {
     Curves curves;
     const std::string type = c.string("the type");
     if (type != "linear" && type != "cubic")
@@ -81,11 +80,11 @@ void curves(RequestContext& r, ArgumentCursor& c) {
     Curves& kept = std::get<Curves>(shape.topology);
     leave_out_short_curves(r, kept, shape.variables);
     const uint64_t count = kept.vertices_per_curve.size();
-    r.scene.add_shape("Curves", std::move(shape), count);
+    r.add_shape("Curves", std::move(shape), count);
 }
 
 /// Points parameters: disks that face the eye, as wide as "width" or "constantwidth" in object space.
-void points(RequestContext& r, ArgumentCursor& c) {
+void points(GeometryContext& r, ArgumentCursor& c) {
     ParameterList list = read_variables_with_points(r, c, PointForm::Mesh);
     Points points;
     points.count = point_count_of(list);
@@ -93,7 +92,7 @@ void points(RequestContext& r, ArgumentCursor& c) {
         throw RequestError{"more than " + std::to_string(kMostPoints) + " points", {}};
     Shape shape{points, {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
-    r.scene.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
+    r.add_shape("Points", std::move(shape), static_cast<uint64_t>(points.count));
 }
 
 /// Requests of this file; both may deform in a motion block.

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/wrap_mode.h"
@@ -12,7 +11,7 @@ namespace trapeze::rib {
 namespace {
 
 /// The basis counts for bicubic patches only; bilinear ones keep it unused.
-PatchMesh mesh_of_type(RequestContext& r, const std::string& type) {
+PatchMesh mesh_of_type(GeometryContext& r, const std::string& type) {
     PatchMesh mesh;
     if (type != "bilinear" && type != "bicubic")
         throw RequestError{in_quotes(type) + " is neither bilinear nor bicubic", {}};
@@ -23,22 +22,22 @@ PatchMesh mesh_of_type(RequestContext& r, const std::string& type) {
 }
 
 /// "P" is in rows of u, v by v; a "Pz" gives heights over the unit square.
-void add_patches(RequestContext& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
+void add_patches(GeometryContext& r, ArgumentCursor& c, const char* request, const PatchMesh& mesh) {
     Shape shape{mesh, {}};
     ParameterList list = read_variables_with_points(r, c, PointForm::Patch);
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
-    r.scene.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
+    r.add_shape(request, std::move(shape), static_cast<uint64_t>(mesh.patches_u()) * mesh.patches_v());
 }
 
 /// Patch type parameters: 2 by 2 or 4 by 4 points.
-void patch(RequestContext& r, ArgumentCursor& c) {
+void patch(GeometryContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     mesh.nu = mesh.nv = mesh.bicubic ? 4 : 2;
     add_patches(r, c, "Patch", mesh);
 }
 
 /// n points of a cubic side make (n - 4) / step + 1 patches, n / step where it closes (RISpec 5.2).
-void patch_mesh(RequestContext& r, ArgumentCursor& c) {
+void patch_mesh(GeometryContext& r, ArgumentCursor& c) {
     PatchMesh mesh = mesh_of_type(r, c.string("the type"));
     const auto side = [&](const char* axis, int& n, bool& wraps, int step) {
         n = c.integer((std::string("the number of points along ") + axis).c_str(), 2, kMostPointsAlongSide);
@@ -72,7 +71,7 @@ constexpr QuadricRow kQuadrics[] = {
 
 /// RISpec 5.4: spheres reach from -radius to radius, whatever zmin and zmax say, and paraboloids from their
 /// apex on. Rounded numbers are no mistake.
-void end_with_surface(RequestContext& r, Quadric& q) {
+void end_with_surface(GeometryContext& r, Quadric& q) {
     constexpr float kRounding = 1 + 1e-5f;
     if (q.kind == Quadric::Kind::Sphere) {
         const float radius = std::abs(q.values[0]);
@@ -93,7 +92,7 @@ void end_with_surface(RequestContext& r, Quadric& q) {
 
 /// Limits how far a quadric turns, and says so. Each turn is drawn over the last one: with a great many,
 /// which nobody means, work would have no end.
-void end_turning(RequestContext& r, Quadric& q) {
+void end_turning(GeometryContext& r, Quadric& q) {
     constexpr float kMost = 3600;  // degrees
     const auto limited = [&](float sweep) {
         if (std::abs(sweep) > kMost)
@@ -106,7 +105,7 @@ void end_turning(RequestContext& r, Quadric& q) {
 }
 
 template <int kRow>
-void quadric(RequestContext& r, ArgumentCursor& c) {
+void quadric(GeometryContext& r, ArgumentCursor& c) {
     const QuadricRow& row = kQuadrics[kRow];
     Quadric q;
     q.kind = row.kind, q.value_count = row.count;
@@ -126,7 +125,7 @@ void quadric(RequestContext& r, ArgumentCursor& c) {
     end_turning(r, q);
     Shape shape{q, {}};
     shape.variables = checked_variables(r.report, read_variables(r, c, PointForm::None), shape.topology);
-    r.scene.add_shape(row.name, std::move(shape), 1);
+    r.add_shape(row.name, std::move(shape), 1);
 }
 
 /// The number of `quadric` is its row of kQuadrics.

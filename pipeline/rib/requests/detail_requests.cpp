@@ -15,13 +15,13 @@ std::vector<float> box(ArgumentCursor& c) {
 }
 
 /// Primitives are bounded by themselves.
-void bound(RequestContext& r, ArgumentCursor& c) {
+void bound(StateContext& r, ArgumentCursor& c) {
     box(c);
     r.report.count_without_effect();
 }
 
 /// The size is that of the bound as it is seen now; primitives to come are chosen by it (DetailRange).
-void detail(RequestContext& r, ArgumentCursor& c) {
+void detail(StateContext& r, ArgumentCursor& c) {
     const std::vector<float> bound = box(c);
     if (r.state.in_object()) {
         r.report.warn_once("inside an object definition is not supported; ignored", "detail-in-object");
@@ -33,7 +33,7 @@ void detail(RequestContext& r, ArgumentCursor& c) {
 
 /// DetailRange minvisible lowertransition uppertransition maxvisible, in pixels; an end at infinity has no
 /// transition.
-void detail_range(RequestContext& r, ArgumentCursor& c) {
+void detail_range(StateContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(4, "the range");
     if (!(v[0] <= v[1] && v[1] <= v[2] && v[2] <= v[3]))
         throw RequestError{"needs minvisible <= lowertransition <= uppertransition <= maxvisible", {}};
@@ -46,7 +46,7 @@ void detail_range(RequestContext& r, ArgumentCursor& c) {
 
 /// GeometricApproximation type value (RISpec 4.2). The factors of motion and focus let blurred surfaces be
 /// shaded more coarsely.
-void geometric_approximation(RequestContext& r, ArgumentCursor& c) {
+void geometric_approximation(StateContext& r, ArgumentCursor& c) {
     const std::string type = c.string("the type");
     const float value = c.number("the value");
     if (type == "motionfactor" || type == "focusfactor") {
@@ -61,7 +61,7 @@ void geometric_approximation(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// What RISpec calls "primitive" and "smooth": there is one way to draw.
-void geometric_representation(RequestContext& r, ArgumentCursor& c) {
+void geometric_representation(StateContext& r, ArgumentCursor& c) {
     c.string("the type");
     r.report.count_without_effect();
 }

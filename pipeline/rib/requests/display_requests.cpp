@@ -47,7 +47,7 @@ bool is_of_the_picture(std::string_view mode) {
 }
 
 /// What a mode names: "varying color foo", a DisplayChannel, or a variable whose type is known.
-std::optional<DisplayVariable> variable_named(RequestContext& r, const std::string& mode) {
+std::optional<DisplayVariable> variable_named(OptionContext& r, const std::string& mode) {
     if (is_of_the_picture(mode)) return {};
     if (const auto channel = r.state.scope().display_channels.find(mode);
         channel != r.state.scope().display_channels.end())
@@ -60,7 +60,7 @@ std::optional<DisplayVariable> variable_named(RequestContext& r, const std::stri
 }
 
 /// PRMan's "Ci,a" and the like: of a list of channels the picture's own, as RISpec writes them.
-std::string picture_mode(RequestContext& r, const std::string& mode) {
+std::string picture_mode(OptionContext& r, const std::string& mode) {
     if (mode.find(',') == std::string::npos) return mode;
     std::string picture, rest;
     for (size_t begin = 0; begin <= mode.size();) {
@@ -81,7 +81,7 @@ std::string picture_mode(RequestContext& r, const std::string& mode) {
 }
 
 /// "+name" adds a display to those there are; another replaces them (RISpec 4.1.2).
-void display(RequestContext& r, ArgumentCursor& c) {
+void display(OptionContext& r, ArgumentCursor& c) {
     Display d;
     d.location = r.report.at();
     d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
@@ -114,7 +114,7 @@ void display(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// DisplayChannel declaration parameters: these are defaults of the displays that name the channel.
-void display_channel(RequestContext& r, ArgumentCursor& c) {
+void display_channel(OptionContext& r, ArgumentCursor& c) {
     const std::string token = c.string("the channel");
     ParameterList parameters = r.parameters(c, Undeclared::Guess);
     changeable_options(r);

@@ -1,5 +1,4 @@
 /// RISpec 5.6: Geometry, shapes that the renderer knows by name.
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/teapot.h"
@@ -10,13 +9,13 @@ namespace trapeze::rib {
 namespace {
 
 /// Adds a shape that the summary counts as one face.
-void add(RequestContext& r, const char* kind, Topology topology, ParameterList list) {
+void add(GeometryContext& r, const char* kind, Topology topology, ParameterList list) {
     Shape shape{std::move(topology), std::move(list)};
-    r.scene.add_shape(kind, std::move(shape), 1);
+    r.add_shape(kind, std::move(shape), 1);
 }
 
 /// 32 patches in one request: a motion block has no place for them.
-void teapot(RequestContext& r, const ParameterList& given) {
+void teapot(GeometryContext& r, const ParameterList& given) {
     if (r.state.in_motion())
         throw RequestError{"a teapot does not deform; move it by its transformation", {}};
     PatchMesh mesh;
@@ -34,7 +33,7 @@ void teapot(RequestContext& r, const ParameterList& given) {
 }
 
 /// Spheres about the origin, whole: for "sphere" and for lights of that form.
-void sphere(RequestContext& r, const ParameterList& given, float radius) {
+void sphere(GeometryContext& r, const ParameterList& given, float radius) {
     Quadric q;
     q.values = {radius, -radius, radius, 360};
     q.value_count = 4;
@@ -42,7 +41,7 @@ void sphere(RequestContext& r, const ParameterList& given, float radius) {
 }
 
 /// Edges of length 1 about the origin.
-void cube(RequestContext& r, const ParameterList& given) {
+void cube(GeometryContext& r, const ParameterList& given) {
     PolygonMesh mesh;
     mesh.loops_per_polygon.assign(6, 1);
     mesh.vertices_per_loop.assign(6, 4);
@@ -58,7 +57,7 @@ void cube(RequestContext& r, const ParameterList& given) {
 }
 
 /// The path tracer's rectangular light: a square of width 1.
-void rectangle(RequestContext& r, const ParameterList& given) {
+void rectangle(GeometryContext& r, const ParameterList& given) {
     const PatchMesh mesh;
     ParameterList list = checked_variables(r.report, given, mesh);
     list.set({"P",
@@ -76,7 +75,7 @@ float number_of(const ParameterList& given, const char* name, float otherwise) {
 
 /// Geometry name parameters. RISpec leaves the names to renderers; "teapot" is customary, and RIS names
 /// shapes of lights so.
-void geometry(RequestContext& r, ArgumentCursor& c) {
+void geometry(GeometryContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the name");
     const ParameterList given = read_variables(r, c, PointForm::None);
     if (name == "teapot") return teapot(r, given);
@@ -84,9 +83,9 @@ void geometry(RequestContext& r, ArgumentCursor& c) {
     if (name == "cube") return cube(r, given);
     if (name == "rectlight") return rectangle(r, given);
     if (name == "spherelight") return sphere(r, given, number_of(given, "radius", 0.5f));
-    if (name == "envsphere") return r.scene.place_far_emitter(FarShape::Dome);
+    if (name == "envsphere") return r.place_far_emitter(FarShape::Dome);
     if (name == "distantlight")
-        return r.scene.place_far_emitter(FarShape::Direction, number_of(given, "anglesubtended", 0));
+        return r.place_far_emitter(FarShape::Direction, number_of(given, "anglesubtended", 0));
     r.report.warn_once(
         "no geometry " + in_quotes(name) + "; known are teapot, sphere, cube, rectlight and spherelight",
         "geometry-" + name);

@@ -1,7 +1,6 @@
 /// MakeTexture, MakeBump, MakeLatLongEnvironment, MakeCubeFaceEnvironment, MakeShadow (RISpec 3.2, section
 /// 7).
 #include "pipeline/rib/map_request.h"
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/colorspaces.h"
 #include "pipeline/rib/requests/request_table.h"
 
@@ -17,14 +16,14 @@ void take_filter(ArgumentCursor& c, MapRequest& request) {
 }
 
 /// Parameters end the request; "colorspace" counts among them.
-void finish(RequestContext& r, ArgumentCursor& c, MapRequest request) {
+void finish(MapContext& r, ArgumentCursor& c, MapRequest request) {
     ParameterList parameters = r.parameters(c, Undeclared::Guess);
     request.colorspace = colorspace_of(r.report, parameters);
-    r.scene.make_map(std::move(request));
+    r.make_map(std::move(request));
 }
 
 /// MakeTexture and MakeBump: the wrap modes of s and t, then the filter.
-void make_flat(RequestContext& r, ArgumentCursor& c, Kind kind) {
+void make_flat(MapContext& r, ArgumentCursor& c, Kind kind) {
     MapRequest request;
     request.kind = kind;
     request.pictures = {c.string("the picture's name")};
@@ -36,7 +35,7 @@ void make_flat(RequestContext& r, ArgumentCursor& c, Kind kind) {
 }
 
 /// MakeLatLongEnvironment picture map filter swidth twidth: longitude goes along x.
-void make_lat_long_environment(RequestContext& r, ArgumentCursor& c) {
+void make_lat_long_environment(MapContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::LatLongEnvironment;
     request.pictures = {c.string("the picture's name")};
@@ -47,7 +46,7 @@ void make_lat_long_environment(RequestContext& r, ArgumentCursor& c) {
 
 /// MakeCubeFaceEnvironment px nx py ny pz nz map fov filter swidth twidth: faces see a little more than 90
 /// degrees, so that lookups can blend.
-void make_cube_face_environment(RequestContext& r, ArgumentCursor& c) {
+void make_cube_face_environment(MapContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::CubeFaceEnvironment;
     for (int i = 0; i < 6; ++i) request.pictures.push_back(c.string("the name of a face's picture"));
@@ -66,7 +65,7 @@ void make_cube_face_environment(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// The picture is a depth map, of which nothing is filtered.
-void make_shadow(RequestContext& r, ArgumentCursor& c) {
+void make_shadow(MapContext& r, ArgumentCursor& c) {
     MapRequest request;
     request.kind = Kind::Shadow;
     request.pictures = {c.string("the picture's name")};
@@ -76,8 +75,8 @@ void make_shadow(RequestContext& r, ArgumentCursor& c) {
 
 /// RISpec has them among the options: between worlds.
 constexpr RequestRow kMapRequests[] = {
-    {"MakeTexture", [](RequestContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Texture); }},
-    {"MakeBump", [](RequestContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Bump); }},
+    {"MakeTexture", [](MapContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Texture); }},
+    {"MakeBump", [](MapContext& r, ArgumentCursor& c) { make_flat(r, c, Kind::Bump); }},
     {"MakeLatLongEnvironment", make_lat_long_environment},
     {"MakeCubeFaceEnvironment", make_cube_face_environment},
     {"MakeShadow", make_shadow},

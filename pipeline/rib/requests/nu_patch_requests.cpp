@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
 
@@ -13,7 +12,7 @@ namespace {
 constexpr int kLargestOrder = 32;
 
 /// One direction: the number of points, the order, the knots and the range.
-void read_direction(RequestContext& r, ArgumentCursor& c, const std::string& axis, int& points, int& order,
+void read_direction(GeometryContext& r, ArgumentCursor& c, const std::string& axis, int& points, int& order,
                     std::vector<float>& knots, float& begin, float& end) {
     points = c.integer(("the number of points along " + axis).c_str(), 2, kMostPointsAlongSide);
     order = c.integer(("the order along " + axis).c_str(), 2, kLargestOrder);
@@ -39,7 +38,7 @@ void read_direction(RequestContext& r, ArgumentCursor& c, const std::string& axi
 }
 
 /// Trim curves of the attributes are copied into the shape: they are part of its form.
-void nu_patch(RequestContext& r, ArgumentCursor& c) {
+void nu_patch(GeometryContext& r, ArgumentCursor& c) {
     NuPatch patch;
     read_direction(r, c, "u", patch.nu, patch.u_order, patch.u_knots, patch.u_begin, patch.u_end);
     read_direction(r, c, "v", patch.nv, patch.v_order, patch.v_knots, patch.v_begin, patch.v_end);
@@ -52,7 +51,7 @@ void nu_patch(RequestContext& r, ArgumentCursor& c) {
     ParameterList list = read_variables_with_points(r, c, PointForm::Patch);
     if (list.find("Pz")) throw RequestError{"\"Pz\" is not for this primitive", {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
-    r.scene.add_shape("NuPatch", std::move(shape), faces);
+    r.add_shape("NuPatch", std::move(shape), faces);
 }
 
 /// The arrays of a TrimCurve request, and how far they have been read.
@@ -121,7 +120,7 @@ TrimCurve next_curve(TrimArrays& a) {
 }
 
 /// Replaces the loops that trim the NuPatches to come; none end it.
-void trim_curve(RequestContext& r, ArgumentCursor& c) {
+void trim_curve(StateContext& r, ArgumentCursor& c) {
     if (c.peek(9))
         c.integer("the number of loops", 0, kMostPointsAlongSide);  // some write it before the arrays
     const std::vector<int> curves_of_loops = c.int_array("the numbers of curves");

@@ -31,7 +31,7 @@ void require(bool holds, const char* text) {
 }
 
 /// Format xresolution yresolution [pixelaspectratio]: pixels, and the width of one over its height.
-void format(RequestContext& r, ArgumentCursor& c) {
+void format(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, 3, "the format");
     const float width = v[0], height = v[1], aspect = v.size() > 2 ? v[2] : 1;
     require(width <= kLargestPicture && height <= kLargestPicture,
@@ -44,7 +44,7 @@ void format(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// FrameAspectRatio width/height of the picture; without it that of Format.
-void frame_aspect_ratio(RequestContext& r, ArgumentCursor& c) {
+void frame_aspect_ratio(OptionContext& r, ArgumentCursor& c) {
     const float aspect = c.number("the ratio");
     require(std::isfinite(aspect), "the ratio must be finite");
     // Later RenderMans write -1 for that of the picture, which is the default.
@@ -59,14 +59,14 @@ std::array<float, 4> four(ArgumentCursor& c, const char* what) {
 
 /// ScreenWindow left right bottom top, in screen coordinates: the part of the plane z = 1, seen by the angle
 /// of Projection, that fills the picture. A left greater than the right mirrors it.
-void screen_window(RequestContext& r, ArgumentCursor& c) {
+void screen_window(OptionContext& r, ArgumentCursor& c) {
     const auto w = four(c, "the window");
     require(w[0] != w[1] && w[2] != w[3], "the window is empty");
     changeable_options(r).screen_window = w;
 }
 
 /// CropWindow xmin xmax ymin ymax: parts of the picture, from 0 to 1. What is outside is not rendered.
-void crop_window(RequestContext& r, ArgumentCursor& c) {
+void crop_window(OptionContext& r, ArgumentCursor& c) {
     auto w = four(c, "the window");
     for (float& v : w) v = std::clamp(v, 0.0f, 1.0f);
     require(w[0] < w[1] && w[2] < w[3], "the window is empty");
@@ -74,7 +74,7 @@ void crop_window(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Projection name parameters: "perspective" with "fov" in degrees along the smaller side, or "orthographic".
-void projection(RequestContext& r, ArgumentCursor& c) {
+void projection(OptionContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     std::string name = c.string("the projection's name");
     if (name == "PxrCamera" || name == "PxrPerspective") name = "perspective";  // RIS's plugins
@@ -102,7 +102,7 @@ void projection(RequestContext& r, ArgumentCursor& c) {
 
 /// Clipping near far: distances in camera space. A near plane of 0 is put just before the eye, where
 /// perspective still has a depth.
-void clipping(RequestContext& r, ArgumentCursor& c) {
+void clipping(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the planes");
     const float near = v[0], far = v[1];
     require(near >= 0 && near < far, "needs 0 <= near < far");
@@ -113,7 +113,7 @@ void clipping(RequestContext& r, ArgumentCursor& c) {
 
 /// DepthOfField fstop focallength focaldistance, lengths in camera space; the lens is focallength / fstop
 /// wide.
-void depth_of_field(RequestContext& r, ArgumentCursor& c) {
+void depth_of_field(OptionContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     if (c.done() || c.next_is_string()) {  // "-" in older files, or nothing: a pinhole
         if (!c.done()) c.string("f-stop");
@@ -131,7 +131,7 @@ void depth_of_field(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Shutter min max: seconds of the scene, the unit of MotionBegin's times.
-void shutter(RequestContext& r, ArgumentCursor& c) {
+void shutter(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the shutter");
     const float open = v[0], close = v[1];
     require(open <= close, "closes before it opens");
@@ -142,7 +142,7 @@ void shutter(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// PixelSamples x y: samples along the sides of a pixel, which RIB allows to be fractions.
-void pixel_samples(RequestContext& r, ArgumentCursor& c) {
+void pixel_samples(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the samples");
     const float x = v[0], y = v[1];
     require(x >= 1 && y >= 1, "needs at least one sample along each side");
@@ -155,7 +155,7 @@ void pixel_samples(RequestContext& r, ArgumentCursor& c) {
 
 /// PRMan's path tracer takes a pixel's samples from its hider: as many as it may take at most, as a square.
 /// Without that, at least as many as it asks for.
-void set_samples_of_hider(RequestContext& r) {
+void set_samples_of_hider(OptionContext& r) {
     const ParameterList& given = r.state.options().hider_parameters;
     const float samples = std::max(given.float_or("maxsamples", 0), given.float_or("minsamples", 0));
     if (!(samples >= 1) || r.state.scope().has_pixel_samples) return;
@@ -164,7 +164,7 @@ void set_samples_of_hider(RequestContext& r) {
 }
 
 /// PixelFilter name xwidth ywidth: whole widths, in pixels.
-void pixel_filter(RequestContext& r, ArgumentCursor& c) {
+void pixel_filter(OptionContext& r, ArgumentCursor& c) {
     std::string name = c.string("the filter's name");
     const auto v = c.numbers(2, "the widths");
     const float x = v[0], y = v[1];
@@ -178,7 +178,7 @@ void pixel_filter(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Exposure gain gamma: colours times gain, to the power 1 / gamma (RISpec 4.1.2).
-void exposure(RequestContext& r, ArgumentCursor& c) {
+void exposure(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(2, "the exposure");
     const float gain = v[0], gamma = v[1];
     require(gain >= 0 && gamma > 0, "needs a positive gamma");
@@ -187,7 +187,7 @@ void exposure(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Quantize type one min max dither: colour value 1 becomes `one`; 0 keeps floats.
-void quantize(RequestContext& r, ArgumentCursor& c) {
+void quantize(OptionContext& r, ArgumentCursor& c) {
     Parameter value;
     value.name = c.string("the type");
     value.floats = c.numbers(4, "one, min, max and dither");
@@ -208,7 +208,7 @@ void rename_background(ParameterList& parameters) {
 }
 
 /// Imager name parameters: a shader of pixels, after the surfaces'.
-void imager(RequestContext& r, ArgumentCursor& c) {
+void imager(OptionContext& r, ArgumentCursor& c) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, "imager"));
     instance->parameters = r.shader_parameters(c);
     if (instance->name == "background") rename_background(instance->parameters);
@@ -217,7 +217,7 @@ void imager(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Hider type parameters: the samples of a path tracer's count where PixelSamples has not been given.
-void hider(RequestContext& r, ArgumentCursor& c) {
+void hider(OptionContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     o.hider = c.string("the hider's name");
     o.hider_parameters = r.parameters(c, Undeclared::Guess);
@@ -229,7 +229,7 @@ void hider(RequestContext& r, ArgumentCursor& c) {
 
 /// Option category parameters: kept for shaders too, like attributes; a colour transfer that is not known is
 /// not kept.
-void option(RequestContext& r, ArgumentCursor& c) {
+void option(OptionContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
@@ -245,7 +245,7 @@ void option(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// RelativeDetail factor: areas of Detail are multiplied by it.
-void relative_detail(RequestContext& r, ArgumentCursor& c) {
+void relative_detail(OptionContext& r, ArgumentCursor& c) {
     const float factor = c.number("the factor");
     require(factor >= 0, "the factor must not be negative");
     changeable_options(r);
@@ -253,14 +253,14 @@ void relative_detail(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// An estimate of variance could choose the number of samples; here it is fixed.
-void pixel_variance(RequestContext& r, ArgumentCursor& c) {
+void pixel_variance(OptionContext& r, ArgumentCursor& c) {
     changeable_options(r);
     c.number("the variance");
     r.report.count_without_effect();
 }
 
 /// RISpec 4.1.1: the half space on the side to which the normal points is cut away.
-void clipping_plane(RequestContext& r, ArgumentCursor& c) {
+void clipping_plane(OptionContext& r, ArgumentCursor& c) {
     const auto v = c.numbers(6, "the plane");
     const V3d point(v[0], v[1], v[2]), normal(v[3], v[4], v[5]);
     require(normal.length() > 0, "the normal is 0");
@@ -276,7 +276,7 @@ void clipping_plane(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// RISpec 4.1.4. The matrix back from RGB is for displays of samples, which nobody makes.
-void color_samples(RequestContext& r, ArgumentCursor& c) {
+void color_samples(OptionContext& r, ArgumentCursor& c) {
     ColorSamples samples{0, c.number_array("the matrix to RGB")};
     const std::vector<float> back = c.number_array("the matrix from RGB");
     samples.samples = samples.rgb_from_samples.size() / 3;
@@ -313,7 +313,7 @@ constexpr RequestRow kOptionRequests[] = {
 
 /// RISpec fixes options at WorldBegin. Files that set some just after it mean this world; an archive that is
 /// read within a world was a whole scene, and must not change the picture around it.
-Options& changeable_options(RequestContext& context) {
+Options& changeable_options(OptionContext& context) {
     if (context.state.in_world()) {
         if (context.files.are_below_world()) throw RequestError{"options cannot change inside a world", {}};
         context.report.warn_once("an option, which belongs before WorldBegin; it is taken for this world",

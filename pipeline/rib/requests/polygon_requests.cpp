@@ -3,7 +3,6 @@
 #include <numeric>
 #include <type_traits>
 
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/degenerate_faces.h"
 #include "pipeline/rib/requests/primitive_variables.h"
 #include "pipeline/rib/requests/request_table.h"
@@ -49,7 +48,7 @@ std::string problem_of(const SubdivisionMesh::Tag& tag, const SubdivisionMesh& m
 }
 
 /// A wrong tag costs itself. Tags of unknown names are kept for later stages to pass over.
-void check_tags(RequestContext& r, SubdivisionMesh& mesh) {
+void check_tags(GeometryContext& r, SubdivisionMesh& mesh) {
     std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
         const std::string problem = problem_of(tag, mesh);
         if (!problem.empty())
@@ -69,7 +68,7 @@ uint64_t face_count(const SubdivisionMesh& mesh) {
 
 /// Reads the variables of a mesh whose points are counted by its "P".
 template <class Mesh>
-void add_mesh(RequestContext& r, ArgumentCursor& c, const char* request, Mesh mesh) {
+void add_mesh(GeometryContext& r, ArgumentCursor& c, const char* request, Mesh mesh) {
     if (face_count(mesh) == 0) throw RequestError{"has no faces", {}};
     ParameterList list = read_variables_with_points(r, c, PointForm::Mesh);
     mesh.vertex_count = point_count_of(list);
@@ -78,7 +77,7 @@ void add_mesh(RequestContext& r, ArgumentCursor& c, const char* request, Mesh me
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
     leave_out_degenerate_faces(r.report, shape);
     const uint64_t faces = face_count(std::get<Mesh>(shape.topology));
-    r.scene.add_shape(request, std::move(shape), faces);
+    r.add_shape(request, std::move(shape), faces);
 }
 
 /// One polygon of consecutive points.
@@ -92,7 +91,7 @@ PolygonMesh consecutive(std::vector<int> loops) {
 }
 
 /// Polygon parameters: its vertices are the points of "P", in their order.
-void polygon(RequestContext& r, ArgumentCursor& c) {
+void polygon(GeometryContext& r, ArgumentCursor& c) {
     ParameterList list = read_variables(r, c, PointForm::Mesh);
     const int points = point_count_of(list);
     if (points < 3)
@@ -101,11 +100,11 @@ void polygon(RequestContext& r, ArgumentCursor& c) {
     mesh.vertex_count = points;
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
-    r.scene.add_shape("Polygon", std::move(shape), 1);
+    r.add_shape("Polygon", std::move(shape), 1);
 }
 
 /// GeneralPolygon [vertices of each loop] parameters: an outline, then holes, of consecutive points.
-void general_polygon(RequestContext& r, ArgumentCursor& c) {
+void general_polygon(GeometryContext& r, ArgumentCursor& c) {
     std::vector<int> loops = c.int_array("the loops");
     const int64_t sum = checked_sum(loops, 0, "a loop");
     ParameterList list = read_variables(r, c, PointForm::Mesh);
@@ -119,11 +118,11 @@ void general_polygon(RequestContext& r, ArgumentCursor& c) {
     Shape shape{std::move(mesh), {}};
     shape.variables = checked_variables(r.report, std::move(list), shape.topology);
     leave_out_degenerate_faces(r.report, shape);
-    r.scene.add_shape("GeneralPolygon", std::move(shape), 1);
+    r.add_shape("GeneralPolygon", std::move(shape), 1);
 }
 
 /// PointsPolygons [vertices of each face] [indices of points] parameters.
-void points_polygons(RequestContext& r, ArgumentCursor& c) {
+void points_polygons(GeometryContext& r, ArgumentCursor& c) {
     PolygonMesh mesh;
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
     mesh.loops_per_polygon.assign(mesh.vertices_per_loop.size(), 1);
@@ -134,7 +133,7 @@ void points_polygons(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// PointsGeneralPolygons [loops of each face] [vertices of each loop] [indices of points] parameters.
-void points_general_polygons(RequestContext& r, ArgumentCursor& c) {
+void points_general_polygons(GeometryContext& r, ArgumentCursor& c) {
     PolygonMesh mesh;
     mesh.loops_per_polygon = c.int_array("the numbers of loops");
     mesh.vertices_per_loop = c.int_array("the numbers of vertices");
@@ -212,12 +211,12 @@ SubdivisionMesh read_subdivision(ArgumentCursor& c) {
 }
 
 /// SubdivisionMesh scheme [vertices of each face] [indices] [tags] [counts] [integers] [floats] parameters.
-void subdivision_mesh(RequestContext& r, ArgumentCursor& c) {
+void subdivision_mesh(GeometryContext& r, ArgumentCursor& c) {
     add_mesh(r, c, "SubdivisionMesh", read_subdivision(c));
 }
 
 /// PRMan's, whose tags may also edit vertices, edges and faces of finer levels: that is left out.
-void hierarchical_subdivision_mesh(RequestContext& r, ArgumentCursor& c) {
+void hierarchical_subdivision_mesh(GeometryContext& r, ArgumentCursor& c) {
     SubdivisionMesh mesh = read_subdivision(c);
     std::erase_if(mesh.tags, [&](const SubdivisionMesh::Tag& tag) {
         const bool is_edit = tag.name.ends_with("edit");

@@ -14,7 +14,7 @@ namespace {
 }
 
 /// The bound may be left out; a program is told the area 0 then.
-void procedural(RequestContext& r, ArgumentCursor& c) {
+void procedural(ProceduralContext& r, ArgumentCursor& c) {
     const std::string kind = c.string("the procedural's name");
     std::vector<std::string> data = c.string_array("the arguments");
     std::vector<float> bound;
@@ -32,7 +32,7 @@ void procedural(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Name, how it is bounded, and the rest as parameters.
-void procedural2(RequestContext& r, ArgumentCursor& c) {
+void procedural2(ProceduralContext& r, ArgumentCursor& c) {
     const std::string kind = c.string("the procedural's name");
     c.string("the kind of bound");
     const ParameterList parameters = r.parameters(c, Undeclared::Guess);

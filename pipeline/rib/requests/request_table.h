@@ -15,10 +15,10 @@ struct RequestRow {
 };
 
 /// The options, for a request that sets some: a warning in a world, a RequestError in archives that it reads.
-Options& changeable_options(RequestContext& context);
+Options& changeable_options(OptionContext& context);
 
 /// The attributes that primitives keep, for a request that sets some.
-inline Attributes& changeable_attributes(RequestContext& context) {
+inline Attributes& changeable_attributes(StateContext& context) {
     return context.state.change_attributes().attributes;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <type_traits>
 
 #include "pipeline/rib/reader/known_requests.h"
 
@@ -52,9 +53,19 @@ Argument number(double value, SourceLocation at) {
     return argument;
 }
 
+/// Calls the handler of a request, which is one of an option or an attribute.
+void execute(std::string_view request, OptionContext& context, ArgumentCursor& cursor) {
+    std::visit(
+        [&](auto handler) {
+            if constexpr (std::is_invocable_v<decltype(handler), OptionContext&, ArgumentCursor&>)
+                handler(context, cursor);
+        },
+        find_request(request)->handler);
+}
+
 /// Sets PixelFilterName or PixelFilterWidth, each of which is half of a PixelFilter request: the other half
 /// stays. False for another name.
-bool execute_filter(RequestContext& context, const Parameter& value) {
+bool execute_filter(OptionContext& context, const Parameter& value) {
     PixelFilter filter = context.state.options().filter;
     if (value.name == "PixelFilterName" && value.strings.size() == 1)
         filter.name = value.strings[0];
@@ -67,12 +78,12 @@ bool execute_filter(RequestContext& context, const Parameter& value) {
                       number(filter.width_x, context.report.at()),
                       number(filter.width_y, context.report.at())};
     ArgumentCursor cursor(text);
-    find_request("PixelFilter")->handler(context, cursor);
+    execute("PixelFilter", context, cursor);
     return true;
 }
 
 /// Sets "Frame", the number that "Frame" of conditions and file names shows. False for another name.
-bool set_frame(RequestContext& context, const Parameter& value) {
+bool set_frame(OptionContext& context, const Parameter& value) {
     if (value.name != "Frame" || value.floats.size() != 1 || !(std::abs(value.floats[0]) < 1e9f))
         return false;
     context.state.options().frame = static_cast<int>(value.floats[0]);
@@ -83,7 +94,7 @@ bool set_frame(RequestContext& context, const Parameter& value) {
 
 /// The value becomes the arguments of a request, whose handler does what it always does, checks and messages
 /// included.
-bool execute_ri_value(RequestContext& context, const Parameter& value) {
+bool execute_ri_value(OptionContext& context, const Parameter& value) {
     if (execute_filter(context, value) || set_frame(context, value)) return true;
     for (const RiValue& known : kValues) {
         if (known.value != value.name) continue;
@@ -97,7 +108,7 @@ bool execute_ri_value(RequestContext& context, const Parameter& value) {
         argument.floats = value.floats, argument.strings = value.strings;
         if (known.has_after) text.arguments.push_back(number(known.after, text.at));
         ArgumentCursor cursor(text);
-        find_request(known.request)->handler(context, cursor);
+        execute(known.request, context, cursor);
         return true;
     }
     return false;

@@ -7,6 +7,6 @@
 namespace trapeze::rib {
 
 /// Executes the request that sets the value; false when there is none.
-bool execute_ri_value(RequestContext& context, const Parameter& value);
+bool execute_ri_value(OptionContext& context, const Parameter& value);
 
 }  // namespace trapeze::rib

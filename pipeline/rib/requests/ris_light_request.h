@@ -10,7 +10,7 @@ namespace trapeze::rib {
 
 /// Adds the light to the world, or to the object that is being defined; Attribute "lighting" "mute" turns it
 /// off. `is_area_light`: AreaLightSource asks for it.
-void add_ris_light(RequestContext& context, const std::string& handle, const ShaderInstance& shader,
+void add_ris_light(LightContext& context, const std::string& handle, const ShaderInstance& shader,
                    const RisParameters& parameters, bool is_area_light);
 
 }  // namespace trapeze::rib

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string_view>
 
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/ris_light_request.h"
 #include "pipeline/rib/ris/ris_lights.h"
@@ -13,7 +12,7 @@ namespace trapeze::rib {
 namespace {
 
 /// Counts a request of RIS, and warns of them once, whatever the scene has of it.
-void note(RequestContext& r) {
+void note(LightContext& r) {
     r.report.count_unsupported();
     r.report.warn_once(
         "RIS shading is not supported; Bxdfs are seen by their colours and textures, lights have no shadows",
@@ -52,7 +51,7 @@ RisLook known_look(RisNetwork& network, const std::string& shader, const RisPara
 
 /// The colour goes into Color, as the stand-in's other arguments go into its parameters: a Color after it
 /// would win, as in RSL.
-void bxdf(RequestContext& r, ArgumentCursor& c) {
+void bxdf(LightContext& r, ArgumentCursor& c) {
     ShaderInstance surface = r.shader(c, "bxdf");
     const std::string handle = c.handle("the handle");
     const RisParameters parameters = RisParameters::read(c);
@@ -66,7 +65,7 @@ void bxdf(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Kept until the frame or world ends, for Bxdfs to follow.
-void pattern(RequestContext& r, ArgumentCursor& c) {
+void pattern(LightContext& r, ArgumentCursor& c) {
     RisPattern made;
     made.shader = c.string("the pattern's name");
     const std::string handle = c.handle("the handle");
@@ -76,7 +75,7 @@ void pattern(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Light "shader" "handle" parameters.
-void light(RequestContext& r, ArgumentCursor& c) {
+void light(LightContext& r, ArgumentCursor& c) {
     const ShaderInstance shader = r.shader(c, "light");
     const std::string handle = c.handle("the handle");
     add_ris_light(r, handle, shader, RisParameters::read(c), false);
@@ -84,7 +83,7 @@ void light(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// What only a path tracer can use, read past whole.
-void skip(RequestContext& r, ArgumentCursor& c) {
+void skip(LightContext& r, ArgumentCursor& c) {
     c.skip_rest();
     note(r);
 }
@@ -96,7 +95,7 @@ constexpr RequestRow kRisRequests[] = {
 
 }  // namespace
 
-void add_ris_light(RequestContext& r, const std::string& handle, const ShaderInstance& shader,
+void add_ris_light(LightContext& r, const std::string& handle, const ShaderInstance& shader,
                    const RisParameters& parameters, bool is_area_light) {
     const auto lighting = r.state.attributes().attributes.user.find("lighting");
     if (lighting != r.state.attributes().attributes.user.end() && lighting->second.float_or("mute", 0) != 0)
@@ -105,11 +104,11 @@ void add_ris_light(RequestContext& r, const std::string& handle, const ShaderIns
         auto emitter = std::make_shared<Emitter>();
         emitter->light = mesh_light(handle, shader, parameters);
         emitter->is_of_ris = true;
-        r.scene.add_world_light(emitter->light);
+        r.add_world_light(emitter->light);
         r.state.change_attributes().emitter = std::move(emitter);
         return;
     }
-    for (const auto& one : ris_lights(handle, shader, parameters)) r.scene.add_world_light(one);
+    for (const auto& one : ris_lights(handle, shader, parameters)) r.add_world_light(one);
 }
 
 std::span<const RequestRow> ris_requests() {

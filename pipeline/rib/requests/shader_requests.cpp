@@ -1,7 +1,6 @@
 /// RISpec 4.2: shaders, their layers, and lights.
 #include <algorithm>
 
-#include "pipeline/rib/reader/scene_builder.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/ris_light_request.h"
 #include "pipeline/rib/ris/ris_lights.h"
@@ -15,7 +14,7 @@ using ShaderMember = std::shared_ptr<const ShaderInstance> Attributes::*;
 /// Surface, Displacement and the like: name parameters. Replaces the shader of its kind, with all of its
 /// layers.
 template <ShaderMember kWhere>
-void shader(RequestContext& r, ArgumentCursor& c, const char* kind) {
+void shader(LightContext& r, ArgumentCursor& c, const char* kind) {
     auto instance = std::make_shared<ShaderInstance>(r.shader(c, kind));
     instance->parameters = r.shader_parameters(c);
     // Exporters write "null" for what does nothing; the surface of that name is a shader.
@@ -35,7 +34,7 @@ ShaderMember layered_kind(ArgumentCursor& c, std::string& kind) {
 }
 
 /// ShaderLayer type name layer parameters: a layer after those there are, or in the place of one of its name.
-void shader_layer(RequestContext& r, ArgumentCursor& c) {
+void shader_layer(LightContext& r, ArgumentCursor& c) {
     constexpr size_t kMostLayers = 64;
     std::string kind;
     const ShaderMember where = layered_kind(c, kind);
@@ -60,7 +59,7 @@ void shader_layer(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// ConnectShaderLayers type layer variable layer variable.
-void connect_shader_layers(RequestContext& r, ArgumentCursor& c) {
+void connect_shader_layers(LightContext& r, ArgumentCursor& c) {
     std::string kind;
     const ShaderMember where = layered_kind(c, kind);
     LayerConnection connection;
@@ -83,7 +82,7 @@ bool has_handle(const ArgumentCursor& c) {
 }
 
 /// A light of RSL: its shader, then its handle, which is text here whether it was a number or not.
-std::shared_ptr<LightInstance> light_of(RequestContext& r, ArgumentCursor& c) {
+std::shared_ptr<LightInstance> light_of(LightContext& r, ArgumentCursor& c) {
     auto light = std::make_shared<LightInstance>();
     light->shader = r.shader(c, "light");
     if (has_handle(c))
@@ -96,7 +95,7 @@ std::shared_ptr<LightInstance> light_of(RequestContext& r, ArgumentCursor& c) {
 
 /// Area Lights is an optional capability (RISpec 1.1): the light shines from the middle of the first shape
 /// that follows, and all that follows is geometry.
-void area_light_source(RequestContext& r, ArgumentCursor& c) {
+void area_light_source(LightContext& r, ArgumentCursor& c) {
     if (const Argument* name = c.peek(); name && name->is_text() && is_ris_light(name->strings[0])) {
         const ShaderInstance shader = r.shader(c, "light");
         const std::string handle = c.handle("the handle");
@@ -111,16 +110,16 @@ void area_light_source(RequestContext& r, ArgumentCursor& c) {
                        "area-light");
     auto emitter = std::make_shared<Emitter>();
     emitter->light = light;
-    r.scene.add_light(std::move(light));
+    r.add_light(std::move(light));
     r.state.scope().emitters.push_back(emitter);
     r.state.change_attributes().emitter = std::move(emitter);
 }
 
 /// A light that was once named is no stray any more, on or off (SceneBuilder::add_strays).
-void illuminate(RequestContext& r, ArgumentCursor& c) {
+void illuminate(LightContext& r, ArgumentCursor& c) {
     const std::string handle = c.handle("the light's handle");
     const bool on = c.done() || c.number("0 or 1") != 0;
-    const auto light = r.scene.light(handle);
+    const auto light = r.light(handle);
     if (!light) throw RequestError{"no light " + in_quotes(handle), {}};
     std::erase_if(r.state.scope().emitters, [&](const auto& emitter) { return emitter->light == light; });
     auto& lights = changeable_attributes(r).lights;
@@ -131,18 +130,16 @@ void illuminate(RequestContext& r, ArgumentCursor& c) {
 
 /// Motion blocks hold all of these: shaders do not change while the shutter is open.
 constexpr RequestRow kShaderRequests[] = {
-    {"Surface", [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
+    {"Surface", [](LightContext& r, ArgumentCursor& c) { shader<&Attributes::surface>(r, c, "surface"); }},
     {"Displacement",
-     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
+     [](LightContext& r, ArgumentCursor& c) { shader<&Attributes::displacement>(r, c, "displacement"); }},
     {"Atmosphere",
-     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
-    {"Interior",
-     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
-    {"Exterior",
-     [](RequestContext& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
+     [](LightContext& r, ArgumentCursor& c) { shader<&Attributes::atmosphere>(r, c, "atmosphere"); }},
+    {"Interior", [](LightContext& r, ArgumentCursor& c) { shader<&Attributes::interior>(r, c, "interior"); }},
+    {"Exterior", [](LightContext& r, ArgumentCursor& c) { shader<&Attributes::exterior>(r, c, "exterior"); }},
     {"ShaderLayer", shader_layer},
     {"ConnectShaderLayers", connect_shader_layers},
-    {"LightSource", [](RequestContext& r, ArgumentCursor& c) { r.scene.add_light(light_of(r, c)); }},
+    {"LightSource", [](LightContext& r, ArgumentCursor& c) { r.add_light(light_of(r, c)); }},
     {"AreaLightSource", area_light_source},
     {"Illuminate", illuminate},
 };

@@ -18,8 +18,8 @@ Solid::Operation operation_of(ArgumentCursor& c) {
 
 /// SolidBegin "operation" and SolidEnd.
 constexpr RequestRow kSolidRequests[] = {
-    {"SolidBegin", [](RequestContext& r, ArgumentCursor& c) { r.scene.begin_solid(operation_of(c)); }},
-    {"SolidEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::Solid); }},
+    {"SolidBegin", [](StructureContext& r, ArgumentCursor& c) { r.scene.begin_solid(operation_of(c)); }},
+    {"SolidEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::Solid); }},
 };
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace trapeze::rib {
 namespace {
 
 /// "attributes" are saved and restored. Of the subsets of PRMan's, "transform" and all others are told apart.
-void resource(RequestContext& r, ArgumentCursor& c) {
+void resource(StateContext& r, ArgumentCursor& c) {
     const std::string name = c.handle("the resource's name"), type = c.string("the type");
     const ParameterList parameters = r.parameters(c, Undeclared::Guess);
     const std::string operation = parameters.string_or("operation", ""),
@@ -28,7 +28,7 @@ void resource(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// RISpec's handlers by their names; others, which only a program could have, are passed over.
-void error_handler(RequestContext& r, ArgumentCursor& c) {
+void error_handler(StateContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the handler");
     r.parameters(c, Undeclared::Guess);
     if (name == "ignore")
@@ -43,7 +43,7 @@ void error_handler(RequestContext& r, ArgumentCursor& c) {
 
 /// The space that the world is seen from, which its coordinate system is named for. Later versions keep the
 /// window and the planes of clipping with it.
-void camera(RequestContext& r, ArgumentCursor& c) {
+void camera(OptionContext& r, ArgumentCursor& c) {
     r.state.name_coordinate_system(c.string("the name"));
     const ParameterList parameters = r.parameters(c, Undeclared::Guess);
     if (r.state.in_world()) return;
@@ -58,14 +58,14 @@ void camera(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Commands of strangers are not run.
-void system(RequestContext& r, ArgumentCursor& c) {
+void system(StateContext& r, ArgumentCursor& c) {
     c.skip_rest();
     r.report.count_unsupported();
     r.report.warn_once("commands in files are never run; skipped", "unsupported-System");
 }
 
 /// VolumePixelSamples x y: volumes are sampled like surfaces here.
-void volume_pixel_samples(RequestContext& r, ArgumentCursor& c) {
+void volume_pixel_samples(StateContext& r, ArgumentCursor& c) {
     c.numbers(2, "the samples");
     r.report.count_without_effect();
 }
@@ -73,17 +73,15 @@ void volume_pixel_samples(RequestContext& r, ArgumentCursor& c) {
 /// Structure, as far as motion blocks go: none of these is held back by one.
 constexpr RequestRow kStateRequests[] = {
     {"Resource", resource},
-    {"ResourceBegin", [](RequestContext& r, ArgumentCursor&) { r.state.saved_states().begin_block(); }},
-    {"ResourceEnd", [](RequestContext& r, ArgumentCursor&) { r.state.saved_states().end_block(); }},
+    {"ResourceBegin", [](StateContext& r, ArgumentCursor&) { r.state.saved_states().begin_block(); }},
+    {"ResourceEnd", [](StateContext& r, ArgumentCursor&) { r.state.saved_states().end_block(); }},
     {"ErrorHandler", error_handler},
     {"ScopedCoordinateSystem",
-     [](RequestContext& r, ArgumentCursor& c) {
-         r.state.name_scoped_coordinate_system(c.string("the name"));
-     }},
+     [](StateContext& r, ArgumentCursor& c) { r.state.name_scoped_coordinate_system(c.string("the name")); }},
     {"Camera", camera},
     {"System", system},
     {"VolumePixelSamples", volume_pixel_samples},
-    {"ArchiveRecord", [](RequestContext&, ArgumentCursor& c) { c.skip_rest(); }},  // a comment
+    {"ArchiveRecord", [](StateContext&, ArgumentCursor& c) { c.skip_rest(); }},  // a comment
 };
 
 }  // namespace

@@ -12,12 +12,12 @@ namespace trapeze::rib {
 namespace {
 
 /// The version of RIB; all are read alike.
-void version(RequestContext&, ArgumentCursor& c) {
+void version(StructureContext&, ArgumentCursor& c) {
     c.number("the version");
 }
 
 /// Replaces what the name meant, RISpec's own included.
-void declare(RequestContext& r, ArgumentCursor& c) {
+void declare(StructureContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the name"), text = c.string("the declaration");
     if (text.empty()) return r.state.declarations().forget(name);  // as Liquid and others write it
     const auto declaration = parse_declaration(text);
@@ -26,25 +26,25 @@ void declare(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// FrameBegin number: any integer; frames need not be in order.
-void frame_begin(RequestContext& r, ArgumentCursor& c) {
+void frame_begin(StructureContext& r, ArgumentCursor& c) {
     r.scene.begin_frame(c.integer("the frame's number", INT32_MIN, INT32_MAX));
 }
 
 /// WorldBegin: from here on options stand, and the current space is named "world".
-void world_begin(RequestContext& r, ArgumentCursor&) {
+void world_begin(StructureContext& r, ArgumentCursor&) {
     r.scene.begin_world();
     r.files.begin_world();
 }
 
 /// The times stand in an array, in older files without brackets.
-void motion_begin(RequestContext& r, ArgumentCursor& c) {
+void motion_begin(StructureContext& r, ArgumentCursor& c) {
     std::vector<float> times = c.number_array("the times");
     while (c.next_is_number()) times.push_back(c.number("a time"));
     r.motion.begin(std::move(times));
 }
 
 /// Parameters are PRMan's, and are read past.
-void read_archive(RequestContext& r, ArgumentCursor& c) {
+void read_archive(StructureContext& r, ArgumentCursor& c) {
     const std::string name = c.string("the archive's name");
     r.parameters(c, Undeclared::Guess);
     r.stream.read_archive(name);
@@ -55,26 +55,26 @@ constexpr RequestRow kStructureRequests[] = {
     {"version", version},
     {"Declare", declare},
     {"FrameBegin", frame_begin},
-    {"FrameEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::Frame); }},
+    {"FrameEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::Frame); }},
     {"WorldBegin", world_begin},
-    {"WorldEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::World); }},
+    {"WorldEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::World); }},
     {"AttributeBegin",
-     [](RequestContext& r, ArgumentCursor&) { r.state.open(Block::Attribute, r.report.at()); }},
-    {"AttributeEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::Attribute); }},
+     [](StructureContext& r, ArgumentCursor&) { r.state.open(Block::Attribute, r.report.at()); }},
+    {"AttributeEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::Attribute); }},
     {"TransformBegin",
-     [](RequestContext& r, ArgumentCursor&) { r.state.open(Block::Transform, r.report.at()); }},
-    {"TransformEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::Transform); }},
+     [](StructureContext& r, ArgumentCursor&) { r.state.open(Block::Transform, r.report.at()); }},
+    {"TransformEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::Transform); }},
     {"MotionBegin", motion_begin},
-    {"MotionEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::Motion); }},
+    {"MotionEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::Motion); }},
     {"ReadArchive", read_archive},
-    {"ArchiveBegin", [](RequestContext&, ArgumentCursor&) { /* read as text before it gets here */ }},
+    {"ArchiveBegin", [](StructureContext&, ArgumentCursor&) { /* read as text before it gets here */ }},
     {"ArchiveEnd",
-     [](RequestContext& r, ArgumentCursor&) { r.report.error("no ArchiveBegin is open; ignored"); }},
+     [](StructureContext& r, ArgumentCursor&) { r.report.error("no ArchiveBegin is open; ignored"); }},
     {"ObjectBegin",
-     [](RequestContext& r, ArgumentCursor& c) { r.scene.begin_object(c.handle("the handle")); }},
-    {"ObjectEnd", [](RequestContext& r, ArgumentCursor&) { r.blocks.end(Block::Object); }},
+     [](StructureContext& r, ArgumentCursor& c) { r.scene.begin_object(c.handle("the handle")); }},
+    {"ObjectEnd", [](StructureContext& r, ArgumentCursor&) { r.blocks.end(Block::Object); }},
     {"ObjectInstance",
-     [](RequestContext& r, ArgumentCursor& c) { r.scene.instance(c.handle("the handle")); }},
+     [](StructureContext& r, ArgumentCursor& c) { r.scene.instance(c.handle("the handle")); }},
 };
 
 }  // namespace

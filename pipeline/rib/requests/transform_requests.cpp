@@ -11,19 +11,19 @@ namespace {
 /// A request of so many numbers, which is multiplied to the current transformation or collected by a motion
 /// block.
 template <TransformKind kKind, size_t kCount>
-void concat(RequestContext& r, ArgumentCursor& c) {
+void concat(TransformContext& r, ArgumentCursor& c) {
     r.motion.transform(kKind, c.numbers(kCount, "the transformation"));
 }
 
 /// Degrees, of the whole angle (RISpec 4.3).
-void perspective(RequestContext& r, ArgumentCursor& c) {
+void perspective(TransformContext& r, ArgumentCursor& c) {
     const std::vector<float> fov = c.numbers(1, "the field of view");
     if (!(fov[0] > 0 && fov[0] < 180)) throw RequestError{"the field of view must be between 0 and 180", {}};
     r.motion.transform(TransformKind::Perspective, fov);
 }
 
 /// Rotate angle dx dy dz: degrees about an axis through the origin.
-void rotate(RequestContext& r, ArgumentCursor& c) {
+void rotate(TransformContext& r, ArgumentCursor& c) {
     std::vector<float> v = c.numbers(4, "the transformation");
     if (v[1] == 0 && v[2] == 0 && v[3] == 0) {
         if (v[0] != 0) throw RequestError{"the axis is 0", {}};
@@ -33,7 +33,7 @@ void rotate(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// RISpec 4.3: the angle is below that between the axes, and above it less 180 degrees.
-void skew(RequestContext& r, ArgumentCursor& c) {
+void skew(TransformContext& r, ArgumentCursor& c) {
     const std::vector<float> v = c.numbers(7, "the transformation");
     const V3d from(v[1], v[2], v[3]), to(v[4], v[5], v[6]);
     if (from.length() == 0 || to.length() == 0) throw RequestError{"an axis is 0", {}};
@@ -44,14 +44,14 @@ void skew(RequestContext& r, ArgumentCursor& c) {
 }
 
 /// Row by row, for row vectors: the translation is in the last row.
-void set_transform(RequestContext& r, ArgumentCursor& c) {
+void set_transform(TransformContext& r, ArgumentCursor& c) {
     const TransformArguments matrix = c.numbers(16, "the matrix");
     r.motion.set_transform(&matrix);
 }
 
 /// All of these move in motion blocks, but for the two that deal with named spaces.
 constexpr RequestRow kTransformRequests[] = {
-    {"Identity", [](RequestContext& r, ArgumentCursor&) { r.motion.set_transform(nullptr); }},
+    {"Identity", [](TransformContext& r, ArgumentCursor&) { r.motion.set_transform(nullptr); }},
     {"Transform", set_transform},
     {"ConcatTransform", concat<TransformKind::Matrix, 16>},
     {"Translate", concat<TransformKind::Translate, 3>},
@@ -60,9 +60,9 @@ constexpr RequestRow kTransformRequests[] = {
     {"Skew", skew},
     {"Perspective", perspective},
     {"CoordinateSystem",
-     [](RequestContext& r, ArgumentCursor& c) { r.state.name_coordinate_system(c.string("the name")); }},
+     [](TransformContext& r, ArgumentCursor& c) { r.state.name_coordinate_system(c.string("the name")); }},
     {"CoordSysTransform",
-     [](RequestContext& r, ArgumentCursor& c) { r.state.use_coordinate_system(c.string("the name")); }},
+     [](TransformContext& r, ArgumentCursor& c) { r.state.use_coordinate_system(c.string("the name")); }},
 };
 
 }  // namespace

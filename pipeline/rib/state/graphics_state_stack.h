@@ -30,6 +30,7 @@ class GraphicsStateStack {
     Options& options() { return scope_.options; }
     const Options& options() const { return scope_.options; }
     Declarations& declarations() { return declarations_; }
+    const Declarations& declarations() const { return declarations_; }
 
     // --- blocks ---
     /// Opens a block at the place of its request; frames and worlds save the scope too. The world's
