@@ -211,6 +211,33 @@ TEST(Statistics, ElsewhereWriteOverTheirLikesAlone) {
     EXPECT_EQ(run_program(folder, "render a.rib --safe --stats s.json").exit_code, 0);
 }
 
+/// As on a full disk; the system would end the program.
+TEST(OutputFiles, LargerThanTheUsersLimitEndWithSix) {
+    WorkFolder folder;
+    const std::string large =
+        "\nFormat 128 128 1 PixelSamples 1 1 WorldBegin\nTranslate 0 0 2\n"
+        "Surface \"constant\" Sphere 1 -1 1 360\nWorldEnd\n";
+    folder.write("pass.rib", "Display \"pass.exr\" \"openexr\" \"rgba\"" + large);
+    ASSERT_EQ(run_program(folder, "render pass.rib").exit_code, 0);
+    folder.write("1.rib", "Display \"a.exr\" \"openexr\" \"rgba\" \"string compression\" [\"none\"]" + large);
+    folder.write("2.rib", "Display \"a.tif\" \"tiff\" \"rgba\" \"string compression\" [\"none\"]" + large);
+    folder.write("3.rib", "Display \"a.bmp\" \"bmp\" \"rgb\"" + large);
+    folder.write("4.rib", "Display \"a.z\" \"zfile\" \"z\"" + large);
+    folder.write("5.rib", "MakeTexture \"pass.exr\" \"a.tex\" \"black\" \"black\" \"box\" 1 1\n");
+    for (const char* file : {"1", "2", "3", "4", "5"}) {
+        const std::string run = "cd '" + folder.path().string() +
+                                "' && ulimit -f 10 && '" TRAPEZE_PROGRAM "' render " + file +
+                                ".rib </dev/null >.stdout 2>.stderr";
+        const std::string before = files_in(folder);
+        const int status = std::system(("bash -c \"" + run + "\"").c_str());
+        EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 6) << file;
+        EXPECT_EQ(files_in(folder), before) << file;
+        const std::string said = file_text(folder / ".stderr");
+        EXPECT_NE(said.find("error: cannot "), std::string::npos) << said;
+        EXPECT_NE(said.find("File too large"), std::string::npos) << said;
+    }
+}
+
 TEST(Displays, WithoutANameHaveOne) {
     WorkFolder folder;
     folder.write("a.rib", world("Display \"\" \"framebuffer\" \"rgb\""));

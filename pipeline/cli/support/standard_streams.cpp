@@ -19,8 +19,9 @@ void prepare_standard_streams() {
     // For reading: what is written there fails, as it would.
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) static_cast<void>(open("/dev/null", O_RDONLY));
-    // A handler, which does not outlive exec(), rather than SIG_IGN, which does.
-    std::signal(SIGPIPE, [](int) {});
+    // A handler, which does not outlive exec(), rather than SIG_IGN, which does. SIGXFSZ: a file has become
+    // as large as the user's limit allows.
+    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, [](int) {});
 }
 
 void print_text(std::string_view text) {

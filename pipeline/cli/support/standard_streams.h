@@ -9,7 +9,8 @@ namespace trapeze {
 
 /// Makes the streams safe; to be called before anything is opened. Streams that are closed are opened to
 /// nowhere, so that no picture takes their descriptors. A reader that goes away is an error of writing, and
-/// not the end of the process; programs that are started get SIGPIPE as it was.
+/// not the end of the process, and so is a file that is larger than a limit (`ulimit -f`); programs that are
+/// started get these signals as they were.
 void prepare_standard_streams();
 
 /// Prints a whole text to standard output; printed_all() says later whether that went wrong.
