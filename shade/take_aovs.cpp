@@ -114,10 +114,10 @@ void take_channel(const Aov& aov, int channel, const vm::Operand* from, size_t f
         to.assign(count, 0.0f);
 }
 
-SourceLocation asked_at(const Options& options, const Aov& aov) {
-    for (const Display& display : options.displays)
-        if (display.variable && display.variable->name == aov.name) return display.location;
-    return {};
+/// Whether any grid will have a variable.
+bool exists(const Aov& aov, const Materials& materials) {
+    return grids_have(aov) || std::any_of(materials.all().begin(), materials.all().end(),
+                                          [&](const Material& material) { return provides(material, aov); });
 }
 
 }  // namespace
@@ -138,18 +138,17 @@ void take_aovs(const AovLayout& layout, LayerRegisters surface, LayerRegisters d
 
 void report_missing_aovs(const AovLayout& layout, const Materials& materials, const Options& options,
                          Diagnostics& diagnostics) {
-    for (const Aov& aov : layout.aovs) {
-        const bool found =
-            grids_have(aov) || std::any_of(materials.all().begin(), materials.all().end(),
-                                           [&](const Material& material) { return provides(material, aov); });
-        if (!found)
-            diagnostics.warning(
-                asked_at(options, aov),
-                fmt::format(
-                    "Display: no surface or displacement shader of the scene has a variable \"{}\" of {}; "
-                    "it is 0 everywhere",
-                    aov.name, aov.channels == 1 ? "one number" : "three numbers"),
-                "display-variable " + aov.name);
+    for (size_t i = 0; i < options.displays.size(); ++i) {
+        const Display& display = options.displays[i];
+        const Aov* aov = display.variable ? layout.find(*display.variable) : nullptr;
+        if (!aov || exists(*aov, materials)) continue;
+        // Two displays may have one name.
+        diagnostics.warning(
+            display.location,
+            fmt::format("Display \"{}\": no surface or displacement shader of the scene has a variable "
+                        "\"{}\" of {}; it is 0 everywhere",
+                        display.name, aov->name, aov->channels == 1 ? "one number" : "three numbers"),
+            fmt::format("display-variable {} {} {}", i, display.name, aov->name));
     }
 }
 

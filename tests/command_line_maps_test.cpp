@@ -182,7 +182,7 @@ TEST(CommandLine, VariablesOfShadersAreWrittenAndMissingOnesWarnedOf) {
         return first != std::string::npos && outcome.err.find(text, first + 1) == std::string::npos;
     };
     EXPECT_TRUE(warned(
-        "a.rib:6:1: warning: Display: no surface or displacement shader of the scene has a variable \"nosuch\""))
+        "a.rib:6:1: warning: Display \"nosuch.exr\": no surface or displacement shader of the scene has a variable \"nosuch\""))
         << outcome.err;
     EXPECT_TRUE(warned("a.rib:7:1: error: Imager: there is no shader \"lost\"")) << outcome.err;
     EXPECT_EQ(outcome.err.find("height"), std::string::npos) << outcome.err;

@@ -137,17 +137,22 @@ TEST(Displays, ThatCannotBeHonouredAreNamedOneByOne) {
                        "Display \"+c.exr\" \"openexr\" \"bgr\"\nDisplay \"+d.exr\" \"openexr\" \"sepia\"\n"
                        "Display \"+e\" \"framebuffer\" \"a\"\nDisplay \"+f\" \"it\" \"az\"\n"
                        "Display \"+g.exr\" \"openexr\" \"color one\"\n"
-                       "Display \"+h.exr\" \"openexr\" \"color two\""));
+                       "Display \"+h.exr\" \"openexr\" \"color two\"\n"
+                       "Display \"+i.exr\" \"openexr\" \"color two\""));
     const Outcome outcome = run_program(folder, "render a.rib");
     EXPECT_EQ(outcome.exit_code, 0);
-    for (const char* text :
-         {"a.rib:1:1: warning: Display driver \"vortech\" is not known; \"a.exr\" is written as its "
-          "extension says",
-          "a.rib:2:1: warning: Display driver \"teleporter\"",
-          "a.rib:3:1: warning: Display mode \"bgr\" is not supported; \"c.exr\" is not written",
-          "a.rib:4:1: warning: Display mode \"sepia\"",
-          "a.rib:5:1: warning: Display \"framebuffer\": no window is opened; \"e.exr\" is written instead",
-          "a.rib:6:1: warning: Display \"it\"", "variable \"one\"", "variable \"two\""})
+    for (
+        const char* text :
+        {"a.rib:1:1: warning: Display driver \"vortech\" is not known; \"a.exr\" is written as its "
+         "extension says",
+         "a.rib:2:1: warning: Display driver \"teleporter\"",
+         "a.rib:3:1: warning: Display mode \"bgr\" is not supported; \"c.exr\" is not written",
+         "a.rib:4:1: warning: Display mode \"sepia\"",
+         "a.rib:5:1: warning: Display \"framebuffer\": no window is opened; \"e.exr\" is written instead",
+         "a.rib:6:1: warning: Display \"it\"",
+         "a.rib:7:1: warning: Display \"g.exr\": no surface or displacement shader of the scene has a variable "
+         "\"one\" of three numbers; it is 0 everywhere",
+         "a.rib:8:1: warning: Display \"h.exr\"", "a.rib:9:1: warning: Display \"i.exr\""})
         EXPECT_NE(outcome.err.find(text), std::string::npos) << text << "\n" << outcome.err;
     EXPECT_EQ(run_program(folder, "render a.rib --strict").exit_code, 1);
 }
