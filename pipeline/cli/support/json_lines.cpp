@@ -49,8 +49,13 @@ std::string json_line(const Diagnostic& diagnostic) {
 }
 
 std::string json_line(const Work& work, double fraction, double seconds, const std::string& waiting) {
-    json object{{"frame", work.frame},           {"file", work.file},           {"stage", work.stage},
-                {"fraction", rounded(fraction)}, {"seconds", rounded(seconds)}, {"estimate", nullptr}};
+    json object{{"frame", nullptr},
+                {"file", work.file},
+                {"stage", work.stage},
+                {"fraction", rounded(fraction)},
+                {"seconds", rounded(seconds)},
+                {"estimate", nullptr}};
+    if (work.frame != 0) object["frame"] = work.frame;
     if (fraction > 0) object["estimate"] = rounded(std::max(0.0, seconds / fraction - seconds));
     if (!waiting.empty()) object["waiting"] = waiting;
     return json_text(object, -1) + "\n";

@@ -25,6 +25,8 @@ TEST(JsonLines, WhatIsNotKnownIsNull) {
     for (const char* key : {"file", "line", "column"}) EXPECT_TRUE(line.at(key).is_null()) << key;
     EXPECT_EQ(json::parse(json_line({Severity::Error, "text", "a.rib", {}, {}, {}}))["file"], "a.rib");
     EXPECT_TRUE(json::parse(json_line(Work{"a.exr", "trace", 3}, 0, 1)).at("estimate").is_null());
+    // No frame, or not yet.
+    EXPECT_TRUE(json::parse(json_line(Work{"a.rib", "read"}, 0, 1)).at("frame").is_null());
 }
 
 TEST(JsonLines, ProgressSaysWhatIsLeft) {

@@ -23,7 +23,7 @@ ProgressStyle progress_style(const std::string& name);
 struct Work {
     std::string file;   ///< the picture that is made, or the scene that is read or measured
     std::string stage;  ///< as in the statistics, or what is being measured
-    int frame = 0;      ///< 0: the file has none
+    int frame = 0;      ///< 0: the file has none, or it is not known yet
 };
 
 /// The only writer to standard error while work goes on. All functions are thread-safe.
