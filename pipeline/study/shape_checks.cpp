@@ -101,8 +101,10 @@ StudyCheck samples_favour_tracing(const RateSeries& here, const RateSeries& pape
     return check;
 }
 
-/// Whether y grows from the first point on as the logarithm of x does, but for kLogarithmic.
+/// Whether y grows from the first point on as the logarithm of x does, but for kLogarithmic, and falls from
+/// no point to the next: where the logarithm grows by less than kLogarithmic, that alone would let it.
 bool is_logarithmic(const std::vector<double>& x, const std::vector<double>& y) {
+    if (!std::is_sorted(y.begin(), y.end())) return false;
     for (size_t i = 1; i < x.size(); ++i) {
         const double ratio = y[i] / y.front() / (std::log(x[i]) / std::log(x.front()));
         if (!(ratio <= kLogarithmic && ratio >= 1 / kLogarithmic)) return false;
@@ -159,7 +161,7 @@ std::vector<StudyCheck> checks_of_growth(const GrowthSeries& bundles, const Grow
     const double logarithm = std::log(count.back()) / std::log(count.front());
     StudyCheck single{
         "time and nodes of a ray by itself grow like the logarithm of micropolygons, at every number of them "
-        "(neither 1.25 times as much nor 1.25 times less)",
+        "(neither 1.25 times as much nor 1.25 times less), and never fall",
         "like the logarithm",
         fmt::format(
             "micropolygons times {}, their logarithm times {:.2f}: time times {:.2f}, nodes times {:.2f}",

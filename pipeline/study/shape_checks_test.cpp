@@ -58,6 +58,13 @@ TEST(ShapeChecks, GrowthLikeTheLogarithm) {
         checks_of_growth(flat, {"", counts, {500, 600, 700}, {20, 40, 80}}).front().held);  // by nodes
     for (const std::vector<double>& time : {std::vector<double>{500, 400, 300}, {500, 1200, 700}})
         EXPECT_FALSE(checks_of_growth(flat, {"", counts, time, {20, 24, 28}}).front().held);
+    // The logarithm of few more grows by less than the factor that is allowed; yet what falls does not grow.
+    const std::vector<double> near = {1e5, 2e5, 4e5};
+    EXPECT_TRUE(checks_of_growth(flat, {"", near, {500, 500, 510}, {20, 21, 22}}).front().held);
+    for (const std::vector<double>& time : {std::vector<double>{500, 480, 490}, {500, 540, 530}}) {
+        EXPECT_FALSE(checks_of_growth(flat, {"", near, time, {20, 21, 22}}).front().held) << "by time";
+        EXPECT_FALSE(checks_of_growth(flat, {"", near, {500, 520, 540}, time}).front().held) << "by nodes";
+    }
 }
 
 TEST(ShapeChecks, BlurOfAnySizeCounts) {
