@@ -123,8 +123,10 @@ class Analyser {
     // Calls.
     /// A cost of Choices::kNever says that the call does not fit.
     std::vector<Signature> candidates(const Expression& call);
-    int cost_of(const Signature& signature, const Expression& call) const;
+    std::vector<int> costs_of(const std::vector<Signature>& all, const Expression& call) const;
+    int cost_of(const Signature& signature, const Expression& call, bool as_they_are) const;
     int cost_of_argument(const Signature::Parameter& parameter, const Expression& argument) const;
+    bool becomes_as_it_is(const Signature::Parameter& parameter, const Expression& argument) const;
     bool lacks_knots(const Expression& call);
     void explain(std::vector<Signature> all, const Expression& call);
     void unknown_function(const Expression& call);

@@ -112,6 +112,16 @@ TEST(Analysis, ColoursAndVectorsAreAssignedToEachOtherWithAWarning) {
               "warning 1:77: a normal becomes a color here: its three numbers are taken as they are\n");
     EXPECT_EQ(in_surface("vector v; v = 2 * Cs; Ci = xcomp(v);"),
               "warning 1:83: a color becomes a vector here: its three numbers are taken as they are\n");
+    EXPECT_EQ(in_surface("color f(color x;) { return x; } Ci = f(N);"),
+              "warning 1:106: a normal becomes a color here: its three numbers are taken as they are\n");
+    EXPECT_EQ(in_surface("float f(vector x;) { return x.x; } Ci = f(2 * Cs);"),
+              "warning 1:111: a color becomes a vector here: its three numbers are taken as they are\n");
+    // What fits comes first: another function of the name, and a built-in one.
+    EXPECT_EQ(in_surface("color f(color x;) { return x; } color f(normal n;) { return 1; } Ci = f(N);"), "");
+    EXPECT_EQ(in_surface("float length(color x;) { return 1; } Ci = length(N);"), "");
+    EXPECT_EQ(
+        in_surface("float f(output color x;) { x = 1; return 1; } vector v = 0; Ci = f(v);").substr(0, 5),
+        "error");
     EXPECT_EQ(in_surface("Ci = Cs + N;"), "error 1:75: \"+\" does not go with a color and a normal\n");
     EXPECT_EQ(in_surface("Ci += N;"), "error 1:70: a normal cannot be combined by \"+=\" with a color\n");
 }

@@ -81,15 +81,37 @@ int Analyser::cost_of_argument(const Signature::Parameter& parameter, const Expr
     return choices.cost_to(parameter.type.base);
 }
 
-/// Cost of converting all arguments of a call; kNever when the call does not fit.
-int Analyser::cost_of(const Signature& signature, const Expression& call) const {
+/// Whether an argument is a triple of another family than its parameter, a colour for a vector or the
+/// reverse.
+bool Analyser::becomes_as_it_is(const Signature::Parameter& parameter, const Expression& argument) const {
+    return !parameter.output && !parameter.type.is_array() && !argument.type.is_array() &&
+           choices_of(argument).foreign_triple_for(parameter.type.base).has_value();
+}
+
+/// Costs of a call's candidates. Where none fits, functions of the source take a colour for a vector, or the
+/// reverse, as assignments do; choose_type() warns of that.
+std::vector<int> Analyser::costs_of(const std::vector<Signature>& all, const Expression& call) const {
+    std::vector<int> costs;
+    for (const Signature& signature : all) costs.push_back(cost_of(signature, call, false));
+    if (std::any_of(costs.begin(), costs.end(), [](int cost) { return cost < Choices::kNever; }))
+        return costs;
+    for (size_t i = 0; i < all.size(); ++i)
+        if (all[i].function) costs[i] = cost_of(all[i], call, true);
+    return costs;
+}
+
+/// Cost of converting all arguments of a call; kNever when the call does not fit. `as_they_are`: numbers of a
+/// triple of another family may be taken.
+int Analyser::cost_of(const Signature& signature, const Expression& call, bool as_they_are) const {
     if (!count_fits(signature, call.children.size())) return Choices::kNever;
     int cost = signature.builtin && signature.builtin->last_resort ? kLastResort : 0;
     for (size_t i = 0; i < call.children.size(); ++i) {
         const Expression& argument = *call.children[i];
         int one = 0;
         if (const Signature::Parameter* parameter = parameter_at(signature, i))
-            one = cost_of_argument(*parameter, argument);
+            one = as_they_are && becomes_as_it_is(*parameter, argument)
+                      ? kLastResort
+                      : cost_of_argument(*parameter, argument);
         else if (is_pair_name(signature, i))
             one = argument.type.is_array() ? Choices::kNever : choices_of(argument).cost_to(Base::String);
         if (one >= Choices::kNever) return Choices::kNever;
@@ -115,11 +137,11 @@ Choices Analyser::call_types(Expression& e) {
     // The functions of the source hide built-in ones that fit as well.
     Choices choices;
     bool found = false;
-    for (const Signature& signature : all) {
-        const int cost = cost_of(signature, e);
-        if (cost >= Choices::kNever || (signature.builtin && found)) continue;
-        found = found || !signature.builtin;
-        choices.offer(signature.result.base, cost);
+    const std::vector<int> costs = costs_of(all, e);
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (costs[i] >= Choices::kNever || (all[i].builtin && found)) continue;
+        found = found || !all[i].builtin;
+        choices.offer(all[i].result.base, costs[i]);
     }
     if (!choices.none()) return choices;
     if (!unknown) explain(all, e);
@@ -194,11 +216,11 @@ void Analyser::choose_call(Expression& e, Base base) {
     const std::vector<Signature> all = candidates(e);
     const Signature* best = nullptr;
     int least = Choices::kNever;
-    for (const Signature& signature : all) {
+    const std::vector<int> costs = costs_of(all, e);
+    for (size_t i = 0; i < all.size(); ++i) {
         // As in call_types(): a function of the source that fits hides the built-in ones.
-        if (signature.result.base != base || (signature.builtin && best && !best->builtin)) continue;
-        const int cost = cost_of(signature, e);
-        if (cost < least) best = &signature, least = cost;
+        if (all[i].result.base != base || (all[i].builtin && best && !best->builtin)) continue;
+        if (costs[i] < least) best = &all[i], least = costs[i];
     }
     if (!best) return;  // reported
     e.builtin = best->builtin;
