@@ -243,6 +243,40 @@ TEST(OutputFiles, LargerThanTheUsersLimitEndWithSix) {
     }
 }
 
+/// What is no picture stays, also in the working folder; what the program itself has made is replaced.
+TEST(Displays, OverwriteNothingButPictures) {
+    WorkFolder folder;
+    folder.write("victim.rib", "# mine");
+    folder.write("a.rib", world("Display \"victim.rib\" \"exr\" \"rgba\""));
+    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(outcome.exit_code, 6);
+    EXPECT_NE(
+        outcome.err.find("a.rib:1:1: error: cannot write \"victim.rib\": the file that is there is not a "
+                         "picture"),
+        std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(file_text(folder / "victim.rib"), "# mine");
+    folder.write("b.rib", "MakeTexture \"a.exr\" \"victim.rib\" \"black\" \"black\" \"box\" 1 1\n");
+    ASSERT_EQ(run_program(folder, "render a.rib -o a.exr").exit_code, 0);
+    EXPECT_EQ(run_program(folder, "render b.rib").exit_code, 6);
+    EXPECT_EQ(file_text(folder / "victim.rib"), "# mine");
+    // The user has named it.
+    EXPECT_EQ(run_program(folder, "render a.rib -o victim.rib --stats a.rib").exit_code, 0);
+
+    std::string all = world("Display \"d.z\" \"zfile\" \"z\"\nDisplay \"+e.shd\" \"shadow\" \"z\"");
+    for (const char* ending : {"exr", "tif", "png", "jpg", "tga", "bmp"})
+        all += world(std::string("Display \"f.") + ending + "\" \"file\" \"rgb\"");
+    all +=
+        "MakeTexture \"f.tif\" \"f.tex\" \"black\" \"black\" \"box\" 1 1\n"
+        "MakeBump \"f.tif\" \"f.bump\" \"black\" \"black\" \"box\" 1 1\n"
+        "MakeLatLongEnvironment \"f.tif\" \"f.env\" \"box\" 1 1\nMakeShadow \"d.z\" \"d.shd\"\n";
+    folder.write("all.rib", all);
+    for (const char* time : {"first", "second"}) {
+        const Outcome made = run_program(folder, "render all.rib --stats s.json");
+        EXPECT_EQ(made.exit_code, 0) << time << made.err;
+    }
+}
+
 TEST(Displays, WithoutANameHaveOne) {
     WorkFolder folder;
     folder.write("a.rib", world("Display \"\" \"framebuffer\" \"rgb\""));

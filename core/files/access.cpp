@@ -150,8 +150,7 @@ Access::Writing Access::may_write(const std::string& path) const {
     }
     writing.is_elsewhere = !is_here;
     std::error_code ignored;
-    const bool may_matter = confined_ || !is_here;
-    if (may_matter && fs::is_regular_file(target, ignored) && fs::file_size(target, ignored) > 0 &&
+    if (fs::is_regular_file(target, ignored) && fs::file_size(target, ignored) > 0 &&
         picture_format(target).empty())
         writing.problem = "the file that is there is not a picture";
     return writing;

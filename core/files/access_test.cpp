@@ -127,9 +127,12 @@ TEST_F(AccessTest, ConfinedOverwritesPicturesAlone) {
     EXPECT_EQ(confined_.may_write("sub/a.txt").problem, "");
 }
 
-TEST_F(AccessTest, OutsideOfTheWorkingFolderPicturesAloneAreOverwritten) {
+TEST_F(AccessTest, PicturesAloneAreOverwritten) {
     Access access;
-    EXPECT_EQ(access.may_write("sub/a.txt").problem, "");
+    EXPECT_EQ(access.may_write("sub/a.txt").problem, "the file that is there is not a picture");
+    EXPECT_EQ(access.may_write("sub/new.txt").problem, "");
+    write("work/old.rib", "\x76\x2f\x31\x01rest");
+    EXPECT_EQ(access.may_write("old.rib").problem, "");
     EXPECT_FALSE(access.may_write("sub/a.txt").is_elsewhere);
     EXPECT_NE(access.may_write("../outside/secret.txt").problem, "");
     EXPECT_EQ(access.may_write("../outside/new.exr").problem, "");

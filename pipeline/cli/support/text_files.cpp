@@ -36,7 +36,7 @@ bool may_write_report(const std::string& path, const Access& access, Diagnostics
     char first = 0;
     std::ifstream(path) >> first;
     const bool is_report = first == '{' || first == '[';
-    if (!writing.problem.empty() && (access.is_confined() || !is_report)) {
+    if (!writing.problem.empty() && (access.is_confined() || (writing.is_elsewhere && !is_report))) {
         const std::string why =
             access.is_confined() ? writing.problem : "the file that is there is no report of a run";
         diagnostics.error({}, fmt::format("cannot write \"{}\": {}", path, why));
