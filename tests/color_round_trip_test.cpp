@@ -94,6 +94,7 @@ TEST(Transfer, FloatsBecomeEightBitsForViewing) {
         const char *display, *more;
         bool is_encoded;
     } cases[] = {{"Display \"a.exr\" \"openexr\" \"rgb\"", "", true},
+                 {"Display \"a.tif\" \"framebuffer\" \"rgb\"", "", true},
                  {"Display \"a.tif\" \"tiff\" \"rgb\"", "", false},
                  {"Display \"a.exr\" \"file\" \"rgb\" \"quantize\" [0 255 0 255]", "", false},
                  {"Display \"a.exr\" \"openexr\" \"rgb\"\nQuantize \"rgba\" 255 0 255 .5", "", false},

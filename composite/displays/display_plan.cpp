@@ -293,7 +293,7 @@ bool asks_for_whole_numbers(const Display& display, const Options& options) {
     if (const Parameter* own = floats_of(display.parameters, "quantize", 4))
         return own->floats[0] != own->floats[1];
     if (const Parameter* given = floats_of(options.quantize, "rgba", 4)) return given->floats[0] != 0;
-    return *format != FileFormat::OpenExr;
+    return *format != FileFormat::OpenExr && !opens_window(display);
 }
 
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {

@@ -59,7 +59,8 @@ std::optional<FileFormat> file_format(const Display& display);
 /// the new format does not have are dropped.
 void rename(Display& display, std::string name);
 
-/// Whether the display asks for a file of whole numbers, by its format or by Quantize.
+/// Whether the display asks for a file of whole numbers, by its format or by Quantize. A window's name is no
+/// file's.
 bool asks_for_whole_numbers(const Display& display, const Options& options);
 
 /// The plan of a display; nothing when there is nothing to write: for driver "null", for a window when

@@ -67,6 +67,20 @@ TEST(DisplayPlan, DriverThenExtensionChoosesTheFormat) {
     EXPECT_FALSE(planned({"a.exr", "null", "rgba", {}, {}}).plan);
 }
 
+/// A window's name is what its title says.
+TEST(DisplayPlan, WindowsDoNotAskForWholeNumbersByTheirNames) {
+    const Options options;
+    for (const char* type : {"framebuffer", "it", "openexr", "file"})
+        EXPECT_FALSE(asks_for_whole_numbers({"a.exr", type, "rgb", {}, {}}, options)) << type;
+    for (const char* type : {"framebuffer", "It"})
+        EXPECT_FALSE(asks_for_whole_numbers({"a.tif", type, "rgb", {}, {}}, options)) << type;
+    for (const char* type : {"tiff", "file"})
+        EXPECT_TRUE(asks_for_whole_numbers({"a.tif", type, "rgb", {}, {}}, options)) << type;
+    Display quantized{"a.tif", "framebuffer", "rgb", {}, {}};
+    quantized.parameters.set(floats("quantize", {0, 255, 0, 255}));
+    EXPECT_TRUE(asks_for_whole_numbers(quantized, options));
+}
+
 TEST(DisplayPlan, WindowsDoNotOverwriteFiles) {
     Options options;
     options.displays = {{"a.tif", "file", "rgba", {}, {}},
