@@ -225,9 +225,11 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
 
 /// "exrcompression" is OpenEXR's alone and comes before "compression". Empty: what the format usually has.
 void choose_compression(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
-    std::string name = display.parameters.string_or("compression", "");
-    if (plan.format == FileFormat::OpenExr) name = display.parameters.string_or("exrcompression", name);
-    if (name.empty()) return;
+    const Parameter* asked = display.parameters.find("exrcompression");
+    if (plan.format != FileFormat::OpenExr || !asked || asked->strings.empty())
+        asked = display.parameters.find("compression");
+    if (!asked || asked->strings.empty()) return;
+    const std::string& name = asked->strings.front();
     if (const auto compression = compression_named(plan.format, lower(name))) {
         plan.compression = *compression;
         return;

@@ -230,6 +230,13 @@ TEST(DisplayPlan, PixelTypes) {
     EXPECT_TRUE(planned(display).plan->float_pixels);
     display.parameters.set(text("compression", "PIZ"));
     EXPECT_EQ(planned(display).plan->compression, "piz");
+    for (const char* name : {"compression", "exrcompression"}) {
+        Display nameless{"a.exr", "openexr", "rgba", {}, {}};
+        nameless.parameters.set(text(name, ""));
+        const Planned result = planned(nameless);
+        EXPECT_EQ(result.warnings, 1u) << name;
+        EXPECT_EQ(result.plan->compression, "") << "the usual one";
+    }
 }
 
 TEST(DisplayPlan, QuantizeOfTheDisplayBeatsThatOfTheOptions) {
