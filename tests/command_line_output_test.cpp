@@ -30,6 +30,15 @@ std::vector<std::string> pictures(const WorkFolder& folder) {
 
 using Names = std::vector<std::string>;
 
+/// What a command that succeeds says on a terminal.
+std::string said_on_a_terminal(const WorkFolder& folder, const std::string& arguments) {
+    const std::string in_terminal = "cd '" + folder.path().string() +
+                                    "' && script -qec \"'" TRAPEZE_PROGRAM "' " + arguments +
+                                    "\" said >/dev/null 2>&1 </dev/null";
+    EXPECT_EQ(std::system(in_terminal.c_str()), 0) << "script of util-linux is needed";
+    return file_text(folder / "said");
+}
+
 TEST(OutputFiles, HaveTheFramesNumber) {
     WorkFolder folder;
     folder.write("a.rib", frame(3, kShot) + frame(12, kShot));
@@ -121,12 +130,28 @@ TEST(OutputFiles, AreSaidOnATerminalAlone) {
     WorkFolder folder;
     folder.write("a.rib", world(kShot));
     EXPECT_EQ(run_program(folder, "render a.rib").err, "");
-    const std::string in_terminal = "cd '" + folder.path().string() +
-                                    "' && script -qec \"'" TRAPEZE_PROGRAM
-                                    "' render a.rib --progress none\" said >/dev/null 2>&1 </dev/null";
-    ASSERT_EQ(std::system(in_terminal.c_str()), 0) << "script of util-linux is needed";
-    EXPECT_NE(file_text(folder / "said").find("wrote shot.exr, 8x8, "), std::string::npos)
-        << file_text(folder / "said");
+    EXPECT_NE(said_on_a_terminal(folder, "render a.rib --progress none").find("wrote shot.exr, 8x8, "),
+              std::string::npos);
+}
+
+/// Not pictures alone: reports, statistics, scenes.
+TEST(OutputFiles, OfEveryCommandAreSaidOnATerminal) {
+    WorkFolder folder;
+    folder.write("a.rib", world(kShot));
+    const std::pair<const char*, Names> cases[] = {
+        {"render a.rib --stats st.json", {"shot.exr", "st.json"}},
+        {"cat a.rib -o c.rib", {"c.rib"}},
+        {"scene halberd -o h.rib", {"h.rib"}},
+        {"compare a.rib --samplers raytrace --reference 1 --json c.json --report c.html -o dir",
+         {"c.json", "c.html", "dir/raytrace_1x1.exr", "dir/reference_1x1.exr"}}};
+    for (const auto& [command, files] : cases) {
+        const std::string said = said_on_a_terminal(folder, command);
+        for (const std::string& file : files) {
+            EXPECT_NE(said.find("wrote " + file), std::string::npos) << said;
+            EXPECT_TRUE(fs::exists(folder / file)) << file;
+        }
+        EXPECT_EQ(run_program(folder, command).err.find("wrote"), std::string::npos) << command;
+    }
 }
 
 /// Each is named, with what is done instead.

@@ -12,8 +12,9 @@ namespace {
 /// Writes images of a frame, one after another, in floats.
 class PictureWriter {
   public:
-    PictureWriter(const SharedFrame& frame, const std::string& folder, const std::string& software)
-        : folder_(folder), info_{software, {}}, context_(frame.context) {
+    PictureWriter(const SharedFrame& frame, const std::string& folder, const std::string& software,
+                  const std::function<void(const std::string&)>& on_file)
+        : folder_(folder), on_file_(on_file), info_{software, {}}, context_(frame.context) {
         info_.access = &access_;
         scene_.options = frame.scene->options;
         scene_.camera_from_world = frame.scene->camera_from_world;
@@ -29,7 +30,9 @@ class PictureWriter {
         display.parameters.set({"type", {StorageClass::Uniform, ValueType::String, 1}, {}, {"float"}});
         scene_.options.displays = {display};
         access_.allow_writing(display.name);
-        good_ = write_displays(image, context_, info_) && good_;
+        std::vector<WrittenFile> written;
+        good_ = write_displays(image, context_, info_, &written) && good_;
+        for (const WrittenFile& file : written) on_file_(file.path);
     }
     /// A map as a grey picture; nothing if the method did not fill it.
     void write(const Image& like, const std::vector<float>& map, const std::string& name) {
@@ -43,6 +46,7 @@ class PictureWriter {
 
   private:
     std::string folder_;
+    const std::function<void(const std::string&)>& on_file_;
     Access access_;
     OutputInfo info_;
     Scene scene_;
@@ -60,8 +64,8 @@ std::string file_name_of(const std::string& method) {
 }
 
 bool write_pictures(const Comparison& comparison, const SharedFrame& frame, const std::string& folder,
-                    const std::string& software) {
-    PictureWriter writer(frame, folder, software);
+                    const std::string& software, const std::function<void(const std::string&)>& on_file) {
+    PictureWriter writer(frame, folder, software, on_file);
     const SampleRate reference{comparison.reference_side, comparison.reference_side};
     writer.write(comparison.reference, "reference_" + rate_text(reference), "rgba");
     for (const ComparedMethod& method : comparison.methods) {

@@ -19,6 +19,7 @@ class CatOutput {
     explicit CatOutput(const std::string& path) {
         if (!path.empty() && path != "-") file_.emplace(path);
     }
+    bool is_file() const { return file_.has_value(); }
     bool open() { return !file_ || file_->open(); }
     void write(std::string_view bytes) {
         if (file_)
@@ -58,6 +59,7 @@ int cat_command(const Arguments& arguments, Terminal& terminal, Diagnostics& dia
                                              [&](std::string_view bytes) { output.write(bytes); });
     if (interrupt.requested()) return interrupt.exit_code();
     if (!output.close()) return cannot_write();
+    if (output.is_file()) terminal.say_on_terminal("wrote " + arguments.output);
     uint64_t requests = 0;
     for (const auto& [name, count] : summary.requests) requests += count;
     terminal.say(fmt::format("{} requests, {} errors, {} warnings", requests,

@@ -128,11 +128,15 @@ void CompareJob::print(const Comparison& comparison) const {
 void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& frame) {
     bool good = true;
     if (!options_.json.empty())
-        good = write_text(options_.json, json_text(to_json(comparison)) + "\n", diagnostics_) && good;
+        good =
+            write_text(options_.json, json_text(to_json(comparison)) + "\n", terminal_, diagnostics_) && good;
     if (!options_.report.empty())
-        good = write_text(options_.report, html_report(comparison), diagnostics_) && good;
+        good = write_text(options_.report, html_report(comparison), terminal_, diagnostics_) && good;
     if (!options_.folder.empty())
-        good = write_pictures(comparison, frame, options_.folder, std::string("Trapeze ") + kVersion) && good;
+        good =
+            write_pictures(comparison, frame, options_.folder, std::string("Trapeze ") + kVersion,
+                           [this](const std::string& file) { terminal_.say_on_terminal("wrote " + file); }) &&
+            good;
     output_failed_ = !good;
 }
 

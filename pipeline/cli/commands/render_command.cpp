@@ -225,7 +225,7 @@ bool RenderJob::write_stats() const {
     if (arguments_.stats_file.empty()) return true;
     const RunFacts facts{arguments_.words, files_read(diagnostics_), diagnostics_.count(Severity::Error),
                          diagnostics_.count(Severity::Warning), maps_};
-    return write_text(arguments_.stats_file, stats_json(frames_, facts), diagnostics_);
+    return write_text(arguments_.stats_file, stats_json(frames_, facts), terminal_, diagnostics_);
 }
 
 /// The exit code of the whole run: of the first of these reasons that applies.

@@ -7,7 +7,7 @@
 
 namespace trapeze {
 
-int scene_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostics) {
+int scene_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     SceneParameters parameters = arguments.scene.parameters;
     if (arguments.resolution) std::tie(parameters.width, parameters.height) = *arguments.resolution;
     const std::string text = scene_text(arguments.scene.name, parameters);
@@ -15,7 +15,7 @@ int scene_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostic
         print_text(text);
         return kExitOk;
     }
-    return write_text(arguments.output, text, diagnostics) ? kExitOk : kExitNoOutput;
+    return write_text(arguments.output, text, terminal, diagnostics) ? kExitOk : kExitNoOutput;
 }
 
 }  // namespace trapeze

@@ -48,8 +48,9 @@ int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& d
     fmt::print("{}", study_text(*result));
     bool good = true;
     if (!study.json.empty())
-        good = write_text(study.json, json_text(study_json(*result)) + "\n", diagnostics) && good;
-    if (!study.report.empty()) good = write_text(study.report, study_html(*result), diagnostics) && good;
+        good = write_text(study.json, json_text(study_json(*result)) + "\n", terminal, diagnostics) && good;
+    if (!study.report.empty())
+        good = write_text(study.report, study_html(*result), terminal, diagnostics) && good;
     return good ? kExitOk : kExitNoOutput;
 }
 

@@ -48,10 +48,13 @@ bool may_write_report(const std::string& path, const Access& access, Diagnostics
     return true;
 }
 
-bool write_text(const std::string& path, const std::string& text, Diagnostics& diagnostics) {
+bool write_text(const std::string& path, const std::string& text, Terminal& terminal,
+                Diagnostics& diagnostics) {
     OutputFile file(path);
-    return (file.open() && file.write(text.data(), text.size()) && file.commit()) ||
-           report(path, file, diagnostics);
+    if (!file.open() || !file.write(text.data(), text.size()) || !file.commit())
+        return report(path, file, diagnostics);
+    terminal.say_on_terminal("wrote " + path);
+    return true;
 }
 
 }  // namespace trapeze

@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.h"
 #include "core/files/access.h"
+#include "pipeline/cli/support/terminal.h"
 
 namespace trapeze {
 
@@ -18,7 +19,8 @@ bool can_write(std::initializer_list<std::string> paths, Diagnostics& diagnostic
 /// why not, and that the path lies outside.
 bool may_write_report(const std::string& path, const Access& access, Diagnostics& diagnostics);
 
-/// Writes a text file whole, or not at all; reports why not.
-bool write_text(const std::string& path, const std::string& text, Diagnostics& diagnostics);
+/// Writes a text file whole, or not at all; reports why not, and names the file on a terminal.
+bool write_text(const std::string& path, const std::string& text, Terminal& terminal,
+                Diagnostics& diagnostics);
 
 }  // namespace trapeze
