@@ -82,6 +82,27 @@ TEST(OutputFiles, OfEmptyWorldsTakeNoName) {
     EXPECT_EQ(fs::file_size(folder / "x.exr"), fs::file_size(folder / "y.exr"));
 }
 
+/// What is behind the camera or beside the view is not seen either.
+TEST(OutputFiles, InWhichNothingIsSeenTakeNoName) {
+    WorkFolder folder;
+    const std::string hidden =
+        "\nFormat 8 8 1 PixelSamples 1 1 WorldBegin\nTranslate 0 90 2 Sphere 1 -1 1 360\n"
+        "WorldEnd\n";
+    folder.write("alone.rib", "Display \"a.exr\" \"openexr\" \"rgba\"" + hidden);
+    ASSERT_EQ(run_program(folder, "render alone.rib -o alone.exr").exit_code, 0);
+    folder.write("seen.rib", world("Display \"c.exr\" \"openexr\" \"rgba\""));
+    ASSERT_EQ(run_program(folder, "render seen.rib -o seen.exr").exit_code, 0);
+    folder.write("a.rib", "Display \"a.exr\" \"openexr\" \"rgba\"" + hidden +
+                              "Display \"b.exr\" \"openexr\" \"rgba\"" + hidden +
+                              world("Display \"c.exr\" \"openexr\" \"rgba\"") +
+                              "Display \"d.exr\" \"openexr\" \"rgba\"" + hidden);
+    const Outcome outcome = run_program(folder, "render a.rib -o x.exr");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(pictures(folder), (Names{"alone.exr", "seen.exr", "x.2.exr", "x.exr"}));
+    EXPECT_EQ(fs::file_size(folder / "x.exr"), fs::file_size(folder / "seen.exr"));
+    EXPECT_NE(fs::file_size(folder / "x.exr"), fs::file_size(folder / "alone.exr"));
+}
+
 TEST(OutputFiles, AreNotStandardOutput) {
     WorkFolder folder;
     folder.write("a.rib", world(kShot));

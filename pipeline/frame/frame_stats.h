@@ -30,6 +30,7 @@ struct FrameStats {
     uint64_t grid_bytes = 0, peak_region_bytes = 0, tree_bytes = 0;  ///< largest region's
     uint64_t samples = 0;
     int regions = 0, threads = 0, width = 0, height = 0, frame = 0;
+    bool shows_something = false;  ///< whether any sample has hit anything
     std::string sampler, simd_target;
     struct Output {
         std::string path;

@@ -16,6 +16,7 @@ struct TileResolver {
     SampleScratch scratch;
     SampleHeat heat;
     SampleStats stats;
+    bool shows_something = false;
     double trace_seconds = 0, composite_seconds = 0;
 };
 
@@ -60,6 +61,7 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
         if (heat) clear_heat(resolver);
         visibility.resolve(resolver.samples, resolver.hits, resolver.scratch, resolver.stats);
         resolver.trace_seconds += watch.lap();
+        resolver.shows_something = resolver.shows_something || !resolver.hits.hits.empty();
         if (heat) take_heat(resolver, *heat);
         film.add(resolver.samples, resolver.hits, grids);
         resolver.composite_seconds += watch.lap();
@@ -70,6 +72,7 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
     double trace = 0, composite = 0;
     for (const TileResolver& resolver : resolvers) {
         stats.sample += resolver.stats;
+        stats.shows_something = stats.shows_something || resolver.shows_something;
         trace += resolver.trace_seconds, composite += resolver.composite_seconds;
     }
     const auto [trace_wall, composite_wall] = shared_out(wall.lap(), trace, composite);

@@ -86,7 +86,8 @@ class RenderJob {
     int worlds_ = 0;
     KeptPictures kept_;
     OutputNames names_;
-    std::set<std::string> encoded_;  ///< by the sRGB curve for viewing: files that `-o` names
+    std::optional<Display> renamed_;  ///< the world's first display, as the scene has it, if `-o` renames it
+    std::set<std::string> encoded_;   ///< by the sRGB curve for viewing: files that `-o` names
     bool output_failed_ = false;
 };
 
@@ -122,7 +123,8 @@ bool RenderJob::encode_for_viewing(Display& display, const Options& options) con
 void RenderJob::name_output(Scene& scene) {
     Display& first = scene.options.displays.front();
     const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, scene.options);
-    rename(first, names_.take(first.name, scene.options.frame, !scene.primitives.empty()));
+    renamed_ = first;
+    rename(first, names_.take(first.name, scene.options.frame));
     if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
     access_.allow_writing(first.name);
     kept_.forget(first.name);
@@ -178,6 +180,7 @@ void RenderJob::render_world(Scene&& scene) {
     Stopwatch watch;
     const double read_seconds = total_.elapsed() - render_seconds_;
     ++worlds_;
+    renamed_.reset();
     const int frame = scene.options.frame;
     if (!arguments_.transfer.empty()) set_transfer(scene.options, arguments_.transfer);
     if (!is_shadow_pass(scene.options)) {
@@ -215,6 +218,7 @@ void RenderJob::render_world(Scene&& scene) {
         stats.seconds.read = read_seconds - last_read_seconds_;
         stats.seconds.total += stats.seconds.read;
         last_read_seconds_ = read_seconds;
+        if (renamed_ && !stats.shows_something) names_.take_back(renamed_->name);
         say_what_is_written(stats);
         frames_.push_back(stats);
     }

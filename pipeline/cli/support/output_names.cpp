@@ -50,12 +50,12 @@ std::string with_frame_number(const std::string& name, int frame) {
     return result;
 }
 
-std::string OutputNames::take(const std::string& given, int frame, bool shows_something) {
+std::string OutputNames::take(const std::string& given, int frame) {
     const std::string first = with_frame_number(output_, frame);
     std::string name = first;
     if (taken_.contains(name) && frame > 1) name = numbered(first, frame);
     for (int number = 2; taken_.contains(name); ++number) name = numbered(first, number);
-    if (shows_something) taken_.insert(name);
+    taken_.insert(name);
     std::erase_if(files_, [&](const auto& entry) { return entry.second == name; });
     files_[given] = name;
     return name;

@@ -22,11 +22,11 @@ class OutputNames {
     /// Whether some picture already has the name that a picture of this frame would be given first.
     bool is_taken(int frame) const { return taken_.contains(with_frame_number(output_, frame)); }
     /// The name for the picture that the scene calls `given`: the output's where no other picture has it,
-    /// else one with the frame's number or the next number that is free, "shot.2.exr". A picture that shows
-    /// nothing keeps no name from a later one.
-    std::string take(const std::string& given, int frame, bool shows_something);
+    /// else one with the frame's number or the next number that is free, "shot.2.exr".
+    std::string take(const std::string& given, int frame);
     /// Gives a name back: what the picture that the scene calls `given` was written as, if it was renamed. A
-    /// map is made of that picture, so it was only a pass, and a later picture may have its name.
+    /// later picture may have the name: nothing is seen in this one, or a map is made of it, so that it was
+    /// only a pass.
     std::optional<std::string> take_back(const std::string& given);
 
   private:

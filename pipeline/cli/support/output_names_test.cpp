@@ -19,25 +19,26 @@ TEST(OutputNames, HaveTheFramesNumberWhereTheySaySo) {
 TEST(OutputNames, AreOfOnePictureEach) {
     OutputNames names("out.exr");
     EXPECT_FALSE(names.is_taken(1));
-    EXPECT_EQ(names.take("a", 1, true), "out.exr");
+    EXPECT_EQ(names.take("a", 1), "out.exr");
     EXPECT_TRUE(names.is_taken(1));
-    EXPECT_EQ(names.take("b", 5, true), "out.5.exr");
-    EXPECT_EQ(names.take("c", 0, true), "out.2.exr");
-    EXPECT_EQ(names.take("d", 5, true), "out.3.exr");
+    EXPECT_EQ(names.take("b", 5), "out.5.exr");
+    EXPECT_EQ(names.take("c", 0), "out.2.exr");
+    EXPECT_EQ(names.take("d", 5), "out.3.exr");
     OutputNames frames("out.##.exr");
-    EXPECT_EQ(frames.take("a", 1, true), "out.01.exr");
-    EXPECT_EQ(frames.take("a", 2, true), "out.02.exr");
-    EXPECT_EQ(frames.take("b", 2, true), "out.02.2.exr");
+    EXPECT_EQ(frames.take("a", 1), "out.01.exr");
+    EXPECT_EQ(frames.take("a", 2), "out.02.exr");
+    EXPECT_EQ(frames.take("b", 2), "out.02.2.exr");
 }
 
 TEST(OutputNames, OfPassesAndOfNothingAreFreeAgain) {
     OutputNames names("out.exr");
-    EXPECT_EQ(names.take("nothing.exr", 1, false), "out.exr");
-    EXPECT_EQ(names.take("pass.exr", 1, true), "out.exr");
+    EXPECT_EQ(names.take("nothing.exr", 1), "out.exr");
+    EXPECT_EQ(names.take_back("nothing.exr"), "out.exr");
+    EXPECT_EQ(names.take("pass.exr", 1), "out.exr");
     EXPECT_EQ(names.take_back("nothing.exr"), std::nullopt) << "another picture has its name";
     EXPECT_EQ(names.take_back("other.exr"), std::nullopt);
     EXPECT_EQ(names.take_back("pass.exr"), "out.exr");
-    EXPECT_EQ(names.take("picture.exr", 2, true), "out.exr");
+    EXPECT_EQ(names.take("picture.exr", 2), "out.exr");
 }
 
 }  // namespace
