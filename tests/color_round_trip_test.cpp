@@ -133,5 +133,58 @@ TEST(Transfer, MapsOfEncodedPassesAreDecoded) {
     }
 }
 
+/// A surface of light, brighter than 8 bits can say, and what is in its map.
+std::string bright(const std::string& display) {
+    std::string text = frame(display);
+    return text.replace(text.find("[.25 .25 .25]"), 13, "[4 4 4]");
+}
+
+/// Maps are made of pictures as their own Displays have them, whatever `-o` says.
+TEST(Transfer, MapsOfRenamedPassesHaveAllOfTheirLight) {
+    const std::string make = "MakeTexture \"env.exr\" \"env.tex\" \"clamp\" \"clamp\" \"box\" 1 1\n",
+                      pass = bright("Display \"env.exr\" \"exr\" \"rgba\""),
+                      last = frame("Display \"out.exr\" \"exr\" \"rgba\"", "env.tex"),
+                      between = frame("Display \"between.exr\" \"exr\" \"rgba\"");
+    for (const char* flags : {"", " --safe", " -t 1"})
+        for (const std::string& scene : {pass + make + last, pass + between + make + last}) {
+            WorkFolder folder, temporary;
+            folder.write("look.sl", kLook);
+            folder.write("a.rib", scene);
+            const bool two = scene.find("between") != std::string::npos;
+            setenv("TMPDIR", temporary.path().c_str(), 1);
+            const Outcome outcome =
+                run_program(folder, std::string("render a.rib -o q.png --stats s.json") + flags);
+            unsetenv("TMPDIR");
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            EXPECT_NEAR(red_of(folder / "env.tex"), 4, 0.01f) << outcome.err;
+            EXPECT_TRUE(fs::is_empty(temporary.path()));
+            EXPECT_FALSE(fs::exists(folder / "env.exr")) << "nobody has asked for it";
+            EXPECT_EQ(fs::exists(folder / "q.2.png"), two);
+        }
+}
+
+/// A picture of a depth pass, too: `-o` has colours.
+TEST(Transfer, DepthsOfRenamedPassesAreStillDepths) {
+    WorkFolder folder;
+    folder.write("a.rib",
+                 frame("Display \"deep.exr\" \"exr\" \"z\"") + "MakeShadow \"deep.exr\" \"deep.shd\"\n");
+    const Outcome outcome = run_program(folder, "render a.rib -o q.png");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "deep.shd"));
+}
+
+/// A file that another display has written since then is the one that is meant.
+TEST(Transfer, MapsAreOfTheLastPictureOfTheirName) {
+    WorkFolder folder;
+    folder.write("look.sl", kLook);
+    folder.write("a.rib",
+                 bright("Display \"env.exr\" \"exr\" \"rgba\"") +
+                     frame("Display \"b.exr\" \"exr\" \"rgba\"\nDisplay \"+env.exr\" \"exr\" \"rgba\"") +
+                     "MakeTexture \"env.exr\" \"env.tex\" \"clamp\" \"clamp\" \"box\" 1 1\n");
+    const Outcome outcome = run_program(folder, "render a.rib -o q.png");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NEAR(red_of(folder / "env.tex"), 0.25f, 0.01f);
+}
+
 }  // namespace
 }  // namespace trapeze::testing

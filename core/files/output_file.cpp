@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The temporary files on the disk. A process has one set of them as it has one set of signal handlers, for
-/// which this is kept: no render reads it.
+/// The temporary files and folders on the disk. A process has one set of them as it has one set of signal
+/// handlers, for which this is kept: no render reads it.
 struct Partials {
     std::mutex mutex;
     std::set<std::string> paths;
@@ -151,8 +151,21 @@ bool OutputFile::commit() {
 
 void OutputFile::remove_partials() {
     const std::lock_guard lock(partials().mutex);
-    for (const std::string& path : partials().paths) ::unlink(path.c_str());
+    // Without allocations: memory may have run out. What is in a folder comes behind it in the set.
+    for (auto path = partials().paths.rbegin(); path != partials().paths.rend(); ++path)
+        std::remove(path->c_str());
     partials().paths.clear();
+}
+
+void OutputFile::remove_at_the_end(const std::string& path) {
+    const std::lock_guard lock(partials().mutex);
+    partials().paths.insert(path);
+}
+
+void OutputFile::remove(const std::string& path) {
+    const std::lock_guard lock(partials().mutex);
+    std::remove(path.c_str());
+    partials().paths.erase(path);
 }
 
 OutputPlace place_to_write(const std::string& name, const Access& access, SourceLocation asked_at,

@@ -34,6 +34,10 @@ class OutputFile {
     /// Removes the temporary files of all OutputFiles of the process: for a process about to be ended by a
     /// signal. Thread-safe; their commit() fails from then on.
     static void remove_partials();
+    /// Lets remove_partials() remove a file or folder that is not to stay, too.
+    static void remove_at_the_end(const std::string& path);
+    /// Removes it now.
+    static void remove(const std::string& path);
 
   private:
     bool fail(std::string reason);

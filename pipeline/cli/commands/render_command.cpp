@@ -12,6 +12,7 @@
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/on_threads.h"
 #include "pipeline/cli/support/output_names.h"
+#include "pipeline/cli/support/pass_pictures.h"
 #include "pipeline/cli/support/read_settings.h"
 #include "pipeline/cli/support/stats_json.h"
 #include "pipeline/cli/support/text_files.h"
@@ -67,6 +68,7 @@ class RenderJob {
     void override_options(Options& options) const;
     void override_displays(Scene& scene);
     void name_output(Scene& scene);
+    bool has_another_form(const Display& display) const;
     void say_what_is_written(const FrameStats& stats);
     bool encode_for_viewing(Display& display, const Options& options) const;
     void make_map_of_pictures(MapRequest request);
@@ -86,6 +88,7 @@ class RenderJob {
     int worlds_ = 0;
     KeptPictures kept_;
     OutputNames names_;
+    PassPictures passes_;
     std::optional<Display> renamed_;  ///< the world's first display, as the scene has it, if `-o` renames it
     std::set<std::string> encoded_;   ///< by the sRGB curve for viewing: files that `-o` names
     bool output_failed_ = false;
@@ -132,6 +135,13 @@ void RenderJob::name_output(Scene& scene) {
     if (for_viewing && encode_for_viewing(first, scene.options)) encoded_.insert(first.name);
 }
 
+/// Whether the first display, which `-o` has renamed, has other values in its file than its own would have.
+bool RenderJob::has_another_form(const Display& display) const {
+    const auto own = file_format(*renamed_);
+    return arguments_.driver.empty() && own &&
+           (own != file_format(display) || renamed_->mode != display.mode || encoded_.contains(display.name));
+}
+
 /// Puts -o, --driver and the default display in place of the scene's displays.
 void RenderJob::override_displays(Scene& scene) {
     std::vector<Display>& displays = scene.options.displays;
@@ -149,18 +159,24 @@ void RenderJob::override_displays(Scene& scene) {
         for (Display& display : displays) display.type = arguments_.driver;
 }
 
-/// A picture that a map is made of was a pass, whatever `-o` has called it: it is found under that name,
-/// which the next picture takes.
+/// A picture that a map is made of was a pass, whatever `-o` has made of it: it is read as its own Display
+/// has it, or else under the name that `-o` gave it, which the next picture takes.
 void RenderJob::make_map_of_pictures(MapRequest request) {
     for (std::string& picture : request.pictures) {
+        const auto own = passes_.file_of(picture);
         picture = names_.take_back(picture).value_or(picture);
-        if (encoded_.contains(picture)) request.colorspace = Transfer::Srgb;
         kept_.forget(picture);
+        if (own)
+            picture = *own;
+        else if (encoded_.contains(picture))
+            request.colorspace = Transfer::Srgb;
     }
+    Access access = access_;
+    passes_.allow_reading(access);
     if (const auto transfer = transfer_named(arguments_.transfer)) request.transfer = *transfer;
     Stopwatch watch;
     std::string map;
-    if (!make_map(request, access_, diagnostics_, &map)) output_failed_ = true;
+    if (!make_map(request, access, diagnostics_, &map)) output_failed_ = true;
     if (map.empty()) return;
     std::error_code unknown;
     const auto bytes = fs::file_size(map, unknown);
@@ -181,6 +197,7 @@ void RenderJob::render_world(Scene&& scene) {
     const double read_seconds = total_.elapsed() - render_seconds_;
     ++worlds_;
     renamed_.reset();
+    passes_.settle();
     const int frame = scene.options.frame;
     if (!arguments_.transfer.empty()) set_transfer(scene.options, arguments_.transfer);
     if (!is_shadow_pass(scene.options)) {
@@ -219,6 +236,10 @@ void RenderJob::render_world(Scene&& scene) {
         stats.seconds.total += stats.seconds.read;
         last_read_seconds_ = read_seconds;
         if (renamed_ && !stats.shows_something) names_.take_back(renamed_->name);
+        for (const FrameStats::Output& file : stats.outputs)
+            if (!renamed_ || file.path != renamed_->name) passes_.forget(file.path), names_.forget(file.path);
+        if (renamed_ && has_another_form(scene.options.displays.front()))
+            passes_.keep(*renamed_, context, std::move(result->image));
         say_what_is_written(stats);
         frames_.push_back(stats);
     }

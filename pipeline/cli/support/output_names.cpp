@@ -68,4 +68,9 @@ std::optional<std::string> OutputNames::take_back(const std::string& given) {
     return found->second;
 }
 
+void OutputNames::forget(const std::string& given) {
+    const auto found = files_.find(given);
+    if (found != files_.end() && found->second != given) files_.erase(found);
+}
+
 }  // namespace trapeze

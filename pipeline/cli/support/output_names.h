@@ -28,6 +28,8 @@ class OutputNames {
     /// later picture may have the name: nothing is seen in this one, or a map is made of it, so that it was
     /// only a pass.
     std::optional<std::string> take_back(const std::string& given);
+    /// There is a file of this name now: whatever the scene called so is written as something else.
+    void forget(const std::string& given);
 
   private:
     std::string output_;
