@@ -17,12 +17,25 @@ struct TessellateStats {
     }
 };
 
+/// Rays that shaders have traced, by kind, and how many of their hits were shaded.
+struct RayStats {
+    uint64_t diffuse = 0, specular = 0, transmission = 0, shaded_hits = 0;
+
+    RayStats& operator+=(const RayStats& o) {
+        diffuse += o.diffuse, specular += o.specular, transmission += o.transmission;
+        shaded_hits += o.shaded_hits;
+        return *this;
+    }
+};
+
 /// What shading did; values that were no numbers have been replaced.
 struct ShadeStats {
     uint64_t shaded_vertices = 0, not_finite_values = 0;
+    RayStats rays;
 
     ShadeStats& operator+=(const ShadeStats& o) {
         shaded_vertices += o.shaded_vertices, not_finite_values += o.not_finite_values;
+        rays += o.rays;
         return *this;
     }
 };

@@ -69,7 +69,7 @@ bool can_share_run(const Material& material, const ShadingGrid& a, const Shading
 }
 
 GridRun::GridRun(const RenderContext& context, Textures& textures, const Material& material,
-                 std::span<ShadingGrid* const> grids, GridRunScratch& scratch)
+                 std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays)
     : context_(context),
       material_(material),
       grids_(grids),
@@ -80,6 +80,12 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
       batch_(batch_of(read_)) {
     messages_.attributes = material.attributes;
     messages_.lights = &scratch.lights;
+    if (rays) rays_.emplace(*rays, *material.attributes);
+}
+
+void GridRun::run_displacement() {
+    if (material_.displacement) displace();
+    if (material_.surface_moves) color(*material_.surface, false, messages_.surface);
 }
 
 void GridRun::run(const AovLayout& aovs) {
@@ -107,7 +113,10 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     bound.set_parameters(registers, grids);
     // Lights that ask for the surface's variables may see them before the surface sets them.
     const bool all = std::ranges::any_of(material_.lights, &Lamp::asks_surface);
-    GridFootprints footprints(grids, context_.camera, bound.program().kind != rsl::ShaderKind::Displacement);
+    // What a ray has hit is no smaller than the ray; the camera's pixels are of no matter.
+    const bool stretched =
+        bound.program().kind != rsl::ShaderKind::Displacement && grids.front()->I.size() == 0;
+    GridFootprints footprints(grids, context_.camera, stretched);
     set_variables(registers, grids, context_, footprints, shaded, all);
     messages_.running = bound.program().name;
     // Lights may ask the surface that asks them.
@@ -119,6 +128,7 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     surroundings.footprints = &footprints;
     surroundings.maps = &maps_;
     surroundings.lights = &scratch_.lights;
+    surroundings.rays = rays_ ? &*rays_ : nullptr;
     surroundings.messages = &messages_;
     surroundings.diagnostics = context_.diagnostics;
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;

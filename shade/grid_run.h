@@ -1,6 +1,7 @@
 /// The shaders of a material over a batch of grids: displacement, surface, atmosphere.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "shade/grid_messages.h"
 #include "shade/maps/map_service.h"
 #include "shade/materials/material.h"
+#include "shade/rays/ray_calls.h"
 #include "shade/weld.h"
 
 namespace trapeze {
@@ -29,11 +31,14 @@ bool can_share_run(const Material& material, const ShadingGrid& a, const Shading
 class GridRun {
   public:
     /// The grids can share a run (can_share_run()), each with each. All must outlive this.
+    /// Without `rays` shaders that trace find nothing.
     GridRun(const RenderContext& context, Textures& textures, const Material& material,
-            std::span<ShadingGrid* const> grids, GridRunScratch& scratch);
+            std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays = nullptr);
 
     /// Displaces the grids at all keys, sets Ci and Oi, and fills the output variables `aovs`.
     void run(const AovLayout& aovs);
+    /// Displaces the grids alone.
+    void run_displacement();
 
   private:
     using LayerRegisters = std::vector<vm::Registers*>;
@@ -57,6 +62,7 @@ class GridRun {
     GridRunScratch& scratch_;
     MapService maps_;
     GridMessages messages_;
+    std::optional<RayCalls> rays_;
     const vm::Batch batch_;
 };
 

@@ -47,7 +47,7 @@ vm::Batch batch_of(int x0, int y, size_t pixels) {
     batch.lanes = padded_size(pixels);
     for (size_t i = 0; i < pixels; ++i) {
         const uint64_t row = static_cast<uint32_t>(y), column = static_cast<uint32_t>(x0) + i;
-        batch.spans.push_back({i, GridShape{0, 0}, false, row << 32 | column, V2f(0)});
+        batch.spans.push_back({i, GridShape{0, 0}, false, row << 32 | column, -1, V2f(0)});
     }
     return batch;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shade/grid_run.h"
+#include "shade/rays/ray_programs.h"
 #include "shade/take_aovs.h"
 
 namespace trapeze {
@@ -18,6 +19,8 @@ constexpr float kBoundTolerance = 1.0001f;
 struct ShadeScratch::State {
     GridRunScratch run;
     std::vector<ShadingGrid*> batch;
+    RayWalkScratch hits;
+    std::unique_ptr<ShadeScratch> deeper;  ///< for hits of the rays of what is shaded with this one
 };
 
 ShadeScratch::ShadeScratch() : state(std::make_unique<State>()) {}
@@ -35,10 +38,14 @@ struct Shading::Impl {
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
     }
 
+    void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats,
+               int depth) const;
+
     const RenderContext& context;
-    Textures textures;
+    mutable Textures textures;  ///< thread-safe
     Materials materials;
     AovLayout aovs;
+    const RayScene* rays = nullptr;
     size_t known_endless = 0;  ///< endless shaders at the last found_endless_loops()
 };
 
@@ -52,24 +59,71 @@ void Shading::shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats)
 }
 
 void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const {
-    std::vector<ShadingGrid*>& batch = scratch.state->batch;
+    impl_->shade(grids, scratch, stats, 0);
+}
+
+/// `depth`: bounces of rays between the camera and the grids. What rays hit has no output variables.
+void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats,
+                          int depth) const {
+    ShadeScratch::State& state = *scratch.state;
+    RayService service;
+    if (rays) {
+        service.scene = rays;
+        service.shade = [&](std::span<ShadingGrid* const> hits) {
+            if (!state.deeper) state.deeper = std::make_unique<ShadeScratch>();
+            shade(hits, *state.deeper, stats, depth + 1);
+        };
+        service.depth = depth;
+        service.max_depth = context.scene->options.max_ray_depth;
+        service.scratch = &state.hits;
+        service.stats = &stats.rays;
+    }
+    std::vector<ShadingGrid*>& batch = state.batch;
     for (size_t first = 0; first < grids.size();) {
-        const Material& material = impl_->materials.of(grids[first]->primitive_index);
+        const Material& material = materials.of(grids[first]->primitive_index);
         batch.clear();
         size_t vertices = 0, next = first;
-        const size_t most = impl_->known_endless ? 1 : kBatchVertices;
+        const size_t most = known_endless ? 1 : kBatchVertices;
         for (; next < grids.size() && (batch.empty() || vertices < most); ++next) {
             ShadingGrid& grid = *grids[next];
-            if (&impl_->materials.of(grid.primitive_index) != &material ||
+            if (&materials.of(grid.primitive_index) != &material ||
                 !can_share_run(material, *grids[first], grid))
                 break;
             batch.push_back(&grid);
             vertices += grid.vertex_count();
         }
-        GridRun(impl_->context, impl_->textures, material, batch, scratch.state->run).run(impl_->aovs);
+        GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr)
+            .run(depth == 0 ? aovs : AovLayout());
         stats.shaded_vertices += vertices;
         first = next;
     }
+}
+
+bool Shading::asks_rays() const {
+    const std::vector<const BoundShader*> shaders = impl_->materials.shaders();
+    return std::ranges::any_of(shaders,
+                               [](const BoundShader* shader) { return asks_for_rays(shader->program()); });
+}
+
+void Shading::set_rays(const RayScene* rays) {
+    impl_->rays = rays;
+}
+
+void Shading::displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratch) const {
+    for (ShadingGrid* grid : grids) {
+        const Material& material = impl_->materials.of(grid->primitive_index);
+        if (material.attributes->rays.displaced)
+            GridRun(impl_->context, impl_->textures, material, {&grid, 1}, scratch.state->run)
+                .run_displacement();
+        grid->Ci = grid->Cs, grid->Oi = grid->Os;
+    }
+}
+
+bool Shading::keeps_opacity(uint32_t primitive) const {
+    const Material& material = impl_->materials.of(primitive);
+    return material.attributes->rays.transmission_hits == RayAttributes::HitMode::Primitive ||
+           std::ranges::none_of(material.surface->layers,
+                                [](const BoundShader* layer) { return changes_opacity(layer->program()); });
 }
 
 bool Shading::can_be_parted(const ShadingGrid& grid) const {

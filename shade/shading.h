@@ -7,6 +7,7 @@
 
 #include "core/depth_height.h"
 #include "core/files/access.h"
+#include "core/scene/ray_scene.h"
 #include "core/scene/render_context.h"
 #include "core/scene/shading_grid.h"
 #include "core/stats.h"
@@ -44,6 +45,17 @@ class Shading {
     /// Shades several grids: small ones that come one after the other and have the same attributes and
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
+
+    /// Whether a shader may ask for rays: it calls trace() or one of its kin.
+    bool asks_rays() const;
+    /// What rays of shaders meet from now on; outlives this. Null: nothing.
+    void set_rays(const RayScene* rays);
+    /// Displaces grids of the geometry that rays meet, where their attributes say so, and sets Ci and Oi to
+    /// the primitive's own Cs and Os.
+    void displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratch) const;
+    /// Whether hits of a primitive, by its index in the scene, have the primitive's own opacity for rays that
+    /// ask for what is in the way.
+    bool keeps_opacity(uint32_t primitive) const;
 
     /// Whether parts of the grid (grid_parts.h) get the same bits as the whole, and so threads may share it.
     bool can_be_parted(const ShadingGrid& grid) const;

@@ -39,6 +39,16 @@ class Dicer {
         if (context_.displaced) make_shared_border(context_, points(), border(), grid_, scratch_);
     }
 
+    /// As run(), of a piece that shares no border with anything.
+    void run_alone() {
+        prepare_grid();
+        grid_.border.clear();
+        place_vertices();
+        evaluate();
+        set_normals();
+        set_variables();
+    }
+
   private:
     /// Sizes all of the grid's planes. P's of unused keys wait in the scratch, so that grids with fewer keys
     /// in between cost no allocations.
@@ -48,6 +58,8 @@ class Dicer {
         grid_.primitive = &surface_.primitive();
         grid_.reverse_orientation = attributes_.reverse_orientation;
         grid_.displaced = false;
+        grid_.I.resize(0);
+        grid_.hit_vertex = -1;
         grid_.shared_vertices.clear();
         if (!context_.displaced) grid_.border.clear();
         const size_t keys = surface_.key_count();
@@ -223,6 +235,26 @@ class Dicer {
 void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
                    DiceScratch::State& scratch) {
     Dicer(context, subpatch, grid, scratch).run();
+}
+
+int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,
+               DiceScratch::State& scratch) {
+    Subpatch piece = subpatch;
+    piece.shape = {1, 1};
+    int vertex = 0;
+    const std::array<int, 2> segments{subpatch.shape.nu, subpatch.shape.nv};
+    for (int axis = 0; axis < 2; ++axis) {
+        const float side = 1.0f / static_cast<float>(segments[axis]), from = std::clamp(at[axis], 0.0f, 1.0f);
+        const bool is_high = from + side > 1;  // then the other vertex is before it
+        const auto place = [&](float share) {
+            return subpatch.lo[axis] + (subpatch.hi[axis] - subpatch.lo[axis]) * share;
+        };
+        piece.lo[axis] = place(is_high ? std::max(from - side, 0.0f) : from);
+        piece.hi[axis] = place(is_high ? from : from + side);
+        if (is_high) vertex += axis == 0 ? 1 : 2;
+    }
+    Dicer(context, piece, grid, scratch).run_alone();
+    return vertex;
 }
 
 }  // namespace trapeze

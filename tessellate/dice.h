@@ -33,4 +33,9 @@ struct DiceScratch::State {
 void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
                    DiceScratch::State& scratch);
 
+/// Makes a grid of one micropolygon, as large as those that the subpatch dices to, with a vertex at a place
+/// of it (in its unit square); returns the vertex. It lies within the subpatch.
+int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,
+               DiceScratch::State& scratch);
+
 }  // namespace trapeze

@@ -18,6 +18,7 @@ int clamped_int(float value, int lo, int hi) {
 }  // namespace
 
 RasterBound::Result RasterBound::of(std::span<const Box3f> boxes) const {
+    if (everything_) return {picture_, true};
     Box3f all;
     for (const Box3f& box : boxes) all.extendBy(box);
     if (all.isEmpty() || all.max.z < camera_.near_clip || all.min.z > camera_.far_clip) return {};

@@ -15,6 +15,13 @@ class RasterBound {
     /// picture: the pixels that are sampled at all; what lies outside is dropped.
     RasterBound(const Camera& camera, const PixelRect& picture) : camera_(camera), picture_(picture) {}
 
+    /// Of geometry that is seen from all sides, not by the camera alone: the whole picture, whatever the box.
+    static RasterBound of_everything(const Camera& camera, const PixelRect& picture) {
+        RasterBound bound(camera, picture);
+        bound.everything_ = true;
+        return bound;
+    }
+
     /// What may see the boxes.
     struct Result {
         PixelRect rect;       ///< clamped to the picture; empty: nothing can be seen
@@ -38,6 +45,7 @@ class RasterBound {
 
     Camera camera_;
     PixelRect picture_;
+    bool everything_ = false;
 };
 
 }  // namespace trapeze

@@ -203,8 +203,11 @@ size_t most_parts_of_face(const Options& options, const EdgeRate& rate) {
 /// Places, measures and splits one primitive. What cannot be diced is left out, with a diagnostic.
 void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
                           const ScreenMetric& metric, const RasterBound& raster, size_t most_bytes,
-                          TessellatedPrimitive& out) {
-    if (!out.surface || !primitive.attributes->visible_to_camera || context.is_cancelled()) return;
+                          SeenBy seen_by, TessellatedPrimitive& out) {
+    const bool by_rays = seen_by == SeenBy::Rays;
+    const bool is_seen =
+        by_rays ? primitive.attributes->rays.seen() : primitive.attributes->visible_to_camera;
+    if (!out.surface || !is_seen || context.is_cancelled()) return;
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
     out.vertices = VertexTable(*out.placed);
     if (const float reach = out.vertices.reach(); reach > kFarthest) {
@@ -226,7 +229,8 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     const size_t most_parts = most_parts_of_face(context.scene->options, rate);
     rate.max_intervals = static_cast<int>(std::min<size_t>(most_parts, rate.max_intervals));
     out.pixels_per_segment = rate.pixels_per_segment;
-    const LineMeasure measure(metric, context.camera, *out.placed, out.displaced, rate.pixels_per_segment);
+    const LineMeasure measure(metric, context.camera, *out.placed, out.displaced, rate.pixels_per_segment,
+                              by_rays);
     out.surface_edges = tessellate_edges(*out.placed, measure, rate);
     SplitContext split;
     split.surface = out.placed.get();
@@ -258,14 +262,17 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
 /// Tessellates all primitives, or those before the first with which the bytes are too many: the same ones
 /// however many threads there are, because bytes are counted in the primitives' order.
 void tessellate_all(const RenderContext& context, const ScreenMetric& metric, size_t most_bytes,
-                    std::vector<TessellatedPrimitive>& primitives) {
+                    SeenBy seen_by, std::vector<TessellatedPrimitive>& primitives) {
     const Scene& scene = *context.scene;
-    const RasterBound raster(context.camera, sampled_pixels(context.camera, scene.options));
+    const PixelRect picture = sampled_pixels(context.camera, scene.options);
+    const RasterBound raster = seen_by == SeenBy::Rays ? RasterBound::of_everything(context.camera, picture)
+                                                       : RasterBound(context.camera, picture);
     size_t bytes = 0;
     for (size_t first = 0; first < primitives.size(); first += kPrimitivesAtOnce) {
         const size_t end = std::min(first + kPrimitivesAtOnce, primitives.size());
         tbb::parallel_for(first, end, [&](size_t i) {
-            tessellate_primitive(context, scene.primitives[i], metric, raster, most_bytes, primitives[i]);
+            tessellate_primitive(context, scene.primitives[i], metric, raster, most_bytes, seen_by,
+                                 primitives[i]);
         });
         for (size_t i = first; i < end; ++i) {
             const size_t own = primitives[i].bytes();
@@ -287,7 +294,7 @@ void tessellate_all(const RenderContext& context, const ScreenMetric& metric, si
 }  // namespace
 
 Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights,
-                           size_t most_bytes, const IsDisplaced& is_displaced)
+                           size_t most_bytes, const IsDisplaced& is_displaced, SeenBy seen_by)
     : impl_(std::make_unique<Impl>(context.camera)) {
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
@@ -297,7 +304,7 @@ Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& 
                                   (is_displaced && is_displaced(static_cast<uint32_t>(i)));
     impl_->shared_grids.bytes_left = std::min(kSharedGridBytes, most_bytes / 8);
     make_surfaces(context, depth_heights, impl_->shared_grids, primitives);
-    tessellate_all(context, impl_->metric, most_bytes, primitives);
+    tessellate_all(context, impl_->metric, most_bytes, seen_by, primitives);
 
     size_t count = 0;
     for (const TessellatedPrimitive& p : primitives) count += p.splits.subpatches.size();
@@ -334,6 +341,17 @@ void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch
                   *scratch.state);
     grid.primitive_index = info.primitive;
     grid.ordinal = subpatch;
+}
+
+int Tessellation::dice_point(const SubpatchPoint& point, ShadingGrid& grid, DiceScratch& scratch) const {
+    const SubpatchInfo& info = infos_[point.subpatch];
+    const TessellatedPrimitive& p = impl_->primitives[info.primitive];
+    const int vertex = trapeze::dice_point(p.dice_context(impl_->metric),
+                                           p.splits.subpatches[point.subpatch - p.first_subpatch], point.at,
+                                           grid, *scratch.state);
+    grid.primitive_index = info.primitive;
+    grid.ordinal = point.subpatch;
+    return vertex;
 }
 
 }  // namespace trapeze

@@ -26,6 +26,17 @@ struct SubpatchInfo {
     uint32_t primitive = 0;
 };
 
+/// A place of a subpatch, in its own unit square.
+struct SubpatchPoint {
+    size_t subpatch = 0;  ///< index in Tessellation::subpatches()
+    V2f at{0, 0};
+};
+
+/// For whom a scene is split. What rays of shaders meet is neither culled nor foreshortened: every primitive
+/// that some kind of ray sees (RayAttributes), with micropolygons as large as a pixel is at their distance
+/// from the eye.
+enum class SeenBy : uint8_t { Camera, Rays };
+
 /// A thread's memory for dicing one Tessellation. Not for another one: surfaces leave their own scratch here.
 class DiceScratch {
   public:
@@ -52,7 +63,7 @@ class Tessellation {
     /// by one, each with a diagnostic.
     explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {},
                           size_t most_bytes = std::numeric_limits<size_t>::max(),
-                          const IsDisplaced& is_displaced = {});
+                          const IsDisplaced& is_displaced = {}, SeenBy seen_by = SeenBy::Camera);
     ~Tessellation();
 
     /// Subpatches that may be seen, in the order that defines Grid::ordinal: primitive by primitive, face by
@@ -66,6 +77,11 @@ class Tessellation {
     /// derivatives, variables at shutter open; Ci and Oi are sized but not set. Thread-safe with a scratch
     /// per thread.
     void dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch) const;
+
+    /// Makes a grid of one micropolygon with a vertex at a place of a subpatch, whose number is returned. Its
+    /// sides are as long as those of the subpatch's grid. No vertex is moved to that of a neighbour: the
+    /// place is on the limit surface. Thread-safe with a scratch per thread.
+    int dice_point(const SubpatchPoint& point, ShadingGrid& grid, DiceScratch& scratch) const;
 
   private:
     struct Impl;

@@ -78,6 +78,7 @@ struct Options {
     float samples_x = 2, samples_y = 2;
     PixelFilter filter;
     float exposure_gain = 1, exposure_gamma = 1;
+    int max_ray_depth = 10;                        ///< Option "trace" "maxdepth": bounces of a ray
     ParameterList quantize;                        ///< kept
     std::shared_ptr<const ShaderInstance> imager;  ///< null: none
     std::string hider = "hidden";
@@ -92,6 +93,22 @@ struct Options {
 struct LightInstance {
     std::string handle;
     ShaderInstance shader;
+};
+
+/// How rays that shaders trace meet a primitive. Nothing is seen by them unless its attributes ask for it, as
+/// in PRMan.
+struct RayAttributes {
+    /// What a hit stands for: the primitive's own colour and opacity, or what its shaders make of them.
+    enum class HitMode : uint8_t { Primitive, Shader };
+
+    bool diffuse = false, specular = false, transmission = false;  ///< Attribute "visibility", by kind of ray
+    HitMode transmission_hits = HitMode::Shader;  ///< Attribute "shade" "transmissionhitmode"
+    float bias = 0;          ///< Attribute "trace" "bias", camera-space length; 0: follows from the dicing
+    int max_diffuse = 1;     ///< Attribute "trace" "maxdiffusedepth": bounces
+    int max_specular = 2;    ///< Attribute "trace" "maxspeculardepth"
+    bool displaced = false;  ///< Attribute "trace" "displacements": rays meet what displacement shaders made
+
+    bool seen() const { return diffuse || specular || transmission; }
 };
 
 /// The attributes of RISpec table 4.7 onwards: the graphics state attached to each primitive.
@@ -112,6 +129,7 @@ struct Attributes {
     float displacement_bound = 0;                                          ///< camera-space length
     std::string name;                                                      ///< Attribute "identifier" "name"
     bool visible_to_camera = true;
+    RayAttributes rays;
     /// Options of dicing (Attribute "dice").
     struct Dice {
         bool binary = false;          ///< rates are powers of two

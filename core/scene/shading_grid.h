@@ -57,6 +57,10 @@ struct ShadingGrid {
         P;       ///< position at each key; shaders see and displace P[0], which is moved into all keys
     Triples N;   ///< unit shading normal: primitive variable "N", or the surface's own; oriented outside
     Triples Ng;  ///< unit normal of the surface, dPdu x dPdv, oriented outside
+    /// From where the points are seen, to P: of what a ray has hit. Without values they are seen by the
+    /// camera.
+    Triples I;
+    int hit_vertex = -1;  ///< of what a ray has hit: the vertex there; only this one traces rays in turn
     Triples dPdu,
         dPdv;  ///< derivatives by the surface's u and v, which run 0..1 over the primitive's face or patch
     std::vector<float> u, v;  ///< surface parameters

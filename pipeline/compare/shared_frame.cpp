@@ -6,6 +6,7 @@
 
 #include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/make_grids.h"
+#include "pipeline/rays/ray_world.h"
 #include "sample/visibility.h"
 
 namespace trapeze {
@@ -51,6 +52,9 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     });
     recorder.bounded(tessellation.stats());
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
+    const std::unique_ptr<RayWorld> rays =
+        recorder.timed(&StageSeconds::rays, [&] { return make_ray_world(frame.context, shading, budget); });
+    shading.set_rays(rays.get());
     const auto region = whole_region(frame, tessellation, budget);
     if (!region) return {};
 

@@ -12,10 +12,11 @@ namespace trapeze {
 /// Wall seconds of a frame's stages.
 struct StageSeconds {
     double read = 0, tessellate = 0, shade = 0, build = 0, trace = 0, composite = 0, total = 0;
+    double rays = 0;  ///< making what rays of shaders meet; tracing them is part of shading
 
     StageSeconds& operator+=(const StageSeconds& o) {
         read += o.read, tessellate += o.tessellate, shade += o.shade, build += o.build;
-        trace += o.trace, composite += o.composite, total += o.total;
+        trace += o.trace, composite += o.composite, total += o.total, rays += o.rays;
         return *this;
     }
 };
@@ -29,6 +30,7 @@ struct FrameStats {
     /// The most of any region, each by itself: bytes of grids, of grids and tree, of the tree.
     uint64_t grid_bytes = 0, peak_region_bytes = 0, tree_bytes = 0;  ///< largest region's
     uint64_t samples = 0;
+    uint64_t ray_micropolygons = 0, ray_bytes = 0;  ///< of the geometry that rays of shaders meet
     int regions = 0, threads = 0, width = 0, height = 0, frame = 0;
     bool shows_something = false;  ///< whether any sample has hit anything
     std::string sampler, simd_target;

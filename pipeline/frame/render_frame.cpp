@@ -13,6 +13,7 @@
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/resolve_tiles.h"
+#include "pipeline/rays/ray_world.h"
 #include "sample/visibility.h"
 #include "shade/imager.h"
 #include "shade/shading.h"
@@ -157,6 +158,9 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
         return Tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
     });
     recorder.bounded(tessellation.stats());
+    const std::unique_ptr<RayWorld> rays =
+        recorder.timed(&StageSeconds::rays, [&] { return make_ray_world(context, shading, budget); });
+    shading.set_rays(rays.get());
     const Imager imager(context, *settings.access);
     const std::unique_ptr<SamplePattern> pattern = sampler->make_pattern(context);
     const Options& options = context.scene->options;
@@ -178,6 +182,10 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     result.stats = recorder.finish(context);
     result.stats.regions = static_cast<int>(regions.size());
     result.stats.sampler = sampler->name();
+    if (rays) {
+        result.stats.ray_micropolygons = rays->micropolygon_count();
+        result.stats.ray_bytes = rays->bytes();
+    }
     return result;
 }
 

@@ -48,6 +48,9 @@ class Loader {
              [](const ShadingGrid& grid, int k) -> const std::vector<float>& { return grid.P.front().c[k]; });
     }
 
+    /// Whether the grids are of what rays have hit; those of one run all are, or none.
+    bool are_seen_by_rays() const { return grids_.front()->I.size() > 0; }
+
     /// Copies a plane that already has the run's lanes.
     void copy(const Operand& out, const float* plane) const {
         std::copy_n(plane, registers_.lanes(), out.data);
@@ -70,7 +73,9 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
         case Predefined::Ps:
             return loader.load_P(out);
         case Predefined::I: {
-            // From the eye to P; along the view when the projection is orthographic.
+            // From the eye to P, or from where a ray begins; along the view when the projection is
+            // orthographic.
+            if (loader.are_seen_by_rays()) return loader.load(out, &ShadingGrid::I);
             if (context.camera.perspective) return loader.load_P(out);
             const float along[3] = {0, 0, 1};
             return registers.set_uniform(value.id, along);
@@ -143,7 +148,7 @@ vm::Batch batch_of(std::span<const ShadingGrid* const> grids, bool shared) {
         for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
             const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->ordinal;
             batch.spans.push_back({batch.vertices, grid->shape, grid->reverse_orientation, seed,
-                                   steps_of_face(*grid, first / in_piece)});
+                                   grid->hit_vertex, steps_of_face(*grid, first / in_piece)});
             batch.vertices += in_piece;
         }
     }

@@ -66,6 +66,16 @@ class Lights {
     virtual bool in_category(size_t light, std::string_view wanted) = 0;
 };
 
+/// Rays through the scene.
+class Rays {
+  public:
+    virtual ~Rays() = default;
+    /// One of Op::Trace, Transmission, Visibility, Occlusion or IndirectDiffuse.
+    virtual void trace(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+    /// Bounces from the camera to the points that are shaded: 0 for what it sees itself.
+    virtual int depth() const = 0;
+};
+
 /// Variables of the other shaders that work on the grid, attributes and options.
 class Messages {
   public:
@@ -90,6 +100,7 @@ struct Context {
     Footprints* footprints = nullptr;  ///< of the points
     Maps* maps = nullptr;
     Lights* lights = nullptr;
+    Rays* rays = nullptr;
     Messages* messages = nullptr;
     LightOutput* light_output = nullptr;  ///< in lights
     Diagnostics* diagnostics = nullptr;

@@ -19,6 +19,8 @@ ContextOp find_context_op(rsl::Op op) {
             return find_random_op(op);
         case ContextFamily::Maps:
             return find_map_op(op);
+        case ContextFamily::Rays:
+            return find_ray_op(op);
         case ContextFamily::Lights:
             return find_light_op(op);
         case ContextFamily::Messages:

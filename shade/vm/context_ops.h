@@ -29,6 +29,7 @@ ContextOp find_neighbour_op(rsl::Op op);
 ContextOp find_random_op(rsl::Op op);
 ContextOp find_map_op(rsl::Op op);
 ContextOp find_light_op(rsl::Op op);
+ContextOp find_ray_op(rsl::Op op);
 ContextOp find_message_op(rsl::Op op);
 
 /// Floats in a plane of an operand.

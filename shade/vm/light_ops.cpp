@@ -1,8 +1,4 @@
-// The built-in functions that gather light (RISpec 3.2, section 15.6), and those that would ask for rays.
-#include <cctype>
-#include <string>
-
-#include "shade/operations/op_table.h"
+// The built-in functions that gather light (RISpec 3.2, section 15.6).
 #include "shade/vm/context_ops.h"
 #include "shade/vm/kernels/light_kernels.h"
 
@@ -66,29 +62,11 @@ void highlights(Run& run, const Step& step, std::span<const Operand> operands) {
     });
 }
 
-/// Rays that nothing answers yet: black, no distance, nothing in the way.
-void no_ray(Run& run, const Step& step, std::span<const Operand> operands) {
-    std::string function(rsl::row_of(step.op).name);  // as in RSL but for capitals
-    for (char& c : function) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    run.warn(step, function + "() sees nothing yet: its rays miss everything", "rsl-no-rays " + function);
-    // transmission() and visibility() return 1: nothing is in the way.
-    const bool open = step.op == Op::Transmission || step.op == Op::Visibility;
-    const int width = operands[0].stride ? 3 : 1;
-    const float miss = step.op == Op::Trace && width == 1 ? 1e30f : open ? 1.0f : 0.0f;
-    const std::array<float, 3> values{miss, miss, miss};
-    fill_operand(run, operands[0], std::span(values).first(static_cast<size_t>(width)));
-}
-
-/// rayinfo() finds nothing, and raylevel() is 0: shaders only run for what the camera sees.
-void ray_info(Run& run, const Step&, std::span<const Operand> operands) {
-    fill_operand(run, operands[0], std::array{0.0f});
-}
-
 constexpr ContextRow kLightRows[] = {
-    {Op::Ambient, ambient},   {Op::Diffuse, diffuse},   {Op::Specular, highlights},
-    {Op::Phong, highlights},  {Op::Trace, no_ray},      {Op::Transmission, no_ray},
-    {Op::Visibility, no_ray}, {Op::Occlusion, no_ray},  {Op::IndirectDiffuse, no_ray},
-    {Op::RayInfo, ray_info},  {Op::RayLevel, ray_info},
+    {Op::Ambient, ambient},
+    {Op::Diffuse, diffuse},
+    {Op::Specular, highlights},
+    {Op::Phong, highlights},
 };
 
 }  // namespace

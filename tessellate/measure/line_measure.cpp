@@ -54,10 +54,11 @@ int RateEstimate::clamped_segments(const EdgeRate& rate) const {
 }
 
 LineMeasure::LineMeasure(const ScreenMetric& metric, const Camera& camera, const PlacedSurface& surface,
-                         bool displaced, float pixels_per_segment)
+                         bool displaced, float pixels_per_segment, bool from_all_sides)
     : metric_(metric),
-      least_(surface.primitive().attributes->dice.raster_oriented ? kLeastForeshortening : 1.0f),
-      keys_(keys_to_look_at(surface, displaced)),
+      least_(surface.primitive().attributes->dice.raster_oriented && !from_all_sides ? kLeastForeshortening
+                                                                                     : 1.0f),
+      keys_(from_all_sides ? 0 : keys_to_look_at(surface, displaced)),
       flatness_(pixels_per_segment / 32),
       rate_(pixels_per_segment),
       lens_radius_(camera.perspective ? camera.lens_radius : camera.lens_radius / camera.focal_distance),

@@ -54,9 +54,9 @@ class LineMeasure {
     static constexpr int kMostPieces = 8, kMostKeys = 3;
 
     /// `displaced`: the surface will not lie where it is measured. The surface's attributes say whether
-    /// foreshortening counts.
+    /// foreshortening counts, unless it is seen `from_all_sides`.
     LineMeasure(const ScreenMetric& metric, const Camera& camera, const PlacedSurface& surface,
-                bool displaced, float pixels_per_segment);
+                bool displaced, float pixels_per_segment, bool from_all_sides = false);
 
     /// The estimate from a line's points at the first key, at most kMostPieces pieces: no piece counts less
     /// than it may at the least, so that foreshortened() never wants more.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/rib/requests/ray_attributes.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/requests/ri_values.h"
 #include "pipeline/rib/state/bases.h"
@@ -155,6 +156,7 @@ void attribute(OptionContext& r, ArgumentCursor& c) {
         // BMRT's: a bit for the camera, one for reflections, one for shadows.
         if (category == "render" && value.name == "visibility" && !value.floats.empty())
             state.attributes.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
+        set_ray_attribute(category, value, state.attributes.rays);
         if (category == "dice") set_dice(state.attributes.dice, value.name, number);
     }
 }

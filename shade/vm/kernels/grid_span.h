@@ -14,6 +14,7 @@ struct GridSpan {
     GridShape shape;
     bool reverse_orientation = false;  ///< dPdu x dPdv points inside
     uint64_t seed = 0;                 ///< of random numbers: the grid's own
+    int hit_vertex = -1;               ///< the one that asks for rays, for all of the grid; -1: each does
     V2f steps{0, 0};                   ///< where not 0, Du and Dv are differences along the axes over these
 };
 

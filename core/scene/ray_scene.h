@@ -1,0 +1,54 @@
+/// What rays that shaders trace meet [Hou10 sec. 4]: how the stage that shades asks the one that holds the
+/// geometry for them.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/math.h"
+#include "core/scene/shading_grid.h"
+
+namespace trapeze {
+
+/// What a ray is for: which primitives it meets follows from it (RayAttributes).
+enum class RayKind : uint8_t { Diffuse, Specular, Transmission };
+
+/// A part of a ray, in camera space at shutter open.
+struct RaySegment {
+    V3f origin, direction;                                        ///< of unit length
+    float min = 0, max = std::numeric_limits<float>::infinity();  ///< distances from the origin that count
+};
+
+/// Where a ray meets a surface.
+struct RaySurfaceHit {
+    float distance = 0;
+    uint32_t primitive = 0;  ///< index in Scene::primitives
+    bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
+    V3f opacity{1, 1, 1};    ///< the primitive's own, Os
+    V3f color{1, 1, 1};      ///< the primitive's own, Cs
+    uint32_t group = 0;      ///< with `id`, what dice() needs to find the place again
+    uint64_t id = 0;         ///< MicropolygonId::packed() of the group
+    V2f at{0, 0};            ///< within the micropolygon
+};
+
+/// The geometry that rays meet, as it is at shutter open. Immutable: threads share it.
+class RayScene {
+  public:
+    virtual ~RayScene() = default;
+
+    /// Whether any primitive is seen by rays of a kind.
+    virtual bool has(RayKind kind) const = 0;
+    /// The nearest hit within the segment. One-sided surfaces (Sides 1) are seen from outside only.
+    virtual std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const = 0;
+    /// Whether something opaque is in the way; nothing where that cannot be told without its opacity.
+    virtual std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const = 0;
+    /// Makes a grid of one micropolygon with a vertex at the hit, of which the number is returned, on the
+    /// limit surface. Its sides are those of the ray's geometry, so that derivatives and filter widths are
+    /// those of what the ray has met.
+    virtual int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const = 0;
+    /// About the length of a micropolygon's side at a point, camera space: rays know surfaces no better.
+    virtual float spacing(const V3f& P) const = 0;
+};
+
+}  // namespace trapeze

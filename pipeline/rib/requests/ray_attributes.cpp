@@ -1,0 +1,57 @@
+#include "pipeline/rib/requests/ray_attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace trapeze::rib {
+namespace {
+
+using HitMode = RayAttributes::HitMode;
+
+float number_of(const Parameter& value) {
+    return value.floats.empty() ? 0 : value.floats[0];
+}
+
+/// Depths are small; a number that is none counts as 0.
+int depth_of(const Parameter& value) {
+    constexpr float kMost = 1000;
+    const float depth = number_of(value);
+    return depth > 0 ? static_cast<int>(std::min(depth, kMost)) : 0;
+}
+
+/// "visibility" "string transmission", of PRMan before 13: what rays see, and by whose opacity.
+void set_old_transmission(const std::string& seen_as, RayAttributes& rays) {
+    rays.transmission = seen_as != "transparent";
+    rays.transmission_hits = seen_as == "shader" ? HitMode::Shader : HitMode::Primitive;
+}
+
+void set_visibility(const Parameter& value, RayAttributes& rays) {
+    if (value.name == "transmission" && value.is_string())
+        return set_old_transmission(value.strings.empty() ? "" : value.strings[0], rays);
+    const bool is_on = number_of(value) != 0;
+    if (value.name == "diffuse" || value.name == "trace") rays.diffuse = is_on;
+    if (value.name == "specular" || value.name == "trace") rays.specular = is_on;
+    if (value.name == "transmission") rays.transmission = is_on;
+}
+
+}  // namespace
+
+void set_ray_attribute(std::string_view category, const Parameter& value, RayAttributes& rays) {
+    if (category == "visibility") set_visibility(value, rays);
+    // BMRT's: a bit for the camera, one for reflections, one for shadows.
+    if (category == "render" && value.name == "visibility" && !value.floats.empty()) {
+        const int bits = static_cast<int>(std::clamp(value.floats[0], 0.0f, 7.0f));
+        rays.diffuse = rays.specular = (bits & 2) != 0;
+        rays.transmission = (bits & 4) != 0;
+    }
+    if (category == "shade" && value.name == "transmissionhitmode" && !value.strings.empty())
+        rays.transmission_hits = value.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader;
+    if (category != "trace") return;
+    if (value.name == "bias") rays.bias = std::max(number_of(value), 0.0f);
+    if (value.name == "maxdiffusedepth") rays.max_diffuse = depth_of(value);
+    if (value.name == "maxspeculardepth") rays.max_specular = depth_of(value);
+    if (value.name == "displacements") rays.displaced = number_of(value) != 0;
+}
+
+}  // namespace trapeze::rib

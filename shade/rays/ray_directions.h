@@ -1,0 +1,42 @@
+/// Where rays of a call go: directions spread over cones and hemispheres, well apart from each other,
+/// different from point to point, and the same for any order of work [decision 0019].
+#pragma once
+
+#include <cstdint>
+
+#include "core/math.h"
+
+namespace trapeze {
+
+/// A point of the unit square for each of a call's rays: Hammersley's points, shifted by random numbers that
+/// follow from the seed (Cranley and Patterson's rotation).
+class RaySequence {
+  public:
+    RaySequence(uint32_t seed, int count);
+    V2f operator[](int i) const;
+
+  private:
+    uint32_t scramble_;
+    float shift_;
+    int count_;
+};
+
+/// Directions about an axis, which is of unit length.
+class Cone {
+  public:
+    /// `angle`: from the axis to the rim, in [0, pi], radians.
+    Cone(const V3f& axis, float angle);
+
+    /// All solid angles alike.
+    V3f uniform(const V2f& square) const;
+    /// As many as the cosine of the angle to the axis says; rims beyond a right angle count as a right angle.
+    V3f by_cosine(const V2f& square) const;
+
+  private:
+    V3f around(float sine, float cosine, float turn) const;
+
+    V3f axis_, across_, along_;
+    float least_cosine_;
+};
+
+}  // namespace trapeze

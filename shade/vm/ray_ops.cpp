@@ -1,0 +1,56 @@
+// The built-in functions that ask for rays. The scene is not known here: shade/rays answers.
+#include <array>
+#include <cctype>
+#include <string>
+
+#include "shade/vm/context_ops.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+
+/// What all rays find where there is nothing: black, no distance, nothing in the way.
+void miss(Run& run, const Step& step, std::span<const Operand> operands) {
+    const bool open = step.op == Op::Transmission || step.op == Op::Visibility;
+    const int width = operands[0].stride ? 3 : 1;
+    const float value = step.op == Op::Trace && width == 1 ? 1e30f : open ? 1.0f : 0.0f;
+    const std::array<float, 3> values{value, value, value};
+    fill_operand(run, operands[0], std::span(values).first(static_cast<size_t>(width)));
+}
+
+void trace(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (run.context().rays)
+        run.context().rays->trace(run, step, operands);
+    else
+        miss(run, step, operands);
+}
+
+int depth_of(const Run& run) {
+    return run.context().rays ? run.context().rays->depth() : 0;
+}
+
+/// rayinfo("depth", d); other questions find nothing.
+void ray_info(Run& run, const Step& step, std::span<const Operand> operands) {
+    const bool known = run.registers().text_input(step, 0) == "depth" && operands[1].data;
+    fill_operand(run, operands[0], std::array{known ? 1.0f : 0.0f});
+    if (known) fill_operand(run, operands[1], std::array{static_cast<float>(depth_of(run))});
+}
+
+void ray_level(Run& run, const Step&, std::span<const Operand> operands) {
+    fill_operand(run, operands[0], std::array{static_cast<float>(depth_of(run))});
+}
+
+constexpr ContextRow kRayRows[] = {
+    {Op::Trace, trace},        {Op::Transmission, trace},    {Op::Visibility, trace},
+    {Op::Occlusion, trace},    {Op::IndirectDiffuse, trace}, {Op::RayInfo, ray_info},
+    {Op::RayLevel, ray_level},
+};
+
+}  // namespace
+
+ContextOp find_ray_op(Op op) {
+    return context_op_in(kRayRows, op);
+}
+
+}  // namespace trapeze::vm
