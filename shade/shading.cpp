@@ -101,8 +101,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
 
 bool Shading::asks_rays() const {
     const std::vector<const BoundShader*> shaders = impl_->materials.shaders();
-    return std::ranges::any_of(shaders,
-                               [](const BoundShader* shader) { return asks_for_rays(shader->program()); });
+    return std::ranges::any_of(shaders, [](const BoundShader* shader) { return asks_for_rays(*shader); });
 }
 
 void Shading::set_rays(const RayScene* rays) {

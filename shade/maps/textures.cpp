@@ -8,6 +8,7 @@
 #include "shade/maps/map_lanes.h"
 #include "shade/maps/texture_files.h"
 #include "shade/maps/textures_impl.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze {
 namespace {
@@ -26,7 +27,7 @@ float memory_megabytes_of(const Options& options) {
 
 /// Whether a name asks for traced rays instead of a map, as shaders of RenderMan do.
 bool is_traced(std::string_view name) {
-    return name == "raytrace";
+    return name == rsl::kTracedMap;
 }
 
 }  // namespace

@@ -53,6 +53,9 @@ enum : uint32_t {
 
 }  // namespace op_traits
 
+/// The name of a map that asks for rays instead, as shaders of PRMan have it.
+inline constexpr std::string_view kTracedMap = "raytrace";
+
 struct OpRow {
     Op op;
     std::string_view name;      ///< as the listing of a program has it

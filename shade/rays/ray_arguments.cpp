@@ -26,6 +26,7 @@ bool is_text(const vm::Registers& registers, const vm::Step& step, size_t operan
 /// How many arguments stand before the names and values that may follow.
 size_t plain_arguments(const vm::Registers& registers, const vm::Step& step) {
     const bool map_first = is_text(registers, step, step.outputs);
+    if (step.op == Op::Shadow) return 2 + static_cast<size_t>(step.immediate);  // a map, a channel, P
     if (step.op == Op::Occlusion) return map_first ? 4 : 3;        // a map that is not used, P, N, samples
     if (step.op == Op::IndirectDiffuse) return map_first ? 2 : 3;  // a map and a direction; P, N, samples
     return 2;
@@ -36,11 +37,17 @@ size_t plain_arguments(const vm::Registers& registers, const vm::Step& step) {
 RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) {
     const vm::Registers& registers = run.registers();
     const size_t plain = plain_arguments(registers, step), end = step.outputs + plain;
-    const size_t first = step.outputs + (is_text(registers, step, step.outputs) ? 1 : 0);
+    const bool of_light = step.op == Op::Shadow;
+    const size_t first = step.outputs + (of_light ? 2 : is_text(registers, step, step.outputs) ? 1 : 0);
     bias.otherwise = -1, samples_.otherwise = 1;
     cone_angle_.otherwise = kPi / 2, max_distance_.otherwise = kInfinity;
     from_ = &operands[first], towards_ = &operands[first + 1 < end ? first + 1 : first];
-    if (first + 2 < end) samples_.operand = &operands[first + 2];
+    if (of_light) {
+        const vm::LightOutput& light = *run.context().light_output;
+        from_light_ = light.L, lanes_ = run.lanes();
+        distant_light = light.distant;
+    }
+    if (!of_light && first + 2 < end) samples_.operand = &operands[first + 2];
     const std::pair<std::string_view, LaneValue*> known[] = {
         {"samples", &samples_},        {"bias", &bias},       {"maxdist", &max_distance_},
         {"coneangle", &cone_angle_},   {"falloff", &falloff}, {"samplecone", &sample_cone_},
@@ -59,6 +66,8 @@ V3f RayArguments::from_at(size_t lane) const {
     return triple_at(*from_, lane);
 }
 V3f RayArguments::towards_at(size_t lane) const {
+    if (from_light_)
+        return -V3f(from_light_[lane], from_light_[lanes_ + lane], from_light_[2 * lanes_ + lane]);
     return triple_at(*towards_, lane);
 }
 

@@ -15,9 +15,10 @@ using vm::Operand;
 using vm::Run;
 using vm::Step;
 
-/// How far from a point its rays begin, in micropolygons' sides: the ray's geometry passes the point by what
-/// flat micropolygons leave of a curved surface, and by what two dicings of a displaced one differ.
-constexpr float kBiasOfSide = 0.5f, kBiasOfDisplacedSide = 1.5f;
+/// How far from a point its rays begin, in micropolygons' sides. A ray that leaves a micropolygon's vertex may
+/// be said to hit it as deep as the micropolygon goes, where that is a needle (hit_micropolygon.h): some have
+/// sides of nearly two. Two dicings of a displaced surface differ by more.
+constexpr float kBiasOfSide = 2, kBiasOfDisplacedSide = 3;
 /// Rays that are in memory at once, about.
 constexpr size_t kRaysAtOnce = 4096;
 
@@ -70,6 +71,8 @@ V3f share_of(Op op, bool colors, const WalkedRay& ray, const RayArguments& argum
         case Op::Occlusion:
             return V3f((1 - (ray.through.x + ray.through.y + ray.through.z) / 3) *
                        falloff_at(ray.distance, arguments, lane));
+        case Op::Shadow:
+            return V3f(1) - ray.through;
         default:
             return ray.through;
     }
@@ -167,9 +170,10 @@ void RayCalls::add_rays(Op op, const Lane& asking, const RayArguments& arguments
     ray.segment.origin = P;
     ray.segment.min = bias_at(P, arguments, lane);
     ray.segment.max = arguments.max_distance_at(lane);
-    if (between_points) ray.segment.max = std::min(ray.segment.max, length - ray.segment.min);
-    const int samples = arguments.samples_at(lane);
+    if (between_points || (op == Op::Shadow && !arguments.distant_light))
+        ray.segment.max = std::min(ray.segment.max, length - ray.segment.min);
     const float angle = over_sky ? arguments.cone_angle_at(lane) : arguments.sample_cone_at(lane);
+    const int samples = angle == 0 ? 1 : arguments.samples_at(lane);
     const Cone cone(way / length, angle);
     const RaySequence sequence(asking.seed, samples);
     const bool by_cosine = over_sky && !arguments.uniform_distribution;

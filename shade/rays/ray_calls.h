@@ -1,5 +1,5 @@
 /// The shading language's trace(), transmission(), visibility(), occlusion() and indirectdiffuse(), with
-/// optional arguments as PRMan's.
+/// optional arguments as PRMan's, and its shadow() of a light that is traced.
 #pragma once
 
 #include <unordered_map>

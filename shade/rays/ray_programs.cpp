@@ -9,19 +9,29 @@ namespace {
 
 using rsl::Op;
 
-bool asks(const rsl::Code& code) {
-    return std::ranges::any_of(code, [](const rsl::Instruction& i) {
-        return rsl::row_of(i.op).context == rsl::ContextFamily::Rays && i.op != Op::RayInfo &&
-               i.op != Op::RayLevel;
+bool calls(const rsl::Code& code, bool maps_are_traced) {
+    return std::ranges::any_of(code, [&](const rsl::Instruction& i) {
+        const bool asks = rsl::row_of(i.op).context == rsl::ContextFamily::Rays && i.op != Op::RayInfo &&
+                          i.op != Op::RayLevel;
+        return asks || (i.op == Op::Shadow && maps_are_traced);
     });
+}
+
+bool holds(const std::vector<std::string>& texts) {
+    return std::ranges::find(texts, rsl::kTracedMap) != texts.end();
 }
 
 }  // namespace
 
-bool asks_for_rays(const rsl::Program& program) {
-    return asks(program.code) || std::ranges::any_of(program.parameters, [](const rsl::ProgramParameter& p) {
-               return asks(p.initial);
-           });
+bool asks_for_rays(const BoundShader& shader) {
+    const rsl::Program& program = shader.program();
+    // A text may reach a call by way of variables: that it is there at all is taken for asking.
+    const bool traced =
+        std::ranges::any_of(program.registers, [](const rsl::Register& r) { return holds(r.texts); }) ||
+        std::ranges::any_of(shader.values(), [](const BoundShader::Value& v) { return holds(v.texts); });
+    return calls(program.code, traced) ||
+           std::ranges::any_of(program.parameters,
+                               [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
 }
 
 bool changes_opacity(const rsl::Program& program) {

@@ -70,7 +70,8 @@ class Lights {
 class Rays {
   public:
     virtual ~Rays() = default;
-    /// One of Op::Trace, Transmission, Visibility, Occlusion or IndirectDiffuse.
+    /// One of Op::Trace, Transmission, Visibility, Occlusion or IndirectDiffuse; or Shadow, of the light
+    /// whose shader calls it.
     virtual void trace(Run& run, const Step& step, std::span<const Operand> operands) = 0;
     /// Bounces from the camera to the points that are shaded: 0 for what it sees itself.
     virtual int depth() const = 0;
@@ -91,6 +92,7 @@ class Messages {
 struct LightOutput {
     float* L = nullptr;       ///< from the light to the point: 3 planes
     uint32_t* lit = nullptr;  ///< a plane
+    bool distant = false;     ///< by a solar block: there is no place that L comes from
 };
 
 /// All may be null where shaders cannot ask.

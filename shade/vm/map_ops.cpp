@@ -1,5 +1,6 @@
 // Texture, environment and shadow maps (RISpec 3.2, section 15.7). What they hold is looked up by shade/maps,
 // on which the machine does not depend; without maps, as in most tests, every lookup is black.
+#include "shade/operations/op_table.h"
 #include "shade/vm/context_ops.h"
 
 namespace trapeze::vm {
@@ -7,7 +8,14 @@ namespace {
 
 using rsl::Op;
 
+/// Whether shadow() asks for rays instead of a map, by a light that knows where it is.
+bool asks_for_rays(Run& run, const Step& step) {
+    return step.op == Op::Shadow && run.context().rays && run.context().light_output &&
+           run.registers().text_input(step, 0) == rsl::kTracedMap;
+}
+
 void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (asks_for_rays(run, step)) return run.context().rays->trace(run, step, operands);
     if (run.context().maps)
         run.context().maps->look_up(run, step, operands);
     else

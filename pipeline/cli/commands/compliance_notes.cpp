@@ -72,8 +72,12 @@ constexpr Capability kCapabilities[] = {
      "RenderMan Shading Language 3.2: surface, displacement, light, volume and imager shaders."},
     {"Volume Shading", "supported with limits",
      "Atmosphere shaders run at visible points. Interior and Exterior are kept."},
-    {"Ray Tracing", "not supported", "trace() and its kin see nothing, with one warning."},
-    {"Global Illumination", "not supported", "occlusion() and indirectdiffuse() are 0, with one warning."},
+    {"Ray Tracing", "supported with limits",
+     "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
+     "shutter open. Hits are shaded with their own derivatives. The geometry is diced as finely as a pixel is "
+     "at its distance from the eye, and must fit into memory. gather() sees nothing. Solids are whole for rays."},
+    {"Global Illumination", "supported with limits",
+     "occlusion() and indirectdiffuse() send rays; no point clouds, no photon maps."},
     {"Area Lights", "not supported",
      "AreaLightSource shines from the middle of its first shape, with a warning."},
     {"Texture, Environment and Shadow Mapping", "supported",
@@ -182,9 +186,10 @@ constexpr const char* kRispec[] = {"version",
                                    "ReadArchive"};
 
 constexpr RequestNote kFunctions[] = {
-    {"trace", "black, with one warning"},
-    {"transmission", "1 everywhere, with one warning"},
-    {"occlusion", "0, with one warning"},
+    {"indirectdiffuse", "rays; with a map's name 0"},
+    {"occlusion", "rays; opacities are the primitives' own"},
+    {"rayinfo", "\"depth\""},
+    {"trace", "a colour, or the distance to the nearest hit"},
     {"incident", "0: rays are not traced"},
     {"opposite", "0: rays are not traced"},
     {"specular", "the exponent of N.H is 8 / roughness, where RISpec writes 1 / roughness"},
