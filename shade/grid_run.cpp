@@ -83,6 +83,17 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
     if (rays) rays_.emplace(*rays, *material.attributes);
 }
 
+/// Displaces the grids, but leaves in their places what rays see undisplaced: it has the normals alone.
+GridRun::LayerRegisters GridRun::displace_seen() {
+    const bool stay = grids_.front()->hit_vertex >= 0 && !material_.attributes->rays.displaced;
+    std::vector<Triples> places;
+    for (const ShadingGrid* grid : grids_)
+        if (stay) places.push_back(grid->P.front());
+    LayerRegisters layers = displace();
+    for (size_t g = 0; g < places.size(); ++g) grids_[g]->P.front() = places[g];
+    return layers;
+}
+
 void GridRun::run_displacement() {
     if (material_.displacement) displace();
     if (material_.surface_moves) color(*material_.surface, false, messages_.surface);
@@ -90,7 +101,7 @@ void GridRun::run_displacement() {
 
 void GridRun::run(const AovLayout& aovs) {
     LayerRegisters displaced;
-    if (material_.displacement) displaced = displace();
+    if (material_.displacement) displaced = displace_seen();
     // What the first layer does not name stays as the primitive has it; the rest is taken from the registers.
     const rsl::Program& first = material_.surface->layers.front()->program();
     for (ShadingGrid* grid : grids_) {

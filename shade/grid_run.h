@@ -50,6 +50,7 @@ class GridRun {
                              LayerRegisters& layers);
     // These return the registers of all layers of their shader.
     LayerRegisters displace();
+    LayerRegisters displace_seen();
     LayerRegisters color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
     void move_borders(const LayeredShader& shader);
     void move_grids(const vm::Registers& registers);

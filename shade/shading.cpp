@@ -74,6 +74,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
             shade(hits, *state.deeper, stats, depth + 1);
         };
         service.depth = depth;
+        service.seed = context.seed;
         service.max_depth = context.scene->options.max_ray_depth;
         service.scratch = &state.hits;
         service.stats = &stats.rays;

@@ -109,6 +109,7 @@ struct RayAttributes {
     bool displaced = false;  ///< Attribute "trace" "displacements": rays meet what displacement shaders made
 
     bool seen() const { return diffuse || specular || transmission; }
+    bool operator==(const RayAttributes&) const = default;
 };
 
 /// The attributes of RISpec table 4.7 onwards: the graphics state attached to each primitive.

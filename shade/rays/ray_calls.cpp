@@ -15,9 +15,9 @@ using vm::Operand;
 using vm::Run;
 using vm::Step;
 
-/// How far from a point its rays begin, in micropolygons' sides. A ray that leaves a micropolygon's vertex may
-/// be said to hit it as deep as the micropolygon goes, where that is a needle (hit_micropolygon.h): some have
-/// sides of nearly two. Two dicings of a displaced surface differ by more.
+/// How far from a point its rays begin, in micropolygons' sides. A ray that leaves a micropolygon's vertex
+/// may be said to hit it as deep as the micropolygon goes, where that is a needle (hit_micropolygon.h): some
+/// have sides of nearly two. Two dicings of a displaced surface differ by more.
 constexpr float kBiasOfSide = 2, kBiasOfDisplacedSide = 3;
 /// Rays that are in memory at once, about.
 constexpr size_t kRaysAtOnce = 4096;
@@ -93,7 +93,8 @@ std::vector<RayCalls::Lane> RayCalls::lanes_of(Run& run, const Step& step, bool 
     const uint32_t* mask = run.masks().all() ? nullptr : run.masks().current();
     for (const vm::GridSpan& span : run.context().batch->spans) {
         const auto count = static_cast<size_t>(span.shape.vertex_count());
-        const uint32_t grid = hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32));
+        const uint32_t grid =
+            hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32), service_.seed);
         for (size_t i = 0; i < count; ++i) {
             if (span.hit_vertex >= 0 && i != static_cast<size_t>(span.hit_vertex)) continue;
             const size_t lane = span.first + i;
@@ -163,8 +164,11 @@ void RayCalls::add_rays(Op op, const Lane& asking, const RayArguments& arguments
     const bool over_sky = op == Op::Occlusion || op == Op::IndirectDiffuse;
     const V3f P = arguments.from_at(lane), towards = arguments.towards_at(lane);
     const V3f way = between_points ? towards - P : towards;
-    const float length = way.length();
-    if (!is_finite(P) || !is_finite(way) || !(length > 0)) return;
+    // Squares of very long ways are not finite.
+    const float largest = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+    if (!is_finite(P) || !is_finite(way) || !(largest > 0)) return;
+    const V3f direction = (way / largest).normalized();
+    const float length = largest * (way / largest).length();
 
     WalkedRay ray;
     ray.segment.origin = P;
@@ -174,11 +178,11 @@ void RayCalls::add_rays(Op op, const Lane& asking, const RayArguments& arguments
         ray.segment.max = std::min(ray.segment.max, length - ray.segment.min);
     const float angle = over_sky ? arguments.cone_angle_at(lane) : arguments.sample_cone_at(lane);
     const int samples = angle == 0 ? 1 : arguments.samples_at(lane);
-    const Cone cone(way / length, angle);
+    const Cone cone(direction, angle);
     const RaySequence sequence(asking.seed, samples);
     const bool by_cosine = over_sky && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
-        ray.segment.direction = angle == 0  ? way / length
+        ray.segment.direction = angle == 0  ? direction
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
         ray.seed = asking.of_ray(s);

@@ -17,6 +17,7 @@ struct RayService {
     ShadeHits shade;  ///< shades hits, one bounce farther from the camera
     int depth = 0;    ///< bounces from the camera to the points that are shaded
     int max_depth = 10;
+    uint32_t seed = 0;  ///< of the render
     RayWalkScratch* scratch = nullptr;
     RayStats* stats = nullptr;
 };

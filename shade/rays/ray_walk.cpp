@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/random.h"
-
 namespace trapeze {
 namespace {
 
@@ -26,6 +24,17 @@ float largest(const V3f& v) {
 /// Behind a surface, but not so far that the next one is missed.
 float behind(const RaySurfaceHit& hit, float spacing) {
     return hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
+}
+
+/// Puts the grid of a hit where the ray has met it: on a micropolygon, which passes beside the limit surface.
+/// Not where shaders are to displace it first.
+void move_to_hit(const RaySegment& ray, const RaySurfaceHit& hit, int vertex, ShadingGrid& grid) {
+    const Attributes& attributes = *grid.primitive->attributes;
+    if (attributes.rays.displaced && (attributes.displacement || attributes.displacement_bound > 0)) return;
+    Triples& P = grid.P.front();
+    const V3f way = ray.origin + ray.direction * hit.distance - P.at(static_cast<size_t>(vertex));
+    for (size_t i = 0; i < P.size(); ++i) P.set(i, P.at(i) + way);
+    P.set(static_cast<size_t>(vertex), ray.origin + ray.direction * hit.distance);
 }
 
 }  // namespace
@@ -100,6 +109,7 @@ void RayWalk::shade_hits(Wants wants) {
         if (scratch_.grids.size() <= grids.size()) scratch_.grids.emplace_back();
         met.grid = &scratch_.grids[grids.size()];
         met.vertex = scene_.dice(met.hit, *met.grid);
+        move_to_hit(met.ray->segment, met.hit, met.vertex, *met.grid);
         const size_t vertices = met.grid->vertex_count();
         met.grid->I.resize(vertices);
         for (size_t i = 0; i < vertices; ++i)

@@ -226,7 +226,7 @@ constexpr Builtin kBuiltins[] = {
     {"specularbrdf", 'c', "vnvf", Op::SpecularBrdf},
     {"phong", 'c', "nvf", Op::Phong},
     {"trace", 'c', "pv*", Op::Trace},
-    {"trace", 'f', "pv*", Op::Trace},
+    {"trace", 'f', "pv*", Op::Trace, true},  // Kr * trace(P, R) is a colour, as in shaders of RISpec's time
     {"transmission", 'c', "pp*", Op::Transmission},
     {"visibility", 'c', "pp", Op::Visibility},
     {"visibility", 'f', "pp", Op::Visibility},
