@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "core/random.h"
 #include "shade/rays/ray_directions.h"
 #include "shade/vm/context_ops.h"
@@ -57,8 +58,8 @@ float result_of_nothing(Op op, bool colors) {
 float falloff_at(float distance, const RayArguments& arguments, size_t lane) {
     const float falloff = arguments.falloff.at(lane);
     if (!(falloff > 0) || distance >= kInfinity) return 1;
-    if (arguments.falloff_mode.at(lane) == 0) return std::exp(-falloff * distance);
-    return std::pow(std::max(0.0f, 1 - distance / arguments.max_distance_at(lane)), falloff);
+    if (arguments.falloff_mode.at(lane) == 0) return portable::exp(-falloff * distance);
+    return portable::pow(std::max(0.0f, 1 - distance / arguments.max_distance_at(lane)), falloff);
 }
 
 /// What a ray adds to its call's result.

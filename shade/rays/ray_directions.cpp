@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/portable_math.h"
 #include "core/random.h"
 
 namespace trapeze {
@@ -29,7 +30,7 @@ V2f RaySequence::operator[](int i) const {
 }
 
 /// The frame is continuous but at one point [Duff17].
-Cone::Cone(const V3f& axis, float angle) : axis_(axis), least_cosine_(std::cos(angle)) {
+Cone::Cone(const V3f& axis, float angle) : axis_(axis), least_cosine_(portable::cos(angle)) {
     const float sign = std::copysign(1.0f, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
     across_ = {1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
     along_ = {b, sign + axis.y * axis.y * a, -axis.y};
@@ -37,7 +38,7 @@ Cone::Cone(const V3f& axis, float angle) : axis_(axis), least_cosine_(std::cos(a
 
 V3f Cone::around(float sine, float cosine, float turn) const {
     constexpr float kTurn = 6.28318530718f;
-    return across_ * (sine * std::cos(kTurn * turn)) + along_ * (sine * std::sin(kTurn * turn)) +
+    return across_ * (sine * portable::cos(kTurn * turn)) + along_ * (sine * portable::sin(kTurn * turn)) +
            axis_ * cosine;
 }
 
