@@ -23,13 +23,13 @@ struct RaySegment {
 /// Where a ray meets a surface.
 struct RaySurfaceHit {
     float distance = 0;
-    uint32_t primitive = 0;  ///< index in Scene::primitives
+    uint32_t primitive = 0;     ///< index in Scene::primitives
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
-    V3f opacity{1, 1, 1};    ///< the primitive's own, Os
-    V3f color{1, 1, 1};      ///< the primitive's own, Cs
-    uint32_t group = 0;      ///< with `id`, what dice() needs to find the place again
-    uint64_t id = 0;         ///< MicropolygonId::packed() of the group
-    V2f at{0, 0};            ///< within the micropolygon
+    V3f opacity{1, 1, 1};       ///< the primitive's own, Os
+    V3f color{1, 1, 1};         ///< the primitive's own, Cs
+    uint32_t group = 0;         ///< with `id`, what dice() needs to find the place again
+    uint64_t id = 0;            ///< MicropolygonId::packed() of the group
+    V2f at{0, 0};               ///< within the micropolygon
 };
 
 /// The geometry that rays meet, as it is at shutter open. Immutable: threads share it.

@@ -66,22 +66,21 @@ void RayWorld::make_grids(const Shading& shading) {
     for (uint32_t i = 0; i < scene.primitives.size(); ++i) keeps_opacity_.push_back(shading.keeps_opacity(i));
     std::vector<Grid> grids(subpatches.size());
     tbb::enumerable_thread_specific<Maker> makers;
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, subpatches.size(), kGrain),
-        [&](const tbb::blocked_range<size_t>& range) {
-            Maker& maker = makers.local();
-            for (size_t i = range.begin(); i < range.end() && !context_.is_cancelled(); ++i) {
-                ShadingGrid* const grid = &maker.shading_grid;
-                tessellation_.dice(i, *grid, maker.dice);
-                grid->aovs.clear();
-                shading.displace({&grid, 1}, maker.shade);
-                PackOptions options;
-                options.both_sides = true;
-                options.keep_hits_behind = !keeps_opacity_[grid->primitive_index];
-                int64_t not_finite = 0;
-                grids[i] = pack_grid(*grid, maker.arena, &not_finite, options);
-            }
-        });
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, subpatches.size(), kGrain),
+                      [&](const tbb::blocked_range<size_t>& range) {
+                          Maker& maker = makers.local();
+                          for (size_t i = range.begin(); i < range.end() && !context_.is_cancelled(); ++i) {
+                              ShadingGrid* const grid = &maker.shading_grid;
+                              tessellation_.dice(i, *grid, maker.dice);
+                              grid->aovs.clear();
+                              shading.displace({&grid, 1}, maker.shade);
+                              PackOptions options;
+                              options.both_sides = true;
+                              options.keep_hits_behind = !keeps_opacity_[grid->primitive_index];
+                              int64_t not_finite = 0;
+                              grids[i] = pack_grid(*grid, maker.arena, &not_finite, options);
+                          }
+                      });
     if (context_.is_cancelled()) return;
     for (const Grid& grid : grids) {
         const Attributes& attributes = *scene.primitives[grid.primitive].attributes;
@@ -156,8 +155,8 @@ RaySurfaceHit RayWorld::hit_of(uint32_t group, const RaySegment& ray, float dist
     const MicropolygonId id = MicropolygonId::unpack(packed);
     const Grid& grid = groups_[group].grids.grids[id.grid];
     const TurnedRay turned = axis_ray({ray.origin, ray.direction, 0});
-    const QuadWeights weights = hit_weights(
-        turned.ray, grid.quad(id.u, id.v, 0, turned.x_plane, turned.y_plane, turned.z_plane));
+    const QuadWeights weights =
+        hit_weights(turned.ray, grid.quad(id.u, id.v, 0, turned.x_plane, turned.y_plane, turned.z_plane));
     RaySurfaceHit hit;
     hit.distance = distance;
     hit.primitive = grid.primitive;
@@ -197,7 +196,8 @@ int RayWorld::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {
 
 /// A pixel's side at the point's distance from the eye.
 float RayWorld::spacing(const V3f& P) const {
-    const float pixel = std::max(std::abs(context_.camera.plane_scale_x), std::abs(context_.camera.plane_scale_y));
+    const float pixel =
+        std::max(std::abs(context_.camera.plane_scale_x), std::abs(context_.camera.plane_scale_y));
     return context_.camera.perspective ? P.length() * pixel : pixel;
 }
 
@@ -205,8 +205,8 @@ std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Sha
                                          size_t most_bytes) {
     if (!shading.asks_rays()) return {};
     auto world = std::make_unique<RayWorld>(context, shading, most_bytes);
-    const bool empty = !world->has(RayKind::Diffuse) && !world->has(RayKind::Specular) &&
-                       !world->has(RayKind::Transmission);
+    const bool empty =
+        !world->has(RayKind::Diffuse) && !world->has(RayKind::Specular) && !world->has(RayKind::Transmission);
     if (empty && context.diagnostics && !context.is_cancelled())
         context.diagnostics->warning(
             {},
@@ -216,8 +216,8 @@ std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Sha
     if (world->bytes() > most_bytes && context.diagnostics)
         context.diagnostics->warning({},
                                      "what rays may meet takes " + std::to_string(world->bytes() >> 20) +
-                                         " MiB, more than the budget of " +
-                                         std::to_string(most_bytes >> 20) + " MiB",
+                                         " MiB, more than the budget of " + std::to_string(most_bytes >> 20) +
+                                         " MiB",
                                      "memory-budget");
     return world;
 }

@@ -1,6 +1,6 @@
-/// The geometry that rays of shaders meet [Hou10 sec. 4]: all primitives whose attributes let some kind of ray see
-/// them, diced without regard to what the camera sees, with a tree over them. It is in memory as a whole, while the
-/// frame is rendered.
+/// The geometry that rays of shaders meet [Hou10 sec. 4]: all primitives whose attributes let some kind of
+/// ray see them, diced without regard to what the camera sees, with a tree over them. It is in memory as a
+/// whole, while the frame is rendered.
 #pragma once
 
 #include <array>
@@ -56,8 +56,8 @@ class RayWorld final : public RayScene {
     std::unique_ptr<DiceScratches> scratches_;
 };
 
-/// The ray world of a render whose shaders ask for rays; else null. Tells when they ask and nothing is there for
-/// them.
+/// The ray world of a render whose shaders ask for rays; else null. Tells when they ask and nothing is there
+/// for them.
 std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Shading& shading,
                                          size_t most_bytes);
 

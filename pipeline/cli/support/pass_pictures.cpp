@@ -19,7 +19,8 @@ constexpr size_t kMostFiles = 12;
 
 void PassPictures::keep(const Display& display, const RenderContext& context, Image image) {
     settle();
-    last_.emplace(Picture{{}, context, std::move(image)});
+    last_ = std::make_unique<Picture>();
+    last_->context = context, last_->image = std::move(image);
     Scene& scene = last_->scene;
     scene.options = context.scene->options;
     scene.camera_from_world = context.scene->camera_from_world;
@@ -30,9 +31,8 @@ void PassPictures::keep(const Display& display, const RenderContext& context, Im
 
 void PassPictures::settle() {
     if (!last_) return;
-    Picture picture = std::move(*last_);
-    last_.reset();
-    Display& display = picture.scene.options.displays.front();
+    const std::unique_ptr<Picture> picture = std::move(last_);
+    Display& display = picture->scene.options.displays.front();
     const std::string name = display.name;
     forget(name);
     const auto format = file_format(display);
@@ -40,9 +40,9 @@ void PassPictures::settle() {
     if (display.name.empty()) return;
     // What there is to say of the display has been said.
     Diagnostics unheard;
-    picture.context.scene = &picture.scene, picture.context.diagnostics = &unheard;
+    picture->context.scene = &picture->scene, picture->context.diagnostics = &unheard;
     std::vector<WrittenFile> written;
-    if (!write_displays(picture.image, picture.context, {}, &written) || written.empty()) return;
+    if (!write_displays(picture->image, picture->context, {}, &written) || written.empty()) return;
     files_.push_back({name, written.front().path});
     if (files_.size() > kMostFiles) forget(std::string(files_.front().name));
 }

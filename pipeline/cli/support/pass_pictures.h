@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -39,7 +40,7 @@ class PassPictures {
         std::string name, path;
     };
 
-    std::optional<Picture> last_;
+    std::unique_ptr<Picture> last_;
     std::deque<File> files_;
     ScratchFolder folder_;
 };
