@@ -164,7 +164,8 @@ std::vector<BuiltinCase> asking_cases() {
         {"r = occlusion(\"map\", P, N, 0, \"samples\", 3) + X;", TRAPEZE_GIVES(x)},
         {"r = K(indirectdiffuse(P, N, 16)) + X;", TRAPEZE_GIVES(x)},
         {"r = K(indirectdiffuse(\"map\", vector (X, 0, 1))) + X;", TRAPEZE_GIVES(x)},
-        {"float d = 3; r = rayinfo(\"depth\", d) * 10 + d + X;", TRAPEZE_GIVES(3 + x)},
+        {"float d = 3; r = rayinfo(\"depth\", d) * 10 + d + X;", TRAPEZE_GIVES(10 + x)},
+        {"float d = 3; r = rayinfo(\"speed\", d) * 10 + d + X;", TRAPEZE_GIVES(3 + x)},
         {"r = raylevel() + X;", TRAPEZE_GIVES(x)},
         // Maps give 100 times the channel, 10 times the number of coordinates, the first coordinate, and 0, 1
         // and 2 for red, green and blue.
