@@ -87,11 +87,12 @@ TEST(TakeAovs, WhatIsMissingIsZeroAndWarnedOfOnce) {
     ASSERT_EQ(grid.aovs.size(), 4u);
     for (const std::vector<float>& plane : grid.aovs)
         for (const float value : plane) EXPECT_EQ(value, 0);
-    ASSERT_EQ(scene.reported.size(), 2u);  // foo is no colour; there is no bar
+    ASSERT_EQ(scene.reported.size(), 3u);  // foo is no colour; there is no bar, which two Displays ask for
     EXPECT_EQ(scene.reported[0].severity, Severity::Warning);
     EXPECT_EQ(scene.reported[0].place, "scene.rib:4:1");
     EXPECT_NE(scene.reported[0].text.find("\"foo\""), std::string::npos);
     EXPECT_NE(scene.reported[1].text.find("\"bar\""), std::string::npos);
+    EXPECT_NE(scene.reported[2].text.find("\"bar\""), std::string::npos);
 }
 
 TEST(TakeAovs, ScratchGridsForgetThoseOfLargerGrids) {

@@ -136,12 +136,12 @@ TEST(CommandLine, CheckListsWhatIsNotHonoured) {
     WorkFolder folder;
     folder.write("a.rib",
                  "Option \"limits\" \"int eyesplits\" [5] PixelVariance 0.01 WorldBegin "
-                 "Attribute \"trace\" \"float bias\" [0.1] Attribute \"trace\" \"float bias\" [0.2] "
+                 "Attribute \"trace\" \"float decimation\" [1] Attribute \"trace\" \"float decimation\" [2] "
                  "Attribute \"user\" \"float x\" [1] Sphere 1 -1 1 360 WorldEnd");
     const Outcome outcome = run_program(folder, "check a.rib");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out,
-              "no effect Attribute \"trace\" \"bias\" 2\n"
+              "no effect Attribute \"trace\" \"decimation\" 2\n"
               "no effect Option \"limits\" \"eyesplits\" 1\n"
               "no effect PixelVariance 1\n");
     EXPECT_EQ(run_program(folder, "check --strict a.rib").exit_code, 1);
