@@ -40,8 +40,7 @@ void GridArena::allocate(Grid& grid) {
     const size_t floats = static_cast<size_t>(grid.plane_count()) * grid.shape.plane_size();
     const size_t aovs = static_cast<size_t>(grid.aov_channels) * grid.shape.vertex_count();
     grid.positions = reinterpret_cast<float*>(take(floats * sizeof(float)));
-    grid.colors =
-        reinterpret_cast<Imath::half*>(take(grid.color_room() * sizeof(Imath::half) + aovs * sizeof(float)));
+    grid.colors = take(grid.color_bytes() + aovs * sizeof(float));
 }
 
 uint64_t Grids::micropolygon_count() const {

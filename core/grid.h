@@ -8,8 +8,8 @@
 /// Lanes past the last row or column repeat it. A static grid has the planes X Y Z; a moving one has, for
 /// each of its key_count - 1 segments, X Y Z at the segment's first key and then DX DY DZ to its next key; a
 /// vertex is at position_at(x, dx, local_time). Colours are row by row (no tiles): Ci red green blue, then Oi
-/// unless opaque, halves; after them come the channels of output variables (aov.h), if any, in floats: a
-/// half is too coarse for positions.
+/// unless opaque, in halves, or in floats where a picture is to hold more than halves; after them come the
+/// channels of output variables (aov.h), if any, in floats: a half is too coarse for positions.
 #pragma once
 
 #include <Imath/half.h>
@@ -69,21 +69,23 @@ struct Grid {
     GridShape shape;
     uint8_t key_count = 1;
     Facing facing = Facing::Both;
-    bool opaque = true;             ///< Oi is 1 everywhere and there is no Oi plane
-    bool smooth = false;            ///< colours are interpolated in a micropolygon, else vertex 00's holds
-    uint8_t matte = 0;              ///< 1: holds out
-    uint8_t aov_channels = 0;       ///< of output variables; 0 unless Displays ask for some
-    uint32_t primitive = 0;         ///< index in Scene::primitives
-    uint64_t ordinal = 0;           ///< place in the order of the whole frame's grids
-    float* positions = nullptr;     ///< plane_count() * shape.plane_size() floats
-    Imath::half* colors = nullptr;  ///< color_plane_count() * shape.vertex_count() halves, then aov_plane()s
+    bool opaque = true;           ///< Oi is 1 everywhere and there is no Oi plane
+    bool float_colors = false;    ///< colours are floats, else halves; alike for all grids of a frame
+    bool smooth = false;          ///< colours are interpolated in a micropolygon, else vertex 00's holds
+    uint8_t matte = 0;            ///< 1: holds out
+    uint8_t aov_channels = 0;     ///< of output variables; 0 unless Displays ask for some
+    uint32_t primitive = 0;       ///< index in Scene::primitives
+    uint64_t ordinal = 0;         ///< place in the order of the whole frame's grids
+    float* positions = nullptr;   ///< plane_count() * shape.plane_size() floats
+    std::byte* colors = nullptr;  ///< color_count() halves or floats, then aov_plane()s
 
     bool moves() const { return key_count > 1; }
     int plane_count() const { return moves() ? 6 * (key_count - 1) : 3; }
     int color_plane_count() const { return opaque ? 3 : 6; }
-    /// Halves before the planes of output variables, which are aligned as floats.
-    size_t color_room() const {
-        return (static_cast<size_t>(color_plane_count()) * shape.vertex_count() + 1) & ~size_t{1};
+    size_t color_count() const { return static_cast<size_t>(color_plane_count()) * shape.vertex_count(); }
+    /// Bytes before the planes of output variables, which are aligned as floats.
+    size_t color_bytes() const {
+        return (color_count() * (float_colors ? sizeof(float) : sizeof(Imath::half)) + 3) & ~size_t{3};
     }
 
     /// component 0..2: X Y Z at the segment's first key; 3..5: DX DY DZ over it (moving grids only).
@@ -120,22 +122,26 @@ struct Grid {
     V3f color(int i, int j) const { return color_at(0, i, j); }
     V3f opacity(int i, int j) const { return opaque ? V3f(1, 1, 1) : color_at(3, i, j); }
 
+    /// The colours where they are halves, and where they are floats.
+    Imath::half* half_colors() const { return reinterpret_cast<Imath::half*>(colors); }
+    float* full_colors() const { return reinterpret_cast<float*>(colors); }
+
     /// shape.vertex_count() floats, row by row, of channel 0 .. aov_channels - 1.
     float* aov_plane(int channel) const {
-        return reinterpret_cast<float*>(colors + color_room()) +
+        return reinterpret_cast<float*>(colors + color_bytes()) +
                static_cast<size_t>(channel) * shape.vertex_count();
     }
 
     size_t bytes() const {
         return sizeof(Grid) + sizeof(float) * static_cast<size_t>(plane_count()) * shape.plane_size() +
-               sizeof(Imath::half) * color_room() +
-               sizeof(float) * static_cast<size_t>(aov_channels) * shape.vertex_count();
+               color_bytes() + sizeof(float) * static_cast<size_t>(aov_channels) * shape.vertex_count();
     }
 
   private:
     V3f color_at(int first_plane, int i, int j) const {
-        const size_t n = shape.vertex_count(), at = shape.row_index(i, j);
-        const Imath::half* c = colors + first_plane * n + at;
+        const size_t n = shape.vertex_count(), at = first_plane * n + shape.row_index(i, j);
+        if (const float* c = full_colors() + at; float_colors) return {c[0], c[n], c[2 * n]};
+        const Imath::half* c = half_colors() + at;
         return {c[0], c[n], c[2 * n]};
     }
 };
@@ -147,7 +153,8 @@ class GridArena {
     GridArena(GridArena&&) noexcept = default;
     GridArena& operator=(GridArena&&) noexcept = default;
 
-    /// Sets positions and colors of a grid whose shape, key_count, opaque and aov_channels are set.
+    /// Sets positions and colors of a grid whose shape, key_count, opaque, float_colors and aov_channels are
+    /// set.
     void allocate(Grid& grid);
     size_t bytes() const { return bytes_; }
 

@@ -138,6 +138,25 @@ TEST(PackGrid, OpaqueGridsHaveNoOpacityPlanes) {
     EXPECT_EQ(glass.color(1, 0), V3f(0.25f, 0.5f, 1));
 }
 
+TEST(PackGrid, KeepsWholeFloatsWhereAskedTo) {
+    Shaded shaded(3, 2, 1);  // 12 vertices
+    for (int i = 0; i < 12; ++i) shaded.grid.Oi.set(i, V3f(0.3f));
+    shaded.grid.Ci.set(5, {0.7f, 1e6f, 3e38f});
+    shaded.grid.Oi.set(5, {0.7f, 1e6f, -3e38f});
+    std::vector<float>& variable = shaded.grid.aovs.emplace_back(12);
+    for (int i = 0; i < 12; ++i) variable[i] = 10.1f * i;
+    GridArena arena;
+    int64_t not_finite = 0;
+    PackOptions options;
+    options.float_colors = true;
+    const Grid grid = pack_grid(shaded.grid, arena, &not_finite, options);
+    EXPECT_EQ(grid.color(1, 1), V3f(0.7f, 1e6f, kInfinity));
+    EXPECT_EQ(grid.opacity(1, 1), V3f(0.7f, 65504, -65504));
+    EXPECT_EQ(grid.opacity(3, 2), V3f(0.3f));
+    for (int i = 0; i < 12; ++i) ASSERT_EQ(grid.aov_plane(0)[i], 10.1f * i);
+    EXPECT_EQ(grid.bytes(), shaded.pack(arena, &not_finite).bytes() + 12 * 6 * 2);
+}
+
 TEST(PackGrid, OutputVariablesFollowTheColoursAsFloats) {
     for (const float opacity : {1.0f, 0.5f}) {
         Shaded shaded(3, 2, 1);  // 12 vertices
@@ -164,7 +183,7 @@ TEST(PackGrid, OutputVariablesFollowTheColoursAsFloats) {
         EXPECT_EQ(grid.color(1, 0), V3f(0.25f, 0.5f, 1));
         EXPECT_EQ(grid.opacity(3, 2), V3f(opacity));
         EXPECT_GE(reinterpret_cast<std::byte*>(grid.aov_plane(0)),
-                  reinterpret_cast<std::byte*>(grid.colors + 12 * grid.color_plane_count()));
+                  grid.colors + sizeof(Imath::half) * grid.color_count());
     }
 }
 

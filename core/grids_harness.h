@@ -23,7 +23,7 @@ class GridMaker {
         grid.opaque = opaque;
         grid.facing = facing;
         grids_.arenas.back().allocate(grid);
-        std::fill_n(grid.colors, grid.color_plane_count() * grid.shape.vertex_count(), Imath::half(1.0f));
+        std::fill_n(grid.half_colors(), grid.color_count(), Imath::half(1.0f));
         for (int segment = 0; segment < segment_count(key_count); ++segment)
             for (int tv = 0; tv < grid.shape.tiles_v() * 4; ++tv)
                 for (int tu = 0; tu < grid.shape.tiles_u() * 4; ++tu) {

@@ -74,6 +74,35 @@ INSTANTIATE_TEST_SUITE_P(
         return std::string(row.param.transfer) + "_" + row.param.extension + std::to_string(row.param.bits);
     });
 
+/// Colours are not rounded to halves on the way to files that hold more: .7 of 65535 is 45875, of the nearest
+/// half 45887.
+TEST(Transfer, FilesHoldAllBitsOfColours) {
+    const struct {
+        const char* display;
+        int one;
+    } files[] = {{"Display \"a.tif\" \"tiff\" \"rgba\" \"quantize\" [0 65535 0 65535] \"dither\" [0]", 65535},
+                 {"Display \"a.png\" \"png\" \"rgba\" \"quantize\" [0 255 0 255] \"dither\" [0]", 255}};
+    for (const auto& [display, one] : files)
+        for (const int tenths : {1, 3, 5, 7, 9}) {
+            const std::string text = "." + std::to_string(tenths),
+                              colors = ' ' + text + ' ' + text + ' ' + text;
+            WorkFolder folder;
+            folder.write("a.rib",
+                         std::string(display) +
+                             "\nFormat 16 16 1\nPixelSamples 1 1\nPixelFilter \"box\" 1 1\nProjection "
+                             "\"orthographic\"\nWorldBegin\nColor [" +
+                             colors + "]\nOpacity [" + colors +
+                             "]\nSurface \"constant\"\nPolygon \"P\" [-2 -2 1  2 -2 1  2 2 1  -2 2 1]\n"
+                             "WorldEnd\n");
+            ASSERT_EQ(run_program(folder, "render a.rib").exit_code, 0);
+            const fs::path file = folder / (one == 255 ? "a.png" : "a.tif");
+            OIIO::ImageBuf image(file.string());
+            ASSERT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT));
+            const double alpha = image.getchannel(8, 8, 0, 3) * one;
+            EXPECT_EQ(std::lround(alpha), (tenths * one + 5) / 10) << display << text;  // halves go up
+        }
+}
+
 TEST(Transfer, TheCommandLineComesBeforeTheScene) {
     WorkFolder folder;
     folder.write("a.rib", "Option \"color\" \"transfer\" [\"srgb\"]\n" +

@@ -298,6 +298,16 @@ bool asks_for_whole_numbers(const Display& display, const Options& options) {
     return *format != FileFormat::OpenExr && !opens_window(display);
 }
 
+bool holds_more_than_halves(const Options& options) {
+    const AovLayout layout = aov_layout(options);
+    return std::any_of(options.displays.begin(), options.displays.end(), [&](const Display& display) {
+        Diagnostics unheard;  // what is to be said is said where the display is written
+        const auto plan = plan_display(display, options, layout, unheard);
+        return plan && (plan->rgb || plan->alpha) &&
+               (plan->format != FileFormat::OpenExr || plan->float_pixels);
+    });
+}
+
 std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {
     if (!plan.aov) return {};
     if (plan.aov->channels == 1) return {"Y"};

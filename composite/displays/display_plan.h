@@ -63,6 +63,9 @@ void rename(Display& display, std::string name);
 /// file's.
 bool asks_for_whole_numbers(const Display& display, const Options& options);
 
+/// Whether a display of the picture holds more of its colours than halves do: floats, or whole numbers.
+bool holds_more_than_halves(const Options& options);
+
 /// The plan of a display; nothing when there is nothing to write: for driver "null", for a window when
 /// another display already writes the picture or a file of that name, and, with a warning, for a mode or
 /// driver that is not supported. `layout` is aov_layout(options).

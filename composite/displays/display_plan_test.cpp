@@ -258,5 +258,23 @@ TEST(DisplayPlan, QuantizeOfTheDisplayBeatsThatOfTheOptions) {
     EXPECT_FALSE(planned({"a.exr", "exr", "rgba", {}, {}}, options).plan->float_pixels);
 }
 
+TEST(DisplayPlan, WholeNumbersAndFloatsHoldMoreThanHalves) {
+    const auto holds_more = [](const Display& display) {
+        Options options;
+        options.displays = {{"a.exr", "openexr", "rgba", {}, {}}, display};
+        return holds_more_than_halves(options);
+    };
+    EXPECT_FALSE(holds_more({"b.exr", "file", "rgb", {}, {}}));
+    EXPECT_FALSE(holds_more({"b.tif", "zfile", "z", {}, {}}));
+    EXPECT_FALSE(holds_more({"b.tif", "null", "rgba", {}, {}}));
+    EXPECT_TRUE(holds_more({"b.tif", "tiff", "rgba", {}, {}}));
+    EXPECT_TRUE(holds_more({"b.png", "file", "a", {}, {}}));
+    Display floats_display{"b.exr", "openexr", "rgba", {}, {}};
+    floats_display.parameters.set(text("exrpixeltype", "float"));
+    EXPECT_TRUE(holds_more(floats_display));
+    floats_display.parameters.set(text("exrpixeltype", "half"));
+    EXPECT_FALSE(holds_more(floats_display));
+}
+
 }  // namespace
 }  // namespace trapeze

@@ -21,9 +21,11 @@ struct GatheredHits {
     alignas(64) Lanes<float> ox, oy, oz, ux, uy, local_time;
     /// Coordinate c of corner k is row 4 * c + k: at the segment's first key, and on to its next.
     alignas(64) Lanes<float> start[12], delta[12];
-    alignas(64) Lanes<uint16_t> color[12], opacity[12];  ///< halves; channel c of corner k is row 4 * c + k
-    alignas(64) Lanes<uint32_t> constant, opaque;        ///< all bits set where they hold
-    bool moves = false, some_constant = false, some_see_through = false;
+    /// Channel c of corner k is row 4 * c + k of these, or, where colours are floats, of those after them.
+    alignas(64) Lanes<uint16_t> color[12], opacity[12];  ///< halves
+    alignas(64) Lanes<float> full_color[12], full_opacity[12];
+    alignas(64) Lanes<uint32_t> constant, opaque;  ///< all bits set where they hold
+    bool moves = false, some_constant = false, some_see_through = false, float_colors = false;
 };
 
 }  // namespace trapeze
@@ -38,21 +40,28 @@ namespace HWY_NAMESPACE {
 using F = hn::CappedTag<float, GatheredHits::kCount>;
 using FloatLanes = hn::Vec<F>;
 
-/// A channel from the four corners.
-HWY_INLINE FloatLanes blend(const WeightLanes<FloatLanes>& w, const GatheredHits::Lanes<uint16_t>* corners,
-                            size_t i) {
-    const F d;
+HWY_INLINE FloatLanes load_lanes(const float* row) {
+    return hn::Load(F(), row);
+}
+HWY_INLINE FloatLanes load_lanes(const uint16_t* row) {
     const hn::Rebind<hwy::float16_t, F> half;
-    const auto corner = [&](int k) HWY_ATTR {
-        return hn::PromoteTo(d, hn::Load(half, reinterpret_cast<const hwy::float16_t*>(corners[k]) + i));
-    };
-    FloatLanes sum = hn::Add(hn::Zero(d), hn::Mul(w.w00, corner(0)));
-    sum = hn::Add(sum, hn::Mul(w.w10, corner(1)));
-    sum = hn::Add(sum, hn::Mul(w.w01, corner(2)));
-    return hn::Add(sum, hn::Mul(w.w11, corner(3)));
+    return hn::PromoteTo(F(), hn::Load(half, reinterpret_cast<const hwy::float16_t*>(row)));
 }
 
-void blend_hits(const GatheredHits& hits, float* const* planes) {
+/// A channel from the four corners, halves or floats.
+template <class T>
+HWY_INLINE FloatLanes blend(const WeightLanes<FloatLanes>& w, const GatheredHits::Lanes<T>* corners,
+                            size_t i) {
+    FloatLanes sum = hn::Add(hn::Zero(F()), hn::Mul(w.w00, load_lanes(corners[0] + i)));
+    sum = hn::Add(sum, hn::Mul(w.w10, load_lanes(corners[1] + i)));
+    sum = hn::Add(sum, hn::Mul(w.w01, load_lanes(corners[2] + i)));
+    return hn::Add(sum, hn::Mul(w.w11, load_lanes(corners[3] + i)));
+}
+
+/// Of hits whose colours are the rows `color` and `opacity`.
+template <class T>
+HWY_INLINE void blend_rows(const GatheredHits& hits, const GatheredHits::Lanes<T>* color,
+                           const GatheredHits::Lanes<T>* opacities, float* const* planes) {
     const F d;
     const auto mask_at = [d](const uint32_t* lanes) HWY_ATTR {
         return hn::MaskFromVec(hn::BitCast(d, hn::Load(hn::RebindToUnsigned<F>(), lanes)));
@@ -73,14 +82,21 @@ void blend_hits(const GatheredHits& hits, float* const* planes) {
             w = {hn::IfThenElse(constant, one, w.w00), hn::IfThenZeroElse(constant, w.w10),
                  hn::IfThenZeroElse(constant, w.w01), hn::IfThenZeroElse(constant, w.w11)};
         }
-        for (int c = 0; c < 3; ++c) hn::StoreU(blend(w, hits.color + 4 * c, i), d, planes[c] + i);
+        for (int c = 0; c < 3; ++c) hn::StoreU(blend(w, color + 4 * c, i), d, planes[c] + i);
         for (int c = 0; c < 3; ++c) {
             FloatLanes opacity = one;  // weights sum to 1 only within rounding
             if (hits.some_see_through)
-                opacity = hn::IfThenElse(mask_at(hits.opaque + i), one, blend(w, hits.opacity + 4 * c, i));
+                opacity = hn::IfThenElse(mask_at(hits.opaque + i), one, blend(w, opacities + 4 * c, i));
             hn::StoreU(opacity, d, planes[3 + c] + i);
         }
     }
+}
+
+void blend_hits(const GatheredHits& hits, float* const* planes) {
+    if (hits.float_colors)
+        blend_rows(hits, hits.full_color, hits.full_opacity, planes);
+    else
+        blend_rows(hits, hits.color, hits.opacity, planes);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -94,13 +110,30 @@ HWY_EXPORT(blend_hits);
 
 namespace {
 
-/// Gathers the halves of three planes at a hit's four corners, as lane `lane` of twelve rows.
-void gather_halves(const Grid& grid, int first_plane, const int* at, size_t lane,
-                   GatheredHits::Lanes<uint16_t>* rows) {
+uint16_t lane_value(Imath::half value) {
+    return value.bits();
+}
+float lane_value(float value) {
+    return value;
+}
+
+/// Gathers three planes of `size` values at a hit's four corners, as lane `lane` of twelve rows.
+template <class Stored, class Lane>
+void gather_planes(const Stored* planes, size_t size, const int* at, size_t lane,
+                   GatheredHits::Lanes<Lane>* rows) {
+    for (size_t c = 0; c < 3; ++c)
+        for (int k = 0; k < 4; ++k) rows[4 * c + k][lane] = lane_value(planes[c * size + at[k]]);
+}
+
+/// Gathers a hit's colours and opacities at its four corners, places `at` in planes of rows.
+void gather_colors(const Grid& grid, const int* at, size_t lane, GatheredHits& to) {
     const auto size = static_cast<size_t>(grid.shape.vertex_count());
-    for (int c = 0; c < 3; ++c) {
-        const Imath::half* plane = grid.colors + static_cast<size_t>(first_plane + c) * size;
-        for (int k = 0; k < 4; ++k) rows[4 * c + k][lane] = plane[at[k]].bits();
+    if (to.float_colors) {
+        gather_planes(grid.full_colors(), size, at, lane, to.full_color);
+        if (!grid.opaque) gather_planes(grid.full_colors() + 3 * size, size, at, lane, to.full_opacity);
+    } else {
+        gather_planes(grid.half_colors(), size, at, lane, to.color);
+        if (!grid.opaque) gather_planes(grid.half_colors() + 3 * size, size, at, lane, to.opacity);
     }
 }
 
@@ -129,8 +162,7 @@ void gather_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, 
     } else {
         for (auto& row : to.delta) row[lane] = 0;
     }
-    gather_halves(grid, 0, in_rows, lane, to.color);
-    if (!grid.opaque) gather_halves(grid, 3, in_rows, lane, to.opacity);
+    gather_colors(grid, in_rows, lane, to);
     to.opaque[lane] = grid.opaque ? ~0u : 0u, to.constant[lane] = grid.smooth ? 0u : ~0u;
     to.some_see_through |= !grid.opaque, to.some_constant |= !grid.smooth;
 }
@@ -157,6 +189,7 @@ void HitLayers::interpolate(const SampleTile& samples, const HitBuffer& hits, si
     for (std::vector<float>& plane : planes_)
         plane.resize(std::max(plane.size(), count + GatheredHits::kCount));
     GatheredHits gathered{};
+    gathered.float_colors = !grids.grids.empty() && grids.grids.front().float_colors;
     size_t done = 0, lane = 0;
     const auto blend = [&] {
         float* planes[6];

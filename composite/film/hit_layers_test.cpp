@@ -13,8 +13,9 @@
 namespace trapeze {
 namespace {
 
-/// Grids of all kinds with random vertices and colours; rays that meet them anywhere, or nowhere.
-class HitLayersOfRandomGrids : public ::testing::Test {
+/// Grids of all kinds with random vertices and colours, in floats or in halves; rays that meet them anywhere,
+/// or nowhere.
+class HitLayersOfRandomGrids : public ::testing::TestWithParam<bool> {
   protected:
     HitLayersOfRandomGrids() {
         grids_.arenas.emplace_back();
@@ -31,13 +32,18 @@ class HitLayersOfRandomGrids : public ::testing::Test {
                       static_cast<uint8_t>(1 + below(kMaxGridSide))};
         grid.smooth = kind % 2 == 0, grid.opaque = kind / 2 % 2 == 0;
         grid.key_count = static_cast<uint8_t>(std::array{1, 2, 5}[static_cast<size_t>(kind) / 4 % 3]);
+        grid.float_colors = GetParam();
         grids_.arenas[0].allocate(grid);
         const int floats = grid.plane_count() * grid.shape.plane_size();
         for (int i = 0; i < floats; ++i) grid.positions[i] = between(-2, 2);
         if (kind == 0) std::fill_n(grid.positions, floats, 1.0f);  // all in one point
-        const int halves = grid.color_plane_count() * grid.shape.vertex_count();
-        for (int i = 0; i < halves; ++i)
-            grid.colors[i] = Imath::half(below(8) ? between(0, 1) : between(0, 1e-6f));  // some subnormal
+        for (size_t i = 0; i < grid.color_count(); ++i) {
+            const float color = below(8) ? between(0, 1) : between(0, 1e-6f);  // some subnormal, as halves
+            if (grid.float_colors)
+                grid.full_colors()[i] = color;
+            else
+                grid.half_colors()[i] = color;
+        }
         grids_.grids.push_back(grid);
     }
 
@@ -83,7 +89,7 @@ class HitLayersOfRandomGrids : public ::testing::Test {
     HitBuffer hits_;
 };
 
-TEST_F(HitLayersOfRandomGrids, AreThoseOfEachHitAloneOnAllTargets) {
+TEST_P(HitLayersOfRandomGrids, AreThoseOfEachHitAloneOnAllTargets) {
     std::string error;
     for (const std::string_view name : simd_names()) {
         if (!limit_simd(name, &error)) continue;
@@ -93,7 +99,7 @@ TEST_F(HitLayersOfRandomGrids, AreThoseOfEachHitAloneOnAllTargets) {
     ASSERT_TRUE(limit_simd("best", &error));
 }
 
-TEST_F(HitLayersOfRandomGrids, AreTheLastOnesAskedFor) {
+TEST_P(HitLayersOfRandomGrids, AreTheLastOnesAskedFor) {
     HitLayers layers;
     layers.interpolate(samples_, hits_, 0, 300, grids_);
     layers.interpolate(samples_, hits_, 300, 400, grids_);
@@ -104,6 +110,9 @@ TEST_F(HitLayersOfRandomGrids, AreTheLastOnesAskedFor) {
     ASSERT_LT(id.grid, grids_.grids.size());
     expect_same_bits(layers[i].color, layer_at(samples_.rays[owner], grids_.grids[id.grid], id).color, i);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, HitLayersOfRandomGrids, ::testing::Bool(),
+                         [](const auto& row) { return row.param ? "Floats" : "Halves"; });
 
 }  // namespace
 }  // namespace trapeze

@@ -118,8 +118,8 @@ inline void add_grids(Grids& grids, int columns, int rows, const GridLook& look)
                     const V3f color = look.color(x, y), opacity = look.opacity ? look.opacity(x, y) : V3f(1);
                     for (int c = 0; c < look.aov_channels; ++c) grid.aov_plane(c)[at] = look.aov(x, y, c);
                     for (int c = 0; c < 3; ++c) {
-                        grid.colors[c * n + at] = color[c];
-                        if (look.opacity) grid.colors[(3 + c) * n + at] = opacity[c];
+                        grid.half_colors()[c * n + at] = color[c];
+                        if (look.opacity) grid.half_colors()[(3 + c) * n + at] = opacity[c];
                     }
                 }
             grids.grids.push_back(grid);

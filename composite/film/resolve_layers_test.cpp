@@ -154,7 +154,7 @@ TEST(ResolveLayers, SmoothFollowsAMovingGrid) {
                 static_cast<float>(i), static_cast<float>(j), 1, 2, 0, 0};  // moves by 2 along x
             for (int k = 0; k < 6; ++k) grid.plane(0, k)[at] = start[k];
             for (int c = 0; c < 3; ++c)
-                grid.colors[c * 4 + grid.shape.row_index(i, j)] = static_cast<float>(i);
+                grid.half_colors()[c * 4 + grid.shape.row_index(i, j)] = static_cast<float>(i);
         }
     grids.grids.push_back(grid);
     const Hit hits[] = {{1, MicropolygonId{0, 0, 0}.packed()}};

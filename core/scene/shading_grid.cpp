@@ -36,14 +36,26 @@ void pack_plane(const GridShape& shape, const float* rows, float* tiles, int64_t
             }
 }
 
+constexpr float kLargestHalf = 65504;
+
 /// The nearest half; what is larger than any becomes the largest finite one.
 Imath::half to_half(float value) {
-    return Imath::half(std::clamp(value, -65504.0f, 65504.0f));
+    return Imath::half(std::clamp(value, -kLargestHalf, kLargestHalf));
 }
 
-void pack_colors(const Triples& colors, size_t count, Imath::half* out, int64_t* not_finite) {
+/// Packs three planes from `first_plane` on; floats are clamped to +-largest.
+void pack_colors(const Triples& colors, const Grid& grid, int first_plane, float largest,
+                 int64_t* not_finite) {
+    const size_t count = grid.shape.vertex_count();
+    size_t out = first_plane * count;
     for (const std::vector<float>& plane : colors.c)
-        for (size_t i = 0; i < count; ++i) *out++ = to_half(finite_or(plane[i], 0, not_finite));
+        for (size_t i = 0; i < count; ++i, ++out) {
+            const float value = finite_or(plane[i], 0, not_finite);
+            if (grid.float_colors)
+                grid.full_colors()[out] = std::clamp(value, -largest, largest);
+            else
+                grid.half_colors()[out] = to_half(value);
+        }
 }
 
 void pack_aovs(const std::vector<std::vector<float>>& planes, const Grid& grid, int64_t* not_finite) {
@@ -91,6 +103,7 @@ Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite
     grid.facing =
         options.both_sides ? Facing::Both : facing_for_sides(attributes.sides, shading.reverse_orientation);
     grid.opaque = !options.keep_hits_behind && all_opaque(shading.Oi, count);
+    grid.float_colors = options.float_colors;
     grid.smooth = attributes.smooth_shading;
     grid.matte = static_cast<uint8_t>(attributes.matte);
     grid.primitive = shading.primitive_index;
@@ -108,8 +121,8 @@ Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite
             pack_plane(grid.shape, shading.P[segment + 1].c[k].data(), delta, not_finite);
             for (size_t i = 0; i < plane_size; ++i) delta[i] -= start[i];
         }
-    pack_colors(shading.Ci, count, grid.colors, not_finite);
-    if (!grid.opaque) pack_colors(shading.Oi, count, grid.colors + 3 * count, not_finite);
+    pack_colors(shading.Ci, grid, 0, kInfinity, not_finite);
+    if (!grid.opaque) pack_colors(shading.Oi, grid, 3, kLargestHalf, not_finite);
     pack_aovs(shading.aovs, grid, not_finite);
     return grid;
 }

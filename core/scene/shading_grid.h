@@ -104,17 +104,19 @@ Facing facing_for_sides(int sides, bool reverse_orientation);
 struct PackOptions {
     bool keep_hits_behind = false;  ///< the grid does not count as opaque, whatever Oi
     bool both_sides = false;        ///< hit from both, whatever Sides
+    bool float_colors = false;      ///< colours are kept as floats, not as halves
 };
 
-/// What a scene asks of a primitive's grids. Hits behind a grid are kept where samples may not see what they
-/// hit there: it may be cut away, or be of another level of detail than theirs; and where the depth of the
-/// second layer is wanted. What may be cut away shows its inside; points, and curves without normals, have no
-/// back.
+/// What a scene asks of a primitive's grids, but for float_colors. Hits behind a grid are kept where samples
+/// may not see what they hit there: it may be cut away, or be of another level of detail than theirs; and
+/// where the depth of the second layer is wanted. What may be cut away shows its inside; points, and curves
+/// without normals, have no back.
 PackOptions pack_options(const Scene& scene, const Primitive& primitive);
 
-/// Packs a shaded grid: positions into tiles, Ci and Oi into halves, output variables into floats. Values
-/// that are not finite become 0 (colours and output variables) or the nearest finite vertex's position;
-/// *not_finite counts them. Output variables are clamped to +-kInfinity, so that sums of them are finite.
+/// Packs a shaded grid: positions into tiles, Ci and Oi into halves or floats, output variables into floats.
+/// Values that are not finite become 0 (colours and output variables) or the nearest finite vertex's
+/// position; *not_finite counts them. Halves, and opacities, are clamped to the finite halves, other floats
+/// to +-kInfinity, so that sums of them are finite.
 Grid pack_grid(const ShadingGrid& shading, GridArena& arena, int64_t* not_finite,
                const PackOptions& options = {});
 

@@ -33,14 +33,16 @@ constexpr size_t kGrain = 4;
 constexpr size_t kFewForAThread = 16, kPartsForAThread = 2;
 
 /// Packs a shaded grid into the thread's grids, and counts its values that are not finite.
-void pack(const Scene& scene, const ShadingGrid& grid, GridMaker& maker) {
+void pack(const RenderContext& context, const ShadingGrid& grid, GridMaker& maker) {
     int64_t not_finite = 0;
-    maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, pack_options(scene, *grid.primitive)));
+    PackOptions options = pack_options(*context.scene, *grid.primitive);
+    options.float_colors = context.float_colors;
+    maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, options));
     maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
 }
 
 /// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
-size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t end,
+size_t make_batch(const RenderContext& context, const Region& region, size_t first, size_t end,
                   const Tessellation& tessellation, const Shading& shading, GridMaker& maker) {
     Stopwatch watch;
     std::vector<ShadingGrid*> batch;
@@ -53,7 +55,7 @@ size_t make_batch(const Scene& scene, const Region& region, size_t first, size_t
     }
     maker.dice_seconds += watch.lap();
     shading.shade(batch, maker.shade_scratch, maker.shade_stats);
-    for (const ShadingGrid* grid : batch) pack(scene, *grid, maker);
+    for (const ShadingGrid* grid : batch) pack(context, *grid, maker);
     maker.shade_seconds += watch.lap();
     return next;
 }
@@ -67,8 +69,7 @@ void make_many(const RenderContext& context, const Region& region, const Tessell
     tbb::parallel_for(all, [&](const tbb::blocked_range<size_t>& range) {
         GridMaker& maker = makers.local();
         for (size_t i = range.begin(); i < range.end() && !context.is_cancelled();) {
-            const size_t next =
-                make_batch(*context.scene, region, i, range.end(), tessellation, shading, maker);
+            const size_t next = make_batch(context, region, i, range.end(), tessellation, shading, maker);
             for (; i < next; ++i) progress.step();
         }
     });
@@ -133,7 +134,7 @@ void make_few(const RenderContext& context, const Region& region, const Tessella
     for (const Part& part : parts)
         if (part.own) put_part(*part.own, part.first, grids[part.grid]);
     for_each_alone(context, grids.size(), makers,
-                   [&](size_t i, GridMaker& maker) { pack(*context.scene, grids[i], maker); });
+                   [&](size_t i, GridMaker& maker) { pack(context, grids[i], maker); });
 }
 
 }  // namespace

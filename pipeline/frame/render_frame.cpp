@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "composite/displays/display_plan.h"
 #include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/frame/regions.h"
@@ -137,6 +138,7 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
     context.seed = settings.seed;
     context.motion = std::any_of(scene.primitives.begin(), scene.primitives.end(),
                                  [](const Primitive& primitive) { return primitive.key_count() > 1; });
+    context.float_colors = holds_more_than_halves(scene.options);
     context.diagnostics = &diagnostics;
     context.cancelled = settings.cancelled;
     return context;

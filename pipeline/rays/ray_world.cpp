@@ -76,6 +76,7 @@ void RayWorld::make_grids(const Shading& shading) {
                               shading.displace({&grid, 1}, maker.shade);
                               PackOptions options;
                               options.both_sides = true;
+                              options.float_colors = context_.float_colors;
                               options.keep_hits_behind = !keeps_opacity_[grid->primitive_index];
                               int64_t not_finite = 0;
                               grids[i] = pack_grid(*grid, maker.arena, &not_finite, options);
