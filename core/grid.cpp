@@ -6,10 +6,9 @@
 namespace trapeze {
 namespace {
 
-/// Bytes: what a grid's memory is aligned to, and the size of a chunk unless a grid needs more.
+/// Bytes: what a grid's memory is aligned to.
 constexpr size_t kAlignment = 64;
 constexpr size_t kReadable = 64;  // past the end of every grid, for whole vectors
-constexpr size_t kChunkBytes = size_t{1} << 20;
 
 size_t aligned(size_t size) {
     return (size + kAlignment - 1) & ~(kAlignment - 1);
@@ -24,7 +23,7 @@ void GridArena::Free::operator()(std::byte* p) const {
 std::byte* GridArena::take(size_t size) {
     size = aligned(size);
     if (size > left_) {
-        const size_t chunk = std::max(size, kChunkBytes);
+        const size_t chunk = std::max(size, chunk_bytes_);
         chunks_.emplace_back(
             static_cast<std::byte*>(::operator new (chunk + kReadable, std::align_val_t{kAlignment})));
         next_ = chunks_.back().get();

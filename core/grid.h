@@ -150,6 +150,8 @@ struct Grid {
 class GridArena {
   public:
     GridArena() = default;
+    /// Takes memory by as much at a time, or by what a grid needs.
+    explicit GridArena(size_t chunk_bytes) : chunk_bytes_(chunk_bytes) {}
     GridArena(GridArena&&) noexcept = default;
     GridArena& operator=(GridArena&&) noexcept = default;
 
@@ -168,6 +170,7 @@ class GridArena {
     std::vector<std::unique_ptr<std::byte, Free>> chunks_;
     std::byte* next_ = nullptr;
     size_t left_ = 0, bytes_ = 0;
+    size_t chunk_bytes_ = size_t{1} << 20;
 };
 
 /// The shaded grids of a region, sorted by ordinal.

@@ -11,15 +11,6 @@
 namespace trapeze::testing {
 namespace {
 
-bool same_bits(const Image& a, const Image& b) {
-    const auto same = [](const std::vector<float>& x, const std::vector<float>& y) {
-        return x.size() == y.size() &&
-               (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0);
-    };
-    return a.window == b.window && same(a.rgba, b.rgba) && same(a.z, b.z) && same(a.aovs, b.aovs) &&
-           a.id == b.id;
-}
-
 void expect_same(const std::vector<FrameResult>& a, const std::vector<FrameResult>& b,
                  const std::string& what) {
     ASSERT_EQ(a.size(), b.size()) << what;

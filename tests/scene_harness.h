@@ -63,4 +63,13 @@ inline std::vector<FrameResult> render_scene(const std::string& path, const Rend
     return results;
 }
 
+inline bool same_bits(const Image& a, const Image& b) {
+    const auto same = [](const std::vector<float>& x, const std::vector<float>& y) {
+        return x.size() == y.size() &&
+               (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0);
+    };
+    return a.window == b.window && same(a.rgba, b.rgba) && same(a.z, b.z) && same(a.aovs, b.aovs) &&
+           a.id == b.id;
+}
+
 }  // namespace trapeze::testing

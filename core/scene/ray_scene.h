@@ -27,8 +27,7 @@ struct RaySurfaceHit {
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
     V3f opacity{1, 1, 1};       ///< the primitive's own, Os
     V3f color{1, 1, 1};         ///< the primitive's own, Cs
-    uint32_t group = 0;         ///< with `id`, what dice() needs to find the place again
-    uint64_t id = 0;            ///< MicropolygonId::packed() of the group
+    uint64_t id = 0;            ///< MicropolygonId::packed(): with `at`, what dice() finds the place by
     V2f at{0, 0};               ///< within the micropolygon
 };
 

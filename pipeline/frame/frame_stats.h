@@ -30,7 +30,9 @@ struct FrameStats {
     /// The most of any region, each by itself: bytes of grids, of grids and tree, of the tree.
     uint64_t grid_bytes = 0, peak_region_bytes = 0, tree_bytes = 0;  ///< largest region's
     uint64_t samples = 0;
-    uint64_t ray_micropolygons = 0, ray_bytes = 0;  ///< of the geometry that rays of shaders meet
+    /// Of the geometry that rays of shaders meet: all, those made (again, too, where memory is short), bytes
+    /// of grids and trees that are held at the end, bytes of lists.
+    uint64_t ray_micropolygons = 0, ray_micropolygons_made = 0, ray_bytes = 0, ray_list_bytes = 0;
     int regions = 0, threads = 0, width = 0, height = 0, frame = 0;
     bool shows_something = false;  ///< whether any sample has hit anything
     std::string sampler, simd_target;

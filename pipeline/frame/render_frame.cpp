@@ -163,15 +163,16 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     const std::unique_ptr<RayWorld> rays =
         recorder.timed(&StageSeconds::rays, [&] { return make_ray_world(context, shading, budget); });
     shading.set_rays(rays.get());
+    const size_t region_budget = rays ? budget / 2 : budget;
     const Imager imager(context, *settings.access);
     const std::unique_ptr<SamplePattern> pattern = sampler->make_pattern(context);
     const Options& options = context.scene->options;
     const std::vector<Region> regions =
         split_into_regions(sampled_pixels(context.camera, options), tessellation.subpatches(),
-                           {budget, settings.regions_at_least, aov_layout(options).channel_count});
+                           {region_budget, settings.regions_at_least, aov_layout(options).channel_count});
 
-    const std::unique_ptr<Film> film =
-        film_of_regions({context, tessellation, shading, *sampler, *pattern, budget}, regions, recorder);
+    const std::unique_ptr<Film> film = film_of_regions(
+        {context, tessellation, shading, *sampler, *pattern, region_budget}, regions, recorder);
     if (!film) return {};
     shading.report_displacement_bounds();
 
@@ -186,7 +187,9 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     result.stats.sampler = sampler->name();
     if (rays) {
         result.stats.ray_micropolygons = rays->micropolygon_count();
+        result.stats.ray_micropolygons_made = rays->micropolygons_made();
         result.stats.ray_bytes = rays->bytes();
+        result.stats.ray_list_bytes = rays->list_bytes();
     }
     return result;
 }

@@ -1,10 +1,11 @@
 #include "pipeline/rays/ray_world.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "pipeline/rays/make_all_grids.h"
+#include "pipeline/rays/whole_ray_grids.h"
 
 namespace trapeze {
 namespace {
@@ -20,97 +21,73 @@ bool sees(RayKind kind, unsigned mask) {
     return (mask >> static_cast<unsigned>(kind) & 1) != 0;
 }
 
-RenderContext at_shutter_open(const RenderContext& context) {
-    RenderContext still = context;
-    still.motion = false;
-    return still;
-}
-
 /// Distances along a ray of unit length become depths along its largest axis.
 float depth_scale(const V3f& direction) {
     return std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
 }
 
-/// What a thread needs to make grids.
-struct Maker {
-    ShadingGrid shading_grid;
-    DiceScratch dice;
-    ShadeScratch shade;
-    GridArena arena;
-};
-
-constexpr size_t kGrain = 16;
+/// The share of a render's memory that what rays meet may take, besides the lists of subpatches.
+constexpr double kRayShare = 0.5;
+/// The share of that which is for grids; the rest is for trees over them.
+constexpr double kGridShare = 0.8;
 
 }  // namespace
 
-struct RayWorld::DiceScratches {
-    tbb::enumerable_thread_specific<DiceScratch> of_thread;
-};
-
 RayWorld::RayWorld(const RenderContext& context, const Shading& shading, size_t most_bytes)
-    : context_(at_shutter_open(context)),
-      tessellation_(context_, shading.depth_heights(), most_bytes, shading.displacing_surfaces(),
-                    SeenBy::Rays),
-      scratches_(std::make_unique<DiceScratches>()) {
-    make_grids(shading);
-    for (Group& group : groups_)
-        if (!group.grids.grids.empty()) group.tree = std::make_unique<WideTree>(group.grids, RayReach());
+    : dicer_(context, shading, most_bytes) {
+    make_groups(static_cast<size_t>(kRayShare * static_cast<double>(most_bytes)));
 }
 
 RayWorld::~RayWorld() = default;
 
-/// Dices, displaces and packs all subpatches; grids stay in their order.
-void RayWorld::make_grids(const Shading& shading) {
-    const std::vector<SubpatchInfo>& subpatches = tessellation_.subpatches();
-    const Scene& scene = *context_.scene;
-    for (uint32_t i = 0; i < scene.primitives.size(); ++i) keeps_opacity_.push_back(shading.keeps_opacity(i));
-    std::vector<Grid> grids(subpatches.size());
-    tbb::enumerable_thread_specific<Maker> makers;
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, subpatches.size(), kGrain),
-                      [&](const tbb::blocked_range<size_t>& range) {
-                          Maker& maker = makers.local();
-                          for (size_t i = range.begin(); i < range.end() && !context_.is_cancelled(); ++i) {
-                              ShadingGrid* const grid = &maker.shading_grid;
-                              tessellation_.dice(i, *grid, maker.dice);
-                              grid->aovs.clear();
-                              shading.displace({&grid, 1}, maker.shade);
-                              PackOptions options;
-                              options.both_sides = true;
-                              options.float_colors = context_.float_colors;
-                              options.keep_hits_behind = !keeps_opacity_[grid->primitive_index];
-                              int64_t not_finite = 0;
-                              grids[i] = pack_grid(*grid, maker.arena, &not_finite, options);
-                          }
-                      });
-    if (context_.is_cancelled()) return;
-    for (const Grid& grid : grids) {
-        const Attributes& attributes = *scene.primitives[grid.primitive].attributes;
-        Group& group = groups_[mask_of(attributes.rays)];
-        group.grids.grids.push_back(grid);
-        group.hides &= grid.opaque && attributes.sides == 2;
+/// Sorts what all rays may meet by the kinds of rays that see it.
+void RayWorld::make_groups(size_t most_bytes) {
+    const auto most_of_grids = static_cast<size_t>(kGridShare * static_cast<double>(most_bytes));
+    AllRayGrids all = make_all_grids(dicer_, most_of_grids);
+    arenas_ = std::move(all.arenas);
+    std::array<Grids, kMasks> grids;
+    std::array<std::vector<SubpatchExtent>, kMasks> extents;
+    std::array<size_t, kMasks> bytes{};
+    for (size_t i = 0; i < all.opaque.size(); ++i) {
+        const SubpatchInfo& info = dicer_.tessellation().subpatches()[i];
+        const Attributes& attributes = dicer_.attributes(info.primitive);
+        const unsigned mask = mask_of(attributes.rays);
+        groups_[mask].hides &= all.opaque[i] && attributes.sides == 2;
+        micropolygons_ += info.shape.micropolygon_count();
+        if (all.are_kept)
+            grids[mask].grids.push_back(all.grids[i]);
+        else
+            extents[mask].push_back(all.extents[i]), bytes[mask] += all.extents[i].bytes;
     }
-    // Each group keeps its grids' memory by way of the first.
-    for (Maker& maker : makers) groups_[0].grids.arenas.push_back(std::move(maker.arena));
+    const size_t all_bytes = std::accumulate(bytes.begin(), bytes.end(), size_t{0});
+    for (unsigned mask = 0; mask < kMasks; ++mask) {
+        Group& group = groups_[mask];
+        if (!grids[mask].grids.empty()) group.grids = std::make_unique<WholeRayGrids>(std::move(grids[mask]));
+        if (extents[mask].empty()) continue;
+        const double share = static_cast<double>(bytes[mask]) / static_cast<double>(all_bytes);
+        auto bricks = std::make_unique<RayBricks>(
+            dicer_, std::move(extents[mask]), static_cast<size_t>(share * static_cast<double>(most_bytes)));
+        group.bricks = bricks.get();
+        group.grids = std::move(bricks);
+    }
 }
 
 bool RayWorld::has(RayKind kind) const {
     for (unsigned mask = 0; mask < kMasks; ++mask)
-        if (sees(kind, mask) && groups_[mask].tree) return true;
+        if (sees(kind, mask) && groups_[mask].grids) return true;
     return false;
 }
 
 size_t RayWorld::bytes() const {
-    size_t bytes = tessellation_.bytes();
-    for (const Group& group : groups_) {
-        for (const GridArena& arena : group.grids.arenas) bytes += arena.bytes();
-        if (group.tree) bytes += group.tree->stats().tree_bytes;
-    }
+    size_t bytes = 0;
+    for (const GridArena& arena : arenas_) bytes += arena.bytes();
+    for (const Group& group : groups_) bytes += group.grids ? group.grids->bytes() : 0;
     return bytes;
 }
 
-uint64_t RayWorld::micropolygon_count() const {
-    uint64_t count = 0;
-    for (const Group& group : groups_) count += group.grids.micropolygon_count();
+uint64_t RayWorld::micropolygons_made() const {
+    uint64_t count = micropolygons_;
+    for (const Group& group : groups_) count += group.bricks ? group.bricks->micropolygons_made() : 0;
     return count;
 }
 
@@ -118,8 +95,8 @@ std::optional<RaySurfaceHit> RayWorld::closest(const RaySegment& ray, RayKind ki
     std::optional<RaySurfaceHit> nearest;
     RaySegment rest = ray;
     for (uint32_t mask = 0; mask < kMasks; ++mask) {
-        if (!sees(kind, mask) || !groups_[mask].tree) continue;
-        const std::optional<RaySurfaceHit> hit = closest_in(mask, rest);
+        if (!sees(kind, mask) || !groups_[mask].grids) continue;
+        const std::optional<RaySurfaceHit> hit = closest_in(*groups_[mask].grids, rest);
         if (!hit || (nearest && hit->distance >= nearest->distance)) continue;
         nearest = hit;
         rest.max = hit->distance;
@@ -127,24 +104,23 @@ std::optional<RaySurfaceHit> RayWorld::closest(const RaySegment& ray, RayKind ki
     return nearest;
 }
 
-std::optional<RaySurfaceHit> RayWorld::closest_in(uint32_t group, const RaySegment& ray) const {
+std::optional<RaySurfaceHit> RayWorld::closest_in(const RayGrids& grids, const RaySegment& ray) const {
     const float scale = depth_scale(ray.direction);
     const SpaceRay space{ray.origin, ray.direction, 0};
     DepthRange range{ray.min * scale, ray.max * scale};
     while (range.min <= range.max) {
-        const std::optional<Hit> hit = groups_[group].tree->closest(space, range);
-        if (!hit) return {};
-        const MicropolygonId id = MicropolygonId::unpack(hit->id);
-        if (shows(groups_[group].grids.grids[id.grid], id, ray.direction))
-            return hit_of(group, ray, hit->depth / scale, hit->id);
-        range.min = std::nextafter(hit->depth, kInfinity);
+        const std::optional<RayGridHit> found = grids.closest(space, range);
+        if (!found) return {};
+        if (shows(*found->grid, MicropolygonId::unpack(found->hit.id), ray.direction))
+            return hit_of(ray, found->hit.depth / scale, *found);
+        range.min = std::nextafter(found->hit.depth, kInfinity);
     }
     return {};
 }
 
 /// Whether a micropolygon can be hit from this side: one-sided surfaces have no inside.
 bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const V3f& direction) const {
-    const Attributes& attributes = *context_.scene->primitives[grid.primitive].attributes;
+    const Attributes& attributes = dicer_.attributes(grid.primitive);
     if (attributes.sides != 1) return true;
     const V3f p00 = grid.vertex(id.u, id.v, 0), p11 = grid.vertex(id.u + 1, id.v + 1, 0);
     const V3f p10 = grid.vertex(id.u + 1, id.v, 0), p01 = grid.vertex(id.u, id.v + 1, 0);
@@ -152,23 +128,23 @@ bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const V3f& dire
     return normal.dot(direction) <= 0;
 }
 
-RaySurfaceHit RayWorld::hit_of(uint32_t group, const RaySegment& ray, float distance, uint64_t packed) const {
-    const MicropolygonId id = MicropolygonId::unpack(packed);
-    const Grid& grid = groups_[group].grids.grids[id.grid];
+RaySurfaceHit RayWorld::hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const {
+    const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
+    const Grid& grid = *found.grid;
     const TurnedRay turned = axis_ray({ray.origin, ray.direction, 0});
     const QuadWeights weights =
         hit_weights(turned.ray, grid.quad(id.u, id.v, 0, turned.x_plane, turned.y_plane, turned.z_plane));
     RaySurfaceHit hit;
     hit.distance = distance;
     hit.primitive = grid.primitive;
-    hit.keeps_opacity = keeps_opacity_[grid.primitive];
+    hit.keeps_opacity = dicer_.keeps_opacity(grid.primitive);
     hit.color = hit.opacity = V3f(0, 0, 0);
     for (int corner = 0; corner < 4; ++corner) {
         const int i = id.u + (corner & 1), j = id.v + (corner >> 1);
         hit.color += weights.w[corner] * grid.color(i, j);
         hit.opacity += weights.w[corner] * grid.opacity(i, j);
     }
-    hit.group = group, hit.id = packed;
+    hit.id = found.hit.id;
     hit.at = {weights.w[k10] + weights.w[k11], weights.w[k01] + weights.w[k11]};
     return hit;
 }
@@ -179,8 +155,8 @@ std::optional<bool> RayWorld::blocked(const RaySegment& ray, RayKind kind) const
     bool sure = true;
     for (uint32_t mask = 0; mask < kMasks; ++mask) {
         const Group& group = groups_[mask];
-        if (!sees(kind, mask) || !group.tree) continue;
-        if (!group.tree->any({ray.origin, ray.direction, 0}, range)) continue;
+        if (!sees(kind, mask) || !group.grids) continue;
+        if (!group.grids->any({ray.origin, ray.direction, 0}, range)) continue;
         if (group.hides) return true;
         sure = false;
     }
@@ -189,17 +165,17 @@ std::optional<bool> RayWorld::blocked(const RaySegment& ray, RayKind kind) const
 
 int RayWorld::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {
     const MicropolygonId id = MicropolygonId::unpack(hit.id);
-    const Grid& packed = groups_[hit.group].grids.grids[id.grid];
-    const V2f at((static_cast<float>(id.u) + hit.at.x) / static_cast<float>(packed.shape.nu),
-                 (static_cast<float>(id.v) + hit.at.y) / static_cast<float>(packed.shape.nv));
-    return tessellation_.dice_point({packed.ordinal, at}, grid, scratches_->of_thread.local());
+    const GridShape shape = dicer_.tessellation().subpatches()[id.grid].shape;
+    const V2f at((static_cast<float>(id.u) + hit.at.x) / static_cast<float>(shape.nu),
+                 (static_cast<float>(id.v) + hit.at.y) / static_cast<float>(shape.nv));
+    return dicer_.make_point({id.grid, at}, grid);
 }
 
 /// A pixel's side at the point's distance from the eye.
 float RayWorld::spacing(const V3f& P) const {
-    const float pixel =
-        std::max(std::abs(context_.camera.plane_scale_x), std::abs(context_.camera.plane_scale_y));
-    return context_.camera.perspective ? P.length() * pixel : pixel;
+    const Camera& camera = dicer_.context().camera;
+    const float pixel = std::max(std::abs(camera.plane_scale_x), std::abs(camera.plane_scale_y));
+    return camera.perspective ? P.length() * pixel : pixel;
 }
 
 std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Shading& shading,
@@ -214,12 +190,6 @@ std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Sha
             "shaders trace rays, but no primitive is seen by rays; Attribute \"visibility\" \"int diffuse\" 1, "
             "\"int specular\" 1 and \"int transmission\" 1 let them be seen",
             "nothing-for-rays");
-    if (world->bytes() > most_bytes && context.diagnostics)
-        context.diagnostics->warning({},
-                                     "what rays may meet takes " + std::to_string(world->bytes() >> 20) +
-                                         " MiB, more than the budget of " + std::to_string(most_bytes >> 20) +
-                                         " MiB",
-                                     "memory-budget");
     return world;
 }
 

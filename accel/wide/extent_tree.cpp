@@ -1,0 +1,43 @@
+#include "accel/wide/extent_tree.h"
+
+#include <cmath>
+
+namespace trapeze {
+
+ExtentTree::ExtentTree(std::span<const GridExtent> extents) {
+    std::vector<uint32_t> bounded;
+    for (uint32_t i = 0; i < extents.size(); ++i) {
+        if (!std::isfinite(extents[i].absolute_max)) {
+            unbounded_.push_back(i);
+            continue;
+        }
+        bounded.push_back(i);
+        absolute_max_ = std::max(absolute_max_, extents[i].absolute_max);
+        extent_ = std::max(extent_, extents[i].largest_micropolygon);
+    }
+    if (!bounded.empty()) nodes_ = build_wide_top(extents, bounded);
+}
+
+GridExtent extent_of(const Grid& grid) {
+    WideGrid record;
+    record.nu = grid.shape.nu, record.nv = grid.shape.nv, record.key_count = grid.key_count;
+    record.first_pair = 0;
+    std::vector<uint8_t> keys(record.keys_bytes());
+    GridExtent extent;
+    bound_grid(grid, kTraceRounding, 0x1p-80f, record, keys.data(), extent);
+    return extent;
+}
+
+GridExtent united(const GridExtent& a, const GridExtent& b) {
+    GridExtent both = a;
+    for (int end = 0; end < 2; ++end)
+        for (int k = 0; k < 3; ++k) {
+            float &low = both.box.at[end].low[k], &high = both.box.at[end].high[k];
+            low = std::min(low, b.box.at[end].low[k]), high = std::max(high, b.box.at[end].high[k]);
+        }
+    both.absolute_max = std::max(a.absolute_max, b.absolute_max);
+    both.largest_micropolygon = std::max(a.largest_micropolygon, b.largest_micropolygon);
+    return both;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,60 @@
+/// Grids that are made when a ray comes by and forgotten when memory is short [Christensen03]: neighbours are
+/// a brick, with a tree of its own, and a tree over the bricks' extents stays in memory.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "accel/wide/extent_tree.h"
+#include "accel/wide/wide_tree.h"
+#include "pipeline/rays/ray_dicer.h"
+#include "pipeline/rays/ray_grids.h"
+
+namespace trapeze {
+
+/// What is known of a subpatch before its brick is made.
+struct SubpatchExtent {
+    uint32_t subpatch;
+    uint32_t bytes;  ///< of its grid
+    GridExtent extent;
+};
+
+class RayBricks final : public RayGrids {
+  public:
+    /// `subpatches` are all that these rays may meet, at least one, in any order. Bricks that are kept take
+    /// `most_bytes`; those in use may be more. The dicer outlives this.
+    RayBricks(const RayDicer& dicer, std::vector<SubpatchExtent> subpatches, size_t most_bytes);
+    ~RayBricks() override;
+
+    std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const override;
+    bool any(const SpaceRay& ray, DepthRange range) const override;
+    size_t bytes() const override;
+    /// Micropolygons made so far, those that were made again, too.
+    uint64_t micropolygons_made() const { return made_.load(std::memory_order_relaxed); }
+
+  private:
+    /// Made and traced, never changed.
+    struct Brick;
+    /// A brick's place: there or not.
+    struct Slot;
+
+    void divide(std::vector<SubpatchExtent>& subpatches, std::vector<GridExtent>& extents);
+    std::shared_ptr<const Brick> brick(uint32_t number) const;
+    std::shared_ptr<const Brick> make(uint32_t number) const;
+    void make_room() const;
+
+    const RayDicer& dicer_;
+    const size_t most_bytes_;
+    std::vector<uint32_t> subpatches_;  ///< brick after brick, each in the order of their numbers
+    std::vector<uint32_t> first_;       ///< of a brick's subpatches; one more than there are bricks
+    std::unique_ptr<ExtentTree> tree_;
+    mutable std::vector<Slot> slots_;
+    mutable std::atomic<size_t> bytes_{0};  ///< of bricks that are kept
+    mutable std::atomic<uint64_t> made_{0};
+    mutable std::mutex making_room_;
+    mutable size_t hand_ = 0;  ///< the slot that is looked at next when room is made
+};
+
+}  // namespace trapeze

@@ -1,0 +1,57 @@
+#include "pipeline/rays/ray_dicer.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace trapeze {
+namespace {
+
+RenderContext at_shutter_open(const RenderContext& context) {
+    RenderContext still = context;
+    still.motion = false;
+    return still;
+}
+
+}  // namespace
+
+/// What threads need to make grids.
+struct RayDicer::Scratches {
+    struct Scratch {
+        ShadingGrid grid;
+        DiceScratch dice;
+        ShadeScratch shade;
+    };
+    tbb::enumerable_thread_specific<Scratch> of_grids;
+    tbb::enumerable_thread_specific<DiceScratch> of_points;
+};
+
+RayDicer::RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes)
+    : context_(at_shutter_open(context)),
+      shading_(shading),
+      tessellation_(context_, shading.depth_heights(), most_bytes, shading.displacing_surfaces(),
+                    SeenBy::Rays),
+      scratches_(std::make_unique<Scratches>()) {
+    for (uint32_t i = 0; i < context_.scene->primitives.size(); ++i)
+        keeps_opacity_.push_back(shading.keeps_opacity(i));
+}
+
+RayDicer::~RayDicer() = default;
+
+Grid RayDicer::make(size_t subpatch, GridArena& arena) const {
+    Scratches::Scratch& scratch = scratches_->of_grids.local();
+    ShadingGrid* const grid = &scratch.grid;
+    tessellation_.dice(subpatch, *grid, scratch.dice);
+    grid->aovs.clear();
+    shading_.displace({&grid, 1}, scratch.shade);
+    PackOptions options;
+    options.both_sides = true;
+    options.float_colors = context_.float_colors;
+    options.keep_hits_behind = !keeps_opacity_[grid->primitive_index];
+    int64_t not_finite = 0;
+    return pack_grid(*grid, arena, &not_finite, options);
+}
+
+int RayDicer::make_point(const SubpatchPoint& point, ShadingGrid& grid) const {
+    return tessellation_.dice_point(point, grid, scratches_->of_points.local());
+}
+
+}  // namespace trapeze

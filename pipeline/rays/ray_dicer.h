@@ -1,0 +1,46 @@
+/// Makes the grids that rays of shaders meet [Hou10 sec. 4]: of all primitives whose attributes let some kind
+/// of ray see them, without regard to what the camera sees.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/grid.h"
+#include "core/scene/ray_scene.h"
+#include "core/scene/render_context.h"
+#include "shade/shading.h"
+#include "tessellate/tessellate.h"
+
+namespace trapeze {
+
+/// Makes any grid at any time, the same bits each time; from many threads.
+class RayDicer {
+  public:
+    /// Splits the scene for rays, as it is at shutter open. Primitives that take more than `most_bytes` to
+    /// list are left out, with an error. The context's scene and `shading` outlive this.
+    RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes);
+    ~RayDicer();
+
+    const RenderContext& context() const { return context_; }
+    const Tessellation& tessellation() const { return tessellation_; }
+    const Attributes& attributes(uint32_t primitive) const {
+        return *context_.scene->primitives[primitive].attributes;
+    }
+    /// Whether hits of a primitive have its own opacity, whatever its shader.
+    bool keeps_opacity(uint32_t primitive) const { return keeps_opacity_[primitive]; }
+
+    /// Dices, displaces and packs a subpatch, by its number; Grid::ordinal is that number.
+    Grid make(size_t subpatch, GridArena& arena) const;
+    /// Tessellation::dice_point().
+    int make_point(const SubpatchPoint& point, ShadingGrid& grid) const;
+
+  private:
+    RenderContext context_;  ///< of a moment: nothing moves
+    const Shading& shading_;
+    Tessellation tessellation_;
+    std::vector<bool> keeps_opacity_;  ///< of primitives: Shading::keeps_opacity()
+    struct Scratches;
+    std::unique_ptr<Scratches> scratches_;
+};
+
+}  // namespace trapeze

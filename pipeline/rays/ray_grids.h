@@ -1,0 +1,33 @@
+/// The grids that some kinds of rays meet, wherever they are kept.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "core/grid.h"
+#include "core/hit_buffer.h"
+#include "core/rays.h"
+
+namespace trapeze {
+
+/// Where a ray meets a grid.
+struct RayGridHit {
+    Hit hit;  ///< its id's grid is the subpatch: Grid::ordinal
+    const Grid* grid = nullptr;
+    std::shared_ptr<const void> keeps;  ///< the grid is there as long as this
+};
+
+/// Finds what testing all grids finds, bit for bit; equal depths are settled by subpatch. Immutable for those
+/// who ask: threads share it.
+class RayGrids {
+  public:
+    virtual ~RayGrids() = default;
+    /// As RayQuery's.
+    virtual std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const = 0;
+    virtual bool any(const SpaceRay& ray, DepthRange range) const = 0;
+    /// Memory that is held now.
+    virtual size_t bytes() const = 0;
+};
+
+}  // namespace trapeze

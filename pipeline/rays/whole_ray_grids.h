@@ -1,0 +1,37 @@
+/// Grids that are in memory as a whole, with one tree over them.
+#pragma once
+
+#include <vector>
+
+#include "accel/wide/wide_tree.h"
+#include "pipeline/rays/ray_grids.h"
+
+namespace trapeze {
+
+/// The id of a hit in a tree over some grids, with the grid's ordinal in place of its number.
+inline Hit with_ordinal(const Hit& hit, const Grids& grids) {
+    MicropolygonId id = MicropolygonId::unpack(hit.id);
+    id.grid = static_cast<uint32_t>(grids.grids[id.grid].ordinal);
+    return {hit.depth, id.packed()};
+}
+
+class WholeRayGrids final : public RayGrids {
+  public:
+    /// In the order of their ordinals; at least one, at most WideTree::kMaxGrids.
+    explicit WholeRayGrids(Grids grids) : grids_(std::move(grids)), tree_(grids_, RayReach()) {}
+
+    std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const override {
+        const std::optional<Hit> hit = tree_.closest(ray, range);
+        if (!hit) return {};
+        return RayGridHit{with_ordinal(*hit, grids_), &grids_.grids[MicropolygonId::unpack(hit->id).grid],
+                          nullptr};
+    }
+    bool any(const SpaceRay& ray, DepthRange range) const override { return tree_.any(ray, range); }
+    size_t bytes() const override { return grids_.bytes() + tree_.stats().tree_bytes; }
+
+  private:
+    Grids grids_;
+    WideTree tree_;
+};
+
+}  // namespace trapeze
