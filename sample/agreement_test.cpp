@@ -108,6 +108,14 @@ void add_kinds_of_blur(const AddScene& scene) {
         add_sheets(parallel.maker, 30, 1, 35);
     }
     add_sheets(scene("motion and defocus", true, true).maker, 30, 2, 4);
+    {
+        TestScene& blades = scene("blades and motion", true, true);
+        blades.frame.context.camera.aperture = {5, 36, -.8f, .7f};
+        add_sheets(blades.maker, 30, 2, 36);
+        TestScene& triangle = scene("three blades", false, true);
+        triangle.frame.context.camera.aperture = {3, 10, 0, 0};
+        add_sheets(triangle.maker, 30, 1, 37);
+    }
     add_sheets(scene("five keys", true, true).maker, 20, 5, 5, 2);
     {
         GridMaker& maker = scene("mixed key counts", true, true).maker;

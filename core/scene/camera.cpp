@@ -66,6 +66,7 @@ Camera make_camera(const Options& options) {
                       options.focal_distance > 0;
     camera.lens_radius = lens ? 0.5f * options.focal_length / options.f_stop : 0.0f;
     camera.focal_distance = lens ? options.focal_distance : 1.0f;
+    if (lens) camera.aperture = aperture_of(options);
     return camera;
 }
 

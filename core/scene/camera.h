@@ -5,6 +5,7 @@
 #include "core/math.h"
 #include "core/pixel_rect.h"
 #include "core/rays.h"
+#include "core/scene/aperture.h"
 
 namespace trapeze {
 
@@ -18,6 +19,7 @@ struct Camera {
     float near_clip = 0, far_clip = 0;
     float lens_radius = 0;     ///< camera-space length; 0: pinhole
     float focal_distance = 1;  ///< camera-space z in focus
+    Aperture aperture;         ///< the part of the lens' disk that is open
     /// The image plane: z = 1 for perspective, any z for orthographic; plane = raster * scale + offset.
     float plane_scale_x = 1, plane_offset_x = 0;
     float plane_scale_y = -1, plane_offset_y = 0;

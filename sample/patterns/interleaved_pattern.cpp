@@ -82,7 +82,7 @@ void InterleavedPattern::make_tuples() {
             tuple.x = in_pixel.x, tuple.y = in_pixel.y;
             if (camera_.has_lens()) {
                 const V2f in_square = lens.at(lens_of[s], group);
-                const V2f on_lens = disk_from_square(in_square.x, in_square.y);
+                const V2f on_lens = lens_.from_square(in_square.x, in_square.y);
                 tuple.lens_u = on_lens.x, tuple.lens_v = on_lens.y;
             }
             if (motion_) {

@@ -50,8 +50,8 @@ void IntervalPattern::make_pixel(int px, int py, std::vector<uint32_t>& subpixel
         tile.y[at] = within_pixel(py, place(subpixels[s] / nx, jitter(dimension::kSubpixelY), ny_));
         V2f on_lens(0, 0);
         if (camera_.has_lens())
-            on_lens = disk_from_square(place(lens_of_[s] % nx, jitter(dimension::kLensU), nx_),
-                                       place(lens_of_[s] / nx, jitter(dimension::kLensV), ny_));
+            on_lens = lens_.from_square(place(lens_of_[s] % nx, jitter(dimension::kLensU), nx_),
+                                        place(lens_of_[s] / nx, jitter(dimension::kLensV), ny_));
         tile.lens_u[at] = on_lens.x, tile.lens_v[at] = on_lens.y;
         tile.time[at] = motion_ ? place(s, jitter(dimension::kTime), sample_count()) : 0.0f;
         tile.rays[at] = camera_.ray(tile.x[at], tile.y[at], on_lens.x, on_lens.y, tile.time[at]);
@@ -63,7 +63,7 @@ TimeSpan IntervalPattern::time_bounds(int sample) const {
 }
 
 LensBox IntervalPattern::lens_bounds(int sample) const {
-    return camera_.has_lens() ? lens_region(lens_of_[sample], nx_, ny_) : LensBox{};
+    return camera_.has_lens() ? lens_.region(lens_of_[sample], nx_, ny_) : LensBox{};
 }
 
 }  // namespace trapeze

@@ -64,6 +64,35 @@ HWY_INLINE void disk_from_square(FloatLanes u, FloatLanes v, FloatLanes& x, Floa
     y = hn::IfThenElse(wide, across, along);
 }
 
+/// LensShape::from_square() to an outline, the same operations in the same order.
+HWY_INLINE void polygon_from_square(const LensOutline& outline, FloatLanes u, FloatLanes v, FloatLanes& x,
+                                    FloatLanes& y) {
+    const F d;
+    const FloatLanes zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f);
+    const FloatLanes a = hn::Sub(hn::Mul(two, u), one), b = hn::Sub(hn::Mul(two, v), one);
+    const auto wide = hn::Gt(hn::Abs(a), hn::Abs(b));
+    const FloatLanes r = hn::IfThenElse(wide, a, b), other = hn::IfThenElse(wide, b, a);
+    const FloatLanes ratio = hn::Div(other, hn::IfThenElse(hn::Eq(r, zero), one, r));
+    const FloatLanes quarter = hn::Add(hn::IfThenElse(wide, one, hn::Set(d, 3.0f)),
+                                       hn::IfThenElseZero(hn::Lt(r, zero), hn::Set(d, 4.0f)));
+    const auto count = static_cast<float>(outline.size());
+    const FloatLanes place =
+        hn::Mul(hn::Add(quarter, hn::IfThenElse(wide, ratio, hn::Neg(ratio))), hn::Set(d, count * 0.125f));
+    const hn::Vec<I> corner = hn::ConvertTo(I(), hn::Min(place, hn::Set(d, count - 1)));
+    const FloatLanes part = hn::Sub(place, hn::ConvertTo(d, corner));
+    const float density = outline.density, even = 1 - density;
+    const FloatLanes inner =
+        hn::Max(hn::Add(hn::Set(d, even * even), hn::Mul(hn::Set(d, 4 * density), hn::Mul(r, r))), zero);
+    const FloatLanes divisor = hn::Max(hn::Add(hn::Set(d, even), hn::Sqrt(inner)), hn::Set(d, kLeastDivisor));
+    const FloatLanes distance = hn::Mul(hn::Abs(r), hn::Sqrt(hn::Div(two, divisor)));
+    const auto on_rim = [&](const std::vector<float>& from, const std::vector<float>& along) HWY_ATTR {
+        return hn::Add(hn::GatherIndex(d, from.data(), corner),
+                       hn::Mul(part, hn::GatherIndex(d, along.data(), corner)));
+    };
+    x = hn::Mul(distance, on_rim(outline.x, outline.dx));
+    y = hn::Mul(distance, on_rim(outline.y, outline.dy));
+}
+
 /// What samples have of their pixel: its only one's, or looked up.
 template <bool kOnePixel>
 struct PixelLanes {
@@ -127,10 +156,15 @@ HWY_INLINE void make_samples(const RunRegions& regions, const RunPixels& pixels,
         const FloatLanes x = hn::Min(hn::Add(pixel.number(pixels.x), in_x), pixel.number(pixels.x_limit));
         const FloatLanes y = hn::Min(hn::Add(hn::Set(d, pixels.y), in_y), hn::Set(d, pixels.y_limit));
         FloatLanes lens_u = hn::Zero(d), lens_v = hn::Zero(d), time = hn::Zero(d);
-        if (regions.lens)
-            disk_from_square(place(hn::LoadU(d, &regions.lens_column[i]), jitter(sample_hash, kLensU), nx),
-                             place(hn::LoadU(d, &regions.lens_row[i]), jitter(sample_hash, kLensV), ny),
-                             lens_u, lens_v);
+        if (regions.lens) {
+            const FloatLanes u =
+                place(hn::LoadU(d, &regions.lens_column[i]), jitter(sample_hash, kLensU), nx);
+            const FloatLanes v = place(hn::LoadU(d, &regions.lens_row[i]), jitter(sample_hash, kLensV), ny);
+            if (regions.outline.size() != 0)
+                polygon_from_square(regions.outline, u, v, lens_u, lens_v);
+            else
+                disk_from_square(u, v, lens_u, lens_v);
+        }
         if (regions.motion) {
             const WordLanes moved = hn::Add(hn::LoadU(du, &regions.time[i]), pixel.word(pixels.time_shift));
             const WordLanes region = hn::Min(moved, hn::Sub(moved, all_words));  // modulo: below 0 is huge

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene/camera.h"
+#include "sample/patterns/lens_outline.h"
 
 namespace trapeze {
 
@@ -20,6 +21,7 @@ inline constexpr size_t kMaxRunPixels = 64;
 struct RunRegions {
     int nx = 1, ny = 1;
     bool lens = false, motion = false;
+    LensOutline outline{Aperture{}};           ///< of the lens; empty: a disk
     bool jittered = true;                      ///< in the subpixel; else in its middle
     size_t pixels = 1;                         ///< of a whole run
     std::vector<uint32_t> index;               ///< within the pixel

@@ -10,6 +10,7 @@
 #include "core/samples.h"
 #include "core/scene/render_context.h"
 #include "sample/names/method_spec.h"
+#include "sample/patterns/lens_shape.h"
 
 namespace trapeze {
 
@@ -26,6 +27,7 @@ class SamplePattern {
   protected:
     explicit SamplePattern(const RenderContext& context)
         : camera_(context.camera),
+          lens_(context.camera.aperture),
           nx_(std::max(1, context.samples_x)),
           ny_(std::max(1, context.samples_y)),
           seed_(context.seed),
@@ -39,6 +41,7 @@ class SamplePattern {
     }
 
     Camera camera_;
+    LensShape lens_;
     int nx_, ny_;  ///< regions of a pixel, a sample each
     uint32_t seed_;
     bool motion_;

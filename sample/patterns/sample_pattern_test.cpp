@@ -49,6 +49,19 @@ TEST_P(EveryPattern, StaysInThePixelTheDiskAndTheShutter) {
     }
 }
 
+TEST_P(EveryPattern, LooksThroughTheOpenPartOfTheLens) {
+    TestFrame frame = frame_of_samples(8, 8);
+    frame.context.camera.aperture = {4, 0, 0, 0};
+    const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
+    float most = 0;
+    for (size_t i = 0; i < tile.size(); ++i) {
+        const float from_middle = std::abs(tile.lens_u[i]) + std::abs(tile.lens_v[i]);
+        ASSERT_LE(from_middle, 1.00001f);  // a square on its corner
+        most = std::max(most, from_middle);
+    }
+    EXPECT_GT(most, .98f);
+}
+
 TEST_P(EveryPattern, APixelsSamplesDoNotDependOnTheTile) {
     const TestFrame frame = frame_of_samples(3, 3);
     const SampleTile large = tile_of(frame, {-4, -4, 12, 12}), small = tile_of(frame, {5, -1, 7, 3});

@@ -33,6 +33,7 @@ StratifiedPattern::StratifiedPattern(const RenderContext& context)
       lens_of_(lens_permutation(nx_, ny_, context.seed)),
       time_of_(time_permutation(lens_of_, nx_, ny_, context.seed)),
       regions_(nx_, ny_, camera_.has_lens(), motion_, lens_of_, time_of_) {
+    regions_.outline = lens_.outline();
     // Hider "jitter" 0: samples lie at the middles of their regions of the pixel. Depth maps of one sample
     // a pixel want the depths at the middles of pixels.
     regions_.jittered = !context.scene || context.scene->options.hider_parameters.float_or("jitter", 1) != 0;
@@ -57,7 +58,7 @@ TimeSpan StratifiedPattern::time_bounds(int sample, uint32_t shift) const {
 }
 
 LensBox StratifiedPattern::lens_bounds(int sample) const {
-    return camera_.has_lens() ? lens_region(lens_of_[sample], nx_, ny_) : LensBox{};
+    return camera_.has_lens() ? lens_.region(lens_of_[sample], nx_, ny_) : LensBox{};
 }
 
 void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) const {

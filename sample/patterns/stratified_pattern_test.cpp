@@ -80,7 +80,8 @@ struct ScalarSample {
     float x = 0, y = 0, time = 0;
     V2f lens{0, 0};
 
-    ScalarSample(const TestFrame& frame, const StratifiedPattern& pattern, int px, int py, int sample) {
+    ScalarSample(const TestFrame& frame, const StratifiedPattern& pattern, const LensShape& shape, int px,
+                 int py, int sample) {
         const auto nx = static_cast<uint32_t>(frame.context.samples_x);
         const int ny = frame.context.samples_y;
         const auto i = static_cast<uint32_t>(sample);
@@ -90,8 +91,8 @@ struct ScalarSample {
         y = within_pixel(py, place(i / nx, jitter(kSubpixelY), ny));
         const uint32_t region = pattern.lens_region_of(sample);
         if (frame.context.camera.has_lens())
-            lens = disk_from_square(place(region % nx, jitter(kLensU), static_cast<int>(nx)),
-                                    place(region / nx, jitter(kLensV), ny));
+            lens = shape.from_square(place(region % nx, jitter(kLensU), static_cast<int>(nx)),
+                                     place(region / nx, jitter(kLensV), ny));
         if (frame.context.motion)
             time = place(pattern.time_region_of(sample, pattern.time_shift(px, py)), jitter(kTime),
                          pattern.sample_count());
@@ -106,17 +107,19 @@ TEST(StratifiedPattern, EqualsTheScalarFormOnEveryInstructionSet) {
         ++tried;
         for (const auto& [nx, ny] :
              {std::pair{1, 1}, {2, 2}, {3, 3}, {2, 4}, {5, 4}, {8, 8}, {13, 13}, {17, 16}})
-            for (int kind = 0; kind < 8; ++kind) {
-                TestFrame frame = frame_of_samples(nx, ny, kind & 1, kind & 2);
+            for (int kind = 0; kind < 9; ++kind) {
+                TestFrame frame = frame_of_samples(nx, ny, kind & 1, kind & 2 || kind == 8);
+                if (kind == 8) frame.context.camera.aperture = {5, 20, -.4f, .6f};
                 if (kind & 4) frame.options.projection = "orthographic", frame.update();
                 const StratifiedPattern pattern(frame.context);
+                const LensShape shape(frame.context.camera.aperture);
                 for (const PixelRect& pixels : {PixelRect{-5, -2, 14, 1}, PixelRect{60, 4, 61, 5}}) {
                     const SampleTile tile = tile_of(frame, pixels);
                     size_t at = 0;
                     for (int py = pixels.y0; py < pixels.y1; ++py)
                         for (int px = pixels.x0; px < pixels.x1; ++px)
                             for (int i = 0; i < nx * ny; ++i, ++at) {
-                                const ScalarSample s(frame, pattern, px, py, i);
+                                const ScalarSample s(frame, pattern, shape, px, py, i);
                                 const AxisRay ray =
                                     frame.context.camera.ray(s.x, s.y, s.lens.x, s.lens.y, s.time);
                                 const auto bits = [](auto... values) {
