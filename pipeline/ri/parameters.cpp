@@ -26,6 +26,7 @@ constexpr UsualValue kUsual[] = {
     {"limits", "eyesplits", ValueType::Integer},
     {"limits", "othreshold", ValueType::Color},
     {"statistics", "endofframe", ValueType::Integer},
+    {"hidden", "aperture", ValueType::Float, 4},
     {"hidden", "jitter", ValueType::Integer},
     {"hidden", "depthfilter", ValueType::String},
     {"hidden", "samplemotion", ValueType::Integer},

@@ -1,4 +1,5 @@
 /// Requests that RISpec 3.2 does not have, and its rarer ones.
+#include "core/scene/camera.h"
 #include "pipeline/rib/reading_harness.h"
 
 namespace trapeze::rib::testing {
@@ -223,6 +224,38 @@ TEST(Ris, HidersSayHowManySamplesWherePixelSamplesDoesNot) {
         EXPECT_EQ(outcome.scene().options.samples_y, row.side) << row.options;
         EXPECT_THAT(outcome.summary.without_effect, IsEmpty()) << row.options;
     }
+}
+
+TEST(Settings, AperturesHaveFourNumbers) {
+    const auto aperture = [](const std::string& value) {
+        return read_text("DepthOfField 2 1 5\nHider \"hidden\" " + value + "\nWorldBegin WorldEnd");
+    };
+    const std::string declared = "\"float[4] aperture\" ";
+    for (const std::string& value :
+         {declared + "[6 15 .5 -.25]", std::string("\"aperture\" [6 15 .5 -.25]")}) {
+        const Outcome right = aperture(value);
+        EXPECT_THAT(right.messages, IsEmpty());
+        EXPECT_THAT(right.summary.without_effect, IsEmpty());
+        const Aperture lens = make_camera(right.scene().options).aperture;
+        EXPECT_EQ(lens.blades, 6);
+        EXPECT_EQ(lens.angle, 15);
+        EXPECT_EQ(lens.roundness, .5f);
+        EXPECT_EQ(lens.density, -.25f);
+    }
+    const Outcome beyond = aperture(declared + "[5 0 -3 2]");
+    EXPECT_THAT(beyond.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: Hider: roundness and density")));
+    EXPECT_EQ(make_camera(beyond.scene().options).aperture.roundness, -1);
+    EXPECT_EQ(make_camera(beyond.scene().options).aperture.density, 1);
+    for (const char* value : {"\"float[3] aperture\" [6 0 0]", "\"aperture\" [6 0 0 0 0]",
+                              "\"float[4] aperture\" [6 1e39 0 0]", "\"string aperture\" [\"six\"]"}) {
+        const Outcome wrong = aperture(value);
+        EXPECT_THAT(wrong.messages, ElementsAre(HasSubstr("a.rib:2:"))) << value;
+        EXPECT_EQ(make_camera(wrong.scene().options).aperture.blades, 0) << value;
+    }
+    for (const char* blades : {"-3", "2", "2.9", "1e30"})
+        EXPECT_TRUE(
+            make_camera(aperture(declared + "[" + blades + " 0 0 0]").scene().options).aperture.is_disk())
+            << blades;
 }
 
 TEST(Settings, SamplemotionStopsTheShutterOfItsWorldsAlone) {

@@ -22,9 +22,8 @@ constexpr RequestNote kRequests[] = {
     {"HierarchicalSubdivisionMesh",
      "as SubdivisionMesh; edits of finer levels, which OpenSubdiv has not, are left out with one warning"},
     {"Hider",
-     "hidden; others are warned about and hidden is used; jitter, depthfilter, samplemotion; minsamples and "
-     "maxsamples "
-     "(as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
+     "hidden; others are warned about and hidden is used; aperture, jitter, depthfilter, samplemotion; "
+     "minsamples and maxsamples (as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
     {"Imager", "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture"},
     {"Integrator", "read; RIS shaders are not run"},
     {"Interior", "kept; nothing runs it until rays are traced"},
@@ -59,7 +58,8 @@ constexpr Capability kCapabilities[] = {
      "Transforms and deforming geometry with any number of keys, also within instances. Shading is at "
      "shutter "
      "open; parameters of shaders and lights take their values there."},
-    {"Depth of Field", "supported", "Every sample has its own point of the lens."},
+    {"Depth of Field", "supported",
+     "Every sample has its own point of the lens, which may be a disk or have blades."},
     {"Special Camera Projections", "not supported", "Perspective and orthographic alone."},
     {"Displacements", "supported",
      "P is moved and normals are found again; closed surfaces stay closed. Attribute \"displacementbound\" "

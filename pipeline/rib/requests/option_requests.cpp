@@ -164,6 +164,20 @@ void set_samples_of_hider(OptionContext& r) {
     r.state.options().samples_x = r.state.options().samples_y = side;
 }
 
+/// "aperture": blades, angle, roundness and density (core/scene/aperture.h); left out where it is wrong.
+void check_aperture(OptionContext& r, ParameterList& given) {
+    const Parameter* aperture = given.find("aperture");
+    if (!aperture) return;
+    const std::vector<float>& v = aperture->floats;
+    if (v.size() != 4 || !std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); })) {
+        r.report.error("\"aperture\" needs 4 numbers: blades, angle, roundness and density; left out");
+        std::erase_if(given.values, [](const Parameter& value) { return value.name == "aperture"; });
+    } else if (std::abs(v[2]) > 1 || std::abs(v[3]) > 1) {
+        r.report.warn_once("roundness and density of \"aperture\" are from -1 to 1; they are clamped",
+                           "hider-aperture");
+    }
+}
+
 /// PixelFilter name xwidth ywidth: whole widths, in pixels.
 void pixel_filter(OptionContext& r, ArgumentCursor& c) {
     std::string name = c.string("the filter's name");
@@ -225,6 +239,7 @@ void hider(OptionContext& r, ArgumentCursor& c) {
     for (const Parameter& value : o.hider_parameters.values)
         if (!recognises_hider_parameter(value.name))
             r.report.count_without_effect(' ' + in_quotes(value.name));
+    check_aperture(r, o.hider_parameters);
     set_samples_of_hider(r);
 }
 
