@@ -21,6 +21,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 namespace predicate_lanes {
 
+/// A coordinate of a corner, dz behind the ray's origin, moved along the ray to the plane of its origin.
+template <class V>
+HWY_INLINE V offset(V x, V o, V u, V dz) {
+    return hn::Sub(hn::Sub(x, o), hn::Mul(u, dz));
+}
+
 /// The edge function of the scalar form: twice the area of the triangle with the origin.
 template <class V>
 HWY_INLINE V edge(V ai, V bi, V aj, V bj) {
@@ -82,7 +88,7 @@ struct QuadLanes {
 /// in the rays' turned axes) of a corner at the rays' times.
 template <class V, class Vertex>
 HWY_INLINE QuadLanes<V> quad_lanes(V ox, V oy, V oz, V ux, V uy, const Vertex& vertex) {
-    const auto offset = [](V x, V o, V u, V dz) HWY_ATTR { return hn::Sub(hn::Sub(x, o), hn::Mul(u, dz)); };
+    using predicate_lanes::offset;
     QuadLanes<V> q;
     q.z00 = vertex(2, k00), q.z10 = vertex(2, k10), q.z01 = vertex(2, k01), q.z11 = vertex(2, k11);
     const V dz00 = hn::Sub(q.z00, oz), dz10 = hn::Sub(q.z10, oz), dz01 = hn::Sub(q.z01, oz),

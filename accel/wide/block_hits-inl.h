@@ -10,6 +10,9 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
+#include "accel/wide/wide_grid.h"
 #include "core/hit_micropolygon-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,6 +25,8 @@ using I32 = hn::RebindToSigned<F32>;
 using VF = hn::Vec<F32>;
 using VI = hn::Vec<I32>;
 using MF = hn::Mask<F32>;
+
+constexpr size_t kLanes = hn::MaxLanes(F32());
 
 /// The least component of a direction across a slab, as in accel/slabs.h: nearer ones are taken as this.
 inline constexpr float kLeastDirection = 1e-18f;
@@ -48,6 +53,36 @@ struct BlockView {
     /// Floats from `tile` to vertex (i, j) of the block, 0 <= i, j <= 4.
     int offset(int i, int j) const { return (j < 4 ? j * 4 : down) + (i < 4 ? i : right); }
 };
+
+/// A block of up to 4 x 4 micropolygons of a grid in one motion segment, and what its hits are called.
+struct Block {
+    BlockView view;
+    int columns;
+    Facing facing;
+    bool opaque;
+    uint32_t id;  ///< of its first micropolygon
+    float slack;
+};
+
+/// Block (u, v), in blocks, of grid number `index`.
+inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
+    const int tiles_u = grid.tiles_u(), tiles_v = grid.tiles_v();
+    const size_t plane_size = grid.plane_size();
+    Block block;
+    block.view.plane = plane_size;
+    block.view.tile = grid.planes + static_cast<size_t>(segment) * 6 * plane_size +
+                      static_cast<size_t>(v * tiles_u + u) * 16;
+    block.view.right = u + 1 < tiles_u ? 16 : 3;
+    block.view.down = v + 1 < tiles_v ? tiles_u * 16 : 12;
+    block.view.rows = std::min(4, grid.nv - 4 * v);
+    block.columns = std::min(4, grid.nu - 4 * u);
+    block.facing = static_cast<Facing>(grid.facing);
+    block.opaque = grid.opaque != 0;
+    // MicropolygonId::packed() of micropolygon (4 u, 4 v).
+    block.id = index << 8 | static_cast<uint32_t>(v) << 6 | static_cast<uint32_t>(u) << 2;
+    block.slack = grid.slack;
+    return block;
+}
 
 /// Lanes of camera rays: origins (ox, oy, 0), directions (ux, uy, 1). `local` is the time within the grid's
 /// motion segment, in [0, 1].

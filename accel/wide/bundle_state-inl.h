@@ -1,5 +1,5 @@
-/// What all stages of a bundle's tracing share: its state, hits kept, blocks as hits name them. A packet is a
-/// vector of consecutive rays, a group a few packets. Compiled once a target.
+/// What all stages of a bundle's tracing share: its state, hits kept. A packet is a vector of consecutive
+/// rays, a group a few packets. Compiled once a target.
 #if defined(TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_
 #undef TRAPEZE_ACCEL_BUNDLE_STATE_INL_H_
@@ -23,7 +23,6 @@ namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr size_t kLanes = hn::MaxLanes(F32());
 constexpr uint32_t kAllLanes = (1u << kLanes) - 1;
 constexpr size_t kMaskBytes = (kLanes + 7) / 8;
 constexpr uint32_t kLanesOfByte = kLanes < 8 ? kLanes : 8;  ///< of a mask as it is stored
@@ -105,36 +104,6 @@ struct BundleState {
 /// Adds to the costs of a packet's rays, the first of which is number `first`.
 inline void count_packet(uint32_t* counts, size_t first, uint32_t count) {
     for (size_t i = 0; i < kLanes; ++i) counts[first + i] += count;
-}
-
-/// A block of up to 4 x 4 micropolygons of a grid in one motion segment, and what its hits are called.
-struct Block {
-    BlockView view;
-    int columns;
-    Facing facing;
-    bool opaque;
-    uint32_t id;  ///< of its first micropolygon
-    float slack;
-};
-
-/// Block (u, v), in blocks, of grid number `index`.
-inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t index) {
-    const int tiles_u = grid.tiles_u(), tiles_v = grid.tiles_v();
-    const size_t plane_size = grid.plane_size();
-    Block block;
-    block.view.plane = plane_size;
-    block.view.tile = grid.planes + static_cast<size_t>(segment) * 6 * plane_size +
-                      static_cast<size_t>(v * tiles_u + u) * 16;
-    block.view.right = u + 1 < tiles_u ? 16 : 3;
-    block.view.down = v + 1 < tiles_v ? tiles_u * 16 : 12;
-    block.view.rows = std::min(4, grid.nv - 4 * v);
-    block.columns = std::min(4, grid.nu - 4 * u);
-    block.facing = static_cast<Facing>(grid.facing);
-    block.opaque = grid.opaque != 0;
-    // MicropolygonId::packed() of micropolygon (4 u, 4 v).
-    block.id = index << 8 | static_cast<uint32_t>(v) << 6 | static_cast<uint32_t>(u) << 2;
-    block.slack = grid.slack;
-    return block;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -15,6 +15,7 @@
 #include <bit>
 #include <vector>
 
+#include "accel/wide/bfloat16-inl.h"
 #include "accel/wide/bundle_state-inl.h"
 #include "accel/wide/ray_intervals-inl.h"
 
@@ -58,19 +59,10 @@ struct ChildLanes {
             low[k] = hn::Load(d, at.low[k] + first), high[k] = hn::Load(d, at.high[k] + first);
             if constexpr (kMotion) {
                 const WideNodeMotion& motion = tree.node_motions()[node];
-                low_delta[k] = floats(motion.low[k] + first);
-                high_delta[k] = floats(motion.high[k] + first);
+                low_delta[k] = from_bfloat16(d, motion.low[k] + first);
+                high_delta[k] = from_bfloat16(d, motion.high[k] + first);
             }
         }
-    }
-
-  private:
-    /// Widens bfloat16 to floats: their bits are the upper half.
-    static HWY_INLINE VF floats(const uint16_t* at) {
-        const F32 d;
-        const hn::Rebind<uint16_t, F32> d16;
-        const hn::Rebind<uint32_t, F32> d32;
-        return hn::BitCast(d, hn::ShiftLeft<16>(hn::PromoteTo(d32, hn::Load(d16, at))));
     }
 };
 

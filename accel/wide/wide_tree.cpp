@@ -4,13 +4,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "accel/grid_block.h"
-#include "accel/hit_policies.h"
-#include "accel/slabs.h"
+#include "accel/trace_ray.h"
 #include "accel/wide/bfloat16.h"
+#include "accel/wide/single_ray.h"
 #include "accel/wide/wide_grids.h"
 #include "accel/wide/wide_top.h"
 
@@ -114,166 +112,12 @@ void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
     });
 }
 
-namespace {
-
-/// The depths between which a ray is inside a box at its time; all bounds grown by `pad`.
-DepthInterval slab_depths(const float* low, const float* high, const float* low_delta,
-                          const float* high_delta, size_t stride, float time, const float* origin,
-                          const float* inverse, float pad) {
-    DepthInterval inside{-HUGE_VALF, HUGE_VALF};
-    for (size_t k = 0; k < 3; ++k) {
-        const float l = low[k * stride] + (low_delta ? time * low_delta[k * stride] : 0.0f) - pad;
-        const float h = high[k * stride] + (high_delta ? time * high_delta[k * stride] : 0.0f) + pad;
-        const float a = (l - origin[k]) * inverse[k], b = (h - origin[k]) * inverse[k];
-        inside.near = std::max(inside.near, std::min(a, b));
-        inside.far = std::min(inside.far, std::max(a, b));
-    }
-    return inside;
-}
-
-/// One over a component of a direction, finite even where that is 0.
-float inverse_of(float direction) {
-    return 1.0f / (std::abs(direction) < kLeastDirection ? kLeastDirection : direction);
-}
-
-/// Tests a ray in any direction against some micropolygons of a grid and shows the policy what it hits.
-template <class Policy>
-void test_micropolygons(const Grid& grid, uint32_t index, const GridBlock& block, TraceRay& ray,
-                        Policy& policy) {
-    for (int v = block.v; v < block.v + block.nv; ++v)
-        for (int u = block.u; u < block.u + block.nu; ++u) {
-            const Quad quad = grid.quad(u, v, ray.axis.time, ray.planes[0], ray.planes[1], ray.planes[2]);
-            float z;
-            if (!hit_micropolygon(ray.axis, quad, facing_along(grid.facing, ray.sign), &z)) continue;
-            const Hit hit{ray.depth_of(z),
-                          MicropolygonId{index, static_cast<uint8_t>(u), static_cast<uint8_t>(v)}.packed()};
-            if (hit.depth >= ray.t_min && hit.depth <= ray.t_max) policy.consider(hit, grid.opaque, ray);
-        }
-}
-
-/// A node's WideNodeMotion in floats; not set where nothing moves.
-struct NodeDeltas {
-    float low[3][WideNode::kChildren], high[3][WideNode::kChildren];
-
-    NodeDeltas(const WideTree& tree, uint32_t node) {
-        if (!tree.moves()) return;
-        const WideNodeMotion& motion = tree.node_motions()[node];
-        for (int k = 0; k < 3; ++k)
-            for (int i = 0; i < WideNode::kChildren; ++i)
-                low[k][i] = from_bfloat16(motion.low[k][i]), high[k][i] = from_bfloat16(motion.high[k][i]);
-    }
-};
-
-/// One ray in any direction through the tree, nearest children first. Its reach may be any: boxes grow by the
-/// ray's own rounding (pad_) when they are tested.
-template <class Policy>
-class SingleRay {
-  public:
-    SingleRay(const WideTree& tree, float absolute_max, float extent, TraceRay& ray, Policy& policy)
-        : tree_(tree), ray_(ray), policy_(policy), pad_(ray.rounding(absolute_max)), slack_(extent + pad_) {
-        for (int k = 0; k < 3; ++k) origin_[k] = ray.origin[k], inverse_[k] = inverse_of(ray.direction[k]);
-    }
-
-    void run() {
-        for (const uint32_t grid : tree_.unbounded_grids()) {
-            const GridShape& shape = tree_.grids().grids[grid].shape;
-            test_micropolygons(tree_.grids().grids[grid], grid, {0, 0, shape.nu, shape.nv}, ray_, policy_);
-        }
-        if (tree_.node_count() > 0) visit(0);
-    }
-
-  private:
-    struct Child {
-        float depth;
-        uint32_t link;
-    };
-
-    /// A node's children that the ray may hit, from near to far; ends when the nearest hit is in front of the
-    /// rest.
-    void visit(uint32_t index) {
-        const WideNode& node = tree_.nodes()[index];
-        const NodeDeltas motion(tree_, index);
-        std::array<Child, WideNode::kChildren> met;
-        int count = 0;
-        for (int i = 0; i < WideNode::kChildren && node.child[i] != kNoLink; ++i) {
-            float depth;
-            if (slab_depths(&node.low[0][i], &node.high[0][i], tree_.moves() ? &motion.low[0][i] : nullptr,
-                            tree_.moves() ? &motion.high[0][i] : nullptr, WideNode::kChildren, ray_.axis.time,
-                            origin_, inverse_, pad_)
-                    .meets(ray_, slack_, depth))
-                met[count++] = {depth, node.child[i]};
-        }
-        std::sort(met.begin(), met.begin() + count, [](const Child& a, const Child& b) {
-            return a.depth < b.depth || (a.depth == b.depth && a.link < b.link);
-        });
-        for (int i = 0; i < count; ++i) {
-            if (met[i].depth > ray_.t_max) return;
-            if (met[i].link & kGridLink)
-                visit_grid(met[i].link & ~kGridLink);
-            else
-                visit(met[i].link);
-        }
-    }
-
-    /// The ray in the grid's frame against its boxes at the ray's time, one after another, then against all
-    /// micropolygons in those it meets.
-    void visit_grid(uint32_t index) {
-        const WideGrid& record = tree_.grid(index);
-        const MotionSegment segment = segment_at(ray_.axis.time, record.key_count);
-        BoxPlanes boxes;
-        tree_.decode(record, segment.index, boxes);
-        const FrameAxes axes = record.axes.unpacked();
-        constexpr size_t kStride = BoxPlanes::kMost;
-        float origin[3], inverse[3];
-        for (int k = 0; k < 3; ++k) {
-            const float* a = axes.axis[k];
-            origin[k] = a[0] * ray_.origin.x + a[1] * ray_.origin.y + a[2] * ray_.origin.z;
-            inverse[k] =
-                inverse_of(a[0] * ray_.direction.x + a[1] * ray_.direction.y + a[2] * ray_.direction.z);
-        }
-        for (size_t box = 0; box < static_cast<size_t>(record.box_count()); ++box) {
-            const float* at = boxes.values + box;
-            float depth;
-            if (!slab_depths(at, at + 3 * kStride, record.moves() ? at + 6 * kStride : nullptr,
-                             record.moves() ? at + 9 * kStride : nullptr, kStride, segment.local, origin,
-                             inverse, pad_)
-                     .meets(ray_, slack_, depth))
-                continue;
-            const int first = static_cast<int>(box) * record.blocks_per_box();
-            const int last = std::min(first + record.blocks_per_box(), record.block_count());
-            for (int block = first; block < last; ++block) {
-                const auto u = static_cast<uint8_t>(block % record.blocks_u() * 4),
-                           v = static_cast<uint8_t>(block / record.blocks_u() * 4);
-                test_micropolygons(tree_.grids().grids[index], index,
-                                   {u, v, static_cast<uint8_t>(std::min(4, record.nu - u)),
-                                    static_cast<uint8_t>(std::min(4, record.nv - v))},
-                                   ray_, policy_);
-            }
-        }
-    }
-
-    const WideTree& tree_;
-    TraceRay& ray_;
-    Policy& policy_;
-    float pad_, slack_;
-    float origin_[3], inverse_[3];
-};
-
-}  // namespace
-
 std::optional<Hit> WideTree::closest(const SpaceRay& ray, DepthRange range) const {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
-    ClosestHit policy;
-    SingleRay<ClosestHit>(*this, absolute_max_, max_extent_, trace_ray, policy).run();
-    if (!policy.found()) return {};
-    return policy.best;
+    return closest_hit(*this, ray, range);
 }
 
 bool WideTree::any(const SpaceRay& ray, DepthRange range) const {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
-    AnyHit policy;
-    SingleRay<AnyHit>(*this, absolute_max_, max_extent_, trace_ray, policy).run();
-    return policy.found;
+    return any_hit(*this, ray, range);
 }
 
 }  // namespace trapeze

@@ -102,8 +102,11 @@ class WideTree final : public RayQuery {
     /// loses a hit to rounding. As TraceRay::rounding(), for the worst ray within reach.
     float rounding(float absolute_max) const { return rounding_scale_ * absolute_max + rounding_base_; }
 
-    /// The extent along z of the largest micropolygon of all.
+    /// The extent along z of the largest micropolygon of all; the largest along any axis.
     float max_slack() const { return max_slack_; }
+    float max_extent() const { return max_extent_; }
+    /// The largest |coordinate| of all that has bounds.
+    float absolute_max() const { return absolute_max_; }
     const WideNode* nodes() const { return nodes_.data(); }
     const WideNodeMotion* node_motions() const { return node_motions_.data(); }
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0

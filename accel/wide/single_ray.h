@@ -1,0 +1,23 @@
+/// Single rays in any direction through a WideTree, as shaders send them: lanes are the children of a node,
+/// the boxes of a grid, the micropolygons of a block.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "accel/wide/wide_tree.h"
+
+namespace trapeze {
+
+/// What rays looked at: nodes above grids, grids' boxes (all of a grid at once), blocks of 4 x 4
+/// micropolygons.
+struct SingleRayCounts {
+    uint64_t nodes = 0, grids = 0, blocks = 0;
+};
+
+/// What RayQuery::closest() and any() say. `counts`, unless null, is added to.
+std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range,
+                               SingleRayCounts* counts = nullptr);
+bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts = nullptr);
+
+}  // namespace trapeze

@@ -1,0 +1,230 @@
+/// Rays as shaders send them, one at a time in any direction, on one thread: towards a light, mirrored, and
+/// over the hemispheres of points; still and moving. Through the wide tree, through its scalar twin, and
+/// through Embree where it is there. All answer the same rays; "hits/ray" tells that they agree.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "accel/wide/scalar_ray_harness.h"
+#include "accel/wide/wide_tree.h"
+#include "sampling_scenes.h"
+#ifdef TRAPEZE_HAVE_EMBREE
+#include "sample/embree/embree_scene.h"
+#endif
+
+namespace trapeze {
+namespace {
+
+using testing::SamplingScene;
+using testing::ScalarRay;
+
+/// A ray and the depths of it that count.
+struct Query {
+    SpaceRay ray;
+    DepthRange range;
+};
+
+/// What rays are for. Occlusion asks whether they hit anything, indirect light and mirrors what.
+enum class Kind : int { Shadow, Mirror, Occlusion, Indirect };
+
+struct NamedKind {
+    Kind kind;
+    const char* name;
+};
+constexpr NamedKind kKinds[] = {{Kind::Shadow, "shadow"},
+                                {Kind::Mirror, "mirror"},
+                                {Kind::Occlusion, "occlusion"},
+                                {Kind::Indirect, "indirect"}};
+constexpr bool asks_any(Kind kind) {
+    return kind == Kind::Shadow || kind == Kind::Occlusion;
+}
+
+constexpr int kRaysOfPoint = 64;  ///< over a hemisphere; other kinds send one ray from more points
+
+/// The scene of the sampling benchmarks, and rays from points of its surfaces as shading comes to them: grid
+/// by grid.
+class RayScene {
+  public:
+    explicit RayScene(bool moves)
+        : scene_({.micropolygons = 1.5e6, .motion_pixels = moves ? 60.0f : 0.0f}), tree_(grids(), {}) {}
+
+    const Grids& grids() const { return scene_.maker.grids(); }
+    const WideTree& tree() const { return tree_; }
+
+    std::vector<Query> rays(Kind kind) {
+        constexpr size_t kPointsOfGrid = 8;
+        const bool hemisphere = kind == Kind::Occlusion || kind == Kind::Indirect;
+        const size_t points = hemisphere ? 2048 : 65536,
+                     step = std::max<size_t>(1, grids().grids.size() * kPointsOfGrid / points);
+        engine_.seed(11);
+        std::vector<Query> queries;
+        for (size_t g = 0; g < grids().grids.size(); g += step)
+            for (size_t p = 0; p < kPointsOfGrid; ++p) add_rays(kind, grids().grids[g], queries);
+        return queries;
+    }
+
+  private:
+    float random(float from, float to) {
+        return from + (to - from) * static_cast<float>(engine_()) * 0x1p-32f;
+    }
+
+    void add_rays(Kind kind, const Grid& grid, std::vector<Query>& queries) {
+        const int u = static_cast<int>(engine_() % grid.shape.nu),
+                  v = static_cast<int>(engine_() % grid.shape.nv);
+        const float time = grid.moves() ? random(0, 1) : 0.0f;
+        const V3f at = grid.vertex(u, v, time), along_u = grid.vertex(u + 1, v, time) - at,
+                  along_v = grid.vertex(u, v + 1, time) - at;
+        V3f normal = along_u.cross(along_v).normalized();
+        if (normal.dot(at) > 0) normal = -normal;  // towards the camera
+        const V3f origin = at + normal * (0.1f * along_u.length());
+        if (kind == Kind::Mirror) {
+            const V3f in = at.normalized();
+            queries.push_back({{origin, in - normal * (2 * in.dot(normal)), time}, {}});
+        } else if (kind == Kind::Shadow) {
+            const V3f to = V3f(20, 30, -10) - origin;
+            const float whole = std::max({std::abs(to.x), std::abs(to.y), std::abs(to.z)});
+            queries.push_back({{origin, to, time}, {0, whole}});
+        } else {
+            for (int i = 0; i < kRaysOfPoint; ++i) {
+                V3f out;
+                do out = {random(-1, 1), random(-1, 1), random(-1, 1)};
+                while (out.length2() > 1 || out.dot(normal) <= 0);
+                queries.push_back({{origin, out.normalized(), time}, {}});
+            }
+        }
+    }
+
+    SamplingScene scene_;
+    WideTree tree_;
+    std::mt19937 engine_;
+};
+
+/// Made when it is first asked for, and kept.
+RayScene& scene_of(bool moves) {
+    static std::unique_ptr<RayScene> scenes[2];
+    if (!scenes[moves]) scenes[moves] = std::make_unique<RayScene>(moves);
+    return *scenes[moves];
+}
+
+/// Tracers under one signature: bytes(), any(), closest().
+class Wide {
+  public:
+    explicit Wide(const RayScene& scene, bool) : tree_(scene.tree()) {}
+    uint64_t bytes() const { return tree_.stats().tree_bytes; }
+    bool any(const Query& query) const { return tree_.any(query.ray, query.range); }
+    bool closest(const Query& query) const { return tree_.closest(query.ray, query.range).has_value(); }
+
+  private:
+    const WideTree& tree_;
+};
+
+class Scalar {
+  public:
+    explicit Scalar(const RayScene& scene, bool) : tree_(scene.tree()) {}
+    uint64_t bytes() const { return tree_.stats().tree_bytes; }
+    bool any(const Query& query) const {
+        return ScalarRay<AnyHit>::traced(tree_, query.ray, query.range).found;
+    }
+    bool closest(const Query& query) const {
+        return ScalarRay<ClosestHit>::traced(tree_, query.ray, query.range).found();
+    }
+
+  private:
+    const WideTree& tree_;
+};
+
+#ifdef TRAPEZE_HAVE_EMBREE
+/// Its own two geometries for micropolygons.
+template <bool kQuads>
+class Embree {
+  public:
+    explicit Embree(const RayScene& scene, bool moves) : scene_(scene_of(scene, moves)) {}
+    uint64_t bytes() const { return scene_.stats().tree_bytes; }
+    bool any(const Query& query) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay ray;
+        set_ray(query, ray);
+        rtcOccluded1(scene_.scene(), &context, &ray);
+        return ray.tfar < 0;
+    }
+    bool closest(const Query& query) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRayHit ray;
+        set_ray(query, ray.ray);
+        ray.hit.geomID = ray.hit.primID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene_.scene(), &context, &ray);
+        return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    }
+
+  private:
+    /// Built once for each scene, and kept.
+    static const EmbreeScene& scene_of(const RayScene& scene, bool moves) {
+        static std::unique_ptr<EmbreeScene> scenes[2];
+        if (!scenes[moves]) {
+            EmbreeChoices choices;
+            choices.quads = kQuads, choices.motion = moves;
+            scenes[moves] = std::make_unique<EmbreeScene>(scene.grids(), choices, nullptr);
+        }
+        return *scenes[moves];
+    }
+    static void set_ray(const Query& query, RTCRay& to) {
+        const V3f& o = query.ray.origin;
+        const V3f& d = query.ray.direction;
+        const float depth = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});  // of one length
+        to.org_x = o.x, to.org_y = o.y, to.org_z = o.z;
+        to.dir_x = d.x, to.dir_y = d.y, to.dir_z = d.z;
+        to.tnear = query.range.min / depth, to.tfar = query.range.max / depth;
+        to.time = query.ray.time, to.mask = ~0u, to.id = 0, to.flags = 0;
+    }
+
+    const EmbreeScene& scene_;
+};
+#endif
+
+template <class Tracer>
+void trace(benchmark::State& state, Kind kind, bool moves) {
+    RayScene& scene = scene_of(moves);
+    const std::vector<Query> queries = scene.rays(kind);
+    const Tracer tracer(scene, moves);
+    size_t rays = 0, hits = 0;
+    for (auto _ : state) {
+        if (asks_any(kind))
+            for (const Query& query : queries) hits += tracer.any(query);
+        else
+            for (const Query& query : queries) hits += tracer.closest(query);
+        rays += queries.size();
+    }
+    state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
+    state.counters["hits/ray"] = static_cast<double>(hits) / static_cast<double>(rays);
+    state.counters["bytes/mp"] =
+        static_cast<double>(tracer.bytes()) / static_cast<double>(scene.grids().micropolygon_count());
+}
+
+template <class Tracer>
+void add(const char* tracer) {
+    for (const NamedKind& kind : kKinds)
+        for (const bool moves : {false, true})
+            benchmark::RegisterBenchmark(
+                (std::string(kind.name) + (moves ? "/moving/" : "/still/") + tracer).c_str(), trace<Tracer>,
+                kind.kind, moves)
+                ->Unit(benchmark::kMillisecond);
+}
+
+[[maybe_unused]] const bool kAdded = [] {
+    add<Scalar>("scalar");
+    add<Wide>("wide");
+#ifdef TRAPEZE_HAVE_EMBREE
+    add<Embree<false>>("embree_grids");
+    add<Embree<true>>("embree_quads");
+#endif
+    return true;
+}();
+
+}  // namespace
+}  // namespace trapeze
