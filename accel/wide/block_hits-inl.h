@@ -80,7 +80,7 @@ inline Block block_of(const WideGrid& grid, int segment, int u, int v, uint32_t 
     block.opaque = grid.opaque != 0;
     // MicropolygonId::packed() of micropolygon (4 u, 4 v).
     block.id = index << 8 | static_cast<uint32_t>(v) << 6 | static_cast<uint32_t>(u) << 2;
-    block.slack = grid.slack;
+    block.slack = grid.slack();
     return block;
 }
 

@@ -32,13 +32,11 @@ HWY_INLINE void decode_row(const uint8_t* codes, const CodeScale& scale, size_t 
 }
 
 #if HWY_TARGET != HWY_SCALAR  // it has one lane
-/// Four numbers between bounds, from their codes; what is read past the third means nothing.
-HWY_INLINE auto decode_planes(const float* low, const float* high, const uint8_t* codes) {
-    const hn::FixedTag<float, 4> d;
-    const auto from = hn::LoadU(d, low),
-               step = hn::Mul(hn::Sub(hn::LoadU(d, high), from), hn::Set(d, 1.0f / 255));
+/// Four planes from their codes, as CodeScale::plane(); what is read past the third means nothing.
+HWY_INLINE auto decode_planes(hn::Vec<hn::FixedTag<float, 4>> low, hn::Vec<hn::FixedTag<float, 4>> step,
+                              const uint8_t* codes) {
     const auto code = hn::PromoteTo(hn::FixedTag<int32_t, 4>(), hn::LoadU(hn::FixedTag<uint8_t, 4>(), codes));
-    return hn::MulAdd(hn::ConvertTo(d, code), step, from);
+    return hn::MulAdd(hn::ConvertTo(hn::FixedTag<float, 4>(), code), step, low);
 }
 #endif
 
@@ -59,14 +57,14 @@ HWY_INLINE void read_moving_frame(const WideTree& tree, const WideGrid& grid, in
     to[8] = static_cast<float>(axes[8]) * (1 / PackedAxes::kOne);
 
     const uint8_t* bytes = tree.keys_of(grid);
-    float bounds[8];  // low x, y, z, high x, y, z
-    std::memcpy(bounds, bytes, sizeof(KeyBounds));
-    bounds[6] = bounds[7] = 0;
+    const hn::FixedTag<uint8_t, 16> d8;
+    const auto low = hn::BitCast(d, hn::LoadU(d8, bytes)),
+               high = hn::BitCast(d, hn::LoadU(d8, bytes + sizeof(float[3])));
+    const auto step = hn::Mul(hn::Sub(high, low), hn::Set(d, 1.0f / 255));
     const uint8_t* begin = GridKeys(grid, bytes).of_key(segment);
     const uint8_t* end = begin + grid.key_bytes();
-    const auto low0 = decode_planes(bounds, bounds + 3, begin), low1 = decode_planes(bounds, bounds + 3, end);
-    const auto high0 = decode_planes(bounds, bounds + 3, begin + 3),
-               high1 = decode_planes(bounds, bounds + 3, end + 3);
+    const auto low0 = decode_planes(low, step, begin), low1 = decode_planes(low, step, end);
+    const auto high0 = decode_planes(low, step, begin + 3), high1 = decode_planes(low, step, end + 3);
     // Each store of four is overwritten past its third by the next.
     hn::StoreU(low0, d, frame.at[0].low), hn::StoreU(high0, d, frame.at[0].high);
     hn::StoreU(low1, d, frame.at[1].low), hn::StoreU(high1, d, frame.at[1].high);

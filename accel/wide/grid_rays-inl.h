@@ -95,7 +95,7 @@ HWY_INLINE MF rays_in_segment(const BundleState& t, const WideGrid& grid, int se
 /// lie before the depth where an oriented box is entered.
 HWY_INLINE VF limit_of(const BundleState& t, const WideGrid& grid, size_t packet) {
     const F32 d;
-    return hn::Add(hn::Load(d, t.rays.depth + packet * kLanes), hn::Set(d, grid.slack));
+    return hn::Add(hn::Load(d, t.rays.depth + packet * kLanes), hn::Set(d, grid.slack()));
 }
 
 /// Keeps those of `count` met packets that have rays which meet the grid's axis-aligned box; how many.

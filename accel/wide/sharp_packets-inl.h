@@ -43,7 +43,7 @@ HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const FrameAxes& axes, const
     const float dx = 0.50001f * (slopes.ux_high - slopes.ux_low) + 0x1p-22f * std::abs(ux),
                 dy = 0.50001f * (slopes.uy_high - slopes.uy_low) + 0x1p-22f * std::abs(uy);
     const auto boxes = static_cast<size_t>(grid.box_count());
-    VF near = hn::Set(d, z_low), far = hn::Set(d, std::min(z_high, farthest + grid.slack));
+    VF near = hn::Set(d, z_low), far = hn::Set(d, std::min(z_high, farthest + grid.slack()));
     for (size_t k = 0; k < 3; ++k) {
         const float* axis = axes.axis[k];
         // At depth z a ray of the packet lies within (dx, dy) * z of the middle ray; this is that along the

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "accel/wide/bfloat16.h"
 #include "accel/wide/box_codes.h"
 
 namespace trapeze {
@@ -54,15 +55,21 @@ struct PackedAxes {
 ///   boxes, low y, low z, high x, high y, high z.
 struct WideGrid {
     const float* planes;  ///< Grid::positions
-    float slack;          ///< of depth: extent of the largest micropolygon along camera z
     uint32_t first_pair;  ///< of bytes, of its keys
     uint32_t leaf;        ///< where the top level has its box: node * WideNode::kChildren + child
+    /// bfloat16, rounded up: the largest extent of a micropolygon along each axis of space, and the largest
+    /// |coordinate| of vertices in space and in the frame; infinite where a grid has no bounds.
+    uint16_t extent[3], coordinate;
     PackedAxes axes;
     uint8_t nu, nv;
     uint8_t key_count;
     uint8_t facing : 4, opaque : 4;
 
     bool moves() const { return key_count > 1; }
+    float largest_extent(int axis) const { return from_bfloat16(extent[axis]); }
+    /// How far before the depth at which a camera ray enters a box a hit may lie [decision 0004].
+    float slack() const { return largest_extent(2); }
+    float largest_coordinate() const { return from_bfloat16(coordinate); }
     /// Tiles as in GridShape: of vertices, so that one tile more may follow the last block.
     int tiles_u() const { return (nu + 4) / 4; }
     int tiles_v() const { return (nv + 4) / 4; }

@@ -114,12 +114,47 @@ HWY_INLINE void bound_blocks(const GridShape& shape, const TiledCoordinates& at,
     }
 }
 
-/// Bounds of a grid at each of its keys: of the whole into wholes[key], of its blocks into blocks[key].
-void bound_keys(const Grid& grid, const float (*axis)[3], KeyBox6* wholes, BlockBoxes* blocks) {
+/// The largest extent of a micropolygon along an axis, of which `tiled` are the vertices' coordinates.
+HWY_INLINE float largest_extent(const GridShape& shape, const float* tiled) {
+    const hn::ScalableTag<float> d;
+    const hn::CappedTag<float, 4> d4;
+    using V = hn::Vec<decltype(d)>;
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
+    // A row of vertices, the last one repeated as far as vectors are loaded. What a pair of neighbours spans:
+    // in this row (low, high), and in the row before.
+    HWY_ALIGN float row[kMaxTiles + kMaxGridSide + kLanes];
+    constexpr int kMostVectors = kMaxGridSide / kLanes;
+    V low_before[kMostVectors], high_before[kMostVectors], largest = hn::Zero(d);
+    const int tiles_u = shape.tiles_u();
+    for (int v = 0; v <= shape.nv; ++v) {
+        const float* from = tiled + v / 4 * tiles_u * 16 + v % 4 * 4;
+        for (int tile = 0; tile < tiles_u; ++tile)
+            for (size_t i = 0; i < 4; i += hn::Lanes(d4))
+                hn::Store(hn::Load(d4, from + tile * 16 + i), d4, row + tile * 4 + i);
+        hn::StoreU(hn::Set(d, row[tiles_u * 4 - 1]), d, row + tiles_u * 4);
+        for (int i = 0; i * kLanes < shape.nu; ++i) {
+            const V a = hn::Load(d, row + i * kLanes), b = hn::LoadU(d, row + i * kLanes + 1);
+            const V low = hn::Min(a, b), high = hn::Max(a, b);
+            if (v > 0)
+                largest =
+                    hn::Max(largest, hn::Sub(hn::Max(high, high_before[i]), hn::Min(low, low_before[i])));
+            low_before[i] = low, high_before[i] = high;
+        }
+    }
+    return hn::GetLane(hn::MaxOfLanes(d, largest));
+}
+
+/// Bounds of a grid at each of its keys: of the whole into wholes[key], of its blocks into blocks[key]; and
+/// of its micropolygons' extents along the axes of space, at all keys.
+void bound_keys(const Grid& grid, const float (*axis)[3], KeyBox6* wholes, BlockBoxes* blocks,
+                float* extents) {
     TiledCoordinates coordinates;
+    for (int k = 0; k < 3; ++k) extents[k] = 0;
     for (int key = 0; key < grid.key_count; ++key) {
         place_vertices(grid, key, axis, coordinates, wholes[key]);
         bound_blocks(grid.shape, coordinates, blocks[key]);
+        for (int k = 0; k < 3; ++k)
+            extents[k] = std::max(extents[k], largest_extent(grid.shape, coordinates.c[k]));
     }
 }
 
@@ -235,20 +270,6 @@ void write_keys(const WideGrid& record, const KeyBox6* wholes, const BlockBoxes*
     }
 }
 
-/// An upper bound of the extent of any micropolygon along each axis of space: of the block that holds it.
-void bound_extents(const WideGrid& record, const FrameAxes& axes, const BlockBoxes* keys, float extent[3]) {
-    for (int c = 0; c < 3; ++c) extent[c] = 0;
-    for (int key = 0; key < record.key_count; ++key)
-        for (int b = 0; b < record.block_count(); ++b) {
-            float size[3];
-            for (int k = 0; k < 3; ++k) size[k] = keys[key].high[k][b] - keys[key].low[k][b];
-            for (int c = 0; c < 3; ++c)
-                extent[c] = std::max(extent[c], (std::abs(axes.axis[0][c]) + FrameAxes::kLoss) * size[0] +
-                                                    (std::abs(axes.axis[1][c]) + FrameAxes::kLoss) * size[1] +
-                                                    (std::abs(axes.axis[2][c]) + FrameAxes::kLoss) * size[2]);
-        }
-}
-
 }  // namespace
 
 void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uint8_t* keys,
@@ -265,7 +286,8 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uin
     // Kept between calls, so that a grid allocates nothing.
     static thread_local std::vector<BlockBoxes> blocks;
     blocks.resize(grid.key_count);
-    HWY_DYNAMIC_DISPATCH(bound_keys)(grid, axes.axis, wholes, blocks.data());
+    float extents[3];
+    HWY_DYNAMIC_DISPATCH(bound_keys)(grid, axes.axis, wholes, blocks.data(), extents);
 
     float largest = 0;
     for (int key = 0; key < grid.key_count; ++key)
@@ -284,10 +306,11 @@ void bound_grid(const Grid& grid, float scale, float base, WideGrid& record, uin
             extent.box.at[end].high[k] = high[end] + grow;
         }
     }
-    float extents[3];
-    bound_extents(record, axes, blocks.data(), extents);
-    record.slack = extents[2] + grow;
     extent.largest_micropolygon = std::max({extents[0], extents[1], extents[2]}) + grow;
+    const bool bounded = largest <= kBoundableCoordinate;
+    constexpr uint16_t kInfinite = 0x7f80;  // as bfloat16
+    for (int k = 0; k < 3; ++k) record.extent[k] = bounded ? bfloat16_above(extents[k] + grow) : kInfinite;
+    record.coordinate = bounded ? bfloat16_above(largest) : kInfinite;
     if (record.blocks_per_box() > 1)
         for (BlockBoxes& boxes : blocks) join_blocks(record, boxes);
     write_keys(record, wholes, blocks.data(), grow + code_rounding, code_rounding, keys);

@@ -38,14 +38,17 @@ WideTree::WideTree(const Grids& grids, const RayReach& reach)
         }
         bounded.push_back(i);
         absolute_max_ = std::max(absolute_max_, extents[i].absolute_max);
-        max_slack_ = std::max(max_slack_, wide_grids_[i].slack);
+        max_slack_ = std::max(max_slack_, wide_grids_[i].slack());
         max_extent_ = std::max(max_extent_, extents[i].largest_micropolygon);
     }
-    if (!bounded.empty()) write_nodes(build_wide_top(extents, bounded));
+    if (!bounded.empty()) {
+        write_nodes(build_wide_top(extents, bounded));
+        find_largest();
+    }
     for (const uint32_t grid : bounded) stats_.tree_leaves += wide_grids_[grid].block_count();
     stats_.tree_nodes = nodes_.size() + bounded.size();
-    stats_.tree_bytes =
-        sizeof(*this) + wide_grids_.bytes() + keys_.bytes() + nodes_.bytes() + node_motions_.bytes();
+    stats_.tree_bytes = sizeof(*this) + wide_grids_.bytes() + keys_.bytes() + nodes_.bytes() +
+                        node_motions_.bytes() + node_largest_.bytes();
 }
 
 void WideTree::bound_grids(std::vector<GridExtent>& extents) {
@@ -110,6 +113,28 @@ void WideTree::write_nodes(const std::vector<WideChildren>& wide) {
             }
         }
     });
+}
+
+void WideTree::find_largest() {
+    node_largest_.allocate(nodes_.size());
+    // Nodes come before those below them.
+    for (size_t n = nodes_.size(); n-- > 0;) {
+        WideNodeLargest& largest = node_largest_[n] = {};
+        for (int i = 0; i < WideNode::kChildren && nodes_[n].child[i] != kNoLink; ++i) {
+            const uint32_t link = nodes_[n].child[i];
+            const WideGrid* grid = link & kGridLink ? &wide_grids_[link & ~kGridLink] : nullptr;
+            for (int k = 0; k < 3; ++k) {
+                largest.extent[k] = std::max(largest.extent[k],
+                                             grid ? grid->largest_extent(k) : node_largest_[link].extent[k]);
+                float low = nodes_[n].low[k][i], high = nodes_[n].high[k][i];
+                largest.coordinate = std::max({largest.coordinate, std::abs(low), std::abs(high)});
+                if (!moves_) continue;
+                low += from_bfloat16(node_motions_[n].low[k][i]);
+                high += from_bfloat16(node_motions_[n].high[k][i]);
+                largest.coordinate = std::max({largest.coordinate, std::abs(low), std::abs(high)});
+            }
+        }
+    }
 }
 
 std::optional<Hit> WideTree::closest(const SpaceRay& ray, DepthRange range) const {

@@ -69,11 +69,21 @@ struct alignas(64) WideNode {
     static constexpr int kChildren = 16;
     float low[3][kChildren], high[3][kChildren];  ///< at time 0; inverted where there is no child
     uint32_t child[kChildren];
+
+    /// Low x, y, z, high x, y, z of all children.
+    const float* row(size_t k) const { return low[0] + k * kChildren; }
 };
 /// What nodes of moving scenes have besides: how far planes move over the whole shutter, rounded outward to
 /// bfloat16 (accel/wide/bfloat16.h).
 struct alignas(64) WideNodeMotion {
     uint16_t low[3][WideNode::kChildren], high[3][WideNode::kChildren];
+
+    const uint16_t* row(size_t k) const { return low[0] + k * WideNode::kChildren; }
+};
+/// What tests of single rays need to know of a node and all below it: the largest |coordinate| of boxes, and
+/// the largest extent of a micropolygon along each axis of space.
+struct WideNodeLargest {
+    float coordinate, extent[3];
 };
 
 struct GridExtent;
@@ -109,6 +119,7 @@ class WideTree final : public RayQuery {
     float absolute_max() const { return absolute_max_; }
     const WideNode* nodes() const { return nodes_.data(); }
     const WideNodeMotion* node_motions() const { return node_motions_.data(); }
+    const WideNodeLargest& node_largest(uint32_t node) const { return node_largest_[node]; }
     size_t node_count() const { return nodes_.size(); }  ///< the root is node 0
     /// The record of a grid, by its index in grids().
     const WideGrid& grid(uint32_t index) const { return wide_grids_[index]; }
@@ -150,8 +161,10 @@ class WideTree final : public RayQuery {
   private:
     /// First pass: wide_grids_ and keys_ (but for WideGrid::leaf), in parallel over grids.
     void bound_grids(std::vector<GridExtent>& extents);
-    /// Last pass: nodes in the form that is traced, and each grid's leaf.
+    /// Nodes in the form that is traced, and each grid's leaf.
     void write_nodes(const std::vector<WideChildren>& wide);
+    /// Last pass, from the leaves to the root.
+    void find_largest();
 
     const Grids& grids_;
     RayReach reach_;
@@ -162,6 +175,7 @@ class WideTree final : public RayQuery {
     AlignedArray<uint8_t> keys_;  ///< WideGrid::keys_bytes() of all grids
     AlignedArray<WideNode> nodes_;
     AlignedArray<WideNodeMotion> node_motions_;
+    AlignedArray<WideNodeLargest> node_largest_;
     std::vector<uint32_t> unbounded_;
     BuildStats stats_;
 };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "accel/wide/scalar_ray_harness.h"
+#include "accel/wide/single_ray.h"
 #include "accel/wide/wide_tree.h"
 #include "sampling_scenes.h"
 #ifdef TRAPEZE_HAVE_EMBREE
@@ -187,6 +188,10 @@ class Embree {
 };
 #endif
 
+std::string named(const NamedKind& kind, bool moves, const char* what) {
+    return std::string(kind.name) + (moves ? "/moving/" : "/still/") + what;
+}
+
 template <class Tracer>
 void trace(benchmark::State& state, Kind kind, bool moves) {
     RayScene& scene = scene_of(moves);
@@ -206,17 +211,37 @@ void trace(benchmark::State& state, Kind kind, bool moves) {
         static_cast<double>(tracer.bytes()) / static_cast<double>(scene.grids().micropolygon_count());
 }
 
+/// How many things a ray looks at; exact, whatever the machine.
+void count(benchmark::State& state, Kind kind, bool moves) {
+    RayScene& scene = scene_of(moves);
+    const std::vector<Query> queries = scene.rays(kind);
+    SingleRayCounts counts;
+    for (auto _ : state)
+        for (const auto& [ray, range] : queries)
+            if (asks_any(kind))
+                any_hit(scene.tree(), ray, range, &counts);
+            else
+                closest_hit(scene.tree(), ray, range, &counts);
+    const auto rays = static_cast<double>(queries.size());
+    state.counters["nodes/ray"] = static_cast<double>(counts.nodes) / rays;
+    state.counters["grids/ray"] = static_cast<double>(counts.grids) / rays;
+    state.counters["blocks/ray"] = static_cast<double>(counts.blocks) / rays;
+}
+
 template <class Tracer>
 void add(const char* tracer) {
     for (const NamedKind& kind : kKinds)
         for (const bool moves : {false, true})
-            benchmark::RegisterBenchmark(
-                (std::string(kind.name) + (moves ? "/moving/" : "/still/") + tracer).c_str(), trace<Tracer>,
-                kind.kind, moves)
+            benchmark::RegisterBenchmark(named(kind, moves, tracer).c_str(), trace<Tracer>, kind.kind, moves)
                 ->Unit(benchmark::kMillisecond);
 }
 
 [[maybe_unused]] const bool kAdded = [] {
+    for (const NamedKind& kind : kKinds)
+        for (const bool moves : {false, true})
+            benchmark::RegisterBenchmark(named(kind, moves, "counts").c_str(), count, kind.kind, moves)
+                ->Iterations(1)
+                ->Unit(benchmark::kMillisecond);
     add<Scalar>("scalar");
     add<Wide>("wide");
 #ifdef TRAPEZE_HAVE_EMBREE
