@@ -38,6 +38,18 @@ struct AnyHit {
     }
 };
 
+/// What is in the way, as far as grids can tell: ends at the first hit of an opaque one.
+struct FirstOpaque {
+    bool opaque = false, layers = false;  ///< hits of grids that are, and of others, seen so far
+
+    void consider(const Hit&, bool is_opaque, TraceRay& ray) {
+        layers |= !is_opaque;
+        if (!is_opaque) return;
+        opaque = true;
+        ray.t_max = -std::numeric_limits<float>::infinity();
+    }
+};
+
 /// All hits as far as the first opaque one, which is included: what a camera sample's colour needs. One
 /// policy a ray; rays may share the vector.
 struct HitsUntilOpaque {

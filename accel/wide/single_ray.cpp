@@ -109,7 +109,7 @@ class SingleRay {
 
   private:
     /// Closest hits are sooner found from near to far; any hit is as good as another.
-    static constexpr bool kSorted = !std::is_same_v<Policy, AnyHit>;
+    static constexpr bool kSorted = std::is_same_v<Policy, ClosestHit>;
     using Stack = AheadStack<kSorted, 256>;
     using BoxStack = AheadStack<kSorted, BoxPlanes::kMost>;
     using VU = CompactLanes::VU;
@@ -275,6 +275,9 @@ HWY_INLINE Policy traced(const Query& query, Counts counts) {
 ClosestHit trace_closest(const Query& query, SingleRayCounts* counts) {
     return counts ? traced<ClosestHit>(query, CountAll{*counts}) : traced<ClosestHit>(query, CountNothing());
 }
+FirstOpaque trace_opaque(const Query& query) {
+    return traced<FirstOpaque>(query, CountNothing());
+}
 AnyHit trace_any(const Query& query, SingleRayCounts* counts) {
     return counts ? traced<AnyHit>(query, CountAll{*counts}) : traced<AnyHit>(query, CountNothing());
 }
@@ -289,6 +292,7 @@ namespace {
 
 HWY_EXPORT(trace_closest);
 HWY_EXPORT(trace_any);
+HWY_EXPORT(trace_opaque);
 
 /// A ray with a part that is no number has no bounds, and hits nothing.
 bool has_numbers(const TraceRay& ray) {
@@ -312,6 +316,13 @@ bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, Single
     TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
     if (!has_numbers(trace_ray)) return false;
     return HWY_DYNAMIC_DISPATCH(trace_any)({tree, trace_ray}, counts).found;
+}
+
+InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range) {
+    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+    if (!has_numbers(trace_ray)) return InTheWay::Nothing;
+    const FirstOpaque met = HWY_DYNAMIC_DISPATCH(trace_opaque)({tree, trace_ray});
+    return met.opaque ? InTheWay::Opaque : met.layers ? InTheWay::Layers : InTheWay::Nothing;
 }
 
 }  // namespace trapeze

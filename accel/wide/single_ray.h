@@ -19,5 +19,7 @@ struct SingleRayCounts {
 std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range,
                                SingleRayCounts* counts = nullptr);
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts = nullptr);
+/// WideTree::in_the_way().
+InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range);
 
 }  // namespace trapeze

@@ -107,6 +107,33 @@ TEST(SingleRay, EqualsItsScalarTwin) {
     }
 }
 
+/// Layers are what is hit where no opaque grid is, wherever along the ray.
+TEST(SingleRay, TellsWhatIsInTheWay) {
+    Noise noise;
+    GridMaker all, opaque;
+    for (const bool solid : {true, false, true}) {
+        all.opaque = solid;
+        Noise again = noise;
+        testing::add_sheets(all, 20, 2, noise);
+        if (solid) testing::add_sheets(opaque, 20, 2, again);
+    }
+    const WideTree tree(all.grids(), {});
+    int counts[3] = {0, 0, 0};
+    std::vector<Query> queries = queries_around(V3f(0), 5, 3000, noise);
+    std::vector<InTheWay> truth;
+    for (const auto& [ray, range] : queries) {
+        const bool blocked = testing::closest_naively(opaque.grids(), ray, range) != kNoHit;
+        const bool met = testing::closest_naively(all.grids(), ray, range) != kNoHit;
+        truth.push_back(blocked ? InTheWay::Opaque : met ? InTheWay::Layers : InTheWay::Nothing);
+        ++counts[static_cast<size_t>(truth.back())];
+    }
+    for (const int count : counts) EXPECT_GT(count, 100);
+    for_each_target([&] {
+        for (size_t n = 0; n < queries.size(); ++n)
+            ASSERT_EQ(tree.in_the_way(queries[n].ray, queries[n].range), truth[n]) << n;
+    });
+}
+
 TEST(SingleRay, HitsWhatIsFarFromTheOrigin) {
     for (const int keys : {1, 2}) {
         Noise noise;

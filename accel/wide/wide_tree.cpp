@@ -145,4 +145,8 @@ bool WideTree::any(const SpaceRay& ray, DepthRange range) const {
     return any_hit(*this, ray, range);
 }
 
+InTheWay WideTree::in_the_way(const SpaceRay& ray, DepthRange range) const {
+    return opaque_hit(*this, ray, range);
+}
+
 }  // namespace trapeze

@@ -89,6 +89,9 @@ struct WideNodeLargest {
 struct GridExtent;
 struct WideChildren;
 
+/// What a ray meets: only grids that are not opaque (layers), or one at least that is.
+enum class InTheWay : uint8_t { Nothing, Layers, Opaque };
+
 /// The tree. Answers bundles (accel/wide/bundle.h) and single rays in any direction; finds what testing
 /// everything finds, bit for bit.
 class WideTree final : public RayQuery {
@@ -102,6 +105,8 @@ class WideTree final : public RayQuery {
 
     std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const override;
     bool any(const SpaceRay& ray, DepthRange range) const override;
+    /// In one go what any() and, where grids are not all opaque, closest() would be asked for.
+    InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const;
 
     const Grids& grids() const { return grids_; }
     const RayReach& reach() const { return reach_; }

@@ -26,22 +26,19 @@ void for_each(size_t count, const RenderContext& context, const Do& act) {
 AllRayGrids make_all_grids(const RayDicer& dicer, size_t most_bytes) {
     const size_t count = dicer.tessellation().subpatches().size();
     AllRayGrids all;
-    all.grids.resize(count), all.extents.resize(count), all.opaque.resize(count);
+    all.grids.resize(count), all.extents.resize(count);
     tbb::enumerable_thread_specific<GridArena> arenas;
     std::atomic<size_t> bytes{0};
     std::atomic<bool> too_much{false};
     for_each(count, dicer.context(), [&](size_t i) {
         if (too_much.load(std::memory_order_relaxed)) {
             GridArena passing(1);
-            const Grid grid = dicer.make(i, passing);
-            all.opaque[i] = grid.opaque, all.extents[i] = known_of(i, grid);
+            all.extents[i] = known_of(i, dicer.make(i, passing));
             return;
         }
         all.grids[i] = dicer.make(i, arenas.local());
-        all.opaque[i] = all.grids[i].opaque;
         if (bytes.fetch_add(all.grids[i].bytes()) + all.grids[i].bytes() > most_bytes) too_much.store(true);
     });
-    if (dicer.context().is_cancelled()) return {};
     if (too_much) {
         for_each(count, dicer.context(), [&](size_t i) {
             if (all.grids[i].positions) all.extents[i] = known_of(i, all.grids[i]);

@@ -14,11 +14,10 @@ struct AllRayGrids {
     std::vector<Grid> grids;        ///< in the order of subpatches
     std::vector<GridArena> arenas;  ///< their memory
     std::vector<SubpatchExtent> extents;
-    std::vector<uint8_t> opaque;  ///< Grid::opaque
 };
 
 /// In parallel, alike for any number of threads. Grids are kept where all together take `most_bytes` at most.
-/// Nothing, when the render is cancelled.
+/// Only some of it, when the render is cancelled.
 AllRayGrids make_all_grids(const RayDicer& dicer, size_t most_bytes);
 
 }  // namespace trapeze

@@ -139,13 +139,15 @@ std::optional<RayGridHit> RayBricks::closest(const SpaceRay& ray, DepthRange ran
     return nearest;
 }
 
-bool RayBricks::any(const SpaceRay& ray, DepthRange range) const {
+InTheWay RayBricks::in_the_way(const SpaceRay& ray, DepthRange range) const {
     TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
-    AnyHit policy;
+    InTheWay most = InTheWay::Nothing;
     tree_->visit(trace_ray, [&](uint32_t number) {
-        if (!policy.found && brick(number)->tree->any(ray, range)) policy.consider({}, true, trace_ray);
+        if (most == InTheWay::Opaque) return;
+        most = std::max(most, brick(number)->tree->in_the_way(ray, range));
+        if (most == InTheWay::Opaque) trace_ray.t_max = -std::numeric_limits<float>::infinity();
     });
-    return policy.found;
+    return most;
 }
 
 size_t RayBricks::bytes() const {

@@ -29,7 +29,7 @@ class RayBricks final : public RayGrids {
     ~RayBricks() override;
 
     std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const override;
-    bool any(const SpaceRay& ray, DepthRange range) const override;
+    InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const override;
     size_t bytes() const override;
     /// Micropolygons made so far, those that were made again, too.
     uint64_t micropolygons_made() const { return made_.load(std::memory_order_relaxed); }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "accel/wide/wide_tree.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/rays.h"
@@ -25,7 +26,8 @@ class RayGrids {
     virtual ~RayGrids() = default;
     /// As RayQuery's.
     virtual std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const = 0;
-    virtual bool any(const SpaceRay& ray, DepthRange range) const = 0;
+    /// As WideTree's.
+    virtual InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const = 0;
     /// Memory that is held now.
     virtual size_t bytes() const = 0;
 };

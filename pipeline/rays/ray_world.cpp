@@ -44,15 +44,14 @@ RayWorld::~RayWorld() = default;
 void RayWorld::make_groups(size_t most_bytes) {
     const auto most_of_grids = static_cast<size_t>(kGridShare * static_cast<double>(most_bytes));
     AllRayGrids all = make_all_grids(dicer_, most_of_grids);
+    if (dicer_.context().is_cancelled()) return;
     arenas_ = std::move(all.arenas);
     std::array<Grids, kMasks> grids;
     std::array<std::vector<SubpatchExtent>, kMasks> extents;
     std::array<size_t, kMasks> bytes{};
-    for (size_t i = 0; i < all.opaque.size(); ++i) {
+    for (size_t i = 0; i < dicer_.tessellation().subpatches().size(); ++i) {
         const SubpatchInfo& info = dicer_.tessellation().subpatches()[i];
-        const Attributes& attributes = dicer_.attributes(info.primitive);
-        const unsigned mask = mask_of(attributes.rays);
-        groups_[mask].hides &= all.opaque[i] && attributes.sides == 2;
+        const unsigned mask = mask_of(dicer_.attributes(info.primitive).rays);
         micropolygons_ += info.shape.micropolygon_count();
         if (all.are_kept)
             grids[mask].grids.push_back(all.grids[i]);
@@ -156,9 +155,9 @@ std::optional<bool> RayWorld::blocked(const RaySegment& ray, RayKind kind) const
     for (uint32_t mask = 0; mask < kMasks; ++mask) {
         const Group& group = groups_[mask];
         if (!sees(kind, mask) || !group.grids) continue;
-        if (!group.grids->any({ray.origin, ray.direction, 0}, range)) continue;
-        if (group.hides) return true;
-        sure = false;
+        const InTheWay met = group.grids->in_the_way({ray.origin, ray.direction, 0}, range);
+        if (met == InTheWay::Opaque) return true;
+        sure &= met == InTheWay::Nothing;
     }
     return sure ? std::optional(false) : std::nullopt;
 }

@@ -42,7 +42,6 @@ class RayWorld final : public RayScene {
     struct Group {
         std::unique_ptr<RayGrids> grids;    ///< null: none
         const RayBricks* bricks = nullptr;  ///< `grids`, where they are made as rays come by
-        bool hides = true;                  ///< any hit is opaque, and seen from both sides
     };
     /// A bit for each RayKind.
     static constexpr unsigned kMasks = 8;

@@ -26,7 +26,9 @@ class WholeRayGrids final : public RayGrids {
         return RayGridHit{with_ordinal(*hit, grids_), &grids_.grids[MicropolygonId::unpack(hit->id).grid],
                           nullptr};
     }
-    bool any(const SpaceRay& ray, DepthRange range) const override { return tree_.any(ray, range); }
+    InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const override {
+        return tree_.in_the_way(ray, range);
+    }
     size_t bytes() const override { return grids_.bytes() + tree_.stats().tree_bytes; }
 
   private:
