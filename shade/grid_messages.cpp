@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "shade/materials/attribute_values.h"
+
 namespace trapeze {
 namespace {
 
@@ -68,15 +70,6 @@ bool set_parameter(const Parameter* parameter, rsl::Type type, const vm::Operand
     return set_value(parameter->floats, type, out);
 }
 
-/// The value that "category:name" asks for, in lists by category; without a category it is "user".
-const Parameter* find_user(const std::map<std::string, ParameterList>& lists, std::string_view name) {
-    const size_t colon = name.find(':');
-    const std::string category(colon == std::string_view::npos ? "user" : name.substr(0, colon));
-    const auto list = lists.find(category);
-    if (list == lists.end()) return nullptr;
-    return list->second.find(colon == std::string_view::npos ? name : name.substr(colon + 1));
-}
-
 bool set_text(std::string value, rsl::Type type, std::string* text) {
     if (type.base != Base::String || !text) return false;
     *text = std::move(value);
@@ -88,12 +81,10 @@ bool set_text(std::string value, rsl::Type type, std::string* text) {
 bool GridMessages::find_attribute(std::string_view name, rsl::Type type, const vm::Operand& out,
                                   std::string* text) const {
     if (!attributes) return false;
-    const Attributes& a = *attributes;
-    if (name == "ShadingRate") return set_value(std::array{a.shading_rate}, type, out);
-    if (name == "Sides") return set_value(std::array{static_cast<float>(a.sides)}, type, out);
-    if (name == "Matte") return set_value(std::array{static_cast<float>(a.matte)}, type, out);
-    if (name == "identifier:name") return set_text(a.name, type, text);
-    return set_parameter(find_user(a.user, name), type, out, text);
+    const std::optional<NamedValue> value = find_attribute_value(*attributes, name);
+    if (!value) return false;
+    if (value->text) return set_text(*value->text, type, text);
+    return type.base != Base::String && set_value(value->numbers, type, out);
 }
 
 bool GridMessages::find_option(std::string_view name, rsl::Type type, const vm::Operand& out,
@@ -115,7 +106,7 @@ bool GridMessages::find_option(std::string_view name, rsl::Type type, const vm::
     if (name == "Shutter") return set_value(std::array{o.shutter_open, o.shutter_close}, type, out);
     if (name == "Clipping") return set_value(std::array{o.near_clip, o.far_clip}, type, out);
     if (name == "Frame") return set_value(std::array{static_cast<float>(o.frame)}, type, out);
-    return set_parameter(find_user(o.user, name), type, out, text);
+    return set_parameter(find_user_value(o.user, name), type, out, text);
 }
 
 bool GridMessages::find(Op what, std::string_view name, rsl::Type type, const vm::Operand& out,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shade/answer_hits.h"
 #include "shade/grid_footprints.h"
 #include "shade/materials/grid_shader.h"
 #include "shade/take_aovs.h"
@@ -84,12 +85,12 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
 }
 
 /// Displaces the grids, but leaves in their places what rays see undisplaced: it has the normals alone.
-GridRun::LayerRegisters GridRun::displace_seen() {
+GridRun::Layers GridRun::displace_seen() {
     const bool stay = grids_.front()->hit_vertex >= 0 && !material_.attributes->rays.displaced;
     std::vector<Triples> places;
     for (const ShadingGrid* grid : grids_)
         if (stay) places.push_back(grid->P.front());
-    LayerRegisters layers = displace();
+    Layers layers = displace();
     for (size_t g = 0; g < places.size(); ++g) grids_[g]->P.front() = places[g];
     return layers;
 }
@@ -99,8 +100,8 @@ void GridRun::run_displacement() {
     if (material_.surface_moves) color(*material_.surface, false, messages_.surface);
 }
 
-void GridRun::run(const AovLayout& aovs) {
-    LayerRegisters displaced;
+void GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
+    Layers displaced;
     if (material_.displacement) displaced = displace_seen();
     // What the first layer does not name stays as the primitive has it; the rest is taken from the registers.
     const rsl::Program& first = material_.surface->layers.front()->program();
@@ -108,14 +109,16 @@ void GridRun::run(const AovLayout& aovs) {
         if (!first.find_global("Ci")) grid->Ci = grid->Cs;
         if (!first.find_global("Oi")) grid->Oi = grid->Os;
     }
-    const LayerRegisters surface = color(*material_.surface, false, messages_.surface);
-    if (material_.atmosphere) color(*material_.atmosphere, true, messages_.atmosphere);
+    const Layers surface = color(*material_.surface, false, messages_.surface);
+    Layers atmosphere;
+    if (material_.atmosphere) atmosphere = color(*material_.atmosphere, true, messages_.atmosphere);
+    if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
     if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
 }
 
 vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
                                   std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
-                                  bool shaded, LayerRegisters& layers) {
+                                  bool shaded, Layers& layers) {
     const BoundShader& bound = *shader.layers[layer];
     // Two layers may be the same shader: each has registers of its own, by its number.
     vm::Registers& registers = scratch_.machine.registers(bound.executable(), layer);
@@ -161,7 +164,7 @@ void GridRun::move_borders(const LayeredShader& shader) {
     for_each_run(std::move(borders), shader, [&](std::span<ShadingGrid* const> run) {
         const std::vector<const ShadingGrid*> read = to_read(run);
         const vm::Batch batch = batch_of(read, true);
-        LayerRegisters layers;
+        Layers layers;
         messages_.displacement = nullptr;
         for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
             const vm::Registers& registers = run_layer(shader, layer, read, batch, false, layers);
@@ -197,11 +200,11 @@ void GridRun::note_moves(const vm::Registers& registers) {
     }
 }
 
-GridRun::LayerRegisters GridRun::displace() {
+GridRun::Layers GridRun::displace() {
     const LayeredShader& shader = *material_.displacement;
     const std::vector<BorderWeld> welds = welds_of(grids_);
     move_borders(shader);
-    LayerRegisters layers;
+    Layers layers;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
         const vm::Registers& registers = run_layer(shader, layer, read_, batch_, false, layers);
         messages_.displacement = &registers;
@@ -213,12 +216,11 @@ GridRun::LayerRegisters GridRun::displace() {
 
 /// Runs a shader that sets colours. A surface shader that moves P displaces the surface behind it, as a
 /// displacement shader does; `announced` becomes the registers that messages are answered from.
-GridRun::LayerRegisters GridRun::color(const LayeredShader& shader, bool shaded,
-                                       const vm::Registers*& announced) {
+GridRun::Layers GridRun::color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced) {
     const bool moves = &shader == material_.surface && material_.surface_moves;
     const std::vector<BorderWeld> welds = moves ? welds_of(grids_) : std::vector<BorderWeld>();
     if (moves) move_borders(shader);
-    LayerRegisters layers;
+    Layers layers;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
         vm::Registers& registers = run_layer(shader, layer, read_, batch_, shaded || layer > 0, layers);
         announced = &registers;

@@ -35,23 +35,24 @@ class GridRun {
     GridRun(const RenderContext& context, Textures& textures, const Material& material,
             std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays = nullptr);
 
-    /// Displaces the grids at all keys, sets Ci and Oi, and fills the output variables `aovs`.
-    void run(const AovLayout& aovs);
+    /// Displaces the grids at all keys, sets Ci and Oi, fills the output variables `aovs`, and answers what
+    /// is asked of hits.
+    void run(const AovLayout& aovs, const HitOutputs* asked = nullptr);
     /// Displaces the grids alone.
     void run_displacement();
 
   private:
-    using LayerRegisters = std::vector<vm::Registers*>;
+    using Layers = std::vector<vm::Registers*>;
 
     /// Runs one layer on `grids`, whose lanes `batch` describes; `shaded`: Ci and Oi begin as the grids have
     /// them. Adds the layer's registers to `layers` and returns them.
     vm::Registers& run_layer(const LayeredShader& shader, size_t layer,
                              std::span<const ShadingGrid* const> grids, const vm::Batch& batch, bool shaded,
-                             LayerRegisters& layers);
+                             Layers& layers);
     // These return the registers of all layers of their shader.
-    LayerRegisters displace();
-    LayerRegisters displace_seen();
-    LayerRegisters color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
+    Layers displace();
+    Layers displace_seen();
+    Layers color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
     void move_borders(const LayeredShader& shader);
     void move_grids(const vm::Registers& registers);
     void note_moves(const vm::Registers& registers);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "shade/answer_hits.h"
 #include "shade/grid_run.h"
 #include "shade/rays/ray_programs.h"
 #include "shade/take_aovs.h"
@@ -38,8 +39,8 @@ struct Shading::Impl {
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
     }
 
-    void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats,
-               int depth) const;
+    void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats, int depth,
+               const HitVisit& visit) const;
 
     const RenderContext& context;
     mutable Textures textures;  ///< thread-safe
@@ -59,19 +60,21 @@ void Shading::shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats)
 }
 
 void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const {
-    impl_->shade(grids, scratch, stats, 0);
+    impl_->shade(grids, scratch, stats, 0, {});
 }
 
-/// `depth`: bounces of rays between the camera and the grids. What rays hit has no output variables.
+/// `depth`: bounces of rays between the camera and the grids, which are visited by the last of them. What
+/// rays hit has no output variables.
 void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats,
-                          int depth) const {
+                          int depth, const HitVisit& visit) const {
+    if (!visit.shades) return answer_hits(*visit.outputs, {}, {}, {}, grids);
     ShadeScratch::State& state = *scratch.state;
     RayService service;
     if (rays) {
         service.scene = rays;
-        service.shade = [&](std::span<ShadingGrid* const> hits) {
+        service.shade = [&](std::span<ShadingGrid* const> hits, const HitVisit& of_hits) {
             if (!state.deeper) state.deeper = std::make_unique<ShadeScratch>();
-            shade(hits, *state.deeper, stats, depth + 1);
+            shade(hits, *state.deeper, stats, depth + 1, of_hits);
         };
         service.depth = depth;
         service.seed = context.seed;
@@ -94,7 +97,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
             vertices += grid.vertex_count();
         }
         GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr)
-            .run(depth == 0 ? aovs : AovLayout());
+            .run(depth == 0 ? aovs : AovLayout(), visit.outputs);
         stats.shaded_vertices += vertices;
         first = next;
     }

@@ -86,6 +86,10 @@ struct ShadingGrid {
     /// none at all.
     std::vector<std::vector<float>> aovs;
 
+    /// Of what a ray has hit: what was asked of the vertex there, besides its colour
+    /// (shade/rays/hit_outputs.h).
+    std::vector<float> answers;
+
     size_t vertex_count() const { return static_cast<size_t>(shape.vertex_count()) * pieces; }
     /// The variable of a name, or null; P, N, s, t and the others above are not among them.
     const GridVariable* find(std::string_view name) const {

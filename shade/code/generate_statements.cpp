@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "shade/code/blocks.h"
 #include "shade/code/generator.h"
 
 namespace trapeze::rsl {
@@ -222,15 +225,16 @@ void Generator::light_block(const Statement& s) {
     if (op == Op::Illuminance) keep_inputs(opening);
 }
 
-/// A loop over lights asks for its inputs again in each turn: those that its body changes become copies.
+/// A loop over lights or rays asks for its inputs again in each turn: those that its turns change become
+/// copies.
 void Generator::keep_inputs(size_t opening) {
     std::vector<RegisterId> written;
-    for (size_t i = opening + 1; i < code_->size(); ++i)
-        for (size_t k = 0; k < (*code_)[i].outputs; ++k) written.push_back((*code_)[i].operands[k]);
+    collect_written(*code_, opening, code_->size(), written);
     std::sort(written.begin(), written.end());
     for (size_t k = 0; k < (*code_)[opening].input_count(); ++k) {
         const RegisterId input = (*code_)[opening].input(k);
         if (!std::binary_search(written.begin(), written.end(), input)) continue;
+        if (program_->reg(input).type.is_array()) continue;
         Instruction copy;
         copy.op = Op::Move;
         copy.outputs = 1;
@@ -245,18 +249,45 @@ void Generator::keep_inputs(size_t opening) {
     }
 }
 
-/// A loop over rays, whose second half is for those that hit nothing.
+/// A loop over rays, whose second half is for those that hit nothing. The opening sets the outputs in each
+/// turn; elements of arrays are set behind it, in either half.
 void Generator::gather_statement(const Statement& s) {
-    Ids inputs;
-    for (const ExpressionPtr& e : s.expressions) inputs.push_back(value(*e));
-    open(Op::Gather, {}, inputs);
-    statement(*s.children[0]);
+    constexpr size_t kPlain = 5;  // category, P, direction, angle, samples
+    Ids inputs, names, more, outputs;
+    std::vector<std::pair<const Expression*, RegisterId>> elements;
+    for (size_t i = 0; i < kPlain; ++i) inputs.push_back(value(*s.expressions[i]));
+    for (size_t i = kPlain; i + 1 < s.expressions.size(); i += 2) {
+        const Expression &name = *s.expressions[i], &argument = *s.expressions[i + 1];
+        if (!is_gather_output(name)) {
+            more.push_back(value(name));
+            more.push_back(value(argument));
+        } else if (argument.type.is_array() || argument.type.base == Base::String) {
+            diagnostics_.warning(argument.at,
+                                 fmt::format("gather() does not bring back {}: \"{}\" stays as it is",
+                                             argument.type.is_array() ? "arrays" : "texts", name.text),
+                                 "rsl-gather-type " + name.text);
+        } else {
+            names.push_back(value(name));
+            outputs.push_back(output_place(argument, argument.type.base));
+            elements.push_back({&argument, outputs.back()});
+        }
+    }
+    inputs.insert(inputs.end(), names.begin(), names.end());
+    inputs.insert(inputs.end(), more.begin(), more.end());
+    const auto half = [&](size_t child) {
+        for (const auto& [argument, place] : elements) write_back(*argument, place);
+        if (child < s.children.size()) statement(*s.children[child]);
+    };
+    const size_t opening = code_->size();
+    open(Op::Gather, outputs, inputs);
+    half(0);
     // As in turn_to_else(): the second half is a region of its own.
     region_ = open_regions_.back();
     emit(Op::GatherElse, {}, {});
     region_ = ++last_region_;
-    if (s.children.size() > 1) statement(*s.children[1]);
+    half(1);
     close(Op::EndGather);
+    keep_inputs(opening);
 }
 
 /// The value goes to the caller's register; at the end of a body nothing has to be left.

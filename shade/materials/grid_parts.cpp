@@ -13,7 +13,7 @@ using rsl::Op;
 /// Whether the code makes of a vertex what follows from that vertex alone.
 bool keeps_to_its_vertex(const rsl::Code& code) {
     return std::ranges::none_of(code, [](const rsl::Instruction& i) {
-        return rsl::reads_neighbours(i.op) || i.op == Op::Random || i.op == Op::Print ||
+        return rsl::reads_neighbours(i.op) || i.op == Op::Random || i.op == Op::Print || i.op == Op::Gather ||
                rsl::row_of(i.op).context == rsl::ContextFamily::Rays;
     });
 }

@@ -116,6 +116,11 @@ constexpr bool is_varying_by_itself(Op op) {
 constexpr bool asks_surroundings(Op op) {
     return op_traits::has(op, op_traits::kAsks);
 }
+/// Whether the operation may send rays into the scene.
+constexpr bool sends_rays(Op op) {
+    return op == Op::Gather ||
+           (row_of(op).context == ContextFamily::Rays && op != Op::RayInfo && op != Op::RayLevel);
+}
 /// Whether the operation may go when nobody reads its outputs.
 constexpr bool is_pure(Op op) {
     return !op_traits::has(op, op_traits::kControl | op_traits::kEffect);

@@ -26,6 +26,8 @@ bool is_text(const vm::Registers& registers, const vm::Step& step, size_t operan
 /// How many arguments stand before the names and values that may follow.
 size_t plain_arguments(const vm::Registers& registers, const vm::Step& step) {
     const bool map_first = is_text(registers, step, step.outputs);
+    if (step.op == Op::Gather)
+        return 5 + step.outputs;  // category, P, direction, angle, samples, outputs' names
     if (step.op == Op::Shadow) return 2 + static_cast<size_t>(step.immediate);  // a map, a channel, P
     if (step.op == Op::Occlusion) return map_first ? 4 : 3;        // a map that is not used, P, N, samples
     if (step.op == Op::IndirectDiffuse) return map_first ? 2 : 3;  // a map and a direction; P, N, samples
@@ -47,19 +49,34 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
         from_light_ = light.L, lanes_ = run.lanes();
         distant_light = light.distant;
     }
-    if (!of_light && first + 2 < end) samples_.operand = &operands[first + 2];
+    if (step.op == Op::Gather) {
+        cone_angle_.operand = &operands[first + 2], samples_.operand = &operands[first + 3];
+        uniform_distribution = true, least_samples_ = 0;
+    } else if (!of_light && first + 2 < end) {
+        samples_.operand = &operands[first + 2];
+    }
     const std::pair<std::string_view, LaneValue*> known[] = {
         {"samples", &samples_},        {"bias", &bias},       {"maxdist", &max_distance_},
         {"coneangle", &cone_angle_},   {"falloff", &falloff}, {"samplecone", &sample_cone_},
         {"falloffmode", &falloff_mode}};
+    V3f threshold;
     for (size_t i = end; i + 1 < step.count; i += 2) {
         const std::string& name = registers.text(registers.register_of(step, i));
         const bool text = is_text(registers, step, i + 1);
-        if (text && name == "distribution")
-            uniform_distribution = registers.text(registers.register_of(step, i + 1)) == "uniform";
+        if (text) take_text(name, registers.text(registers.register_of(step, i + 1)));
+        if (!text && name == "othreshold") {
+            const vm::Operand& given = operands[i + 1];
+            for (int k = 0; k < 3; ++k) threshold[k] = vm::Run::at(given, given.stride ? k : 0, 0);
+            opaque = threshold;
+        }
         for (const auto& [known_name, value] : known)
             if (!text && name == known_name) value->operand = &operands[i + 1];
     }
+}
+
+void RayArguments::take_text(std::string_view name, std::string_view text) {
+    if (name == "distribution") uniform_distribution = text == "uniform";
+    if (name == "label") label = text;
 }
 
 V3f RayArguments::from_at(size_t lane) const {
@@ -73,7 +90,7 @@ V3f RayArguments::towards_at(size_t lane) const {
 
 int RayArguments::samples_at(size_t lane) const {
     const float count = samples_.at(lane);
-    return count > 1 ? static_cast<int>(std::min(count, kMostSamples)) : 1;  // also NaN
+    return count >= 1 ? static_cast<int>(std::min(count, kMostSamples)) : least_samples_;  // also NaN
 }
 
 float RayArguments::sample_cone_at(size_t lane) const {

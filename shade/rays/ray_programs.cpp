@@ -11,9 +11,7 @@ using rsl::Op;
 
 bool calls(const rsl::Code& code, bool maps_are_traced) {
     return std::ranges::any_of(code, [&](const rsl::Instruction& i) {
-        const bool asks = rsl::row_of(i.op).context == rsl::ContextFamily::Rays && i.op != Op::RayInfo &&
-                          i.op != Op::RayLevel;
-        return asks || (i.op == Op::Shadow && maps_are_traced);
+        return rsl::sends_rays(i.op) || (i.op == Op::Shadow && maps_are_traced);
     });
 }
 

@@ -39,88 +39,123 @@ void move_to_hit(const RaySegment& ray, const RaySurfaceHit& hit, int vertex, Sh
 
 }  // namespace
 
-void RayWalk::radiance(std::span<WalkedRay> rays, RayKind kind) {
+void RayWalk::radiance(std::span<WalkedRay> rays, const RayAsk& ask) {
     std::vector<WalkedRay*> together;
     for (size_t i = 0; i < rays.size(); i += kTogether) {
         together.clear();
         for (WalkedRay& ray : rays.subspan(i, std::min(kTogether, rays.size() - i))) together.push_back(&ray);
-        walk(together, kind, Wants::Color);
+        walk(together, ask, Wants::Color);
     }
-    count_of(kind, stats_) += rays.size();
+    count_of(ask.kind, stats_) += rays.size();
 }
 
-void RayWalk::transmission(std::span<WalkedRay> rays, RayKind kind, bool with_distance) {
+void RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance) {
     std::vector<WalkedRay*> open;  // it is not known at once whether they are blocked
+    const bool walks = with_distance || ask.hit_mode;
     for (WalkedRay& ray : rays) {
-        const std::optional<bool> blocked = with_distance ? std::nullopt : scene_.blocked(ray.segment, kind);
+        const std::optional<bool> blocked = walks ? std::nullopt : scene_.blocked(ray.segment, ask.kind);
         if (!blocked) open.push_back(&ray);
         if (blocked.value_or(false)) ray.through = V3f(0, 0, 0);
     }
-    count_of(kind, stats_) += rays.size();
+    count_of(ask.kind, stats_) += rays.size();
     const std::span<WalkedRay*> all(open);
     for (size_t i = 0; i < all.size(); i += kTogether)
-        walk(all.subspan(i, std::min(kTogether, all.size() - i)), kind, Wants::Opacity);
+        walk(all.subspan(i, std::min(kTogether, all.size() - i)), ask, Wants::Opacity);
 }
 
-void RayWalk::distance(std::span<WalkedRay> rays, RayKind kind) {
+void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
     for (WalkedRay& ray : rays)
-        if (const std::optional<RaySurfaceHit> hit = scene_.closest(ray.segment, kind))
+        if (const std::optional<RaySurfaceHit> hit = scene_.closest(ray.segment, ask.kind))
             ray.distance = hit->distance;
-    count_of(kind, stats_) += rays.size();
+    count_of(ask.kind, stats_) += rays.size();
 }
 
 /// All go on together, a surface farther each time.
-void RayWalk::walk(std::span<WalkedRay* const> rays, RayKind kind, Wants wants) {
+void RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants) {
     std::vector<WalkedRay*> going(rays.begin(), rays.end());
-    for (int layer = 0; layer < kMostLayers && !going.empty(); ++layer) {
+    const int layers = ask.first_alone ? 1 : kMostLayers;
+    for (int layer = 0; layer < layers && !going.empty(); ++layer) {
         met_.clear();
         for (WalkedRay* ray : going)
-            if (const std::optional<RaySurfaceHit> hit = scene_.closest(ray->segment, kind)) {
+            if (const std::optional<RaySurfaceHit> hit = scene_.closest(ray->segment, ask.kind)) {
                 ray->distance = std::min(ray->distance, hit->distance);
                 met_.push_back({ray, *hit});
             }
-        shade_hits(wants);
+        visit_hits(ask, wants, layer == 0);
         going.clear();
-        for (const Met& met : met_) {
-            WalkedRay& ray = *met.ray;
-            const bool own = met.vertex < 0;
-            const V3f opacity = own ? met.hit.opacity : met.grid->Oi.at(static_cast<size_t>(met.vertex));
-            const V3f color =
-                own ? met.hit.color * opacity : met.grid->Ci.at(static_cast<size_t>(met.vertex));
-            ray.seen += ray.through * color;
-            for (int k = 0; k < 3; ++k) ray.through[k] *= 1 - std::clamp(opacity[k], 0.0f, 1.0f);
-            if (!(largest(ray.through) > kNothing)) {
-                ray.through = V3f(0, 0, 0);
-                continue;
-            }
-            const V3f P = ray.segment.origin + ray.segment.direction * met.hit.distance;
-            ray.segment.min = behind(met.hit, scene_.spacing(P));
-            going.push_back(&ray);
-        }
+        for (const Met& met : met_)
+            if (pass(met, ask)) going.push_back(met.ray);
     }
 }
 
-/// Hits of one primitive are shaded side by side; in which order changes nothing but the time.
-void RayWalk::shade_hits(Wants wants) {
-    if (!shade_) return;
-    std::vector<ShadingGrid*> grids;
-    for (Met& met : met_) {
-        if (wants == Wants::Opacity && met.hit.keeps_opacity) continue;
-        if (scratch_.grids.size() <= grids.size()) scratch_.grids.emplace_back();
-        met.grid = &scratch_.grids[grids.size()];
-        met.vertex = scene_.dice(met.hit, *met.grid);
-        move_to_hit(met.ray->segment, met.hit, met.vertex, *met.grid);
-        const size_t vertices = met.grid->vertex_count();
-        met.grid->I.resize(vertices);
-        for (size_t i = 0; i < vertices; ++i)
-            met.grid->I.set(i, met.grid->P.front().at(i) - met.ray->segment.origin);
-        met.grid->hit_vertex = met.vertex;
-        met.grid->ordinal = met.ray->seed;
-        grids.push_back(met.grid);
+/// Adds a surface to what its ray has seen; whether the ray goes on behind it.
+bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
+    WalkedRay& ray = *met.ray;
+    const bool own = met.vertex < 0;
+    const V3f opacity = own ? met.hit.opacity : met.grid->Oi.at(static_cast<size_t>(met.vertex));
+    const V3f color = own ? met.hit.color * opacity : met.grid->Ci.at(static_cast<size_t>(met.vertex));
+    ray.seen += ray.through * color;
+    for (int k = 0; k < 3; ++k) ray.through[k] *= 1 - std::clamp(opacity[k], 0.0f, 1.0f);
+    if (!(largest(ray.through) > kNothing)) {
+        ray.through = V3f(0, 0, 0);
+        return false;
     }
-    stats_.shaded_hits += grids.size();
-    std::ranges::stable_sort(grids, {}, &ShadingGrid::primitive_index);
-    if (!grids.empty()) shade_(grids);
+    if (ask.opaque) {
+        bool ends = true;
+        for (int k = 0; k < 3; ++k) ends &= 1 - ray.through[k] >= (*ask.opaque)[k];
+        if (ends) return false;
+    }
+    const V3f P = ray.segment.origin + ray.segment.direction * met.hit.distance;
+    ray.segment.min = behind(met.hit, scene_.spacing(P));
+    return true;
+}
+
+/// Whether a hit's shaders have to run.
+bool RayWalk::shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const {
+    if (!ask.shades) return false;
+    if (wants == Wants::Opacity && hit.keeps_opacity && !ask.hit_mode) return false;
+    return ask.hit_mode.value_or(RayAsk::HitMode::Shader) == RayAsk::HitMode::Shader;
+}
+
+/// The grid of a hit, of which its ray sees the vertex that was hit.
+ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
+    if (scratch_.grids.size() <= number) scratch_.grids.emplace_back();
+    ShadingGrid& grid = scratch_.grids[number];
+    const int vertex = scene_.dice(met.hit, grid);
+    move_to_hit(met.ray->segment, met.hit, vertex, grid);
+    const size_t vertices = grid.vertex_count();
+    grid.I.resize(vertices);
+    for (size_t i = 0; i < vertices; ++i) grid.I.set(i, grid.P.front().at(i) - met.ray->segment.origin);
+    grid.hit_vertex = vertex;
+    grid.ordinal = met.ray->seed;
+    grid.answers.clear();
+    met.grid = &grid;
+    return grid;
+}
+
+/// Shades hits, and asks the first ones. Hits of one primitive are shaded side by side; in which order
+/// changes nothing but the time.
+void RayWalk::visit_hits(const RayAsk& ask, Wants wants, bool first) {
+    HitVisit visit;
+    visit.kind = ask.kind, visit.label = ask.label;
+    visit.outputs = first ? ask.outputs : nullptr;
+    const bool asks = visit.outputs && !visit.outputs->empty();
+    std::vector<ShadingGrid*> shaded, asked;
+    for (Met& met : met_) {
+        const bool shades = this->shades(met.hit, ask, wants);
+        if (!shades && !asks) continue;
+        ShadingGrid& grid = grid_of(met, shaded.size() + asked.size());
+        if (shades) met.vertex = grid.hit_vertex;
+        (shades ? shaded : asked).push_back(&grid);
+    }
+    stats_.shaded_hits += shaded.size();
+    for (std::vector<ShadingGrid*>* grids : {&shaded, &asked}) {
+        visit.shades = grids == &shaded;
+        std::ranges::stable_sort(*grids, {}, &ShadingGrid::primitive_index);
+        if (!grids->empty()) shade_(*grids, visit);
+    }
+    for (const Met& met : met_)
+        if (asks && met.ray->answers && met.grid) std::ranges::copy(met.grid->answers, met.ray->answers);
 }
 
 }  // namespace trapeze

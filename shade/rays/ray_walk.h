@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/ray_scene.h"
 #include "core/scene/scene.h"
 #include "core/stats.h"
+#include "shade/rays/hit_outputs.h"
 
 namespace trapeze {
 
@@ -21,10 +24,36 @@ struct WalkedRay {
     V3f seen{0, 0, 0};           ///< colour, as radiance() leaves it
     V3f through{1, 1, 1};        ///< the part of the light from behind that arrives
     float distance = kInfinity;  ///< of the first hit
+    float* answers = nullptr;    ///< where the first hit's answers to RayAsk::outputs go
+
+    bool hits() const { return distance < kInfinity; }
 };
 
-/// Shades grids of hits, one micropolygon each: sets Ci and Oi.
-using ShadeHits = std::function<void(std::span<ShadingGrid* const>)>;
+/// How hits are visited: by rays of what kind, under which label, and what is asked.
+struct HitVisit {
+    RayKind kind = RayKind::Specular;
+    std::string_view label;
+    bool shades = true;  ///< else only the answers are wanted
+    const HitOutputs* outputs = nullptr;
+};
+
+/// Shades grids of hits, one micropolygon each: sets Ci and Oi, and answers what is asked.
+using ShadeHits = std::function<void(std::span<ShadingGrid* const>, const HitVisit&)>;
+
+/// What all rays of a call have in common.
+struct RayAsk {
+    using HitMode = RayAttributes::HitMode;
+
+    RayKind kind = RayKind::Specular;
+    std::string_view label;
+    /// What hits stand for; without it their attributes say so.
+    std::optional<HitMode> hit_mode;
+    bool shades = true;  ///< else all hits stand for their primitives' own colour and opacity
+    /// Opacity of each component that ends a ray; without it next to nothing must be left of the light.
+    std::optional<V3f> opaque;
+    bool first_alone = false;  ///< rays end at the first surface
+    const HitOutputs* outputs = nullptr;
+};
 
 /// A thread's memory: grids of hits.
 struct RayWalkScratch {
@@ -34,22 +63,19 @@ struct RayWalkScratch {
 /// Sends rays through a scene. All it refers to must outlive it.
 class RayWalk {
   public:
-    /// Without `shade` hits stand for their primitives' own colour and opacity.
-    RayWalk(const RayScene& scene, ShadeHits shade, RayWalkScratch& scratch, RayStats& stats)
-        : scene_(scene), shade_(std::move(shade)), scratch_(scratch), stats_(stats) {}
+    RayWalk(const RayScene& scene, const ShadeHits& shade, RayWalkScratch& scratch, RayStats& stats)
+        : scene_(scene), shade_(shade), scratch_(scratch), stats_(stats) {}
 
-    /// Sets what rays of a kind see, from front to back until nothing shines through, `through` and
-    /// `distance`.
-    void radiance(std::span<WalkedRay> rays, RayKind kind);
+    /// Sets what rays see, from front to back until nothing shines through, `through` and `distance`; answers
+    /// what is asked of first hits.
+    void radiance(std::span<WalkedRay> rays, const RayAsk& ask);
     /// Sets `through`; and `distance`, if that is wanted, too.
-    void transmission(std::span<WalkedRay> rays, RayKind kind, bool with_distance);
+    void transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance);
     /// Sets `distance` alone: no surface is too transparent to be found.
-    void distance(std::span<WalkedRay> rays, RayKind kind);
+    void distance(std::span<WalkedRay> rays, const RayAsk& ask);
 
   private:
     enum class Wants : uint8_t { Color, Opacity };
-    void walk(std::span<WalkedRay* const> rays, RayKind kind, Wants wants);
-    void shade_hits(Wants wants);
 
     /// A ray that has met something and may go on behind it.
     struct Met {
@@ -59,8 +85,14 @@ class RayWalk {
         ShadingGrid* grid = nullptr;
     };
 
+    void walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants);
+    bool pass(const Met& met, const RayAsk& ask) const;
+    bool shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const;
+    void visit_hits(const RayAsk& ask, Wants wants, bool first);
+    ShadingGrid& grid_of(Met& met, size_t number);
+
     const RayScene& scene_;
-    const ShadeHits shade_;
+    const ShadeHits& shade_;
     RayWalkScratch& scratch_;
     RayStats& stats_;
     std::vector<Met> met_;

@@ -2,7 +2,9 @@
 /// differ; outputs are whole planes, of which lanes that do not run are not read.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -66,6 +68,18 @@ class Lights {
     virtual bool in_category(size_t light, std::string_view wanted) = 0;
 };
 
+/// The rays of a gather block, of which each lane has one in each turn.
+class GatherTurns {
+  public:
+    virtual ~GatherTurns() = default;
+    /// Takes the next turn of the lanes whose bits are set in `live`, which only ever lose some, and sets the
+    /// outputs in these. False when no lane has a ray left.
+    virtual bool next(Run& run, const uint32_t* live) = 0;
+    /// Masks of the lanes whose ray of this turn hits something, and of those where it does not.
+    virtual const float* hits() const = 0;
+    virtual const float* misses() const = 0;
+};
+
 /// Rays through the scene.
 class Rays {
   public:
@@ -73,6 +87,9 @@ class Rays {
     /// One of Op::Trace, Transmission, Visibility, Occlusion or IndirectDiffuse; or Shadow, of the light
     /// whose shader calls it.
     virtual void trace(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+    /// The rays of Op::Gather. The operands stay as they are until the block is left.
+    virtual std::unique_ptr<GatherTurns> gather(Run& run, const Step& step,
+                                                std::span<const Operand> operands) = 0;
     /// Bounces from the camera to the points that are shaded: 0 for what it sees itself.
     virtual int depth() const = 0;
 };

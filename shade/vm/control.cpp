@@ -76,9 +76,9 @@ size_t Run::control(const std::vector<Step>& steps, size_t at) {
             masks_.leave_block();
             return at + 1;
         case Op::Gather:
-            return enter_gather(steps, at);
+        case Op::GatherElse:
         case Op::EndGather:
-            return next_gather(steps, at);
+            return gather_step(steps, at);
         default:
             return at + 1;
     }
@@ -233,30 +233,6 @@ size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
     next_lights_.pop_back();
     masks_.leave_block();
     return step.target + 1;
-}
-
-/// Until rays can be asked for, each of the samples misses: the second half runs as often.
-size_t Run::enter_gather(const std::vector<Step>& steps, size_t at_step) {
-    constexpr float kMostSamples = 65536;
-    const Step& step = steps[at_step];
-    warn(step, "gather() sees nothing yet: its rays count as misses", "rsl-no-rays gather");
-    const float samples = at(registers_.input(step, 4), 0, 0);
-    const size_t otherwise = step.target;
-    if (!(samples >= 1)) return steps[otherwise].target + 1;
-    masks_.enter_loop();
-    gather_turns_.push_back(static_cast<int>(std::min(samples, kMostSamples)));
-    return otherwise + 1;
-}
-
-size_t Run::next_gather(const std::vector<Step>& steps, size_t at_step) {
-    const Step& opening = steps[steps[at_step].target];
-    masks_.next_turn();
-    if (--gather_turns_.back() > 0 && !masks_.loop_is_over() &&
-        !steps_are_spent(opening, at_step - opening.target))
-        return opening.target + 1;
-    gather_turns_.pop_back();
-    masks_.leave_block();
-    return at_step + 1;
 }
 
 const float* Run::P_data() const {

@@ -100,16 +100,16 @@ class Run {
     size_t if_step(const Step& step, size_t at);
     size_t loop_step(const std::vector<Step>& steps, size_t at);
     size_t jump_step(const Step& step);
-    /// Loops over lights and rays: the numbers of the next light and of the turns left are on stacks, for
-    /// these loops nest.
+    /// Loops over lights and rays: the numbers of the next light and the rays are on stacks, for these loops
+    /// nest.
     bool enter_lights();
     const float* P_data() const;
     /// Bounds of LoopLimits, which end what a mistake in a shader would never end.
     bool steps_are_spent(const Step& opening, size_t steps);
     bool turns_are_spent(const Step& opening);
     size_t next_light(const std::vector<Step>& steps, size_t opening);
-    size_t enter_gather(const std::vector<Step>& steps, size_t at);
-    size_t next_gather(const std::vector<Step>& steps, size_t at);
+    size_t gather_step(const std::vector<Step>& steps, size_t at);
+    size_t next_rays(const std::vector<Step>& steps, size_t opening);
     size_t enter_illuminate(const Step& step, size_t at);
     void leave_light(const Step& step, const Operand& L);
 
@@ -118,8 +118,8 @@ class Run {
     const Context& context_;
     Machine::Level& level_;
     MaskStack& masks_;
-    std::vector<size_t> next_lights_;  ///< of the Illuminance blocks that are being run
-    std::vector<int> gather_turns_;    ///< that Gather blocks which are being run still have to take
+    std::vector<size_t> next_lights_;                    ///< of the Illuminance blocks that are being run
+    std::vector<std::unique_ptr<GatherTurns>> gathers_;  ///< of the Gather blocks that are being run
     std::unordered_map<const Step*, int> turns_;
     static constexpr int kMostPrinted = 100'000;
     int64_t loop_steps_ = 0;

@@ -75,7 +75,7 @@ constexpr Capability kCapabilities[] = {
     {"Ray Tracing", "supported with limits",
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
      "shutter open. Hits are shaded with their own derivatives. The geometry is diced as finely as a pixel is "
-     "at its distance from the eye, and must fit into memory. gather() sees nothing. Solids are whole for rays."},
+     "at its distance from the eye, and must fit into memory. Solids are whole for rays."},
     {"Global Illumination", "supported with limits",
      "occlusion() and indirectdiffuse() send rays; no point clouds, no photon maps."},
     {"Area Lights", "not supported",

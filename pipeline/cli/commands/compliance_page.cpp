@@ -165,10 +165,7 @@ std::string compliance_page(const std::vector<std::string>& paths) {
         "their functions; a file of the same name beside a scene or on the shaders' search path comes first.\n\n";
     text += headers();
     text +=
-        "\n## Built-in functions of the shading language\n\nAll statements are supported; the rays of gather "
-        "hit "
-        "nothing, with one warning.\n\n" +
-        functions();
+        "\n## Built-in functions of the shading language\n\nAll statements are supported.\n\n" + functions();
     return text;
 }
 

@@ -213,10 +213,7 @@ void Analyser::gather(Statement& s) {
         value(s.expressions[i], i < 5 ? kWanted[i] : is_name ? Base::String : Base::Void);
         if (i < 5 || is_name) continue;
         const Expression& name = *s.expressions[i - 1];
-        // "send:..." goes to the shaders that rays hit; all other names with a colon bring something back.
-        const bool output = name.kind == Expression::Kind::Text && name.text.find(':') != std::string::npos &&
-                            !name.text.starts_with("send:");
-        if (!output) continue;
+        if (!is_gather_output(name)) continue;
         if (is_place(*s.expressions[i]))
             check_written(*s.expressions[i]);
         else

@@ -141,8 +141,7 @@ class Propagation {
     /// What rays bring back differs from vertex to vertex: the values of "surface:Ci" and its like.
     void gather_outputs(const Statement& s, int apart) {
         for (size_t i = 6; i < s.expressions.size(); i += 2)
-            if (s.expressions[i - 1]->text.find(':') != std::string::npos)
-                assign(*s.expressions[i], true, apart, false);
+            if (is_gather_output(*s.expressions[i - 1])) assign(*s.expressions[i], true, apart, false);
     }
 
     /// A variable is at home where it is declared: only assignments in places that are further apart make it

@@ -137,6 +137,13 @@ struct Statement {
     SourceLocation at;
 };
 
+/// Whether gather() sets the variable that follows a name: "surface:Ci" and its like bring something back.
+/// "send:..." goes to the shaders that rays hit.
+inline bool is_gather_output(const Expression& name) {
+    return name.kind == Expression::Kind::Text && name.text.find(':') != std::string::npos &&
+           !name.text.starts_with("send:");
+}
+
 /// A function of the source's own. Its parameters are references to the caller's variables (RISpec 3.2,
 /// section 16.1).
 struct Function {

@@ -1,0 +1,207 @@
+#include "shade/rays/gather_call.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "shade/rays/ray_directions.h"
+
+namespace trapeze {
+namespace {
+
+using vm::Operand;
+using vm::Run;
+using vm::Step;
+
+/// Rays that are in memory at once, about.
+constexpr size_t kRaysAtOnce = 4096;
+
+/// The category that asks for directions alone.
+constexpr std::string_view kSamplePattern = "samplepattern";
+
+std::optional<HitOutput> hit_output(std::string_view name, int width) {
+    using Of = HitOutput::Of;
+    static constexpr std::pair<std::string_view, Of> kPrefixes[] = {
+        {"surface:", Of::Surface},   {"displacement:", Of::Displacement}, {"volume:", Of::Volume},
+        {"atmosphere:", Of::Volume}, {"primitive:", Of::Primitive},       {"attribute:", Of::Attribute}};
+    for (const auto& [prefix, of] : kPrefixes)
+        if (name.starts_with(prefix)) return HitOutput{of, std::string(name.substr(prefix.size())), width};
+    return {};
+}
+
+/// A lane of a Bool.
+float lane_of(bool set) {
+    const uint32_t bits = set ? ~0u : 0u;
+    float lane;
+    std::memcpy(&lane, &bits, sizeof lane);
+    return lane;
+}
+
+bool is_finite(const V3f& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Sets the lanes that a lane speaks for.
+void put(const Operand& out, const RayLane& lane, int component, float value) {
+    float* const plane = out.data + static_cast<size_t>(component) * out.stride;
+    if (out.lane_mask)
+        std::fill_n(plane + lane.first, lane.count, value);
+    else
+        std::fill_n(plane, kLanes, value);
+}
+
+void put(const Operand& out, const RayLane& lane, int width, const V3f& value) {
+    for (int k = 0; k < std::min(width, 3); ++k) put(out, lane, k, value[k]);
+}
+
+}  // namespace
+
+GatherCall::GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, Run& run, const Step& step,
+                       std::span<const Operand> operands)
+    : asker_(asker),
+      lanes_(std::move(lanes)),
+      arguments_(run, step, operands),
+      label_(arguments_.label),
+      hits_(run.lanes()),
+      misses_(run.lanes()) {
+    constexpr size_t kPlain = 5;
+    const vm::Registers& registers = run.registers();
+    traces_ = registers.text_input(step, 0) != kSamplePattern;
+    for (size_t k = 0; k < step.outputs; ++k)
+        add_output(registers.text_input(step, kPlain + k),
+                   rsl::width_of(registers.reg(registers.register_of(step, k)).type.base), operands[k], run,
+                   step);
+    kind_ = arguments_.uniform_distribution ? RayKind::Specular : RayKind::Diffuse;
+    for (const RayLane& lane : lanes_) most_ = std::max(most_, arguments_.samples_at(lane.lane));
+    first_rays_.resize(lanes_.size(), kNone);
+}
+
+void GatherCall::add_output(std::string_view name, int width, const Operand& operand, Run& run,
+                            const Step& step) {
+    static constexpr std::pair<std::string_view, From> kOfRays[] = {{"surface:Ci", From::Color},
+                                                                    {"surface:Oi", From::Opacity},
+                                                                    {"ray:origin", From::Origin},
+                                                                    {"ray:direction", From::Direction},
+                                                                    {"ray:length", From::Length}};
+    for (const auto& [known, from] : kOfRays)
+        if (known == name && width == (from == From::Length ? 1 : 3))
+            return outputs_.push_back({from, width, operand});
+    std::optional<HitOutput> wanted = hit_output(name, width);
+    if (!wanted || (width != 1 && width != 3))
+        return run.warn(step, fmt::format("gather() knows no \"{}\" of this type: it stays as it is", name),
+                        fmt::format("rsl-gather-output {}", name));
+    wanted->at = asked_.size;
+    asked_.size += 1 + static_cast<size_t>(width);
+    outputs_.push_back({From::Answer, width, operand, asked_.all.size()});
+    asked_.all.push_back(std::move(*wanted));
+}
+
+bool GatherCall::next(Run&, const uint32_t* live) {
+    if (turn_ >= most_) return false;
+    if (turn_ >= sent_) send(live);
+    std::fill(hits_.begin(), hits_.end(), lane_of(false));
+    std::fill(misses_.begin(), misses_.end(), lane_of(false));
+    for (size_t i = 0; i < lanes_.size(); ++i) {
+        const RayLane& lane = lanes_[i];
+        if (first_rays_[i] == kNone || !live[lane.lane] || turn_ >= arguments_.samples_at(lane.lane))
+            continue;
+        const WalkedRay& ray = rays_[first_rays_[i] + static_cast<size_t>(turn_ - first_sent_)];
+        std::vector<float>& mask = ray.hits() ? hits_ : misses_;
+        std::fill_n(mask.begin() + static_cast<std::ptrdiff_t>(lane.first), lane.count, lane_of(true));
+        tell(lane, ray);
+    }
+    ++turn_;
+    return true;
+}
+
+/// Traces as many turns of all live lanes as fit.
+void GatherCall::send(const uint32_t* live) {
+    size_t count = 0;
+    for (const RayLane& lane : lanes_) count += live[lane.lane] ? 1 : 0;
+    const int turns = static_cast<int>(std::max<size_t>(kRaysAtOnce / std::max<size_t>(count, 1), 1));
+    first_sent_ = turn_, sent_ = std::min(turn_ + turns, most_);
+    rays_.clear();
+    for (size_t i = 0; i < lanes_.size(); ++i) {
+        const int end = std::min(sent_, arguments_.samples_at(lanes_[i].lane));
+        first_rays_[i] = kNone;
+        if (!live[lanes_[i].lane] || end <= first_sent_) continue;
+        first_rays_[i] = rays_.size();
+        add_rays(lanes_[i], first_sent_, end - first_sent_);
+    }
+    if (traces_) follow();
+}
+
+/// A lane's rays of some turns. Those that lead nowhere are empty: they miss.
+void GatherCall::add_rays(const RayLane& asking, int first, int count) {
+    const size_t lane = asking.lane;
+    const V3f P = arguments_.from_at(lane), way = arguments_.towards_at(lane);
+    const float largest = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+    const bool leads = is_finite(P) && is_finite(way) && largest > 0;
+    const V3f axis = leads ? (way / largest).normalized() : V3f(0, 0, 1);
+    const float angle = arguments_.cone_angle_at(lane);
+    const Cone cone(axis, angle);
+    const RaySequence sequence(asking.seed, arguments_.samples_at(lane));
+    WalkedRay ray;
+    ray.segment.origin = P;
+    ray.segment.min = leads ? asker_.bias_at(P, arguments_.bias.at(lane)) : kInfinity;
+    ray.segment.max = leads ? arguments_.max_distance_at(lane) : 0;
+    for (int s = first; s < first + count; ++s) {
+        ray.segment.direction = angle == 0                        ? axis
+                                : arguments_.uniform_distribution ? cone.uniform(sequence[s])
+                                                                  : cone.by_cosine(sequence[s]);
+        ray.seed = asking.of_ray(s);
+        rays_.push_back(ray);
+    }
+}
+
+/// Sends the rays into the scene, for no more than what is asked. What is too deep to be shaded is black.
+void GatherCall::follow() {
+    const RayService& service = asker_.service();
+    RayWalk walk(*service.scene, service.shade, *service.scratch, *service.stats);
+    RayAsk ask;
+    ask.kind = kind_, ask.label = label_, ask.outputs = &asked_, ask.opaque = arguments_.opaque;
+    const bool colors = std::ranges::any_of(outputs_, [](const Output& output) {
+        return output.from == From::Color || output.from == From::Opacity;
+    });
+    const bool too_deep = asker_.is_too_deep(kind_);
+    ask.shades = !too_deep && (colors || asked_.ask_shaders());
+    ask.first_alone = !colors;
+    answers_.assign(rays_.size() * asked_.size, 0.0f);
+    for (size_t i = 0; i < rays_.size(); ++i) rays_[i].answers = answers_.data() + i * asked_.size;
+    if (!colors && asked_.empty()) return walk.distance(rays_, ask);
+    walk.radiance(rays_, ask);
+    if (too_deep)
+        for (WalkedRay& ray : rays_) ray.seen = V3f(0, 0, 0);
+}
+
+/// Sets the outputs of a lane. Where a ray misses only its own are told; what a hit does not have stays.
+void GatherCall::tell(const RayLane& lane, const WalkedRay& ray) const {
+    for (const Output& output : outputs_) {
+        const Operand& out = output.operand;
+        switch (output.from) {
+            case From::Origin:
+                put(out, lane, output.width, ray.segment.origin);
+                continue;
+            case From::Direction:
+                put(out, lane, output.width, ray.segment.direction);
+                continue;
+            case From::Length:
+                put(out, lane, 0, ray.distance);
+                continue;
+            default:
+                break;
+        }
+        if (!ray.hits()) continue;
+        if (output.from == From::Color) put(out, lane, output.width, ray.seen);
+        if (output.from == From::Opacity) put(out, lane, output.width, V3f(1) - ray.through);
+        if (output.from != From::Answer) continue;
+        const float* const answer = ray.answers + asked_.all[output.answer].at;
+        for (int k = 0; answer[0] != 0 && k < output.width; ++k) put(out, lane, k, answer[1 + k]);
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,55 @@
+/// The surface whose shaders ask for rays: what holds for all calls of a grid's shaders, and the lanes of one
+/// call.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.h"
+#include "shade/rays/ray_walk.h"
+#include "shade/vm/machine.h"
+
+namespace trapeze {
+
+/// What calls of a grid's shaders ask. All it refers to must outlive the calls.
+struct RayService {
+    const RayScene* scene = nullptr;
+    ShadeHits shade;  ///< shades hits, one bounce farther from the camera
+    int depth = 0;    ///< bounces from the camera to the points that are shaded
+    int max_depth = 10;
+    uint32_t seed = 0;  ///< of the render
+    RayWalkScratch* scratch = nullptr;
+    RayStats* stats = nullptr;
+};
+
+/// A lane that asks, with the seed of its random numbers in this call.
+struct RayLane {
+    size_t lane = 0;
+    uint32_t seed = 0;
+    /// What it is told holds for these lanes: for itself, or for all of the grid that it speaks for.
+    size_t first = 0, count = 1;
+
+    /// The seed of what one of its rays hits.
+    uint64_t of_ray(int sample) const;
+};
+
+/// The shaded surface, for its calls.
+class RayAsker {
+  public:
+    /// `attributes`: of the surface that is shaded.
+    RayAsker(const RayService& service, const Attributes& attributes)
+        : service_(service), attributes_(attributes) {}
+
+    const RayService& service() const { return service_; }
+    /// How far from P rays begin; `asked` below 0: the call does not say.
+    float bias_at(const V3f& P, float asked) const;
+    /// Whether hits are not shaded any more: they are black.
+    bool is_too_deep(RayKind kind) const;
+
+  private:
+    const RayService& service_;
+    const Attributes& attributes_;
+};
+
+}  // namespace trapeze

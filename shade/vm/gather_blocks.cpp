@@ -1,0 +1,72 @@
+// Loops over rays: gather blocks. Lanes whose ray of a turn hits something run the first half, the others the
+// second. All live lanes take a turn together, though each has rays of its own.
+#include <algorithm>
+#include <cstring>
+
+#include "shade/vm/machine.h"
+
+namespace trapeze::vm {
+namespace {
+
+using rsl::Op;
+
+/// Where there is no scene to send rays into: all of them miss.
+class RaysIntoNothing final : public GatherTurns {
+  public:
+    RaysIntoNothing(size_t lanes, float samples) : hits_(lanes, 0.0f), misses_(lanes) {
+        constexpr float kMostSamples = 65536;
+        turns_ = samples >= 1 ? static_cast<int>(std::min(samples, kMostSamples)) : 0;
+        std::memset(misses_.data(), 0xff, lanes * sizeof(float));
+    }
+    bool next(Run&, const uint32_t*) override { return turns_-- > 0; }
+    const float* hits() const override { return hits_.data(); }
+    const float* misses() const override { return misses_.data(); }
+
+  private:
+    std::vector<float> hits_, misses_;
+    int turns_ = 0;
+};
+
+}  // namespace
+
+/// Gather, GatherElse and EndGather.
+size_t Run::gather_step(const std::vector<Step>& steps, size_t at_step) {
+    const Step& step = steps[at_step];
+    switch (step.op) {
+        case Op::Gather: {
+            constexpr size_t kSamples = 4;
+            masks_.enter_loop();
+            if (context_.rays)
+                gathers_.push_back(context_.rays->gather(*this, step, registers_.operands_of(step)));
+            else
+                gathers_.push_back(
+                    std::make_unique<RaysIntoNothing>(lanes(), at(registers_.input(step, kSamples), 0, 0)));
+            return next_rays(steps, at_step);
+        }
+        case Op::GatherElse:
+            masks_.start_turn(gathers_.back()->misses());
+            return masks_.none() ? step.target : at_step + 1;
+        default:
+            if (!steps_are_spent(steps[step.target], at_step - step.target))
+                return next_rays(steps, step.target);
+            gathers_.pop_back();
+            masks_.leave_block();
+            return at_step + 1;
+    }
+}
+
+/// Begins a turn with the lanes whose rays hit something; goes past the block when there are no more rays, or
+/// all lanes have left it.
+size_t Run::next_rays(const std::vector<Step>& steps, size_t opening) {
+    const size_t otherwise = steps[opening].target;
+    masks_.next_turn();
+    if (!masks_.none() && gathers_.back()->next(*this, masks_.current())) {
+        masks_.start_turn(gathers_.back()->hits());
+        return masks_.none() ? otherwise : opening + 1;
+    }
+    gathers_.pop_back();
+    masks_.leave_block();
+    return steps[otherwise].target + 1;
+}
+
+}  // namespace trapeze::vm
