@@ -7,20 +7,6 @@
 #include "shade/take_aovs.h"
 
 namespace trapeze {
-namespace {
-
-/// Names of the variables of all primitives. A primitive's variable replaces the shader parameter of its
-/// name, so that such a parameter's value is not known here.
-std::set<std::string> variables_of(const Scene& scene) {
-    std::set<std::string> names;
-    for (const Primitive& primitive : scene.primitives)
-        if (!primitive.shape_keys.empty())
-            for (const Parameter& variable : primitive.shape().variables.values) names.insert(variable.name);
-    return names;
-}
-
-}  // namespace
-
 void check_looks(const RenderContext& context, const MapIsMade& is_made, const Access& access) {
     const Scene& scene = *context.scene;
     Textures textures(scene.options, context.diagnostics, access);

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 #include "shade/answer_hits.h"
 #include "shade/grid_run.h"
+#include "shade/materials/named_maps.h"
 #include "shade/rays/ray_programs.h"
 #include "shade/take_aovs.h"
 
@@ -77,6 +79,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
             shade(hits, *state.deeper, stats, depth + 1, of_hits);
         };
         service.depth = depth;
+        service.visit = visit;
         service.seed = context.seed;
         service.max_depth = context.scene->options.max_ray_depth;
         service.scratch = &state.hits;
@@ -104,8 +107,17 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
 }
 
 bool Shading::asks_rays() const {
+    const std::set<std::string> varied = variables_of(*impl_->context.scene);
+    // What connections bring to layers is not known here.
+    std::set<const BoundShader*> connected;
+    for (const Material& material : impl_->materials.all())
+        for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
+            if (shader && shader->layers.size() > 1)
+                connected.insert(shader->layers.begin(), shader->layers.end());
     const std::vector<const BoundShader*> shaders = impl_->materials.shaders();
-    return std::ranges::any_of(shaders, [](const BoundShader* shader) { return asks_for_rays(*shader); });
+    return std::ranges::any_of(shaders, [&](const BoundShader* shader) {
+        return asks_for_rays(*shader, connected.contains(shader) ? nullptr : &varied);
+    });
 }
 
 void Shading::set_rays(const RayScene* rays) {
@@ -124,7 +136,9 @@ void Shading::displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratc
 
 bool Shading::keeps_opacity(uint32_t primitive) const {
     const Material& material = impl_->materials.of(primitive);
-    return material.attributes->rays.transmission_hits == RayAttributes::HitMode::Primitive ||
+    const RayAttributes& rays = material.attributes->rays;
+    using HitMode = RayAttributes::HitMode;
+    return (rays.transmission_hits == HitMode::Primitive && rays.diffuse_hits != HitMode::Shader) ||
            std::ranges::none_of(material.surface->layers,
                                 [](const BoundShader* layer) { return changes_opacity(layer->program()); });
 }

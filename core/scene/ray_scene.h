@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "core/math.h"
+#include "core/scene/ray_groups.h"
+#include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
 
 namespace trapeze {
@@ -14,16 +16,26 @@ namespace trapeze {
 /// What a ray is for: which primitives it meets follows from it (RayAttributes).
 enum class RayKind : uint8_t { Diffuse, Specular, Transmission };
 
+/// Which hits count for a ray.
+struct RayFilter {
+    /// Sides of surfaces: as Sides says, the outside (Front), the inside, or both.
+    enum class Sides : uint8_t { OfAttributes, Front, Back, Both };
+    Sides sides = Sides::OfAttributes;
+    RaySubset subset;
+};
+
 /// A part of a ray, in camera space at shutter open.
 struct RaySegment {
     V3f origin, direction;                                        ///< of unit length
     float min = 0, max = std::numeric_limits<float>::infinity();  ///< distances from the origin that count
+    const RayFilter* only = nullptr;  ///< hits that count; null: all that the attributes let be seen
 };
 
 /// Where a ray meets a surface.
 struct RaySurfaceHit {
     float distance = 0;
-    uint32_t primitive = 0;     ///< index in Scene::primitives
+    uint32_t primitive = 0;                     ///< index in Scene::primitives
+    const RayAttributes* attributes = nullptr;  ///< the primitive's
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
     V3f opacity{1, 1, 1};       ///< the primitive's own, Os
     V3f color{1, 1, 1};         ///< the primitive's own, Cs

@@ -103,10 +103,15 @@ struct RayAttributes {
 
     bool diffuse = false, specular = false, transmission = false;  ///< Attribute "visibility", by kind of ray
     HitMode transmission_hits = HitMode::Shader;  ///< Attribute "shade" "transmissionhitmode"
+    HitMode specular_hits = HitMode::Shader;      ///< Attribute "shade" "specularhitmode"
+    /// Attribute "shade" "diffusehitmode"; without it occlusion takes the primitive's own opacity, and
+    /// colours are the shader's.
+    std::optional<HitMode> diffuse_hits;
     float bias = 0;          ///< Attribute "trace" "bias", camera-space length; 0: follows from the dicing
     int max_diffuse = 1;     ///< Attribute "trace" "maxdiffusedepth": bounces
     int max_specular = 2;    ///< Attribute "trace" "maxspeculardepth"
     bool displaced = false;  ///< Attribute "trace" "displacements": rays meet what displacement shaders made
+    std::vector<std::string> groups;  ///< Attribute "grouping" "membership" (ray_groups.h)
 
     bool seen() const { return diffuse || specular || transmission; }
     bool operator==(const RayAttributes&) const = default;

@@ -110,21 +110,27 @@ std::optional<RaySurfaceHit> RayWorld::closest_in(const RayGrids& grids, const R
     while (range.min <= range.max) {
         const std::optional<RayGridHit> found = grids.closest(space, range);
         if (!found) return {};
-        if (shows(*found->grid, MicropolygonId::unpack(found->hit.id), ray.direction))
+        if (shows(*found->grid, MicropolygonId::unpack(found->hit.id), ray))
             return hit_of(ray, found->hit.depth / scale, *found);
         range.min = std::nextafter(found->hit.depth, kInfinity);
     }
     return {};
 }
 
-/// Whether a micropolygon can be hit from this side: one-sided surfaces have no inside.
-bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const V3f& direction) const {
+/// Whether a micropolygon's hit counts: one-sided surfaces have no inside, and a ray may want groups or sides
+/// of its own choice.
+bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const {
+    using Sides = RayFilter::Sides;
     const Attributes& attributes = dicer_.attributes(grid.primitive);
-    if (attributes.sides != 1) return true;
+    if (ray.only && !ray.only->subset.has(attributes.rays.groups)) return false;
+    Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
+    if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
+    if (sides == Sides::Both) return true;
     const V3f p00 = grid.vertex(id.u, id.v, 0), p11 = grid.vertex(id.u + 1, id.v + 1, 0);
     const V3f p10 = grid.vertex(id.u + 1, id.v, 0), p01 = grid.vertex(id.u, id.v + 1, 0);
     const V3f normal = (p11 - p00).cross(p01 - p10) * (attributes.reverse_orientation ? -1.0f : 1.0f);
-    return normal.dot(direction) <= 0;
+    const bool from_outside = normal.dot(ray.direction) <= 0;
+    return from_outside == (sides == Sides::Front);
 }
 
 RaySurfaceHit RayWorld::hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const {
@@ -136,6 +142,7 @@ RaySurfaceHit RayWorld::hit_of(const RaySegment& ray, float distance, const RayG
     RaySurfaceHit hit;
     hit.distance = distance;
     hit.primitive = grid.primitive;
+    hit.attributes = &dicer_.attributes(grid.primitive).rays;
     hit.keeps_opacity = dicer_.keeps_opacity(grid.primitive);
     hit.color = hit.opacity = V3f(0, 0, 0);
     for (int corner = 0; corner < 4; ++corner) {
@@ -156,7 +163,7 @@ std::optional<bool> RayWorld::blocked(const RaySegment& ray, RayKind kind) const
         const Group& group = groups_[mask];
         if (!sees(kind, mask) || !group.grids) continue;
         const InTheWay met = group.grids->in_the_way({ray.origin, ray.direction, 0}, range);
-        if (met == InTheWay::Opaque) return true;
+        if (met == InTheWay::Opaque && !ray.only) return true;
         sure &= met == InTheWay::Nothing;
     }
     return sure ? std::optional(false) : std::nullopt;

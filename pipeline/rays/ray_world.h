@@ -49,7 +49,7 @@ class RayWorld final : public RayScene {
     void make_groups(size_t most_bytes);
     std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RaySegment& ray) const;
     RaySurfaceHit hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const;
-    bool shows(const Grid& grid, const MicropolygonId& id, const V3f& direction) const;
+    bool shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
 
     RayDicer dicer_;
     std::vector<GridArena> arenas_;  ///< of grids that are in memory as a whole

@@ -57,18 +57,27 @@ RegisterId Generator::call_value(const Expression& e, std::optional<RegisterId> 
 RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterId> into) {
     if (const auto rewritten = rewritten_builtin(e, into)) return *rewritten;
     const Builtin& builtin = *e.builtin;
-    const std::vector<bool> is_output = outputs_of(builtin, e.children.size());
-    Ids outputs, inputs;
+    std::vector<bool> is_output = outputs_of(builtin, e.children.size());
+    Ids outputs, inputs, names;
     // Messages and the like give whether they found anything, and keep the variable if not.
     if (builtin.result != 'w') outputs.push_back(into ? *into : temporary(e.type.base));
+    const size_t positional = positional_count(builtin, e.children.size());
     for (size_t i = 0; i < e.children.size(); ++i) {
         const Expression& argument = *e.children[i];
-        if (is_output[i])
+        const size_t pair = i - positional;  // of a name, behind the plain arguments
+        if (i >= positional && pair % 2 == 0 && i + 1 < e.children.size() && is_named_output(e, i + 1) &&
+            !e.children[i + 1]->type.is_array() && e.children[i + 1]->type.base != Base::String) {
+            names.push_back(value(argument));
+            is_output[++i] = true;
+            outputs.push_back(output_place(*e.children[i], e.children[i]->type.base));
+        } else if (is_output[i])
             outputs.push_back(output_place(argument, argument.type.base));
         else
             inputs.push_back(value(argument));
     }
     add_unnamed_inputs(builtin.op, inputs);
+    inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(std::min(positional, inputs.size())),
+                  names.begin(), names.end());
     const int32_t number = builtin.op == Op::Random ? random_calls_++ : 0;
     const RegisterId result = outputs.empty() ? constant(0) : outputs.front();
     std::vector<RegisterId> written = outputs;
@@ -228,6 +237,12 @@ RegisterId Generator::map_value(const Expression& e, std::optional<RegisterId> i
         coordinates += 2;
     }
     for (size_t i = positional; i < e.children.size(); ++i) inputs.push_back(value(*e.children[i]));
+    // Rays begin at P, if it turns out that they are asked for.
+    const bool may_trace =
+        op == Op::Environment && (name.kind != Expression::Kind::Text || name.text == kTracedMap);
+    if (may_trace && program_->kind == ShaderKind::Light) global("Ps", Base::Point);
+    if (may_trace && program_->kind != ShaderKind::Light && program_->kind != ShaderKind::Imager)
+        global("P", Base::Point);
     const RegisterId out = into ? *into : temporary(e.type.base);
     emit(e.builtin->op, {out}, inputs, coordinates);
     return out;

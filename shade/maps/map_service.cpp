@@ -277,6 +277,32 @@ void MapService::environment(Run& run, const Step& step, std::span<const Operand
                           options_of(run, step, operands), lanes.wanted(), out);
 }
 
+/// The region around each direction has sides of `width`, at a right angle to it and to each other.
+void MapService::sky(std::string_view name, SourceLocation at, std::span<const V3f> directions, float width,
+                     std::span<V3f> colors) {
+    const Textures::Picture* picture = textures_.find(name, at, textures_.transfer_of_lookup({}, true, at));
+    constexpr size_t kTriples = 4;  // R, its changes, the colours
+    const size_t count = directions.size(), plane = padded_size(count);
+    std::vector<float> memory(plane * 3 * kTriples, 0.0f);
+    const auto set = [&](size_t triple, size_t i, const V3f& v) {
+        for (size_t k = 0; k < 3; ++k) memory[(triple * 3 + k) * plane + i] = v[static_cast<int>(k)];
+    };
+    const auto plane_of = [&](size_t triple, size_t k) {
+        return Plane(&memory[(triple * 3 + k) * plane], plane);
+    };
+    const auto triple_of = [&](size_t triple) {
+        return ConstPlane3{plane_of(triple, 0), plane_of(triple, 1), plane_of(triple, 2)};
+    };
+    for (size_t i = 0; i < count; ++i) {
+        const V3f& R = directions[i];
+        const V3f across = R.cross(std::abs(R.z) < std::abs(R.x) ? V3f(0, 0, 1) : V3f(1, 0, 0)).normalized();
+        set(0, i, R), set(1, i, across * width), set(2, i, R.cross(across) * width);
+    }
+    const Plane out[] = {plane_of(3, 0), plane_of(3, 1), plane_of(3, 2)};
+    textures_.environment(picture, {triple_of(0), triple_of(1), triple_of(2)}, {}, {count, {}}, out);
+    for (size_t i = 0; i < count; ++i) colors[i] = {out[0][i], out[1][i], out[2][i]};
+}
+
 void MapService::shadow(Run& run, const Step& step, std::span<const Operand> operands) {
     const CallLanes lanes(run, operands[0]);
     const std::array<Coordinate, 3> P = triple_values(lanes, step, operands);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "shade/code/optimise.h"
+#include "shade/operations/op_table.h"
 
 namespace trapeze {
 namespace {
@@ -38,6 +39,8 @@ class Specialised {
         for (int round = 0; round < kMostRounds && follow_texts(); ++round) rsl::optimise(program_);
     }
 
+    const rsl::Program& program() const { return program_; }
+
     std::vector<NamedMap> maps() const {
         std::vector<NamedMap> found;
         for (const Instruction& instruction : program_.code) {
@@ -46,7 +49,9 @@ class Specialised {
                 instruction.op != Op::Bump)
                 continue;
             const std::string* name = text_of(instruction.input(0));
-            if (name && !name->empty()) found.push_back({*name, is_depths, instruction.at});
+            const bool traced =
+                name && *name == rsl::kTracedMap && (is_depths || instruction.op == Op::Environment);
+            if (name && !name->empty() && !traced) found.push_back({*name, is_depths, instruction.at});
         }
         return found;
     }
@@ -120,8 +125,20 @@ class Specialised {
 
 }  // namespace
 
+std::set<std::string> variables_of(const Scene& scene) {
+    std::set<std::string> names;
+    for (const Primitive& primitive : scene.primitives)
+        if (!primitive.shape_keys.empty())
+            for (const Parameter& variable : primitive.shape().variables.values) names.insert(variable.name);
+    return names;
+}
+
 std::vector<NamedMap> named_maps(const BoundShader& shader, const std::set<std::string>& varied) {
     return Specialised(shader, varied).maps();
+}
+
+rsl::Program specialised_program(const BoundShader& shader, const std::set<std::string>& varied) {
+    return Specialised(shader, varied).program();
 }
 
 }  // namespace trapeze

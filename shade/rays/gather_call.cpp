@@ -65,14 +65,13 @@ GatherCall::GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, Run& r
     : asker_(asker),
       lanes_(std::move(lanes)),
       arguments_(run, step, operands),
-      label_(arguments_.label),
+      base_(run),
       hits_(run.lanes()),
       misses_(run.lanes()) {
-    constexpr size_t kPlain = 5;
     const vm::Registers& registers = run.registers();
-    traces_ = registers.text_input(step, 0) != kSamplePattern;
+    traces_ = arguments_.map() != kSamplePattern;
     for (size_t k = 0; k < step.outputs; ++k)
-        add_output(registers.text_input(step, kPlain + k),
+        add_output(arguments_.outputs[k].name,
                    rsl::width_of(registers.reg(registers.register_of(step, k)).type.base), operands[k], run,
                    step);
     kind_ = arguments_.uniform_distribution ? RayKind::Specular : RayKind::Diffuse;
@@ -146,13 +145,14 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
     const Cone cone(axis, angle);
     const RaySequence sequence(asking.seed, arguments_.samples_at(lane));
     WalkedRay ray;
-    ray.segment.origin = P;
+    ray.segment.only = arguments_.only();
     ray.segment.min = leads ? asker_.bias_at(P, arguments_.bias.at(lane)) : kInfinity;
     ray.segment.max = leads ? arguments_.max_distance_at(lane) : 0;
     for (int s = first; s < first + count; ++s) {
         ray.segment.direction = angle == 0                        ? axis
                                 : arguments_.uniform_distribution ? cone.uniform(sequence[s])
                                                                   : cone.by_cosine(sequence[s]);
+        ray.segment.origin = base_.origin(P, arguments_, asking, s);
         ray.seed = asking.of_ray(s);
         rays_.push_back(ray);
     }
@@ -163,7 +163,8 @@ void GatherCall::follow() {
     const RayService& service = asker_.service();
     RayWalk walk(*service.scene, service.shade, *service.scratch, *service.stats);
     RayAsk ask;
-    ask.kind = kind_, ask.label = label_, ask.outputs = &asked_, ask.opaque = arguments_.opaque;
+    ask.kind = kind_, ask.depths = asker_.depths_behind(kind_), ask.label = arguments_.label;
+    ask.hit_mode = arguments_.hit_mode, ask.opaque = arguments_.opaque, ask.outputs = &asked_;
     const bool colors = std::ranges::any_of(outputs_, [](const Output& output) {
         return output.from == From::Color || output.from == From::Opacity;
     });

@@ -6,6 +6,7 @@
 
 #include "shade/rays/ray_arguments.h"
 #include "shade/rays/ray_asker.h"
+#include "shade/rays/sample_base.h"
 
 namespace trapeze {
 
@@ -41,7 +42,7 @@ class GatherCall final : public vm::GatherTurns {
     const RayAsker& asker_;
     const std::vector<RayLane> lanes_;
     const RayArguments arguments_;
-    std::string label_;
+    const SampleBase base_;
     bool traces_ = true;  ///< else all rays miss: "samplepattern"
     std::vector<Output> outputs_;
     HitOutputs asked_;

@@ -23,15 +23,23 @@ bool is_text(const vm::Registers& registers, const vm::Step& step, size_t operan
            registers.reg(registers.register_of(step, operand)).type.base == rsl::Base::String;
 }
 
-/// How many arguments stand before the names and values that may follow.
+/// How many arguments stand before the names of outputs, and the names and values that may follow.
 size_t plain_arguments(const vm::Registers& registers, const vm::Step& step) {
     const bool map_first = is_text(registers, step, step.outputs);
-    if (step.op == Op::Gather)
-        return 5 + step.outputs;  // category, P, direction, angle, samples, outputs' names
-    if (step.op == Op::Shadow) return 2 + static_cast<size_t>(step.immediate);  // a map, a channel, P
+    if (step.op == Op::Gather) return 5;  // category, P, direction, angle, samples
+    if (step.op == Op::Shadow || step.op == Op::Environment)
+        return 2 + static_cast<size_t>(step.immediate);            // a map, a channel, P or R
     if (step.op == Op::Occlusion) return map_first ? 4 : 3;        // a map that is not used, P, N, samples
     if (step.op == Op::IndirectDiffuse) return map_first ? 2 : 3;  // a map and a direction; P, N, samples
     return 2;
+}
+
+/// Where the point that is shaded is; lights have it elsewhere. Null where there is none.
+const vm::Operand* shaded_point(const vm::Registers& registers) {
+    const rsl::Program& program = registers.program();
+    const bool light = program.kind == rsl::ShaderKind::Light;
+    const rsl::RegisterId* const P = program.find_global(light ? "Ps" : "P");
+    return P ? &registers.operand(*P) : nullptr;
 }
 
 }  // namespace
@@ -39,8 +47,10 @@ size_t plain_arguments(const vm::Registers& registers, const vm::Step& step) {
 RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) {
     const vm::Registers& registers = run.registers();
     const size_t plain = plain_arguments(registers, step), end = step.outputs + plain;
-    const bool of_light = step.op == Op::Shadow;
-    const size_t first = step.outputs + (of_light ? 2 : is_text(registers, step, step.outputs) ? 1 : 0);
+    const bool of_light = step.op == Op::Shadow, of_map = of_light || step.op == Op::Environment;
+    const bool map_first = is_text(registers, step, step.outputs);
+    const size_t first = step.outputs + (of_map ? 2 : map_first ? 1 : 0);
+    if (map_first) map_ = registers.text_input(step, 0);
     bias.otherwise = -1, samples_.otherwise = 1;
     cone_angle_.otherwise = kPi / 2, max_distance_.otherwise = kInfinity;
     from_ = &operands[first], towards_ = &operands[first + 1 < end ? first + 1 : first];
@@ -49,18 +59,28 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
         from_light_ = light.L, lanes_ = run.lanes();
         distant_light = light.distant;
     }
+    if (step.op == Op::Environment) {
+        towards_ = &operands[first], from_ = shaded_point(registers);
+        const float wanted = vm::Run::at(operands[step.outputs + 1u], 0, 0);
+        channel = wanted >= 2 ? 2 : wanted >= 1 ? 1 : 0;
+    }
     if (step.op == Op::Gather) {
         cone_angle_.operand = &operands[first + 2], samples_.operand = &operands[first + 3];
         uniform_distribution = true, least_samples_ = 0;
-    } else if (!of_light && first + 2 < end) {
+    } else if (!of_map && first + 2 < end) {
         samples_.operand = &operands[first + 2];
     }
+    // A block's results are all named; a call's first has no name.
+    const size_t unnamed = step.op == Op::Gather ? 0 : 1, named = step.outputs - unnamed;
+    for (size_t k = 0; k < named; ++k)
+        outputs.push_back({registers.text_input(step, plain + k), &operands[unnamed + k]});
     const std::pair<std::string_view, LaneValue*> known[] = {
-        {"samples", &samples_},        {"bias", &bias},       {"maxdist", &max_distance_},
-        {"coneangle", &cone_angle_},   {"falloff", &falloff}, {"samplecone", &sample_cone_},
-        {"falloffmode", &falloff_mode}};
+        {"samples", &samples_},         {"bias", &bias},
+        {"maxdist", &max_distance_},    {"coneangle", &cone_angle_},
+        {"falloff", &falloff},          {"samplecone", &sample_cone_},
+        {"falloffmode", &falloff_mode}, {"samplebase", &sample_base}};
     V3f threshold;
-    for (size_t i = end; i + 1 < step.count; i += 2) {
+    for (size_t i = end + named; i + 1 < step.count; i += 2) {
         const std::string& name = registers.text(registers.register_of(step, i));
         const bool text = is_text(registers, step, i + 1);
         if (text) take_text(name, registers.text(registers.register_of(step, i + 1)));
@@ -74,12 +94,30 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     }
 }
 
-void RayArguments::take_text(std::string_view name, std::string_view text) {
+void RayArguments::take_text(std::string_view name, const std::string& text) {
+    using Sides = RayFilter::Sides;
+    using HitMode = RayAttributes::HitMode;
     if (name == "distribution") uniform_distribution = text == "uniform";
     if (name == "label") label = text;
+    if (name == "environmentmap") environment_map = text;
+    if (name == "environmentspace" && !text.empty()) environment_space = text;
+    if (name == "hitmode" && text == "primitive") hit_mode = HitMode::Primitive;
+    if (name == "hitmode" && text == "shader") hit_mode = HitMode::Shader;
+    if (name == "hitsides") {
+        filter_.sides = text == "front"  ? Sides::Front
+                        : text == "back" ? Sides::Back
+                        : text == "both" ? Sides::Both
+                                         : Sides::OfAttributes;
+        filters_ = filters_ || filter_.sides != Sides::OfAttributes;
+    }
+    if (name == "subset") {
+        filter_.subset = RaySubset(text);
+        filters_ = filters_ || !text.empty();
+    }
 }
 
 V3f RayArguments::from_at(size_t lane) const {
+    if (!from_) return V3f(std::numeric_limits<float>::quiet_NaN());  // nowhere
     return triple_at(*from_, lane);
 }
 V3f RayArguments::towards_at(size_t lane) const {

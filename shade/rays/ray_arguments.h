@@ -2,8 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/scene/ray_scene.h"
 #include "core/scene/scene.h"
 #include "shade/vm/machine.h"
 
@@ -32,22 +35,39 @@ struct RayArguments {
     /// is given.
     float cone_angle_at(size_t lane) const;
     float max_distance_at(size_t lane) const;  ///< "maxdist"; infinite where there is no bound
+    /// Of "hitsides" and "subset"; null where all hits count.
+    const RayFilter* only() const { return filters_ ? &filter_ : nullptr; }
+    /// The first argument, if it is a text: a map, a category.
+    std::string_view map() const { return map_; }
 
     LaneValue bias;                   ///< below 0: not given
     LaneValue falloff, falloff_mode;  ///< of occlusion: by distance; mode 0 exponential, 1 a power
+    LaneValue sample_base;            ///< "samplebase": the part of a micropolygon from which rays begin
     /// "distribution": all directions alike, or by the cosine.
     bool uniform_distribution = false;
-    bool distant_light = false;  ///< of shadow(): the light is nowhere
-    std::string_view label;      ///< "label", of the rays
-    std::optional<V3f> opaque;   ///< "othreshold", of the first lane
+    bool distant_light = false;                      ///< of shadow(): the light is nowhere
+    int channel = 0;                                 ///< of environment() as a float
+    std::string label;                               ///< "label", of the rays
+    std::optional<V3f> opaque;                       ///< "othreshold", of the first lane
+    std::optional<RayAttributes::HitMode> hit_mode;  ///< "hitmode"
+    std::string environment_map, environment_space = "world";
+    /// What is set besides the result, by name: "environmentdir".
+    struct Output {
+        std::string_view name;
+        const vm::Operand* operand;
+    };
+    std::vector<Output> outputs;
 
   private:
-    void take_text(std::string_view name, std::string_view text);
+    void take_text(std::string_view name, const std::string& text);
 
     const vm::Operand *from_ = nullptr, *towards_ = nullptr;
     const float* from_light_ = nullptr;  ///< three planes of so many lanes
     size_t lanes_ = 0;
     int least_samples_ = 1;
+    std::string_view map_;
+    RayFilter filter_;
+    bool filters_ = false;
     LaneValue samples_, sample_cone_, cone_angle_, max_distance_;
 };
 

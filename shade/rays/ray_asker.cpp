@@ -28,10 +28,23 @@ float RayAsker::bias_at(const V3f& P, float asked) const {
            (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
 }
 
-bool RayAsker::is_too_deep(RayKind kind) const {
+/// The bounds of all surfaces on the way hold, each counted from the surface's own depth.
+RayDepths RayAsker::depths_behind(RayKind kind) const {
+    RayDepths depths = service_.visit.depths;
     const RayAttributes& rays = attributes_.rays;
-    const int most = kind == RayKind::Diffuse ? rays.max_diffuse : rays.max_specular;
-    return service_.depth >= std::min(most, service_.max_depth);
+    const auto bound = [&](RayKind of, int most) {
+        int& known = depths.most[static_cast<size_t>(of)];
+        known = std::min(known, depths.of(of) + most);
+    };
+    bound(RayKind::Diffuse, rays.max_diffuse);
+    bound(RayKind::Specular, rays.max_specular);
+    ++depths.bounces[static_cast<size_t>(kind)];
+    return depths;
+}
+
+bool RayAsker::is_too_deep(RayKind kind) const {
+    const RayDepths depths = depths_behind(kind);
+    return depths.of(kind) > depths.most[static_cast<size_t>(kind)] || service_.depth >= service_.max_depth;
 }
 
 }  // namespace trapeze

@@ -18,6 +18,7 @@ struct RayService {
     ShadeHits shade;  ///< shades hits, one bounce farther from the camera
     int depth = 0;    ///< bounces from the camera to the points that are shaded
     int max_depth = 10;
+    HitVisit visit;     ///< how the points are visited: by the camera, or by the ray that hit them
     uint32_t seed = 0;  ///< of the render
     RayWalkScratch* scratch = nullptr;
     RayStats* stats = nullptr;
@@ -44,6 +45,8 @@ class RayAsker {
     const RayService& service() const { return service_; }
     /// How far from P rays begin; `asked` below 0: the call does not say.
     float bias_at(const V3f& P, float asked) const;
+    /// The depths of what rays of a kind hit.
+    RayDepths depths_behind(RayKind kind) const;
     /// Whether hits are not shaded any more: they are black.
     bool is_too_deep(RayKind kind) const;
 

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/portable_math.h"
 #include "core/random.h"
 #include "shade/rays/gather_call.h"
 #include "shade/rays/ray_directions.h"
+#include "shade/rays/sample_base.h"
 #include "shade/vm/context_ops.h"
 
 namespace trapeze {
@@ -19,6 +23,7 @@ using vm::Step;
 
 /// Rays that are in memory at once, about.
 constexpr size_t kRaysAtOnce = 4096;
+constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
 bool is_finite(const V3f& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -49,22 +54,78 @@ float falloff_at(float distance, const RayArguments& arguments, size_t lane) {
     return portable::pow(std::max(0.0f, 1 - distance / arguments.max_distance_at(lane)), falloff);
 }
 
-/// What a ray adds to its call's result.
-V3f share_of(Op op, bool colors, const WalkedRay& ray, const RayArguments& arguments, size_t lane) {
-    switch (op) {
+/// How much of the light along a ray is hidden.
+float hidden_by(const WalkedRay& ray, const RayArguments& arguments, size_t lane) {
+    const float open = (ray.through.x + ray.through.y + ray.through.z) / 3;
+    return (1 - open) * falloff_at(ray.distance, arguments, lane);
+}
+
+/// Colours of a map in directions of the current space, each averaged over a width (radians).
+std::vector<V3f> sky_in(Run& run, const Step& step, std::string_view map, const std::string& space,
+                        std::vector<V3f> directions, float width) {
+    std::vector<V3f> colors(directions.size(), V3f(0, 0, 0));
+    const vm::Context& context = run.context();
+    if (!context.maps || map.empty()) return colors;
+    if (!space.empty() && context.spaces)
+        if (const std::optional<M44f> to = context.spaces->matrix("current", space))
+            for (V3f& direction : directions) to->multDirMatrix(V3f(direction), direction);
+    context.maps->sky(map, step.at, directions, width, colors);
+    return colors;
+}
+
+}  // namespace
+
+/// One call.
+struct RayCalls::Call {
+    Run& run;
+    const Step& step;
+    const RayArguments& arguments;
+    bool colors;  ///< a colour is wanted, not a float
+
+    bool between_points() const { return step.op == Op::Transmission || step.op == Op::Visibility; }
+    bool over_sky() const { return step.op == Op::Occlusion || step.op == Op::IndirectDiffuse; }
+    /// The half angle of the cone that a lane's rays fill.
+    float angle_at(size_t lane) const {
+        return over_sky() ? arguments.cone_angle_at(lane) : arguments.sample_cone_at(lane);
+    }
+    int samples_at(size_t lane) const { return angle_at(lane) == 0 ? 1 : arguments.samples_at(lane); }
+    V3f share_of(const WalkedRay& ray, size_t lane) const;
+};
+
+/// What a ray adds to the result.
+V3f RayCalls::Call::share_of(const WalkedRay& ray, size_t lane) const {
+    switch (step.op) {
         case Op::Trace:
             return colors ? ray.seen : V3f(ray.distance);
+        case Op::Environment:
+            return colors ? ray.seen : V3f(ray.seen[arguments.channel]);
         case Op::IndirectDiffuse:
             return ray.seen;
         case Op::Occlusion:
-            return V3f((1 - (ray.through.x + ray.through.y + ray.through.z) / 3) *
-                       falloff_at(ray.distance, arguments, lane));
+            return V3f(hidden_by(ray, arguments, lane));
         case Op::Shadow:
             return V3f(1) - ray.through;
         default:
             return ray.through;
     }
 }
+
+namespace {
+
+/// Sums over a lane's rays, for what is set besides the result.
+struct LaneSums {
+    V3f sky{0, 0, 0}, open_way{0, 0, 0};
+    float hidden = 0;
+
+    void put(const RayArguments& arguments, const RayLane& lane, size_t rays) const {
+        const float count = static_cast<float>(std::max<size_t>(rays, 1));
+        for (const RayArguments::Output& output : arguments.outputs) {
+            if (output.name == "environmentcolor") trapeze::put(*output.operand, lane, sky / count);
+            if (output.name == "environmentdir") trapeze::put(*output.operand, lane, open_way.normalized());
+            if (output.name == "occlusion") trapeze::put(*output.operand, lane, V3f(hidden / count));
+        }
+    }
+};
 
 }  // namespace
 
@@ -94,23 +155,32 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
 
 void RayCalls::trace(Run& run, const Step& step, std::span<const Operand> operands) {
     const Operand& out = operands[0];
-    const bool colors = out.stride != 0;
     const RayArguments arguments(run, step, operands);
-    if (!run.context().batch) return put(out, {}, V3f(result_of_nothing(step.op, colors)));
+    const Call call{run, step, arguments, out.stride != 0};
+    const V3f nothing(result_of_nothing(step.op, call.colors));
+    if (!run.context().batch) return put(out, {}, nothing);
     const std::vector<RayLane> lanes = lanes_of(run, step, !out.lane_mask);
+    if (step.op == Op::IndirectDiffuse && !arguments.map().empty()) return look_at_sky(call, out, lanes);
     for (size_t first = 0; first < lanes.size();) {
         size_t end = first, count = 0;
         for (; end < lanes.size() && count < kRaysAtOnce; ++end)
-            count += static_cast<size_t>(arguments.samples_at(lanes[end].lane));
-        LaneRays sent = rays_of(step.op, std::span(lanes).subspan(first, end - first), arguments);
-        follow(step.op, colors, arguments, sent.rays);
+            count += static_cast<size_t>(call.samples_at(lanes[end].lane));
+        const LaneRays sent = rays_of(call, std::span(lanes).subspan(first, end - first));
         for (size_t i = first, ray = 0; i < end; ++i) {
             const size_t lane = lanes[i].lane, from = ray;
             V3f sum(0, 0, 0);
-            for (; ray < sent.ends[i - first]; ++ray)
-                sum += share_of(step.op, colors, sent.rays[ray], arguments, lane);
-            put(out, lanes[i],
-                ray > from ? sum / static_cast<float>(ray - from) : V3f(result_of_nothing(step.op, colors)));
+            LaneSums sums;
+            for (; ray < sent.ends[i - first]; ++ray) {
+                const WalkedRay& one = sent.rays[ray];
+                sum += call.share_of(one, lane);
+                if (!sent.followed) continue;
+                if (!sent.sky.empty()) sums.sky += sent.sky[ray];
+                sums.open_way +=
+                    one.segment.direction * ((one.through.x + one.through.y + one.through.z) / 3);
+                sums.hidden += hidden_by(one, arguments, lane);
+            }
+            put(out, lanes[i], ray > from ? sum / static_cast<float>(ray - from) : nothing);
+            sums.put(arguments, lanes[i], ray - from);
         }
         first = end;
     }
@@ -123,24 +193,37 @@ std::unique_ptr<vm::GatherTurns> RayCalls::gather(Run& run, const Step& step,
     return std::make_unique<GatherCall>(asker_, std::move(lanes), run, step, operands);
 }
 
-RayCalls::LaneRays RayCalls::rays_of(Op op, std::span<const RayLane> lanes,
-                                     const RayArguments& arguments) const {
+/// Sends the rays of some lanes. What is behind them counts as far as they are open.
+RayCalls::LaneRays RayCalls::rays_of(const Call& call, std::span<const RayLane> lanes) const {
     LaneRays sent;
     for (const RayLane& lane : lanes) {
-        add_rays(op, lane, arguments, sent.rays);
+        add_rays(call, lane, sent.rays);
         sent.ends.push_back(sent.rays.size());
+    }
+    sent.followed = follow(call, sent.rays);
+    const RayArguments& arguments = call.arguments;
+    if (!sent.followed || arguments.environment_map.empty() || lanes.empty()) return sent;
+    // Each ray stands for its share of the cone.
+    const size_t lane = lanes.front().lane;
+    const float sphere_part = kTurn * (1 - portable::cos(call.angle_at(lane)));
+    const float width = std::sqrt(sphere_part / static_cast<float>(call.samples_at(lane)));
+    std::vector<V3f> directions;
+    for (const WalkedRay& ray : sent.rays) directions.push_back(ray.segment.direction);
+    sent.sky = sky_in(call.run, call.step, arguments.environment_map, arguments.environment_space,
+                      std::move(directions), width);
+    for (size_t i = 0; i < sent.rays.size(); ++i) {
+        sent.sky[i] *= sent.rays[i].through;
+        sent.rays[i].seen += sent.sky[i];
     }
     return sent;
 }
 
 /// A lane's rays; none where it does not know where to.
-void RayCalls::add_rays(Op op, const RayLane& asking, const RayArguments& arguments,
-                        std::vector<WalkedRay>& rays) const {
+void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<WalkedRay>& rays) const {
+    const RayArguments& arguments = call.arguments;
     const size_t lane = asking.lane;
-    const bool between_points = op == Op::Transmission || op == Op::Visibility;
-    const bool over_sky = op == Op::Occlusion || op == Op::IndirectDiffuse;
     const V3f P = arguments.from_at(lane), towards = arguments.towards_at(lane);
-    const V3f way = between_points ? towards - P : towards;
+    const V3f way = call.between_points() ? towards - P : towards;
     // Squares of very long ways are not finite.
     const float largest = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
     if (!is_finite(P) || !is_finite(way) || !(largest > 0)) return;
@@ -148,50 +231,90 @@ void RayCalls::add_rays(Op op, const RayLane& asking, const RayArguments& argume
     const float length = largest * (way / largest).length();
 
     WalkedRay ray;
-    ray.segment.origin = P;
+    ray.segment.only = arguments.only();
     ray.segment.min = asker_.bias_at(P, arguments.bias.at(lane));
     ray.segment.max = arguments.max_distance_at(lane);
-    if (between_points || (op == Op::Shadow && !arguments.distant_light))
+    if (call.between_points() || (call.step.op == Op::Shadow && !arguments.distant_light))
         ray.segment.max = std::min(ray.segment.max, length - ray.segment.min);
-    const float angle = over_sky ? arguments.cone_angle_at(lane) : arguments.sample_cone_at(lane);
-    const int samples = angle == 0 ? 1 : arguments.samples_at(lane);
+    const float angle = call.angle_at(lane);
+    const int samples = call.samples_at(lane);
     const Cone cone(direction, angle);
     const RaySequence sequence(asking.seed, samples);
-    const bool by_cosine = over_sky && !arguments.uniform_distribution;
+    const SampleBase base(call.run);
+    const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
         ray.segment.direction = angle == 0  ? direction
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
+        ray.segment.origin = base.origin(P, arguments, asking, s);
         ray.seed = asking.of_ray(s);
         rays.push_back(ray);
     }
 }
 
-/// Sends the rays of a call. Occlusion takes primitives' own opacities, as does what is too deep to be
-/// shaded.
-void RayCalls::follow(Op op, bool colors, const RayArguments& arguments, std::span<WalkedRay> rays) const {
+/// Sends the rays of a call; false where they are too deep to see anything.
+bool RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     const RayService& service = asker_.service();
+    const RayArguments& arguments = call.arguments;
     RayWalk walk(*service.scene, service.shade, *service.scratch, *service.stats);
     RayAsk ask;
+    const Op op = call.step.op;
+    ask.kind = call.over_sky()                            ? RayKind::Diffuse
+               : op == Op::Trace || op == Op::Environment ? RayKind::Specular
+                                                          : RayKind::Transmission;
+    ask.depths = asker_.depths_behind(ask.kind);
     ask.label = arguments.label;
-    ask.shades = op != Op::Occlusion && service.depth < service.max_depth;
-    switch (op) {
-        case Op::Trace:
-            ask.kind = RayKind::Specular;
-            if (!colors) return walk.distance(rays, ask);
-            if (!asker_.is_too_deep(ask.kind)) walk.radiance(rays, ask);
-            return;
-        case Op::IndirectDiffuse:
-            ask.kind = RayKind::Diffuse;
-            if (!asker_.is_too_deep(ask.kind)) walk.radiance(rays, ask);
-            return;
-        case Op::Occlusion:
-            ask.kind = RayKind::Diffuse;
-            return walk.transmission(rays, ask, arguments.falloff.operand != nullptr);
-        default:
-            ask.kind = RayKind::Transmission;
-            return walk.transmission(rays, ask, false);
+    ask.hit_mode = arguments.hit_mode;
+    ask.opaque = arguments.opaque;
+    const bool too_deep = asker_.is_too_deep(ask.kind);
+    ask.shades = !too_deep;
+    if (op == Op::Trace && !call.colors) {
+        walk.distance(rays, ask);
+        return true;
     }
+    if (op == Op::Trace || op == Op::Environment || op == Op::IndirectDiffuse) {
+        if (!too_deep) walk.radiance(rays, ask);
+        return !too_deep;
+    }
+    walk.transmission(rays, ask, op == Op::Occlusion && arguments.falloff.operand);
+    return true;
+}
+
+/// indirectdiffuse(map, direction): the mean of a map about the direction, by the cosine.
+void RayCalls::look_at_sky(const Call& call, const Operand& out, std::span<const RayLane> lanes) const {
+    constexpr int kDirections = 64;
+    std::vector<V3f> directions;
+    for (const RayLane& lane : lanes) {
+        const V3f way = call.arguments.towards_at(lane.lane);
+        const bool leads = is_finite(way) && way.length() > 0;
+        const Cone cone(leads ? way.normalized() : V3f(0, 0, 1), kTurn / 4);
+        const RaySequence sequence(lane.seed, kDirections);
+        for (int s = 0; s < kDirections; ++s)
+            directions.push_back(leads ? cone.by_cosine(sequence[s]) : V3f(0, 0, 0));
+    }
+    const std::vector<V3f> colors = sky_in(call.run, call.step, call.arguments.map(), "",
+                                           std::move(directions), std::sqrt(kTurn / 2 / kDirections));
+    for (size_t i = 0; i < lanes.size(); ++i) {
+        V3f sum(0, 0, 0);
+        for (size_t s = 0; s < kDirections; ++s) sum += colors[i * kDirections + s];
+        put(out, lanes[i], sum / static_cast<float>(kDirections));
+    }
+}
+
+vm::RayFacts RayCalls::facts() const {
+    const RayService& service = asker_.service();
+    const RayDepths& depths = service.visit.depths;
+    vm::RayFacts facts;
+    facts.depth = service.depth;
+    facts.diffuse_depth = depths.of(RayKind::Diffuse);
+    facts.specular_depth = depths.of(RayKind::Specular);
+    facts.shadow_depth = depths.of(RayKind::Transmission);
+    facts.label = service.visit.label;
+    if (const std::optional<RayKind> kind = service.visit.kind)
+        facts.type = *kind == RayKind::Diffuse    ? "diffuse"
+                     : *kind == RayKind::Specular ? "specular"
+                                                  : "transmission";
+    return facts;
 }
 
 }  // namespace trapeze

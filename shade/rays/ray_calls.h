@@ -20,20 +20,23 @@ class RayCalls : public vm::Rays {
     void trace(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
     std::unique_ptr<vm::GatherTurns> gather(vm::Run& run, const vm::Step& step,
                                             std::span<const vm::Operand> operands) override;
-    int depth() const override { return asker_.service().depth; }
+    vm::RayFacts facts() const override;
 
   private:
-    /// The rays of all lanes, one lane's after another's.
+    struct Call;
+    /// The rays of some lanes, one lane's after another's.
     struct LaneRays {
         std::vector<WalkedRay> rays;
         std::vector<size_t> ends;  ///< behind each lane's last
+        bool followed = false;     ///< else they are too deep to see anything
+        std::vector<V3f> sky;      ///< what is behind each, if anything is asked
     };
 
     std::vector<RayLane> lanes_of(vm::Run& run, const vm::Step& step, bool uniform);
-    LaneRays rays_of(rsl::Op op, std::span<const RayLane> lanes, const RayArguments& arguments) const;
-    void add_rays(rsl::Op op, const RayLane& lane, const RayArguments& arguments,
-                  std::vector<WalkedRay>& rays) const;
-    void follow(rsl::Op op, bool colors, const RayArguments& arguments, std::span<WalkedRay> rays) const;
+    LaneRays rays_of(const Call& call, std::span<const RayLane> lanes) const;
+    void add_rays(const Call& call, const RayLane& lane, std::vector<WalkedRay>& rays) const;
+    bool follow(const Call& call, std::span<WalkedRay> rays) const;
+    void look_at_sky(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes) const;
 
     const RayAsker asker_;
     /// How often a call has been made for each lane: calls in loops take other random numbers each time.

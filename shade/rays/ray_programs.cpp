@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shade/materials/named_maps.h"
 #include "shade/operations/op_table.h"
 
 namespace trapeze {
@@ -11,7 +12,7 @@ using rsl::Op;
 
 bool calls(const rsl::Code& code, bool maps_are_traced) {
     return std::ranges::any_of(code, [&](const rsl::Instruction& i) {
-        return rsl::sends_rays(i.op) || (i.op == Op::Shadow && maps_are_traced);
+        return rsl::sends_rays(i.op) || ((i.op == Op::Shadow || i.op == Op::Environment) && maps_are_traced);
     });
 }
 
@@ -19,17 +20,26 @@ bool holds(const std::vector<std::string>& texts) {
     return std::ranges::find(texts, rsl::kTracedMap) != texts.end();
 }
 
+/// Whether the code may trace. A text may reach a call by way of variables: that the code knows it at all is
+/// taken for asking.
+bool asks(const rsl::Program& program, const BoundShader& shader) {
+    const auto knows = [&](rsl::RegisterId id) { return holds(program.reg(id).texts); };
+    bool traced = std::ranges::any_of(
+        program.code, [&](const rsl::Instruction& i) { return std::ranges::any_of(i.operands, knows); });
+    for (size_t i = 0; i < program.parameters.size(); ++i) {
+        const bool is_open = program.reg(program.parameters[i].id).kind == rsl::Register::Kind::Parameter;
+        traced = traced || (is_open && holds(shader.values()[i].texts));
+    }
+    return calls(program.code, traced) ||
+           std::ranges::any_of(shader.program().parameters,
+                               [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
+}
+
 }  // namespace
 
-bool asks_for_rays(const BoundShader& shader) {
-    const rsl::Program& program = shader.program();
-    // A text may reach a call by way of variables: that it is there at all is taken for asking.
-    const bool traced =
-        std::ranges::any_of(program.registers, [](const rsl::Register& r) { return holds(r.texts); }) ||
-        std::ranges::any_of(shader.values(), [](const BoundShader::Value& v) { return holds(v.texts); });
-    return calls(program.code, traced) ||
-           std::ranges::any_of(program.parameters,
-                               [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
+bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied) {
+    if (!asks(shader.program(), shader)) return false;
+    return !varied || asks(specialised_program(shader, *varied), shader);
 }
 
 bool changes_opacity(const rsl::Program& program) {

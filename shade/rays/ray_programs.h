@@ -1,12 +1,16 @@
 /// What the frame must know of shaders before it traces rays for them.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "shade/materials/bound_shader.h"
 
 namespace trapeze {
 
-/// Whether the shader may trace rays, with the parameters that it has.
-bool asks_for_rays(const BoundShader& shader);
+/// Whether the shader may trace rays, with the parameters that it has; those in `varied` may have any values.
+/// Without it, that holds for all.
+bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied = nullptr);
 
 /// Whether a surface shader makes another opacity than Os, which is the primitive's own.
 bool changes_opacity(const rsl::Program& program);

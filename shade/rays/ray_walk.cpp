@@ -37,6 +37,14 @@ void move_to_hit(const RaySegment& ray, const RaySurfaceHit& hit, int vertex, Sh
     P.set(static_cast<size_t>(vertex), ray.origin + ray.direction * hit.distance);
 }
 
+/// What the attributes of a hit say that it stands for.
+RayAsk::HitMode mode_of(const RayAttributes& attributes, RayKind kind, bool opacity_alone) {
+    using HitMode = RayAsk::HitMode;
+    if (kind == RayKind::Transmission) return attributes.transmission_hits;
+    if (kind == RayKind::Specular) return attributes.specular_hits;
+    return attributes.diffuse_hits.value_or(opacity_alone ? HitMode::Primitive : HitMode::Shader);
+}
+
 }  // namespace
 
 void RayWalk::radiance(std::span<WalkedRay> rays, const RayAsk& ask) {
@@ -114,7 +122,8 @@ bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
 bool RayWalk::shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const {
     if (!ask.shades) return false;
     if (wants == Wants::Opacity && hit.keeps_opacity && !ask.hit_mode) return false;
-    return ask.hit_mode.value_or(RayAsk::HitMode::Shader) == RayAsk::HitMode::Shader;
+    return ask.hit_mode.value_or(mode_of(*hit.attributes, ask.kind, wants == Wants::Opacity)) ==
+           RayAsk::HitMode::Shader;
 }
 
 /// The grid of a hit, of which its ray sees the vertex that was hit.
@@ -137,7 +146,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
 /// changes nothing but the time.
 void RayWalk::visit_hits(const RayAsk& ask, Wants wants, bool first) {
     HitVisit visit;
-    visit.kind = ask.kind, visit.label = ask.label;
+    visit.kind = ask.kind, visit.label = ask.label, visit.depths = ask.depths;
     visit.outputs = first ? ask.outputs : nullptr;
     const bool asks = visit.outputs && !visit.outputs->empty();
     std::vector<ShadingGrid*> shaded, asked;

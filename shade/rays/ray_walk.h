@@ -2,6 +2,7 @@
 /// along them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -29,9 +30,21 @@ struct WalkedRay {
     bool hits() const { return distance < kInfinity; }
 };
 
+/// Bounces from the camera, by kinds of rays, and how many there may be.
+struct RayDepths {
+    static constexpr size_t kKinds = 3;  ///< of RayKind
+    std::array<int, kKinds> bounces{};
+    /// The least that the surfaces on the way allow. (Transmission: no bound.)
+    std::array<int, kKinds> most{kEndless, kEndless, kEndless};
+    static constexpr int kEndless = 1 << 30;
+
+    int of(RayKind kind) const { return bounces[static_cast<size_t>(kind)]; }
+};
+
 /// How hits are visited: by rays of what kind, under which label, and what is asked.
 struct HitVisit {
-    RayKind kind = RayKind::Specular;
+    std::optional<RayKind> kind;  ///< none: by the camera
+    RayDepths depths;             ///< of the hits
     std::string_view label;
     bool shades = true;  ///< else only the answers are wanted
     const HitOutputs* outputs = nullptr;
@@ -45,6 +58,7 @@ struct RayAsk {
     using HitMode = RayAttributes::HitMode;
 
     RayKind kind = RayKind::Specular;
+    RayDepths depths;  ///< of hits
     std::string_view label;
     /// What hits stand for; without it their attributes say so.
     std::optional<HitMode> hit_mode;

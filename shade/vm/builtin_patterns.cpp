@@ -167,6 +167,9 @@ std::vector<BuiltinCase> asking_cases() {
         {"float d = 3; r = rayinfo(\"depth\", d) * 10 + d + X;", TRAPEZE_GIVES(10 + x)},
         {"float d = 3; r = rayinfo(\"speed\", d) * 10 + d + X;", TRAPEZE_GIVES(3 + x)},
         {"r = raylevel() + X;", TRAPEZE_GIVES(x)},
+        {"r = raydepth() + X;", TRAPEZE_GIVES(x)},
+        {"r = raylabel() == \"\" ? X : -1;", TRAPEZE_GIVES(x)},
+        {"string a = \"\"; r = rayinfo(\"type\", a) + (a == \"camera\" ? X : -1);", TRAPEZE_GIVES(1 + x)},
         // Maps give 100 times the channel, 10 times the number of coordinates, the first coordinate, and 0, 1
         // and 2 for red, green and blue.
         {"float a = texture(\"m\"); r = a - s + X;", TRAPEZE_GIVES(20 + x), 1e-5},

@@ -44,6 +44,10 @@ class Maps {
     virtual ~Maps() = default;
     /// One of Op::Texture, Environment, Shadow, Bump or TextureInfo.
     virtual void look_up(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+    /// Colours of an environment map in some directions, each averaged over about `width` (radians). Black
+    /// where it cannot be read.
+    virtual void sky(std::string_view name, SourceLocation at, std::span<const V3f> directions, float width,
+                     std::span<V3f> colors) = 0;
 };
 
 /// The lights of a grid, and what they send to points.
@@ -80,18 +84,25 @@ class GatherTurns {
     virtual const float* misses() const = 0;
 };
 
+/// What raylabel() and rayinfo() tell of the ray that has hit the points which are shaded.
+struct RayFacts {
+    int depth = 0;  ///< bounces from the camera: 0 for what it sees itself
+    int diffuse_depth = 0, specular_depth = 0, shadow_depth = 0;
+    std::string_view type = "camera";  ///< or "diffuse", "specular", "transmission"
+    std::string_view label;
+};
+
 /// Rays through the scene.
 class Rays {
   public:
     virtual ~Rays() = default;
-    /// One of Op::Trace, Transmission, Visibility, Occlusion or IndirectDiffuse; or Shadow, of the light
-    /// whose shader calls it.
+    /// One of Op::Trace, Transmission, Visibility, Occlusion or IndirectDiffuse; Environment; or Shadow, of
+    /// the light whose shader calls it.
     virtual void trace(Run& run, const Step& step, std::span<const Operand> operands) = 0;
     /// The rays of Op::Gather. The operands stay as they are until the block is left.
     virtual std::unique_ptr<GatherTurns> gather(Run& run, const Step& step,
                                                 std::span<const Operand> operands) = 0;
-    /// Bounces from the camera to the points that are shaded: 0 for what it sees itself.
-    virtual int depth() const = 0;
+    virtual RayFacts facts() const = 0;
 };
 
 /// Variables of the other shaders that work on the grid, attributes and options.

@@ -8,10 +8,10 @@ namespace {
 
 using rsl::Op;
 
-/// Whether shadow() asks for rays instead of a map, by a light that knows where it is.
+/// Whether shadow() asks for rays instead of a map, by a light that knows where it is; or environment().
 bool asks_for_rays(Run& run, const Step& step) {
-    return step.op == Op::Shadow && run.context().rays && run.context().light_output &&
-           run.registers().text_input(step, 0) == rsl::kTracedMap;
+    const bool may = step.op == Op::Environment || (step.op == Op::Shadow && run.context().light_output);
+    return may && run.context().rays && run.registers().text_input(step, 0) == rsl::kTracedMap;
 }
 
 void look_up(Run& run, const Step& step, std::span<const Operand> operands) {

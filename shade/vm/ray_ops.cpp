@@ -26,25 +26,49 @@ void trace(Run& run, const Step& step, std::span<const Operand> operands) {
         miss(run, step, operands);
 }
 
-int depth_of(const Run& run) {
-    return run.context().rays ? run.context().rays->depth() : 0;
+RayFacts facts_of(const Run& run) {
+    return run.context().rays ? run.context().rays->facts() : RayFacts();
 }
 
-/// rayinfo("depth", d); other questions find nothing.
+/// rayinfo("depth", d) and its like; unknown questions find nothing.
 void ray_info(Run& run, const Step& step, std::span<const Operand> operands) {
-    const bool known = run.registers().text_input(step, 0) == "depth" && operands[1].data;
+    const RayFacts facts = facts_of(run);
+    Registers& registers = run.registers();
+    const std::string& what = registers.text_input(step, 0);
+    const rsl::RegisterId to = registers.register_of(step, 1);
+    const bool wants_text = registers.reg(to).type.base == rsl::Base::String;
+    const std::pair<std::string_view, int> numbers[] = {{"depth", facts.depth},
+                                                        {"diffusedepth", facts.diffuse_depth},
+                                                        {"speculardepth", facts.specular_depth},
+                                                        {"shadowdepth", facts.shadow_depth}};
+    const std::pair<std::string_view, std::string_view> texts[] = {{"type", facts.type},
+                                                                   {"label", facts.label}};
+    bool known = false;
+    for (const auto& [name, number] : numbers)
+        if (name == what && !wants_text && operands[1].data) {
+            fill_operand(run, operands[1], std::array{static_cast<float>(number)});
+            known = true;
+        }
+    for (const auto& [name, text] : texts)
+        if (name == what && wants_text) {
+            registers.text(to) = text;
+            known = true;
+        }
     fill_operand(run, operands[0], std::array{known ? 1.0f : 0.0f});
-    if (known) fill_operand(run, operands[1], std::array{static_cast<float>(depth_of(run))});
 }
 
 void ray_level(Run& run, const Step&, std::span<const Operand> operands) {
-    fill_operand(run, operands[0], std::array{static_cast<float>(depth_of(run))});
+    fill_operand(run, operands[0], std::array{static_cast<float>(facts_of(run).depth)});
+}
+
+void ray_label(Run& run, const Step& step, std::span<const Operand>) {
+    run.registers().text(run.registers().register_of(step, 0)) = facts_of(run).label;
 }
 
 constexpr ContextRow kRayRows[] = {
     {Op::Trace, trace},        {Op::Transmission, trace},    {Op::Visibility, trace},
     {Op::Occlusion, trace},    {Op::IndirectDiffuse, trace}, {Op::RayInfo, ray_info},
-    {Op::RayLevel, ray_level},
+    {Op::RayLevel, ray_level}, {Op::RayLabel, ray_label},
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/scene/ray_groups.h"
+
 namespace trapeze::rib {
 namespace {
 
@@ -35,6 +37,13 @@ void set_visibility(const Parameter& value, RayAttributes& rays) {
     if (value.name == "transmission") rays.transmission = is_on;
 }
 
+void set_hit_mode(std::string_view name, std::string_view text, RayAttributes& rays) {
+    const HitMode mode = text == "primitive" ? HitMode::Primitive : HitMode::Shader;
+    if (name == "transmissionhitmode") rays.transmission_hits = mode;
+    if (name == "specularhitmode") rays.specular_hits = mode;
+    if (name == "diffusehitmode") rays.diffuse_hits = mode;
+}
+
 }  // namespace
 
 void set_ray_attribute(std::string_view category, const Parameter& value, RayAttributes& rays) {
@@ -45,8 +54,9 @@ void set_ray_attribute(std::string_view category, const Parameter& value, RayAtt
         rays.diffuse = rays.specular = (bits & 2) != 0;
         rays.transmission = (bits & 4) != 0;
     }
-    if (category == "shade" && value.name == "transmissionhitmode" && !value.strings.empty())
-        rays.transmission_hits = value.strings[0] == "primitive" ? HitMode::Primitive : HitMode::Shader;
+    if (category == "shade" && !value.strings.empty()) set_hit_mode(value.name, value.strings[0], rays);
+    if (category == "grouping" && value.name == "membership" && !value.strings.empty())
+        change_membership(value.strings[0], rays.groups);
     if (category != "trace") return;
     if (value.name == "bias") rays.bias = std::max(number_of(value), 0.0f);
     if (value.name == "maxdiffusedepth") rays.max_diffuse = depth_of(value);

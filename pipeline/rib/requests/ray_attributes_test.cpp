@@ -85,6 +85,32 @@ TEST(RayAttributes, HitModeIsAText) {
               HitMode::Primitive);
 }
 
+TEST(RayAttributes, EachKindHasItsHitMode) {
+    const RayAttributes none = rays_after("");
+    EXPECT_EQ(none.specular_hits, HitMode::Shader);
+    EXPECT_FALSE(none.diffuse_hits);
+    const RayAttributes rays = rays_after(
+        "Attribute \"shade\" \"string specularhitmode\" [\"primitive\"] \"diffusehitmode\" [\"shader\"]");
+    EXPECT_EQ(rays.specular_hits, HitMode::Primitive);
+    EXPECT_EQ(rays.diffuse_hits, HitMode::Shader);
+    EXPECT_EQ(rays.transmission_hits, HitMode::Shader);
+}
+
+TEST(RayAttributes, MembershipsAreSetAddedToAndTakenFrom) {
+    using Groups = std::vector<std::string>;
+    std::string text;
+    const auto after = [&](const std::string& names) {
+        text += "Attribute \"grouping\" \"string membership\" [\"" + names + "\"] ";
+        return rays_after(text).groups;
+    };
+    EXPECT_EQ(after("a, b"), (Groups{"a", "b"}));
+    EXPECT_EQ(after("+c a"), (Groups{"a", "b", "c"}));
+    EXPECT_EQ(after("-b,x"), (Groups{"a", "c"}));
+    EXPECT_EQ(after("+ d -a"), (Groups{"c", "d"}));
+    EXPECT_EQ(after("e"), Groups{"e"});
+    EXPECT_EQ(after(""), Groups{});
+}
+
 TEST(RayAttributes, TraceHasNumbers) {
     EXPECT_EQ(rays_after("Attribute \"trace\" \"float bias\" [.25]").bias, 0.25f);
     EXPECT_EQ(rays_after("Attribute \"trace\" \"bias\" .5").bias, 0.5f);

@@ -236,6 +236,8 @@ constexpr Builtin kBuiltins[] = {
     {"indirectdiffuse", 'c', "sv*", Op::IndirectDiffuse},
     {"rayinfo", 'f', "s?", Op::RayInfo},
     {"raylevel", 'f', "", Op::RayLevel},
+    {"raydepth", 'f', "", Op::RayLevel},
+    {"raylabel", 's', "", Op::RayLabel},
 
     // Maps (15.7).
     {"texture", 'f', "s*", Op::Texture},
@@ -286,11 +288,11 @@ constexpr Builtin kBuiltins[] = {
     {"areashadow", 'c', ".", Op::Unavailable},
     {"fulltrace", 'c', ".", Op::Unavailable},
     {"rayhittest", 'f', ".", Op::Unavailable},
-    {"raydepth", 'f', ".", Op::Unavailable},
-    {"raylabel", 's', ".", Op::Unavailable},
     {"isindirectray", 'f', ".", Op::Unavailable},
     {"isshadowray", 'f', ".", Op::Unavailable},
 };
+
+constexpr std::string_view kRayOutputs[] = {"environmentcolor", "environmentdir", "occlusion"};
 
 using ByName = std::unordered_map<std::string_view, std::span<const Builtin>>;
 
@@ -318,6 +320,11 @@ std::span<const Builtin> builtins_named(std::string_view name) {
     static const ByName kByName = by_name();
     const auto entry = kByName.find(name);
     return entry == kByName.end() ? std::span<const Builtin>() : entry->second;
+}
+
+bool is_ray_output(const Builtin& builtin, std::string_view name) {
+    const bool may = builtin.op == Op::Occlusion || builtin.op == Op::IndirectDiffuse;
+    return may && std::ranges::find(kRayOutputs, name) != std::end(kRayOutputs);
 }
 
 }  // namespace trapeze::rsl

@@ -240,7 +240,10 @@ void Analyser::choose_call(Expression& e, Base base) {
 void Analyser::choose_argument(Expression& call, size_t i, const Signature& signature) {
     ExpressionPtr& argument = call.children[i];
     const Signature::Parameter* parameter = parameter_at(signature, i);
-    if (!parameter) return choose_type(argument, is_pair_name(signature, i) ? Base::String : Base::Void);
+    if (!parameter) {
+        if (is_named_output(call, i) && is_place(*argument)) check_written(*argument);
+        return choose_type(argument, is_pair_name(signature, i) ? Base::String : Base::Void);
+    }
     if (parameter->output) {
         check_written(*argument);
         if (argument->kind == Expression::Kind::Element) choose_type(argument, argument->type.base);

@@ -211,6 +211,8 @@ class Propagation {
         if (is_message(e.builtin->op)) given_varying = false;
         for (size_t i = 0; i < std::min(e.children.size(), signature.parameters.size()); ++i)
             if (signature.parameters[i].output) assign(*e.children[i], given_varying, apart, true);
+        for (size_t i = signature.parameters.size() + 1; i < e.children.size(); i += 2)
+            if (is_named_output(e, i)) assign(*e.children[i], true, apart, false);
     }
 
     /// Arguments make parameters varying, and parameters that are output their arguments. A call that is
