@@ -60,6 +60,7 @@ const std::vector<Expected> kExpected = {
     {"shadowspot", "light", {"shadowname = \"\"", "samples = 16", "width = 1", "coneangle = radians(30)"}},
     {"shadowdistant", "light", {"shadowname = \"\"", "samples = 16", "width = 1"}},
     {"shadowpoint", "light", {"sfpx = \"\"", "sfnz = \"\"", "samples = 16", "width = 1"}},
+    {"occlusionlight", "light", {"intensity = 1", "lightcolor = 1", "envname = \"\"", "samples = 64"}},
     {"rislight", "light", {"intensity = 1", "lightcolor = 1", "shape = \"sphere\"", "coneangle = 90"}},
     {"rissurface", "surface", {"specularcolor = 0", "emission = 0", "opacity = 1", "bounce = 0.15"}},
     {"standinlight",

@@ -86,16 +86,23 @@ light uberlight(
         lcol *= color texture(slidename, 0.5 + 0.5 * x / (width + wedge), 0.5 - 0.5 * y / (height + hedge));
     if (noiseamp > 0)
         atten *= max(0, 1 + noiseamp * (2 * noise(noisefreq * point (x, y, 1) + noiseoffset) - 1));
-    tint = lcol;
-    if (shadowmap != "")
-        tint = mix(lcol, shadowcolor,
-                   shadow(shadowmap, Ps, "samples", shadownsamps, "blur", shadowblur, "bias", shadowbias));
 
+    /* Rays to the light are known in its block alone. */
     if (parallelrays == 0) {
-        illuminate(from, axis, angle)
+        illuminate(from, axis, angle) {
+            tint = lcol;
+            if (shadowmap != "")
+                tint = mix(lcol, shadowcolor,
+                           shadow(shadowmap, Ps, "samples", shadownsamps, "blur", shadowblur, "bias", shadowbias));
             Cl = atten * intensity * tint;
+        }
     } else {
-        solar(axis, 0)
+        solar(axis, 0) {
+            tint = lcol;
+            if (shadowmap != "")
+                tint = mix(lcol, shadowcolor,
+                           shadow(shadowmap, Ps, "samples", shadownsamps, "blur", shadowblur, "bias", shadowbias));
             Cl = atten * intensity * tint;
+        }
     }
 }

@@ -1,0 +1,182 @@
+/// Standard shaders and lights that trace, and glass, next to closed forms.
+#include <gtest/gtest.h>
+
+#include "tests/rays_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+std::string depth(int bounces) {
+    return "Attribute \"trace\" \"int maxspeculardepth\" [" + std::to_string(bounces) + "] ";
+}
+
+/// Where a line from `o` along `d` (of unit length) enters (or leaves, side 1) a sphere of radius R at (0, 0,
+/// 3).
+const std::string kSphere =
+    "point crossed(point o; vector d; float R, side) { vector m = o - point(0, 0, 3); float b = m . d;"
+    "  return o + d * (-b + side * sqrt(max(b * b - m . m + R * R, 0))); }"
+    "vector bent(point at; vector d; float side, eta) {"
+    "  return normalize(refract(d, -side * normalize(vector(at - point(0, 0, 3))), eta)); } ";
+
+/// Surfaces that bend rays, with the index inside over that outside; and what tells where a ray has come to.
+void bend(Case& c) {
+    c.shaders["lens"] =
+        "surface lens(float eta = 1.5;) { Oi = 1; normal Nn = normalize(N); vector d = normalize(I);"
+        "  float enters = d . Nn < 0 ? 1 : 0;"
+        "  Ci = color trace(P, refract(d, enters > 0 ? Nn : -Nn, enters > 0 ? 1 / eta : eta)); }";
+    c.shaders["place"] = "surface place() { Oi = 1; Ci = color(xcomp(P) + 8, ycomp(P) + 8, 1); }";
+}
+
+/// A ball of glass turns rays to the place that Snell's law says. Its micropolygons lie up to 4.9e-4 beside
+/// the sphere (their sides are 1/32), which moves where a ray is bent by as much over the cosine to the
+/// surface, at either side. Along borders of grids the place in the surface's parameters is known to half a
+/// side, 1/64, so that a normal may be off by 1/32: at each surface that turns a ray by 1/2 of it, or 1/3,
+/// and the wall is three radii behind.
+constexpr float kMostOff = 0.06f;
+
+TEST(RayGlass, AThickBallRefractsBySnellsLaw) {
+    for (const double eta : {1.5, 1.2, 1 / 1.3}) {
+        Case c;
+        bend(c);
+        c.functions = kSphere;
+        c.asker = depth(4);
+        c.things = depth(4) + "Surface \"lens\" \"eta\" " + std::to_string(eta) + sphere(" 0 0 3", ".5") +
+                   "Surface \"place\" " + wall("1.5");
+        const Image image =
+            c.render("float eta = " + std::to_string(eta) +
+                     "; vector d = vector(0, 0, -1); float r2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P);"
+                     "color seen = trace(P, d);"
+                     "point a = crossed(P, d, .5, -1); vector d1 = bent(a, d, -1, 1 / eta);"
+                     "point b = crossed(a + .1 * d1, d1, .5, 1); vector d2 = bent(b, d1, 1, eta);"
+                     "point there = b + d2 * ((1.5 - zcomp(b)) / zcomp(d2));"
+                     "Ci = told(comp(seen, 0) - 8, xcomp(there), r2 < .12 ? 1 : 0);");
+        expect_told(image, 4e-3f, 350, kMostOff);
+    }
+}
+
+/// A hollow ball, whose wall is a tenth of its radius: four surfaces, which together bend rays little, but
+/// may add to what each is off.
+TEST(RayGlass, AThinShellRefractsBySnellsLaw) {
+    Case c;
+    bend(c);
+    c.functions = kSphere;
+    const std::string kind = depth(6) + "Attribute \"trace\" \"float bias\" [.01] ";
+    c.asker = kind;
+    c.things = kind + "Surface \"lens\" \"eta\" 1.5 " + sphere("0 0 3", ".5") +
+               "Surface \"lens\" \"eta\" .6666667 " + sphere("0 0 3", ".45") + "Surface \"place\" " +
+               wall("1.5");
+    const Image image = c.render(
+        "vector d = vector(0, 0, -1); float r2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P);"
+        "color seen = trace(P, d);"
+        "point a = crossed(P, d, .5, -1); vector d1 = bent(a, d, -1, 1 / 1.5);"
+        "point b = crossed(a, d1, .45, -1); vector d2 = bent(b, d1, -1, 1.5);"
+        "point e = crossed(b + .1 * d2, d2, .45, 1); vector d3 = bent(e, d2, 1, 1 / 1.5);"
+        "point f = crossed(e, d3, .5, 1); vector d4 = bent(f, d3, 1, 1.5);"
+        "point there = f + d4 * ((1.5 - zcomp(f)) / zcomp(d4));"
+        "Ci = told(comp(seen, 0) - 8, xcomp(there), r2 < .1 ? 1 : 0);");
+    expect_told(image, 4e-3f, 280, 2 * kMostOff);
+}
+
+/// Light that passes the standard glass is weakened at both sides by what Fresnel's formulas reflect there,
+/// which is the same from within.
+TEST(RayGlass, TheStandardGlassIsAsBrightAsFresnelSays) {
+    Case c;
+    c.asker = depth(4);
+    c.things = depth(4) + "Surface \"glass\" \"Kr\" 0 \"Ks\" 0 \"Ka\" 0 " + sphere("0 0 3", ".5") +
+               "Surface \"constant\" " + wall("-20") + wall("2");
+    expect_told(c.render("vector d = vector(0, 0, -1), R, T; float kr, kt;"
+                         "float r2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P);"
+                         "vector n = normalize(vector(xcomp(P), ycomp(P), sqrt(max(.25 - r2, 0))));"
+                         "fresnel(d, normal n, 1 / 1.5, kr, kt, R, T); color k = trace(P, d);"
+                         "Ci = told(comp(k, 1), kt * kt, r2 < .15 ? 1 : 0);"),
+                3e-3f, 400);
+}
+
+/// Mirrors and shiny metal show what trace() does, blurred by a cone as it is asked for.
+TEST(RayShaders, ReflectorsTrace) {
+    Case c;
+    const std::string things = kSeen + kHidden + "Surface \"constant\" Color .25 .5 1 ";
+    const auto shine = [&](const std::string& surface, const std::string& thing) {
+        c.things = things + thing;
+        // The camera looks at the reflector itself.
+        c.asks = "Surface \"" + surface + " " + kAsker;
+        return mean(c.render("Ci = 0;"), [](const Pixel& p) { return static_cast<double>(p.green); });
+    };
+    EXPECT_NEAR(shine("mirror\" \"Ks\" 0", wall("-3")), 0.5, 1e-3);
+    EXPECT_NEAR(shine("shinymetal\" \"Ks\" 0 \"Ka\" 0 \"texturename\" \"raytrace\"", wall("-3")), 0.5, 1e-3);
+    EXPECT_NEAR(shine("mirror\" \"Ks\" 0 \"texturename\" \"raytrace\"", wall("-3")), 0.5, 1e-3);
+    // Without a map it is metal, and asks for no rays: nobody is told that there are none to meet.
+    EXPECT_EQ(shine("shinymetal\" \"Ks\" 0 \"Ka\" 0", wall("-3")), 0);
+    // A half plane: under a cone its edge is half as bright.
+    const std::string half = "Polygon \"P\" [0 -99 -3 99 -99 -3 99 99 -3 0 99 -3] ";
+    for (const char* surface :
+         {"mirror\" \"Ks\" 0", "shinymetal\" \"Ks\" 0 \"Ka\" 0 \"texturename\" \"raytrace\""}) {
+        c.things = things + half;
+        c.asks = std::string("Surface \"") + surface + " \"samples\" 64 \"blur\" .2 " + kAsker;
+        const std::vector<Pixel> all = pixels(c.render("Ci = 0;"));
+        double middle = 0, left = 0, right = 0;
+        for (size_t y = 0; y < 64; ++y) {
+            for (const size_t x : {31u, 32u}) middle += static_cast<double>(all[y * 64 + x].green) / 128;
+            left += static_cast<double>(all[y * 64].green) / 64;
+            right += static_cast<double>(all[y * 64 + 63].green) / 64;
+        }
+        EXPECT_NEAR(middle, 0.25, 0.01);
+        // The cone at a distance of 8 has a radius of 1.62: of a disk, 1 from its middle, a segment is left.
+        const double d = 1 - 1.0 / 64, r = 8 * std::tan(0.2);
+        const double share = (std::acos(d / r) - d / r * std::sqrt(1 - d * d / r / r)) / M_PI;
+        EXPECT_NEAR(left, 0.5 * share, 0.01);
+        EXPECT_NEAR(right, 0.5 * (1 - share), 0.01);
+    }
+}
+
+/// The light from all around is what occlusion() leaves: of a sphere its form factor. It is ambient light.
+TEST(RayShaders, TheOcclusionLightIsWhatIsOpen) {
+    Case c;
+    c.things = "Surface \"constant\" " + sphere("0 0 3", ".5");
+    const std::string light = "LightSource \"occlusionlight\" 1 \"samples\" 64 ";
+    c.asks = light + kAsker;
+    const std::string formula =
+        "vector m = point(0, 0, 3) - P; float d2 = m . m; float open = 1 - .25 / d2 * (2 / sqrt(d2)); ";
+    const Image image = c.render(formula + "color a = ambient(); Ci = color(comp(a, 0), open, 1);");
+    EXPECT_NEAR(mean_red(image), mean_found(image), 1e-3);
+    for (const Pixel& p : pixels(image)) {
+        const double hidden = 1 - static_cast<double>(p.green);
+        ASSERT_NEAR(p.red, p.green, 5 * std::sqrt(hidden * (1 - hidden) / 64));
+    }
+    c.asks = "LightSource \"occlusionlight\" 1 \"samples\" 16 \"maxdist\" 1 \"intensity\" .5 " + kAsker;
+    expect_told(c.render("color a = ambient(); Ci = told(comp(a, 0), .5, 1);"), 1e-6f, 64 * 64);
+}
+
+/// Standard lights whose maps are "raytrace" cast the shadows that transmission() finds.
+TEST(RayShaders, StandardLightsTraceTheirShadows) {
+    Case c;
+    c.things = "Surface \"constant\" " + sphere("0 0 3", ".3");
+    for (const char* light :
+         {"\"shadowpoint\" 1 \"from\" [.3 .2 0] \"sfpz\" \"raytrace\"",
+          "\"shadowspot\" 1 \"from\" [.3 .2 0] \"to\" [.3 .2 5] \"coneangle\" 1 \"shadowname\" "
+          "\"raytrace\""}) {
+        SCOPED_TRACE(light);
+        c.asks = std::string("LightSource ") + light + " " + kAsker;
+        const Image image = c.render(
+            "point from = point(.3, .2, 0); vector way = normalize(from - P), m = point(0, 0, 3) - P;"
+            "float passes = length(m - (m . way) * way), lit = 0;"
+            "illuminance(P) { lit = comp(Cl, 0) > 0 ? 1 : 0; }"
+            "Ci = told(lit, passes > .3 ? 1 : 0, abs(passes - .3) > .01 ? 1 : 0);");
+        expect_told(image, 0, 3500);
+        EXPECT_LT(mean_found(image), 0.99);
+    }
+    // An uberlight lies at its origin and shines along z.
+    c.asks =
+        "TransformBegin Translate .3 .2 0 LightSource \"uberlight\" 1 \"width\" 9 \"height\" 9 \"shadowmap\" "
+        "\"raytrace\" TransformEnd " +
+        kAsker;
+    expect_told(
+        c.render("point from = point(.3, .2, 0); vector way = normalize(from - P), m = point(0, 0, 3) - P;"
+                 "float passes = length(m - (m . way) * way), lit = 0;"
+                 "illuminance(P) { lit = comp(Cl, 0) > 0 ? 1 : 0; }"
+                 "Ci = told(lit, passes > .3 ? 1 : 0, abs(passes - .3) > .06 ? 1 : 0);"),
+        0, 3000);
+}
+
+}  // namespace
+}  // namespace trapeze::testing
