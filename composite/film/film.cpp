@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "composite/film/exposure.h"
 #include "composite/film/pixel_depth.h"
 #include "composite/film/resolve_layers.h"
 #include "composite/film/tile_sums.h"
-#include "core/portable_math.h"
 
 namespace trapeze {
 namespace {
@@ -64,13 +64,13 @@ struct Film::Tile {
     std::atomic<bool> added{false};
 };
 
-Film::Film(const RenderContext& context, bool record_ids)
+Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     : aovs_(aov_layout(context.scene->options)),
       kernel_(context.scene->options.filter, context.diagnostics),
       depth_filter_(depth_filter_of(context)) {
     const Options& options = context.scene->options;
     gain_ = options.exposure_gain;
-    inverse_gamma_ = options.exposure_gamma > 0 ? 1 / options.exposure_gamma : 1.0f;
+    inverse_gamma_ = leave_gamma ? 1.0f : inverse_of_gamma(options.exposure_gamma);
 
     image_.width = context.camera.width, image_.height = context.camera.height;
     image_.window = context.camera.crop;
@@ -287,16 +287,10 @@ void Film::develop(int tile) {
         }
 }
 
-/// Applies Exposure (RISpec 4.1.2): (colour * gain) ^ (1 / gamma). What filters with negative lobes make
-/// negative stays so.
+/// Applies Exposure (RISpec 4.1.2): (colour * gain) ^ (1 / gamma).
 void Film::expose(float* rgba) const {
-    for (int c = 0; c < 3; ++c) {
-        rgba[c] *= gain_;
-        if (inverse_gamma_ == 1) continue;
-        const double power =
-            portable::pow(std::abs(static_cast<double>(rgba[c])), static_cast<double>(inverse_gamma_));
-        rgba[c] = static_cast<float>(std::copysign(power, static_cast<double>(rgba[c])));
-    }
+    for (int c = 0; c < 3; ++c) rgba[c] *= gain_;
+    apply_gamma(inverse_gamma_, rgba);
 }
 
 Image Film::finish() {

@@ -32,7 +32,8 @@ class Film {
   public:
     /// Reads the crop, PixelFilter, Exposure and Hider of the context's scene. Image::id is recorded when
     /// asked for here, or by a Display of mode "id".
-    explicit Film(const RenderContext& context, bool record_ids = false);
+    /// `leave_gamma`: Exposure's gamma is not applied, but its gain; what comes after adds up light.
+    explicit Film(const RenderContext& context, bool record_ids = false, bool leave_gamma = false);
     ~Film();
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
