@@ -85,6 +85,7 @@ Imager::Imager(const RenderContext& context, const Access& access) : impl_(std::
     ShaderInstance instance = *scene.options.imager;
     ShaderLibrary library(scene.options, context.diagnostics, access);
     auto executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
+    if (!executable && instance.name == "glow" && !library.has_said_why_not(instance.name)) return;
     if (!executable) {
         auto instead = stand_in(instance);
         if (context.diagnostics && !library.has_said_why_not(instance.name))

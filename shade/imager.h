@@ -14,9 +14,10 @@ class BoundShader;
 /// A scene's imager shader, ready to run; or none, and then pictures stay as they are.
 class Imager {
   public:
-    /// Finds the shader that Options::imager names. One that is not known, is no imager or has errors is
-    /// reported; then there is none, or `background` in place of one that had a background colour. The
-    /// context, its scene and `access`, to files, must outlive this.
+    /// Finds the shader that Options::imager names; none is missed where that is "glow", which needs no
+    /// shader (core/scene/glow.h), but a scene may have one of this name. One that is not known, is no imager
+    /// or has errors is reported; then there is none, or `background` in place of one that had a background
+    /// colour. The context, its scene and `access`, to files, must outlive this.
     explicit Imager(const RenderContext& context, const Access& access = kEverything);
     ~Imager();
 

@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "composite/displays/display_plan.h"
+#include "core/scene/glow.h"
 #include "pipeline/frame/frame_recorder.h"
+#include "pipeline/frame/glow_picture.h"
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/resolve_tiles.h"
@@ -23,6 +25,7 @@ namespace trapeze {
 namespace {
 
 constexpr int kPictureChannels = 6;  ///< colour, opacity, depth and a weight or id, of four bytes each
+constexpr int kGlowChannels = 9;     ///< light spread along rows, three times
 
 /// Bytes of physical memory; two gibibytes where the system does not tell.
 size_t machine_memory() {
@@ -59,6 +62,7 @@ struct Frame {
     const Sampler& sampler;
     const SamplePattern& pattern;
     size_t memory_budget;  ///< bytes, of a region's grids and tree
+    bool leave_gamma;      ///< to what comes after the film
 };
 
 /// Adds what samples see of the grids of their region to the film.
@@ -95,7 +99,7 @@ bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRe
 std::unique_ptr<Film> film_of_regions(const Frame& frame, const std::vector<Region>& regions,
                                       FrameRecorder& recorder) {
     while (!frame.context.is_cancelled()) {
-        auto film = std::make_unique<Film>(frame.context);
+        auto film = std::make_unique<Film>(frame.context, false, frame.leave_gamma);
         if (add_regions(frame, regions, recorder, *film)) return film;
         recorder.restart();
     }
@@ -111,7 +115,8 @@ size_t default_memory_budget() {
 bool picture_fits(const RenderContext& context, const RenderSettings& settings) {
     const PixelRect pixels = sampled_pixels(context.camera, context.scene->options);
     if (pixels.empty()) return true;
-    const int channels = kPictureChannels + aov_layout(context.scene->options).channel_count;
+    const int channels = kPictureChannels + aov_layout(context.scene->options).channel_count +
+                         (find_glow(context.scene->options, nullptr) ? kGlowChannels : 0);
     const double bytes = 4.0 * channels * pixels.width() * pixels.height();
     // A stranger's has what there is for all.
     const size_t most =
@@ -144,13 +149,17 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
     return context;
 }
 
-std::optional<FrameResult> render_frame(const RenderContext& context, const RenderSettings& settings) {
+std::optional<FrameResult> render_frame(const RenderContext& asked, const RenderSettings& settings) {
     std::string wrong;
     const std::optional<Sampler> sampler = choose_sampler(settings.sampler, settings.pattern, &wrong);
     if (!sampler) {
-        context.diagnostics->error({}, wrong);
+        asked.diagnostics->error({}, wrong);
         return {};
     }
+    const Imager imager(asked, *settings.access);
+    const std::optional<Glow> glow =
+        imager.is_there() ? std::nullopt : find_glow(asked.scene->options, asked.diagnostics);
+    const RenderContext context = with_glow_margin(asked, glow);
     if (!picture_fits(context, settings)) return {};
     FrameRecorder recorder(settings.on_progress, settings.on_stage);
 
@@ -164,15 +173,15 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
         recorder.timed(&StageSeconds::rays, [&] { return make_ray_world(context, shading, budget); });
     shading.set_rays(rays.get());
     const size_t region_budget = rays ? budget / 2 : budget;
-    const Imager imager(context, *settings.access);
     const std::unique_ptr<SamplePattern> pattern = sampler->make_pattern(context);
     const Options& options = context.scene->options;
     const std::vector<Region> regions =
         split_into_regions(sampled_pixels(context.camera, options), tessellation.subpatches(),
                            {region_budget, settings.regions_at_least, aov_layout(options).channel_count});
 
-    const std::unique_ptr<Film> film = film_of_regions(
-        {context, tessellation, shading, *sampler, *pattern, region_budget}, regions, recorder);
+    const std::unique_ptr<Film> film =
+        film_of_regions({context, tessellation, shading, *sampler, *pattern, region_budget, glow.has_value()},
+                        regions, recorder);
     if (!film) return {};
     shading.report_displacement_bounds();
 
@@ -181,7 +190,9 @@ std::optional<FrameResult> render_frame(const RenderContext& context, const Rend
     recorder.timed(&StageSeconds::composite, [&] {
         result.image = film->finish();
         run_imager(imager, result.image);
+        if (glow) glow_picture(*glow, context, asked.camera.crop, result.image);
     });
+    if (glow && context.is_cancelled()) return {};
     result.stats = recorder.finish(context);
     result.stats.regions = static_cast<int>(regions.size());
     result.stats.sampler = sampler->name();

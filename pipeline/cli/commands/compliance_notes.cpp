@@ -24,7 +24,9 @@ constexpr RequestNote kRequests[] = {
     {"Hider",
      "hidden; others are warned about and hidden is used; aperture, jitter, depthfilter, samplemotion; "
      "minsamples and maxsamples (as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
-    {"Imager", "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture"},
+    {"Imager",
+     "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture; \"glow\" is "
+     "built in"},
     {"Integrator", "read; RIS shaders are not run"},
     {"Interior", "kept; nothing runs it until rays are traced"},
     {"Light", "RIS shaders are not run: rislight, distantlight and ambientlight, without shadows"},

@@ -1,0 +1,122 @@
+/// Imager "glow" in whole frames: crops, regions and threads, Exposure, and what a scene may say wrong.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "composite/film/glow_filter.h"
+#include "tests/scene_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// Small bright squares before a dim one that fills 96 x 64 pixels, with motion and defocus.
+std::string scene_of(const std::string& options) {
+    const std::string folder = ::testing::TempDir() + "glow_scene";
+    std::filesystem::create_directories(folder);
+    const std::string path = folder + "/scene.rib";
+    std::ofstream(path)
+        << "Display \"x\" \"exr\" \"rgba\" Format 96 64 1 PixelSamples 3 3 Projection \"perspective\" \"fov\" "
+           "[40] DepthOfField 2 .6 4 Shutter 0 1\n"
+        << options
+        << "\nWorldBegin Surface \"constant\" Color .2 .3 .4 Polygon \"P\" [-9 -9 9 9 -9 9 9 9 9 -9 9 9] "
+           "MotionBegin [0 1] Translate 0 0 0 Translate .1 0 0 MotionEnd Color 60 30 10 "
+           "Polygon \"P\" [-1 -.4 5 -.9 -.4 5 -.9 -.3 5 -1 -.3 5] Color 5 90 20 "
+           "Polygon \"P\" [.8 .4 3 .85 .4 3 .85 .5 3 .8 .5 3] WorldEnd\n";
+    return path;
+}
+
+constexpr const char* kGlow = "Imager \"glow\" \"float amount\" [.4] \"float size\" [.05] ";
+
+Image render(const std::string& options, int threads = 2, int regions = 1) {
+    RenderSettings settings;
+    settings.regions_at_least = regions;
+    return render_scene(scene_of(options), settings, threads).at(0).image;
+}
+
+Image part_of(Image whole, const PixelRect& window) {
+    trim(window, whole);
+    return whole;
+}
+
+TEST(Glow, CropsArePartsOfTheWholePictureBitForBit) {
+    for (const std::string further : {"", "Exposure 2 2.2 ", "PixelFilter \"catmull-rom\" 4 4 "}) {
+        const Image whole = render(kGlow + further);
+        for (const char* crop : {"0 .5 0 .5", ".5 .6 .4 .5", ".25 1 .5 1", "0 1 .98 1"}) {
+            const Image part = render(kGlow + further + "CropWindow " + crop);
+            ASSERT_FALSE(part.rgba.empty());
+            EXPECT_TRUE(part == part_of(whole, part.window)) << further << crop;
+            EXPECT_LT(part.rgba.size(), whole.rgba.size()) << "the margin is not kept";
+        }
+    }
+}
+
+TEST(Glow, IsTheSameForAnyThreadsAndRegions) {
+    const Image image = render(kGlow);
+    EXPECT_TRUE(render(kGlow, 1) == image);
+    EXPECT_TRUE(render(kGlow, 7) == image);
+    for (const int regions : {3, 40}) EXPECT_TRUE(render(kGlow, 2, regions) == image) << regions;
+}
+
+TEST(Glow, OfNothingLeavesThePictureAsItIs) {
+    const Image image = render("");
+    for (const char* none : {"Imager \"glow\" \"float amount\" [0]", "Imager \"glow\" \"float size\" [0]",
+                             "Imager \"glow\" Imager \"null\"", "Imager \"glow\" \"float threshold\" [1000]"})
+        EXPECT_TRUE(render(none) == image) << none;
+    EXPECT_FALSE(render(kGlow) == image);
+}
+
+/// Light adds up before gamma: with it the picture is the power of that without.
+TEST(Glow, ComesBeforeGamma) {
+    const Image linear = render(std::string(kGlow) + "Exposure 3 1"),
+                gamma = render(std::string(kGlow) + "Exposure 3 2");
+    for (size_t i = 0; i < linear.rgba.size(); ++i)
+        ASSERT_NEAR(gamma.rgba[i], i % 4 == 3 ? linear.rgba[i] : std::sqrt(linear.rgba[i]),
+                    1e-5f * gamma.rgba[i]);
+}
+
+TEST(Glow, LeavesDepthAndOpacity) {
+    const Image before = render(""), after = render(kGlow);
+    EXPECT_EQ(after.z, before.z);
+    for (size_t i = 3; i < after.rgba.size(); i += 4) ASSERT_EQ(after.rgba[i], before.rgba[i]);
+}
+
+TEST(Glow, AScenesOwnShaderOfThisNameIsRun) {
+    const std::string path = scene_of("Imager \"glow\"");
+    const std::string shader = std::filesystem::path(path).parent_path().string() + "/glow.sl";
+    std::ofstream(shader) << "imager glow() { Ci = color (1, 2, 3); }\n";
+    const Image image = render_scene(path, {}).at(0).image;
+    std::filesystem::remove(shader);
+    EXPECT_EQ(image.rgba[0], 1);
+    EXPECT_EQ(image.rgba[1], 2);
+}
+
+TEST(Glow, WhatIsOutOfRangeIsSaidAndClamped) {
+    const auto messages = [](const std::string& parameters) {
+        std::vector<std::string> said;
+        Diagnostics diagnostics([&](const Diagnostic& message) { said.push_back(message.text); });
+        const std::string path = scene_of("Imager \"glow\" " + parameters);
+        const std::vector<std::string> files{path};
+        read_rib(files, ReadOptions{}, diagnostics, [&](Scene&& read) {
+            const auto glow = find_glow(read.options, &diagnostics);
+            if (!glow) said.push_back("none");
+            const Glow in_range = glow.value_or(Glow{});
+            EXPECT_TRUE(in_range.amount <= 1 && in_range.size <= Glow::kMostSize && in_range.threshold >= 0);
+        });
+        return said.empty() ? std::string() : said.front();
+    };
+    EXPECT_EQ(messages("\"float amount\" [1] \"float size\" [.1] \"float threshold\" [9]"), "");
+    EXPECT_EQ(messages("\"float amount\" [7]"),
+              "Imager: \"glow\": \"amount\" is out of range; the nearest value is used");
+    EXPECT_EQ(messages("\"float size\" [1e30]"),
+              "Imager: \"glow\": \"size\" is out of range; the nearest value is used");
+    EXPECT_EQ(messages("\"float threshold\" [-1]"),
+              "Imager: \"glow\": \"threshold\" is out of range; the nearest value is used");
+    EXPECT_EQ(messages("\"string size\" [\"big\"]"), "Imager: \"glow\": \"size\" is not a number; left out");
+    EXPECT_EQ(messages("\"float radius\" [3]"),
+              "Imager: \"glow\": there is no parameter \"radius\": there are amount, size and threshold");
+    EXPECT_EQ(messages("\"float amount\" [0]"), "none");
+}
+
+}  // namespace
+}  // namespace trapeze::testing
