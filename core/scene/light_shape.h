@@ -1,0 +1,40 @@
+/// What area lights shine from [decision 0030].
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/math.h"
+
+namespace trapeze {
+
+struct LightInstance;
+
+/// The shape of a light. Points on it are chosen anew for each point that it shines on.
+struct LightShape {
+    /// Rect, Disk and Sphere have the width 1 about the origin of the light's space, the first two in the
+    /// plane z = 0. They shine along +z, and outwards. Mesh: the primitives whose emitter the light is.
+    /// Distant: a disk in the sky, which shines along +z. Dome: the whole sky, with its zenith at +z.
+    enum class Kind : uint8_t { Rect, Disk, Sphere, Mesh, Distant, Dome };
+
+    Kind kind = Kind::Mesh;
+    int samples = kDefaultSamples;  ///< points for each point that it shines on; 1 .. kMostSamples
+    bool two_sided = false;
+    float angle = 0;          ///< Distant: from the middle of the disk to its rim, radians
+    std::string map;          ///< Dome: a picture of all directions; empty: it is the same all around
+    M44f camera_from_middle;  ///< Mesh: the light's space with its origin in the middle of its first shape
+
+    static constexpr int kDefaultSamples = 16, kMostSamples = 2048;
+};
+
+/// Triangles of a light's mesh, camera space at shutter open; (b - a) x (c - a) points outside.
+struct LightMesh {
+    struct Triangle {
+        V3f a, b, c;
+    };
+    std::vector<Triangle> triangles;
+};
+using LightMeshes = std::map<const LightInstance*, LightMesh>;
+
+}  // namespace trapeze

@@ -1,0 +1,54 @@
+/// Points on the shapes of area lights, chosen for a point that they shine on [decision 0030]. Camera space,
+/// at shutter open.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/math.h"
+#include "core/scene/light_shape.h"
+
+namespace trapeze {
+
+/// A point on a light.
+struct LightSample {
+    V3f P{0, 0, 0};
+    V3f N{0, 0, 1};  ///< of unit length, to where it shines; of lights that are nowhere, along the light
+    float solid_angle = 0;  ///< that it stands for if it is the only one, 1 / density; 0: nothing arrives
+    V3f radiance{1, 1, 1};  ///< of a dome, by its map
+};
+
+/// A light's shape. Immutable: threads share it.
+class LightSampler {
+  public:
+    virtual ~LightSampler() = default;
+
+    /// A point for one of the unit square, at P, whose normal is N (of unit length, or zero: not known). For
+    /// even points of the square the mean of solid_angle times a function of where light comes from is the
+    /// function's integral over the light as it is seen from P.
+    virtual LightSample sample(const V3f& P, const V3f& N, const V2f& square) const = 0;
+
+    /// Of one side; 1 where the light is nowhere.
+    virtual float area() const { return 1; }
+    /// Light comes from all of its points alike: one is enough.
+    virtual bool is_point() const { return false; }
+};
+
+/// The picture of a dome: colours by longitude (from 0 at the left) and latitude (from the zenith at the top
+/// down), row by row, all finite and not below zero.
+struct DomeMap {
+    int width = 0, height = 0;
+    std::vector<V3f> colors;
+};
+
+// Each is null for a shape that has no area, or is not finite.
+
+/// Kinds Rect and Disk.
+std::unique_ptr<LightSampler> make_flat_sampler(const LightShape& shape, const M44f& camera_from_light);
+std::unique_ptr<LightSampler> make_sphere_sampler(const M44f& camera_from_light);
+std::unique_ptr<LightSampler> make_mesh_sampler(const LightMesh& mesh, bool two_sided);
+std::unique_ptr<LightSampler> make_distant_sampler(float angle, const M44f& camera_from_light);
+/// Without colours the dome is white. Null, too, where all of it is black.
+std::unique_ptr<LightSampler> make_dome_sampler(const DomeMap& map, const M44f& camera_from_light);
+
+}  // namespace trapeze

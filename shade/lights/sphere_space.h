@@ -1,0 +1,77 @@
+/// Directions as seen from a point: frames, and solid angles in spaces that are not the camera's.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/math.h"
+#include "core/portable_math.h"
+
+namespace trapeze {
+
+inline constexpr double kPi64 = std::numbers::pi;
+
+inline V3d wide(const V3f& v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+inline V3f narrow(const V3d& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+inline bool is_finite(const V3d& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// An axis with two directions across it, all of unit length and at right angles. It is continuous but at
+/// one axis [Duff17].
+struct AxisFrame {
+    explicit AxisFrame(const V3d& unit) : axis(unit) {
+        const double sign = std::copysign(1.0, axis.z), a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
+        across = {1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
+        along = {b, sign + axis.y * axis.y * a, -axis.y};
+    }
+    /// `turn`: a part of the whole.
+    V3d around(double sine, double cosine, double turn) const {
+        const double angle = 2 * kPi64 * turn;
+        return across * (sine * portable::cos(angle)) + along * (sine * portable::sin(angle)) + axis * cosine;
+    }
+
+    V3d axis, across, along;
+};
+
+/// 1 - cos of an angle whose cosine may be close to 1, from its squared sine.
+inline double one_minus_cosine(double sine2) {
+    return sine2 / (1 + std::sqrt(1 - sine2));
+}
+
+/// A direction of a cone about the frame's axis, all solid angles alike; `rim` is one_minus_cosine() of the
+/// angle between the axis and the rim.
+inline V3d in_cone(const AxisFrame& frame, double rim, const V2f& square) {
+    const double below = static_cast<double>(square.x) * rim, sine2 = below * (2 - below);
+    return frame.around(std::sqrt(sine2), 1 - below, static_cast<double>(square.y));
+}
+
+/// The linear part of a space's matrix.
+class LinearSpace {
+  public:
+    explicit LinearSpace(const M44f& camera_from_space) : matrix_(camera_from_space) {
+        for (int k = 0; k < 3; ++k) matrix_[3][k] = matrix_[k][3] = 0;
+        matrix_[3][3] = 1;
+        determinant_ = std::abs(matrix_.determinant());
+    }
+    V3d to_camera(const V3d& direction) const { return direction * matrix_; }
+    const M44d& matrix() const { return matrix_; }
+    double determinant() const { return determinant_; }
+    bool is_regular() const { return determinant_ > 0 && std::isfinite(determinant_); }
+    /// How much larger a small solid angle about a direction of unit length is in camera space.
+    double stretch(const V3d& direction) const {
+        const double length = to_camera(direction).length();
+        return determinant_ / (length * length * length);
+    }
+
+  private:
+    M44d matrix_;
+    double determinant_ = 0;
+};
+
+}  // namespace trapeze
