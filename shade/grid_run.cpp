@@ -126,7 +126,8 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     registers.start(batch.lanes);
     bound.set_parameters(registers, grids);
     // Lights that ask for the surface's variables may see them before the surface sets them.
-    const bool all = std::ranges::any_of(material_.lights, &Lamp::asks_surface);
+    const bool all = std::ranges::any_of(material_.lights,
+                                         [](const Lamp* lamp) { return lamp->asks_surface || lamp->area; });
     // What a ray has hit is no smaller than the ray; the camera's pixels are of no matter.
     const bool stretched =
         bound.program().kind != rsl::ShaderKind::Displacement && grids.front()->I.size() == 0;
@@ -146,8 +147,10 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     surroundings.messages = &messages_;
     surroundings.diagnostics = context_.diagnostics;
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
-    scratch_.lights.start(scratch_.machine, material_.lights, surroundings, batch.lanes,
-                          variable_planes(registers, "N"));
+    // Shadows ask for opacities: area lights that looked for their own shadows there would never end.
+    const auto& lights = grids.front()->for_opacity ? material_.other_lights : material_.lights;
+    scratch_.lights.start(scratch_.machine, lights, surroundings, batch.lanes,
+                          variable_planes(registers, "N"), context_.seed);
     bound.set_run_defaults(scratch_.machine, registers, surroundings, grids);
     shader.connect(layer, layers);
     scratch_.machine.run(registers, surroundings);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shade/answer_hits.h"
+#include "shade/area_lights.h"
 #include "shade/grid_run.h"
 #include "shade/materials/named_maps.h"
 #include "shade/rays/ray_programs.h"
@@ -37,6 +38,7 @@ struct Shading::Impl {
           textures(render.scene->options, render.diagnostics, access),
           materials(render, access),
           aovs(aov_layout(render.scene->options)) {
+        make_samplers(materials, textures, render.diagnostics);
         if (render.diagnostics)
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
     }
@@ -115,9 +117,27 @@ bool Shading::asks_rays() const {
             if (shader && shader->layers.size() > 1)
                 connected.insert(shader->layers.begin(), shader->layers.end());
     const std::vector<const BoundShader*> shaders = impl_->materials.shaders();
+    std::set<const BoundShader*> of_area_lights;
+    for (const Lamp* lamp : impl_->materials.lamps())
+        if (lamp->area) of_area_lights.insert(lamp->shader.get());
+    const bool any_seen =
+        std::ranges::any_of(impl_->context.scene->primitives,
+                            [](const Primitive& primitive) { return primitive.attributes->rays.seen(); });
     return std::ranges::any_of(shaders, [&](const BoundShader* shader) {
-        return asks_for_rays(*shader, connected.contains(shader) ? nullptr : &varied);
+        return asks_for_rays(*shader, connected.contains(shader) ? nullptr : &varied) &&
+               (any_seen || !of_area_lights.contains(shader));
     });
+}
+
+std::vector<const LightInstance*> Shading::mesh_lights() const {
+    std::vector<const LightInstance*> lights;
+    for (const Lamp* lamp : impl_->materials.lamps())
+        if (is_mesh_light(*lamp)) lights.push_back(lamp->area);
+    return lights;
+}
+
+void Shading::set_light_meshes(const LightMeshes& meshes) {
+    make_mesh_samplers(impl_->materials, meshes, impl_->context.diagnostics);
 }
 
 void Shading::set_rays(const RayScene* rays) {

@@ -4,9 +4,11 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "core/depth_height.h"
 #include "core/files/access.h"
+#include "core/scene/light_shape.h"
 #include "core/scene/ray_scene.h"
 #include "core/scene/render_context.h"
 #include "core/scene/shading_grid.h"
@@ -46,8 +48,14 @@ class Shading {
     /// uniform variables are shaded together, which gives each the same bits and costs less.
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const;
 
-    /// Whether a shader may ask for rays: it calls trace() or one of its kin.
+    /// Whether a shader may ask for rays: it calls trace() or one of its kin. Area lights ask where there is
+    /// a primitive that some rays see.
     bool asks_rays() const;
+    /// The lights whose shapes are meshes, to be made of the primitives whose emitters they are.
+    std::vector<const LightInstance*> mesh_lights() const;
+    /// Those meshes. Until then such lights are dark; they stay so, with a warning, without a mesh of any
+    /// area.
+    void set_light_meshes(const LightMeshes& meshes);
     /// What rays of shaders meet from now on; outlives this. Null: nothing.
     void set_rays(const RayScene* rays);
     /// Displaces grids of the geometry that rays meet, where their attributes say so, and sets Ci and Oi to

@@ -11,6 +11,7 @@
 #include "core/diagnostics.h"
 #include "core/math.h"
 #include "core/motion_keys.h"
+#include "core/scene/light_shape.h"
 #include "core/scene/parameters.h"
 #include "core/scene/shapes.h"
 
@@ -93,6 +94,7 @@ struct Options {
 struct LightInstance {
     std::string handle;
     ShaderInstance shader;
+    std::optional<LightShape> shape = {};  ///< what it shines from; nothing: its shader knows
 };
 
 /// How rays that shaders trace meet a primitive. Nothing is seen by them unless its attributes ask for it, as
@@ -158,6 +160,8 @@ struct Primitive {
     std::vector<M44f> camera_from_object;
     SourceLocation location;
     int solid = -1;  ///< index of the leaf in Scene::solids that it bounds; -1: no part of a solid
+    std::shared_ptr<const LightInstance>
+        emitter;  ///< the light that it is a part of the shape of; null: none
 
     /// Number of keys of the moving primitive: that of its shapes or poses, whichever has more.
     int key_count() const { return static_cast<int>(std::max(shape_keys.size(), camera_from_object.size())); }

@@ -60,7 +60,8 @@ struct ShadingGrid {
     /// From where the points are seen, to P: of what a ray has hit. Without values they are seen by the
     /// camera.
     Triples I;
-    int hit_vertex = -1;  ///< of what a ray has hit: the vertex there; only this one traces rays in turn
+    int hit_vertex = -1;       ///< of what a ray has hit: the vertex there; only this one traces rays in turn
+    bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone
     Triples dPdu,
         dPdv;  ///< derivatives by the surface's u and v, which run 0..1 over the primitive's face or patch
     std::vector<float> u, v;  ///< surface parameters

@@ -6,6 +6,7 @@
 
 #include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/make_grids.h"
+#include "pipeline/rays/light_meshes.h"
 #include "pipeline/rays/ray_world.h"
 #include "sample/visibility.h"
 
@@ -52,6 +53,7 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     });
     recorder.bounded(tessellation.stats());
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
+    recorder.timed(&StageSeconds::rays, [&] { make_light_meshes(frame.context, shading, budget); });
     const std::unique_ptr<RayWorld> rays =
         recorder.timed(&StageSeconds::rays, [&] { return make_ray_world(frame.context, shading, budget); });
     shading.set_rays(rays.get());

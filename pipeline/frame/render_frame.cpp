@@ -16,6 +16,7 @@
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/resolve_tiles.h"
+#include "pipeline/rays/light_meshes.h"
 #include "pipeline/rays/ray_world.h"
 #include "sample/visibility.h"
 #include "shade/imager.h"
@@ -169,6 +170,7 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
         return Tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
     });
     recorder.bounded(tessellation.stats());
+    recorder.timed(&StageSeconds::rays, [&] { make_light_meshes(context, shading, budget); });
     const std::unique_ptr<RayWorld> rays =
         recorder.timed(&StageSeconds::rays, [&] { return make_ray_world(context, shading, budget); });
     shading.set_rays(rays.get());

@@ -53,6 +53,8 @@ constexpr UsualValue kUsual[] = {
     {"trace", "maxdepth", ValueType::Integer},
     {"trace", "maxdiffusedepth", ValueType::Integer},
     {"trace", "maxspeculardepth", ValueType::Integer},
+    {"light", "nsamples", ValueType::Integer},
+    {"light", "samples", ValueType::Integer},
     {"display", "quantize", ValueType::Float, 4},
     {"display", "dither", ValueType::Float},
     {"display", "colorspace", ValueType::String},

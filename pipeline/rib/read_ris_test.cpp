@@ -100,7 +100,7 @@ TEST(ReadRis, LightsShineOnAllOfTheWorld) {
         const ShaderInstance& light = r.attributes(i).lights[0]->shader;
         EXPECT_EQ(light.name, "rislight");
         EXPECT_EQ(numbers(light, "lightcolor"), (std::vector<float>{16, 8, 4}));
-        EXPECT_EQ(text_of(light, "shape"), "rect");
+        EXPECT_EQ(r.attributes(i).lights[0]->shape->kind, LightShape::Kind::Rect);
         EXPECT_EQ(light.camera_from_shader.translation(), V3f(0, 5, 0));
     }
 }
@@ -130,18 +130,45 @@ TEST(ReadRis, DistantLightsAreDisksInTheSky) {
     EXPECT_NEAR(brightness("\"float angleExtent\" [90] \"int areaNormalize\" [1]"), 1.07f, 0.01f);
     EXPECT_EQ(brightness("\"float angleExtent\" [0]"), 0);
     EXPECT_EQ(brightness("\"float intensity\" [2]"), 2);
+    const Outcome r = read_world("Light \"PxrDistantLight\" \"sun\" \"float angleExtent\" [90] \n" + kBall);
+    EXPECT_EQ(r.attributes().lights[0]->shape->kind, LightShape::Kind::Distant);
+    EXPECT_NEAR(r.attributes().lights[0]->shape->angle, 0.785398f, 1e-6f);
 }
 
-TEST(ReadRis, DomesAreAmbientAndShineFromAboveAndTheEye) {
+TEST(ReadRis, LightsSayHowManySamplesAndShadowsTheyHave) {
     const Outcome r = read_world(
-        "Light \"PxrDomeLight\" \"d\" \"float intensity\" [2]\n"
+        "Light \"PxrDiskLight\" \"a\" \"int fixedSampleCount\" [9] \"int enableShadows\" [0]\n"
+        "Attribute \"light\" \"int nsamples\" [40] Light \"PxrSphereLight\" \"b\"\n" +
+        kBall);
+    ASSERT_EQ(r.attributes().lights.size(), 2u);
+    EXPECT_EQ(r.attributes().lights[0]->shape->samples, 9);
+    EXPECT_EQ(numbers(r.attributes().lights[0]->shader, "traceshadows"), (std::vector<float>{0}));
+    EXPECT_EQ(r.attributes().lights[1]->shape->samples, 40);
+}
+
+/// In path tracers all is in the way of light; so are Bxdfs here, unless they say otherwise.
+TEST(ReadRis, BxdfsCastShadowsOfAreaLights) {
+    const std::string light = "Light \"PxrSphereLight\" \"l\"\n", bxdf = "Bxdf \"PxrDiffuse\" \"b\"\n";
+    EXPECT_TRUE(read_world(light + bxdf + kBall).attributes().rays.transmission);
+    EXPECT_FALSE(read_world(bxdf + kBall).attributes().rays.transmission) << "nothing asks for rays";
+    EXPECT_FALSE(read_world(light + kBall).attributes().rays.transmission) << "no Bxdf";
+    EXPECT_FALSE(read_world(light + bxdf + "Attribute \"visibility\" \"int transmission\" [0]\n" + kBall)
+                     .attributes()
+                     .rays.transmission);
+}
+
+TEST(ReadRis, DomesAreTheSkyWithTheirMaps) {
+    const Outcome r = read_world(
+        "Light \"PxrDomeLight\" \"d\" \"float intensity\" [2] \"string lightColorMap\" [\"sky.tex\"]\n"
         "Bxdf \"PxrDiffuse\" \"b\"\n" +
         kBall);
     const auto& lights = r.attributes().lights;
-    ASSERT_EQ(lights.size(), 3u);
-    EXPECT_EQ(lights[0]->shader.name, "ambientlight");
-    EXPECT_EQ(numbers(lights[0]->shader, "lightcolor"), (std::vector<float>{0.6f, 0.6f, 0.6f}));
-    EXPECT_EQ(numbers(lights[1]->shader, "to"), (std::vector<float>{0, 0, -1}));
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_EQ(lights[0]->shader.name, "rislight");
+    EXPECT_EQ(numbers(lights[0]->shader, "lightcolor"), (std::vector<float>{2, 2, 2}));
+    EXPECT_EQ(numbers(lights[0]->shader, "isdistant"), (std::vector<float>{1}));
+    EXPECT_EQ(lights[0]->shape->kind, LightShape::Kind::Dome);
+    EXPECT_EQ(lights[0]->shape->map, "sky.tex");
 }
 
 TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
@@ -151,10 +178,9 @@ TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
         "Bxdf \"PxrDiffuse\" \"b\"\n" +
         kBall);
     const auto& lights = dome.attributes().lights;
-    ASSERT_EQ(lights.size(), 3u);
-    EXPECT_EQ(lights[0]->shader.name, "ambientlight");
-    EXPECT_EQ(numbers(lights[0]->shader, "lightcolor"), (std::vector<float>{0.6f, 0.6f, 0.6f}));
-    EXPECT_EQ(lights[1]->shader.name, "distantlight");
+    ASSERT_EQ(lights.size(), 1u);
+    EXPECT_EQ(lights[0]->shape->kind, LightShape::Kind::Dome);
+    EXPECT_EQ(numbers(lights[0]->shader, "lightcolor"), (std::vector<float>{2, 2, 2}));
 
     const Outcome sun = read_world(
         "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"color lightColor\" [1 .5 0]\n"
@@ -163,9 +189,9 @@ TEST(ReadRis, AreaLightsOfFarGeometryShineFromAfar) {
         kBall);
     ASSERT_EQ(sun.attributes().lights.size(), 1u);
     const ShaderInstance& light = sun.attributes().lights[0]->shader;
-    EXPECT_EQ(light.name, "distantlight");
+    EXPECT_EQ(sun.attributes().lights[0]->shape->kind, LightShape::Kind::Distant);
     EXPECT_EQ(numbers(light, "lightcolor"), (std::vector<float>{1, 0.5f, 0}));
-    EXPECT_EQ(numbers(light, "to"), (std::vector<float>{0, 0, -1}));
+    EXPECT_EQ(light.camera_from_shader[2][2], -1) << "it shines along -z of its geometry";
 
     const Outcome disk = read_world(
         "AttributeBegin AreaLightSource \"PxrStdAreaLight\" \"a\" \"float intensity\" [20]\n"
@@ -186,15 +212,31 @@ TEST(ReadRis, AreaLightsShineFromTheirGeometry) {
         "Bxdf \"PxrDiffuse\" \"b\"\n" +
         kBall);
     ASSERT_EQ(r.attributes(2).lights.size(), 1u);
-    const ShaderInstance& light = r.attributes(2).lights[0]->shader;
-    EXPECT_EQ(light.camera_from_shader.translation(), V3f(3, 2, 0));
-    EXPECT_EQ(text_of(light, "shape"), "rect");
-    EXPECT_EQ(numbers(light, "twosided"), (std::vector<float>{1}));
-    const M44f& m = light.camera_from_shader;
+    const LightInstance& light = *r.attributes(2).lights[0];
+    EXPECT_EQ(light.shape->kind, LightShape::Kind::Mesh);
+    EXPECT_TRUE(light.shape->two_sided) << "for it is flat";
+    EXPECT_EQ(r.scene().primitives[0].emitter.get(), &light);
+    EXPECT_EQ(r.scene().primitives[2].emitter, nullptr);
+    EXPECT_EQ(r.attributes(0).surface->name, "constant");
+}
+
+/// Of a light in an object only where it is placed is known: a rectangle stands for its geometry.
+TEST(ReadRis, AreaLightsOfObjectsAreTheirBoxes) {
+    const Outcome r = read_world(
+        "ObjectBegin \"lamp\" Translate 3 2 0\n"
+        "AreaLightSource \"PxrStdAreaLight\" \"a\" Polygon \"P\" [-1 0 -1  1 0 -1  1 0 1  -1 0 1]\n"
+        "ObjectEnd AttributeBegin Translate 1 0 0 ObjectInstance \"lamp\" AttributeEnd\n"
+        "Bxdf \"PxrDiffuse\" \"b\"\n" +
+        kBall);
+    ASSERT_EQ(r.attributes(1).lights.size(), 1u);
+    const LightInstance& light = *r.attributes(1).lights[0];
+    EXPECT_EQ(light.shape->kind, LightShape::Kind::Rect);
+    EXPECT_TRUE(light.shape->two_sided);
+    const M44f& m = light.shader.camera_from_shader;
+    EXPECT_EQ(m.translation(), V3f(4, 2, 0));
     EXPECT_EQ(std::abs(m[2][1]), 1);  // its z axis is y
     EXPECT_EQ(V3f(m[0][0], m[0][1], m[0][2]).length(), 2);
     EXPECT_EQ(V3f(m[1][0], m[1][1], m[1][2]).length(), 2);
-    EXPECT_EQ(r.attributes(0).surface->name, "constant");
 }
 
 TEST(ReadRis, WhereNothingLightsBxdfsTheEyeDoes) {

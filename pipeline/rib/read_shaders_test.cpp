@@ -86,18 +86,43 @@ TEST(ReadShaders, LayersEndSomewhere) {
     EXPECT_FALSE(r.messages.empty());
 }
 
-TEST(ReadShaders, AreaLightsShineFromTheMiddleOfTheirFirstShapeWithAWarning) {
+TEST(ReadShaders, AreaLightsShineFromTheShapesThatFollow) {
     const Outcome r = read_world(
         "AttributeBegin Translate 0 2 0 AreaLightSource \"pointlight\" 5 \"intensity\" [3] "
         "Polygon \"P\" [0 0 0  4 0 0  4 2 0] " +
         kSphere + "AttributeEnd Illuminate 5 1 AreaLightSource \"\" 6 " + kSphere +
         "AreaLightSource \"pointlight\" 7 \"from\" [1 2 3] Translate 5 5 5 " + kSphere);
-    ASSERT_EQ(r.messages.size(), 1u);
-    EXPECT_THAT(r.messages[0], HasSubstr("area lights"));
+    EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.attributes(2).lights.size(), 1u);
-    EXPECT_EQ(r.attributes(2).lights[0]->shader.camera_from_shader.translation(), V3f(2, 3, 0));
+    const LightInstance& light = *r.attributes(2).lights[0];
+    EXPECT_EQ(light.shader.camera_from_shader.translation(), V3f(0, 2, 0));
+    ASSERT_TRUE(light.shape.has_value());
+    EXPECT_EQ(light.shape->kind, LightShape::Kind::Mesh);
+    EXPECT_TRUE(light.shape->two_sided);
+    EXPECT_EQ(light.shape->samples, 16);
+    EXPECT_EQ(light.shape->camera_from_middle.translation(), V3f(2, 3, 0)) << "of the first shape";
+    const auto& primitives = r.scene().primitives;
+    EXPECT_EQ(primitives[0].emitter.get(), &light);
+    EXPECT_EQ(primitives[1].emitter.get(), &light);
+    EXPECT_EQ(primitives[2].emitter, nullptr) << "the attributes ended";
     ASSERT_EQ(r.attributes(3).lights.size(), 2u);
-    EXPECT_EQ(r.attributes(3).lights[1]->shader.camera_from_shader.translation(), V3f(0, 0, 0));
+    EXPECT_EQ(r.attributes(3).lights[1]->shape->camera_from_middle.translation(), V3f(0, 0, 0));
+}
+
+TEST(ReadShaders, AreaLightsTakeTheirSamplesFromAttributes) {
+    const auto samples = [](const std::string& attribute) {
+        return read_world(attribute + " Sides 1 AreaLightSource \"arealight\" 5 " + kSphere + kSphere);
+    };
+    const Outcome given = samples("Attribute \"light\" \"int nsamples\" [64]");
+    EXPECT_THAT(given.messages, IsEmpty());
+    EXPECT_EQ(given.attributes(1).lights[0]->shape->samples, 64);
+    EXPECT_FALSE(given.attributes(1).lights[0]->shape->two_sided);
+    EXPECT_EQ(samples("Attribute \"light\" \"int samples\" [3]").attributes(1).lights[0]->shape->samples, 3);
+    for (const char* wrong : {"0", "-7", "100000"}) {
+        const Outcome r = samples(std::string("Attribute \"light\" \"int nsamples\" [") + wrong + "]");
+        EXPECT_THAT(r.messages, ElementsAre(HasSubstr("must be 1 to 2048; 16 are used")));
+        EXPECT_EQ(r.attributes(1).lights[0]->shape->samples, 16);
+    }
 }
 
 TEST(ReadShaders, AreaLightsThatNothingSwitchesShineOnAll) {
@@ -108,8 +133,7 @@ TEST(ReadShaders, AreaLightsThatNothingSwitchesShineOnAll) {
     EXPECT_EQ(stray.attributes(0).lights.size(), 1u);
     ASSERT_EQ(stray.attributes(1).lights.size(), 1u);  // the second light has no shape
     EXPECT_EQ(stray.attributes(1).lights[0]->handle, "5");
-    EXPECT_THAT(stray.messages,
-                ElementsAre(HasSubstr("area lights"), HasSubstr("light \"5\" is of a block")));
+    EXPECT_THAT(stray.messages, ElementsAre(HasSubstr("light \"5\" is of a block")));
 
     const Outcome switched =
         read_world(block + kSphere + "AttributeBegin Illuminate 5 1 " + kSphere + "AttributeEnd");

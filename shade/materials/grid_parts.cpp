@@ -63,8 +63,9 @@ void put(const Triples& part, size_t first, size_t vertices, Triples& whole) {
 bool shades_vertices_apart(const Material& material) {
     return !material.displacement && !material.surface_moves && keeps_to_its_vertex(material.surface) &&
            keeps_to_its_vertex(material.atmosphere) &&
-           std::ranges::all_of(material.lights,
-                               [](const Lamp* lamp) { return keeps_to_its_vertex(lamp->shader->program()); });
+           std::ranges::all_of(material.lights, [](const Lamp* lamp) {
+               return !lamp->area && keeps_to_its_vertex(lamp->shader->program());
+           });
 }
 
 size_t part_size(size_t vertices, size_t parts) {

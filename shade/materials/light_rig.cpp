@@ -1,10 +1,13 @@
 #include "shade/materials/light_rig.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
+#include "core/random.h"
+#include "core/ray_sequence.h"
 #include "core/scene/scene.h"
 #include "shade/vm/kernels/light_kernels.h"
 
@@ -14,6 +17,12 @@ namespace {
 /// A light's planes in a Slot, by number: L, its direction and Cl have three planes each, the mask of lit
 /// lanes one.
 constexpr size_t kL = 0, kDirection = 3, kCl = 6, kLit = 9, kPlanes = 10;
+
+/// Planes of samples_, by number: P, N and radiance have three planes each.
+constexpr size_t kSampleP = 0, kSampleN = 3, kRadiance = 6, kSolidAngle = 9, kSamplePlanes = 10;
+
+/// Tells the seeds of area lights from those of other random numbers at a vertex.
+constexpr uint32_t kAreaLights = 0x6c616d70;
 
 /// An operand whose components differ from lane to lane and lie one plane after the other.
 vm::Operand planes_of(float* first, size_t lanes) {
@@ -47,14 +56,30 @@ void copy_operand(const vm::Operand& from, int width, size_t lanes, const vm::Op
 
 }  // namespace
 
+int Lamp::turns() const {
+    if (!area) return 1;
+    if (!sampler) return 0;
+    return sampler->is_point() ? 1 : area->shape->samples;
+}
+
 void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps,
-                     const vm::Context& surroundings, size_t lanes, const Plane3& N) {
+                     const vm::Context& surroundings, size_t lanes, const Plane3& N, uint32_t seed) {
     machine_ = &machine;
     lamps_ = &lamps;
     surroundings_ = &surroundings;
     lanes_ = lanes;
     N_ = N;
-    while (slots_.size() < lamps.size()) slots_.emplace_back();
+    seed_ = seed;
+    turns_.clear();
+    int wanted = 0;
+    for (const Lamp* lamp : lamps) wanted += lamp->turns();
+    for (uint32_t i = 0; i < lamps.size(); ++i) {
+        const int asked = lamps[i]->turns();
+        const int samples =
+            wanted > kMostTurns && asked > 1 ? std::max(1, asked * kMostTurns / wanted) : asked;
+        for (int s = 0; s < samples; ++s) turns_.push_back({i, s, samples});
+    }
+    while (slots_.size() < turns_.size()) slots_.emplace_back();
     for (Slot& slot : slots_) {
         slot.lasts = false;
         slot.arriving.registers = nullptr;
@@ -79,7 +104,9 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
         const rsl::RegisterId id = value.id;
         const vm::Operand& operand = registers.operand(id);
         const Predefined variable = value.variable;
-        if (variable == Predefined::Ps || variable == Predefined::I) {  // the eye is at the origin
+        if (lamp.area && (variable == Predefined::P || variable == Predefined::N)) {
+            continue;                                                          // set_sample()
+        } else if (variable == Predefined::Ps || variable == Predefined::I) {  // the eye is at the origin
             copy_operand(P, 3, lanes_, operand);
         } else if (variable == Predefined::P) {
             registers.set_uniform(id, &lamp.position.x);
@@ -94,13 +121,65 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
     }
 }
 
+/// Chooses a place of the light's shape for each vertex. Random numbers follow from the vertex and the lamp
+/// [decision 0019]: a vertex' places are well apart, and those of vertices have nothing in common.
+void LightRig::sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P) {
+    samples_.assign(kSamplePlanes * lanes_, 0);
+    const auto put = [&](size_t plane, size_t lane, const V3f& v) {
+        for (int k = 0; k < 3; ++k) samples_[(plane + static_cast<size_t>(k)) * lanes_ + lane] = v[k];
+    };
+    const bool has_normals = N_.size() == lanes_;
+    const auto of_lane = [&](size_t lane, uint32_t seed) {
+        const V3f point(vm::Run::at(P, 0, lane), vm::Run::at(P, 1, lane), vm::Run::at(P, 2, lane));
+        const V3f normal = has_normals ? V3f(N_[0][lane], N_[1][lane], N_[2][lane]) : V3f(0);
+        const RaySequence sequence(hash(seed, turn.lamp, kAreaLights), turn.samples);
+        const LightSample made = lamp.sampler->sample(point, normal, sequence[turn.sample]);
+        put(kSampleP, lane, made.P), put(kSampleN, lane, made.N), put(kRadiance, lane, made.radiance);
+        samples_[kSolidAngle * lanes_ + lane] = std::isfinite(made.solid_angle) ? made.solid_angle : 0;
+    };
+    if (!surroundings_->batch)
+        for (size_t lane = 0; lane < lanes_; ++lane) of_lane(lane, hash(static_cast<uint32_t>(lane), seed_));
+    else
+        for (const vm::GridSpan& span : surroundings_->batch->spans) {
+            const uint32_t grid =
+                hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32), seed_);
+            for (size_t i = 0; i < static_cast<size_t>(span.shape.vertex_count()); ++i)
+                of_lane(span.first + i, hash(grid, static_cast<uint32_t>(i)));
+        }
+}
+
+/// P and N are the sample's; "__solidangle", "__radiance" and "__area" tell the shader what it stands for.
+void LightRig::set_sample(vm::Registers& registers, const Lamp& lamp) const {
+    const auto planes = [&](size_t plane) {
+        return planes_of(const_cast<float*>(samples_.data()) + plane * lanes_, lanes_);  // an input
+    };
+    const rsl::Program& program = registers.program();
+    for (const auto& [name, plane] : {std::pair("P", kSampleP), {"N", kSampleN}})
+        if (const rsl::RegisterId* id = program.find_global(name))
+            copy_operand(planes(plane), 3, lanes_, registers.operand(*id));
+    for (const rsl::ProgramParameter& parameter : program.parameters) {
+        const bool is_number = parameter.type == rsl::Type{rsl::Base::Float, 0};
+        if (parameter.name == "__solidangle" && is_number)
+            copy_operand(planes(kSolidAngle), 1, lanes_, registers.operand(parameter.id));
+        if (parameter.name == "__radiance" && parameter.type == rsl::Type{rsl::Base::Color, 0})
+            copy_operand(planes(kRadiance), 3, lanes_, registers.operand(parameter.id));
+        const float area = lamp.sampler->area();
+        if (parameter.name == "__area" && is_number) registers.set_uniform(parameter.id, &area);
+    }
+}
+
 void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
-    const Lamp& lamp = *(*lamps_)[light];
+    const Turn& turn = turns_[light];
+    const Lamp& lamp = *(*lamps_)[turn.lamp];
     const rsl::Program& program = lamp.shader->program();
     vm::Registers& registers = machine_->registers(lamp.shader->executable(), light);
     registers.start(lanes_);
     lamp.shader->set_parameters(registers, {});
     set_variables(registers, lamp, P);
+    if (lamp.area) {
+        sample(turn, lamp, P);
+        set_sample(registers, lamp);
+    }
     if (slot.capacity < lanes_) {
         slot.planes = {static_cast<float*>(std::aligned_alloc(64, kPlanes * lanes_ * sizeof(float))),
                        std::free};
@@ -141,6 +220,9 @@ void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
         vm::receive_light(lanes_, planes_of(planes + kLit * lanes_, lanes_), sent,
                           planes_of(planes + kL * lanes_, lanes_),
                           planes_of(planes + kDirection * lanes_, lanes_), arrives);
+    const float share = 1 / static_cast<float>(turn.samples);
+    if (turn.samples > 1)
+        for (size_t i = 0; i < 3 * lanes_; ++i) arrives.data[i] *= share;
 }
 
 bool LightRig::in_category(size_t light, std::string_view wanted) {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/scene/light_shape.h"
+#include "shade/lights/light_sampler.h"
 #include "shade/materials/bound_shader.h"
 #include "shade/materials/scene_spaces.h"
 
@@ -16,26 +18,42 @@ struct Lamp {
     std::unique_ptr<BoundShader> shader;
     V3f position;               ///< the origin of its shader space, in camera space: P of the light shader
     bool asks_surface = false;  ///< by surface(): for variables of the surface that it shines on
+    /// What it shines from, where its shader asks for points of that; else null.
+    const LightInstance* area = nullptr;
+    std::unique_ptr<LightSampler> sampler;  ///< of that; null where it is nothing: the light is dark then
+
+    /// How often the light's shader is run for a point, each time from another place.
+    int turns() const;
 };
 
 /// Runs lights for one grid after another and keeps what arrives, so that several illuminance loops over the
-/// same points cost one run of each light. One per thread.
+/// same points cost one run of each light. An area light counts as many lights, each of them at another place
+/// of its shape, and what arrives from each is divided by their number [decision 0030]. One per thread.
 class LightRig : public vm::Lights {
   public:
     /// Begins with the lights of a grid. `surroundings` is the surface's context; `N` are its normals (3
-    /// planes of `lanes` lanes, or none). All must outlive the use.
+    /// planes of `lanes` lanes, or none); `seed` that of the render. All must outlive the use.
     void start(vm::Machine& machine, const std::vector<const Lamp*>& lamps, const vm::Context& surroundings,
-               size_t lanes, const Plane3& N);
+               size_t lanes, const Plane3& N, uint32_t seed = 0);
 
-    size_t count() const override { return lamps_ ? lamps_->size() : 0; }
+    size_t count() const override { return turns_.size(); }
     const Arriving& arriving(size_t light, const vm::Operand& P, bool lasting) override;
     bool in_category(size_t light, std::string_view wanted) override;
 
     /// The light's variables, for lightsource(), once it has run; null before.
     const vm::Registers* registers(size_t light) const;
-    const Lamp& lamp(size_t light) const { return *(*lamps_)[light]; }
+    const Lamp& lamp(size_t light) const { return *(*lamps_)[turns_[light].lamp]; }
+
+    /// All lights of a surface together run so often for a point: area lights take fewer samples than asked
+    /// for where there are more, in proportion.
+    static constexpr int kMostTurns = 2048;
 
   private:
+    /// What counts as a light: a lamp, or one sample of an area light.
+    struct Turn {
+        uint32_t lamp = 0;
+        int sample = 0, samples = 1;
+    };
     /// What one light sends to the grid's points.
     struct Slot {
         Arriving arriving;
@@ -45,13 +63,18 @@ class LightRig : public vm::Lights {
     };
     void run(size_t light, Slot& slot, const vm::Operand& P);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
+    void sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P);
+    void set_sample(vm::Registers& registers, const Lamp& lamp) const;
 
     vm::Machine* machine_ = nullptr;
     const std::vector<const Lamp*>* lamps_ = nullptr;
     const vm::Context* surroundings_ = nullptr;
     size_t lanes_ = 0;
     Plane3 N_;
+    uint32_t seed_ = 0;
+    std::vector<Turn> turns_;
     std::deque<Slot> slots_;
+    std::vector<float> samples_;  ///< of the turn that is run: places, normals, solid angles and radiances
 };
 
 }  // namespace trapeze

@@ -67,7 +67,10 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
     for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
         material.asks_object_space |= shader && shader->asks_object_space();
     for (const auto& instance : attributes.lights)
-        if (const Lamp* shining = lamp(*instance)) material.lights.push_back(shining);
+        if (const Lamp* shining = lamp(*instance)) {
+            material.lights.push_back(shining);
+            if (!shining->area) material.other_lights.push_back(shining);
+        }
     material.shades_vertices_apart = shades_vertices_apart(material);
 }
 
@@ -122,7 +125,10 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
     } else if (diagnostics_) {
         report_unknown_parameters(*shader, executable->program(), *diagnostics_);
     }
+    const bool asks_place = executable->program().find_global("P") != nullptr;
+    if (instance.shape && !asks_place) shader = in_the_middle(instance, *shader);
     auto made = std::make_unique<Lamp>();
+    if (instance.shape && asks_place) made->area = &instance;
     made->spaces = std::make_unique<SceneSpaces>(*context_.scene, context_.camera, shader, nullptr);
     made->shader = std::make_unique<BoundShader>(std::move(executable), *shader, *made->spaces, diagnostics_);
     made->position = shader->camera_from_shader.translation();
@@ -130,7 +136,22 @@ const Lamp* Materials::lamp(const LightInstance& instance) {
         return i.op == rsl::Op::SurfaceMessage;
     });
     at->second = std::move(made);
+    lamp_order_.push_back(at->second.get());
     return at->second.get();
+}
+
+/// A light whose shader does not ask for points of a shape has one place: the middle of the first shape.
+const ShaderInstance* Materials::in_the_middle(const LightInstance& instance, const ShaderInstance& shader) {
+    if (diagnostics_)
+        diagnostics_->warning(
+            shader.location,
+            fmt::format("AreaLightSource \"{}\": the shader does not look at P, points of the "
+                        "light; it shines from the middle of its first shape",
+                        shader.name),
+            "area-light " + shader.name);
+    ShaderInstance& moved = stand_ins_.emplace_back(shader);
+    moved.camera_from_shader = instance.shape->camera_from_middle;
+    return &moved;
 }
 
 std::vector<const BoundShader*> Materials::shaders() const {

@@ -34,6 +34,8 @@ struct Material {
     bool surface_only_sets_P = false;
     bool shades_vertices_apart = false;  ///< as of shades_vertices_apart() in grid_parts.h
     std::vector<const Lamp*> lights;     ///< those that shine on the primitive
+    /// Without area lights: for hits of which the opacity alone is wanted, that of shadows of area lights.
+    std::vector<const Lamp*> other_lights;
     /// The farthest that the displacement shader, or a surface shader that sets P, has moved a vertex or
     /// would have, in camera space.
     mutable std::atomic<float> displacement_reach{0};
@@ -51,6 +53,8 @@ class Materials {
     const std::deque<Material>& all() const { return materials_; }
     /// Every shader that a primitive has, layers and lights among them.
     std::vector<const BoundShader*> shaders() const;
+    /// Every light that shines on a primitive.
+    const std::vector<Lamp*>& lamps() const { return lamp_order_; }
     /// How many shaders have turned out to have loops without an end.
     size_t endless_count() const { return library_.endless_count(); }
 
@@ -62,6 +66,7 @@ class Materials {
                              std::span<const std::string> connected);
     const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
     const Lamp* lamp(const LightInstance& instance);
+    const ShaderInstance* in_the_middle(const LightInstance& instance, const ShaderInstance& shader);
     void report_missing(std::string_view request, const ShaderInstance& instance, std::string_view instead);
 
     const RenderContext& context_;
@@ -71,8 +76,9 @@ class Materials {
     using Key = std::pair<const ShaderInstance*, Names>;
     std::map<Key, LayeredShader> shaders_;  ///< without layers: there is no such shader
     std::deque<BoundShader> layers_;  ///< a deque, since others point to its elements; as all deques here
-    std::deque<ShaderInstance> stand_ins_;  ///< of lights whose shaders are not found
+    std::deque<ShaderInstance> stand_ins_;  ///< of lights whose shaders are not found, or stand elsewhere
     std::unordered_map<const LightInstance*, std::unique_ptr<Lamp>> lamps_;
+    std::vector<Lamp*> lamp_order_;  ///< as the scene asks for them
     std::deque<Material> materials_;
     std::vector<uint32_t> of_primitive_;  ///< primitive -> index of its material
 };

@@ -154,6 +154,7 @@ void RayWalk::visit_hits(const RayAsk& ask, Wants wants, bool first) {
         const bool shades = this->shades(met.hit, ask, wants);
         if (!shades && !asks) continue;
         ShadingGrid& grid = grid_of(met, shaded.size() + asked.size());
+        grid.for_opacity = wants == Wants::Opacity;
         if (shades) met.vertex = grid.hit_vertex;
         (shades ? shaded : asked).push_back(&grid);
     }

@@ -1,43 +1,46 @@
-/* A light of a shape, as path tracers have it: lightcolor times intensity is what each point of it sends out in
-   each direction. All of it comes from the middle, without shadows, and is bounded near by.
+/* An area light, as path tracers have it: lightcolor times intensity is what each point of it sends out in each
+   direction. Its shape is none of this shader's business: it is asked about one place of the shape after another, and
+   told what the place stands for.
 
-   shape "rect" is a square and "disk" a circle of width 1 in the plane z = 0 of the light's space, which shine
-   along +z, with twosided = 1 along -z too; "sphere" has the diameter 1. normalized = 1: the power is divided by
-   the area. focus: a power of the cosine about z. Beyond coneangle degrees from z there is none, softly by
-   conesoftness of that. */
+   P, N: the place, and the direction in which it shines. __solidangle: what it takes of the sky if there is no
+   other. __radiance: its own colour. __area: that of the shape.
+
+   normalized = 1: the power is divided by the area. focus: a power of the cosine about N. Beyond coneangle degrees
+   from N there is none, softly by conesoftness of that. isdistant = 1: it is nowhere, and shines along N.
+   traceshadows = 1: what rays meet on the way makes shadows, of shadowcolor. */
 light rislight(
     float intensity = 1;
     color lightcolor = 1;
-    string shape = "sphere";
-    float twosided = 0, normalized = 0, focus = 0, coneangle = 90, conesoftness = 0;)
+    float normalized = 0, focus = 0, coneangle = 90, conesoftness = 0;
+    float isdistant = 0, traceshadows = 1;
+    color shadowcolor = 0;
+    varying float __solidangle = 0;
+    varying color __radiance = 1;
+    float __area = 1;)
 {
-    uniform point middle = point "shader" (0, 0, 0);
-    uniform vector x = vector "shader" (1, 0, 0), y = vector "shader" (0, 1, 0), z = vector "shader" (0, 0, 1);
-    uniform float flat = (shape == "sphere") ? 0 : 1;
-    /* What is seen of it from straight ahead. */
-    uniform float area = (flat == 1) ? length(x ^ y) : PI / 12 * (x . x + y . y + z . z);
     uniform float power = intensity;
-    uniform vector axis = normalize(z);
+    varying float arriving = __solidangle / PI;
 
-    if (shape == "disk")
-        area *= PI / 4;
     if (normalized == 1)
-        power /= max((flat == 1) ? area : 4 * area, 0.000001);
-    illuminate(middle) {
-        float distance2 = max(L . L, 0.000001);
-        float facing = 1;
-
-        if (flat == 1) {
-            facing = (L . axis) / sqrt(distance2);
-            if (twosided == 1)
-                facing = abs(facing);
-            facing = clamp(facing, 0, 1);
-            if (coneangle < 90)
-                facing *= 1 - smoothstep(radians(coneangle * (1 - conesoftness)), radians(coneangle) + 0.001,
-                                         acos(facing));
-            if (focus > 0)
-                facing *= pow(facing, focus);
+        power /= max(__area, 0.000001);
+    if (isdistant == 1) {
+        solar(vector N, 0) {
+            Cl = power * arriving * __radiance * lightcolor;
+            if (traceshadows == 1 && arriving > 0)
+                Cl *= mix(shadowcolor, color 1, transmission(Ps, Ps - 1e18 * vector N));
         }
-        Cl = power * facing * area / (PI * distance2 + area) * lightcolor;
+    } else {
+        illuminate(P, N, PI / 2) {
+            float facing = clamp((L . N) / max(length(L), 1e-20), 0, 1);
+
+            if (coneangle < 90)
+                arriving *= 1 - smoothstep(radians(coneangle * (1 - conesoftness)), radians(coneangle) + 0.001,
+                                           acos(facing));
+            if (focus > 0)
+                arriving *= pow(facing, focus);
+            Cl = power * arriving * __radiance * lightcolor;
+            if (traceshadows == 1 && arriving > 0)
+                Cl *= mix(shadowcolor, color 1, transmission(Ps, P));
+        }
     }
 }

@@ -4,7 +4,7 @@ namespace trapeze {
 namespace {
 
 constexpr RequestNote kRequests[] = {
-    {"AreaLightSource", "shines from the middle of its first shape, with a warning"},
+    {"AreaLightSource", "sampled over all primitives up to the end of its attributes"},
     {"Atmosphere", "at visible points; no volume between surfaces"},
     {"Bound", "read; the renderer finds bounds itself"},
     {"Bxdf", "RIS shaders are not run: rissurface, in the Bxdf's colour or texture"},
@@ -29,7 +29,7 @@ constexpr RequestNote kRequests[] = {
      "built in"},
     {"Integrator", "read; RIS shaders are not run"},
     {"Interior", "kept; nothing runs it until rays are traced"},
-    {"Light", "RIS shaders are not run: rislight, distantlight and ambientlight, without shadows"},
+    {"Light", "rislight, an area light of the shading language, stands for it"},
     {"LightFilter", "read; RIS shaders are not run"},
     {"MakeBump", "as MakeTexture"},
     {"MotionBegin",
@@ -80,8 +80,10 @@ constexpr Capability kCapabilities[] = {
      "at its distance from the eye, and must fit into memory. Solids are whole for rays."},
     {"Global Illumination", "supported with limits",
      "occlusion() and indirectdiffuse() send rays; no point clouds, no photon maps."},
-    {"Area Lights", "not supported",
-     "AreaLightSource shines from the middle of its first shape, with a warning."},
+    {"Area Lights", "supported",
+     "AreaLightSource shines from its primitives, sampled anew at each vertex (Attribute \"light\" \"nsamples\"); "
+     "\"arealight\" casts shadows of what transmission rays see. Shaders that do not look at P shine from the middle "
+     "of the first primitive, with a warning."},
     {"Texture, Environment and Shadow Mapping", "supported",
      "The Make requests and what OpenImageIO reads. Numbers of 8 and 16 bits are as RISpec has them, or by the sRGB "
      "curve where Option \"color\" \"transfer\" or a \"colorspace\" asks for it (docs/colour.md). Files that do not "

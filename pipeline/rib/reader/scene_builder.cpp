@@ -190,6 +190,7 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
     // Shared attributes take memory once.
     const std::shared_ptr<const Attributes> last = resolved_.attributes;
     primitive.attributes = resolved_attributes(state, spaces);
+    if (state->emitter) primitive.emitter = state->emitter->light;
     uint64_t bytes = bytes_of(primitive);
     if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
     if (!has_room(bytes)) return;

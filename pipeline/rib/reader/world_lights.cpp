@@ -20,6 +20,13 @@ M44f with_origin(M44f camera_from_space, const V3f& point, const M44f& camera_fr
     return camera_from_space;
 }
 
+/// Path tracers' surfaces are in the way of light unless Attribute "visibility" says otherwise.
+bool is_in_the_way(const Attributes& attributes) {
+    if (attributes.user.contains("render")) return false;
+    const auto visibility = attributes.user.find("visibility");
+    return visibility == attributes.user.end() || !visibility->second.find("transmission");
+}
+
 }  // namespace
 
 /// A light's handle lives until the frame or world ends, its shining until the block does.
@@ -62,26 +69,27 @@ void SceneBuilder::place_lights(const RetainedObject& object) {
     }
 }
 
-/// The first shape after a light that shines from shapes: RSL's area lights keep their space and move to its
-/// middle, unless they say where they are; those of RIS take its place and size.
+/// The first shape after a light that shines from shapes says on which sides it does. The middle is for
+/// shaders of RSL that do not ask for points of shapes, unless they say where they are.
 void SceneBuilder::place_emitter(const Shape& shape) {
     Emitter* const emitter = state_.attributes().emitter.get();
     if (!emitter || std::exchange(emitter->is_placed, true)) return;
-    ShaderInstance& shader = emitter->light->shader;
-    if (emitter->is_of_ris)
-        place_mesh_light(*emitter->light, shape, state_.camera_from_current());
-    else if (!shader.parameters.find("from"))
-        shader.camera_from_shader =
+    const ShaderInstance& shader = emitter->light->shader;
+    if (emitter->is_of_ris) {
+        place_mesh_light(*emitter->light, shape, state_.camera_from_current(), object_ != nullptr);
+        return;
+    }
+    emitter->light->shape->two_sided = state_.attributes().attributes.sides == 2;
+    if (!shader.parameters.find("from"))
+        emitter->light->shape->camera_from_middle =
             with_origin(shader.camera_from_shader, middle_of(shape), state_.camera_from_current());
 }
 
-/// The light becomes the first of those that stand for it, in place: it has been handed on already.
+/// The light becomes another in its place: it has been handed on already.
 void SceneBuilder::place_far_emitter(FarShape shape, float angle) {
     Emitter* const emitter = state_.attributes().emitter.get();
     if (!emitter || !emitter->is_of_ris || std::exchange(emitter->is_placed, true)) return;
-    const auto lights = far_lights(*emitter->light, shape, state_.camera_from_current(), angle);
-    *emitter->light = *lights.front();
-    for (size_t i = 1; i < lights.size(); ++i) add_world_light(lights[i]);
+    *emitter->light = *far_light(*emitter->light, shape, state_.camera_from_current(), angle);
 }
 
 /// Area lights whose block ended, and that no Illuminate ever named, would shine on themselves alone: they
@@ -100,18 +108,22 @@ void SceneBuilder::add_strays(std::vector<std::shared_ptr<const LightInstance>>&
     }
 }
 
-/// Adds the world's lights to all primitives. Bxdfs that nothing lights have a light at the eye, so that
-/// there is something to see, and are shaded once a pixel at least: path tracers do not look at ShadingRate.
+/// Adds the world's lights to all primitives. Bxdfs cast shadows of area lights, as in path tracers. Those
+/// that nothing lights have a light at the eye, so that there is something to see, and all are shaded once a
+/// pixel at least: path tracers do not look at ShadingRate.
 void SceneBuilder::light_world() {
     auto lights = state_.scope().ris.lights;
     add_strays(lights);
     const std::shared_ptr<const LightInstance> at_eye = headlight();
+    const bool has_area_lights =
+        std::ranges::any_of(lights, [](const auto& light) { return light->shape.has_value(); });
     std::map<std::shared_ptr<const Attributes>, std::shared_ptr<const Attributes>> lit;
     for (Primitive& primitive : scene_.primitives) {
         const Attributes& unlit = *primitive.attributes;
         const bool is_ris = unlit.surface && unlit.surface->name == "rissurface";
         const bool is_dark = is_ris && unlit.lights.empty() && lights.empty();
         const bool is_coarse = is_ris && unlit.shading_rate > 1 && !read_options_.shading_rate;
+        const bool is_occluder = is_ris && has_area_lights && is_in_the_way(unlit);
         if (lights.empty() && !is_dark && !is_coarse) continue;
         std::shared_ptr<const Attributes>& known = lit[primitive.attributes];
         if (!known) {
@@ -121,6 +133,10 @@ void SceneBuilder::light_world() {
                     made->lights.push_back(light);
             if (is_dark) made->lights.push_back(at_eye);
             if (is_coarse) made->shading_rate = 1;
+            if (is_occluder) made->rays.transmission = true;
+            // No shader has to be asked for an opacity that it does not change.
+            if (is_occluder && !unlit.surface->parameters.find("opacity"))
+                made->rays.transmission_hits = RayAttributes::HitMode::Primitive;
             if (!has_room(bytes_of(*made))) return;
             known = std::move(made);
         }

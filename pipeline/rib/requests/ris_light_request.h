@@ -13,4 +13,7 @@ namespace trapeze::rib {
 void add_ris_light(LightContext& context, const std::string& handle, const ShaderInstance& shader,
                    const RisParameters& parameters, bool is_area_light);
 
+/// How many samples area lights take: Attribute "light" "nsamples" or "samples".
+int light_samples(const LightContext& context);
+
 }  // namespace trapeze::rib

@@ -1,5 +1,7 @@
 /// Requests of PRMan's path tracer (RIS), which has other shaders than RSL: surfaces have the colours, or the
 /// textures, that its Bxdfs and Patterns are told, and its lights shine without shadows.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -14,9 +16,7 @@ namespace {
 /// Counts a request of RIS, and warns of them once, whatever the scene has of it.
 void note(LightContext& r) {
     r.report.count_unsupported();
-    r.report.warn_once(
-        "RIS shading is not supported; Bxdfs are seen by their colours and textures, lights have no shadows",
-        "ris");
+    r.report.warn_once("RIS shading is not supported; Bxdfs are seen by their colours and textures", "ris");
 }
 
 /// Black is the default of the stand-in's colours: scenes stay small without it.
@@ -100,15 +100,31 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
     const auto lighting = r.state.attributes().attributes.user.find("lighting");
     if (lighting != r.state.attributes().attributes.user.end() && lighting->second.float_or("mute", 0) != 0)
         return;
+    const int samples = light_samples(r);
     if (is_mesh_light(shader.name, is_area_light)) {
         auto emitter = std::make_shared<Emitter>();
-        emitter->light = mesh_light(handle, shader, parameters);
+        emitter->light = mesh_light(handle, shader, parameters, samples);
         emitter->is_of_ris = true;
         r.add_world_light(emitter->light);
         r.state.change_attributes().emitter = std::move(emitter);
         return;
     }
-    for (const auto& one : ris_lights(handle, shader, parameters)) r.add_world_light(one);
+    r.add_world_light(ris_light(handle, shader, parameters, samples));
+}
+
+int light_samples(const LightContext& r) {
+    const auto& user = r.state.attributes().attributes.user;
+    const auto of_lights = user.find("light");
+    if (of_lights == user.end()) return LightShape::kDefaultSamples;
+    for (const char* name : {"nsamples", "samples"}) {
+        if (!of_lights->second.find(name)) continue;
+        const float given = of_lights->second.float_or(name, 0);
+        if (given >= 1 && given <= LightShape::kMostSamples) return static_cast<int>(given);
+        r.report.warn_once(fmt::format("Attribute \"light\" \"{}\" must be 1 to {}; {} are used", name,
+                                       LightShape::kMostSamples, LightShape::kDefaultSamples),
+                           "light-samples");
+    }
+    return LightShape::kDefaultSamples;
 }
 
 std::span<const RequestRow> ris_requests() {

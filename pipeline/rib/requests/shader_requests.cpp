@@ -93,8 +93,8 @@ std::shared_ptr<LightInstance> light_of(LightContext& r, ArgumentCursor& c) {
     return light;
 }
 
-/// Area Lights is an optional capability (RISpec 1.1): the light shines from the middle of the first shape
-/// that follows, and all that follows is geometry.
+/// The light shines from the primitives that follow, until the attributes end or another light begins
+/// [decision 0030].
 void area_light_source(LightContext& r, ArgumentCursor& c) {
     if (const Argument* name = c.peek(); name && name->is_text() && is_ris_light(name->strings[0])) {
         const ShaderInstance shader = r.shader(c, "light");
@@ -106,8 +106,9 @@ void area_light_source(LightContext& r, ArgumentCursor& c) {
         r.state.change_attributes().emitter = nullptr;
         return;
     }
-    r.report.warn_once("area lights are not sampled; the light shines from the middle of its first shape",
-                       "area-light");
+    light->shape.emplace();
+    light->shape->samples = light_samples(r);
+    light->shape->camera_from_middle = light->shader.camera_from_shader;
     auto emitter = std::make_shared<Emitter>();
     emitter->light = light;
     r.add_light(std::move(light));

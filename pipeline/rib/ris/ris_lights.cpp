@@ -9,10 +9,6 @@
 namespace trapeze::rib {
 namespace {
 
-/// A dome's light comes from everywhere; what is under something, or behind, has less of it. Without rays
-/// this is what tells forms apart: parts of the power that are ambient, from above and from the eye.
-constexpr float kDomeAmbient = 0.3f, kDomeAbove = 0.3f, kDomeEye = 0.4f;
-
 bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != std::string_view::npos;
 }
@@ -27,26 +23,36 @@ V3f power(const RisParameters& p, float default_intensity = 1) {
     return color * (std::isfinite(scale) ? scale : 1.0f);
 }
 
-/// A light of RSL at the place and in the space of `from`, with its radiance as "lightcolor".
-std::shared_ptr<LightInstance> make(const std::string& handle, const ShaderInstance& from, const char* name,
-                                    const V3f& radiance) {
+/// A light at the place and in the space of `from`, with its radiance as "lightcolor".
+std::shared_ptr<LightInstance> make(const std::string& handle, const ShaderInstance& from,
+                                    const V3f& radiance, LightShape::Kind kind, int samples) {
     auto light = std::make_shared<LightInstance>();
     light->handle = handle;
-    light->shader.name = name;
+    light->shader.name = "rislight";
     light->shader.location = from.location;
     light->shader.camera_from_shader = from.camera_from_shader;
     set_triple(light->shader, "lightcolor", ValueType::Color, radiance);
+    light->shape.emplace();
+    light->shape->kind = kind;
+    light->shape->samples = samples;
+    if (kind == LightShape::Kind::Distant || kind == LightShape::Kind::Dome)
+        set_number(light->shader, "isdistant", 1);
     return light;
 }
 
-/// A light from infinitely far, which shines along `direction` of its space.
-std::shared_ptr<LightInstance> distant(const std::string& handle, const ShaderInstance& from,
-                                       const V3f& radiance, const V3f& direction) {
-    auto light = make(handle, from, "distantlight", radiance);
-    set_triple(light->shader, "from", ValueType::Point, V3f(0, 0, 0));
-    set_triple(light->shader, "to", ValueType::Point, direction);
-    return light;
+/// How many samples the light asks for, 0 being as many as the renderer likes, and whether it has shadows.
+void set_sampling(LightInstance& light, const RisParameters& p) {
+    const float samples = p.number_or("fixedSampleCount", 0);
+    if (samples >= 1)
+        light.shape->samples =
+            static_cast<int>(std::min(samples, static_cast<float>(LightShape::kMostSamples)));
+    if (p.number_or("enableShadows", 1) == 0 || p.number_or("traceShadows", 1) == 0)
+        set_number(light.shader, "traceshadows", 0);
+    if (const auto color = p.color("shadowColor"))
+        set_triple(light.shader, "shadowcolor", ValueType::Color, *color);
 }
+
+constexpr float kSunAngle = 0.53f;  ///< that it takes in the sky, degrees
 
 /// What a disk in the sky lights: a face turned to it is as bright as the disk times sin^2 of half the angle
 /// that it takes.
@@ -64,7 +70,7 @@ bool is_brightness(const V3f& radiance) {
 /// A distant light is a disk as wide as the sun unless told, and its intensity is the radiance of the disk.
 /// That of normalized ones does not change with the angle (taken as: is the sun's).
 V3f power_of_disk(const RisParameters& p) {
-    constexpr float kSunAngle = 0.53f, kSunIntensity = 50000;
+    constexpr float kSunIntensity = 50000;
     const V3f radiance = power(p, kSunIntensity);
     const float given = p.number_or("angleExtent", -1);
     if (given < 0 && is_brightness(radiance)) return radiance;
@@ -72,27 +78,22 @@ V3f power_of_disk(const RisParameters& p) {
     return radiance * share_of_disk(is_suns ? kSunAngle : given);
 }
 
-/// Three lights: from all sides, from above, and from the eye (kDomeAmbient and the like).
-std::vector<std::shared_ptr<LightInstance>> dome(const std::string& handle, const ShaderInstance& from,
-                                                 const V3f& radiance) {
-    ShaderInstance eye = from;
-    eye.camera_from_shader = M44f();
-    return {make(handle, from, "ambientlight", radiance * kDomeAmbient),
-            distant(handle, from, radiance * kDomeAbove, V3f(0, 0, -1)),  // domes have their zenith at +z
-            distant(handle, eye, radiance * kDomeEye, V3f(0, 0, 1))};
+/// The half angle, in radians, of a disk that takes so many degrees of the sky.
+float half_angle(float degrees) {
+    return std::clamp(degrees, 0.0f, 180.0f) * (std::numbers::pi_v<float> / 360);
 }
 
-/// A `rislight`, whose normalized form does not shine more when it is larger.
+/// A light near by, whose normalized form does not shine more when it is larger.
 std::shared_ptr<LightInstance> of_shape(const std::string& handle, const ShaderInstance& from,
-                                        const RisParameters& p, const char* shape) {
-    auto light = make(handle, from, "rislight", power(p));
-    set_text(light->shader, "shape", shape);
+                                        const RisParameters& p, LightShape::Kind kind, int samples) {
+    auto light = make(handle, from, power(p), kind, samples);
     // The lights of the first versions (PxrStd...) are normalized in any case.
     const bool is_normalized = contains(from.name, "PxrStd") || p.number_or("areaNormalize", 0) != 0;
     set_number(light->shader, "normalized", is_normalized ? 1.0f : 0.0f);
     set_number(light->shader, "focus", std::clamp(p.number_or("emissionFocus", 0), 0.0f, 100.0f));
     set_number(light->shader, "coneangle", std::clamp(p.number_or("coneAngle", 90), 0.0f, 180.0f));
     set_number(light->shader, "conesoftness", std::clamp(p.number_or("coneSoftness", 0), 0.0f, 1.0f));
+    set_sampling(*light, p);
     return light;
 }
 
@@ -153,18 +154,22 @@ bool is_mesh_light(std::string_view shader, bool is_area_light) {
 }
 
 std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
-                                          const RisParameters& parameters) {
-    return of_shape(handle, shader, parameters, "sphere");
+                                          const RisParameters& parameters, int samples) {
+    return of_shape(handle, shader, parameters, LightShape::Kind::Mesh, samples);
 }
 
-/// A flat shape shines from a rectangle, to both sides; others from a ball that fills their box.
-void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape) {
+/// A flat shape shines to both sides, others outwards.
+void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape,
+                      bool in_object) {
     const Box box = box_of(shape);
     const V3f size = box.high - box.low, middle = (box.low + box.high) * 0.5f;
     int thin = 0;
     for (int axis = 1; axis < 3; ++axis)
         if (size[axis] < size[thin]) thin = axis;
     const bool is_flat = size[thin] <= 0.01f * std::max({size.x, size.y, size.z});
+    light.shape->two_sided = is_flat;
+    if (!in_object) return;
+    light.shape->kind = is_flat ? LightShape::Kind::Rect : LightShape::Kind::Sphere;
     // Its z axis is the thin one; the other two have the lengths of the box.
     M44f box_axes;
     for (int row = 0; row < 3; ++row) {
@@ -174,24 +179,28 @@ void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& came
     }
     for (int column = 0; column < 3; ++column) box_axes[3][column] = middle[column];
     light.shader.camera_from_shader = box_axes * camera_from_shape;
-    if (!is_flat) return;
-    set_text(light.shader, "shape", "rect");
-    set_number(light.shader, "twosided", 1);
 }
 
-std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& light, FarShape shape,
-                                                       const M44f& camera_from_shape, float angle) {
+std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape shape,
+                                         const M44f& camera_from_shape, float angle) {
     ShaderInstance from = light.shader;
     from.camera_from_shader = camera_from_shape;
     const Parameter* color = from.parameters.find("lightcolor");
     const V3f radiance = color && color->floats.size() == 3
                              ? V3f(color->floats[0], color->floats[1], color->floats[2])
                              : V3f(1, 1, 1);
-    if (shape == FarShape::Dome) return dome(light.handle, from, radiance);
+    const int samples = light.shape->samples;
+    const bool is_dome = shape == FarShape::Dome;
+    const float share = !is_dome && angle > 0 && !is_brightness(radiance) ? share_of_disk(angle) : 1;
+    auto made = make(light.handle, from, radiance * share,
+                     is_dome ? LightShape::Kind::Dome : LightShape::Kind::Distant, samples);
+    for (const char* name : {"traceshadows", "shadowcolor"})
+        if (const Parameter* given = from.parameters.find(name)) made->shader.parameters.set(*given);
+    made->shape->angle = half_angle(angle);
     // Exporters for Maya and Blender, whose suns shine along -z, write their matrices as they are. Not so
     // those of the later PxrDistantLight: it shines along +z.
-    const float share = angle > 0 && !is_brightness(radiance) ? share_of_disk(angle) : 1;
-    return {distant(light.handle, from, radiance * share, V3f(0, 0, -1))};
+    if (!is_dome) made->shader.camera_from_shader = M44f().setScale(V3f(1, 1, -1)) * camera_from_shape;
+    return made;
 }
 
 /// The place of a light that is a point here: the middle of its shape.
@@ -200,23 +209,38 @@ V3f middle_of(const Shape& shape) {
     return (box.low + box.high) * 0.5f;
 }
 
-std::vector<std::shared_ptr<const LightInstance>> ris_lights(const std::string& handle,
-                                                             const ShaderInstance& shader,
-                                                             const RisParameters& p) {
+std::shared_ptr<LightInstance> ris_light(const std::string& handle, const ShaderInstance& shader,
+                                         const RisParameters& p, int samples) {
+    using Kind = LightShape::Kind;
     const std::string_view name = shader.name;
-    if (contains(name, "Distant")) return {distant(handle, shader, power_of_disk(p), V3f(0, 0, 1))};
-    if (contains(name, "Dome") || contains(name, "Env")) {
-        const auto lights = dome(handle, shader, power(p));
-        return {lights.begin(), lights.end()};
+    if (contains(name, "Distant")) {
+        auto light = make(handle, shader, power_of_disk(p), Kind::Distant, samples);
+        const float given = p.number_or("angleExtent", -1);
+        light->shape->angle = half_angle(given < 0 ? kSunAngle : given);
+        set_sampling(*light, p);
+        return light;
     }
-    const char* const shape = contains(name, "Rect") || contains(name, "Portal") ? "rect"
-                              : contains(name, "Disk")                           ? "disk"
-                                                                                 : "sphere";
-    return {of_shape(handle, shader, p, shape)};
+    if (contains(name, "Dome") || contains(name, "Env")) {
+        auto light = make(handle, shader, power(p), Kind::Dome, samples);
+        light->shape->map = p.text("lightColorMap");
+        set_sampling(*light, p);
+        return light;
+    }
+    return of_shape(handle, shader, p,
+                    contains(name, "Rect") || contains(name, "Portal") ? Kind::Rect
+                    : contains(name, "Disk")                           ? Kind::Disk
+                                                                       : Kind::Sphere,
+                    samples);
 }
 
+/// A light of RSL, which casts no shadows.
 std::shared_ptr<const LightInstance> headlight() {
-    return distant({}, {}, V3f(1, 1, 1), V3f(0, 0, 1));
+    auto light = std::make_shared<LightInstance>();
+    light->shader.name = "distantlight";
+    set_triple(light->shader, "lightcolor", ValueType::Color, V3f(1, 1, 1));
+    set_triple(light->shader, "from", ValueType::Point, V3f(0, 0, 0));
+    set_triple(light->shader, "to", ValueType::Point, V3f(0, 0, 1));
+    return light;
 }
 
 }  // namespace trapeze::rib

@@ -1,12 +1,10 @@
-/// Lights of the path tracer (RIS), as lights of the shading language: `rislight` for those of a shape, whose
-/// power comes from their middle, `distantlight` for those far away, and `ambientlight` with two of these for
-/// domes.
+/// Lights of the path tracer (RIS), as area lights of the shading language [decision 0030]: all are
+/// `rislight`, and each has its shape.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/scene/scene.h"
 #include "pipeline/rib/ris/ris_parameters.h"
@@ -16,25 +14,27 @@ namespace trapeze::rib {
 /// Whether a LightSource or AreaLightSource of this name is the path tracer's.
 bool is_ris_light(std::string_view shader);
 
-/// `shader` has the name, the place and the space. None for lights that shine from shapes which are still to
-/// come, which mesh_light() is for.
-std::vector<std::shared_ptr<const LightInstance>> ris_lights(const std::string& handle,
-                                                             const ShaderInstance& shader,
-                                                             const RisParameters& parameters);
+/// `shader` has the name, the place and the space. Not for lights that shine from shapes which are still to
+/// come, which mesh_light() is for. `samples`: where the light does not say how many.
+std::shared_ptr<LightInstance> ris_light(const std::string& handle, const ShaderInstance& shader,
+                                         const RisParameters& parameters,
+                                         int samples = LightShape::kDefaultSamples);
 
 /// Shines from the geometry that follows it.
 bool is_mesh_light(std::string_view shader, bool is_area_light);
 std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
-                                          const RisParameters& parameters);
-/// Gives a mesh light the shape that it shines from, whose points are in shape space.
-void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape);
+                                          const RisParameters& parameters,
+                                          int samples = LightShape::kDefaultSamples);
+/// Tells a mesh light of the first shape that it shines from, whose points are in shape space. In an object,
+/// which is placed later, a rectangle or a ball as large as the shape's box stands for it.
+void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape,
+                      bool in_object);
 
-/// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. The first is
-/// to take the place of `light`. Angle: that which the distant one takes in the sky, in degrees; 0 if
-/// unknown.
+/// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. Angle: that which the
+/// distant one takes in the sky, in degrees; 0 if unknown.
 enum class FarShape { Dome, Direction };
-std::vector<std::shared_ptr<LightInstance>> far_lights(const LightInstance& light, FarShape shape,
-                                                       const M44f& camera_from_shape, float angle);
+std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape shape,
+                                         const M44f& camera_from_shape, float angle);
 
 /// The middle of the box about the shape, in its space.
 V3f middle_of(const Shape& shape);

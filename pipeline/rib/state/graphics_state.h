@@ -39,11 +39,11 @@ struct Detail {
     SeenNumbers seen() const;
 };
 
-/// A light that shines from the first shape after it.
+/// A light that shines from the shapes after it.
 struct Emitter {
     std::shared_ptr<LightInstance> light;
     bool is_of_ris = false;  ///< else an AreaLightSource of RSL
-    bool is_placed = false;
+    bool is_placed = false;  ///< the first has come
 };
 
 struct AttributeState {

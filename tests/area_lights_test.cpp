@@ -1,0 +1,288 @@
+/// Area lights in pictures next to closed forms: what surfaces get of each shape, shadows, and what must not
+/// change it [decision 0030]. A face of radiosity 1 all around it has diffuse() 1.
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/rays_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// What the square asks: red is found, green expected.
+std::string asks(const std::string& expected) {
+    return expected + "Ci = color(comp(diffuse(normal(0, 0, -1)), 0), expected, 1);";
+}
+
+/// A RIS light, in a block of its own.
+std::string ris(const std::string& light, const std::string& place, const std::string& parameters = "",
+                int samples = 256) {
+    return "AttributeBegin " + place + " Light \"" + light + "\" \"l\" \"int fixedSampleCount\" [" +
+           std::to_string(samples) + "] " + parameters + " AttributeEnd ";
+}
+
+/// The mean of what was found is that of what was expected within `of_mean`; a point's within `of_one`, which
+/// is some five deviations of independent samples, or less.
+void expect_lit(const Image& image, double of_mean, double of_one) {
+    double found = 0, expected = 0;
+    for (const Pixel& p : pixels(image)) {
+        if (p.alpha == 0) continue;
+        found += static_cast<double>(p.red), expected += static_cast<double>(p.green);
+        ASSERT_NEAR(p.red, p.green, of_one * static_cast<double>(p.green) + 1e-6);
+    }
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(found, expected, of_mean * expected);
+}
+
+/// Lambert's formula: half the sum of the sides' angles, each by the cosine between N and the plane through P
+/// and the side; over pi.
+const std::string kPolygon =
+    "float side(point p, a, b) { vector u = normalize(a - p), v = normalize(b - p);"
+    "  return acos(clamp(u . v, -1, 1)) * zcomp(normalize(u ^ v)); }"
+    "float polygon(point p, a, b, c, d) { extern point P;"
+    "  return abs(side(p, a, b) + side(p, b, c) + side(p, c, d) + side(p, d, a)) / (2 * PI); } ";
+const std::string kUnitSquare =
+    "float expected = polygon(P, point(-.5, -.5, 3), point(.5, -.5, 3), point(.5, .5, 3), point(-.5, .5, 3));";
+
+Case lit_by(const std::string& lights) {
+    Case c;
+    c.may_say = "ris";
+    c.functions = kPolygon;
+    c.asker = lights;
+    return c;
+}
+
+TEST(AreaLights, ARectangleGivesLambertsFormula) {
+    expect_lit(lit_by(ris("PxrRectLight", "Translate 0 0 3")).render(asks(kUnitSquare)), 0.001, 0.02);
+    // Exposure 1 doubles it; a normalized one has its area taken from it.
+    expect_lit(
+        lit_by(ris("PxrRectLight", "Translate 0 0 3", "\"float intensity\" [3] \"float exposure\" [1]"))
+            .render(asks(kUnitSquare + "expected *= 6;")),
+        0.001, 0.02);
+    expect_lit(lit_by(ris("PxrRectLight", "Translate 0 0 3 Scale 2 .5 1", "\"int areaNormalize\" [1]"))
+                   .render(asks("float expected = polygon(P, point(-1, -.25, 3), point(1, -.25, 3), "
+                                "point(1, .25, 3), point(-1, .25, 3));")),
+               0.002, 0.03);
+}
+
+TEST(AreaLights, ADiskGivesItsFormFactor) {
+    expect_lit(lit_by(ris("PxrDiskLight", "Translate 0 0 3 Scale 2 2 1"))
+                   .render(asks("float a2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P), sum = 4 + a2 + 1;"
+                                "float expected = (1 - (4 + a2 - 1) / sqrt(sum * sum - 4 * a2)) / 2;")),
+               0.002, 0.1);
+}
+
+TEST(AreaLights, ASphereGivesItsSquaredSine) {
+    expect_lit(lit_by(ris("PxrSphereLight", "Translate 0 0 2"))
+                   .render(asks("vector m = point(0, 0, 2) - P;"
+                                "float expected = .25 / (m . m) * 3 / length(m);")),
+               0.001, 0.01);
+}
+
+TEST(AreaLights, ADisksInTheSkyAndADomeLightAsTheirColoursSay) {
+    expect_lit(lit_by(ris("PxrDistantLight", "Rotate 60 1 0 0",
+                          "\"float intensity\" [2] \"float angleExtent\" [40] \"int areaNormalize\" [1] "))
+                   .render(asks("float s = sin(radians(.265)); float expected = 2 * s * s * .5;")),
+               0.002, 0.02);
+    expect_lit(lit_by(ris("PxrDomeLight", "", "\"color lightColor\" [.25 1 1]"))
+                   .render(asks("float expected = .25;")),
+               0.002, 0.03);
+}
+
+/// A half of the sky is ten times as bright, and one of its pixels a thousand times. (In the rows at the
+/// poles lookups blend all longitudes; these are small.)
+TEST(AreaLights, ADomesMapGivesItsQuadrature) {
+    const WorkFolder folder;
+    const std::string file = (folder / "sky.exr").string();
+    constexpr int kWidth = 64, kHeight = 32;
+    std::vector<float> sky;
+    double expected = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const float value = x == 9 && y == 23 ? 2000.0f : x < 32 ? 5.0f : 0.5f;
+            sky.insert(sky.end(), 3, value);
+            // The cosine to -z over the pixel: (sin^2 from .. to) / 2 of the angle from there.
+            const double from = std::sin(M_PI * y / kHeight), to = std::sin(M_PI * (y + 1) / kHeight);
+            if (y >= kHeight / 2)
+                expected +=
+                    static_cast<double>(value) * (from * from - to * to) / 2 * (2 * M_PI / kWidth) / M_PI;
+        }
+    OIIO::ImageSpec spec(kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT);
+    const auto out = OIIO::ImageOutput::create(file);
+    ASSERT_TRUE(out && out->open(file, spec) && out->write_image(OIIO::TypeDesc::FLOAT, sky.data()) &&
+                out->close());
+    const Image image = lit_by(ris("PxrDomeLight", "", "\"string lightColorMap\" [\"" + file + "\"]"))
+                            .render(asks("float expected = " + std::to_string(expected) + ";"));
+    expect_lit(image, 0.005, 0.25);
+}
+
+/// RSL's: the mean over the shape of the cosines over the squared distance, which is pi over the area times
+/// the form factor.
+std::string arealight(const std::string& shape, const std::string& parameters = "") {
+    return "AttributeBegin Attribute \"visibility\" \"int camera\" [0] "
+           "Attribute \"light\" \"int nsamples\" [256] "
+           "AreaLightSource \"arealight\" \"a\" " +
+           parameters + " Translate 0 0 3 " + shape + " AttributeEnd Illuminate \"a\" 1 ";
+}
+
+TEST(AreaLights, ShapesOfRslAreThoseOfTheirPrimitives) {
+    const std::string square = kUnitSquare + "expected *= PI;";
+    for (
+        const std::string shape :
+        {"Polygon \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ",
+         "Polygon \"P\" [-.5 -.5 0 -.5 .5 0 .5 .5 0 .5 -.5 0] ",
+         "Patch \"bilinear\" \"P\" [-.5 -.5 0 .5 -.5 0 -.5 .5 0 .5 .5 0] ",
+         "SubdivisionMesh \"bilinear\" [4] [0 1 2 3] [] [] [] [] \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ",
+         "Polygon \"P\" [-.5 -.5 0 0 -.5 0 0 .5 0 -.5 .5 0] Polygon \"P\" [0 -.5 0 .5 -.5 0 .5 .5 0 0 .5 0] "}) {
+        SCOPED_TRACE(shape);
+        expect_lit(lit_by(arealight(shape)).render(asks(square)), 0.002, 0.06);
+    }
+    expect_lit(lit_by(arealight("Disk 0 1 360 "))
+                   .render(asks("float a2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P), sum = 4 + a2 + 1;"
+                                "float expected = (1 - (4 + a2 - 1) / sqrt(sum * sum - 4 * a2)) / 2;")),
+               0.003, 0.08);
+    // Of one side a sphere shines outwards: pi over its area is 1.
+    expect_lit(lit_by("Sides 1 " + arealight("Sphere .5 -.5 .5 360 ") + " Sides 2 ")
+                   .render(asks("vector m = point(0, 0, 3) - P;"
+                                "float expected = .25 / (m . m) * 2 / length(m);")),
+               0.01, 0.15);
+}
+
+/// Sides 1: the square shines where its outside is. Of two orders of its corners one is turned to us.
+TEST(AreaLights, SidesSayWhereAShapeShines) {
+    int lit = 0;
+    for (const std::string corners :
+         {"[-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0]", "[-.5 -.5 0 -.5 .5 0 .5 .5 0 .5 -.5 0]"})
+        lit += mean_red(lit_by("Sides 1 " + arealight("Polygon \"P\" " + corners) + " Sides 2 ")
+                            .render(asks("float expected = 0;"))) > 0;
+    EXPECT_EQ(lit, 1);
+}
+
+/// A RIS light of a mesh is as bright as a rectangle's.
+TEST(AreaLights, AMeshLightGivesLambertsFormula) {
+    expect_lit(lit_by("AttributeBegin Attribute \"visibility\" \"int camera\" [0] Translate 0 0 3 "
+                      "Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [256] "
+                      "Patch \"bilinear\" \"P\" [-.5 -.5 0 .5 -.5 0 -.5 .5 0 .5 .5 0] AttributeEnd ")
+                   .render(asks(kUnitSquare)),
+               0.002, 0.06);
+}
+
+TEST(AreaLights, WhatIsBehindASurfaceOrTurnedAwayGivesNothing) {
+    for (const std::string& lights :
+         {ris("PxrRectLight", "Translate 0 0 7 Scale 1 1 -1"), ris("PxrSphereLight", "Translate 0 0 7"),
+          ris("PxrRectLight", "Translate 0 0 3 Scale 1 1 -1"), ris("PxrDistantLight", "Scale 1 1 -1"),
+          arealight("Translate 0 0 4 Disk 0 1 360 ")})
+        EXPECT_EQ(mean_red(lit_by(lights).render(asks("float expected = 0;"))), 0) << lights;
+}
+
+/// A disk of radius 3, 100 away: all its points count alike within a thousandth. Half of the plane z = -10 is
+/// in the way, whose edge moves over the disk.
+TEST(AreaLightShadows, ThePenumbraOfADiskIsThatOfItsSegments) {
+    Case c = lit_by(ris("PxrDiskLight", "Translate 0 0 -95 Scale 6 6 1"));
+    const std::string edge = "Patch \"bilinear\" \"P\" [-3 3 -10 0 3 -10 -3 -3 -10 0 -3 -10] ";
+    c.things = edge;
+    // A point of the disk is hidden where its way to P crosses the plane left of the edge.
+    const Image image = c.render(
+        "float t = clamp(-xcomp(P) * 85 / 15 / 3, -1, 1);"
+        "float shown = (acos(t) - t * sqrt(1 - t * t)) / PI;"
+        "Ci = color(comp(diffuse(normal(0, 0, -1)), 0) * 10009 / 9, shown, 1);");
+    double error = 0, dark = 0, bright = 0;
+    for (const Pixel& p : pixels(image)) {
+        EXPECT_NEAR(p.red, p.green, 0.05f);
+        error += static_cast<double>(p.red - p.green) / 4096;
+        dark += p.green == 0, bright += p.green == 1;
+    }
+    EXPECT_NEAR(error, 0, 0.003);
+    EXPECT_GT(dark, 200);
+    EXPECT_GT(bright, 200);
+}
+
+TEST(AreaLightShadows, AreCastOnlyWhereTheyAreWanted) {
+    const auto mean_behind_a_wall = [](const std::string& parameters, const std::string& of_wall = "") {
+        Case c = lit_by(ris("PxrRectLight", "Translate 0 0 3", parameters, 9));
+        c.things = of_wall + wall("4");
+        return mean_red(c.render(asks("float expected = 0;")));
+    };
+    const double open = mean_behind_a_wall("\"int enableShadows\" [0]");
+    EXPECT_GT(open, 0.05);
+    EXPECT_EQ(mean_behind_a_wall(""), 0);
+    EXPECT_EQ(mean_behind_a_wall("\"int traceShadows\" [0]"), open);
+    EXPECT_EQ(mean_behind_a_wall("", "Attribute \"visibility\" \"int transmission\" [0] "), open);
+    EXPECT_NEAR(mean_behind_a_wall("", "Opacity .25 .25 .25 "), 0.75 * open, 1e-3 * open);
+    EXPECT_NEAR(mean_behind_a_wall("\"color shadowColor\" [.5 .5 .5]"), 0.5 * open, 1e-3 * open);
+}
+
+/// Screens whose shaders look at lights before they say how much they let through: area lights do not shine
+/// on what shadows ask, which would have no end.
+TEST(AreaLightShadows, LookThroughShadersThatAreLitThemselves) {
+    Case c = lit_by(ris("PxrRectLight", "Translate 0 0 2", "", 16));
+    c.shaders["screen"] = "surface screen() { Ci = diffuse(normalize(N)); Oi = Os * .5; }";
+    // Of the world's lights, all shine on the screens.
+    for (const char* z : {"3", "3.3", "3.6", "4"}) c.things += "Surface \"screen\" " + wall(z);
+    const Image open = lit_by(ris("PxrRectLight", "Translate 0 0 2", "\"int enableShadows\" [0]", 16))
+                           .render(asks("float expected = 0;"));
+    EXPECT_NEAR(mean_red(c.render(asks("float expected = 0;"))), mean_red(open) / 16, 1e-3 * mean_red(open));
+}
+
+/// Sixteen times the samples make at most a sixteenth of the mean squared error, over points and seeds.
+TEST(AreaLights, ErrorsFallAtLeastAsOneOverTheSamples) {
+    const auto square = [](int samples) {
+        double sum = 0;
+        for (uint32_t seed = 0; seed < 16; ++seed) {
+            Case c = lit_by(ris("PxrRectLight", "Translate 0 0 3", "", samples));
+            c.settings.seed = seed;
+            for (const Pixel& p : pixels(c.render(asks(kUnitSquare))))
+                sum += std::pow(static_cast<double>(p.red - p.green), 2);
+        }
+        return sum;
+    };
+    EXPECT_LT(square(64), square(4) / 16 * 1.1);
+}
+
+/// Threads, regions and the order of grids leave every bit as it is; the seed does not.
+TEST(AreaLights, PicturesAreTheSameForAnyThreadsAndRegions) {
+    const auto render = [](int threads, int regions, uint32_t seed) {
+        Case c = lit_by(arealight("Sphere .5 -.5 .5 360 ") + ris("PxrDomeLight", "") +
+                        ris("PxrRectLight", "Translate 1 0 3"));
+        c.things = sphere("0 0 4.5", ".3");
+        c.options = "ShadingRate 9 ";
+        c.threads = threads, c.settings.regions_at_least = regions, c.settings.seed = seed;
+        return c.render(asks("float expected = 0;")).rgba;
+    };
+    const auto one = render(1, 1, 0);
+    EXPECT_EQ(one, render(3, 1, 0));
+    EXPECT_EQ(one, render(2, 5, 0));
+    EXPECT_NE(one, render(1, 1, 1));
+}
+
+/// Loops over lights see each sample; specular() does, too.
+TEST(AreaLights, LoopsSeeASampleATurn) {
+    const Image image = lit_by(ris("PxrRectLight", "Translate 0 0 3"))
+                            .render(
+                                "float turns = 0; color sum = 0;"
+                                "illuminance(P, normal(0, 0, -1), PI / 2) {"
+                                "  turns += 1; sum += Cl * (normalize(L) . vector(0, 0, -1)); }"
+                                "Ci = color(comp(sum, 0), comp(diffuse(normal(0, 0, -1)), 0), turns);");
+    for (const Pixel& p : pixels(image)) {
+        ASSERT_EQ(p.blue, 256);
+        ASSERT_NEAR(p.red, p.green, 1e-6f);
+    }
+}
+
+TEST(AreaLights, OddOnesAreReportedAndDark) {
+    const auto said_of = [](const std::string& lights, const std::string& kind) {
+        Case c = lit_by(lights);
+        c.may_say = kind;
+        for (const Pixel& p : pixels(c.render(asks("float expected = 0;")))) EXPECT_EQ(p.red, 0);
+        return std::ranges::any_of(c.said, [&](const Diagnostic& d) { return d.kind == kind; });
+    };
+    EXPECT_TRUE(said_of(arealight(""), "dark-area-light a"));
+    EXPECT_TRUE(said_of(arealight("Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0] "
+                                  "\"constantwidth\" [0] "),
+                        "dark-area-light a"));
+}
+
+}  // namespace
+}  // namespace trapeze::testing
