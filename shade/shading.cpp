@@ -109,7 +109,9 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
 }
 
 bool Shading::asks_rays() const {
-    const std::set<std::string> varied = variables_of(*impl_->context.scene);
+    std::set<std::string> varied = variables_of(*impl_->context.scene);
+    // What area lights' shaders are told of each sample (LightRig).
+    varied.insert({"__solidangle", "__radiance", "__area"});
     // What connections bring to layers is not known here.
     std::set<const BoundShader*> connected;
     for (const Material& material : impl_->materials.all())
