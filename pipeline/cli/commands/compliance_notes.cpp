@@ -76,8 +76,8 @@ constexpr Capability kCapabilities[] = {
      "Atmosphere shaders run at visible points. Interior and Exterior are kept."},
     {"Ray Tracing", "supported with limits",
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
-     "shutter open. Hits are shaded with their own derivatives. The geometry is diced as finely as a pixel is "
-     "at its distance from the eye, and must fit into memory. Solids are whole for rays."},
+     "shutter open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
+     "finely as a pixel is at its distance from the eye. Solids are whole for rays."},
     {"Global Illumination", "supported with limits",
      "occlusion() and indirectdiffuse() send rays; no point clouds, no photon maps."},
     {"Area Lights", "supported",
