@@ -1,5 +1,6 @@
 /// Imager "glow" in whole frames: crops, regions and threads, Exposure, and what a scene may say wrong.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -12,7 +13,7 @@ namespace {
 
 /// Small bright squares before a dim one that fills 96 x 64 pixels, with motion and defocus.
 std::string scene_of(const std::string& options) {
-    const std::string folder = ::testing::TempDir() + "glow_scene";
+    const std::string folder = ::testing::TempDir() + "glow_scene" + std::to_string(getpid());
     std::filesystem::create_directories(folder);
     const std::string path = folder + "/scene.rib";
     std::ofstream(path)
