@@ -10,7 +10,7 @@ reflection, refraction and shadow is traced.
 import math
 import random
 
-FOCUS = 8.6  # the rim of the glass
+FOCUS = 9.1  # the rim of the glass
 
 
 def fmt(value):
@@ -62,10 +62,10 @@ HEAD = """##RenderMan RIB
 # through it upside down. A gold teapot left of it, a chrome ball and a bowl of copper with glass marbles in front. All
 # stand in soft shadows and are mirrored in the polished stone. Far behind lights out of focus, hexagons.
 Option "searchpath" "string shader" ["shaders:&"]
-Option "trace" "int maxdepth" [5]
+Option "trace" "int maxdepth" [8]
 Display "still_life.exr" "openexr" "rgba"
 Format 1280 720 1
-PixelSamples 6 6
+PixelSamples 8 8
 PixelFilter "gaussian" 2 2
 ShadingInterpolation "smooth"
 ShadingRate 1
@@ -74,10 +74,10 @@ DepthOfField 2.4 .6 %s
 Hider "hidden" "float[4] aperture" [6 12 0 0]
 Imager "glow" "float amount" [.12] "float size" [.015] "float threshold" [1.2]
 Rotate -11 1 0 0
-Translate .15 -2.95 8.2
+Translate -.25 -2.95 8.9
 WorldBegin
 Attribute "visibility" "int diffuse" [1] "int specular" [1] "int transmission" [1]
-Attribute "trace" "int maxspeculardepth" [5]
+Attribute "trace" "int maxspeculardepth" [8]
 """
 
 LIGHTS = """
@@ -87,14 +87,14 @@ AttributeBegin
   Rotate 55 0 0 1
   Rotate 90 1 0 0
   Scale 5 4 1
-  Light "PxrRectLight" "key" "float intensity" [7.5] "color lightColor" [1 .93 .84] "int fixedSampleCount" [16]
+  Light "PxrRectLight" "key" "float intensity" [17] "color lightColor" [1 .93 .84] "int fixedSampleCount" [16]
 AttributeEnd
 AttributeBegin
   Attribute "visibility" "int camera" [0] "int diffuse" [0] "int transmission" [0]
   Translate -5 7.5 -1
   Rotate 55 0 0 1
   Surface "constant"
-  Color 7.5 7 6.3
+  Color 17 15.8 14.3
   Polygon "P" [-2.5 0 -2  2.5 0 -2  2.5 0 2  -2.5 0 2]
 AttributeEnd
 AttributeBegin
@@ -105,7 +105,14 @@ AttributeBegin
   Color .9 1.1 1.6
   Polygon "P" [-3 0 -.7  3 0 -.7  3 0 .7  -3 0 .7]
 AttributeEnd
-Light "PxrDomeLight" "sky" "color lightColor" [.10 .12 .17] "int fixedSampleCount" [8]
+# What mirrors see where nothing is: a dusky sky.
+AttributeBegin
+  Attribute "visibility" "int camera" [0] "int diffuse" [0] "int transmission" [0]
+  Surface "constant"
+  Color .10 .12 .17
+  Sphere 95 -95 95 360
+AttributeEnd
+Light "PxrDomeLight" "sky" "color lightColor" [.10 .12 .17] "int fixedSampleCount" [4]
 """
 
 
@@ -140,11 +147,11 @@ AttributeBegin
   Patch "bilinear" "P" [-14 0 -7  14 0 -7  -14 0 9  14 0 9]
 AttributeEnd""")
     print('AttributeBegin\n  Attribute "identifier" "name" ["wine glass"]\n  Translate .75 0 .2')
-    print('  Surface "glass" "float Ka" [0] "float Ks" [.6] "float roughness" [.02] "float eta" [1.45]')
+    print('  Surface "clear_glass" "float eta" [1.45]')
     print('  Attribute "shade" "string transmissionhitmode" ["primitive"]\n  Opacity .25 .25 .25')
     print(lathe(WINE_GLASS))
     print('  Color .6 .02 .04\n  Opacity .55 .8 .8')
-    print('  Surface "glass" "float Ka" [0] "float Ks" [.2] "float eta" [1.05] "color transmitcolor" [.5 .03 .05]')
+    print('  Surface "clear_glass" "float eta" [1.05] "color tint" [.5 .03 .05]')
     print(lathe(WINE))
     print("AttributeEnd")
     print("""AttributeBegin
@@ -153,20 +160,20 @@ AttributeEnd""")
   Rotate -90 1 0 0
   Scale .62 .62 .62
   Color 1 .71 .29
-  Surface "shinymetal" "string texturename" ["raytrace"] "float Kr" [.9] "float Ka" [.1] "float Ks" [.25]
+  Surface "polished_metal"
   Geometry "teapot"
 AttributeEnd
 AttributeBegin
   Translate 2.75 .55 -.75
   Color .95 .96 1
-  Surface "shinymetal" "string texturename" ["raytrace"] "float Kr" [.95] "float Ka" [0] "float Ks" [.1]
+  Surface "polished_metal"
   Sphere .55 -.55 .55 360
 AttributeEnd
 AttributeBegin
   Translate -1.3 0 -1.6
   Color .95 .48 .32
   Scale .8 .8 .8
-  Surface "shinymetal" "string texturename" ["raytrace"] "float Kr" [.85] "float Ka" [.1] "float Ks" [.3] "float samples" [4] "float blur" [.06]""")
+  Surface "polished_metal" "float samples" [4] "float blur" [.06]""")
     print(lathe(BOWL))
     print("AttributeEnd")
     marbles = [(-1.3, .38, -1.6, .27, (.35, .8, .55)), (-1.85, .47, -1.5, .25, (.9, .75, .3)), (-.85, .47, -1.85, .24, (.45, .6, .95)),
@@ -174,7 +181,7 @@ AttributeBegin
     for x, y, z, radius, (r, g, b) in marbles:
         print(f'AttributeBegin Translate {x} {y} {z} Opacity .3 .3 .3\n'
               f'  Attribute "shade" "string transmissionhitmode" ["primitive"]\n'
-              f'  Surface "glass" "float Ka" [0] "float Ks" [.6] "float roughness" [.03] "color transmitcolor" [{r} {g} {b}]\n'
+              f'  Surface "clear_glass" "color tint" [{r} {g} {b}]\n'
               f'  Sphere {radius} {-radius} {radius} 360\nAttributeEnd')
     print("WorldEnd")
 
