@@ -178,5 +178,28 @@ TEST(RayShaders, StandardLightsTraceTheirShadows) {
         0, 3000);
 }
 
+/// In a room of mirrors each bounce behind the first takes one ray, whatever "samples" says.
+TEST(RayShaders, TakeTheirSamplesAtTheFirstBounceAlone) {
+    for (const std::string surface :
+         {"\"mirror\"", "\"glass\"", "\"shinymetal\" \"texturename\" [\"raytrace\"]"}) {
+        const auto rays_of = [&](int depth) {
+            WorkFolder folder;
+            folder.write(
+                "a.rib",
+                "Option \"trace\" \"int maxdepth\" [" + std::to_string(depth) +
+                    "] Display \"x\" \"exr\" \"rgb\" Format 8 8 1 PixelSamples 1 1 Projection "
+                    "\"perspective\" \"fov\" 40 WorldBegin Attribute \"trace\" \"int maxspeculardepth\" "
+                    "[9] Attribute \"visibility\" \"int specular\" [1] Surface " +
+                    surface +
+                    " \"float samples\" [4] \"float blur\" [.2] \"float Kt\" [0] Sphere 5 -5 5 360 WorldEnd\n");
+            const auto frames = render_scene((folder / "a.rib").string(), {});
+            return frames.at(0).stats.shade.rays.specular;
+        };
+        const auto one = rays_of(1), six = rays_of(6);
+        EXPECT_GT(one, 0u) << surface;
+        EXPECT_LE(six, 7 * one) << surface;
+    }
+}
+
 }  // namespace
 }  // namespace trapeze::testing

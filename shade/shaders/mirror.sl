@@ -10,11 +10,12 @@ surface mirror(
     vector V = -normalize(I);
     vector R = reflect(-V, Nf);
     color seen;
+    float rays = (raydepth() > 0) ? 1 : samples; /* else samples to the power of the depth */
 
     if (texturename != "" && texturename != "raytrace")
         seen = color environment(texturename, vtransform("world", R));
     else
-        seen = trace(P, R, "samples", samples, "samplecone", blur);
+        seen = trace(P, R, "samples", rays, "samplecone", blur);
     Oi = Os;
     Ci = Os * (Cs * (Ka * ambient() + Kd * diffuse(Nf) + Kr * seen) +
                specularcolor * Ks * specular(Nf, V, roughness));

@@ -9,9 +9,10 @@ surface shinymetal(
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
     color reflection = 0;
+    float rays = (raydepth() > 0) ? 1 : samples; /* else samples to the power of the depth */
 
     if (texturename == "raytrace") {
-        reflection = Kr * color trace(P, reflect(-V, Nf), "samples", samples, "samplecone", blur);
+        reflection = Kr * color trace(P, reflect(-V, Nf), "samples", rays, "samplecone", blur);
     } else if (texturename != "") {
         vector D = vtransform("world", reflect(-V, Nf));
         reflection = Kr * color environment(texturename, D);
