@@ -87,11 +87,11 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
 /// Displaces the grids, but leaves in their places what rays see undisplaced: it has the normals alone.
 GridRun::Layers GridRun::displace_seen() {
     const bool stay = grids_.front()->hit_vertex >= 0 && !material_.attributes->rays.displaced;
-    std::vector<Triples> places;
+    std::vector<std::vector<Triples>> places;
     for (const ShadingGrid* grid : grids_)
-        if (stay) places.push_back(grid->P.front());
+        if (stay) places.push_back(grid->P);
     Layers layers = displace();
-    for (size_t g = 0; g < places.size(); ++g) grids_[g]->P.front() = places[g];
+    for (size_t g = 0; g < places.size(); ++g) grids_[g]->P = std::move(places[g]);
     return layers;
 }
 

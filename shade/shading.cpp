@@ -83,6 +83,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
         service.depth = depth;
         service.visit = visit;
         service.seed = context.seed;
+        service.held_from_camera = context.scene->held_from_camera;
         service.max_depth = context.scene->options.max_ray_depth;
         service.scratch = &state.hits;
         service.stats = &stats.rays;

@@ -6,18 +6,21 @@ namespace trapeze::testing {
 namespace {
 
 /// A floor that asks for rays of all kinds under balls that only rays see: displaced, seen through,
-/// one-sided; and curves.
-std::string scene() {
+/// one-sided; and curves. Some may move.
+std::string scene(bool moves) {
     std::string text =
-        "Display \"x\" \"exr\" \"rgba\" Format 48 36 1 PixelSamples 2 2 Projection \"perspective\" \"fov\" 40 "
-        "Translate 0 -.2 4 Rotate -20 1 0 0 WorldBegin ShadingInterpolation \"smooth\" "
-        "Attribute \"visibility\" \"int diffuse\" 1 \"int specular\" 1 \"int transmission\" 1 "
+        std::string(
+            "Display \"x\" \"exr\" \"rgba\" Format 48 36 1 PixelSamples 2 2 Projection \"perspective\" \"fov\" 40 "
+            "Translate 0 -.2 4 Rotate -20 1 0 0 WorldBegin ShadingInterpolation \"smooth\" "
+            "Attribute \"visibility\" \"int diffuse\" 1 \"int specular\" 1 \"int transmission\" 1 ") +
+        std::string(moves ? "Attribute \"trace\" \"int samplemotion\" 1 " : "") +
         "Surface \"ask\" ShadingRate 12 Patch \"bilinear\" \"P\" [-3 0 -2 3 0 -2 -3 0 5 3 0 5] ShadingRate .01 Attribute \"visibility\" \"int camera\" 0 ";
     for (int i = 0; i < 12; ++i) {
         const std::string place = "Translate " + std::to_string(i % 4 - 1.5) + " .3 " +
                                   std::to_string(.8 * (i / 4)) + " Rotate " + std::to_string(30 * i) +
                                   " 1 1 0 ";
         text += "AttributeBegin " + place;
+        if (moves && i % 3 == 0) text += "MotionBegin [0 1] Translate 0 0 0 Translate .2 .1 .05 MotionEnd ";
         if (i % 4 == 1)
             text +=
                 "Displacement \"waves\" Attribute \"displacementbound\" \"float sphere\" .06 "
@@ -39,12 +42,14 @@ constexpr const char* kAsk =
 constexpr const char* kWaves =
     "displacement waves() { P += .04 * sin(20 * s) * sin(20 * t) * normalize(N); N = calculatenormal(P); }";
 
-TEST(RayBudget, ChangesNothingButTheTime) {
+class RayBudget : public ::testing::TestWithParam<bool> {};
+
+TEST_P(RayBudget, ChangesNothingButTheTime) {
     WorkFolder folder;
     folder.write("ask.sl", kAsk);
     folder.write("waves.sl", kWaves);
-    folder.write("a.rib",
-                 "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() + "\"] " + scene());
+    folder.write("a.rib", "Shutter 0 1 Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
+                              "\"] " + scene(GetParam()));
     const std::string path = (folder / "a.rib").string();
     RenderSettings settings;
     const auto whole = render_scene(path, settings);
@@ -62,6 +67,8 @@ TEST(RayBudget, ChangesNothingButTheTime) {
         EXPECT_LE(parts[0].stats.ray_bytes, settings.memory_bytes) << "of which half is for bricks";
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(MotionBlur, RayBudget, ::testing::Bool());
 
 }  // namespace
 }  // namespace trapeze::testing

@@ -24,10 +24,12 @@ struct RayFilter {
     RaySubset subset;
 };
 
-/// A part of a ray, in camera space at shutter open.
+/// A part of a ray, in camera space at shutter open: held there while the shutter is open, also where the
+/// camera moves.
 struct RaySegment {
     V3f origin, direction;                                        ///< of unit length
     float min = 0, max = std::numeric_limits<float>::infinity();  ///< distances from the origin that count
+    float time = 0;                                               ///< 0 at shutter open, 1 at shutter close
     const RayFilter* only = nullptr;  ///< hits that count; null: all that the attributes let be seen
 };
 
@@ -43,7 +45,7 @@ struct RaySurfaceHit {
     V2f at{0, 0};               ///< within the micropolygon
 };
 
-/// The geometry that rays meet, as it is at shutter open. Immutable: threads share it.
+/// The geometry that rays meet, at any time of the shutter. Immutable: threads share it.
 class RayScene {
   public:
     virtual ~RayScene() = default;
@@ -55,8 +57,8 @@ class RayScene {
     /// Whether something opaque is in the way; nothing where that cannot be told without its opacity.
     virtual std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const = 0;
     /// Makes a grid of one micropolygon with a vertex at the hit, of which the number is returned, on the
-    /// limit surface. Its sides are those of the ray's geometry, so that derivatives and filter widths are
-    /// those of what the ray has met.
+    /// limit surface; at all its keys where it moves. Its sides are those of the ray's geometry, so that
+    /// derivatives and filter widths are those of what the ray has met.
     virtual int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const = 0;
     /// About the length of a micropolygon's side at a point, camera space: rays know surfaces no better.
     virtual float spacing(const V3f& P) const = 0;

@@ -113,6 +113,9 @@ struct RayAttributes {
     int max_diffuse = 1;     ///< Attribute "trace" "maxdiffusedepth": bounces
     int max_specular = 2;    ///< Attribute "trace" "maxspeculardepth"
     bool displaced = false;  ///< Attribute "trace" "displacements": rays meet what displacement shaders made
+    /// Attribute "trace" "samplemotion": rays that leave the surface meet the scene at times of their own in
+    /// the shutter, else as it opens.
+    bool sample_motion = false;
     std::vector<std::string> groups;  ///< Attribute "grouping" "membership" (ray_groups.h)
 
     bool seen() const { return diffuse || specular || transmission; }
@@ -188,8 +191,11 @@ struct Scene {
     Options options;
     std::vector<Solid> solids;  ///< of all SolidBegin/SolidEnd blocks
     std::vector<ClippingPlane> clipping_planes;
-    std::vector<Primitive> primitives;              ///< in the order of the file
-    M44f camera_from_world;                         ///< at shutter open
+    std::vector<Primitive> primitives;  ///< in the order of the file
+    M44f camera_from_world;             ///< at shutter open
+    /// Of a camera that moves in the shutter, at kMaxKeyCount keys: from camera space then to camera space
+    /// at shutter open, as what stands still in the world would have it. Empty: the camera stays.
+    std::vector<M44f> held_from_camera;
     std::map<std::string, M44f> camera_from_named;  ///< CoordinateSystem, at shutter open
 };
 

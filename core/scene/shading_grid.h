@@ -61,6 +61,7 @@ struct ShadingGrid {
     /// camera.
     Triples I;
     int hit_vertex = -1;       ///< of what a ray has hit: the vertex there; only this one traces rays in turn
+    float hit_time = 0;        ///< of what a ray has hit: when; its own rays go at that time, too
     bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone
     Triples dPdu,
         dPdv;  ///< derivatives by the surface's u and v, which run 0..1 over the primitive's face or patch

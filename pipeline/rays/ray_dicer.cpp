@@ -2,13 +2,25 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
+
+#include "pipeline/rays/held_scene.h"
+
 namespace trapeze {
 namespace {
 
-RenderContext at_shutter_open(const RenderContext& context) {
-    RenderContext still = context;
-    still.motion = false;
-    return still;
+/// Whether rays leave at any other time than shutter open.
+bool samples_motion(const RenderContext& context) {
+    return context.motion && std::ranges::any_of(context.scene->primitives, [](const Primitive& primitive) {
+               return primitive.attributes->rays.sample_motion;
+           });
+}
+
+RenderContext of_rays(const RenderContext& context, const Scene* held) {
+    RenderContext own = context;
+    own.motion = samples_motion(context);
+    if (held) own.scene = held;
+    return own;
 }
 
 }  // namespace
@@ -25,7 +37,8 @@ struct RayDicer::Scratches {
 };
 
 RayDicer::RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes)
-    : context_(at_shutter_open(context)),
+    : held_(samples_motion(context) ? held_scene(*context.scene) : nullptr),
+      context_(of_rays(context, held_.get())),
       shading_(shading),
       tessellation_(context_, shading.depth_heights(), most_bytes, shading.displacing_surfaces(),
                     SeenBy::Rays),

@@ -16,8 +16,9 @@ namespace trapeze {
 /// Makes any grid at any time, the same bits each time; from many threads.
 class RayDicer {
   public:
-    /// Splits the scene for rays, as it is at shutter open. Primitives that take more than `most_bytes` to
-    /// list are left out, with an error. The context's scene and `shading` outlive this.
+    /// Splits the scene for rays. It moves where rays ask for that (RayAttributes::sample_motion), without
+    /// the motion of the camera; else it is as at shutter open. Primitives that take more than `most_bytes`
+    /// to list are left out, with an error. The context's scene and `shading` outlive this.
     RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes);
     ~RayDicer();
 
@@ -35,7 +36,8 @@ class RayDicer {
     int make_point(const SubpatchPoint& point, ShadingGrid& grid) const;
 
   private:
-    RenderContext context_;  ///< of a moment: nothing moves
+    std::unique_ptr<const Scene> held_;  ///< null: the camera does not move
+    RenderContext context_;              ///< of held_, if there is one
     const Shading& shading_;
     Tessellation tessellation_;
     std::vector<bool> keeps_opacity_;  ///< of primitives: Shading::keeps_opacity()

@@ -105,7 +105,7 @@ std::optional<RaySurfaceHit> RayWorld::closest(const RaySegment& ray, RayKind ki
 
 std::optional<RaySurfaceHit> RayWorld::closest_in(const RayGrids& grids, const RaySegment& ray) const {
     const float scale = depth_scale(ray.direction);
-    const SpaceRay space{ray.origin, ray.direction, 0};
+    const SpaceRay space{ray.origin, ray.direction, ray.time};
     DepthRange range{ray.min * scale, ray.max * scale};
     while (range.min <= range.max) {
         const std::optional<RayGridHit> found = grids.closest(space, range);
@@ -126,8 +126,8 @@ bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const RaySegmen
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
     if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
     if (sides == Sides::Both) return true;
-    const V3f p00 = grid.vertex(id.u, id.v, 0), p11 = grid.vertex(id.u + 1, id.v + 1, 0);
-    const V3f p10 = grid.vertex(id.u + 1, id.v, 0), p01 = grid.vertex(id.u, id.v + 1, 0);
+    const auto corner = [&](int i, int j) { return grid.vertex(id.u + i, id.v + j, ray.time); };
+    const V3f p00 = corner(0, 0), p11 = corner(1, 1), p10 = corner(1, 0), p01 = corner(0, 1);
     const V3f normal = (p11 - p00).cross(p01 - p10) * (attributes.reverse_orientation ? -1.0f : 1.0f);
     const bool from_outside = normal.dot(ray.direction) <= 0;
     return from_outside == (sides == Sides::Front);
@@ -136,9 +136,9 @@ bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const RaySegmen
 RaySurfaceHit RayWorld::hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const {
     const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
     const Grid& grid = *found.grid;
-    const TurnedRay turned = axis_ray({ray.origin, ray.direction, 0});
-    const QuadWeights weights =
-        hit_weights(turned.ray, grid.quad(id.u, id.v, 0, turned.x_plane, turned.y_plane, turned.z_plane));
+    const TurnedRay turned = axis_ray({ray.origin, ray.direction, ray.time});
+    const QuadWeights weights = hit_weights(
+        turned.ray, grid.quad(id.u, id.v, ray.time, turned.x_plane, turned.y_plane, turned.z_plane));
     RaySurfaceHit hit;
     hit.distance = distance;
     hit.primitive = grid.primitive;
@@ -162,7 +162,7 @@ std::optional<bool> RayWorld::blocked(const RaySegment& ray, RayKind kind) const
     for (uint32_t mask = 0; mask < kMasks; ++mask) {
         const Group& group = groups_[mask];
         if (!sees(kind, mask) || !group.grids) continue;
-        const InTheWay met = group.grids->in_the_way({ray.origin, ray.direction, 0}, range);
+        const InTheWay met = group.grids->in_the_way({ray.origin, ray.direction, ray.time}, range);
         if (met == InTheWay::Opaque && !ray.only) return true;
         sure &= met == InTheWay::Nothing;
     }

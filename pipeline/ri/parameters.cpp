@@ -53,6 +53,7 @@ constexpr UsualValue kUsual[] = {
     {"trace", "maxdepth", ValueType::Integer},
     {"trace", "maxdiffusedepth", ValueType::Integer},
     {"trace", "maxspeculardepth", ValueType::Integer},
+    {"trace", "samplemotion", ValueType::Integer},
     {"light", "nsamples", ValueType::Integer},
     {"light", "samples", ValueType::Integer},
     {"display", "quantize", ValueType::Float, 4},

@@ -147,8 +147,12 @@ vm::Batch batch_of(std::span<const ShadingGrid* const> grids, bool shared) {
         const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
         for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
             const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->ordinal;
-            batch.spans.push_back({batch.vertices, grid->shape, grid->reverse_orientation, seed,
-                                   grid->hit_vertex, steps_of_face(*grid, first / in_piece)});
+            vm::GridSpan& span = batch.spans.emplace_back();
+            span.first = batch.vertices, span.shape = grid->shape, span.seed = seed;
+            span.reverse_orientation = grid->reverse_orientation;
+            span.hit_vertex = grid->hit_vertex;
+            span.steps = steps_of_face(*grid, first / in_piece);
+            if (!shared) span.grid = grid;
             batch.vertices += in_piece;
         }
     }

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "shade/rays/lane_motion.h"
+#include "shade/rays/ray_aim.h"
 #include "shade/rays/ray_directions.h"
 
 namespace trapeze {
@@ -39,10 +41,6 @@ float lane_of(bool set) {
     float lane;
     std::memcpy(&lane, &bits, sizeof lane);
     return lane;
-}
-
-bool is_finite(const V3f& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// Sets the lanes that a lane speaks for.
@@ -137,18 +135,19 @@ void GatherCall::send(const uint32_t* live) {
 /// A lane's rays of some turns. Those that lead nowhere are empty: they miss.
 void GatherCall::add_rays(const RayLane& asking, int first, int count) {
     const size_t lane = asking.lane;
-    const V3f P = arguments_.from_at(lane), way = arguments_.towards_at(lane);
-    const float largest = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
-    const bool leads = is_finite(P) && is_finite(way) && largest > 0;
-    const V3f axis = leads ? (way / largest).normalized() : V3f(0, 0, 1);
+    const RayAim aim(arguments_.from_at(lane), arguments_.towards_at(lane), 0);
+    const V3f axis = aim.leads() ? aim.direction : V3f(0, 0, 1);
     const float angle = arguments_.cone_angle_at(lane);
     const Cone cone(axis, angle);
     const RaySequence sequence(asking.seed, arguments_.samples_at(lane));
+    const LaneMotion motion(asker_, asking);
     WalkedRay ray;
     ray.segment.only = arguments_.only();
-    ray.segment.min = leads ? asker_.bias_at(P, arguments_.bias.at(lane)) : kInfinity;
-    ray.segment.max = leads ? arguments_.max_distance_at(lane) : 0;
     for (int s = first; s < first + count; ++s) {
+        ray.segment.time = motion.time(s);
+        const V3f P = aim.P + motion.way(ray.segment.time);
+        ray.segment.min = aim.leads() ? asker_.bias_at(P, arguments_.bias.at(lane)) : kInfinity;
+        ray.segment.max = aim.leads() ? arguments_.max_distance_at(lane) : 0;
         ray.segment.direction = angle == 0                        ? axis
                                 : arguments_.uniform_distribution ? cone.uniform(sequence[s])
                                                                   : cone.by_cosine(sequence[s]);

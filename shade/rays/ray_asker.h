@@ -20,6 +20,7 @@ struct RayService {
     int max_depth = 10;
     HitVisit visit;     ///< how the points are visited: by the camera, or by the ray that hit them
     uint32_t seed = 0;  ///< of the render
+    std::span<const M44f> held_from_camera;  ///< Scene::held_from_camera
     RayWalkScratch* scratch = nullptr;
     RayStats* stats = nullptr;
 };
@@ -30,6 +31,8 @@ struct RayLane {
     uint32_t seed = 0;
     /// What it is told holds for these lanes: for itself, or for all of the grid that it speaks for.
     size_t first = 0, count = 1;
+    const ShadingGrid* grid = nullptr;  ///< whose vertex it is, if any is known
+    size_t first_of_grid = 0;
 
     /// The seed of what one of its rays hits.
     uint64_t of_ray(int sample) const;
@@ -45,6 +48,8 @@ class RayAsker {
     const RayService& service() const { return service_; }
     /// How far from P rays begin; `asked` below 0: the call does not say.
     float bias_at(const V3f& P, float asked) const;
+    /// Whether rays meet the scene at times of their own.
+    bool samples_motion() const { return attributes_.rays.sample_motion; }
     /// The depths of what rays of a kind hit.
     RayDepths depths_behind(RayKind kind) const;
     /// Whether hits are not shaded any more: they are black.

@@ -9,6 +9,8 @@
 #include "core/portable_math.h"
 #include "core/random.h"
 #include "shade/rays/gather_call.h"
+#include "shade/rays/lane_motion.h"
+#include "shade/rays/ray_aim.h"
 #include "shade/rays/ray_directions.h"
 #include "shade/rays/sample_base.h"
 #include "shade/vm/context_ops.h"
@@ -80,17 +82,36 @@ struct RayCalls::Call {
     Run& run;
     const Step& step;
     const RayArguments& arguments;
-    bool colors;  ///< a colour is wanted, not a float
+    bool colors;          ///< a colour is wanted, not a float
+    bool motion_samples;  ///< rays meet the scene at times of their own
 
     bool between_points() const { return step.op == Op::Transmission || step.op == Op::Visibility; }
+    /// Rays end at a point; others go on.
+    bool ends_at_point() const {
+        return between_points() || (step.op == Op::Shadow && !arguments.distant_light);
+    }
     bool over_sky() const { return step.op == Op::Occlusion || step.op == Op::IndirectDiffuse; }
     /// The half angle of the cone that a lane's rays fill.
     float angle_at(size_t lane) const {
         return over_sky() ? arguments.cone_angle_at(lane) : arguments.sample_cone_at(lane);
     }
-    int samples_at(size_t lane) const { return angle_at(lane) == 0 ? 1 : arguments.samples_at(lane); }
+    /// Rays that all go the same way differ in time at most.
+    int samples_at(size_t lane) const {
+        return angle_at(lane) == 0 && !motion_samples ? 1 : arguments.samples_at(lane);
+    }
     V3f share_of(const WalkedRay& ray, size_t lane) const;
+    RayAim aim_at(size_t lane, const LaneMotion& motion, float time) const;
 };
+
+/// Where rays of a lane go at a time. Its point moves, what it looks at stays: directions, lights. Of two
+/// points that one moves which is nearer to the point that is shaded.
+RayAim RayCalls::Call::aim_at(size_t lane, const LaneMotion& motion, float time) const {
+    const V3f P = arguments.from_at(lane), towards = arguments.towards_at(lane), moved = motion.way(time);
+    if (moved == V3f(0, 0, 0)) return RayAim(P, between_points() ? towards - P : towards, time);
+    if (!between_points()) return RayAim(P + moved, ends_at_point() ? towards - moved : towards, time);
+    const bool from_here = (P - motion.start()).length2() <= (towards - motion.start()).length2();
+    return from_here ? RayAim(P + moved, towards - (P + moved), time) : RayAim(P, towards + moved - P, time);
+}
 
 /// What a ray adds to the result.
 V3f RayCalls::Call::share_of(const WalkedRay& ray, size_t lane) const {
@@ -145,6 +166,7 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
             if (mask && !mask[lane]) continue;
             RayLane asks{lane, hash(grid, static_cast<uint32_t>(i), step.first, calls[lane]++), lane};
             // What the vertex at a hit finds holds for its whole grid.
+            asks.grid = span.grid, asks.first_of_grid = span.first;
             if (span.hit_vertex >= 0) asks.first = span.first, asks.count = count;
             lanes.push_back(asks);
             if (uniform) return lanes;
@@ -156,7 +178,7 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
 void RayCalls::trace(Run& run, const Step& step, std::span<const Operand> operands) {
     const Operand& out = operands[0];
     const RayArguments arguments(run, step, operands);
-    const Call call{run, step, arguments, out.stride != 0};
+    const Call call{run, step, arguments, out.stride != 0, asker_.samples_motion()};
     const V3f nothing(result_of_nothing(step.op, call.colors));
     if (!run.context().batch) return put(out, {}, nothing);
     const std::vector<RayLane> lanes = lanes_of(run, step, !out.lane_mask);
@@ -222,31 +244,29 @@ RayCalls::LaneRays RayCalls::rays_of(const Call& call, std::span<const RayLane> 
 void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<WalkedRay>& rays) const {
     const RayArguments& arguments = call.arguments;
     const size_t lane = asking.lane;
-    const V3f P = arguments.from_at(lane), towards = arguments.towards_at(lane);
-    const V3f way = call.between_points() ? towards - P : towards;
-    // Squares of very long ways are not finite.
-    const float largest = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
-    if (!is_finite(P) || !is_finite(way) || !(largest > 0)) return;
-    const V3f direction = (way / largest).normalized();
-    const float length = largest * (way / largest).length();
-
+    const LaneMotion motion(asker_, asking);
+    RayAim aim = call.aim_at(lane, motion, 0);
+    if (!aim.leads()) return;
     WalkedRay ray;
     ray.segment.only = arguments.only();
-    ray.segment.min = asker_.bias_at(P, arguments.bias.at(lane));
-    ray.segment.max = arguments.max_distance_at(lane);
-    if (call.between_points() || (call.step.op == Op::Shadow && !arguments.distant_light))
-        ray.segment.max = std::min(ray.segment.max, length - ray.segment.min);
     const float angle = call.angle_at(lane);
     const int samples = call.samples_at(lane);
-    const Cone cone(direction, angle);
     const RaySequence sequence(asking.seed, samples);
     const SampleBase base(call.run);
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
-        ray.segment.direction = angle == 0  ? direction
+        const float time = motion.time(s);
+        if (time != aim.time) aim = call.aim_at(lane, motion, time);
+        if (!aim.leads()) aim = call.aim_at(lane, motion, 0);
+        const Cone cone(aim.direction, angle);
+        ray.segment.min = asker_.bias_at(aim.P, arguments.bias.at(lane));
+        ray.segment.max = arguments.max_distance_at(lane);
+        if (call.ends_at_point()) ray.segment.max = std::min(ray.segment.max, aim.length - ray.segment.min);
+        ray.segment.direction = angle == 0  ? aim.direction
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
-        ray.segment.origin = base.origin(P, arguments, asking, s);
+        ray.segment.origin = base.origin(aim.P, arguments, asking, s);
+        ray.segment.time = aim.time;
         ray.seed = asking.of_ray(s);
         rays.push_back(ray);
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/motion_keys.h"
+
 namespace trapeze {
 namespace {
 
@@ -26,15 +28,25 @@ float behind(const RaySurfaceHit& hit, float spacing) {
     return hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
 }
 
+/// Where a vertex is at a time.
+V3f place_at(const ShadingGrid& grid, size_t vertex, float time) {
+    if (grid.P.size() == 1) return grid.P.front().at(vertex);
+    const MotionSegment at = segment_at(time, static_cast<int>(grid.P.size()));
+    const auto key = static_cast<size_t>(at.index);
+    const V3f from = grid.P[key].at(vertex);
+    return from + (grid.P[key + 1].at(vertex) - from) * at.local;
+}
+
 /// Puts the grid of a hit where the ray has met it: on a micropolygon, which passes beside the limit surface.
 /// Not where shaders are to displace it first.
 void move_to_hit(const RaySegment& ray, const RaySurfaceHit& hit, int vertex, ShadingGrid& grid) {
     const Attributes& attributes = *grid.primitive->attributes;
     if (attributes.rays.displaced && (attributes.displacement || attributes.displacement_bound > 0)) return;
-    Triples& P = grid.P.front();
-    const V3f way = ray.origin + ray.direction * hit.distance - P.at(static_cast<size_t>(vertex));
-    for (size_t i = 0; i < P.size(); ++i) P.set(i, P.at(i) + way);
-    P.set(static_cast<size_t>(vertex), ray.origin + ray.direction * hit.distance);
+    const auto at = static_cast<size_t>(vertex);
+    const V3f way = ray.origin + ray.direction * hit.distance - place_at(grid, at, ray.time);
+    for (Triples& P : grid.P)
+        for (size_t i = 0; i < P.size(); ++i) P.set(i, P.at(i) + way);
+    if (grid.P.size() == 1) grid.P.front().set(at, ray.origin + ray.direction * hit.distance);
 }
 
 /// What the attributes of a hit say that it stands for.
@@ -134,8 +146,9 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     move_to_hit(met.ray->segment, met.hit, vertex, grid);
     const size_t vertices = grid.vertex_count();
     grid.I.resize(vertices);
-    for (size_t i = 0; i < vertices; ++i) grid.I.set(i, grid.P.front().at(i) - met.ray->segment.origin);
-    grid.hit_vertex = vertex;
+    const RaySegment& ray = met.ray->segment;
+    for (size_t i = 0; i < vertices; ++i) grid.I.set(i, place_at(grid, i, ray.time) - ray.origin);
+    grid.hit_vertex = vertex, grid.hit_time = ray.time;
     grid.ordinal = met.ray->seed;
     grid.answers.clear();
     met.grid = &grid;

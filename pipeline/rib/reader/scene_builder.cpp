@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pipeline/rib/reader/scene_builder.h"
+#include "pipeline/rib/state/held_camera.h"
 #include "pipeline/rib/state/motion_paths.h"
 #include "pipeline/rib/state/scene_size.h"
 
@@ -92,6 +93,7 @@ void SceneBuilder::deliver_world() {
         options.samples_y = std::min(options.samples_y, kMostSharpSamples);
     }
     scene_.camera_from_world = M44f(state_.camera_from_world().at(open));
+    scene_.held_from_camera = held_camera(state_.camera_from_world(), open, options.shutter_close);
     for (const auto& [name, space] : scope.named_spaces)
         scene_.camera_from_named[name] = M44f(space.at(open));
     for (const char* category : {"archive", "shader", "texture"})

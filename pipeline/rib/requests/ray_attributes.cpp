@@ -62,6 +62,7 @@ void set_ray_attribute(std::string_view category, const Parameter& value, RayAtt
     if (value.name == "maxdiffusedepth") rays.max_diffuse = depth_of(value);
     if (value.name == "maxspeculardepth") rays.max_specular = depth_of(value);
     if (value.name == "displacements") rays.displaced = number_of(value) != 0;
+    if (value.name == "samplemotion") rays.sample_motion = number_of(value) != 0;
 }
 
 }  // namespace trapeze::rib

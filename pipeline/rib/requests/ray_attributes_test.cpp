@@ -117,6 +117,10 @@ TEST(RayAttributes, TraceHasNumbers) {
     EXPECT_EQ(rays_after("Attribute \"trace\" \"bias\" -1").bias, 0);
     EXPECT_EQ(rays_after("Attribute \"trace\" \"int maxdiffusedepth\" [3]").max_diffuse, 3);
     EXPECT_EQ(rays_after("Attribute \"trace\" \"maxdiffusedepth\" 0").max_diffuse, 0);
+    EXPECT_FALSE(rays_after("").sample_motion);
+    EXPECT_TRUE(rays_after("Attribute \"trace\" \"int samplemotion\" 1").sample_motion);
+    EXPECT_FALSE(rays_after("Attribute \"trace\" \"samplemotion\" 1 Attribute \"trace\" \"samplemotion\" 0")
+                     .sample_motion);
     EXPECT_EQ(rays_after("Attribute \"trace\" \"int maxspeculardepth\" 7").max_specular, 7);
     EXPECT_EQ(rays_after("Attribute \"trace\" \"maxspeculardepth\" [-1]").max_specular, 0);
     EXPECT_LE(rays_after("Attribute \"trace\" \"maxspeculardepth\" 2000000000").max_specular, 1000);

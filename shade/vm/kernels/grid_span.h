@@ -6,16 +6,21 @@
 #include "core/grid.h"
 #include "core/math.h"
 
+namespace trapeze {
+struct ShadingGrid;
+}
+
 namespace trapeze::vm {
 
 /// Lanes first .. first + shape.vertex_count() - 1, row by row, u fastest.
 struct GridSpan {
     size_t first = 0;
     GridShape shape;
-    bool reverse_orientation = false;  ///< dPdu x dPdv points inside
-    uint64_t seed = 0;                 ///< of random numbers: the grid's own
-    int hit_vertex = -1;               ///< the one that asks for rays, for all of the grid; -1: each does
-    V2f steps{0, 0};                   ///< where not 0, Du and Dv are differences along the axes over these
+    bool reverse_orientation = false;   ///< dPdu x dPdv points inside
+    uint64_t seed = 0;                  ///< of random numbers: the grid's own
+    int hit_vertex = -1;                ///< the one that asks for rays, for all of the grid; -1: each does
+    V2f steps{0, 0};                    ///< where not 0, Du and Dv are differences along the axes over these
+    const ShadingGrid* grid = nullptr;  ///< null where it is a piece, or there is none
 };
 
 }  // namespace trapeze::vm

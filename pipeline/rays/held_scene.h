@@ -1,0 +1,14 @@
+/// A scene as it is for rays that the camera does not see: its own motion, without the camera's.
+#pragma once
+
+#include <memory>
+
+#include "core/scene/scene.h"
+
+namespace trapeze {
+
+/// A copy in which primitives have their places in camera space at shutter open at all times; null where the
+/// camera does not move. Those that stand still in the world stand still in it. Geometry is shared.
+std::unique_ptr<const Scene> held_scene(const Scene& scene);
+
+}  // namespace trapeze

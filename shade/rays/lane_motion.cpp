@@ -1,0 +1,55 @@
+#include "shade/rays/lane_motion.h"
+
+#include <algorithm>
+
+#include "core/motion_keys.h"
+#include "core/random.h"
+#include "core/scene/held_camera.h"
+#include "core/scene/shading_grid.h"
+
+namespace trapeze {
+namespace {
+
+/// The digits of a number to base 3 behind the point, in reverse.
+float radical_inverse_3(uint32_t number) {
+    float place = 1.0f / 3, sum = 0;
+    for (; number > 0; number /= 3, place /= 3) sum += static_cast<float>(number % 3) * place;
+    return sum;
+}
+
+}  // namespace
+
+LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane)
+    : grid_(lane.grid), vertex_(lane.lane - lane.first_of_grid) {
+    if (!grid_) return;
+    const bool is_hit = grid_->hit_vertex >= 0;
+    varies_ = !is_hit && asker.samples_motion();
+    hit_time_ = is_hit ? grid_->hit_time : 0;
+    if (!varies_ && hit_time_ == 0) return;
+    shift_ = unit_float(hash(lane.seed, 7));
+    keys_ = static_cast<int>(grid_->P.size());
+    // Rays' own geometry has no motion of the camera in it.
+    if (!is_hit) held_ = asker.service().held_from_camera;
+    if (!held_.empty() && keys_ == 1) keys_ = kHeldKeys;
+}
+
+float LaneMotion::time(int sample) const {
+    if (!varies_) return hit_time_;
+    const float time = radical_inverse_3(static_cast<uint32_t>(sample)) + shift_;
+    return std::min(time < 1 ? time : time - 1, 0x1.fffffep-1f);
+}
+
+V3f LaneMotion::place(int key) const {
+    const Triples& P = grid_->P[grid_->P.size() > 1 ? static_cast<size_t>(key) : 0];
+    const V3f here = P.at(vertex_);
+    return held_.empty() ? here : here * held_at(held_, key, keys_);
+}
+
+V3f LaneMotion::way(float time) const {
+    if (keys_ == 1 || time == 0) return V3f(0, 0, 0);
+    const MotionSegment at = segment_at(time, keys_);
+    const V3f from = place(at.index), to = place(at.index + 1);
+    return from + (to - from) * at.local - place(0);
+}
+
+}  // namespace trapeze

@@ -1,0 +1,39 @@
+/// When the rays of a point meet the scene, and where the point is then.
+///
+/// Shading is done once for the whole shutter, with everything in its place as the shutter opens [Cook87];
+/// only rays go out at times of their own, from where their point is then. What they hit is shaded as the
+/// shutter opens, too, and its own rays go on at the time of the ray that hit it. So a reflection, a shadow
+/// and what is seen in a reflection agree about where things are.
+#pragma once
+
+#include "shade/rays/ray_asker.h"
+
+namespace trapeze {
+
+/// Of one lane in one call.
+class LaneMotion {
+  public:
+    LaneMotion(const RayAsker& asker, const RayLane& lane);
+
+    /// When a ray leaves: 0 at shutter open, below 1. Times of a lane's samples are well apart from each
+    /// other and from where the rays go (van der Corput's sequence to base 3, shifted by a random number).
+    float time(int sample) const;
+    /// How far the point has come since the shutter opened; camera space at shutter open.
+    V3f way(float time) const;
+    /// Where the shaded point itself is at shutter open.
+    V3f start() const { return place(0); }
+    /// Whether rays differ in time.
+    bool varies() const { return varies_; }
+
+  private:
+    V3f place(int key) const;
+
+    const ShadingGrid* grid_;
+    size_t vertex_;
+    std::span<const M44f> held_;  ///< empty: positions hold no motion of the camera
+    int keys_ = 1;
+    bool varies_ = false;
+    float shift_ = 0, hit_time_ = 0;
+};
+
+}  // namespace trapeze
