@@ -65,14 +65,17 @@ std::vector<const ShadingGrid*> to_read(std::span<ShadingGrid* const> grids) {
 
 bool can_share_run(const Material& material, const ShadingGrid& a, const ShadingGrid& b) {
     if (material.asks_object_space && a.primitive != b.primitive) return false;
+    if (a.medium != b.medium || a.own_colors != b.own_colors) return false;
     return same_uniforms(material.displacement, a, b) && same_uniforms(material.surface, a, b) &&
            same_uniforms(material.atmosphere, a, b);
 }
 
 GridRun::GridRun(const RenderContext& context, Textures& textures, const Material& material,
-                 std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays)
+                 std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays,
+                 const Material* left)
     : context_(context),
       material_(material),
+      left_(left),
       grids_(grids),
       read_(to_read(grids)),
       scratch_(scratch),
@@ -101,19 +104,39 @@ void GridRun::run_displacement() {
 }
 
 void GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
-    Layers displaced;
+    Layers displaced, surface, atmosphere;
     if (material_.displacement) displaced = displace_seen();
+    if (grids_.front()->own_colors)
+        set_own_colors();
+    else
+        surface = run_surface();
+    if (const LayeredShader* shader = volume()) atmosphere = color(*shader, true, messages_.atmosphere);
+    if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
+    if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
+}
+
+/// What the grids are seen through: rays have left a surface that may say so, which the hit's own does not
+/// know; else its atmosphere.
+const LayeredShader* GridRun::volume() const {
+    if (left_) return grids_.front()->medium.inside ? left_->interior : left_->exterior;
+    return material_.atmosphere;
+}
+
+void GridRun::set_own_colors() {
+    for (ShadingGrid* grid : grids_) {
+        grid->Ci = grid->Cs, grid->Oi = grid->Os;
+        for (size_t i = 0; i < grid->vertex_count(); ++i) grid->Ci.set(i, grid->Cs.at(i) * grid->Os.at(i));
+    }
+}
+
+GridRun::Layers GridRun::run_surface() {
     // What the first layer does not name stays as the primitive has it; the rest is taken from the registers.
     const rsl::Program& first = material_.surface->layers.front()->program();
     for (ShadingGrid* grid : grids_) {
         if (!first.find_global("Ci")) grid->Ci = grid->Cs;
         if (!first.find_global("Oi")) grid->Oi = grid->Os;
     }
-    const Layers surface = color(*material_.surface, false, messages_.surface);
-    Layers atmosphere;
-    if (material_.atmosphere) atmosphere = color(*material_.atmosphere, true, messages_.atmosphere);
-    if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
-    if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
+    return color(*material_.surface, false, messages_.surface);
 }
 
 vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
@@ -136,7 +159,9 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     messages_.running = bound.program().name;
     // Lights may ask the surface that asks them.
     if (bound.program().kind == rsl::ShaderKind::Surface) messages_.surface = &registers;
-    const SceneSpaces spaces(*context_.scene, context_.camera, &bound.instance(), grids.front()->primitive);
+    const Primitive* object = grids.front()->primitive;
+    if (left_ && &shader == volume()) object = &context_.scene->primitives[grids.front()->medium.primitive];
+    const SceneSpaces spaces(*context_.scene, context_.camera, &bound.instance(), object);
     vm::Context surroundings;
     surroundings.batch = &batch;
     surroundings.spaces = &spaces;

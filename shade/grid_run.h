@@ -31,9 +31,11 @@ bool can_share_run(const Material& material, const ShadingGrid& a, const Shading
 class GridRun {
   public:
     /// The grids can share a run (can_share_run()), each with each. All must outlive this.
-    /// Without `rays` shaders that trace find nothing.
+    /// Without `rays` shaders that trace find nothing. `left`: of the surface that rays have left to hit the
+    /// grids, through a medium that it has a shader for (ShadingGrid::medium); else null.
     GridRun(const RenderContext& context, Textures& textures, const Material& material,
-            std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays = nullptr);
+            std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays = nullptr,
+            const Material* left = nullptr);
 
     /// Displaces the grids at all keys, sets Ci and Oi, fills the output variables `aovs`, and answers what
     /// is asked of hits.
@@ -51,14 +53,18 @@ class GridRun {
                              Layers& layers);
     // These return the registers of all layers of their shader.
     Layers displace();
+    Layers run_surface();
     Layers displace_seen();
     Layers color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
     void move_borders(const LayeredShader& shader);
     void move_grids(const vm::Registers& registers);
+    const LayeredShader* volume() const;
+    void set_own_colors();
     void note_moves(const vm::Registers& registers);
 
     const RenderContext& context_;
     const Material& material_;
+    const Material* const left_;
     const std::span<ShadingGrid* const> grids_;
     const std::vector<const ShadingGrid*> read_;  ///< grids_ again, as functions that only read want them
     GridRunScratch& scratch_;

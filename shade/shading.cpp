@@ -41,6 +41,8 @@ struct Shading::Impl {
         make_samplers(materials, textures, render.diagnostics);
         if (render.diagnostics)
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
+        for (uint32_t i = 0; i < render.scene->primitives.size(); ++i)
+            volumes.add(i, materials.of(i).interior, materials.of(i).exterior);
     }
 
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats, int depth,
@@ -50,6 +52,7 @@ struct Shading::Impl {
     mutable Textures textures;  ///< thread-safe
     Materials materials;
     AovLayout aovs;
+    VolumeTable volumes;
     const RayScene* rays = nullptr;
     size_t known_endless = 0;  ///< endless shaders at the last found_endless_loops()
 };
@@ -85,6 +88,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
         service.seed = context.seed;
         service.held_from_camera = context.scene->held_from_camera;
         service.max_depth = context.scene->options.max_ray_depth;
+        service.volumes = &volumes;
         service.scratch = &state.hits;
         service.stats = &stats.rays;
     }
@@ -102,7 +106,10 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
             batch.push_back(&grid);
             vertices += grid.vertex_count();
         }
-        GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr)
+        const RayMedium& medium = grids[first]->medium;
+        const Material* const left =
+            medium.primitive != RayMedium::kNone ? &materials.of(medium.primitive) : nullptr;
+        GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr, left)
             .run(depth == 0 ? aovs : AovLayout(), visit.outputs);
         stats.shaded_vertices += vertices;
         first = next;

@@ -60,6 +60,8 @@ class Dicer {
         grid_.displaced = false;
         grid_.I.resize(0);
         grid_.hit_vertex = -1;
+        grid_.medium = {};
+        grid_.own_colors = false;
         grid_.shared_vertices.clear();
         if (!context_.displaced) grid_.border.clear();
         const size_t keys = surface_.key_count();

@@ -38,6 +38,7 @@ struct RaySurfaceHit {
     float distance = 0;
     uint32_t primitive = 0;                     ///< index in Scene::primitives
     const RayAttributes* attributes = nullptr;  ///< the primitive's
+    bool from_outside = true;                   ///< else it comes from within the surface
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
     V3f opacity{1, 1, 1};       ///< the primitive's own, Os
     V3f color{1, 1, 1};         ///< the primitive's own, Cs

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,6 +44,14 @@ struct GridVariable {
     std::vector<std::string> strings;        ///< strings are always uniform
 };
 
+/// What a ray goes through between two surfaces: the inside of the one that it has left, or what is outside.
+struct RayMedium {
+    static constexpr uint32_t kNone = ~uint32_t{0};
+    uint32_t primitive = kNone;  ///< in Scene::primitives: the one that was left
+    bool inside = false;         ///< its Interior shader counts, else its Exterior
+    auto operator<=>(const RayMedium&) const = default;
+};
+
 /// What shaders read and make of a grid.
 struct ShadingGrid {
     GridShape shape;
@@ -62,6 +71,8 @@ struct ShadingGrid {
     Triples I;
     int hit_vertex = -1;       ///< of what a ray has hit: the vertex there; only this one traces rays in turn
     float hit_time = 0;        ///< of what a ray has hit: when; its own rays go at that time, too
+    RayMedium medium;          ///< of what a ray has hit: what it is seen through, if that has a shader
+    bool own_colors = false;   ///< of what a ray has hit: stands for the primitive's own Cs and Os
     bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone
     Triples dPdu,
         dPdv;  ///< derivatives by the surface's u and v, which run 0..1 over the primitive's face or patch

@@ -117,6 +117,15 @@ std::optional<RaySurfaceHit> RayWorld::closest_in(const RayGrids& grids, const R
     return {};
 }
 
+/// Whether a ray comes to a micropolygon from the outside of its surface.
+bool RayWorld::from_outside(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const {
+    const Attributes& attributes = dicer_.attributes(grid.primitive);
+    const auto corner = [&](int i, int j) { return grid.vertex(id.u + i, id.v + j, ray.time); };
+    const V3f p00 = corner(0, 0), p11 = corner(1, 1), p10 = corner(1, 0), p01 = corner(0, 1);
+    const V3f normal = (p11 - p00).cross(p01 - p10) * (attributes.reverse_orientation ? -1.0f : 1.0f);
+    return normal.dot(ray.direction) <= 0;
+}
+
 /// Whether a micropolygon's hit counts: one-sided surfaces have no inside, and a ray may want groups or sides
 /// of its own choice.
 bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const {
@@ -126,11 +135,7 @@ bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const RaySegmen
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;
     if (sides == Sides::OfAttributes) sides = attributes.sides == 1 ? Sides::Front : Sides::Both;
     if (sides == Sides::Both) return true;
-    const auto corner = [&](int i, int j) { return grid.vertex(id.u + i, id.v + j, ray.time); };
-    const V3f p00 = corner(0, 0), p11 = corner(1, 1), p10 = corner(1, 0), p01 = corner(0, 1);
-    const V3f normal = (p11 - p00).cross(p01 - p10) * (attributes.reverse_orientation ? -1.0f : 1.0f);
-    const bool from_outside = normal.dot(ray.direction) <= 0;
-    return from_outside == (sides == Sides::Front);
+    return from_outside(grid, id, ray) == (sides == Sides::Front);
 }
 
 RaySurfaceHit RayWorld::hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const {
@@ -143,6 +148,7 @@ RaySurfaceHit RayWorld::hit_of(const RaySegment& ray, float distance, const RayG
     hit.distance = distance;
     hit.primitive = grid.primitive;
     hit.attributes = &dicer_.attributes(grid.primitive).rays;
+    hit.from_outside = from_outside(grid, id, ray);
     hit.keeps_opacity = dicer_.keeps_opacity(grid.primitive);
     hit.color = hit.opacity = V3f(0, 0, 0);
     for (int corner = 0; corner < 4; ++corner) {

@@ -49,6 +49,7 @@ class RayWorld final : public RayScene {
     void make_groups(size_t most_bytes);
     std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RaySegment& ray) const;
     RaySurfaceHit hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const;
+    bool from_outside(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
     bool shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
 
     RayDicer dicer_;

@@ -54,10 +54,10 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
         if (!material.displacement)
             report_missing("Displacement", *attributes.displacement, "nothing is displaced");
     }
-    if (attributes.atmosphere) {
-        material.atmosphere = layered(*attributes.atmosphere, rsl::ShaderKind::Volume, varying);
-        if (!material.atmosphere) report_missing("Atmosphere", *attributes.atmosphere, "there is none");
-    }
+    material.atmosphere = volume("Atmosphere", attributes.atmosphere.get(), varying);
+    // They run on other primitives, which do not have the variables of this one.
+    material.interior = volume("Interior", attributes.interior.get(), {});
+    material.exterior = volume("Exterior", attributes.exterior.get(), {});
     const bool sets_P = std::ranges::any_of(material.surface->layers, [](const BoundShader* layer) {
         return writes_variable(layer->program(), "P");
     });
@@ -72,6 +72,15 @@ void Materials::add(const Attributes& attributes, const Names& varying) {
             if (!shining->area) material.other_lights.push_back(shining);
         }
     material.shades_vertices_apart = shades_vertices_apart(material);
+}
+
+/// A volume shader, if any is named.
+const LayeredShader* Materials::volume(const char* request, const ShaderInstance* instance,
+                                       const Names& varying) {
+    if (!instance) return nullptr;
+    const LayeredShader* found = layered(*instance, rsl::ShaderKind::Volume, varying);
+    if (!found) report_missing(request, *instance, "there is none");
+    return found;
 }
 
 /// A shader with its layers. Null when there is no such shader, or it has errors. An earlier layer that is

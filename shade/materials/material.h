@@ -24,6 +24,8 @@ struct Material {
     const LayeredShader* surface = nullptr;
     const LayeredShader* displacement = nullptr;  ///< may be null
     const LayeredShader* atmosphere = nullptr;    ///< may be null
+    /// Of what rays go through that leave the surface for its inside, or its outside; may be null.
+    const LayeredShader *interior = nullptr, *exterior = nullptr;
     /// Whether a shader asks for object space: grids of different primitives can then not share a run.
     bool asks_object_space = false;
     /// Whether the surface shader sets P and there is a displacement bound: the shader then displaces the
@@ -64,6 +66,7 @@ class Materials {
     const LayeredShader* layered(const ShaderInstance& instance, rsl::ShaderKind kind, const Names& varying);
     const BoundShader* bound(const ShaderInstance& instance, rsl::ShaderKind kind, Names varying,
                              std::span<const std::string> connected);
+    const LayeredShader* volume(const char* request, const ShaderInstance* instance, const Names& varying);
     const LayeredShader* surface(const ShaderInstance* instance, const Names& varying);
     const Lamp* lamp(const LightInstance& instance);
     const ShaderInstance* in_the_middle(const LightInstance& instance, const ShaderInstance& shader);

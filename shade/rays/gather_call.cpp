@@ -152,6 +152,7 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
                                 : arguments_.uniform_distribution ? cone.uniform(sequence[s])
                                                                   : cone.by_cosine(sequence[s]);
         ray.segment.origin = base_.origin(P, arguments_, asking, s);
+        ray.medium = asker_.medium(asking, ray.segment.direction);
         ray.seed = asking.of_ray(s);
         rays_.push_back(ray);
     }
@@ -160,7 +161,7 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
 /// Sends the rays into the scene, for no more than what is asked. What is too deep to be shaded is black.
 void GatherCall::follow() {
     const RayService& service = asker_.service();
-    RayWalk walk(*service.scene, service.shade, *service.scratch, *service.stats);
+    RayWalk walk(*service.scene, service.shade, *service.volumes, *service.scratch, *service.stats);
     RayAsk ask;
     ask.kind = kind_, ask.depths = asker_.depths_behind(kind_), ask.label = arguments_.label;
     ask.hit_mode = arguments_.hit_mode, ask.opaque = arguments_.opaque, ask.outputs = &asked_;

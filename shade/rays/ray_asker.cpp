@@ -28,6 +28,12 @@ float RayAsker::bias_at(const V3f& P, float asked) const {
            (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
 }
 
+RayMedium RayAsker::medium(const RayLane& lane, const V3f& direction) const {
+    if (service_.volumes->empty() || !lane.grid) return {};
+    const V3f outside = lane.grid->Ng.at(lane.lane - lane.first_of_grid);
+    return {lane.grid->primitive_index, direction.dot(outside) < 0};
+}
+
 /// The bounds of all surfaces on the way hold, each counted from the surface's own depth.
 RayDepths RayAsker::depths_behind(RayKind kind) const {
     RayDepths depths = service_.visit.depths;

@@ -21,6 +21,7 @@ struct RayService {
     HitVisit visit;     ///< how the points are visited: by the camera, or by the ray that hit them
     uint32_t seed = 0;  ///< of the render
     std::span<const M44f> held_from_camera;  ///< Scene::held_from_camera
+    const VolumeTable* volumes = nullptr;
     RayWalkScratch* scratch = nullptr;
     RayStats* stats = nullptr;
 };
@@ -52,6 +53,8 @@ class RayAsker {
     bool samples_motion() const { return attributes_.rays.sample_motion; }
     /// The depths of what rays of a kind hit.
     RayDepths depths_behind(RayKind kind) const;
+    /// What a ray of a lane goes through first.
+    RayMedium medium(const RayLane& lane, const V3f& direction) const;
     /// Whether hits are not shaded any more: they are black.
     bool is_too_deep(RayKind kind) const;
 

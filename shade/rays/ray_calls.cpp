@@ -267,6 +267,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
                                             : cone.uniform(sequence[s]);
         ray.segment.origin = base.origin(aim.P, arguments, asking, s);
         ray.segment.time = aim.time;
+        ray.medium = asker_.medium(asking, ray.segment.direction);
         ray.seed = asking.of_ray(s);
         rays.push_back(ray);
     }
@@ -276,7 +277,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
 bool RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     const RayService& service = asker_.service();
     const RayArguments& arguments = call.arguments;
-    RayWalk walk(*service.scene, service.shade, *service.scratch, *service.stats);
+    RayWalk walk(*service.scene, service.shade, *service.volumes, *service.scratch, *service.stats);
     RayAsk ask;
     const Op op = call.step.op;
     ask.kind = call.over_sky()                            ? RayKind::Diffuse

@@ -1,6 +1,7 @@
 #include "shade/rays/ray_walk.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/motion_keys.h"
 
@@ -125,6 +126,7 @@ bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
         for (int k = 0; k < 3; ++k) ends &= 1 - ray.through[k] >= (*ask.opaque)[k];
         if (ends) return false;
     }
+    ray.medium = {met.hit.primitive, met.hit.from_outside}, ray.medium_from = met.hit.distance;
     const V3f P = ray.segment.origin + ray.segment.direction * met.hit.distance;
     ray.segment.min = behind(met.hit, scene_.spacing(P));
     return true;
@@ -138,6 +140,14 @@ bool RayWalk::shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) c
            RayAsk::HitMode::Shader;
 }
 
+/// What a hit is seen through, if that has a shader. A ray may begin within a thing that stands close to
+/// where it was sent from, or that stands around all: then it is the thing that tells.
+RayMedium RayWalk::medium_of(const Met& met) const {
+    const RayMedium inside_of_hit{met.hit.primitive, true};
+    if (volumes_.has(met.ray->medium)) return met.ray->medium;
+    return !met.hit.from_outside && volumes_.has(inside_of_hit) ? inside_of_hit : RayMedium();
+}
+
 /// The grid of a hit, of which its ray sees the vertex that was hit.
 ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     if (scratch_.grids.size() <= number) scratch_.grids.emplace_back();
@@ -147,7 +157,11 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     const size_t vertices = grid.vertex_count();
     grid.I.resize(vertices);
     const RaySegment& ray = met.ray->segment;
-    for (size_t i = 0; i < vertices; ++i) grid.I.set(i, place_at(grid, i, ray.time) - ray.origin);
+    // Seen through a medium, from where that begins.
+    grid.medium = medium_of(met);
+    const bool in_medium = grid.medium != RayMedium();
+    const V3f from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
+    for (size_t i = 0; i < vertices; ++i) grid.I.set(i, place_at(grid, i, ray.time) - from);
     grid.hit_vertex = vertex, grid.hit_time = ray.time;
     grid.ordinal = met.ray->seed;
     grid.answers.clear();
@@ -164,17 +178,20 @@ void RayWalk::visit_hits(const RayAsk& ask, Wants wants, bool first) {
     const bool asks = visit.outputs && !visit.outputs->empty();
     std::vector<ShadingGrid*> shaded, asked;
     for (Met& met : met_) {
-        const bool shades = this->shades(met.hit, ask, wants);
-        if (!shades && !asks) continue;
+        const bool own_colors = !shades(met.hit, ask, wants);
+        const bool runs = !own_colors || (ask.shades && medium_of(met) != RayMedium());
+        if (!runs && !asks) continue;
         ShadingGrid& grid = grid_of(met, shaded.size() + asked.size());
-        grid.for_opacity = wants == Wants::Opacity;
-        if (shades) met.vertex = grid.hit_vertex;
-        (shades ? shaded : asked).push_back(&grid);
+        grid.for_opacity = wants == Wants::Opacity, grid.own_colors = own_colors;
+        if (runs) met.vertex = grid.hit_vertex;
+        (runs ? shaded : asked).push_back(&grid);
     }
     stats_.shaded_hits += shaded.size();
     for (std::vector<ShadingGrid*>* grids : {&shaded, &asked}) {
         visit.shades = grids == &shaded;
-        std::ranges::stable_sort(*grids, {}, &ShadingGrid::primitive_index);
+        std::ranges::stable_sort(*grids, {}, [](const ShadingGrid* grid) {
+            return std::tuple(grid->primitive_index, grid->medium, grid->own_colors);
+        });
         if (!grids->empty()) shade_(*grids, visit);
     }
     for (const Met& met : met_)

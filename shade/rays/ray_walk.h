@@ -13,15 +13,19 @@
 
 #include "core/scene/ray_scene.h"
 #include "core/scene/scene.h"
+#include "core/scene/shading_grid.h"
 #include "core/stats.h"
 #include "shade/rays/hit_outputs.h"
+#include "shade/rays/volume_table.h"
 
 namespace trapeze {
 
 /// A ray and what has come of it.
 struct WalkedRay {
     RaySegment segment;
-    uint64_t seed = 0;           ///< of random numbers of shaders that it meets
+    uint64_t seed = 0;  ///< of random numbers of shaders that it meets
+    RayMedium medium;   ///< what it goes through from the distance `medium_from` on
+    float medium_from = 0;
     V3f seen{0, 0, 0};           ///< colour, as radiance() leaves it
     V3f through{1, 1, 1};        ///< the part of the light from behind that arrives
     float distance = kInfinity;  ///< of the first hit
@@ -77,8 +81,9 @@ struct RayWalkScratch {
 /// Sends rays through a scene. All it refers to must outlive it.
 class RayWalk {
   public:
-    RayWalk(const RayScene& scene, const ShadeHits& shade, RayWalkScratch& scratch, RayStats& stats)
-        : scene_(scene), shade_(shade), scratch_(scratch), stats_(stats) {}
+    RayWalk(const RayScene& scene, const ShadeHits& shade, const VolumeTable& volumes,
+            RayWalkScratch& scratch, RayStats& stats)
+        : scene_(scene), shade_(shade), volumes_(volumes), scratch_(scratch), stats_(stats) {}
 
     /// Sets what rays see, from front to back until nothing shines through, `through` and `distance`; answers
     /// what is asked of first hits.
@@ -95,18 +100,20 @@ class RayWalk {
     struct Met {
         WalkedRay* ray;
         RaySurfaceHit hit;
-        int vertex = -1;  ///< of the grid that shades it; -1: the primitive's own values hold
+        int vertex = -1;  ///< of the grid that shades it, or its medium; -1: the primitive's own values hold
         ShadingGrid* grid = nullptr;
     };
 
     void walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants);
     bool pass(const Met& met, const RayAsk& ask) const;
+    RayMedium medium_of(const Met& met) const;
     bool shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const;
     void visit_hits(const RayAsk& ask, Wants wants, bool first);
     ShadingGrid& grid_of(Met& met, size_t number);
 
     const RayScene& scene_;
     const ShadeHits& shade_;
+    const VolumeTable& volumes_;
     RayWalkScratch& scratch_;
     RayStats& stats_;
     std::vector<Met> met_;

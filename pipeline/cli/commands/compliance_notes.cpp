@@ -16,7 +16,8 @@ constexpr RequestNote kRequests[] = {
     {"EditAttributeBegin", "the block is skipped"},
     {"EditBegin", "the block is skipped"},
     {"EditWorldBegin", "the block is skipped"},
-    {"Exterior", "kept; nothing runs it until rays are traced"},
+    {"Exterior",
+     "on rays that leave the surface, as far as the next one; where nothing is hit it does not run"},
     {"GeometricApproximation", "motionfactor, focusfactor; flatness is read"},
     {"GeometricRepresentation", "read; all is drawn as it is"},
     {"HierarchicalSubdivisionMesh",
@@ -28,7 +29,7 @@ constexpr RequestNote kRequests[] = {
      "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture; \"glow\" is "
      "built in"},
     {"Integrator", "read; RIS shaders are not run"},
-    {"Interior", "kept; nothing runs it until rays are traced"},
+    {"Interior", "on rays that go in, as far as the next surface; not on what the camera sees through it"},
     {"Light", "rislight, an area light of the shading language, stands for it"},
     {"LightFilter", "read; RIS shaders are not run"},
     {"MakeBump", "as MakeTexture"},
@@ -72,11 +73,11 @@ constexpr Capability kCapabilities[] = {
     {"Spectral Colors", "supported with limits", "ColorSamples converts to three samples when RIB is read."},
     {"Programmable Shading", "supported",
      "RenderMan Shading Language 3.2: surface, displacement, light, volume and imager shaders."},
-    {"Volume Shading", "supported with limits",
-     "Atmosphere shaders run at visible points. Interior and Exterior are kept."},
+    {"Volume Shading", "supported",
+     "Atmosphere shaders run at visible points, Interior and Exterior along rays of shaders, from surface to surface."},
     {"Ray Tracing", "supported with limits",
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
-     "shutter open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
+     "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
      "finely as a pixel is at its distance from the eye. Solids are whole for rays."},
     {"Global Illumination", "supported with limits",
      "occlusion() and indirectdiffuse() send rays; no point clouds, no photon maps."},
