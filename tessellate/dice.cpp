@@ -26,12 +26,18 @@ class Dicer {
 
     /// Interior vertices are evaluated on the subpatch; border vertices then take the shared points'
     /// positions, because the same point evaluated on two faces differs in its last bits.
-    void run() {
+    void run(DiceFor wanted) {
         prepare_grid();
         find_border();
         place_vertices();
         snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), context_.displaced,
                                scratch_.uv);
+        if (wanted == DiceFor::Hits && !context_.displaced) {
+            evaluate_places();
+            set_border_positions();
+            if (has_own_colors()) set_variables();
+            return;
+        }
         evaluate();
         set_border_positions();
         set_normals();
@@ -144,6 +150,23 @@ class Dicer {
         }
     }
 
+    /// Positions alone.
+    void evaluate_places() {
+        const size_t keys = grid_.P.size();
+        scratch_.P.resize(count_ * keys);
+        surface_.positions(subpatch_.face, scratch_.uv, static_cast<int>(keys), scratch_.evaluation,
+                           scratch_.P);
+        for (size_t key = 0; key < keys; ++key)
+            for (size_t i = 0; i < count_; ++i) grid_.P[key].set(i, scratch_.P[key * count_ + i]);
+    }
+
+    /// Whether the primitive has variables that stand for Cs or Os.
+    bool has_own_colors() const {
+        return std::ranges::any_of(surface_.primitive().shape().variables.values, [](const Parameter& value) {
+            return value.name == "Cs" || value.name == "Os";
+        });
+    }
+
     /// A border vertex that lies at its edge's vertex, bit for bit, has its position already.
     bool is_in_place(int vertex, const BorderPoint& point) const {
         return !point.is_vertex && point.at.face == subpatch_.face && point.at.uv == scratch_.uv[vertex];
@@ -235,8 +258,8 @@ class Dicer {
 }  // namespace
 
 void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
-                   DiceScratch::State& scratch) {
-    Dicer(context, subpatch, grid, scratch).run();
+                   DiceScratch::State& scratch, DiceFor wanted) {
+    Dicer(context, subpatch, grid, scratch).run(wanted);
 }
 
 int dice_point(const DiceContext& context, const Subpatch& subpatch, const V2f& at, ShadingGrid& grid,

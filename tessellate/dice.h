@@ -31,7 +31,7 @@ struct DiceScratch::State {
 /// shape, key_count and primitive are set here too; ordinal and primitive_index are the caller's. Same bits
 /// whenever it is done and whoever does it.
 void dice_subpatch(const DiceContext& context, const Subpatch& subpatch, ShadingGrid& grid,
-                   DiceScratch::State& scratch);
+                   DiceScratch::State& scratch, DiceFor wanted = DiceFor::Shaders);
 
 /// Makes a grid of one micropolygon, as large as those that the subpatch dices to, with a vertex at a place
 /// of it (in its unit square); returns the vertex. It lies within the subpatch.

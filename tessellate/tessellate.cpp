@@ -334,11 +334,11 @@ size_t Tessellation::bytes() const {
     return total;
 }
 
-void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch) const {
+void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch, DiceFor wanted) const {
     const SubpatchInfo& info = infos_[subpatch];
     const TessellatedPrimitive& p = impl_->primitives[info.primitive];
     dice_subpatch(p.dice_context(impl_->metric), p.splits.subpatches[subpatch - p.first_subpatch], grid,
-                  *scratch.state);
+                  *scratch.state, wanted);
     grid.primitive_index = info.primitive;
     grid.ordinal = subpatch;
 }

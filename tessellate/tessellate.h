@@ -37,6 +37,12 @@ struct SubpatchPoint {
 /// from the eye.
 enum class SeenBy : uint8_t { Camera, Rays };
 
+/// What is wanted of a grid.
+enum class DiceFor : uint8_t {
+    Shaders,  ///< all that they read
+    Hits,  ///< where it is, and its primitive's colour and opacity: rays that shade nothing at its vertices
+};
+
 /// A thread's memory for dicing one Tessellation. Not for another one: surfaces leave their own scratch here.
 class DiceScratch {
   public:
@@ -75,8 +81,9 @@ class Tessellation {
 
     /// Dices one subpatch, by its index in subpatches(): positions at all keys (camera space), normals,
     /// derivatives, variables at shutter open; Ci and Oi are sized but not set. Thread-safe with a scratch
-    /// per thread.
-    void dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch) const;
+    /// per thread. For hits alone normals, derivatives and variables but Cs and Os are sized, not set.
+    void dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch,
+              DiceFor wanted = DiceFor::Shaders) const;
 
     /// Makes a grid of one micropolygon with a vertex at a place of a subpatch, whose number is returned. Its
     /// sides are as long as those of the subpatch's grid. No vertex is moved to that of a neighbour: the

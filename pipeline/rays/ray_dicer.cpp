@@ -52,7 +52,7 @@ RayDicer::~RayDicer() = default;
 Grid RayDicer::make(size_t subpatch, GridArena& arena) const {
     Scratches::Scratch& scratch = scratches_->of_grids.local();
     ShadingGrid* const grid = &scratch.grid;
-    tessellation_.dice(subpatch, *grid, scratch.dice);
+    tessellation_.dice(subpatch, *grid, scratch.dice, DiceFor::Hits);
     grid->aovs.clear();
     shading_.displace({&grid, 1}, scratch.shade);
     PackOptions options;
