@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/scene/scene.h"
+#include "core/scene/solid_state.h"
 #include "sample/cut_hits.h"
 #include "tessellate/dicing_harness.h"
 

@@ -58,9 +58,9 @@ Grid RayDicer::make(size_t subpatch, GridArena& arena) const {
     PackOptions options;
     options.both_sides = true;
     options.float_colors = context_.float_colors;
-    // One-sided surfaces hide nothing for sure: their other side is not there.
-    options.keep_hits_behind =
-        !keeps_opacity_[grid->primitive_index] || grid->primitive->attributes->sides != 2;
+    // One-sided surfaces hide nothing for sure, their other side is not there; nor do parts of solids.
+    options.keep_hits_behind = !keeps_opacity_[grid->primitive_index] ||
+                               grid->primitive->attributes->sides != 2 || grid->primitive->solid >= 0;
     int64_t not_finite = 0;
     return pack_grid(*grid, arena, &not_finite, options);
 }

@@ -35,6 +35,7 @@ constexpr double kGridShare = 0.8;
 
 RayWorld::RayWorld(const RenderContext& context, const Shading& shading, size_t most_bytes)
     : dicer_(context, shading, most_bytes) {
+    if (const Scene& scene = *dicer_.context().scene; !scene.solids.empty()) solids_.emplace(scene);
     make_groups(static_cast<size_t>(kRayShare * static_cast<double>(most_bytes)));
 }
 
@@ -91,6 +92,12 @@ uint64_t RayWorld::micropolygons_made() const {
 }
 
 std::optional<RaySurfaceHit> RayWorld::closest(const RaySegment& ray, RayKind kind) const {
+    std::optional<RaySurfaceHit> hit = closest_of_all(ray, kind);
+    if (!hit || !solids_ || !solids_->has(hit->primitive)) return hit;
+    return solids_->nearest(ray, [&](const RaySegment& rest) { return closest_of_all(rest, kind); });
+}
+
+std::optional<RaySurfaceHit> RayWorld::closest_of_all(const RaySegment& ray, RayKind kind) const {
     std::optional<RaySurfaceHit> nearest;
     RaySegment rest = ray;
     for (uint32_t mask = 0; mask < kMasks; ++mask) {
@@ -130,6 +137,7 @@ bool RayWorld::from_outside(const Grid& grid, const MicropolygonId& id, const Ra
 /// of its own choice.
 bool RayWorld::shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const {
     using Sides = RayFilter::Sides;
+    if (solids_ && solids_->has(grid.primitive)) return true;  // the whole solid has sides
     const Attributes& attributes = dicer_.attributes(grid.primitive);
     if (ray.only && !ray.only->subset.has(attributes.rays.groups)) return false;
     Sides sides = ray.only ? ray.only->sides : Sides::OfAttributes;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/scene/ray_scene.h"
@@ -12,6 +13,7 @@
 #include "pipeline/rays/ray_bricks.h"
 #include "pipeline/rays/ray_dicer.h"
 #include "pipeline/rays/ray_grids.h"
+#include "pipeline/rays/solid_hits.h"
 
 namespace trapeze {
 
@@ -47,13 +49,15 @@ class RayWorld final : public RayScene {
     static constexpr unsigned kMasks = 8;
 
     void make_groups(size_t most_bytes);
+    std::optional<RaySurfaceHit> closest_of_all(const RaySegment& ray, RayKind kind) const;
     std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RaySegment& ray) const;
     RaySurfaceHit hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const;
     bool from_outside(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
     bool shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
 
     RayDicer dicer_;
-    std::vector<GridArena> arenas_;  ///< of grids that are in memory as a whole
+    std::optional<SolidHits> solids_;  ///< of a scene that has solids
+    std::vector<GridArena> arenas_;    ///< of grids that are in memory as a whole
     std::array<Group, kMasks> groups_;
     uint64_t micropolygons_ = 0;
 };

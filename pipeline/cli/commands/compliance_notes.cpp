@@ -75,10 +75,10 @@ constexpr Capability kCapabilities[] = {
      "RenderMan Shading Language 3.2: surface, displacement, light, volume and imager shaders."},
     {"Volume Shading", "supported",
      "Atmosphere shaders run at visible points, Interior and Exterior along rays of shaders, from surface to surface."},
-    {"Ray Tracing", "supported with limits",
+    {"Ray Tracing", "supported",
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
      "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
-     "finely as a pixel is at its distance from the eye. Solids are whole for rays."},
+     "finely as a pixel is at its distance from the eye. Solids are cut, clipping planes cut the camera's view alone."},
     {"Global Illumination", "supported with limits",
      "occlusion() and indirectdiffuse() send rays; no point clouds, no photon maps."},
     {"Area Lights", "supported",

@@ -1,0 +1,55 @@
+#include "pipeline/rays/solid_hits.h"
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace trapeze {
+namespace {
+
+/// Behind a hit: distances become depths and come back, and lose a last bit each time.
+float behind(float distance) {
+    for (int i = 0; i < 4; ++i) distance = std::nextafter(distance, kInfinity);
+    return distance;
+}
+
+/// Whether a call wants the hit: by the solid's own sides.
+bool is_wanted(const RayFilter& filter, const RaySurfaceHit& hit) {
+    using Sides = RayFilter::Sides;
+    if (!filter.subset.has(hit.attributes->groups)) return false;
+    return (filter.sides != Sides::Front && filter.sides != Sides::Back) ||
+           hit.from_outside == (filter.sides == Sides::Front);
+}
+
+}  // namespace
+
+std::optional<RaySurfaceHit> SolidHits::nearest(const RaySegment& ray, const Find& find) const {
+    const auto solid_of = [&](const RaySurfaceHit& hit) { return scene_.primitives[hit.primitive].solid; };
+    // All of them: whether a leaf is closed behind the segment's end tells whether it holds the beginning.
+    std::vector<RaySurfaceHit> along;
+    std::map<int, bool> odd;
+    RaySegment rest = ray;
+    rest.max = std::numeric_limits<float>::infinity();
+    while (const std::optional<RaySurfaceHit> hit = find(rest)) {
+        along.push_back(*hit);
+        if (const int solid = solid_of(*hit); solid >= 0) odd[solid] = !odd[solid];
+        rest.min = behind(hit->distance);
+    }
+    SolidState& state = states_.local();
+    state.reset();
+    for (const auto& [solid, is_odd] : odd)
+        if (is_odd) state.cross(solid);
+    for (RaySurfaceHit& hit : along) {
+        if (hit.distance > ray.max) break;
+        const int solid = solid_of(hit);
+        if (solid >= 0) {
+            if (!state.cross(solid)) continue;
+            hit.from_outside = state.whole_holds(solid);
+            if (ray.only && !is_wanted(*ray.only, hit)) continue;
+        }
+        return hit;
+    }
+    return {};
+}
+
+}  // namespace trapeze
