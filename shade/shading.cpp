@@ -15,6 +15,18 @@
 namespace trapeze {
 namespace {
 
+/// Whether shaders that run on a material's surfaces say or write anything besides their outputs.
+bool any_leaves_traces(const Material& material) {
+    const auto any = [](const LayeredShader* shader) {
+        return shader && std::ranges::any_of(shader->layers, [](const BoundShader* layer) {
+                   return leaves_traces(layer->program());
+               });
+    };
+    return any(material.surface) || any(material.atmosphere) ||
+           std::ranges::any_of(material.lights,
+                               [](const Lamp* lamp) { return leaves_traces(lamp->shader->program()); });
+}
+
 /// Displacement beyond the bound by this factor is not reported: it is rounding.
 constexpr float kBoundTolerance = 1.0001f;
 
@@ -171,6 +183,28 @@ bool Shading::keeps_opacity(uint32_t primitive) const {
     return (rays.transmission_hits == HitMode::Primitive && rays.diffuse_hits != HitMode::Shader) ||
            std::ranges::none_of(material.surface->layers,
                                 [](const BoundShader* layer) { return changes_opacity(layer->program()); });
+}
+
+bool Shading::may_stay_unshaded(uint32_t primitive) const {
+    const Material& material = impl_->materials.of(primitive);
+    // Where a ray crosses parts of a solid that it does not see tells what it sees of the solid.
+    if (impl_->context.scene->primitives[primitive].solid >= 0) return false;
+    // A surface that says P may move it; one that only says so is warned about, which takes that it runs.
+    return material.attributes->cull_hidden && !material.displacement && !material.surface_moves &&
+           !material.surface_only_sets_P && !any_leaves_traces(material);
+}
+
+bool Shading::hides_for_sure(uint32_t primitive) const {
+    const Material& material = impl_->materials.of(primitive);
+    const auto keeps = [](const LayeredShader* shader) {
+        return !shader || std::ranges::all_of(shader->layers, [](const BoundShader* layer) {
+            return keeps_opaque(layer->program());
+        });
+    };
+    const Primitive& seen = impl_->context.scene->primitives[primitive];
+    return seen.attributes->opacity == V3f(1, 1, 1) &&
+           (seen.shape_keys.empty() || !seen.shape().variables.find("Os")) && keeps(material.surface) &&
+           keeps(material.atmosphere);
 }
 
 bool Shading::can_be_parted(const ShadingGrid& grid) const {

@@ -65,6 +65,12 @@ class Shading {
     /// ask for what is in the way.
     bool keeps_opacity(uint32_t primitive) const;
 
+    /// Whether a primitive's grids need not be shaded where no sample sees them: shaders neither move them
+    /// nor write anything, and the attributes allow it.
+    bool may_stay_unshaded(uint32_t primitive) const;
+    /// Whether a primitive's grids are opaque whatever its shaders do.
+    bool hides_for_sure(uint32_t primitive) const;
+
     /// Whether parts of the grid (grid_parts.h) get the same bits as the whole, and so threads may share it.
     bool can_be_parted(const ShadingGrid& grid) const;
 

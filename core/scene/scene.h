@@ -140,6 +140,7 @@ struct Attributes {
     float displacement_bound = 0;                                          ///< camera-space length
     std::string name;                                                      ///< Attribute "identifier" "name"
     bool visible_to_camera = true;
+    bool cull_hidden = true;  ///< Attribute "cull" "hidden": may stay unshaded where no sample sees it
     RayAttributes rays;
     /// Options of dicing (Attribute "dice").
     struct Dice {

@@ -27,6 +27,10 @@ void FrameRecorder::begin_grids(size_t index, size_t count, size_t steps) {
     progress_.begin_part(region_begin_, region_begin_ + kMakingGrids * (region_end_ - region_begin_), steps);
 }
 
+void FrameRecorder::begin_cull() {
+    begin("cull");
+}
+
 void FrameRecorder::begin_build() {
     begin("build");
 }

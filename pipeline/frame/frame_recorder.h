@@ -37,6 +37,7 @@ class FrameRecorder {
     void bounded(const TessellateStats& found);
     /// Region `index` of `count` begins with its grids, a step of progress for each of `steps`.
     void begin_grids(size_t index, size_t count, size_t steps);
+    void begin_cull();
     void begin_build();
     /// Takes the bytes of a region's grids, and what the method has built for them: both are in memory at
     /// once.

@@ -12,11 +12,12 @@ namespace trapeze {
 /// Wall seconds of a frame's stages.
 struct StageSeconds {
     double read = 0, tessellate = 0, shade = 0, build = 0, trace = 0, composite = 0, total = 0;
+    double cull = 0;  ///< finding what is hidden, before it is shaded
     double rays = 0;  ///< making what rays of shaders meet; tracing them is part of shading
 
     StageSeconds& operator+=(const StageSeconds& o) {
         read += o.read, tessellate += o.tessellate, shade += o.shade, build += o.build;
-        trace += o.trace, composite += o.composite, total += o.total, rays += o.rays;
+        trace += o.trace, composite += o.composite, total += o.total, rays += o.rays, cull += o.cull;
         return *this;
     }
 };
@@ -33,6 +34,8 @@ struct FrameStats {
     /// Of the geometry that rays of shaders meet: all, those made (again, too, where memory is short), bytes
     /// of grids and trees that are held at the end, bytes of lists.
     uint64_t ray_micropolygons = 0, ray_micropolygons_made = 0, ray_bytes = 0, ray_list_bytes = 0;
+    /// Grids, and their vertices, that no sample sees and that were not shaded (CullHidden).
+    uint64_t unshaded_grids = 0, unshaded_vertices = 0;
     int regions = 0, threads = 0, width = 0, height = 0, frame = 0;
     bool shows_something = false;  ///< whether any sample has hit anything
     std::string sampler, simd_target;

@@ -64,6 +64,7 @@ struct Frame {
     const SamplePattern& pattern;
     size_t memory_budget;  ///< bytes, of a region's grids and tree
     bool leave_gamma;      ///< to what comes after the film
+    bool culls_hidden;     ///< before shading
 };
 
 /// Adds what samples see of the grids of their region to the film.
@@ -86,7 +87,14 @@ void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& gri
 bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRecorder& recorder,
                  Film& film) {
     for (size_t r = 0; r < regions.size() && !frame.context.is_cancelled(); ++r) {
-        const Region& region = regions[r];
+        Region region = regions[r];
+        if (frame.culls_hidden) {
+            recorder.begin_cull();
+            region.subpatches = recorder.timed(&StageSeconds::cull, [&] {
+                return seen_subpatches(frame.context, region, frame.tessellation, frame.shading,
+                                       frame.sampler, frame.pattern, recorder.stats());
+            });
+        }
         recorder.begin_grids(r, regions.size(), region.subpatches.size());
         const Grids grids = make_grids(frame.context, region, frame.tessellation, frame.shading,
                                        recorder.stats(), recorder.progress());
@@ -174,6 +182,8 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
     const std::unique_ptr<RayWorld> rays =
         recorder.timed(&StageSeconds::rays, [&] { return make_ray_world(context, shading, budget); });
     shading.set_rays(rays.get());
+    const bool culls_hidden =
+        settings.cull_hidden == CullHidden::On || (settings.cull_hidden == CullHidden::Auto && rays);
     const size_t region_budget = rays ? budget / 2 : budget;
     const std::unique_ptr<SamplePattern> pattern = sampler->make_pattern(context);
     const Options& options = context.scene->options;
@@ -181,9 +191,9 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
         split_into_regions(sampled_pixels(context.camera, options), tessellation.subpatches(),
                            {region_budget, settings.regions_at_least, aov_layout(options).channel_count});
 
-    const std::unique_ptr<Film> film =
-        film_of_regions({context, tessellation, shading, *sampler, *pattern, region_budget, glow.has_value()},
-                        regions, recorder);
+    const std::unique_ptr<Film> film = film_of_regions(
+        {context, tessellation, shading, *sampler, *pattern, region_budget, glow.has_value(), culls_hidden},
+        regions, recorder);
     if (!film) return {};
     shading.report_displacement_bounds();
 

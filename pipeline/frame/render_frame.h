@@ -9,6 +9,7 @@
 #include "composite/film/film.h"
 #include "core/files/access.h"
 #include "core/scene/render_context.h"
+#include "pipeline/frame/cull_hidden.h"
 #include "pipeline/frame/frame_stats.h"
 
 namespace trapeze {
@@ -19,6 +20,7 @@ struct RenderSettings {
     std::string pattern;               ///< sample pattern; empty: the method's natural one
     size_t memory_bytes = 0;           ///< for grids and tree together; 0: three quarters of the machine's
     int regions_at_least = 1;          ///< tests force a split that memory would not ask for
+    CullHidden cull_hidden = CullHidden::Auto;
     uint32_t seed = 0;
     /// Called now and then from any thread, one at a time, with the part done in [0, 1].
     std::function<void(double)> on_progress;

@@ -279,7 +279,9 @@ TEST(Settings, ThatAskForWhatIsSoInAnyCaseAreNotCalledIgnored) {
     EXPECT_THAT(outcome.summary.without_effect,
                 ElementsAre(::testing::Pair("Attribute \"stitch\" \"other\"", 1u)));
     const auto& not_needed = outcome.summary.not_needed;
-    EXPECT_EQ(not_needed.size(), 4u);
+    EXPECT_EQ(not_needed.size(), 3u);
+    EXPECT_TRUE(read_world("Sphere 1 -1 1 360").attributes().cull_hidden);
+    EXPECT_FALSE(read_world("Attribute \"cull\" \"hidden\" [0] Sphere 1 -1 1 360").attributes().cull_hidden);
     EXPECT_EQ(not_needed.at("Attribute \"stitch\" \"enable\": grids join without cracks in any case"), 2u);
     EXPECT_EQ(not_needed.count(
                   "Attribute \"dice\" \"hair\": curves thinner than a micropolygon are one wide in any case"),

@@ -35,6 +35,22 @@ bool asks(const rsl::Program& program, const BoundShader& shader) {
                                [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
 }
 
+/// Whether a program sets Oi to anything but Os or what `allowed` says of a register.
+template <class Allowed>
+bool sets_opacity(const rsl::Program& program, const Allowed& allowed) {
+    const rsl::RegisterId* const Oi = program.find_global("Oi");
+    if (!Oi) return false;
+    const rsl::RegisterId* const Os = program.find_global("Os");
+    return std::ranges::any_of(program.code, [&](const rsl::Instruction& i) {
+        for (size_t k = 0; k < i.outputs; ++k) {
+            if (i.operands[k] != *Oi) continue;
+            const rsl::RegisterId from = i.operands[i.outputs];
+            return !(i.op == Op::Move && ((Os && from == *Os) || allowed(from)));
+        }
+        return false;
+    });
+}
+
 }  // namespace
 
 bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied) {
@@ -42,14 +58,19 @@ bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varie
     return !varied || asks(specialised_program(shader, *varied), shader);
 }
 
+bool leaves_traces(const rsl::Program& program) {
+    return std::ranges::any_of(program.code, [](const rsl::Instruction& i) { return i.op == Op::Print; });
+}
+
 bool changes_opacity(const rsl::Program& program) {
-    const rsl::RegisterId* const Oi = program.find_global("Oi");
-    if (!Oi) return false;
-    const rsl::RegisterId* const Os = program.find_global("Os");
-    return std::ranges::any_of(program.code, [&](const rsl::Instruction& i) {
-        for (size_t k = 0; k < i.outputs; ++k)
-            if (i.operands[k] == *Oi) return !(Os && i.op == Op::Move && i.operands[i.outputs] == *Os);
-        return false;
+    return sets_opacity(program, [](rsl::RegisterId) { return false; });
+}
+
+bool keeps_opaque(const rsl::Program& program) {
+    return !sets_opacity(program, [&](rsl::RegisterId from) {
+        const rsl::Register& r = program.reg(from);
+        return r.kind == rsl::Register::Kind::Constant && !r.values.empty() &&
+               std::ranges::all_of(r.values, [](float value) { return value == 1; });
     });
 }
 

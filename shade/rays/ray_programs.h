@@ -14,5 +14,10 @@ bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varie
 
 /// Whether a surface shader makes another opacity than Os, which is the primitive's own.
 bool changes_opacity(const rsl::Program& program);
+/// Whether a surface that is opaque when a program begins is so when it ends: it sets Oi to nothing but Os
+/// or 1.
+bool keeps_opaque(const rsl::Program& program);
+/// Whether a program says or writes anything besides its outputs.
+bool leaves_traces(const rsl::Program& program);
 
 }  // namespace trapeze

@@ -218,6 +218,9 @@ void RenderJob::render_world(Scene&& scene) {
     settings.memory_bytes = arguments_.memory_bytes;
     settings.regions_at_least = arguments_.regions_at_least;
     settings.seed = arguments_.seed;
+    settings.cull_hidden = arguments_.cull_hidden == "on"    ? CullHidden::On
+                           : arguments_.cull_hidden == "off" ? CullHidden::Off
+                                                             : CullHidden::Auto;
     settings.cancelled = &interrupt_.requested();
     settings.access = &access_;
     settings.on_progress = [&](double fraction) { terminal_.progress(fraction); };

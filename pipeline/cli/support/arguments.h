@@ -73,6 +73,7 @@ struct Arguments {
     uint32_t seed = 0;
     size_t memory_bytes = 0;  ///< for grids and trees; 0: three quarters of the machine's memory
     int regions_at_least = 1;
+    std::string cull_hidden = "auto";
     std::string progress = "auto";
     std::string stats_file;
     CatArguments cat;

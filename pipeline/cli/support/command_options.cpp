@@ -167,6 +167,11 @@ void add_render_options(CLI::App& app, Arguments& a) {
     add_file(app, "--stats", a.stats_file, "writes statistics as JSON", "FILE.json");
     add_number(app, "--regions", a.regions_at_least, 1, 100000,
                "split the picture into at least so many regions", "N");
+    app.add_option(
+           "--cull-hidden", a.cull_hidden,
+           "leave what no sample sees unshaded: auto is on where shaders trace rays; the picture is the same")
+        ->check(CLI::IsMember({"auto", "on", "off"}))
+        ->capture_default_str();
     // PRMan's -recover: there is nothing to resume yet; accepted so that farm scripts run.
     static_cast<void>(app.add_option("--recover")->group(""));
 }

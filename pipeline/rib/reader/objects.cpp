@@ -43,8 +43,8 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
     };
     take(&Attributes::color, &Attributes::opacity, &Attributes::texture_coordinates,
          &Attributes::shading_rate, &Attributes::smooth_shading, &Attributes::matte, &Attributes::sides,
-         &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera, &Attributes::dice,
-         &Attributes::motion_factor, &Attributes::focus_factor, &Attributes::rays);
+         &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera, &Attributes::cull_hidden,
+         &Attributes::dice, &Attributes::motion_factor, &Attributes::focus_factor, &Attributes::rays);
     const auto take_shader = [&](auto... members) {
         const auto placed = [&](const std::shared_ptr<const ShaderInstance>& shader) {
             return placed_in(camera_from_object, shader);

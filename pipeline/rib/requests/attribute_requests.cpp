@@ -157,6 +157,7 @@ void attribute(OptionContext& r, ArgumentCursor& c) {
         if (category == "render" && value.name == "visibility" && !value.floats.empty())
             state.attributes.visible_to_camera = (static_cast<int>(std::clamp(number, 0.0f, 7.0f)) & 1) != 0;
         set_ray_attribute(category, value, state.attributes.rays);
+        if (category == "cull" && value.name == "hidden") state.attributes.cull_hidden = number != 0;
         if (category == "dice") set_dice(state.attributes.dice, value.name, number);
     }
 }

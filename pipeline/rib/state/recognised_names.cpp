@@ -52,12 +52,12 @@ constexpr Value kAttributes[] = {{"user", ""},
                                  {"dice", "binary"},
                                  {"dice", "rasterorient"},
                                  {"dice", "minlength"},
-                                 {"trimcurve", "sense"}};
+                                 {"trimcurve", "sense"},
+                                 {"cull", "hidden"}};
 
 /// Asked for by many exporters; the reason is shown to their users.
 constexpr UnneededAttribute kUnneededAttributes[] = {
     {"cull", "backfacing", "all that is in view is shaded, whichever way it faces"},
-    {"cull", "hidden", "all that is in view is shaded, hidden or not"},
     {"dice", "hair", "curves thinner than a micropolygon are one wide in any case"},
     {"stitch", "enable", "grids join without cracks in any case"},
     {"stitch", "newgroup", "grids join without cracks in any case"},

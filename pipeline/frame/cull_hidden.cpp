@@ -1,0 +1,104 @@
+#include "pipeline/frame/cull_hidden.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+
+namespace trapeze {
+namespace {
+
+constexpr size_t kGrain = 16;  // subpatches
+
+/// A thread's memory for grids without shading.
+struct PlainGridMaker {
+    ShadingGrid grid;
+    DiceScratch scratch;
+    GridArena arena;
+    std::vector<Grid> grids;
+};
+
+/// Grids of the candidates, where they will be once they are shaded. They hide what is behind them only where
+/// it is known that no shader lets that through.
+Grids plain_grids(const RenderContext& context, const std::vector<uint32_t>& candidates,
+                  const Tessellation& tessellation, const Shading& shading) {
+    tbb::enumerable_thread_specific<PlainGridMaker> makers;
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, candidates.size(), kGrain), [&](const auto& range) {
+        PlainGridMaker& maker = makers.local();
+        for (size_t i = range.begin(); i != range.end() && !context.is_cancelled(); ++i) {
+            ShadingGrid& grid = maker.grid;
+            tessellation.dice(candidates[i], grid, maker.scratch, DiceFor::Hits);
+            grid.aovs.clear();
+            grid.Ci.fill(grid.vertex_count(), V3f(0));
+            grid.Oi.fill(grid.vertex_count(), V3f(1));
+            PackOptions options = pack_options(*context.scene, *grid.primitive);
+            if (!shading.hides_for_sure(grid.primitive_index)) options.keep_hits_behind = true;
+            int64_t not_finite = 0;
+            maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, options));
+        }
+    });
+    Grids grids;
+    for (PlainGridMaker& maker : makers) {
+        grids.grids.insert(grids.grids.end(), maker.grids.begin(), maker.grids.end());
+        grids.arenas.push_back(std::move(maker.arena));
+    }
+    std::ranges::sort(grids.grids, {}, &Grid::ordinal);
+    return grids;
+}
+
+/// What a thread needs to look at tiles.
+struct TileLooker {
+    SampleTile samples;
+    HitBuffer hits;
+    SampleScratch scratch;
+    SampleStats stats;
+};
+
+/// For each grid, whether a sample of some pixels has a hit on it.
+std::vector<std::atomic<bool>> seen_grids(const RenderContext& context, const PixelRect& pixels,
+                                          const Grids& grids, const Visibility& visibility,
+                                          const SamplePattern& pattern) {
+    std::vector<std::atomic<bool>> seen(grids.grids.size());
+    const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
+    tbb::enumerable_thread_specific<TileLooker> lookers;
+    const auto look = [&](size_t i) {
+        if (context.is_cancelled()) return;
+        TileLooker& looker = lookers.local();
+        pattern.make_tile(tiles[i], looker.samples);
+        visibility.resolve(looker.samples, looker.hits, looker.scratch, looker.stats);
+        for (const Hit& hit : looker.hits.hits)
+            seen[MicropolygonId::unpack(hit.id).grid].store(true, std::memory_order_relaxed);
+    };
+    tbb::parallel_for(size_t{0}, tiles.size(), look, tbb::simple_partitioner());
+    return seen;
+}
+
+}  // namespace
+
+std::vector<uint32_t> seen_subpatches(const RenderContext& context, const Region& region,
+                                      const Tessellation& tessellation, const Shading& shading,
+                                      const Sampler& sampler, const SamplePattern& pattern,
+                                      FrameStats& stats) {
+    std::vector<uint32_t> candidates, shaded;
+    for (const uint32_t subpatch : region.subpatches) {
+        const bool may_stay = shading.may_stay_unshaded(tessellation.subpatches()[subpatch].primitive);
+        (may_stay ? candidates : shaded).push_back(subpatch);
+    }
+    const Grids grids = plain_grids(context, candidates, tessellation, shading);
+    if (context.is_cancelled() || grids.grids.empty()) return region.subpatches;
+    const std::unique_ptr<Visibility> visibility = sampler.prepare(context, grids);
+    const auto seen = seen_grids(context, region.pixels, grids, *visibility, pattern);
+    for (size_t g = 0; g < seen.size(); ++g) {
+        if (seen[g].load(std::memory_order_relaxed)) {
+            shaded.push_back(static_cast<uint32_t>(grids.grids[g].ordinal));
+            continue;
+        }
+        ++stats.unshaded_grids;
+        stats.unshaded_vertices += static_cast<uint64_t>(grids.grids[g].shape.vertex_count());
+    }
+    std::ranges::sort(shaded);
+    return shaded;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,33 @@
+/// Culling before shading [Hou10 sec. 4]: which grids samples see is found before they are shaded, so that
+/// shaders run on these alone.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene/render_context.h"
+#include "pipeline/frame/frame_stats.h"
+#include "pipeline/frame/regions.h"
+#include "sample/visibility.h"
+#include "shade/shading.h"
+#include "tessellate/tessellate.h"
+
+namespace trapeze {
+
+/// When grids that no sample sees are left out before they are shaded.
+enum class CullHidden : uint8_t {
+    Auto,  ///< where shaders trace rays: then they take longer than to find out
+    On,
+    Off,
+};
+
+/// The subpatches of a region whose grids are to be shaded, in order: those that any of its samples sees, and
+/// those that must be shaded in any case (Shading::may_stay_unshaded()). Takes the samples through the region
+/// once more, but composites nothing. The picture is the same bits. Adds to the stats' counts of what is left
+/// out.
+std::vector<uint32_t> seen_subpatches(const RenderContext& context, const Region& region,
+                                      const Tessellation& tessellation, const Shading& shading,
+                                      const Sampler& sampler, const SamplePattern& pattern,
+                                      FrameStats& stats);
+
+}  // namespace trapeze

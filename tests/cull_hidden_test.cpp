@@ -1,0 +1,150 @@
+/// What no sample sees stays unshaded, and the picture is the same bits.
+#include <gtest/gtest.h>
+
+#include "tests/program_harness.h"
+#include "tests/scene_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+RenderSettings culling(CullHidden cull) {
+    RenderSettings settings;
+    settings.cull_hidden = cull;
+    return settings;
+}
+
+/// Renders a text with and without; returns the statistics of with. `shaders`: name and text.
+FrameStats culled(const std::string& text,
+                  const std::vector<std::pair<std::string, std::string>>& shaders = {},
+                  RenderSettings settings = {}) {
+    const WorkFolder folder;
+    for (const auto& [name, body] : shaders) folder.write(name + ".sl", body);
+    folder.write("a.rib", "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
+                              ":&\"] Display \"x\" \"exr\" \"rgba\" Format 64 48 1 PixelSamples 3 3 "
+                              "Projection \"perspective\" \"fov\" 40 " +
+                              text);
+    const std::string path = (folder / "a.rib").string();
+    settings.cull_hidden = CullHidden::Off;
+    const auto whole = render_scene(path, settings);
+    settings.cull_hidden = CullHidden::On;
+    const auto part = render_scene(path, settings);
+    EXPECT_EQ(whole.size(), 1u);
+    EXPECT_EQ(part.size(), 1u);
+    if (whole.empty() || part.empty()) return {};
+    EXPECT_TRUE(same_bits(whole[0].image, part[0].image));
+    EXPECT_EQ(whole[0].stats.unshaded_grids, 0u);
+    EXPECT_EQ(whole[0].stats.shade.shaded_vertices,
+              part[0].stats.shade.shaded_vertices + part[0].stats.unshaded_vertices);
+    return part[0].stats;
+}
+
+class TinyScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(TinyScene, IsTheSameWithoutWhatIsHidden) {
+    const std::string path = tiny_scene_path(GetParam());
+    const auto reference = render_scene(path, culling(CullHidden::Off));
+    for (const char* method : {"raytrace", "interval"}) {
+        RenderSettings settings = culling(CullHidden::On);
+        settings.regions_at_least = 3;
+        settings.sampler = method;
+        RenderSettings plain = settings;
+        plain.cull_hidden = CullHidden::Off;
+        const auto expected = std::string(method) == "raytrace" ? reference : std::vector<FrameResult>();
+        const auto results = render_scene(path, settings);
+        const auto whole = expected.empty() ? render_scene(path, plain) : std::vector<FrameResult>();
+        const auto& right = expected.empty() ? whole : expected;
+        ASSERT_EQ(results.size(), right.size());
+        for (size_t i = 0; i < results.size(); ++i)
+            EXPECT_TRUE(same_bits(results[i].image, right[i].image)) << method << ", world " << i;
+    }
+}
+
+std::vector<std::string> scenes_without_maps() {
+    std::vector<std::string> names = tiny_scenes();
+    std::erase_if(names, [](const std::string& file) { return file.starts_with("make_"); });
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(scenes_without_maps()), test_name);
+
+const std::string kLight = "LightSource \"distantlight\" 1 ";
+const std::string kWall = "Patch \"bilinear\" \"P\" [-9 9 3 9 9 3 -9 -9 3 9 -9 3] ";
+const std::string kBall = "TransformBegin Translate 0 0 5 Sphere .8 -.8 .8 360 TransformEnd ";
+
+/// The sides of balls that are turned away, and all that is behind a wall.
+TEST(CullHidden, WhatIsHiddenIsNotShaded) {
+    const FrameStats ball =
+        culled("WorldBegin " + kLight + "Surface \"matte\" ShadingRate .05 " + kBall + "WorldEnd\n");
+    EXPECT_GT(ball.unshaded_vertices, ball.shade.shaded_vertices / 2) << "nearly half of a ball";
+    const FrameStats wall = culled("WorldBegin " + kLight + "Surface \"matte\" ShadingRate .05 " + kBall +
+                                   kBall + "Color 1 0 0 " + kWall + "WorldEnd\n");
+    const FrameStats alone = culled("WorldBegin " + kLight +
+                                    "Surface \"matte\" ShadingRate .05 Color 1 0 0 " + kWall + "WorldEnd\n");
+    EXPECT_EQ(wall.shade.shaded_vertices, alone.shade.shaded_vertices);
+}
+
+/// What moves hides what it uncovers in time, through a lens too.
+TEST(CullHidden, BlurUncovers) {
+    const std::string blur = "Shutter 0 1 DepthOfField 2 .5 4 ";
+    const std::string moving = "MotionBegin [0 1] Translate 0 0 0 Translate 12 0 0 MotionEnd ";
+    const FrameStats stats = culled(blur + "WorldBegin " + kLight + "Surface \"matte\" TransformBegin " +
+                                    moving + kWall + "TransformEnd Color 0 1 0 " + kBall + "WorldEnd\n");
+    EXPECT_GT(stats.shade.shaded_vertices, 100u);
+}
+
+/// A wall hides only what shaders cannot let through: by opacity, by a shader that sets it, by an atmosphere.
+TEST(CullHidden, OnlyWhatIsSurelyOpaqueHides) {
+    const std::string behind = "ShadingRate .2 " + kBall;
+    const auto hidden = [&](const std::string& front) {
+        return culled("WorldBegin " + kLight + "Surface \"matte\" " + behind + "ShadingRate 1 " + front +
+                          kWall + "WorldEnd\n",
+                      {{"holes", "surface holes() { Oi = mod(s * 9, 1) < .5 ? 1 : 0; Ci = Oi; }"},
+                       {"solid", "surface solid() { Oi = Os; Ci = Cs; }"},
+                       {"one", "surface one() { Oi = 1; Ci = Cs; if (s > .5) Oi = color(1, 1, 1); }"},
+                       {"some", "surface some() { Oi = 1; Ci = Cs; if (s > .5) Oi = color(1, .5, 1); }"},
+                       {"thin", "volume thin() { Oi = .5 * Oi; Ci = Ci; }"}})
+            .unshaded_vertices;
+    };
+    const uint64_t all = hidden("Surface \"solid\" ");
+    EXPECT_EQ(hidden("Surface \"one\" "), all);
+    for (const char* front :
+         {"Surface \"holes\" ", "Surface \"some\" ", "Opacity .5 .5 .5 ",
+          "Surface \"solid\" Atmosphere \"thin\" ", "Surface \"constant\" Opacity .5 1 1 "})
+        EXPECT_LT(hidden(front), all * 2 / 3) << front;
+}
+
+/// Shaders that print run wherever they are; so do primitives that ask to be shaded, and displaced ones,
+/// which may come out from behind.
+TEST(CullHidden, SomeAreShadedInAnyCase) {
+    const auto unshaded = [&](const std::string& ball) {
+        return culled("WorldBegin " + kLight + "Surface \"matte\" " + kWall + ball + kBall + "WorldEnd\n",
+                      {{"says", "surface says() { if (u < 0) printf(\"never\"); Oi = Os; Ci = Cs; }"},
+                       {"bump", "displacement bump() { P -= vector(0, 0, 4); N = calculatenormal(P); }"}})
+            .unshaded_vertices;
+    };
+    const uint64_t of_wall =
+        culled("WorldBegin " + kLight + "Surface \"matte\" " + kWall + "WorldEnd\n").unshaded_vertices;
+    EXPECT_GT(unshaded(""), of_wall);
+    EXPECT_EQ(unshaded("Surface \"says\" "), of_wall);
+    EXPECT_EQ(unshaded("Attribute \"cull\" \"int hidden\" 0 "), of_wall);
+    EXPECT_EQ(unshaded("Displacement \"bump\" Attribute \"displacementbound\" \"float sphere\" 4.1 "),
+              of_wall);
+}
+
+/// It is on where shaders trace rays, and only there, unless it is asked for.
+TEST(CullHidden, IsOnWhereShadersTrace) {
+    const WorkFolder folder;
+    folder.write("ask.sl", "surface ask() { Ci = 1 - occlusion(P, normalize(N), 4); Oi = 1; }");
+    const auto stats = [&](const std::string& shader) {
+        folder.write("a.rib", "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
+                                  ":&\"] Display \"x\" \"exr\" \"rgba\" Format 64 48 1 WorldBegin "
+                                  "ShadingRate .05 Attribute \"visibility\" \"int diffuse\" 1 Surface \"" +
+                                  shader + "\" " + kBall + "WorldEnd\n");
+        return render_scene((folder / "a.rib").string(), {})[0].stats;
+    };
+    EXPECT_GT(stats("ask").unshaded_grids, 0u);
+    EXPECT_EQ(stats("constant").unshaded_grids, 0u);
+}
+
+}  // namespace
+}  // namespace trapeze::testing
