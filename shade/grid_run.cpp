@@ -72,7 +72,7 @@ bool can_share_run(const Material& material, const ShadingGrid& a, const Shading
 
 GridRun::GridRun(const RenderContext& context, Textures& textures, const Material& material,
                  std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays,
-                 const Material* left)
+                 const CloudPlaces& clouds, const Material* left)
     : context_(context),
       material_(material),
       left_(left),
@@ -80,6 +80,7 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
       read_(to_read(grids)),
       scratch_(scratch),
       maps_(textures, *context.scene),
+      clouds_(clouds),
       messages_(context),
       batch_(batch_of(read_)) {
     messages_.attributes = material.attributes;
@@ -113,6 +114,7 @@ void GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
     if (const LayeredShader* shader = volume()) atmosphere = color(*shader, true, messages_.atmosphere);
     if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
     if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
+    clouds_.finish();
 }
 
 /// What the grids are seen through: rays have left a surface that may say so, which the hit's own does not
@@ -167,6 +169,9 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     surroundings.spaces = &spaces;
     surroundings.footprints = &footprints;
     surroundings.maps = &maps_;
+    // Pieces of borders are vertices of the grids once more.
+    clouds_.set_grids(&batch == &batch_ ? grids : std::span<const ShadingGrid* const>());
+    surroundings.clouds = &clouds_;
     surroundings.lights = &scratch_.lights;
     surroundings.rays = rays_ ? &*rays_ : nullptr;
     surroundings.messages = &messages_;

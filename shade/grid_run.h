@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene/aov.h"
+#include "shade/clouds/cloud_calls.h"
 #include "shade/displace.h"
 #include "shade/grid_messages.h"
 #include "shade/maps/map_service.h"
@@ -31,11 +32,12 @@ bool can_share_run(const Material& material, const ShadingGrid& a, const Shading
 class GridRun {
   public:
     /// The grids can share a run (can_share_run()), each with each. All must outlive this.
-    /// Without `rays` shaders that trace find nothing. `left`: of the surface that rays have left to hit the
-    /// grids, through a medium that it has a shader for (ShadingGrid::medium); else null.
+    /// Without `rays` shaders that trace find nothing; without `clouds` they neither look up nor bake.
+    /// `left`: of the surface that rays have left to hit the grids, through a medium that it has a shader for
+    /// (ShadingGrid::medium); else null.
     GridRun(const RenderContext& context, Textures& textures, const Material& material,
             std::span<ShadingGrid* const> grids, GridRunScratch& scratch, const RayService* rays = nullptr,
-            const Material* left = nullptr);
+            const CloudPlaces& clouds = {}, const Material* left = nullptr);
 
     /// Displaces the grids at all keys, sets Ci and Oi, fills the output variables `aovs`, and answers what
     /// is asked of hits.
@@ -69,6 +71,7 @@ class GridRun {
     const std::vector<const ShadingGrid*> read_;  ///< grids_ again, as functions that only read want them
     GridRunScratch& scratch_;
     MapService maps_;
+    CloudCalls clouds_;
     GridMessages messages_;
     std::optional<RayCalls> rays_;
     const vm::Batch batch_;

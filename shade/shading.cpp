@@ -7,6 +7,8 @@
 
 #include "shade/answer_hits.h"
 #include "shade/area_lights.h"
+#include "shade/clouds/cloud_bakes.h"
+#include "shade/clouds/cloud_library.h"
 #include "shade/grid_run.h"
 #include "shade/materials/named_maps.h"
 #include "shade/rays/ray_programs.h"
@@ -45,10 +47,12 @@ ShadeScratch& ShadeScratch::operator=(ShadeScratch&&) noexcept = default;
 ShadeScratch::~ShadeScratch() = default;
 
 struct Shading::Impl {
-    explicit Impl(const RenderContext& render, const Access& access)
+    explicit Impl(const RenderContext& render, const Access& may)
         : context(render),
-          textures(render.scene->options, render.diagnostics, access),
-          materials(render, access),
+          access(may),
+          textures(render.scene->options, render.diagnostics, may),
+          clouds(render.scene->options, render.diagnostics, may),
+          materials(render, may),
           aovs(aov_layout(render.scene->options)) {
         make_samplers(materials, textures, render.diagnostics);
         if (render.diagnostics)
@@ -61,7 +65,10 @@ struct Shading::Impl {
                const HitVisit& visit) const;
 
     const RenderContext& context;
-    mutable Textures textures;  ///< thread-safe
+    const Access& access;
+    mutable Textures textures;    ///< thread-safe
+    mutable CloudLibrary clouds;  ///< thread-safe
+    mutable CloudBakes bakes;     ///< thread-safe
     Materials materials;
     AovLayout aovs;
     VolumeTable volumes;
@@ -121,7 +128,8 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
         const RayMedium& medium = grids[first]->medium;
         const Material* const left =
             medium.primitive != RayMedium::kNone ? &materials.of(medium.primitive) : nullptr;
-        GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr, left)
+        GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr,
+                {&clouds, depth == 0 ? &bakes : nullptr}, left)
             .run(depth == 0 ? aovs : AovLayout(), visit.outputs);
         stats.shaded_vertices += vertices;
         first = next;
@@ -170,7 +178,8 @@ void Shading::displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratc
     for (ShadingGrid* grid : grids) {
         const Material& material = impl_->materials.of(grid->primitive_index);
         if (material.attributes->rays.displaced)
-            GridRun(impl_->context, impl_->textures, material, {&grid, 1}, scratch.state->run)
+            GridRun(impl_->context, impl_->textures, material, {&grid, 1}, scratch.state->run, nullptr,
+                    {&impl_->clouds, nullptr})
                 .run_displacement();
         grid->Ci = grid->Cs, grid->Oi = grid->Os;
     }
@@ -213,7 +222,20 @@ bool Shading::can_be_parted(const ShadingGrid& grid) const {
 
 bool Shading::found_endless_loops() {
     const size_t known = std::exchange(impl_->known_endless, impl_->materials.endless_count());
+    if (impl_->known_endless > known) impl_->bakes.clear();
     return impl_->known_endless > known;
+}
+
+void Shading::limit_clouds(size_t bytes) {
+    impl_->clouds.set_limit(bytes), impl_->bakes.set_limit(bytes);
+}
+
+void Shading::write_bakes() {
+    if (!impl_->context.diagnostics) return;
+    const Scene& scene = *impl_->context.scene;
+    impl_->bakes.write({scene.camera_from_world, screen_from_camera(impl_->context.camera),
+                        static_cast<float>(scene.options.width), static_cast<float>(scene.options.height)},
+                       impl_->access, *impl_->context.diagnostics);
 }
 
 FindDepthHeight Shading::depth_heights() const {

@@ -86,6 +86,12 @@ class Shading {
     /// long as this.
     std::function<bool(uint32_t)> displacing_surfaces() const;
 
+    /// Point clouds that are read, and those that are baked, may take so many bytes each.
+    void limit_clouds(size_t bytes);
+    /// Writes the point clouds that shaders have baked since the start, or since loops turned out to be
+    /// endless. To be called after the last grid.
+    void write_bakes();
+
     /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond
     /// the displacement bound, with the bound that was needed.
     void report_displacement_bounds() const;

@@ -23,7 +23,8 @@ TEST_P(TinyPicture, LooksLikeItsReference) {
     int pictures = 0;
     for (const auto& entry : fs::directory_iterator(folder.path())) {
         const std::string file = entry.path().filename();
-        if (file.starts_with(".std")) continue;
+        // What is in a point cloud, the picture that is made from it shows.
+        if (file.starts_with(".std") || file.ends_with(".ptc")) continue;
         ++pictures;
         const OIIO::ImageBuf made(entry.path().string()), wanted((kReferences / file).string());
         ASSERT_TRUE(wanted.has_error() == false && wanted.spec().width > 0) << "no reference for " << file;

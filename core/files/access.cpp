@@ -151,7 +151,7 @@ Access::Writing Access::may_write(const std::string& path) const {
     writing.is_elsewhere = !is_here;
     std::error_code ignored;
     if (fs::is_regular_file(target, ignored) && fs::file_size(target, ignored) > 0 &&
-        picture_format(target).empty())
+        picture_format(target).empty() && !is_baked_cloud(target))
         writing.problem = "the file that is there is not a picture";
     return writing;
 }

@@ -3,7 +3,7 @@
 /// By default all that the user may. Confined, for scenes from strangers: files are read below the working
 /// folder, the scene's and those that the user has named, and written below the working folder or where the
 /// user has said; links count as what they lead to; nothing is known of the environment. In either case a
-/// scene overwrites nothing but pictures.
+/// scene overwrites nothing but pictures and point clouds.
 #pragma once
 
 #include <cstdio>

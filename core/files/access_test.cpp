@@ -120,6 +120,12 @@ TEST_F(AccessTest, ConfinedWritesHereOrWhereTheUserSays) {
 TEST_F(AccessTest, ConfinedOverwritesPicturesAlone) {
     write("work/old.exr", "\x76\x2f\x31\x01rest");
     write("work/empty.exr", "");
+    write("work/old.ptc", "pptc and more");
+    write("work/old.ply", "ply\nformat ascii 1.0\ncomment point cloud of Trapeze\n");
+    write("work/mesh.ply", "ply\nformat ascii 1.0\n");
+    EXPECT_EQ(confined_.may_write("old.ptc").problem, "");
+    EXPECT_EQ(confined_.may_write("old.ply").problem, "");
+    EXPECT_EQ(confined_.may_write("mesh.ply").problem, "the file that is there is not a picture");
     EXPECT_EQ(confined_.may_write("old.exr").problem, "");
     EXPECT_EQ(confined_.may_write("empty.exr").problem, "");
     EXPECT_EQ(confined_.may_write("sub/a.txt").problem, "the file that is there is not a picture");

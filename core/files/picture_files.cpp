@@ -62,6 +62,15 @@ std::string_view picture_format(const std::string& path) {
     return is_targa(head, {last, sizeof last}) ? "targa" : "";
 }
 
+bool is_baked_cloud(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    char bytes[128];
+    file.read(bytes, sizeof bytes);
+    const std::string_view head(bytes, static_cast<size_t>(file.gcount()));
+    return head.starts_with("pptc") ||
+           (head.starts_with("ply\n") && head.find(kCloudComment) != std::string_view::npos);
+}
+
 bool is_common_picture(const std::string& path) {
     constexpr std::string_view kEndings[] = {".exr", ".tif",  ".tiff", ".tx",  ".tex", ".txr",  ".ttx",
                                              ".env", ".shd",  ".sm",   ".z",   ".map", ".bump", ".png",

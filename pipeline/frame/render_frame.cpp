@@ -26,7 +26,9 @@ namespace trapeze {
 namespace {
 
 constexpr int kPictureChannels = 6;  ///< colour, opacity, depth and a weight or id, of four bytes each
-constexpr int kGlowChannels = 9;     ///< light spread along rows, three times
+/// Point clouds may take a part of the memory budget, but for small ones so much.
+constexpr size_t kLeastCloudBytes = size_t{1} << 26;
+constexpr int kGlowChannels = 9;  ///< light spread along rows, three times
 
 /// Bytes of physical memory; two gibibytes where the system does not tell.
 size_t machine_memory() {
@@ -174,6 +176,7 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
 
     Shading shading(context, *settings.access);
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
+    shading.limit_clouds(std::max(budget / 4, kLeastCloudBytes));
     const Tessellation tessellation = recorder.timed(&StageSeconds::tessellate, [&] {
         return Tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
     });
@@ -196,6 +199,7 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
         regions, recorder);
     if (!film) return {};
     shading.report_displacement_bounds();
+    shading.write_bakes();
 
     FrameResult result;
     recorder.begin_composite();

@@ -5,6 +5,7 @@
 
 #include "shade/code/generator.h"
 #include "shade/operations/op_table.h"
+#include "shade/rsl/syntax/printer.h"
 
 namespace trapeze::rsl {
 namespace {
@@ -70,6 +71,10 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
             names.push_back(value(argument));
             is_output[++i] = true;
             outputs.push_back(output_place(*e.children[i], e.children[i]->type.base));
+        } else if (builtin.op == Op::Bake3d && i >= positional && pair % 2 == 1) {
+            // Its type: a register may be another's of as many numbers.
+            inputs.push_back(constant_text(print(argument.type)));
+            inputs.push_back(value(argument));
         } else if (is_output[i])
             outputs.push_back(output_place(argument, argument.type.base));
         else

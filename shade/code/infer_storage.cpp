@@ -31,7 +31,8 @@ class Inference {
             for (size_t k = 0; k < instruction.outputs; ++k)
                 if (outlives_region(instruction, instruction.operands[k]) && in_varying_block(i))
                     instruction.masked = true;
-            if (instruction.op == Op::Print && in_varying_block(i)) instruction.masked = true;
+            if (op_traits::has(instruction.op, op_traits::kEffect) && in_varying_block(i))
+                instruction.masked = true;
         }
     }
 

@@ -26,7 +26,18 @@ enum class KernelFamily : uint8_t {
 };
 
 /// The source files of functions in vm that ask what is around a run, or handle texts.
-enum class ContextFamily : uint8_t { None, Texts, Names, Neighbours, Random, Maps, Lights, Rays, Messages };
+enum class ContextFamily : uint8_t {
+    None,
+    Texts,
+    Names,
+    Neighbours,
+    Random,
+    Maps,
+    Clouds,
+    Lights,
+    Rays,
+    Messages
+};
 
 /// Traits of operations, bits of OpRow::traits.
 namespace op_traits {

@@ -50,6 +50,16 @@ class Maps {
                      std::span<V3f> colors) = 0;
 };
 
+/// Point clouds.
+class Clouds {
+  public:
+    virtual ~Clouds() = default;
+    /// Op::Texture3d.
+    virtual void look_up(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+    /// Op::Bake3d.
+    virtual void bake(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+};
+
 /// The lights of a grid, and what they send to points.
 class Lights {
   public:
@@ -129,6 +139,7 @@ struct Context {
     const Spaces* spaces = nullptr;
     Footprints* footprints = nullptr;  ///< of the points
     Maps* maps = nullptr;
+    Clouds* clouds = nullptr;
     Lights* lights = nullptr;
     Rays* rays = nullptr;
     Messages* messages = nullptr;

@@ -19,6 +19,8 @@ ContextOp find_context_op(rsl::Op op) {
             return find_random_op(op);
         case ContextFamily::Maps:
             return find_map_op(op);
+        case ContextFamily::Clouds:
+            return find_cloud_op(op);
         case ContextFamily::Rays:
             return find_ray_op(op);
         case ContextFamily::Lights:

@@ -28,6 +28,7 @@ ContextOp find_named_op(rsl::Op op);
 ContextOp find_neighbour_op(rsl::Op op);
 ContextOp find_random_op(rsl::Op op);
 ContextOp find_map_op(rsl::Op op);
+ContextOp find_cloud_op(rsl::Op op);
 ContextOp find_light_op(rsl::Op op);
 ContextOp find_ray_op(rsl::Op op);
 ContextOp find_message_op(rsl::Op op);

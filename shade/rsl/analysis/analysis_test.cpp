@@ -216,8 +216,8 @@ TEST(Analysis, UnknownNamesGetSuggestions) {
               "error 1:78: there is no function \"normalise\" (did you mean \"normalize\"?)\n");
     EXPECT_EQ(in_surface("Ci = blinn(N, I);"),
               "error 1:72: function \"blinn\" of later renderers is not supported\n");
-    EXPECT_EQ(in_surface("Ci = texture3d(\"x\", P, N); Ci = texture3d(\"y\", P, N, \"C\", Ci);"),
-              "warning 1:72: function \"texture3d\" of later renderers is not there, and does nothing\n");
+    EXPECT_EQ(in_surface("Ci = photonmap(\"x\", P, N); Ci = photonmap(\"y\", P, N, \"C\", Ci);"),
+              "warning 1:72: function \"photonmap\" of later renderers is not there, and does nothing\n");
     EXPECT_EQ(
         said("displacement t() { P += Ci; }"),
         "error 1:25: there is no variable \"Ci\"; surface shaders have one, this is a displacement shader\n");

@@ -259,6 +259,10 @@ constexpr Builtin kBuiltins[] = {
     {"bump", 'p', "snvvffffffff*", Op::Bump},
     {"textureinfo", 'f', "ss?", Op::TextureInfo},
 
+    // Point clouds, as PRMan has them.
+    {"bake3d", 'f', "sspn*", Op::Bake3d},
+    {"texture3d", 'f', "spn*", Op::Texture3d},
+
     // Messages (15.8).
     {"atmosphere", 'f', "s?", Op::AtmosphereMessage},
     {"displacement", 'f', "s?", Op::DisplacementMessage},
@@ -276,10 +280,8 @@ constexpr Builtin kBuiltins[] = {
     {"arraylength", 'f', "#", Op::ArrayLength},
     {"isoutput", 'f', ".", Op::IsOutput},
 
-    // Functions of later renderers (bakes, point clouds, photon maps, older ray tracers).
+    // Functions of later renderers (bakes, photon maps, older ray tracers).
     {"bake", 'f', ".", Op::Unavailable},
-    {"bake3d", 'f', ".", Op::Unavailable},
-    {"texture3d", 'f', ".", Op::Unavailable},
     {"photonmap", 'c', ".", Op::Unavailable},
     {"caustic", 'c', ".", Op::Unavailable},
     {"irradiance", 'c', ".", Op::Unavailable},
@@ -293,6 +295,9 @@ constexpr Builtin kBuiltins[] = {
 };
 
 constexpr std::string_view kRayOutputs[] = {"environmentcolor", "environmentdir", "occlusion"};
+/// Arguments of texture3d() that are no channels.
+constexpr std::string_view kCloudInputs[] = {"coordsystem", "filterradius", "filterscale", "maxdepth",
+                                             "lerp"};
 
 using ByName = std::unordered_map<std::string_view, std::span<const Builtin>>;
 
@@ -322,7 +327,8 @@ std::span<const Builtin> builtins_named(std::string_view name) {
     return entry == kByName.end() ? std::span<const Builtin>() : entry->second;
 }
 
-bool is_ray_output(const Builtin& builtin, std::string_view name) {
+bool sets_by_name(const Builtin& builtin, std::string_view name) {
+    if (builtin.op == Op::Texture3d) return std::ranges::find(kCloudInputs, name) == std::end(kCloudInputs);
     const bool may = builtin.op == Op::Occlusion || builtin.op == Op::IndirectDiffuse;
     return may && std::ranges::find(kRayOutputs, name) != std::end(kRayOutputs);
 }

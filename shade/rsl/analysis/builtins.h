@@ -33,15 +33,15 @@ constexpr bool sets_arguments(const Builtin& builtin) {
     return std::ranges::any_of(builtin.parameters, is_output_letter);
 }
 
-/// Whether a function of rays sets the variable behind a name among its optional arguments.
-bool is_ray_output(const Builtin& builtin, std::string_view name);
+/// Whether a function of rays or point clouds sets the variable behind a name among its optional arguments.
+bool sets_by_name(const Builtin& builtin, std::string_view name);
 
 /// Whether child i of a call of a builtin is a variable that is set by the name in front of it.
 inline bool is_named_output(const Expression& call, size_t i) {
     if (!call.builtin || i == 0 || call.children[i - 1]->kind != Expression::Kind::Text) return false;
     const Expression::Kind kind = call.children[i]->kind;
     return (kind == Expression::Kind::Variable || kind == Expression::Kind::Element) &&
-           is_ray_output(*call.builtin, call.children[i - 1]->text);
+           sets_by_name(*call.builtin, call.children[i - 1]->text);
 }
 
 /// All overloads of all names.
