@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "pipeline/cli/commands/cloud_info.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
@@ -42,6 +45,8 @@ int info_command(const Arguments& arguments, Terminal&, Diagnostics& diagnostics
     const Interrupt interrupt(arguments.time_limit);
     if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     Access access = scene_access(arguments);
+    if (std::ranges::any_of(arguments.inputs, names_point_cloud))
+        return cloud_info(arguments, access, diagnostics);
     ReadOptions options = read_options(arguments, access);
     options.cancelled = &interrupt.requested();
     options.keep_geometry = false;
