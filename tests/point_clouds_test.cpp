@@ -58,6 +58,8 @@ class Clouds {
         return read_as_partio(file_text(file(name)));
     }
 
+    const WorkFolder& folder() const { return folder_; }
+
   private:
     WorkFolder folder_;
 };
@@ -356,6 +358,23 @@ TEST(PointClouds, OlderOnesAreReplaced) {
         EXPECT_GT(file_text(clouds.file(name)).size(), first.size());
         clouds.expect_nothing_said();
     }
+}
+
+TEST(PointClouds, AreToldOfByInfo) {
+    Clouds clouds;
+    clouds.shader("bakes", "bake3d(file, \"\", P, Nn, \"radius\", .5, \"_one\", 1, \"_c\", color(.25));");
+    clouds.render({clouds.surface("bakes") + kSquare});
+    const size_t points = clouds.baked().particles.size();
+    const Outcome told = run_program(clouds.folder(), "info a.ptc");
+    EXPECT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_EQ(told.out, "a.ptc: " + std::to_string(points) + " points\n" +
+                            "    bounds -0.9 -0.9 5 to 0.9 0.9 5\n    radii 0.5 to 0.5, area " +
+                            told.out.substr(std::min(told.out.size(), told.out.find("area ") + 5)));
+    EXPECT_TRUE(told.out.ends_with("\n    float _one, mean 1\n    color _c, mean 0.25\n")) << told.out;
+    clouds.folder().write("bad.ply", "ply\nformat ascii 1.0\nend_header\n");
+    const Outcome bad = run_program(clouds.folder(), "info a.ptc bad.ply");
+    EXPECT_EQ(bad.exit_code, 1);
+    EXPECT_TRUE(bad.err.find("point cloud \"bad.ply\": it has no vertices") != std::string::npos) << bad.err;
 }
 
 TEST(PointClouds, LightsDoNotBakeButLook) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace trapeze {
@@ -39,7 +40,7 @@ CloudTree::CloudTree(const PointCloud& cloud) : cloud_(cloud) {
     if (order_.empty()) return;
     // As if they lay on a square as wide as the cloud.
     const V3f size = cloud.bounds().size();
-    usual_radius_ = std::max({size.x, size.y, size.z}) /
+    usual_radius_ = std::min(std::max({size.x, size.y, size.z}), std::numeric_limits<float>::max()) /
                     std::sqrt(static_cast<float>(order_.size()) * std::numbers::pi_v<float>);
     nodes_.reserve(2 * order_.size() / kLeafPoints + 1);
     build(0, static_cast<uint32_t>(order_.size()));

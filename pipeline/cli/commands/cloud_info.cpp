@@ -17,14 +17,14 @@ void print_radii(const PointCloud& cloud) {
     double area = 0;
     for (const float radius : cloud.radii) area += std::numbers::pi * static_cast<double>(radius) * radius;
     const auto [least, most] = std::ranges::minmax_element(cloud.radii);
-    fmt::print("    radii {} to {}, area {:.6g}\n", *least, *most, area);
+    fmt::print("    radii {:.6g} to {:.6g}, area {:.6g}\n", *least, *most, area);
 }
 
 void print_cloud(const std::string& name, const PointCloud& cloud) {
     fmt::print("{}: {} points\n", name, cloud.size());
     if (const Box3f box = cloud.bounds(); !box.isEmpty())
-        fmt::print("    bounds {} {} {} to {} {} {}\n", box.min.x, box.min.y, box.min.z, box.max.x, box.max.y,
-                   box.max.z);
+        fmt::print("    bounds {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", box.min.x, box.min.y,
+                   box.min.z, box.max.x, box.max.y, box.max.z);
     if (cloud.size() > 0) print_radii(cloud);
     size_t first = 0;
     for (const CloudChannel& channel : cloud.channels) {
