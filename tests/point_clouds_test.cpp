@@ -149,6 +149,25 @@ TEST(PointClouds, DiscsAreAsLargeAsASphere) {
     }
 }
 
+/// area(P, "dicing"), which shaders bake, is of micropolygons, however thin they are seen: what the point of
+/// a vertex stands for is as large inside of a grid, and a half or a quarter at its borders. On a flat square
+/// all are of one size.
+TEST(PointClouds, AreasOfDicingAreThoseOfDiscs) {
+    Clouds clouds;
+    clouds.shader("bakes", "bake3d(file, \"\", P, Nn, \"_area\", area(P, \"dicing\"));");
+    clouds.render({"Translate 0 0 5 Rotate 88 1 0 0 " + clouds.surface("bakes") +
+                   "Patch \"bilinear\" \"P\" [-.9 .9 0 .9 .9 0 -.9 -.9 0 .9 -.9 0]"});
+    const PartioFile file = clouds.baked();
+    int inside = 0;
+    for (const PartioParticle& p : file.particles) {
+        const float parts = 4 * std::numbers::pi_v<float> * p.radius * p.radius / channel(p, "_area");
+        EXPECT_NEAR(parts, std::round(parts), 2e-3f);
+        EXPECT_TRUE(std::round(parts) == 1 || std::round(parts) == 2 || std::round(parts) == 4) << parts;
+        inside += std::round(parts) == 4;
+    }
+    EXPECT_GT(inside, 50);
+}
+
 TEST(PointClouds, RadiiMayBeGivenAndScaled) {
     Clouds clouds;
     clouds.shader("bakes", "bake3d(file, \"\", P, Nn, \"radius\", .25 + xcomp(P), \"radiusscale\", 2);");

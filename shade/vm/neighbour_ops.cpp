@@ -39,11 +39,12 @@ void differences(Run& run, const Step& step, std::span<const Operand> operands) 
 }
 
 /// area(P): as large as what the vertex stands for where it is filtered, which at grazing angles is more than
-/// the micropolygon (Footprint::widening).
+/// the micropolygon (Footprint::widening). area(P, "dicing"): as large as the micropolygon.
 void area(Run& run, const Step& step, std::span<const Operand> operands) {
     if (is_flat(run, step, operands)) return;
     areas(spans_of(run), run.lanes(), operands[1], operands[0]);
-    if (!run.context().footprints) return;
+    const bool of_dicing = step.count > 2 && run.registers().text_input(step, 1) == "dicing";
+    if (of_dicing || !run.context().footprints) return;
     const float* const widening = run.context().footprints->get().widening;
     for (size_t i = 0; i < run.lanes(); ++i) operands[0].data[i] *= widening[i];
 }
