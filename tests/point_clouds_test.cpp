@@ -355,6 +355,13 @@ TEST(PointClouds, MistakesAreSaidOnce) {
     expect_said("float x; Ci = texture3d(file, P, Nn, \"_x\", x);", "bakes.sl", "it is no point cloud");
 }
 
+TEST(PointClouds, CallsThatDoNotRunSayNothing) {
+    Clouds clouds;
+    clouds.shader("bakes", "if (xcomp(P) > 9) bake3d(\"\", \"\", P, Nn, \"two words\", 1);");
+    clouds.render({clouds.surface("bakes") + kSquare});
+    clouds.expect_nothing_said();
+}
+
 /// What a scene must not overwrite stays, and what it did not finish does not appear.
 TEST(PointClouds, OtherFilesStay) {
     Clouds clouds;
