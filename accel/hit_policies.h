@@ -50,25 +50,29 @@ struct FirstOpaque {
     }
 };
 
-/// All hits as far as the first opaque one, which is included: what a camera sample's colour needs. One
-/// policy a ray; rays may share the vector.
+/// All hits as far as the first opaque one, which is included: what a camera sample's colour needs. Or, of
+/// these, the nearest `most` behind a hit. One policy a ray.
 struct HitsUntilOpaque {
-    std::vector<Hit>& hits;  ///< in no order until finish()
-    Hit first_opaque = kNoHit;
+    std::vector<Hit>& hits;  ///< empty at first; in no order, and some lie behind `last`
+    Hit behind{-std::numeric_limits<float>::infinity(), 0};
+    size_t most = std::numeric_limits<size_t>::max();
+    Hit last = kNoHit;    ///< nothing behind this counts
+    bool is_cut = false;  ///< as there are `most` hits up to it; else it is opaque, or there is none
 
     void consider(const Hit& hit, bool opaque, TraceRay& ray) {
-        if (!in_front(hit, first_opaque)) return;
+        if (!in_front(hit, last) || !in_front(behind, hit)) return;
         hits.push_back(hit);
-        if (opaque) first_opaque = hit, ray.t_max = hit.depth;
+        if (opaque) last = hit, is_cut = false, ray.t_max = hit.depth;
+        // Twice as many, so that dropping takes the same time for each hit however many they are.
+        if (hits.size() / 2 >= most) drop_far(ray);
     }
-    /// Sorts the hits of this ray, which begin at hits[first], from front to back, and drops those behind the
-    /// nearest opaque one: it was not known yet when they were found.
-    void finish(size_t first) {
-        const auto begin = hits.begin() + static_cast<std::ptrdiff_t>(first);
-        hits.erase(
-            std::remove_if(begin, hits.end(), [this](const Hit& hit) { return in_front(first_opaque, hit); }),
-            hits.end());
-        std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(), in_front);
+
+  private:
+    void drop_far(TraceRay& ray) {
+        const auto end = hits.begin() + static_cast<std::ptrdiff_t>(most);
+        std::nth_element(hits.begin(), end - 1, hits.end(), in_front);
+        hits.erase(end, hits.end());
+        if (in_front(hits.back(), last)) last = hits.back(), is_cut = true, ray.t_max = last.depth;
     }
 };
 

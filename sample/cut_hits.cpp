@@ -33,6 +33,8 @@ class CutVisibility : public Visibility {
     }
     BuildStats build_stats() const override { return method_->build_stats(); }
     int tile_side() const override { return method_->tile_side(); }
+    /// Where a ray starts in a solid follows from all of its hits.
+    bool bounds_layers() const override { return scene_.solids.empty() && method_->bounds_layers(); }
 
   private:
     const Grid& grid_of(const Hit& hit) const { return grids_.grids[MicropolygonId::unpack(hit.id).grid]; }

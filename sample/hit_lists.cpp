@@ -18,33 +18,48 @@ void buffer_of_nearest(const SampleScratch& scratch, size_t sample_count, HitBuf
     hits.first[sample_count] = static_cast<uint32_t>(hits.hits.size());
 }
 
-void buffer_of_lists(const SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
-    hits.hits.clear();
-    hits.first.resize(sample_count + 1);
+namespace {
+
+/// Leaves of each sorted list as many hits as are wanted, and says where lists end.
+void cut_lists(SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
+    LooseHits& found = scratch.found;
+    const uint32_t most = found.window().most;
+    if (most == kAllLayers && !found.is_cut()) return;
+    uint32_t kept = 0;
     for (size_t sample = 0; sample < sample_count; ++sample) {
-        hits.first[sample] = static_cast<uint32_t>(hits.hits.size());
-        const auto list = scratch.hits.begin() + scratch.first[sample];
-        hits.hits.insert(hits.hits.end(), list, list + scratch.count[sample]);
+        const uint32_t begin = hits.first[sample], count = hits.first[sample + 1] - begin,
+                       wanted = std::min(count, most);
+        hits.first[sample] = kept;
+        // Past an opaque hit there is nothing.
+        if (count > 0 && hits.hits[begin + count - 1] == scratch.nearest[sample]) found.close(sample);
+        if (count > wanted) found.cut(static_cast<uint32_t>(sample), hits.hits[begin + wanted - 1]);
+        std::copy_n(hits.hits.begin() + begin, wanted, hits.hits.begin() + kept);
+        kept += wanted;
     }
-    hits.first[sample_count] = static_cast<uint32_t>(hits.hits.size());
+    hits.first[sample_count] = kept;
+    hits.hits.resize(kept);
 }
+
+}  // namespace
 
 /// A counting sort by sample, leaving out what an opaque hit hides; then each sample's list by depth.
 void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer& hits) {
-    const auto visible = [&](size_t i) {
-        return !in_front(scratch.nearest[scratch.hit_sample[i]], scratch.hits[i]);
+    const std::span<const LooseHits::Entry> found = scratch.found.entries();
+    const auto visible = [&](const LooseHits::Entry& entry) {
+        return !in_front(scratch.nearest[entry.sample], entry.hit());
     };
     hits.first.assign(sample_count + 1, 0);
-    for (size_t i = 0; i < scratch.hits.size(); ++i)
-        if (visible(i)) ++hits.first[scratch.hit_sample[i] + 1];
+    for (const LooseHits::Entry& entry : found)
+        if (visible(entry)) ++hits.first[entry.sample + 1];
     for (size_t sample = 0; sample < sample_count; ++sample) hits.first[sample + 1] += hits.first[sample];
     hits.hits.resize(hits.first[sample_count]);
-    scratch.first.assign(hits.first.begin(), hits.first.end());
-    for (size_t i = 0; i < scratch.hits.size(); ++i)
-        if (visible(i)) hits.hits[scratch.first[scratch.hit_sample[i]]++] = scratch.hits[i];
+    scratch.next.assign(hits.first.begin(), hits.first.end());
+    for (const LooseHits::Entry& entry : found)
+        if (visible(entry)) hits.hits[scratch.next[entry.sample]++] = entry.hit();
     for (size_t sample = 0; sample < sample_count; ++sample)
         std::sort(hits.hits.begin() + hits.first[sample], hits.hits.begin() + hits.first[sample + 1],
                   in_front);
+    cut_lists(scratch, sample_count, hits);
 }
 
 }  // namespace trapeze

@@ -12,11 +12,8 @@ bool every_grid_is_opaque(const Grids& grids);
 /// One hit a sample at most: scratch.nearest, where kNone is no hit.
 void buffer_of_nearest(const SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
 
-/// Lists in scratch.hits, of scratch.count[sample] hits from scratch.first[sample], sorted and cut.
-void buffer_of_lists(const SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
-
-/// Hits in any order, scratch.hits[i] of sample scratch.hit_sample[i]: sorted, and cut at the nearest opaque
-/// one, scratch.nearest[sample].
+/// Hits in any order, scratch.found: sorted, cut at the nearest opaque one, scratch.nearest[sample], and at
+/// as many as the window wants. scratch.found then says which lists do not go to the end.
 void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
 
 }  // namespace trapeze

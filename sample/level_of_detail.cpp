@@ -42,6 +42,7 @@ class DetailVisibility : public Visibility {
     }
     BuildStats build_stats() const override { return method_->build_stats(); }
     int tile_side() const override { return method_->tile_side(); }
+    bool bounds_layers() const override { return method_->bounds_layers(); }
 
   private:
     float number_of(const SampleTile& samples, size_t s) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/hit_buffer.h"
+#include "sample/loose_hits.h"
 
 namespace trapeze {
 
@@ -35,15 +36,16 @@ class OwnScratch {
     std::vector<std::pair<const void*, std::shared_ptr<void>>> objects_;
 };
 
-/// One a thread, used again from tile to tile, by whatever methods and for whatever grids. The lists are what
-/// hit_lists.h makes hit buffers from.
+/// One a thread, used again from tile to tile, by whatever methods and for whatever grids. What it holds is
+/// what hit_lists.h makes hit buffers from.
 struct SampleScratch {
-    SampleHeat* heat = nullptr;          ///< when set, methods add what each sample cost
-    std::vector<Hit> nearest;            ///< sample -> nearest opaque hit
-    std::vector<Hit> hits;               ///< in the order of finding
-    std::vector<uint32_t> hit_sample;    ///< whose each of these is
-    std::vector<uint32_t> first, count;  ///< sample -> its range in hits
-    OwnScratch own;                      ///< of methods
+    SampleHeat* heat = nullptr;  ///< when set, methods add what each sample cost
+    LayerWindow window;          ///< the hits that are wanted; by default all
+    std::vector<Hit> nearest;    ///< sample -> nearest opaque hit
+    LooseHits found;             ///< in the order of finding
+    std::vector<uint32_t> next;  ///< sample -> where in a buffer its next hit goes
+    size_t own_list_bytes = 0;   ///< of lists of hits that a method has besides
+    OwnScratch own;              ///< of methods
 };
 
 }  // namespace trapeze

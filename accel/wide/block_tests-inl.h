@@ -44,7 +44,7 @@ inline void settle(BundleState& t, const Block& block, size_t first, MF hit, VI 
 }
 
 /// Tests one ray, at a time local to the block's segment, against all micropolygons of a block: lanes are
-/// micropolygons. Whether a nearer opaque hit was found.
+/// micropolygons. Whether the ray looks less far now.
 template <bool kMoves, bool kLens>
 bool test_one_ray(BundleState& t, const Block& block, uint32_t ray, float local) {
     const F32 d;

@@ -319,7 +319,7 @@ void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order,
 
 void trace_bundle(const WideTree& tree, DepthRange range, bool lens, float focal_distance, RayBundle& rays,
                   BundleScratch& scratch, SampleStats& stats) {
-    rays.layers.clear();
+    rays.layers.begin(rays.wanted_layers.most == 0 ? 0 : rays.count, rays.wanted_layers);
     if (rays.count == 0) return;
     const bundle_detail::TraceInput in{tree, range, lens ? 1 / focal_distance : 0.0f, rays, scratch, stats};
     HWY_DYNAMIC_DISPATCH(trace)(in, {tree.moves(), lens});

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
+#include "accel/wide/layer_lists.h"
 #include "accel/wide/wide_tree.h"
 #include "core/ray_blur.h"
 #include "core/rays.h"
@@ -28,16 +28,11 @@ struct RayBundle {
     size_t count = 0;
     /// Camera-space rays: origin (ox, oy, 0), direction (ux, uy, 1).
     alignas(64) float ox[kRoom], oy[kRoom], ux[kRoom], uy[kRoom], time[kRoom];
-    alignas(64) float depth[kRoom];  ///< of the nearest opaque hit
+    alignas(64) float depth[kRoom];  ///< of the nearest opaque hit; or less, where layers end before it
     alignas(64) uint32_t id[kRoom];  ///< MicropolygonId::packed() of it (grids are fewer than 2^24), or kNone
 
-    /// A hit on a grid that is not opaque; some lie behind the nearest opaque hit.
-    struct Layer {
-        uint32_t ray;
-        float depth;
-        uint32_t id;
-    };
-    std::vector<Layer> layers;  ///< in no order
+    LayerBounds wanted_layers;  ///< which hits on grids that are not opaque are looked for
+    LayerLists layers;          ///< these hits; some lie behind the nearest opaque one
 
     /// Rays that will be wanted next, and which of them: fetched on the way. May be empty.
     const AxisRay* coming_rays = nullptr;
@@ -63,7 +58,8 @@ void fill_bundle(std::span<const AxisRay> rays, std::span<const uint32_t> order,
                  RayBundle& bundle);
 
 /// Traces a bundle: sets depth, id and layers of its rays to what they see within a range of camera-space
-/// depths, the same hits bit for bit as by testing everything. The bounds of the rays are taken as intervals
+/// depths, the same hits bit for bit as by testing everything. A ray whose layers have an end has no opaque
+/// hit behind it: its id is kNone then. The bounds of the rays are taken as intervals
 /// in (x, y) at depth z = d * z + o * (1 - z / focal_distance): rays of one lens that meet at the focal
 /// distance have intervals as narrow as can be; any others are right, too. Without `lens` all origins are 0.
 /// The rays must be within the tree's reach (RayReach), by which its boxes are grown.

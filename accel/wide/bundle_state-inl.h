@@ -86,17 +86,32 @@ struct BundleState {
     }
 
     /// Takes in a hit of a ray, within the depths that count: as its nearest, if opaque and in front of the
-    /// one known (equal depths by id), or as a layer. Returns whether it is the nearest opaque hit now.
+    /// one known (equal depths by id), or as a layer. Returns whether the ray looks less far now.
     HWY_INLINE bool keep_hit(uint32_t ray, float depth, uint32_t id, bool opaque) {
         ++stats.predicate_hits;
         float& nearest = rays.depth[ray];
-        if (!opaque) {
-            if (depth <= nearest) rays.layers.push_back({ray, depth, id});
-            return false;
-        }
+        if (!opaque) return depth <= nearest && keep_layer(ray, {depth, id});
         if (!(depth < nearest || (depth == nearest && id < rays.id[ray]))) return false;
         nearest = depth;
         rays.id[ray] = id;
+        return true;
+    }
+
+    /// Takes in a layer no farther than the ray looks. Returns whether the ray looks less far now.
+    bool keep_layer(uint32_t ray, const BundleLayer& layer) {
+        const LayerLists::Ended ended = rays.layers.add(ray, layer);
+        if (ended == LayerLists::Ended::Many) {
+            for (uint32_t i = 0; i < rays.count; ++i) look_to_end(i);
+            for (size_t p = 0; p < packets; ++p) refresh_packet(p);
+            refresh_farthest();
+        }
+        return ended != LayerLists::Ended::None && look_to_end(ray);
+    }
+    /// Lets a ray look no farther than its layers go, which forgets an opaque hit behind them.
+    bool look_to_end(uint32_t ray) {
+        if (!rays.layers.has_end(ray) || !(rays.layers.end(ray).depth < rays.depth[ray])) return false;
+        rays.depth[ray] = rays.layers.end(ray).depth;
+        rays.id[ray] = RayBundle::kNone;
         return true;
     }
 };

@@ -101,19 +101,22 @@ HWY_INLINE QuadLanes<VF> quad_from_origin(const BlockView& block, int u, int v, 
     return quad_lanes(zero, zero, zero, ux, uy, vertex);
 }
 
-/// Keeps hits on a grid that is not opaque; `first`: the number of the ray in lane 0.
-inline void add_layers(BundleState& t, size_t first, MF hit, VF depth, uint32_t id) {
+/// Keeps hits on a grid that is not opaque; `first`: the number of the ray in lane 0. Whether a ray looks
+/// less far now.
+inline bool add_layers(BundleState& t, size_t first, MF hit, VF depth, uint32_t id) {
+    bool nearer = false;
     HWY_ALIGN float depths[kLanes];
     hn::Store(depth, F32(), depths);
     for (uint32_t lanes = mask_bits(hit); lanes != 0; lanes &= lanes - 1) {
         const int lane = std::countr_zero(lanes);
-        t.rays.layers.push_back(
-            {static_cast<uint32_t>(first) + static_cast<uint32_t>(lane), depths[lane], id});
+        nearer |=
+            t.keep_layer(static_cast<uint32_t>(first) + static_cast<uint32_t>(lane), {depths[lane], id});
     }
+    return nearer;
 }
 
-/// Tests a packet against the micropolygons of a block that it may hit; whether a nearer opaque hit was
-/// found.
+/// Tests a packet against the micropolygons of a block that it may hit; whether one of its rays looks less
+/// far now.
 inline bool test_packet(BundleState& t, const Block& block, size_t packet, const PacketSlopes& slopes) {
     const F32 d;
     const hn::RebindToUnsigned<F32> du;
@@ -141,8 +144,8 @@ inline bool test_packet(BundleState& t, const Block& block, size_t packet, const
             hn::And(hit, hn::Or(hn::Lt(depth, nearest),
                                 hn::And(hn::Eq(depth, nearest), hn::RebindMask(d, hn::Lt(id, ids)))));
         if (!block.opaque) {
-            add_layers(t, i, hn::And(hit, hn::Le(depth, nearest)), depth,
-                       block.id + static_cast<uint32_t>(v << 4 | u));
+            nearer |= add_layers(t, i, hn::And(hit, hn::Le(depth, nearest)), depth,
+                                 block.id + static_cast<uint32_t>(v << 4 | u));
             continue;
         }
         if (hn::AllFalse(d, kept)) continue;

@@ -214,8 +214,7 @@ class GridDual {
             if (!in_front(found, nearest)) continue;
             if (grid_.grid.opaque) nearest = found;
             if (raster_.all_opaque) continue;
-            raster_.scratch.hits.push_back(found);
-            raster_.scratch.hit_sample.push_back(sample);
+            raster_.scratch.found.add(sample, found);
         }
     }
 

@@ -36,10 +36,9 @@ class EmbreeTracer {
     virtual ~EmbreeTracer() = default;
 
     /// Traces samples in an order: scratch.nearest[sample] becomes the nearest opaque hit where there is one;
-    /// the others before it, in any order and some more than once, come to the end of scratch.hits and
-    /// scratch.hit_sample. Thread-safe.
-    virtual void trace(const SampleTile& samples, std::span<const uint32_t> order,
-                       SampleScratch& scratch) const = 0;
+    /// the others before it, in any order and some more than once, come to the end of `layers`. Thread-safe.
+    virtual void trace(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
+                       std::vector<LooseHits::Entry>& layers) const = 0;
     virtual const BuildStats& stats() const = 0;
 };
 

@@ -54,6 +54,11 @@ std::unique_ptr<EmbreeTracer> build(const Grids& grids, const EmbreeChoices& cho
     return library->build(grids, choices);
 }
 
+/// Hits that are not opaque, as Embree finds them.
+struct EmbreeLayers {
+    std::vector<LooseHits::Entry> entries;
+};
+
 /// Brings tiles into an order, has them traced, and makes hit lists of what comes back.
 class EmbreeTraced final : public Visibility {
   public:
@@ -66,25 +71,28 @@ class EmbreeTraced final : public Visibility {
                  SampleStats& stats) const override {
         const auto order = order_.of(samples, scratch.own.of<TileOrderScratch>());
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
-        scratch.hits.clear();
-        scratch.hit_sample.clear();
-        tracer_->trace(samples, order, scratch);
+        scratch.found.begin(samples.size());
+        std::vector<LooseHits::Entry>& layers = scratch.own.of<EmbreeLayers>().entries;
+        layers.clear();
+        tracer_->trace(samples, order, scratch, layers);
         stats.rays += samples.size();
         if (all_opaque_) {
             buffer_of_nearest(scratch, samples.size(), hits);
             return;
         }
+        for (const LooseHits::Entry& entry : layers) scratch.found.add(entry.sample, entry.hit());
         // Opaque hits join the loose ones, so that one sort by depth orders both.
         for (size_t sample = 0; sample < samples.size(); ++sample) {
             if (scratch.nearest[sample].id == MicropolygonId::kNone) continue;
-            scratch.hits.push_back(scratch.nearest[sample]);
-            scratch.hit_sample.push_back(static_cast<uint32_t>(sample));
+            scratch.found.add(static_cast<uint32_t>(sample), scratch.nearest[sample]);
         }
         buffer_of_loose_hits(scratch, samples.size(), hits);
         drop_repeated(hits);
     }
 
     BuildStats build_stats() const override { return tracer_->stats(); }
+    /// The two triangles of a micropolygon may both be hit, at different depths.
+    bool bounds_layers() const override { return false; }
 
   private:
     TileOrder order_;

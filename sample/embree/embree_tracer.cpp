@@ -14,7 +14,7 @@ constexpr size_t kStreamRays = 256;
 /// What filters find in the context of a call.
 struct Collector {
     RTCIntersectContext context;  // first: Embree hands its address on
-    SampleScratch* scratch;
+    std::vector<LooseHits::Entry>* layers;
 };
 
 /// Whether the side that the ray meets is to be seen: by the sign of normal times direction.
@@ -29,7 +29,7 @@ bool faces(const Grid& grid, const RTCFilterFunctionNArguments& args, unsigned i
 /// Rejects hits on the side that does not show; notes transparent ones and lets the ray go on.
 void filter_hits(const RTCFilterFunctionNArguments* args) {
     const auto& mesh = *static_cast<const EmbreeMesh*>(args->geometryUserPtr);
-    SampleScratch& scratch = *reinterpret_cast<Collector*>(args->context)->scratch;
+    std::vector<LooseHits::Entry>& layers = *reinterpret_cast<Collector*>(args->context)->layers;
     for (unsigned i = 0; i < args->N; ++i) {
         // Embree's masks: -1 is a lane with a hit, 0 one without; setting 0 rejects the hit.
         if (args->valid[i] != -1) continue;
@@ -40,8 +40,7 @@ void filter_hits(const RTCFilterFunctionNArguments* args) {
         if (grid.opaque && faces(grid, *args, i)) continue;
         args->valid[i] = 0;
         if (!faces(grid, *args, i)) continue;
-        scratch.hits.push_back({RTCRayN_tfar(args->ray, args->N, i), id});
-        scratch.hit_sample.push_back(RTCRayN_id(args->ray, args->N, i));
+        layers.push_back({RTCRayN_tfar(args->ray, args->N, i), RTCRayN_id(args->ray, args->N, i), id});
     }
 }
 
@@ -63,12 +62,12 @@ class Tracer final : public EmbreeTracer {
 
     const BuildStats& stats() const override { return scene_.stats(); }
 
-    void trace(const SampleTile& samples, std::span<const uint32_t> order,
-               SampleScratch& scratch) const override {
+    void trace(const SampleTile& samples, std::span<const uint32_t> order, SampleScratch& scratch,
+               std::vector<LooseHits::Entry>& layers) const override {
         Collector collector;
         rtcInitIntersectContext(&collector.context);
         collector.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        collector.scratch = &scratch;
+        collector.layers = &layers;
         switch (mode_) {
             case EmbreeMode::Single:
                 return trace_singly(samples, order, scratch, &collector.context);

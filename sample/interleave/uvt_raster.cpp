@@ -218,8 +218,7 @@ class GridRaster {
             if (!in_front(found, {nearest[cell], ids[cell]})) continue;
             if (grid_.grid.opaque) nearest[cell] = found.depth, ids[cell] = found.id;
             if (raster_.all_opaque) continue;
-            raster_.scratch.hits.push_back(found);
-            raster_.scratch.hit_sample.push_back(static_cast<uint32_t>(sample_of(at, i)));
+            raster_.scratch.found.add(static_cast<uint32_t>(sample_of(at, i)), found);
         }
     }
 

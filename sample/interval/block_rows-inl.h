@@ -246,8 +246,7 @@ class BlockRows {
         hn::Store(hn::IfThenElseZero(kept, hn::Set(d, 1.0f)), d, is_kept);
         for (size_t i = 0; i < hn::Lanes(d); ++i) {
             if (is_kept[i] == 0) continue;
-            raster_.scratch.hits.push_back({depths[i], id});
-            raster_.scratch.hit_sample.push_back(raster_.slots.sample(index_, lane_ + i));
+            raster_.scratch.found.add(raster_.slots.sample(index_, lane_ + i), {depths[i], id});
         }
     }
 

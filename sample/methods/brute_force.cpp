@@ -50,8 +50,7 @@ class BruteForce final : public Visibility {
         scratch.own.of<BruteForceScratch>().load(samples);
         // Every sample begins with nothing, infinitely far away.
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
-        scratch.hits.clear();
-        scratch.hit_sample.clear();
+        scratch.found.begin(samples.size(), scratch.window);
         for (size_t i = 0; i < boxes_.size(); ++i)
             if (!pixels_within(boxes_[i], samples.pixels).empty()) test_grid(i, samples, scratch, stats);
         stats.rays += samples.size();
@@ -106,8 +105,7 @@ class BruteForce final : public Visibility {
         if (!in_front(hit, scratch.nearest[sample])) return;
         if (opaque) scratch.nearest[sample] = hit;
         if (all_opaque_) return;
-        scratch.hits.push_back(hit);
-        scratch.hit_sample.push_back(sample);
+        scratch.found.add(sample, hit);
     }
 
     const Camera& camera_;

@@ -23,8 +23,7 @@ void Rasterizer::resolve(const SampleTile& samples, HitBuffer& hits, SampleScrat
         std::stable_sort(grids.begin(), grids.end(),
                          [this](uint32_t a, uint32_t b) { return bounds_[a].z_min < bounds_[b].z_min; });
     scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
-    scratch.hits.clear();
-    scratch.hit_sample.clear();
+    scratch.found.begin(samples.size(), scratch.window);
     raster(samples, grids, scratch, stats);
     stats.rays += samples.size();
     if (all_opaque_)

@@ -25,7 +25,7 @@ class Rasterizer : public Visibility {
     Rasterizer(const VisibilityInput& input, int tile_side);
 
     /// Puts what samples see in some grids into scratch.nearest, where every grid is opaque, and else into
-    /// scratch.hits, too.
+    /// scratch.found, too.
     virtual void raster(const SampleTile& samples, const std::vector<uint32_t>& grids, SampleScratch& scratch,
                         SampleStats& stats) const = 0;
 

@@ -29,6 +29,7 @@ PaperTreeOptions tree_options(const MethodSpec& spec) {
 struct PaperScratch {
     RayOrder rays;
     TopLevel tile_top, group_top;  ///< what of the tree the tile, and a group of its rays, may meet
+    std::vector<Hit> hits;         ///< of one ray
 };
 
 /// `Tree` is PaperTree or MicropolygonTree.
@@ -102,19 +103,28 @@ class PaperRayTraced final : public Visibility {
 
     void resolve_layers(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                         SampleStats& stats) const {
-        scratch.hits.clear();
-        scratch.first.resize(samples.size());
-        scratch.count.resize(samples.size());
+        const LayerWindow& window = scratch.window;
+        scratch.nearest.assign(samples.size(), kBehindAll);
+        scratch.found.begin(samples.size(), window);
+        std::vector<Hit>& of_ray = scratch.own.of<PaperScratch>().hits;
         trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
+            if (!window.wants(sample)) return;
             TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
-            const size_t first = scratch.hits.size();
-            HitsUntilOpaque policy{scratch.hits};
+            of_ray.clear();
+            HitsUntilOpaque policy{of_ray};
+            policy.most = std::min<size_t>(window.most, std::max<size_t>(1, window.room / 4));
+            if (!window.behind.empty()) {
+                policy.behind = window.behind[sample];
+                ray.t_min = std::max(ray.t_min, policy.behind.depth);
+            }
             tree_.trace(part, ray, policy, stats);
-            policy.finish(first);
-            scratch.first[sample] = static_cast<uint32_t>(first);
-            scratch.count[sample] = static_cast<uint32_t>(scratch.hits.size() - first);
+            if (policy.is_cut)
+                scratch.found.cut(sample, policy.last);
+            else
+                scratch.nearest[sample] = policy.last;
+            for (const Hit& hit : of_ray) scratch.found.add(sample, hit);
         });
-        buffer_of_lists(scratch, samples.size(), hits);
+        buffer_of_loose_hits(scratch, samples.size(), hits);
     }
 
     bool bundles_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "accel/wide/bundle.h"
@@ -41,12 +42,15 @@ class WideRayTraced final : public Visibility {
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
         WideScratch& own = scratch.own.of<WideScratch>();
-        const std::span<const uint32_t> all = order_.of(samples, scratch.own.of<TileOrderScratch>());
+        const std::span<const uint32_t> all =
+            wanted_of(order_.of(samples, scratch.own.of<TileOrderScratch>()), scratch.window, own.wanted);
         // Where every grid is opaque the hits need no list: they are written to their places.
         std::vector<Hit>& nearest = all_opaque_ ? hits.hits : scratch.nearest;
-        nearest.resize(samples.size());
-        scratch.hits.clear();
-        scratch.hit_sample.clear();
+        if (all_opaque_)
+            nearest.resize(samples.size());
+        else
+            nearest.assign(samples.size(), kBehindAll);
+        scratch.found.begin(samples.size(), scratch.window);
         const auto bundle_at = [&](size_t first) {
             first = std::min(first, all.size());
             return all.subspan(first, std::min(RayBundle::kRays, all.size() - first));
@@ -80,7 +84,7 @@ class WideRayTraced final : public Visibility {
         if (scratch.heat) count_costs(own);
         // Parallel rays meet nowhere: their intervals are as wide everywhere.
         const float meet_at = lens_ ? camera_.focal_distance : HUGE_VALF;
-        trace_bundle(tree_, {camera_.near_clip, camera_.far_clip}, origins, meet_at, rays, *own.tracing,
+        trace_bundle(tree_, set_bounds(scratch.window, order, own), origins, meet_at, rays, *own.tracing,
                      stats);
         size_t misses = 0;
         for (size_t i = 0; i < order.size(); ++i) {
@@ -88,12 +92,50 @@ class WideRayTraced final : public Visibility {
             nearest[order[i]] = {rays.depth[i], missed ? MicropolygonId::kNone : rays.id[i]};
             misses += missed;
         }
-        for (const RayBundle::Layer& layer : rays.layers) {
-            scratch.hits.push_back({layer.depth, layer.id});
-            scratch.hit_sample.push_back(order[layer.ray]);
-        }
+        if (!all_opaque_) take_layers(rays, order, scratch.found);
+        scratch.own_list_bytes = rays.layers.bytes();
         add_costs(rays, order, scratch);
         return misses;
+    }
+
+    /// The samples of which something is wanted, in order.
+    std::span<const uint32_t> wanted_of(std::span<const uint32_t> order, const LayerWindow& window,
+                                        std::vector<uint32_t>& wanted) const {
+        if (all_opaque_ || window.behind.empty()) return order;
+        wanted.clear();
+        std::copy_if(order.begin(), order.end(), std::back_inserter(wanted),
+                     [&](uint32_t sample) { return window.wants(sample); });
+        return wanted;
+    }
+
+    /// Says which layers of a bundle are wanted; returns the depths at which something may be.
+    DepthRange set_bounds(const LayerWindow& window, std::span<const uint32_t> order,
+                          WideScratch& own) const {
+        DepthRange range{camera_.near_clip, camera_.far_clip};
+        LayerBounds& bounds = own.bundle.wanted_layers;
+        bounds = {nullptr, all_opaque_ ? 0 : window.most, window.room / 2};
+        if (all_opaque_ || window.behind.empty()) return range;
+        own.behind.clear();
+        float least = kInfinity;
+        for (const uint32_t sample : order) {
+            const Hit& hit = window.behind[sample];
+            own.behind.push_back({hit.depth, static_cast<uint32_t>(hit.id)});
+            least = std::min(least, hit.depth);
+        }
+        bounds.behind = own.behind.data();
+        range.min = std::max(range.min, least);
+        return range;
+    }
+
+    /// Takes the layers of a bundle's rays.
+    static void take_layers(const RayBundle& rays, std::span<const uint32_t> order, LooseHits& found) {
+        for (size_t i = 0; i < order.size(); ++i) {
+            const uint32_t sample = order[i];
+            if (rays.layers.has_end(i)) found.cut(sample, {rays.layers.end(i).depth, rays.layers.end(i).id});
+            rays.layers.for_each(i, [&](const BundleLayer& layer) {
+                found.add(sample, {layer.depth, layer.id});
+            });
+        }
     }
 
     static void count_costs(WideScratch& own) {
@@ -131,10 +173,8 @@ class WideRayTraced final : public Visibility {
     /// Makes the list from nearest opaque hits and the hits that are not opaque.
     static void join_layers(HitBuffer& hits, SampleScratch& scratch) {
         for (size_t s = 0; s < scratch.nearest.size(); ++s)
-            if (scratch.nearest[s].id != MicropolygonId::kNone) {
-                scratch.hits.push_back(scratch.nearest[s]);
-                scratch.hit_sample.push_back(static_cast<uint32_t>(s));
-            }
+            if (scratch.nearest[s].id != MicropolygonId::kNone)
+                scratch.found.add(static_cast<uint32_t>(s), scratch.nearest[s]);
         buffer_of_loose_hits(scratch, scratch.nearest.size(), hits);
     }
 
