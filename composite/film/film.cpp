@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "composite/film/exposure.h"
+#include "composite/film/layer_stack.h"
 #include "composite/film/pixel_depth.h"
 #include "composite/film/resolve_layers.h"
 #include "composite/film/tile_sums.h"
@@ -38,15 +39,18 @@ bool wants_ids(const Options& options) {
 
 }  // namespace
 
-/// What of some samples lies in one of the film's tiles.
+/// Samples of some pixels and what they see: hits, or what these have been made into.
 struct FilmPart {
     PixelRect pixels;
     const SampleTile& samples;
     const HitBuffer& hits;
     const Grids& grids;
+    const LayerStack* stack = nullptr;  ///< instead of hits and grids
 
     size_t first_of(int px, int py) const { return samples.first_of_pixel(px, py); }
+    bool has_hits(size_t sample) const { return stack ? stack->has_hits(sample) : !hits.of(sample).empty(); }
     bool hits_anything() const {
+        if (stack) return true;
         if (hits.hits.empty() || hits.size() != samples.size()) return false;
         for (int y = pixels.y0; y < pixels.y1; ++y)
             if (hits.first[first_of(pixels.x1, y)] > hits.first[first_of(pixels.x0, y)]) return true;
@@ -127,21 +131,35 @@ void Film::for_each_neighbour(int tile, Visit&& visit) const {
 }
 
 void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) {
-    const PixelRect& pixels = samples.pixels;
+    add_tiles({samples.pixels, samples, hits, grids});
+}
+
+void Film::add(const SampleTile& samples, const LayerStack& stack) {
+    static const HitBuffer kNoHits;
+    static const Grids kNoGrids;
+    add_tiles({samples.pixels, samples, kNoHits, kNoGrids, &stack});
+}
+
+void Film::begin_stack(size_t sample_count, LayerStack& stack) const {
+    stack.begin(sample_count, aovs_, depth_filter_ == DepthFilter::Midpoint);
+}
+
+void Film::add_tiles(const FilmPart& part) {
+    const PixelRect& pixels = part.pixels;
     if (pixels.empty()) return;
     for (int row = tile_of(pixels.y0); row <= tile_of(pixels.y1 - 1); ++row)
         for (int column = tile_of(pixels.x0); column <= tile_of(pixels.x1 - 1); ++column)
-            add_tile(column - first_tile_x_, row - first_tile_y_, samples, hits, grids);
+            add_tile(column - first_tile_x_, row - first_tile_y_, part);
 }
 
-void Film::add_tile(int column, int row, const SampleTile& samples, const HitBuffer& hits,
-                    const Grids& grids) {
+void Film::add_tile(int column, int row, const FilmPart& whole) {
     if (column < 0 || column >= tiles_x_ || row < 0 || row >= tiles_y_) return;
     const int index = row * tiles_x_ + column;
     Tile& tile = tiles_[index];
     // A tile counts once, whoever brings it.
     if (tile.added.exchange(true)) return;
-    const FilmPart part{intersection(tile_square(index), samples.pixels), samples, hits, grids};
+    const FilmPart part{intersection(tile_square(index), whole.pixels), whole.samples, whole.hits,
+                        whole.grids, whole.stack};
     auto sums = std::make_unique<TileSums>(part.pixels, kernel_, part.hits_anything(), aovs_.channel_count);
     accumulate(part, *sums);
     if (sums->channels(Sum::Aov) > 0) accumulate_aovs(part, *sums);
@@ -176,23 +194,24 @@ void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
     const bool colored = sums.channels(Sum::Color) > 0, ids = !image_.id.empty();
     HitLayers layers;
     for (int py = part.pixels.y0; py < part.pixels.y1; ++py) {
-        if (colored)
+        if (colored && !part.stack)
             layers.interpolate(samples, part.hits, part.first_of(part.pixels.x0, py),
                                part.first_of(part.pixels.x1, py), part.grids);
         for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
             PixelDepth depth(depth_filter_);
             CentrePrimitive primitive(px, py);
             for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
-                const auto seen = colored ? part.hits.of(sample) : std::span<const Hit>();
                 const float x = samples.x[sample], y = samples.y[sample];
                 const FilterTaps taps = kernel_.weigh<kTaps>(x, y, px, py, weights.data());
                 sums.add<kTaps, 1>(Sum::Weight, taps, weights.data(), &kOne);
-                if (seen.empty()) {
+                if (!colored || !part.has_hits(sample)) {
                     if (ids) primitive.add(x, y, kNoPrimitive);
                     continue;
                 }
-                const SampleColor color =
-                    resolve_layers(seen, layers, part.hits.first[sample], part.grids, midpoint);
+                const SampleColor color = part.stack
+                                              ? part.stack->color(sample)
+                                              : resolve_layers(part.hits.of(sample), layers,
+                                                               part.hits.first[sample], part.grids, midpoint);
                 sums.add<kTaps, 4>(Sum::Color, taps, weights.data(), color.rgba);
                 depth.add(color.depth);
                 if (ids) primitive.add(x, y, color.primitive);
@@ -209,12 +228,14 @@ void Film::accumulate_aovs(const FilmPart& part, TileSums& sums) const {
     for (int py = part.pixels.y0; py < part.pixels.y1; ++py)
         for (int px = part.pixels.x0; px < part.pixels.x1; ++px)
             for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
-                const auto seen = part.hits.of(sample);
-                if (seen.empty()) continue;
-                resolve_aovs(samples.rays[sample], seen, part.grids, aovs_, values.data());
+                if (!part.has_hits(sample)) continue;
+                const float* of_sample = part.stack ? part.stack->aovs(sample) : values.data();
+                if (!part.stack)
+                    resolve_aovs(samples.rays[sample], part.hits.of(sample), part.grids, aovs_,
+                                 values.data());
                 const FilterTaps taps =
                     kernel_.weigh(samples.x[sample], samples.y[sample], px, py, weights.data());
-                sums.add<0, 0>(Sum::Aov, taps, weights.data(), values.data());
+                sums.add<0, 0>(Sum::Aov, taps, weights.data(), of_sample);
             }
 }
 

@@ -25,6 +25,7 @@
 namespace trapeze {
 
 struct FilmPart;
+class LayerStack;
 class TileSums;
 enum class Sum : uint8_t;
 
@@ -42,6 +43,9 @@ class Film {
     /// sampled_pixels(). How the picture is cut into such rectangles changes no bit of it. Thread-safe; each
     /// square of kTileSide once (a second time it is ignored).
     void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids);
+    /// Adds samples whose hits have come in parts: to a stack that was begun by begin_stack().
+    void add(const SampleTile& samples, const LayerStack& stack);
+    void begin_stack(size_t sample_count, LayerStack& stack) const;
 
     /// The picture. Pixels that still wait for tiles are made of those that came. Call once, after the last
     /// add().
@@ -56,7 +60,9 @@ class Film {
     /// A tile's pixels; and those of them whose samples count.
     PixelRect tile_square(int tile) const;
     PixelRect tile_pixels(int tile) const;
-    void add_tile(int column, int row, const SampleTile& samples, const HitBuffer& hits, const Grids& grids);
+    /// Calls add_tile() for the tiles that a rectangle has pixels of.
+    void add_tiles(const FilmPart& part);
+    void add_tile(int column, int row, const FilmPart& part);
     /// Calls visit(tile) for the tiles around a tile, itself included, in the order of tiles.
     template <class Visit>
     void for_each_neighbour(int tile, Visit&& visit) const;

@@ -25,8 +25,8 @@ bool shows(const Grid& grid, const Layer& layer) {
 }
 
 /// Adds a layer's values, weighed by what reaches it.
-void add_aovs(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, const AovLayout& layout,
-              const V3f& transmission, float* values) {
+void add_aovs_of_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, const AovLayout& layout,
+                     const V3f& transmission, float* values) {
     // A grid that is not smooth shows the values of each micropolygon's first corner.
     QuadWeights weights{{1, 0, 0, 0}};
     if (grid.smooth) weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
@@ -44,14 +44,11 @@ void add_aovs(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, co
         }
 }
 
-/// `layer_of(i, grid, id)`: hit i's layer.
+/// Adds hits to a sum. `layer_of(i, grid, id)`: hit i's layer.
 template <class LayerOf>
-SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of) {
-    SampleColor sample;
-    int layers = 0;
-    if (!hits.empty() && !midpoint && resolve_opaque(hits.front(), grids, layer_of, sample)) return sample;
-    V3f transmission(1), color(0), alpha(0);
-    for (size_t i = 0; i < hits.size(); ++i) {
+void add(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of,
+         LayerSum& sum) {
+    for (size_t i = 0; i < hits.size() && !sum.is_hidden; ++i) {
         const Hit& hit = hits[i];
         const MicropolygonId id = MicropolygonId::unpack(hit.id);
         if (id.grid >= grids.grids.size()) continue;
@@ -59,26 +56,46 @@ SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint
         const Layer layer = layer_of(i, grid, id);
         for (int c = 0; c < 3; ++c) {
             const float opacity = std::clamp(layer.opacity[c], 0.0f, 1.0f);
-            if (!grid.matte) color[c] += transmission[c] * layer.color[c];
-            if (grid.matte != 1) alpha[c] += transmission[c] * opacity;
-            transmission[c] *= 1 - opacity;
+            if (!grid.matte) sum.color[c] += sum.transmission[c] * layer.color[c];
+            if (grid.matte != 1) sum.alpha[c] += sum.transmission[c] * opacity;
+            sum.transmission[c] *= 1 - opacity;
         }
-        if (shows(grid, layer) && ++layers <= 2) {
-            if (layers == 1) sample.depth = hit.depth, sample.primitive = grid.primitive;
-            if (layers == 2 && midpoint) sample.depth = (sample.depth + hit.depth) / 2;
+        if (shows(grid, layer) && ++sum.layers <= 2) {
+            if (sum.layers == 1) sum.depth = hit.depth, sum.primitive = grid.primitive;
+            if (sum.layers == 2 && midpoint) sum.depth = (sum.depth + hit.depth) / 2;
         }
-        // Nothing behind is seen any more; "midpoint" still wants the depth of a second layer.
-        if (transmission == V3f(0) && (!midpoint || layers >= 2)) break;
+        // "midpoint" still wants the depth of a second layer.
+        sum.is_hidden = sum.transmission == V3f(0) && (!midpoint || sum.layers >= 2);
     }
-    if (midpoint && layers == 1) sample.depth = kInfinity;
+}
+
+template <class LayerOf>
+SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of) {
+    SampleColor sample;
+    if (!hits.empty() && !midpoint && resolve_opaque(hits.front(), grids, layer_of, sample)) return sample;
+    LayerSum sum;
+    add(hits, grids, midpoint, layer_of, sum);
+    return sum.result(midpoint);
+}
+
+/// Finds the layers of a HitBuffer's hits, from number `first_hit` on.
+auto layers_from(const HitLayers& layers, size_t first_hit) {
+    return
+        [&layers, first_hit](size_t i, const Grid&, const MicropolygonId&) { return layers[first_hit + i]; };
+}
+
+}  // namespace
+
+SampleColor LayerSum::result(bool midpoint) const {
+    SampleColor sample;
+    sample.depth = midpoint && layers == 1 ? kInfinity : depth;
+    sample.primitive = primitive;
     for (int c = 0; c < 3; ++c) sample.rgba[c] = color[c];
     // An equal alpha in all channels is kept exactly: (1 + 1 + 1) * (1 / 3) need not be 1.
     const bool gray = alpha.x == alpha.y && alpha.y == alpha.z;
     sample.rgba[3] = gray ? alpha.x : (alpha.x + alpha.y + alpha.z) / 3;
     return sample;
 }
-
-}  // namespace
 
 SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, bool midpoint) {
     return resolve(hits, grids, midpoint, [&ray](size_t, const Grid& grid, const MicropolygonId& id) {
@@ -88,24 +105,32 @@ SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const 
 
 SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
                            const Grids& grids, bool midpoint) {
-    return resolve(hits, grids, midpoint, [&layers, first_hit](size_t i, const Grid&, const MicropolygonId&) {
-        return layers[first_hit + i];
-    });
+    return resolve(hits, grids, midpoint, layers_from(layers, first_hit));
+}
+
+void add_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit, const Grids& grids,
+                bool midpoint, LayerSum& sum) {
+    add(hits, grids, midpoint, layers_from(layers, first_hit), sum);
 }
 
 void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
                   float* values) {
     std::fill_n(values, layout.channel_count, 0.0f);
     V3f transmission(1);
+    add_aovs(ray, hits, grids, layout, transmission, values);
+}
+
+void add_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+              V3f& transmission, float* values) {
     for (const Hit& hit : hits) {
+        if (transmission == V3f(0)) return;
         const MicropolygonId id = MicropolygonId::unpack(hit.id);
         if (id.grid >= grids.grids.size()) continue;
         const Grid& grid = grids.grids[id.grid];
         const Layer layer = layer_at(ray, grid, id);
         if (grid.aov_channels == layout.channel_count && shows(grid, layer))
-            add_aovs(ray, grid, id, layout, transmission, values);
+            add_aovs_of_hit(ray, grid, id, layout, transmission, values);
         for (int c = 0; c < 3; ++c) transmission[c] *= 1 - std::clamp(layer.opacity[c], 0.0f, 1.0f);
-        if (transmission == V3f(0)) break;
     }
 }
 

@@ -35,9 +35,27 @@ SampleColor resolve_layers(const AxisRay& ray, std::span<const Hit> hits, const 
 SampleColor resolve_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit,
                            const Grids& grids, bool midpoint = false);
 
+/// What a sample has gathered of its hits so far, front to back: of a list that comes in parts.
+struct LayerSum {
+    V3f transmission{1}, color{0}, alpha{0};
+    float depth = kInfinity;
+    uint32_t primitive = ~uint32_t{0};
+    uint32_t layers = 0;     ///< that count for depth
+    bool is_hidden = false;  ///< hits behind change nothing any more
+
+    SampleColor result(bool midpoint) const;
+};
+
+/// Adds the next hits of a sample, to the bit as resolve_layers() composites the whole list.
+void add_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit, const Grids& grids,
+                bool midpoint, LayerSum& sum);
+
 /// Composites output variables in the same way, as aov.h says: `values` gets layout.channel_count numbers.
 /// Grids that carry other channels than the layout's count as having 0 everywhere.
 void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
                   float* values);
+/// Adds the next hits of a sample; `transmission` is what reaches them, 1 at first.
+void add_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+              V3f& transmission, float* values);
 
 }  // namespace trapeze

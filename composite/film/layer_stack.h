@@ -1,0 +1,43 @@
+/// A tile's samples whose hits come in parts, front to back: what each has gathered so far. Where hits of a
+/// tile take too much memory, the film gets this instead of them [decision 0031].
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "composite/film/hit_layers.h"
+#include "composite/film/resolve_layers.h"
+#include "core/scene/aov.h"
+
+namespace trapeze {
+
+/// One a thread, used again from tile to tile.
+class LayerStack {
+  public:
+    /// All samples have gathered nothing. The layout outlives the stack.
+    void begin(size_t sample_count, const AovLayout& aovs, bool midpoint);
+
+    /// Adds the next hits of some samples, which are in ascending order.
+    void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
+             std::span<const uint32_t> which);
+
+    /// Whether a sample's further hits change nothing.
+    bool is_hidden(size_t sample) const { return sums_[sample].is_hidden; }
+    /// Whether it has had any.
+    bool has_hits(size_t sample) const { return has_hits_[sample] != 0; }
+    SampleColor color(size_t sample) const { return sums_[sample].result(midpoint_); }
+    const float* aovs(size_t sample) const {
+        return values_.data() + sample * static_cast<size_t>(aovs_->channel_count);
+    }
+
+  private:
+    const AovLayout* aovs_ = nullptr;
+    bool midpoint_ = false;
+    std::vector<LayerSum> sums_;
+    std::vector<uint8_t> has_hits_;
+    std::vector<V3f> transmissions_;  ///< of output variables; where there are some
+    std::vector<float> values_;       ///< of output variables, sample after sample
+    HitLayers layers_;
+};
+
+}  // namespace trapeze
