@@ -1,6 +1,6 @@
 /// Hits of a tile's samples as methods find them, in whatever order, and as few of them as are wanted: the
 /// nearest ones of each sample, behind where an earlier pass has ended, within a bound of memory
-/// [decision 0031].
+/// [decision 0032].
 #pragma once
 
 #include <cstdint>

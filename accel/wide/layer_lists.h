@@ -1,5 +1,5 @@
 /// The layers that rays of a bundle meet: a list a ray, of the nearest few where no more are wanted, within a
-/// bound of memory [decision 0031].
+/// bound of memory [decision 0032].
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 /// A tile's samples whose hits come in parts, front to back: what each has gathered so far. Where hits of a
-/// tile take too much memory, the film gets this instead of them [decision 0031].
+/// tile take too much memory, the film gets this instead of them [decision 0032].
 #pragma once
 
 #include <span>

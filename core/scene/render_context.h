@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.h"
 #include "core/scene/camera.h"
+#include "core/scene/layer_limit.h"
 #include "core/scene/scene.h"
 
 namespace trapeze {
@@ -16,6 +17,7 @@ struct RenderContext {
     Camera camera;
     int samples_x = 2, samples_y = 2;  ///< of a pixel along each axis, at least 1
     uint32_t seed = 0;
+    uint32_t most_layers = kAllLayers;   ///< that a sample sees, the nearest
     bool float_colors = false;           ///< a picture holds more of colours than halves do
     bool motion = false;                 ///< the shutter is open for some time and something moves
     Diagnostics* diagnostics = nullptr;  ///< the one thing here that is written to; thread-safe

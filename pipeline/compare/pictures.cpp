@@ -25,7 +25,7 @@ std::optional<MethodPicture> resolve(const SharedFrame& frame, const RenderConte
     progress.begin_part(0, 1, tiles_of(frame.pixels, visibility->tile_side()).size());
     resolve_tiles(
         context, frame.pixels, frame.grids, *visibility, *pattern, film, stats,
-        [&progress] { progress.step(); }, with_heat ? &heat : nullptr);
+        [&progress] { progress.step(); }, {context.most_layers}, with_heat ? &heat : nullptr);
     if (context.is_cancelled()) return {};
     return MethodPicture{film.finish(), std::move(heat)};
 }

@@ -52,7 +52,6 @@ void FrameRecorder::begin_composite() {
 }
 
 FrameStats FrameRecorder::finish(const RenderContext& context) {
-    stats_.samples = stats_.sample.rays;
     stats_.threads = tbb::this_task_arena::max_concurrency();
     stats_.width = context.camera.width, stats_.height = context.camera.height;
     stats_.frame = context.scene->options.frame;

@@ -31,6 +31,9 @@ struct FrameStats {
     /// The most of any region, each by itself: bytes of grids, of grids and tree, of the tree.
     uint64_t grid_bytes = 0, peak_region_bytes = 0, tree_bytes = 0;  ///< largest region's
     uint64_t samples = 0;
+    /// Passes over tiles beyond the first, as layers took too much memory; the most bytes that all threads'
+    /// lists of hits took, each thread's most added up.
+    uint64_t layer_passes = 0, hit_list_bytes = 0;
     /// Of the geometry that rays of shaders meet: all, those made (again, too, where memory is short), bytes
     /// of grids and trees that are held at the end, bytes of lists.
     uint64_t ray_micropolygons = 0, ray_micropolygons_made = 0, ray_bytes = 0, ray_list_bytes = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,6 +30,9 @@ constexpr int kPictureChannels = 6;  ///< colour, opacity, depth and a weight or
 /// Point clouds may take a part of the memory budget, but for small ones so much.
 constexpr size_t kLeastCloudBytes = size_t{1} << 26;
 constexpr int kGlowChannels = 9;  ///< light spread along rows, three times
+
+/// Lists of hits may take this part of the memory budget, beside a region's grids and tree.
+constexpr size_t kListsShare = 8;
 
 /// Bytes of physical memory; two gibibytes where the system does not tell.
 size_t machine_memory() {
@@ -80,8 +84,11 @@ void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& gri
     check_memory(frame.context, pixels, grids.bytes() + build.tree_bytes, frame.memory_budget);
 
     recorder.begin_tiles(tiles_of(pixels, visibility->tile_side()).size());
-    resolve_tiles(frame.context, pixels, grids, *visibility, frame.pattern, film, recorder.stats(),
-                  [&recorder] { recorder.progress().step(); });
+    const LayerLimits limits = LayerLimits::of(frame.context.most_layers, frame.memory_budget / kListsShare,
+                                               tbb::this_task_arena::max_concurrency());
+    resolve_tiles(
+        frame.context, pixels, grids, *visibility, frame.pattern, film, recorder.stats(),
+        [&recorder] { recorder.progress().step(); }, limits);
 }
 
 /// Dices, shades and samples region after region. False when cancelled, or when a shader was found to be
@@ -152,6 +159,7 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
     context.samples_x = std::max(1, static_cast<int>(std::lround(scene.options.samples_x)));
     context.samples_y = std::max(1, static_cast<int>(std::lround(scene.options.samples_y)));
     context.seed = settings.seed;
+    context.most_layers = layer_limit(scene.options);
     context.motion = std::any_of(scene.primitives.begin(), scene.primitives.end(),
                                  [](const Primitive& primitive) { return primitive.key_count() > 1; });
     context.float_colors = holds_more_than_halves(scene.options);

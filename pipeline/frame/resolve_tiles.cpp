@@ -5,6 +5,7 @@
 
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/stopwatch.h"
+#include "sample/hit_lists.h"
 
 namespace trapeze {
 namespace {
@@ -12,12 +13,12 @@ namespace {
 /// What a thread needs to resolve tiles, and what it has counted.
 struct TileResolver {
     SampleTile samples;
-    HitBuffer hits;
     SampleScratch scratch;
     SampleHeat heat;
+    LayerPasses passes;
     SampleStats stats;
-    bool shows_something = false;
-    double trace_seconds = 0, composite_seconds = 0;
+    uint64_t sample_count = 0;
+    double pattern_seconds = 0;  ///< making samples
 };
 
 /// Lets the method count the costs of this tile's samples.
@@ -49,8 +50,9 @@ void take_heat(const TileResolver& resolver, HeatMap& heat) {
 
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,
-                   const std::function<void()>& on_step, HeatMap* heat) {
+                   const std::function<void()>& on_step, const LayerLimits& limits, HeatMap* heat) {
     Stopwatch wall;
+    const bool all_opaque = every_grid_is_opaque(grids);
     const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
     tbb::enumerable_thread_specific<TileResolver> resolvers;
     const auto resolve = [&](size_t i) {
@@ -59,22 +61,27 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
         Stopwatch watch;
         pattern.make_tile(tiles[i], resolver.samples);
         if (heat) clear_heat(resolver);
-        visibility.resolve(resolver.samples, resolver.hits, resolver.scratch, resolver.stats);
-        resolver.trace_seconds += watch.lap();
-        resolver.shows_something = resolver.shows_something || !resolver.hits.hits.empty();
+        resolver.pattern_seconds += watch.lap();
+        resolver.sample_count += resolver.samples.size();
+        resolver.passes.add_tile({visibility, grids, all_opaque, limits, film}, resolver.samples,
+                                 resolver.scratch, resolver.stats);
         if (heat) take_heat(resolver, *heat);
-        film.add(resolver.samples, resolver.hits, grids);
-        resolver.composite_seconds += watch.lap();
         on_step();
     };
     // Tiles differ in cost by ten and more: one at a time, or a thread is left alone with a run of slow ones.
     tbb::parallel_for(size_t{0}, tiles.size(), resolve, tbb::simple_partitioner());
     double trace = 0, composite = 0;
+    uint64_t list_bytes = 0;
     for (const TileResolver& resolver : resolvers) {
+        const LayerCosts& costs = resolver.passes.costs();
         stats.sample += resolver.stats;
-        stats.shows_something = stats.shows_something || resolver.shows_something;
-        trace += resolver.trace_seconds, composite += resolver.composite_seconds;
+        stats.samples += resolver.sample_count;
+        stats.layer_passes += costs.further_passes;
+        stats.shows_something = stats.shows_something || costs.shows_something;
+        list_bytes += costs.list_bytes;
+        trace += resolver.pattern_seconds + costs.trace_seconds, composite += costs.composite_seconds;
     }
+    stats.hit_list_bytes = std::max(stats.hit_list_bytes, list_bytes);
     const auto [trace_wall, composite_wall] = shared_out(wall.lap(), trace, composite);
     stats.seconds.trace += trace_wall;
     stats.seconds.composite += composite_wall;

@@ -7,6 +7,7 @@
 #include "composite/film/film.h"
 #include "core/scene/render_context.h"
 #include "pipeline/frame/frame_stats.h"
+#include "pipeline/frame/layer_passes.h"
 #include "sample/visibility.h"
 
 namespace trapeze {
@@ -27,9 +28,9 @@ struct HeatMap {
 
 /// Finds what every sample of some pixels sees and adds it to the film, with the threads of the calling task
 /// arena. Adds to the stats; calls `on_step` once for each rectangle of tiles_of(pixels, side of a tile).
-/// Fills `heat` (of those pixels) when there is one.
+/// Layers are those that `limits` allow. Fills `heat` (of those pixels) when there is one.
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,
-                   const std::function<void()>& on_step, HeatMap* heat = nullptr);
+                   const std::function<void()>& on_step, const LayerLimits& limits, HeatMap* heat = nullptr);
 
 }  // namespace trapeze

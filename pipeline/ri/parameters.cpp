@@ -30,6 +30,7 @@ constexpr UsualValue kUsual[] = {
     {"hidden", "jitter", ValueType::Integer},
     {"hidden", "depthfilter", ValueType::String},
     {"hidden", "samplemotion", ValueType::Integer},
+    {"hidden", "maxvpdepth", ValueType::Integer},
     {"identifier", "shadinggroup", ValueType::String},
     {"trimcurve", "sense", ValueType::String},
     {"light", "shadows", ValueType::String},

@@ -23,7 +23,8 @@ constexpr RequestNote kRequests[] = {
     {"HierarchicalSubdivisionMesh",
      "as SubdivisionMesh; edits of finer levels, which OpenSubdiv has not, are left out with one warning"},
     {"Hider",
-     "hidden; others are warned about and hidden is used; aperture, jitter, depthfilter, samplemotion; "
+     "hidden; others are warned about and hidden is used; aperture, jitter, depthfilter, samplemotion, "
+     "maxvpdepth; "
      "minsamples and maxsamples (as a square of 4x4 at most, of 8x8 with motion or defocus) where no PixelSamples is given"},
     {"Imager",
      "over the finished picture, after filtering; s, t, u and v run from 0 to 1 over the picture; \"glow\" is "

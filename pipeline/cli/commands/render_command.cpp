@@ -102,6 +102,11 @@ void RenderJob::override_options(Options& options) const {
         options.samples_x = static_cast<float>(arguments_.samples->first);
         options.samples_y = static_cast<float>(arguments_.samples->second);
     }
+    if (arguments_.most_layers > 0)
+        options.hider_parameters.set({"maxvpdepth",
+                                      {StorageClass::Uniform, ValueType::Integer, 1},
+                                      {static_cast<float>(arguments_.most_layers)},
+                                      {}});
 }
 
 /// What the scene would keep in floats, and the command line wants as a file of 8 bits, is to be looked at:

@@ -64,6 +64,7 @@ struct Arguments {
     std::optional<std::pair<int, int>> resolution, samples;
     std::optional<std::array<float, 4>> crop;  ///< x0 x1 y0 y1, as parts of the picture
     std::optional<float> shading_rate;
+    int most_layers = 0;  ///< of each sample; 0: as the scene says
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
     std::string pattern;        ///< empty: the sampler's natural one

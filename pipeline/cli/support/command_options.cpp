@@ -1,5 +1,6 @@
 #include "pipeline/cli/support/command_options.h"
 
+#include "core/scene/layer_limit.h"
 #include "core/simd/simd_limit.h"
 #include "pipeline/cli/support/option_kinds.h"
 #include "pipeline/compare/sampler_list.h"
@@ -157,6 +158,8 @@ void add_render_options(CLI::App& app, Arguments& a) {
     add_sampler_option(app, a);
     add_parsed(app, "--samples", a.samples, parse_samples, "samples per pixel", "N|NxM",
                ", each from 1 to 64");
+    add_number(app, "--max-layers", a.most_layers, 1, static_cast<int>(kMostLayers),
+               "a sample sees the nearest M layers of surfaces, as by Hider \"maxvpdepth\"", "M");
     add_frame_options(app, a);
     app.add_option("--transfer", a.transfer,
                    "how 8- and 16-bit files stand for light, written and read (default: linear, or the "

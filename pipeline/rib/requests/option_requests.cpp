@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "core/scene/layer_limit.h"
 #include "pipeline/rib/reader/file_search.h"
 #include "pipeline/rib/reader/open_files.h"
 #include "pipeline/rib/requests/colorspaces.h"
@@ -178,6 +179,16 @@ void check_aperture(OptionContext& r, ParameterList& given) {
     }
 }
 
+/// "maxvpdepth": -1, or how many layers a sample sees; left out where it is neither.
+void check_layer_limit(OptionContext& r, ParameterList& given) {
+    const Parameter* limit = given.find("maxvpdepth");
+    if (!limit) return;
+    const float most = given.float_or("maxvpdepth", 0);
+    if (most == -1 || (most >= 1 && most <= kMostLayers)) return;
+    r.report.error("\"maxvpdepth\" is a number of layers from 1 to 1000000, or -1 for all; left out");
+    std::erase_if(given.values, [](const Parameter& value) { return value.name == "maxvpdepth"; });
+}
+
 /// PixelFilter name xwidth ywidth: whole widths, in pixels.
 void pixel_filter(OptionContext& r, ArgumentCursor& c) {
     std::string name = c.string("the filter's name");
@@ -240,6 +251,7 @@ void hider(OptionContext& r, ArgumentCursor& c) {
         if (!recognises_hider_parameter(value.name))
             r.report.count_without_effect(' ' + in_quotes(value.name));
     check_aperture(r, o.hider_parameters);
+    check_layer_limit(r, o.hider_parameters);
     set_samples_of_hider(r);
 }
 

@@ -65,8 +65,8 @@ constexpr UnneededAttribute kUnneededAttributes[] = {
 };
 
 /// Parameters of Hider, whichever it is.
-constexpr std::string_view kHider[] = {"aperture",   "depthfilter", "jitter",
-                                       "maxsamples", "minsamples",  "samplemotion"};
+constexpr std::string_view kHider[] = {"aperture",   "depthfilter", "jitter",      "maxsamples",
+                                       "maxvpdepth", "minsamples",  "samplemotion"};
 
 /// Display "exrheader_NAME" writes an attribute of that name into the file: any name.
 constexpr std::string_view kHeaderPrefix = "exrheader_", kHeaderAttributes = "exrheader_NAME";
