@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
+
+#include "sample/hit_lists.h"
 
 namespace trapeze {
 namespace {
@@ -55,22 +58,40 @@ struct TileLooker {
     SampleStats stats;
 };
 
-/// For each grid, whether a sample of some pixels has a hit on it.
-std::vector<std::atomic<bool>> seen_grids(const RenderContext& context, const PixelRect& pixels,
-                                          const Grids& grids, const Visibility& visibility,
-                                          const SamplePattern& pattern) {
+/// Whether all that samples see is in the lists of hits.
+bool is_complete(const TileLooker& looker, const LayerLimits& limits) {
+    if (!looker.scratch.found.is_cut()) return true;
+    for (size_t s = 0; s < looker.hits.size(); ++s)
+        if (looker.scratch.found.cut_at(s) != kBehindAll && looker.hits.of(s).size() < limits.most)
+            return false;
+    return true;
+}
+
+/// For each grid, whether a sample of some pixels has a hit on it; nothing where there is no room for all
+/// hits.
+std::optional<std::vector<std::atomic<bool>>> seen_grids(const RenderContext& context,
+                                                         const PixelRect& pixels, const Grids& grids,
+                                                         const Visibility& visibility,
+                                                         const SamplePattern& pattern,
+                                                         const LayerLimits& limits) {
     std::vector<std::atomic<bool>> seen(grids.grids.size());
+    std::atomic<bool> has_room{true};
+    const bool bounded = !every_grid_is_opaque(grids) && visibility.bounds_layers();
     const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
     tbb::enumerable_thread_specific<TileLooker> lookers;
     const auto look = [&](size_t i) {
-        if (context.is_cancelled()) return;
+        if (context.is_cancelled() || !has_room.load(std::memory_order_relaxed)) return;
         TileLooker& looker = lookers.local();
         pattern.make_tile(tiles[i], looker.samples);
-        visibility.resolve(looker.samples, looker.hits, looker.scratch, looker.stats);
+        looker.scratch.window = bounded ? LayerWindow{{}, limits.most, limits.room} : LayerWindow{};
+        const bool fits = !bounded || looker.samples.size() <= limits.room / 2;
+        if (fits) visibility.resolve(looker.samples, looker.hits, looker.scratch, looker.stats);
+        if (!fits || !is_complete(looker, limits)) return has_room.store(false, std::memory_order_relaxed);
         for (const Hit& hit : looker.hits.hits)
             seen[MicropolygonId::unpack(hit.id).grid].store(true, std::memory_order_relaxed);
     };
     tbb::parallel_for(size_t{0}, tiles.size(), look, tbb::simple_partitioner());
+    if (!has_room.load()) return {};
     return seen;
 }
 
@@ -79,7 +100,7 @@ std::vector<std::atomic<bool>> seen_grids(const RenderContext& context, const Pi
 std::vector<uint32_t> seen_subpatches(const RenderContext& context, const Region& region,
                                       const Tessellation& tessellation, const Shading& shading,
                                       const Sampler& sampler, const SamplePattern& pattern,
-                                      FrameStats& stats) {
+                                      const LayerLimits& limits, FrameStats& stats) {
     std::vector<uint32_t> candidates, shaded;
     for (const uint32_t subpatch : region.subpatches) {
         const bool may_stay = shading.may_stay_unshaded(tessellation.subpatches()[subpatch].primitive);
@@ -88,9 +109,10 @@ std::vector<uint32_t> seen_subpatches(const RenderContext& context, const Region
     const Grids grids = plain_grids(context, candidates, tessellation, shading);
     if (context.is_cancelled() || grids.grids.empty()) return region.subpatches;
     const std::unique_ptr<Visibility> visibility = sampler.prepare(context, grids);
-    const auto seen = seen_grids(context, region.pixels, grids, *visibility, pattern);
-    for (size_t g = 0; g < seen.size(); ++g) {
-        if (seen[g].load(std::memory_order_relaxed)) {
+    const auto seen = seen_grids(context, region.pixels, grids, *visibility, pattern, limits);
+    if (!seen) return region.subpatches;
+    for (size_t g = 0; g < seen->size(); ++g) {
+        if ((*seen)[g].load(std::memory_order_relaxed)) {
             shaded.push_back(static_cast<uint32_t>(grids.grids[g].ordinal));
             continue;
         }

@@ -7,6 +7,7 @@
 
 #include "core/scene/render_context.h"
 #include "pipeline/frame/frame_stats.h"
+#include "pipeline/frame/layer_passes.h"
 #include "pipeline/frame/regions.h"
 #include "sample/visibility.h"
 #include "shade/shading.h"
@@ -23,11 +24,11 @@ enum class CullHidden : uint8_t {
 
 /// The subpatches of a region whose grids are to be shaded, in order: those that any of its samples sees, and
 /// those that must be shaded in any case (Shading::may_stay_unshaded()). Takes the samples through the region
-/// once more, but composites nothing. The picture is the same bits. Adds to the stats' counts of what is left
-/// out.
+/// once more, but composites nothing; where their layers take more than the limits allow, nothing is left
+/// out. The picture is the same bits. Adds to the stats' counts of what is left out.
 std::vector<uint32_t> seen_subpatches(const RenderContext& context, const Region& region,
                                       const Tessellation& tessellation, const Shading& shading,
                                       const Sampler& sampler, const SamplePattern& pattern,
-                                      FrameStats& stats);
+                                      const LayerLimits& limits, FrameStats& stats);
 
 }  // namespace trapeze

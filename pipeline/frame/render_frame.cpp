@@ -73,6 +73,11 @@ struct Frame {
     bool culls_hidden;     ///< before shading
 };
 
+LayerLimits layer_limits(const Frame& frame) {
+    return LayerLimits::of(frame.context.most_layers, frame.memory_budget / kListsShare,
+                           tbb::this_task_arena::max_concurrency());
+}
+
 /// Adds what samples see of the grids of their region to the film.
 void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& grids, FrameRecorder& recorder,
                    Film& film) {
@@ -84,11 +89,9 @@ void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& gri
     check_memory(frame.context, pixels, grids.bytes() + build.tree_bytes, frame.memory_budget);
 
     recorder.begin_tiles(tiles_of(pixels, visibility->tile_side()).size());
-    const LayerLimits limits = LayerLimits::of(frame.context.most_layers, frame.memory_budget / kListsShare,
-                                               tbb::this_task_arena::max_concurrency());
     resolve_tiles(
         frame.context, pixels, grids, *visibility, frame.pattern, film, recorder.stats(),
-        [&recorder] { recorder.progress().step(); }, limits);
+        [&recorder] { recorder.progress().step(); }, layer_limits(frame));
 }
 
 /// Dices, shades and samples region after region. False when cancelled, or when a shader was found to be
@@ -101,7 +104,7 @@ bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRe
             recorder.begin_cull();
             region.subpatches = recorder.timed(&StageSeconds::cull, [&] {
                 return seen_subpatches(frame.context, region, frame.tessellation, frame.shading,
-                                       frame.sampler, frame.pattern, recorder.stats());
+                                       frame.sampler, frame.pattern, layer_limits(frame), recorder.stats());
             });
         }
         recorder.begin_grids(r, regions.size(), region.subpatches.size());

@@ -59,7 +59,8 @@ bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varie
 }
 
 bool leaves_traces(const rsl::Program& program) {
-    return std::ranges::any_of(program.code, [](const rsl::Instruction& i) { return i.op == Op::Print; });
+    return std::ranges::any_of(
+        program.code, [](const rsl::Instruction& i) { return i.op == Op::Print || i.op == Op::Bake3d; });
 }
 
 bool changes_opacity(const rsl::Program& program) {
