@@ -3,6 +3,7 @@
 #include <bit>
 #include <map>
 
+#include "core/scene/scene.h"
 #include "shade/code/optimise.h"
 #include "shade/operations/op_table.h"
 

@@ -80,7 +80,7 @@ constexpr Capability kCapabilities[] = {
      "trace(), transmission() and visibility() meet all that Attribute \"visibility\" lets their rays see, at "
      "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
      "finely as a pixel is at its distance from the eye. Solids are cut, clipping planes cut the camera's view alone."},
-    {"Global Illumination", "supported with limits",
+    {"Global Illumination", "supported",
      "occlusion() and indirectdiffuse() send rays, also where point clouds are asked for; no photon maps."},
     {"Area Lights", "supported",
      "AreaLightSource shines from its primitives, sampled anew at each vertex (Attribute \"light\" \"nsamples\"); "

@@ -1,6 +1,6 @@
 /* Light gathered from around: a diffuse part over the hemisphere, with a grey sky where nothing is hit, and a glossy
    part over a narrow cone, where surfaces tell their own colour, without their lighting. */
-surface gathered(float gloss = 0, samples = 24;)
+surface gathered(float gloss = 0, samples = 8;)
 {
     normal Nf = faceforward(normalize(N), I);
     color around = 0, shine = 0, hit = 0;
