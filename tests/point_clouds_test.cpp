@@ -168,6 +168,16 @@ TEST(PointClouds, AreasOfDicingAreThoseOfDiscs) {
     EXPECT_GT(inside, 50);
 }
 
+/// What no sample sees bakes, though all else that is hidden is left out before it is shaded.
+TEST(PointClouds, HiddenSurfacesBake) {
+    Clouds clouds;
+    clouds.settings.cull_hidden = CullHidden::On;
+    clouds.shader("bakes", "bake3d(file, \"\", P, Nn);");
+    clouds.render({"Surface \"constant\" Patch \"bilinear\" \"P\" [-1 1 4 1 1 4 -1 -1 4 1 -1 4] " +
+                   clouds.surface("bakes") + kSquare});
+    EXPECT_NEAR(area_of(clouds.baked()), 1.8 * 1.8, 1.8 * 1.8 * 1e-6);
+}
+
 TEST(PointClouds, RadiiMayBeGivenAndScaled) {
     Clouds clouds;
     clouds.shader("bakes", "bake3d(file, \"\", P, Nn, \"radius\", .25 + xcomp(P), \"radiusscale\", 2);");

@@ -59,8 +59,9 @@ bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varie
 }
 
 bool leaves_traces(const rsl::Program& program) {
-    return std::ranges::any_of(
-        program.code, [](const rsl::Instruction& i) { return i.op == Op::Print || i.op == Op::Bake3d; });
+    return std::ranges::any_of(program.code, [](const rsl::Instruction& i) {
+        return rsl::op_traits::has(i.op, rsl::op_traits::kEffect);
+    });
 }
 
 bool changes_opacity(const rsl::Program& program) {
