@@ -14,7 +14,7 @@ const std::string kBall = "Sphere 1 -1 1 360\n";
 
 Outcome read_world(const std::string& text) {
     Outcome outcome = read_text("WorldBegin\n" + text + "WorldEnd\n");
-    EXPECT_LE(outcome.messages.size(), 1u);  // that RIS is not supported
+    EXPECT_LE(outcome.messages.size(), 1u);  // that surfaces of RIS are not run
     EXPECT_EQ(outcome.worlds.size(), 1u);
     return outcome;
 }
@@ -268,7 +268,13 @@ TEST(ReadRis, ThereIsAnEndOfLights) {
     const Outcome r = read_text("WorldBegin " + text + "Bxdf \"PxrDiffuse\" \"b\" " + kBall + "WorldEnd");
     EXPECT_EQ(r.attributes().lights.size(), 64u);
     ASSERT_EQ(r.messages.size(), 2u);
-    EXPECT_THAT(r.messages[1], HasSubstr("more than 64 lights"));
+    EXPECT_THAT(r.messages[0], HasSubstr("more than 64 lights"));
+}
+
+/// Lights shine, which nothing has to be said about.
+TEST(ReadRis, LightsAloneAreNoCauseForWarnings) {
+    EXPECT_THAT(read_world("Light \"PxrRectLight\" \"l\" \"float intensity\" [2]\n" + kBall).messages,
+                IsEmpty());
 }
 
 TEST(ReadRis, BxdfsAreShadedOnceAPixelAtLeast) {

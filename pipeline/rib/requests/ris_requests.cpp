@@ -79,7 +79,6 @@ void light(LightContext& r, ArgumentCursor& c) {
     const ShaderInstance shader = r.shader(c, "light");
     const std::string handle = c.handle("the handle");
     add_ris_light(r, handle, shader, RisParameters::read(c), false);
-    note(r);
 }
 
 /// What only a path tracer can use, read past whole.
