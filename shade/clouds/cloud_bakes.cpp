@@ -36,14 +36,30 @@ void append(const BakedCall& call, PointCloud& cloud) {
 
 }  // namespace
 
+size_t BakedCall::bytes() const {
+    return sizeof *this + file.size() + channels.size() * sizeof(CloudChannel) +
+           points.size() * sizeof(float);
+}
+
+bool CloudBakes::reserve(const BakedCall& call) {
+    const size_t bytes = call.bytes();
+    if (bytes_.fetch_add(bytes) + bytes <= limit_) return true;
+    bytes_ -= bytes;
+    const std::lock_guard lock(mutex_);
+    refused_.try_emplace(call.file, call.at);
+    return false;
+}
+
 void CloudBakes::add(std::vector<BakedGrid> grids) {
     const std::lock_guard lock(mutex_);
     for (BakedGrid& grid : grids) {
-        if (grid.calls.empty() || !grids_.insert(grid.ordinal).second) continue;
+        if (grid.calls.empty()) continue;
+        if (!grids_.insert(grid.ordinal).second) {
+            for (const BakedCall& call : grid.calls) bytes_ -= call.bytes();
+            continue;
+        }
         for (size_t i = 0; i < grid.calls.size(); ++i) {
             BakedCall& call = grid.calls[i];
-            bytes_ += call.points.size() * sizeof(float);
-            if (bytes_ > limit_) call.points = {};
             std::string file = call.file;
             files_[std::move(file)].push_back({grid.ordinal, i, std::move(call)});
         }
@@ -51,7 +67,7 @@ void CloudBakes::add(std::vector<BakedGrid> grids) {
 }
 
 void CloudBakes::clear() {
-    grids_.clear(), files_.clear();
+    grids_.clear(), files_.clear(), refused_.clear();
     bytes_ = 0;
 }
 
@@ -108,7 +124,21 @@ void CloudBakes::write_file(const std::string& name, std::vector<Kept>& calls, c
         diagnostics.error(at, fmt::format("bake3d: \"{}\" cannot be written: {}", place.name, problem));
 }
 
+/// Says of every file that it is not written.
+void CloudBakes::report_refused(Diagnostics& diagnostics) {
+    for (const auto& [name, calls] : files_) refused_.try_emplace(name, calls.front().call.at);
+    for (const auto& [name, at] : refused_)
+        diagnostics.error(at,
+                          fmt::format("bake3d: \"{}\" is not written: points that are baked take more than "
+                                      "the {} MiB that they may",
+                                      name, limit_ >> 20));
+}
+
 void CloudBakes::write(const CloudView& view, const Access& access, Diagnostics& diagnostics) {
+    if (!refused_.empty()) {
+        report_refused(diagnostics);
+        return clear();
+    }
     for (auto& [name, calls] : files_) {
         std::ranges::sort(calls, [](const Kept& a, const Kept& b) {
             return std::tie(a.ordinal, a.number) < std::tie(b.ordinal, b.number);
@@ -117,10 +147,6 @@ void CloudBakes::write(const CloudView& view, const Access& access, Diagnostics&
         report(calls, diagnostics);
         if (name.empty())
             diagnostics.error(at, "bake3d: the name of the file is empty; nothing is written");
-        else if (bytes_ > limit_)
-            diagnostics.error(at, fmt::format("bake3d: \"{}\" is not written: the points that are baked take "
-                                              "{} MiB, more than the {} that they may",
-                                              name, bytes_ >> 20, limit_ >> 20));
         else
             write_file(name, calls, view, access, diagnostics);
     }

@@ -5,6 +5,7 @@
 /// again, for another region, bakes once.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -30,6 +31,7 @@ struct BakedCall {
     size_t not_finite = 0;  ///< points that were left out for it
 
     static constexpr size_t kPlain = 7;
+    size_t bytes() const;
 };
 
 /// What the calls of one run baked of one grid, in their order.
@@ -43,7 +45,12 @@ class CloudBakes {
     /// All points together may take so many bytes; where they take more, nothing is written.
     void set_limit(size_t bytes) { limit_ = bytes; }
 
-    /// Keeps what grids baked that have not been here before. Thread-safe.
+    /// Asks whether a call's points may be kept until they are added; where not they are to be forgotten, and
+    /// nothing will be written. Thread-safe.
+    bool reserve(const BakedCall& call);
+
+    /// Keeps what grids baked that have not been here before, and gives back what was reserved for others.
+    /// Thread-safe.
     void add(std::vector<BakedGrid> grids);
 
     /// Forgets all: shading begins anew.
@@ -58,6 +65,7 @@ class CloudBakes {
         size_t number;  ///< among the calls of the grid
         BakedCall call;
     };
+    void report_refused(Diagnostics& diagnostics);
     void report(const std::vector<Kept>& calls, Diagnostics& diagnostics) const;
     static PointCloud joined(std::vector<Kept>& calls, Diagnostics& diagnostics);
     static void write_file(const std::string& name, std::vector<Kept>& calls, const CloudView& view,
@@ -66,7 +74,9 @@ class CloudBakes {
     std::mutex mutex_;
     std::unordered_set<uint64_t> grids_;
     std::map<std::string, std::vector<Kept>> files_;  ///< by name
-    size_t limit_ = size_t{1} << 31, bytes_ = 0;
+    size_t limit_ = size_t{1} << 31;
+    std::atomic<size_t> bytes_{0};                   ///< that are reserved
+    std::map<std::string, SourceLocation> refused_;  ///< files for whose points there was no room
 };
 
 }  // namespace trapeze

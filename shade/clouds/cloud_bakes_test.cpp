@@ -28,6 +28,12 @@ BakedGrid baked_grid(const std::string& file, uint64_t ordinal) {
     return {ordinal, {baked_call(file, ordinal, 0, 1 + ordinal % 3), baked_call(file, ordinal, 1, 2)}};
 }
 
+/// As calls do: what there is no room for is forgotten.
+void add(BakedGrid grid, CloudBakes& bakes) {
+    std::erase_if(grid.calls, [&](const BakedCall& call) { return !bakes.reserve(call); });
+    bakes.add({std::move(grid)});
+}
+
 class CloudBakesTest : public ::testing::Test {
   protected:
     std::string file(const std::string& name) const { return folder_.file(name); }
@@ -53,9 +59,9 @@ TEST_F(CloudBakesTest, StandInTheOrderOfGridsAndCalls) {
     Numbers numbers(2);
     for (int round = 0; round < 6; ++round) {
         CloudBakes bakes;
-        for (const uint64_t ordinal : ordinals) bakes.add({baked_grid(file("a.ptc"), ordinal)});
+        for (const uint64_t ordinal : ordinals) add(baked_grid(file("a.ptc"), ordinal), bakes);
         for (const uint64_t ordinal : {uint64_t{3}, uint64_t{0}})
-            bakes.add({baked_grid(file("a.ptc"), ordinal)});
+            add(baked_grid(file("a.ptc"), ordinal), bakes);
         write(bakes);
         const std::vector<V3f> places = positions("a.ptc");
         EXPECT_EQ(places.size(), 8u * 2 + 1 + 2 + 3 + 1 + 2 + 3 + 77 % 3 + 1 + (uint64_t{1} << 40) % 3 + 1);
@@ -73,14 +79,14 @@ TEST_F(CloudBakesTest, StandInTheOrderOfGridsAndCalls) {
 
 TEST_F(CloudBakesTest, OfMoreThanTheLimitNothingIsWritten) {
     CloudBakes bakes;
-    bakes.set_limit(1000);
-    for (uint64_t ordinal = 0; ordinal < 20; ++ordinal) bakes.add({baked_grid(file("a.ptc"), ordinal)});
+    bakes.set_limit(4000);
+    for (uint64_t ordinal = 0; ordinal < 20; ++ordinal) add(baked_grid(file("a.ptc"), ordinal), bakes);
     write(bakes);
     ASSERT_EQ(said_.size(), 1u);
     EXPECT_NE(said_[0].text.find("is not written"), std::string::npos) << said_[0].text;
     EXPECT_FALSE(std::filesystem::exists(file("a.ptc")));
     // What was written, or was not, is forgotten.
-    bakes.add({baked_grid(file("b.ptc"), 1)});
+    add(baked_grid(file("b.ptc"), 1), bakes);
     write(bakes);
     EXPECT_EQ(positions("b.ptc").size(), 4u);
     EXPECT_EQ(said_.size(), 1u);
@@ -88,9 +94,9 @@ TEST_F(CloudBakesTest, OfMoreThanTheLimitNothingIsWritten) {
 
 TEST_F(CloudBakesTest, WhatIsClearedIsNotWritten) {
     CloudBakes bakes;
-    bakes.add({baked_grid(file("a.ptc"), 1)});
+    add(baked_grid(file("a.ptc"), 1), bakes);
     bakes.clear();
-    bakes.add({baked_grid(file("a.ptc"), 1)});
+    add(baked_grid(file("a.ptc"), 1), bakes);
     write(bakes);
     EXPECT_EQ(positions("a.ptc").size(), 4u);
 }
@@ -98,7 +104,7 @@ TEST_F(CloudBakesTest, WhatIsClearedIsNotWritten) {
 TEST_F(CloudBakesTest, AFileThatCannotBeWrittenLeavesNothing) {
     std::filesystem::create_directory(file("a.ptc"));
     CloudBakes bakes;
-    bakes.add({baked_grid(file("a.ptc"), 1)});
+    add(baked_grid(file("a.ptc"), 1), bakes);
     write(bakes);
     ASSERT_EQ(said_.size(), 1u);
     EXPECT_EQ(said_[0].severity, Severity::Error);
@@ -107,10 +113,10 @@ TEST_F(CloudBakesTest, AFileThatCannotBeWrittenLeavesNothing) {
 
 TEST_F(CloudBakesTest, OnAFullDiskTheOldFileStays) {
     CloudBakes bakes;
-    bakes.add({baked_grid(file("a.ptc"), 1)});
+    add(baked_grid(file("a.ptc"), 1), bakes);
     write(bakes);
     const std::string old = file_text(file("a.ptc"));
-    for (uint64_t ordinal = 0; ordinal < 3000; ++ordinal) bakes.add({baked_grid(file("a.ptc"), ordinal)});
+    for (uint64_t ordinal = 0; ordinal < 3000; ++ordinal) add(baked_grid(file("a.ptc"), ordinal), bakes);
     {
         const FileSizeLimit full(1 << 16);
         write(bakes);

@@ -33,7 +33,8 @@ void CloudCalls::bake(Run& run, const Step& step, std::span<const Operand> opera
     for (size_t g = 0; g < grids_.size(); ++g) {
         baked_[g].ordinal = grids_[g]->ordinal;
         BakedCall points = call.points_of(batch->spans[g]);
-        if (!points.points.empty() || points.not_finite > 0) baked_[g].calls.push_back(std::move(points));
+        if (points.points.empty() && points.not_finite == 0) continue;
+        if (places_.bakes->reserve(points)) baked_[g].calls.push_back(std::move(points));
     }
 }
 
