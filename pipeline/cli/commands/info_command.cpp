@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/aperture.h"
 #include "pipeline/cli/commands/cloud_info.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
