@@ -56,7 +56,8 @@ struct BundleState {
     size_t group_packets =
         (packets + kLanes * BundleScratch::kGroups - 1) / (kLanes * BundleScratch::kGroups) * kLanes;
     float first_time = 0, last_time = 0;
-    float farthest_depth = 0;  ///< some ray still looks as far as this
+    float farthest_depth = 0;   ///< some ray still looks as far as this
+    bool layers_ended = false;  ///< some ray looks less far for its layers, and its packet does not know yet
 
     size_t groups() const { return (packets + group_packets - 1) / group_packets; }
 
@@ -105,7 +106,9 @@ struct BundleState {
             for (size_t p = 0; p < packets; ++p) refresh_packet(p);
             refresh_farthest();
         }
-        return ended != LayerLists::Ended::None && look_to_end(ray);
+        if (ended == LayerLists::Ended::None || !look_to_end(ray)) return false;
+        layers_ended = true;
+        return true;
     }
     /// Lets a ray look no farther than its layers go, which forgets an opaque hit behind them.
     bool look_to_end(uint32_t ray) {

@@ -291,7 +291,8 @@ void test_waiting(BundleState& t) {
 }
 
 /// Tests the active rays of a grid in a segment. `whole`: its box in camera space. Blocks that few rays may
-/// meet let them wait; the packets of tested rays then look less far, if the grid is opaque.
+/// meet let them wait; the packets of tested rays then look less far, if the grid is opaque or layers have
+/// ended.
 template <bool kMoves, bool kLens>
 void test_active(BundleState& t, const Candidate& candidate, const MovingBox& whole, const WideGrid& grid,
                  int segment) {
@@ -322,7 +323,8 @@ void test_active(BundleState& t, const Candidate& candidate, const MovingBox& wh
             tested = true;
         }
     }
-    if (!grid.opaque || !tested) return;
+    if (!tested || !(grid.opaque || t.layers_ended)) return;
+    t.layers_ended = false;
     for (size_t i = 0; i < t.scratch.touched_count; ++i) t.refresh_packet(t.scratch.touched[i]);
     t.refresh_farthest();
 }
