@@ -18,18 +18,52 @@ void LayerLists::begin(size_t ray_count, const LayerBounds& bounds) {
     trigger_ = bounds.most;
     if (trigger_ > kFewLayers) trigger_ = bounds.most > kNone / 2 ? kNone : 2 * bounds.most;
     room_ = std::max(bounds.room, 2 * ray_count);
-    held_ = 0;
-    free_ = kNone;
+    ray_count_ = ray_count;
     nodes_.clear();
-    lists_.assign(ray_count, {});
+    is_linked_ = false;
+    if (trigger_ != kNone && ray_count > 0) link_all();
 }
 
-/// Makes a node; nodes take no more memory than the room says.
-uint32_t LayerLists::grow() {
-    if (nodes_.size() == nodes_.capacity())
-        nodes_.reserve(std::min(room_, std::max(kLeastNodes, 2 * nodes_.capacity())));
-    nodes_.push_back({{}, kNone});
-    return static_cast<uint32_t>(nodes_.size() - 1);
+/// Makes room for a node; nodes take no more memory than the room says.
+void LayerLists::grow() {
+    nodes_.reserve(std::min(room_, std::max(kLeastNodes, 2 * nodes_.capacity())));
+}
+
+/// Makes a list for each ray, of the layers that are there.
+void LayerLists::link_all() {
+    is_linked_ = true;
+    held_ = nodes_.size();
+    free_ = kNone;
+    lists_.assign(ray_count_, {});
+    for (uint32_t at = 0; at < nodes_.size(); ++at) {
+        List& list = lists_[nodes_[at].ray];
+        nodes_[at].next = list.first;
+        list.first = at;
+        ++list.count;
+    }
+}
+
+LayerLists::Ended LayerLists::add_to_list(uint32_t ray, const BundleLayer& layer) {
+    List& list = lists_[ray];
+    if (list.has_end && !layer.in_front(list.end)) return Ended::None;
+    uint32_t at = free_;
+    if (at != kNone) {
+        free_ = nodes_[at].next;
+    } else {
+        if (nodes_.size() == nodes_.capacity()) grow();
+        at = static_cast<uint32_t>(nodes_.size());
+        nodes_.emplace_back();
+    }
+    nodes_[at] = {layer, ray, list.first};
+    list.first = at;
+    ++held_;
+    if (++list.count >= trigger_) {
+        cut(list, bounds_.most);
+        return Ended::This;
+    }
+    if (held_ < room_) return Ended::None;
+    cut_all();
+    return Ended::Many;
 }
 
 /// Leaves the nearest `most` layers of a list that has as many, and ends it behind them.
@@ -47,6 +81,7 @@ void LayerLists::cut(List& list, size_t most) {
         uint32_t& next_of = i < most ? list.first : free_;
         nodes_[order_[i]].next = next_of;
         next_of = order_[i];
+        if (i >= most) nodes_[order_[i]].ray = kNone;
     }
     held_ -= order_.size() - most;
 }

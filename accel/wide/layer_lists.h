@@ -26,7 +26,8 @@ struct LayerBounds {
     size_t room = std::numeric_limits<size_t>::max();
 };
 
-/// One a bundle. Lists are linked: nobody knows which of a thousand rays meets a thousand layers.
+/// One a bundle. Lists are linked: nobody knows which of a thousand rays meets a thousand layers. But they
+/// are so only from when one may have to be cut; until then layers lie in the order in which they came.
 class LayerLists {
   public:
     /// Empties all lists, for so many rays. What `bounds` points to is read until the next begin().
@@ -37,38 +38,33 @@ class LayerLists {
 
     /// Takes in a layer.
     Ended add(uint32_t ray, const BundleLayer& layer) {
-        List& list = lists_[ray];
         if (bounds_.behind && !bounds_.behind[ray].in_front(layer)) return Ended::None;
-        if (list.has_end && !layer.in_front(list.end)) return Ended::None;
-        const uint32_t at = free_ != kNone ? free_ : grow();
-        free_ = nodes_[at].next;
-        nodes_[at] = {layer, list.first};
-        list.first = at;
-        ++held_;
-        if (++list.count >= trigger_) {
-            cut(list, bounds_.most);
-            return Ended::This;
-        }
-        if (held_ < room_) return Ended::None;
+        if (is_linked_) return add_to_list(ray, layer);
+        if (nodes_.size() == nodes_.capacity()) grow();
+        nodes_.push_back({layer, ray, kNone});
+        if (nodes_.size() < room_) return Ended::None;
+        link_all();
         cut_all();
         return Ended::Many;
     }
 
-    bool has_end(size_t ray) const { return lists_[ray].has_end; }
+    bool has_end(size_t ray) const { return is_linked_ && lists_[ray].has_end; }
     /// The last layer of a list that has an end; nothing behind it is in the list.
     const BundleLayer& end(size_t ray) const { return lists_[ray].end; }
     size_t bytes() const { return nodes_.capacity() * sizeof(Node) + lists_.capacity() * sizeof(List); }
 
-    /// Calls visit(layer) for a ray's layers, in no order.
+    /// Calls visit(ray, layer) for all layers, in no order.
     template <class Visit>
-    void for_each(size_t ray, const Visit& visit) const {
-        for (uint32_t at = lists_[ray].first; at != kNone; at = nodes_[at].next) visit(nodes_[at].layer);
+    void for_each(const Visit& visit) const {
+        for (const Node& node : nodes_)
+            if (node.ray != kNone) visit(node.ray, node.layer);
     }
 
   private:
     static constexpr uint32_t kNone = ~uint32_t{0};
     struct Node {
         BundleLayer layer;
+        uint32_t ray;   ///< kNone: this is free
         uint32_t next;  ///< in the list, or of those that are free
     };
     struct List {
@@ -77,14 +73,18 @@ class LayerLists {
         BundleLayer end{};
     };
 
-    uint32_t grow();
+    void grow();
+    Ended add_to_list(uint32_t ray, const BundleLayer& layer);
+    void link_all();
     void cut(List& list, size_t most);
     void cut_all();
 
     LayerBounds bounds_;
+    bool is_linked_ = false;
     uint32_t trigger_ = 0;        ///< a list that has so many layers is cut
     size_t held_ = 0, room_ = 0;  ///< layers in all lists; and so many cut all of them
-    uint32_t free_ = kNone;       ///< the first of the free nodes
+    size_t ray_count_ = 0;
+    uint32_t free_ = kNone;  ///< the first of the free nodes
     std::vector<Node> nodes_;
     std::vector<List> lists_;
     std::vector<uint32_t> order_;  ///< of the nodes of a list that is cut

@@ -8,7 +8,7 @@
 namespace trapeze {
 namespace {
 
-/// What a hit takes: 16 in the list as it is found, 16 in that in order and as much when it grows, 6 for half
+/// What a hit takes: 16 in the list as it is found, 16 in that in order and as much when it grows, 8 for half
 /// as many in a bundle's lists, 24 where its colour is interpolated.
 constexpr size_t kBytesPerHit = 80;
 constexpr size_t kLeastRoom = 64;

@@ -129,13 +129,12 @@ class WideRayTraced final : public Visibility {
 
     /// Takes the layers of a bundle's rays.
     static void take_layers(const RayBundle& rays, std::span<const uint32_t> order, LooseHits& found) {
-        for (size_t i = 0; i < order.size(); ++i) {
-            const uint32_t sample = order[i];
-            if (rays.layers.has_end(i)) found.cut(sample, {rays.layers.end(i).depth, rays.layers.end(i).id});
-            rays.layers.for_each(i, [&](const BundleLayer& layer) {
-                found.add(sample, {layer.depth, layer.id});
-            });
-        }
+        for (size_t i = 0; i < order.size(); ++i)
+            if (rays.layers.has_end(i))
+                found.cut(order[i], {rays.layers.end(i).depth, rays.layers.end(i).id});
+        rays.layers.for_each([&](uint32_t ray, const BundleLayer& layer) {
+            found.add(order[ray], {layer.depth, layer.id});
+        });
     }
 
     static void count_costs(WideScratch& own) {
