@@ -167,42 +167,6 @@ void gather_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, 
     to.some_see_through |= !grid.opaque, to.some_constant |= !grid.smooth;
 }
 
-/// How many hits before its turn a hit's grid is fetched, and, by then, what the grid tells where to find.
-constexpr size_t kFetchGridAhead = 16, kFetchVerticesAhead = 8;
-
-/// Fetches what gather_hit() reads first of each plane: hits of a sample are on grids all over memory, and
-/// waiting for each would take most of the time. Times of other rays may be in other segments of a motion.
-/// Inlined, or GCC leaves out calls of what does nothing but fetch.
-HWY_INLINE void fetch_vertices(float time, const Grid& grid, const MicropolygonId& id) {
-    const size_t tiled = static_cast<size_t>(grid.shape.tiled_index(id.u, id.v)),
-                 in_rows = static_cast<size_t>(grid.shape.row_index(id.u, id.v)),
-                 size = static_cast<size_t>(grid.shape.vertex_count());
-    const int segment = grid.moves() ? segment_at(time, grid.key_count).index : 0;
-    for (int c = 0; c < (grid.moves() ? 6 : 3); ++c) __builtin_prefetch(grid.plane(segment, c) + tiled);
-    for (size_t c = 0; c < (grid.opaque ? 3 : 6); ++c) {
-        const size_t at = c * size + in_rows;
-        if (grid.float_colors)
-            __builtin_prefetch(grid.full_colors() + at);
-        else
-            __builtin_prefetch(grid.half_colors() + at);
-    }
-}
-
-/// Fetches what hits that come later will read. `ray`: of hit number `at`.
-HWY_INLINE void fetch_coming(const AxisRay& ray, const HitBuffer& hits, size_t at, size_t end,
-                             const Grids& grids) {
-    const auto grid_of = [&grids](const MicropolygonId& id) {
-        return id.grid < grids.grids.size() ? &grids.grids[id.grid] : nullptr;
-    };
-    if (at + kFetchGridAhead < end)
-        if (const Grid* grid = grid_of(MicropolygonId::unpack(hits.hits[at + kFetchGridAhead].id)))
-            __builtin_prefetch(grid), __builtin_prefetch(reinterpret_cast<const char*>(grid + 1) - 1);
-    if (at + kFetchVerticesAhead < end) {
-        const MicropolygonId id = MicropolygonId::unpack(hits.hits[at + kFetchVerticesAhead].id);
-        if (const Grid* grid = grid_of(id)) fetch_vertices(ray.time, *grid, id);
-    }
-}
-
 }  // namespace
 
 Layer layer_at(const AxisRay& ray, const Grid& grid, const MicropolygonId& id) {
@@ -235,9 +199,8 @@ void HitLayers::interpolate(const SampleTile& samples, const HitBuffer& hits, si
         gathered.moves = gathered.some_constant = gathered.some_see_through = false;
     };
     for (size_t sample = begin; sample < end; ++sample)
-        for (size_t at = hits.first[sample]; at < hits.first[sample + 1]; ++at) {
-            fetch_coming(samples.rays[sample], hits, at, first_ + count, grids);
-            const MicropolygonId id = MicropolygonId::unpack(hits.hits[at].id);
+        for (const Hit& hit : hits.of(sample)) {
+            const MicropolygonId id = MicropolygonId::unpack(hit.id);
             if (id.grid < grids.grids.size())
                 gather_hit(samples.rays[sample], grids.grids[id.grid], id, lane, gathered);
             if (++lane == GatheredHits::kCount) blend();
