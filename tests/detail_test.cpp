@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "sample/level_of_detail.h"
+#include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
 namespace trapeze::testing {
@@ -17,7 +18,8 @@ Image render_levels(double passed, const std::string& options = "", const std::s
     const double begin = 4096 - 1000 * passed;
     const std::string transition = std::to_string(begin) + " " + std::to_string(begin + 1000);
     const std::string square = "Polygon \"P\" [-2 -2 0 2 -2 0 2 2 0 -2 2 0] ";
-    const std::string path = ::testing::TempDir() + "detail_levels.rib";
+    const WorkFolder folder;  // tests run side by side
+    const std::string path = (folder / "detail_levels.rib").string();
     std::ofstream(path)
         << "Display \"x\" \"exr\" \"rgba\" Format 64 64 1 PixelFilter \"box\" 1 1 PixelSamples 4 4 "
            "Projection \"orthographic\" "

@@ -5,6 +5,7 @@
 #include <complex>
 #include <fstream>
 
+#include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
 namespace trapeze::testing {
@@ -43,7 +44,8 @@ constexpr double kHalf = 1.79;
 /// and is in focus at 4.
 Blur render_blur(const std::string& aperture, double depth, const std::string& method = "raytrace",
                  int threads = 2) {
-    const std::string path = ::testing::TempDir() + "lens_blades.rib";
+    const WorkFolder folder;  // tests run side by side
+    const std::string path = (folder / "lens_blades.rib").string();
     const double half = .01 * depth;
     std::ofstream(path)
         << "Display \"x\" \"exr\" \"rgba\" Format 48 48 1 PixelSamples 32 32 "
