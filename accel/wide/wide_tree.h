@@ -70,15 +70,17 @@ struct alignas(64) WideNode {
     float low[3][kChildren], high[3][kChildren];  ///< at time 0; inverted where there is no child
     uint32_t child[kChildren];
 
-    /// Low x, y, z, high x, y, z of all children.
-    const float* row(size_t k) const { return low[0] + k * kChildren; }
+    /// Low x, y, z, high x, y, z of all children: the node's first six rows, which lie one after the other.
+    const float* row(size_t k) const { return reinterpret_cast<const float*>(this) + k * kChildren; }
 };
 /// What nodes of moving scenes have besides: how far planes move over the whole shutter, rounded outward to
 /// bfloat16 (accel/wide/bfloat16.h).
 struct alignas(64) WideNodeMotion {
     uint16_t low[3][WideNode::kChildren], high[3][WideNode::kChildren];
 
-    const uint16_t* row(size_t k) const { return low[0] + k * WideNode::kChildren; }
+    const uint16_t* row(size_t k) const {
+        return reinterpret_cast<const uint16_t*>(this) + k * WideNode::kChildren;
+    }
 };
 /// What tests of single rays need to know of a node and all below it: the largest |coordinate| of boxes, and
 /// the largest extent of a micropolygon along each axis of space.
