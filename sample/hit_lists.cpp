@@ -62,4 +62,11 @@ void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer
     cut_lists(scratch, sample_count, hits);
 }
 
+bool holds_all(const SampleScratch& scratch, const HitBuffer& hits, uint32_t most) {
+    if (!scratch.found.is_cut()) return true;
+    for (size_t s = 0; s < hits.size(); ++s)
+        if (scratch.found.cut_at(s) != kBehindAll && hits.of(s).size() < most) return false;
+    return true;
+}
+
 }  // namespace trapeze

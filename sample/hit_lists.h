@@ -16,4 +16,7 @@ void buffer_of_nearest(const SampleScratch& scratch, size_t sample_count, HitBuf
 /// as many as the window wants. scratch.found then says which lists do not go to the end.
 void buffer_of_loose_hits(SampleScratch& scratch, size_t sample_count, HitBuffer& hits);
 
+/// Whether the lists hold all that samples see of the nearest `most` layers.
+bool holds_all(const SampleScratch& scratch, const HitBuffer& hits, uint32_t most);
+
 }  // namespace trapeze

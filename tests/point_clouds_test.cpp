@@ -30,20 +30,13 @@ class Clouds {
         for (const std::string& world : worlds)
             rib += "FrameBegin 1 WorldBegin " + world + " WorldEnd FrameEnd\n";
         folder_.write("a.rib", rib);
-        const std::vector<std::string> files{(folder_ / "a.rib").string()};
         Diagnostics diagnostics([&](const Diagnostic& d) {
             if (d.kind != "written-elsewhere") said.push_back(d);
         });
         std::vector<Image> images;
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<size_t>(threads));
-        tbb::task_arena arena(threads);
-        arena.execute([&] {
-            read_rib(files, ReadOptions{}, diagnostics, [&](Scene&& scene) {
-                auto result = render_frame(make_context(scene, settings, diagnostics), settings);
-                if (result) images.push_back(std::move(result->image));
-            });
-        });
+        for (FrameResult& result :
+             render_worlds((folder_ / "a.rib").string(), settings, threads, diagnostics))
+            images.push_back(std::move(result.image));
         EXPECT_EQ(images.size(), worlds.size());
         return images;
     }

@@ -24,17 +24,6 @@ std::string moves(const std::string& from, const std::string& to, const std::str
            "AttributeEnd ";
 }
 
-/// A pixel's red is what was found, its green what was expected; at least 3500 of them are near enough.
-void expect_near(const Image& image, float tolerance) {
-    int told = 0;
-    for (const Pixel& p : pixels(image)) {
-        if (!(p.blue > 0) || p.alpha == 0) continue;
-        ++told;
-        ASSERT_NEAR(p.red, p.green, tolerance) << told;
-    }
-    EXPECT_GE(told, 3500);
-}
-
 /// A sheet of the width 1 passes along x: each point is dark for as long as it is behind it.
 TEST(RayMotion, AShadowIsAsDarkAsItIsLong) {
     Case c = in_time();

@@ -19,20 +19,6 @@ std::string solid(const std::string& operation, const std::string& attributes = 
            "SolidEnd SolidBegin \"primitive\" " + attributes + sphere("0 0 3.8", ".6") + "SolidEnd SolidEnd ";
 }
 
-/// A pixel's red and green agree; those of nothing, too.
-void expect_near(const Image& image, float tolerance, int at_least = 3000) {
-    int told = 0;
-    for (const Pixel& p : pixels(image)) {
-        if (!(p.blue > 0) || p.alpha == 0) continue;
-        ++told;
-        if (p.green > 1e20f)
-            ASSERT_GT(p.red, 1e20f) << told;
-        else
-            ASSERT_NEAR(p.red, p.green, tolerance) << told;
-    }
-    EXPECT_GE(told, at_least);
-}
-
 constexpr float kChord = 4e-3f;  ///< of micropolygons that are seen at a slant
 
 const std::string kNearest = "Ci = color(min(float trace(P, vector(0, 0, -1)), 1e30), d, sure);";

@@ -24,16 +24,6 @@ Case hazy() {
     return c;
 }
 
-void expect_near(const Image& image, float tolerance, int at_least = 3000) {
-    int told = 0;
-    for (const Pixel& p : pixels(image)) {
-        if (!(p.blue > 0) || p.alpha == 0) continue;
-        ++told;
-        ASSERT_NEAR(p.red, p.green, tolerance) << told;
-    }
-    EXPECT_GE(told, at_least);
-}
-
 const std::string kWhiteWall = "Surface \"constant\" Color 1 1 1 " + wall("0");
 
 TEST(RayVolumes, TheExteriorOfWhatAsksIsBeforeTheHit) {

@@ -54,18 +54,10 @@ struct Case {
                                   folder.path().string() + "\"] " + options + "\nWorldBegin AttributeBegin " +
                                   kHidden + kSeen + things + "\nAttributeEnd Surface \"ask\" " + asker +
                                   asks + "\nWorldEnd\n");
-        const std::vector<std::string> files{(folder / "a.rib").string()};
         Diagnostics diagnostics([&](const Diagnostic& d) { said.push_back(d); });
         Image image;
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                        static_cast<size_t>(threads));
-        tbb::task_arena arena(threads);
-        arena.execute([&] {
-            read_rib(files, ReadOptions{}, diagnostics, [&](Scene&& scene) {
-                auto result = render_frame(make_context(scene, settings, diagnostics), settings);
-                if (result) image = std::move(result->image);
-            });
-        });
+        for (FrameResult& result : render_worlds((folder / "a.rib").string(), settings, threads, diagnostics))
+            image = std::move(result.image);
         for (const Diagnostic& d : said)
             EXPECT_TRUE(d.kind == "nothing-for-rays" || d.kind == may_say) << to_string(d) << "\n"
                                                                            << shaders["ask"];
@@ -100,6 +92,21 @@ inline void expect_told(const Image& image, float tolerance, int at_least = 3500
     }
     EXPECT_GE(told, at_least);
     EXPECT_LE(differ, told / 4);
+}
+
+/// Red is what was found, green what was expected, wherever blue is above 0 and the square is seen; at least
+/// so many pixels say so. What is expected to be endless is so.
+inline void expect_near(const Image& image, float tolerance, int at_least = 3000) {
+    int told = 0;
+    for (const Pixel& p : pixels(image)) {
+        if (!(p.blue > 0) || p.alpha == 0) continue;
+        ++told;
+        if (p.green > 1e20f)
+            ASSERT_GT(p.red, 1e20f) << told;
+        else
+            ASSERT_NEAR(p.red, p.green, tolerance) << told;
+    }
+    EXPECT_GE(told, at_least);
 }
 
 /// The mean of a pixel's number over all pixels that the square covers.

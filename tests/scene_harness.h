@@ -42,12 +42,10 @@ inline std::string test_name(const ::testing::TestParamInfo<std::string>& info) 
     return info.param.substr(0, info.param.find('.'));
 }
 
-/// All worlds of a scene, rendered with so many threads. There are errors in it when it is `wrong`, or shows
-/// how they are met, else none.
-inline std::vector<FrameResult> render_scene(const std::string& path, const RenderSettings& settings,
-                                             int threads = 2, bool wrong = false) {
+/// All worlds of a file, rendered with so many threads.
+inline std::vector<FrameResult> render_worlds(const std::string& path, const RenderSettings& settings,
+                                              int threads, Diagnostics& diagnostics) {
     std::vector<FrameResult> results;
-    Diagnostics diagnostics;
     const std::vector<std::string> files{path};
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<size_t>(threads));
@@ -58,6 +56,15 @@ inline std::vector<FrameResult> render_scene(const std::string& path, const Rend
             if (result) results.push_back(std::move(*result));
         });
     });
+    return results;
+}
+
+/// The same, of a scene that is known to be right. There are errors in it when it is `wrong`, or shows
+/// how they are met, else none.
+inline std::vector<FrameResult> render_scene(const std::string& path, const RenderSettings& settings,
+                                             int threads = 2, bool wrong = false) {
+    Diagnostics diagnostics;
+    std::vector<FrameResult> results = render_worlds(path, settings, threads, diagnostics);
     wrong = wrong || is_wrong_on_purpose(std::filesystem::path(path).filename().string());
     EXPECT_EQ(diagnostics.count(Severity::Error) > 0, wrong) << path;
     return results;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <optional>
 
+#include "pipeline/frame/collect_grids.h"
 #include "sample/hit_lists.h"
 
 namespace trapeze {
@@ -41,13 +42,7 @@ Grids plain_grids(const RenderContext& context, const std::vector<uint32_t>& can
             maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, options));
         }
     });
-    Grids grids;
-    for (PlainGridMaker& maker : makers) {
-        grids.grids.insert(grids.grids.end(), maker.grids.begin(), maker.grids.end());
-        grids.arenas.push_back(std::move(maker.arena));
-    }
-    std::ranges::sort(grids.grids, {}, &Grid::ordinal);
-    return grids;
+    return collect_grids(makers);
 }
 
 /// What a thread needs to look at tiles.
@@ -57,15 +52,6 @@ struct TileLooker {
     SampleScratch scratch;
     SampleStats stats;
 };
-
-/// Whether all that samples see is in the lists of hits.
-bool is_complete(const TileLooker& looker, const LayerLimits& limits) {
-    if (!looker.scratch.found.is_cut()) return true;
-    for (size_t s = 0; s < looker.hits.size(); ++s)
-        if (looker.scratch.found.cut_at(s) != kBehindAll && looker.hits.of(s).size() < limits.most)
-            return false;
-    return true;
-}
 
 /// For each grid, whether a sample of some pixels has a hit on it; nothing where there is no room for all
 /// hits.
@@ -86,7 +72,8 @@ std::optional<std::vector<std::atomic<bool>>> seen_grids(const RenderContext& co
         looker.scratch.window = bounded ? LayerWindow{{}, limits.most, limits.room} : LayerWindow{};
         const bool fits = !bounded || looker.samples.size() <= limits.room / 2;
         if (fits) visibility.resolve(looker.samples, looker.hits, looker.scratch, looker.stats);
-        if (!fits || !is_complete(looker, limits)) return has_room.store(false, std::memory_order_relaxed);
+        if (!fits || !holds_all(looker.scratch, looker.hits, limits.most))
+            return has_room.store(false, std::memory_order_relaxed);
         for (const Hit& hit : looker.hits.hits)
             seen[MicropolygonId::unpack(hit.id).grid].store(true, std::memory_order_relaxed);
     };

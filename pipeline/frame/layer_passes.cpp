@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "pipeline/frame/stopwatch.h"
+#include "sample/hit_lists.h"
 
 namespace trapeze {
 namespace {
@@ -47,7 +48,7 @@ void LayerPasses::add_tile(const LayerTask& task, const SampleTile& samples, Sam
     if (begins_whole) {
         scratch.window = bounded ? LayerWindow{{}, limits.most, limits.room} : LayerWindow{};
         find(task, samples, scratch, stats);
-        if (!bounded || is_complete(task, scratch)) {
+        if (!bounded || holds_all(scratch, hits_, limits.most)) {
             Stopwatch watch;
             if (limits.most != kAllLayers) shorten_lists(hits_, [&](size_t) { return limits.most; });
             task.film.add(samples, hits_, task.grids);
@@ -82,14 +83,6 @@ void LayerPasses::find(const LayerTask& task, const SampleTile& samples, SampleS
     costs_.shows_something = costs_.shows_something || !hits_.hits.empty();
     costs_.list_bytes = std::max<uint64_t>(costs_.list_bytes, scratch.found.bytes() + scratch.own_list_bytes +
                                                                   hits_.hits.capacity() * sizeof(Hit));
-}
-
-/// Whether a first pass has found all that samples see.
-bool LayerPasses::is_complete(const LayerTask& task, const SampleScratch& scratch) const {
-    if (!scratch.found.is_cut()) return true;
-    for (size_t s = 0; s < hits_.size(); ++s)
-        if (scratch.found.cut_at(s) != kBehindAll && hits_.of(s).size() < task.limits.most) return false;
-    return true;
 }
 
 /// Adds what was found of some samples to the stack. Leaves in `which` those that see something behind it,

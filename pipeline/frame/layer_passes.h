@@ -53,7 +53,6 @@ class LayerPasses {
 
   private:
     void find(const LayerTask& task, const SampleTile& samples, SampleScratch& scratch, SampleStats& stats);
-    bool is_complete(const LayerTask& task, const SampleScratch& scratch) const;
     void add_to_stack(const LayerTask& task, const SampleTile& samples, const SampleScratch& scratch,
                       std::vector<uint32_t>& which);
     void find_rest(const LayerTask& task, const SampleTile& samples, SampleScratch& scratch,

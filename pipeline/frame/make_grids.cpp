@@ -2,13 +2,13 @@
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <deque>
 #include <optional>
 
+#include "pipeline/frame/collect_grids.h"
 #include "pipeline/frame/stopwatch.h"
 #include "shade/materials/grid_parts.h"
 
@@ -150,16 +150,12 @@ Grids make_grids(const RenderContext& context, const Region& region, const Tesse
     else
         make_many(context, region, tessellation, shading, progress, makers);
 
-    Grids grids;
     double dice = 0, shade = 0;
-    for (GridMaker& maker : makers) {
-        grids.grids.insert(grids.grids.end(), maker.grids.begin(), maker.grids.end());
-        grids.arenas.push_back(std::move(maker.arena));
+    for (const GridMaker& maker : makers) {
         stats.shade += maker.shade_stats;
         dice += maker.dice_seconds, shade += maker.shade_seconds;
     }
-    tbb::parallel_sort(grids.grids.begin(), grids.grids.end(),
-                       [](const Grid& a, const Grid& b) { return a.ordinal < b.ordinal; });
+    Grids grids = collect_grids(makers);
     stats.tessellate.grids += grids.grids.size();
     stats.tessellate.micropolygons += grids.micropolygon_count();
     const auto [dice_wall, shade_wall] = shared_out(wall.lap(), dice, shade);

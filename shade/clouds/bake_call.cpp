@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "shade/clouds/lane_triple.h"
-
 namespace trapeze {
 namespace {
 
@@ -117,7 +115,7 @@ bool BakeCall::runs(size_t lane) const {
 }
 
 V3f BakeCall::position(size_t lane) const {
-    V3f p = lane_triple(*P_, lane);
+    V3f p = vm::Run::triple_at(*P_, lane);
     if (to_space_) to_space_->multVecMatrix(V3f(p), p);
     return p;
 }
@@ -125,7 +123,7 @@ V3f BakeCall::position(size_t lane) const {
 /// The numbers of a vertex, of whose surface `area` is its own.
 void BakeCall::take_numbers(size_t lane, float area, Numbers& numbers) const {
     const V3f p = position(lane);
-    V3f n = lane_triple(*N_, lane);
+    V3f n = vm::Run::triple_at(*N_, lane);
     if (normals_to_space_) normals_to_space_->multDirMatrix(V3f(n), n);
     const float scale = radius_scale_ ? Run::at(*radius_scale_, 0, lane) : 1;
     const float radius = radius_ ? Run::at(*radius_, 0, lane) : std::sqrt(area / std::numbers::pi_v<float>);
@@ -136,7 +134,7 @@ void BakeCall::take_numbers(size_t lane, float area, Numbers& numbers) const {
             numbers.push_back(Run::at(*value.operand, 0, lane));
             continue;
         }
-        V3f v = lane_triple(*value.operand, lane);
+        V3f v = vm::Run::triple_at(*value.operand, lane);
         if (to_space_ && type == ChannelType::Point) to_space_->multVecMatrix(V3f(v), v);
         if (to_space_ && type == ChannelType::Vector) to_space_->multDirMatrix(V3f(v), v);
         if (to_space_ && type == ChannelType::Normal) normals_to_space_->multDirMatrix(V3f(v), v);

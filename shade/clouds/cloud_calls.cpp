@@ -16,7 +16,7 @@ using vm::Run;
 using vm::Step;
 
 void CloudCalls::look_up(Run& run, const Step& step, std::span<const Operand> operands) {
-    LookUpCall(run, step, operands, places_.library).run(shares_);
+    LookUpCall(run, step, operands, places_.clouds).run(shares_);
 }
 
 /// Gives 1 where points are baked, also at hits of rays, whose points nobody wants.

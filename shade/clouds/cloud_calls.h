@@ -13,7 +13,7 @@ namespace trapeze {
 
 /// Where calls look and bake; null: nowhere.
 struct CloudPlaces {
-    CloudLibrary* library = nullptr;
+    CloudLibrary* clouds = nullptr;
     CloudBakes* bakes = nullptr;  ///< null for what rays hit
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "shade/clouds/lane_triple.h"
 #include "shade/vm/context_ops.h"
 
 namespace trapeze {
@@ -124,7 +123,7 @@ void LookUpCall::run(std::vector<CloudShare>& shares) const {
     for (size_t lane = 0; lane < lanes; ++lane) {
         if (varies && !run_.masks().all() && !run_.masks().current()[lane]) continue;
         CloudPlace place;
-        place.position = lane_triple(*P_, lane), place.normal = lane_triple(*N_, lane);
+        place.position = vm::Run::triple_at(*P_, lane), place.normal = vm::Run::triple_at(*N_, lane);
         if (moved_) {
             to_space_.multVecMatrix(V3f(place.position), place.position);
             normals_to_space_.multDirMatrix(V3f(place.normal), place.normal);

@@ -22,8 +22,6 @@ class LaneMotion {
     V3f way(float time) const;
     /// Where the shaded point itself is at shutter open.
     V3f start() const { return place(0); }
-    /// Whether rays differ in time.
-    bool varies() const { return varies_; }
 
   private:
     V3f place(int key) const;

@@ -14,10 +14,6 @@ using rsl::Op;
 constexpr float kMostSamples = 65536;
 constexpr float kPi = std::numbers::pi_v<float>;
 
-V3f triple_at(const vm::Operand& operand, size_t lane) {
-    return {vm::Run::at(operand, 0, lane), vm::Run::at(operand, 1, lane), vm::Run::at(operand, 2, lane)};
-}
-
 bool is_text(const vm::Registers& registers, const vm::Step& step, size_t operand) {
     return operand < step.count &&
            registers.reg(registers.register_of(step, operand)).type.base == rsl::Base::String;
@@ -118,12 +114,12 @@ void RayArguments::take_text(std::string_view name, const std::string& text) {
 
 V3f RayArguments::from_at(size_t lane) const {
     if (!from_) return V3f(std::numeric_limits<float>::quiet_NaN());  // nowhere
-    return triple_at(*from_, lane);
+    return vm::Run::triple_at(*from_, lane);
 }
 V3f RayArguments::towards_at(size_t lane) const {
     if (from_light_)
         return -V3f(from_light_[lane], from_light_[lanes_ + lane], from_light_[2 * lanes_ + lane]);
-    return triple_at(*towards_, lane);
+    return vm::Run::triple_at(*towards_, lane);
 }
 
 int RayArguments::samples_at(size_t lane) const {

@@ -245,28 +245,34 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     const RayArguments& arguments = call.arguments;
     const size_t lane = asking.lane;
     const LaneMotion motion(asker_, asking);
-    RayAim aim = call.aim_at(lane, motion, 0);
-    if (!aim.leads()) return;
+    const float angle = call.angle_at(lane);
     WalkedRay ray;
     ray.segment.only = arguments.only();
-    const float angle = call.angle_at(lane);
+    RayAim aim = call.aim_at(lane, motion, 0);
+    if (!aim.leads()) return;
+    Cone cone(aim.direction, angle);
+    const auto look_along = [&] {
+        ray.segment.min = asker_.bias_at(aim.P, arguments.bias.at(lane));
+        ray.segment.max = arguments.max_distance_at(lane);
+        if (call.ends_at_point()) ray.segment.max = std::min(ray.segment.max, aim.length - ray.segment.min);
+        ray.segment.time = aim.time;
+    };
+    look_along();
     const int samples = call.samples_at(lane);
     const RaySequence sequence(asking.seed, samples);
     const SampleBase base(call.run);
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;
     for (int s = 0; s < samples; ++s) {
-        const float time = motion.time(s);
-        if (time != aim.time) aim = call.aim_at(lane, motion, time);
-        if (!aim.leads()) aim = call.aim_at(lane, motion, 0);
-        const Cone cone(aim.direction, angle);
-        ray.segment.min = asker_.bias_at(aim.P, arguments.bias.at(lane));
-        ray.segment.max = arguments.max_distance_at(lane);
-        if (call.ends_at_point()) ray.segment.max = std::min(ray.segment.max, aim.length - ray.segment.min);
+        if (const float time = motion.time(s); time != aim.time) {
+            aim = call.aim_at(lane, motion, time);
+            if (!aim.leads()) aim = call.aim_at(lane, motion, 0);
+            cone = Cone(aim.direction, angle);
+            look_along();
+        }
         ray.segment.direction = angle == 0  ? aim.direction
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
         ray.segment.origin = base.origin(aim.P, arguments, asking, s);
-        ray.segment.time = aim.time;
         ray.medium = asker_.medium(asking, ray.segment.direction);
         ray.seed = asking.of_ray(s);
         rays.push_back(ray);

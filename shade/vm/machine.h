@@ -83,6 +83,9 @@ class Run {
     static float at(const Operand& operand, int component, size_t lane) {
         return operand.data[static_cast<size_t>(component) * operand.stride + (lane & operand.lane_mask)];
     }
+    static V3f triple_at(const Operand& operand, size_t lane) {
+        return {at(operand, 0, lane), at(operand, 1, lane), at(operand, 2, lane)};
+    }
     void warn(const Step& step, std::string text, std::string kind);
     /// Counts a line of printf(); false when there have been so many that a loop must have gone wrong.
     bool may_print() { return ++printed_ <= kMostPrinted; }
