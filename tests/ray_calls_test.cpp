@@ -116,7 +116,7 @@ TEST(RayArguments, MaxdistEndsRays) {
     const std::string w = "vector w = vector(0, 0, -4); ";
     for (const auto& [most, hits] :
          {std::pair("1.9", "0"), {"2.1", "1"}, {"1e30", "1"}, {"1.9 + 0 * s", "0"}}) {
-        const auto told = [&](const std::string& value) {
+        const auto told = [&, most = most, hits = hits](const std::string& value) {
             SCOPED_TRACE(value + most);
             expect_told(c.render(w + "float most = " + most + ", hits = " + hits + ", k; k = " + value +
                                  "; Ci = told(k, hits, 1);"),
