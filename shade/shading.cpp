@@ -72,6 +72,11 @@ struct Shading::Impl {
     Materials materials;
     AovLayout aovs;
     VolumeTable volumes;
+    size_t batch_vertices() const {
+        constexpr size_t kFew = 256, kMany = 4096, kRaysOfVertex = 16;
+        return rays ? std::clamp(rays->rays_at_once() / kRaysOfVertex, kFew, kMany) : kFew;
+    }
+
     const RayScene* rays = nullptr;
     size_t known_endless = 0;  ///< endless shaders at the last found_endless_loops()
 };
@@ -116,7 +121,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
         const Material& material = materials.of(grids[first]->primitive_index);
         batch.clear();
         size_t vertices = 0, next = first;
-        const size_t most = known_endless ? 1 : kBatchVertices;
+        const size_t most = known_endless ? 1 : batch_vertices();
         for (; next < grids.size() && (batch.empty() || vertices < most); ++next) {
             ShadingGrid& grid = *grids[next];
             if (&materials.of(grid.primitive_index) != &material ||
@@ -168,6 +173,10 @@ std::vector<const LightInstance*> Shading::mesh_lights() const {
 
 void Shading::set_light_meshes(const LightMeshes& meshes) {
     make_mesh_samplers(impl_->materials, meshes, impl_->context.diagnostics);
+}
+
+size_t Shading::batch_vertices() const {
+    return impl_->batch_vertices();
 }
 
 void Shading::set_rays(const RayScene* rays) {

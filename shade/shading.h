@@ -41,8 +41,9 @@ class Shading {
     void shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats) const;
 
     /// Grids are added to a batch until it has so many vertices: enough that the interpreter's work for each
-    /// operation is small against the operation, few enough that the planes stay in the second cache.
-    static constexpr size_t kBatchVertices = 256;
+    /// operation is small against the operation, few enough that the planes stay in the second cache; more
+    /// where their rays had better be traced together (RayScene::rays_at_once).
+    size_t batch_vertices() const;
 
     /// Shades several grids: small ones that come one after the other and have the same attributes and
     /// uniform variables are shaded together, which gives each the same bits and costs less.

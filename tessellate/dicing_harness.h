@@ -60,7 +60,7 @@ struct TestScene {
                    const M44f& camera_from_object = translation(0, 0, 5)) {
         return add(std::vector{std::move(shape)}, std::vector{camera_from_object});
     }
-    Tessellation::IsDisplaced is_displaced;
+    TessellationOptions::IsDisplaced is_displaced;
 
     /// Nothing is culled: displacement could bring it into view.
     TestScene& keep_all() {
@@ -88,7 +88,9 @@ struct DicedScene {
 
     explicit DicedScene(TestScene& test, const Displace& displace = {}) {
         const RenderContext context = test.context();
-        const Tessellation tessellation(context, {}, std::numeric_limits<size_t>::max(), test.is_displaced);
+        TessellationOptions options;
+        options.is_displaced = test.is_displaced;
+        const Tessellation tessellation(context, options);
         stats = tessellation.stats();
         DiceScratch scratch;
         ShadingGrid grid;

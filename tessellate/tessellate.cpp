@@ -151,7 +151,7 @@ struct Tessellation::Impl {
     explicit Impl(const Camera& camera) : metric(camera) {}
 
     const ScreenMetric metric;
-    SharedGridBudget shared_grids;  ///< outlives the surfaces
+    std::shared_ptr<SharedGridBudget> shared_grids;  ///< outlives the surfaces
     std::vector<TessellatedPrimitive> primitives;
 };
 
@@ -202,9 +202,9 @@ size_t most_parts_of_face(const Options& options, const EdgeRate& rate) {
 
 /// Places, measures and splits one primitive. What cannot be diced is left out, with a diagnostic.
 void tessellate_primitive(const RenderContext& context, const Primitive& primitive,
-                          const ScreenMetric& metric, const RasterBound& raster, size_t most_bytes,
-                          SeenBy seen_by, TessellatedPrimitive& out) {
-    const bool by_rays = seen_by == SeenBy::Rays;
+                          const ScreenMetric& metric, const RasterBound& raster,
+                          const TessellationOptions& options, TessellatedPrimitive& out) {
+    const bool by_rays = options.seen_by == SeenBy::Rays;
     const bool is_seen =
         by_rays ? primitive.attributes->rays.seen() : primitive.attributes->visible_to_camera;
     if (!out.surface || !is_seen || context.is_cancelled()) return;
@@ -226,6 +226,7 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     rate.pixels_per_segment = std::sqrt(std::max(attributes.shading_rate, kLeastShadingRate) * blur);
     if (std::holds_alternative<Curves>(primitive.shape().topology))
         rate.pixels_per_segment = std::max(rate.pixels_per_segment, attributes.dice.min_length);
+    rate.pixels_per_segment = std::max(rate.pixels_per_segment, options.least_side);
     const size_t most_parts = most_parts_of_face(context.scene->options, rate);
     rate.max_intervals = static_cast<int>(std::min<size_t>(most_parts, rate.max_intervals));
     out.pixels_per_segment = rate.pixels_per_segment;
@@ -241,12 +242,12 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     split.rate = rate;
     split.displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
     split.most_parts_of_face = most_parts;
-    std::optional<Splits> splits = split_all(split, context, most_bytes);
+    std::optional<Splits> splits = split_all(split, context, options.most_bytes);
     if (!splits) {
         context.diagnostics->error(
             primitive.location,
             fmt::format("the grids into which it is split take more than {} MiB to list; left out",
-                        most_bytes >> 20));
+                        options.most_bytes >> 20));
         out.leave_out();
         return;
     }
@@ -261,18 +262,19 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
 
 /// Tessellates all primitives, or those before the first with which the bytes are too many: the same ones
 /// however many threads there are, because bytes are counted in the primitives' order.
-void tessellate_all(const RenderContext& context, const ScreenMetric& metric, size_t most_bytes,
-                    SeenBy seen_by, std::vector<TessellatedPrimitive>& primitives) {
+void tessellate_all(const RenderContext& context, const ScreenMetric& metric,
+                    const TessellationOptions& options, std::vector<TessellatedPrimitive>& primitives) {
     const Scene& scene = *context.scene;
     const PixelRect picture = sampled_pixels(context.camera, scene.options);
-    const RasterBound raster = seen_by == SeenBy::Rays ? RasterBound::of_everything(context.camera, picture)
-                                                       : RasterBound(context.camera, picture);
+    const RasterBound raster = options.seen_by == SeenBy::Rays
+                                   ? RasterBound::of_everything(context.camera, picture)
+                                   : RasterBound(context.camera, picture);
+    const size_t most_bytes = options.most_bytes;
     size_t bytes = 0;
     for (size_t first = 0; first < primitives.size(); first += kPrimitivesAtOnce) {
         const size_t end = std::min(first + kPrimitivesAtOnce, primitives.size());
         tbb::parallel_for(first, end, [&](size_t i) {
-            tessellate_primitive(context, scene.primitives[i], metric, raster, most_bytes, seen_by,
-                                 primitives[i]);
+            tessellate_primitive(context, scene.primitives[i], metric, raster, options, primitives[i]);
         });
         for (size_t i = first; i < end; ++i) {
             const size_t own = primitives[i].bytes();
@@ -293,18 +295,25 @@ void tessellate_all(const RenderContext& context, const ScreenMetric& metric, si
 
 }  // namespace
 
-Tessellation::Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights,
-                           size_t most_bytes, const IsDisplaced& is_displaced, SeenBy seen_by)
+Tessellation::Tessellation(const RenderContext& context, const TessellationOptions& options)
     : impl_(std::make_unique<Impl>(context.camera)) {
     const Scene& scene = *context.scene;
     std::vector<TessellatedPrimitive>& primitives = impl_->primitives;
     primitives.resize(scene.primitives.size());
     for (size_t i = 0; i < primitives.size(); ++i)
         primitives[i].displaced = scene.primitives[i].attributes->displacement != nullptr ||
-                                  (is_displaced && is_displaced(static_cast<uint32_t>(i)));
-    impl_->shared_grids.bytes_left = std::min(kSharedGridBytes, most_bytes / 8);
-    make_surfaces(context, depth_heights, impl_->shared_grids, primitives);
-    tessellate_all(context, impl_->metric, most_bytes, seen_by, primitives);
+                                  (options.is_displaced && options.is_displaced(static_cast<uint32_t>(i)));
+    if (options.surfaces_of) {
+        impl_->shared_grids = options.surfaces_of->impl_->shared_grids;
+        for (size_t i = 0; i < primitives.size(); ++i)
+            if (const TessellatedPrimitive& known = options.surfaces_of->impl_->primitives[i]; known.placed)
+                primitives[i].surface = known.surface;
+    } else {
+        impl_->shared_grids = std::make_shared<SharedGridBudget>();
+        impl_->shared_grids->bytes_left = std::min(kSharedGridBytes, options.most_bytes / 8);
+        make_surfaces(context, options.depth_heights, *impl_->shared_grids, primitives);
+    }
+    tessellate_all(context, impl_->metric, options, primitives);
 
     size_t count = 0;
     for (const TessellatedPrimitive& p : primitives) count += p.splits.subpatches.size();

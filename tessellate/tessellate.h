@@ -43,6 +43,26 @@ enum class DiceFor : uint8_t {
     Hits,  ///< where it is, and its primitive's colour and opacity: rays that shade nothing at its vertices
 };
 
+class Tessellation;
+
+/// How a scene is split.
+struct TessellationOptions {
+    /// Whether a primitive of the scene, by its index, is displaced though it has no displacement shader.
+    using IsDisplaced = std::function<bool(uint32_t)>;
+
+    /// Without it Blobbies that ask for depth maps are made as if there were none.
+    FindDepthHeight depth_heights;
+    /// For lists of subpatches, edges and vertices: of all primitives together, and of each.
+    size_t most_bytes = std::numeric_limits<size_t>::max();
+    IsDisplaced is_displaced;
+    SeenBy seen_by = SeenBy::Camera;
+    /// Sides of micropolygons wish to be so long at least, in pixels; the shading rate may say longer.
+    float least_side = 0;
+    /// Another one of the same scene, whose surfaces are taken over; what it left out is left out. Null:
+    /// they are made.
+    const Tessellation* surfaces_of = nullptr;
+};
+
 /// A thread's memory for dicing one Tessellation. Not for another one: surfaces leave their own scratch here.
 class DiceScratch {
   public:
@@ -59,17 +79,11 @@ class DiceScratch {
 /// outlives it.
 class Tessellation {
   public:
-    /// Whether a primitive of the scene, by its index, is displaced though it has no displacement shader.
-    using IsDisplaced = std::function<bool(uint32_t)>;
-
-    /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads. Without
-    /// `depth_heights` Blobbies that ask for depth maps are made as if there were none. A primitive that
-    /// alone takes more than `most_bytes` is left out. When several together take more, those from the first
-    /// one on with which it is too much are left out. Both are errors. Other bad primitives are left out one
-    /// by one, each with a diagnostic.
-    explicit Tessellation(const RenderContext& context, const FindDepthHeight& depth_heights = {},
-                          size_t most_bytes = std::numeric_limits<size_t>::max(),
-                          const IsDisplaced& is_displaced = {}, SeenBy seen_by = SeenBy::Camera);
+    /// Splits all primitives, in parallel; the order of subpatches does not depend on the threads. A
+    /// primitive that alone takes more than the most bytes is left out. When several together take more,
+    /// those from the first one on with which it is too much are left out. Both are errors. Other bad
+    /// primitives are left out one by one, each with a diagnostic.
+    explicit Tessellation(const RenderContext& context, const TessellationOptions& options = {});
     ~Tessellation();
 
     /// Subpatches that may be seen, in the order that defines Grid::ordinal: primitive by primitive, face by

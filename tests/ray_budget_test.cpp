@@ -1,4 +1,6 @@
 /// What rays meet is made again and again where memory is short: the picture stays the same, bit for bit.
+#include <tuple>
+
 #include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
@@ -42,14 +44,17 @@ constexpr const char* kAsk =
 constexpr const char* kWaves =
     "displacement waves() { P += .04 * sin(20 * s) * sin(20 * t) * normalize(N); N = calculatenormal(P); }";
 
-class RayBudget : public ::testing::TestWithParam<bool> {};
+/// Whether things move, and whether rays meet levels.
+class RayBudget : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
 
 TEST_P(RayBudget, ChangesNothingButTheTime) {
     WorkFolder folder;
     folder.write("ask.sl", kAsk);
     folder.write("waves.sl", kWaves);
-    folder.write("a.rib", "Shutter 0 1 Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
-                              "\"] " + scene(GetParam()));
+    const auto [moves, levels] = GetParam();
+    folder.write("a.rib", std::string(levels ? "Option \"trace\" \"int levels\" 2 " : "") +
+                              "Shutter 0 1 Option \"searchpath\" \"string shader\" [\"" +
+                              folder.path().string() + "\"] " + scene(moves));
     const std::string path = (folder / "a.rib").string();
     RenderSettings settings;
     const auto whole = render_scene(path, settings);
@@ -68,7 +73,8 @@ TEST_P(RayBudget, ChangesNothingButTheTime) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(MotionBlur, RayBudget, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(MotionAndLevels, RayBudget,
+                         ::testing::Combine(::testing::Bool(), ::testing::Bool()));
 
 }  // namespace
 }  // namespace trapeze::testing

@@ -12,10 +12,23 @@ ExtentTree::ExtentTree(std::span<const GridExtent> extents) {
             continue;
         }
         bounded.push_back(i);
-        absolute_max_ = std::max(absolute_max_, extents[i].absolute_max);
-        extent_ = std::max(extent_, extents[i].largest_micropolygon);
     }
     if (!bounded.empty()) nodes_ = build_wide_top(extents, bounded);
+    largest_.resize(nodes_.size());
+    for (size_t n = nodes_.size(); n-- > 0;)
+        for (int i = 0; i < nodes_[n].count; ++i) {
+            const uint32_t link = nodes_[n].child[i].link;
+            Largest& largest = largest_[n][static_cast<size_t>(i)];
+            if (link & kGridLink) {
+                const GridExtent& extent = extents[link & ~kGridLink];
+                largest = {extent.absolute_max, extent.largest_micropolygon};
+                continue;
+            }
+            for (const Largest& below : largest_[link]) {
+                largest.coordinate = std::max(largest.coordinate, below.coordinate);
+                largest.extent = std::max(largest.extent, below.extent);
+            }
+        }
 }
 
 GridExtent extent_of(const Grid& grid) {

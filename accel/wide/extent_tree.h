@@ -20,18 +20,18 @@ class ExtentTree {
     /// WideTree::kMaxGrids extents.
     explicit ExtentTree(std::span<const GridExtent> extents);
 
-    /// Calls see(number) for each thing within which there may be a hit in the ray's range; it may draw the
-    /// range in (t_max), and things behind it are left out from then on.
+    /// Calls see(number, depth) for each thing within which there may be a hit in the ray's range, and none
+    /// nearer than that depth; it may draw the range in (t_max), and things behind it are left out from then
+    /// on.
     template <class See>
     void visit(TraceRay& ray, const See& see) const {
-        for (const uint32_t number : unbounded_) see(number);
-        if (nodes_.empty()) return;
-        const float pad = ray.rounding(absolute_max_);
-        visit_node(0, {FrameRay(ray), pad, extent_ + pad}, ray, see);
+        for (const uint32_t number : unbounded_) see(number, ray.t_min);
+        if (!nodes_.empty()) visit_node(0, FrameRay(ray), ray, see);
     }
 
     size_t bytes() const {
-        return sizeof(*this) + nodes_.capacity() * sizeof(WideChildren) + unbounded_.capacity() * 4;
+        return sizeof(*this) + nodes_.capacity() * (sizeof(WideChildren) + sizeof(ChildrenLargest)) +
+               unbounded_.capacity() * 4;
     }
 
   private:
@@ -39,31 +39,35 @@ class ExtentTree {
         float depth;
         uint32_t link;
     };
-    /// What bounds are grown by for a ray, and how far outside of them hits may be.
-    struct Reach {
-        FrameRay ray;
-        float pad, slack;
+    /// Of all below a child: the largest |coordinate|, which says how much its bounds are grown for a ray,
+    /// and the largest extent of a micropolygon, which says how far outside of them hits may be. A sky far
+    /// away must not let a ray visit what is near.
+    struct Largest {
+        float coordinate = 0, extent = 0;
     };
+    using ChildrenLargest = std::array<Largest, WideNode::kChildren>;
 
     template <class See>
-    void visit_node(uint32_t number, const Reach& reach, TraceRay& ray, const See& see) const {
+    void visit_node(uint32_t number, const FrameRay& frame_ray, TraceRay& ray, const See& see) const {
         const WideChildren& node = nodes_[number];
         std::array<Met, WideNode::kChildren> met;
         int count = 0;
         for (int i = 0; i < node.count; ++i) {
             const EndBoxes& box = node.child[i].box;
+            const Largest& largest = largest_[number][static_cast<size_t>(i)];
+            const float pad = ray.rounding(largest.coordinate);
             float depth;
-            if (clip(reach.ray, key_box(box.at[0]), key_box(box.at[1]), ray.axis.time, reach.pad)
-                    .meets(ray, reach.slack, depth))
+            if (clip(frame_ray, key_box(box.at[0]), key_box(box.at[1]), ray.axis.time, pad)
+                    .meets(ray, largest.extent + pad, depth))
                 met[count++] = {depth, node.child[i].link};
         }
         std::sort(met.begin(), met.begin() + count,
                   [](const Met& a, const Met& b) { return a.depth < b.depth; });
         for (int i = 0; i < count && !(met[i].depth > ray.t_max); ++i) {
             if (met[i].link & kGridLink)
-                see(met[i].link & ~kGridLink);
+                see(met[i].link & ~kGridLink, met[i].depth);
             else
-                visit_node(met[i].link, reach, ray, see);
+                visit_node(met[i].link, frame_ray, ray, see);
         }
     }
 
@@ -73,9 +77,9 @@ class ExtentTree {
         return box;
     }
 
-    std::vector<WideChildren> nodes_;
+    std::vector<WideChildren> nodes_;  ///< a node comes before those below it
+    std::vector<ChildrenLargest> largest_;
     std::vector<uint32_t> unbounded_;
-    float absolute_max_ = 0, extent_ = 0;
 };
 
 /// The extent of a grid alone, for rays in any direction.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "core/math.h"
 #include "core/scene/ray_groups.h"
@@ -24,12 +25,20 @@ struct RayFilter {
     RaySubset subset;
 };
 
+/// How long sides of micropolygons are at least on a level of the geometry, in pixels; on level 0 they are as
+/// long as the picture's.
+inline float level_side(int level) {
+    return level == 0 ? 0.0f : static_cast<float>(1 << (2 * level));
+}
+
 /// A part of a ray, in camera space at shutter open: held there while the shutter is open, also where the
 /// camera moves.
 struct RaySegment {
     V3f origin, direction;                                        ///< of unit length
     float min = 0, max = std::numeric_limits<float>::infinity();  ///< distances from the origin that count
     float time = 0;                                               ///< 0 at shutter open, 1 at shutter close
+    float spread = 0;   ///< how much wider it grows on each unit of its way: what it stands for is a cone
+    uint8_t level = 0;  ///< of the geometry that it left; it meets none that is finer
     const RayFilter* only = nullptr;  ///< hits that count; null: all that the attributes let be seen
 };
 
@@ -39,6 +48,7 @@ struct RaySurfaceHit {
     uint32_t primitive = 0;                     ///< index in Scene::primitives
     const RayAttributes* attributes = nullptr;  ///< the primitive's
     bool from_outside = true;                   ///< else it comes from within the surface
+    uint8_t level = 0;                          ///< of the geometry that was met: level_side() or longer
     bool keeps_opacity = true;  ///< no shader has to be asked for the opacity that hides others
     V3f opacity{1, 1, 1};       ///< the primitive's own, Os
     V3f color{1, 1, 1};         ///< the primitive's own, Cs
@@ -57,11 +67,22 @@ class RayScene {
     virtual std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const = 0;
     /// Whether something opaque is in the way; nothing where that cannot be told without its opacity.
     virtual std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const = 0;
+    /// The same of many rays, hits[i] being that of rays[i]. Where geometry is made as rays come by it is
+    /// made for all of them at once.
+    virtual void closest(std::span<const RaySegment* const> rays, RayKind kind,
+                         std::span<std::optional<RaySurfaceHit>> hits) const = 0;
+    virtual void blocked(std::span<const RaySegment* const> rays, RayKind kind,
+                         std::span<std::optional<bool>> blocked) const = 0;
+    /// Whether RaySegment::spread counts.
+    virtual bool has_levels() const = 0;
+    /// How many rays a thread should ask for at once, at least: more than otherwise where that spares making
+    /// geometry again.
+    virtual size_t rays_at_once() const = 0;
     /// Makes a grid of one micropolygon with a vertex at the hit, of which the number is returned, on the
     /// limit surface; at all its keys where it moves. Its sides are those of the ray's geometry, so that
     /// derivatives and filter widths are those of what the ray has met.
     virtual int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const = 0;
-    /// About the length of a micropolygon's side at a point, camera space: rays know surfaces no better.
+    /// A pixel's side at a point, camera space: rays know surfaces no better.
     virtual float spacing(const V3f& P) const = 0;
 };
 

@@ -79,8 +79,9 @@ struct Options {
     float samples_x = 2, samples_y = 2;
     PixelFilter filter;
     float exposure_gain = 1, exposure_gamma = 1;
-    int max_ray_depth = 10;                        ///< Option "trace" "maxdepth": bounces of a ray
-    ParameterList quantize;                        ///< kept
+    int max_ray_depth = 10;  ///< Option "trace" "maxdepth": bounces of a ray
+    int ray_levels = 0;      ///< Option "trace" "levels" of geometry that rays meet; 0: as many as pay
+    ParameterList quantize;  ///< kept
     std::shared_ptr<const ShaderInstance> imager;  ///< null: none
     std::string hider = "hidden";
     ParameterList hider_parameters;

@@ -71,6 +71,7 @@ struct ShadingGrid {
     Triples I;
     int hit_vertex = -1;       ///< of what a ray has hit: the vertex there; only this one traces rays in turn
     float hit_time = 0;        ///< of what a ray has hit: when; its own rays go at that time, too
+    uint8_t hit_level = 0;     ///< of what a ray has hit: RaySurfaceHit::level
     RayMedium medium;          ///< of what a ray has hit: what it is seen through, if that has a shader
     bool own_colors = false;   ///< of what a ray has hit: stands for the primitive's own Cs and Os
     bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone

@@ -2,8 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include <limits>
-
 #include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/rays/light_meshes.h"
@@ -48,8 +46,10 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     FrameRecorder recorder(settings.on_progress, settings.on_stage);
     Shading shading(frame.context, *settings.access);
     const Tessellation tessellation = recorder.timed(&StageSeconds::tessellate, [&] {
-        return Tessellation(frame.context, shading.depth_heights(), std::numeric_limits<size_t>::max(),
-                            shading.displacing_surfaces());
+        TessellationOptions options;
+        options.depth_heights = shading.depth_heights();
+        options.is_displaced = shading.displacing_surfaces();
+        return Tessellation(frame.context, options);
     });
     recorder.bounded(tessellation.stats());
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();

@@ -47,7 +47,8 @@ size_t make_batch(const RenderContext& context, const Region& region, size_t fir
     Stopwatch watch;
     std::vector<ShadingGrid*> batch;
     size_t vertices = 0, next = first;
-    for (; next < end && vertices < Shading::kBatchVertices; ++next) {
+    const size_t most = shading.batch_vertices();
+    for (; next < end && vertices < most; ++next) {
         if (maker.shading_grids.size() <= batch.size()) maker.shading_grids.emplace_back();
         batch.push_back(&maker.shading_grids[batch.size()]);
         tessellation.dice(region.subpatches[next], *batch.back(), maker.dice_scratch);

@@ -189,7 +189,10 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
     const size_t budget = settings.memory_bytes ? settings.memory_bytes : default_memory_budget();
     shading.limit_clouds(std::max(budget / 4, kLeastCloudBytes));
     const Tessellation tessellation = recorder.timed(&StageSeconds::tessellate, [&] {
-        return Tessellation(context, shading.depth_heights(), budget, shading.displacing_surfaces());
+        TessellationOptions wanted;
+        wanted.depth_heights = shading.depth_heights(), wanted.most_bytes = budget;
+        wanted.is_displaced = shading.displacing_surfaces();
+        return Tessellation(context, wanted);
     });
     recorder.bounded(tessellation.stats());
     recorder.timed(&StageSeconds::rays, [&] { make_light_meshes(context, shading, budget); });

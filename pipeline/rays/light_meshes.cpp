@@ -103,7 +103,10 @@ LightMesh mesh_of(const RenderContext& of_frame, const LightInstance& light, con
     const LightScene parts(of_frame, light);
     LightMesh mesh;
     if (parts.scene.primitives.empty()) return mesh;
-    const Tessellation tessellation(parts.context, shading.depth_heights(), most_bytes, {}, SeenBy::Rays);
+    TessellationOptions options;
+    options.depth_heights = shading.depth_heights();
+    options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
+    const Tessellation tessellation(parts.context, options);
     DiceScratch scratch;
     ShadingGrid grid;
     for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {

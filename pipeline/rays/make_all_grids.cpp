@@ -3,12 +3,15 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 
 namespace trapeze {
 namespace {
 
 constexpr size_t kGrain = 16;  // subpatches
+/// Of memory that a thread takes at a time.
+constexpr size_t kMostChunk = size_t{1} << 20;
 
 SubpatchExtent known_of(size_t subpatch, const Grid& grid) {
     return {static_cast<uint32_t>(subpatch), static_cast<uint32_t>(grid.bytes()), extent_of(grid)};
@@ -27,7 +30,8 @@ AllRayGrids make_all_grids(const RayDicer& dicer, size_t most_bytes) {
     const size_t count = dicer.tessellation().subpatches().size();
     AllRayGrids all;
     all.grids.resize(count), all.extents.resize(count);
-    tbb::enumerable_thread_specific<GridArena> arenas;
+    tbb::enumerable_thread_specific<GridArena> arenas(
+        [&] { return GridArena(std::clamp(most_bytes / 32, size_t{1}, kMostChunk)); });
     std::atomic<size_t> bytes{0};
     std::atomic<bool> too_much{false};
     for_each(count, dicer.context(), [&](size_t i) {

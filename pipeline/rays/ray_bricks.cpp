@@ -3,8 +3,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <tuple>
 
-#include "accel/builders/morton_order.h"
 #include "accel/hit_policies.h"
 #include "pipeline/rays/whole_ray_grids.h"
 
@@ -14,23 +14,6 @@ namespace {
 /// A brick ends at so many bytes of grids, and sooner where the budget holds few such bricks, but hardly at
 /// less than what a brick itself takes.
 constexpr size_t kMostBytes = size_t{1} << 18, kFewBytes = size_t{1} << 14, kBricksInBudget = 64;
-
-/// Along a curve through space, so that neighbours are near each other.
-std::vector<uint32_t> in_space_order(const std::vector<SubpatchExtent>& subpatches) {
-    std::vector<SahItem> items(subpatches.size());
-    for (uint32_t i = 0; i < items.size(); ++i) {
-        const GridExtent& extent = subpatches[i].extent;
-        items[i].id = i;
-        if (!std::isfinite(extent.absolute_max)) continue;
-        for (int k = 0; k < 3; ++k)
-            items[i].box.min[k] = extent.box.at[0].low[k], items[i].box.max[k] = extent.box.at[0].high[k];
-    }
-    sort_by_orientation(items, [](uint32_t) { return V3f(0, 0, 1); });
-    std::vector<uint32_t> order;
-    order.reserve(items.size());
-    for (const SahItem& item : items) order.push_back(item.id);
-    return order;
-}
 
 }  // namespace
 
@@ -47,39 +30,16 @@ struct RayBricks::Slot {
     std::atomic<bool> used{false};  ///< since the hand came by
 };
 
-RayBricks::RayBricks(const RayDicer& dicer, std::vector<SubpatchExtent> subpatches, size_t most_bytes)
+RayBricks::RayBricks(const RayDicer& dicer, const std::vector<SubpatchExtent>& subpatches, size_t most_bytes)
     : dicer_(dicer), most_bytes_(most_bytes) {
-    std::vector<GridExtent> extents;
-    divide(subpatches, extents);
-    tree_ = std::make_unique<ExtentTree>(extents);
-    slots_ = std::vector<Slot>(extents.size());
+    BrickDivision division =
+        divide_into_bricks(subpatches, std::clamp(most_bytes / kBricksInBudget, kFewBytes, kMostBytes));
+    subpatches_ = std::move(division.subpatches), first_ = std::move(division.first);
+    tree_ = std::make_unique<ExtentTree>(division.extents);
+    slots_ = std::vector<Slot>(division.extents.size());
 }
 
 RayBricks::~RayBricks() = default;
-
-/// Cuts the subpatches, in the order of space, into bricks.
-void RayBricks::divide(std::vector<SubpatchExtent>& subpatches, std::vector<GridExtent>& extents) {
-    const size_t most = std::clamp(most_bytes_ / kBricksInBudget, kFewBytes, kMostBytes);
-    size_t bytes = 0;
-    for (const uint32_t i : in_space_order(subpatches)) {
-        const SubpatchExtent& next = subpatches[i];
-        const bool begins =
-            first_.empty() || bytes + next.bytes > most ||
-            std::isfinite(extents.back().absolute_max) != std::isfinite(next.extent.absolute_max);
-        if (begins) {
-            first_.push_back(static_cast<uint32_t>(subpatches_.size()));
-            extents.push_back(next.extent);
-            bytes = 0;
-        } else {
-            extents.back() = united(extents.back(), next.extent);
-        }
-        subpatches_.push_back(next.subpatch);
-        bytes += next.bytes;
-    }
-    first_.push_back(static_cast<uint32_t>(subpatches_.size()));
-    for (size_t b = 0; b + 1 < first_.size(); ++b)
-        std::sort(subpatches_.begin() + first_[b], subpatches_.begin() + first_[b + 1]);
-}
 
 std::shared_ptr<const RayBricks::Brick> RayBricks::brick(uint32_t number) const {
     Slot& slot = slots_[number];
@@ -123,17 +83,26 @@ void RayBricks::make_room() const {
     }
 }
 
+/// Meets a brick's grids: their nearest hit, if it is nearer than the one before.
+bool RayBricks::meet(const Brick& brick, const RangedRay& ranged, Hit& nearest, const Grid*& grid) {
+    const float max = std::min(ranged.range.max, nearest.depth);
+    const std::optional<Hit> hit = brick.tree->closest(ranged.ray, {ranged.range.min, max});
+    if (!hit) return false;
+    const Hit global = with_ordinal(*hit, brick.grids);
+    if (!in_front(global, nearest)) return false;
+    nearest = global;
+    grid = &brick.grids.grids[MicropolygonId::unpack(hit->id).grid];
+    return true;
+}
+
 std::optional<RayGridHit> RayBricks::closest(const SpaceRay& ray, DepthRange range) const {
     TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
     RayGridHit nearest{kNoHit, nullptr, nullptr};
-    tree_->visit(trace_ray, [&](uint32_t number) {
+    tree_->visit(trace_ray, [&](uint32_t number, float) {
         const std::shared_ptr<const Brick> met = brick(number);
-        const std::optional<Hit> hit = met->tree->closest(ray, {range.min, trace_ray.t_max});
-        if (!hit) return;
-        const Hit global = with_ordinal(*hit, met->grids);
-        if (!in_front(global, nearest.hit)) return;
-        nearest = {global, &met->grids.grids[MicropolygonId::unpack(hit->id).grid], met};
-        trace_ray.t_max = global.depth;
+        if (!meet(*met, {ray, range}, nearest.hit, nearest.grid)) return;
+        nearest.keeps = met;
+        trace_ray.t_max = nearest.hit.depth;
     });
     if (!nearest.grid) return {};
     return nearest;
@@ -142,12 +111,66 @@ std::optional<RayGridHit> RayBricks::closest(const SpaceRay& ray, DepthRange ran
 InTheWay RayBricks::in_the_way(const SpaceRay& ray, DepthRange range) const {
     TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
     InTheWay most = InTheWay::Nothing;
-    tree_->visit(trace_ray, [&](uint32_t number) {
+    tree_->visit(trace_ray, [&](uint32_t number, float) {
         if (most == InTheWay::Opaque) return;
         most = std::max(most, brick(number)->tree->in_the_way(ray, range));
         if (most == InTheWay::Opaque) trace_ray.t_max = -std::numeric_limits<float>::infinity();
     });
     return most;
+}
+
+/// All meetings of rays and bricks' bounds, brick by brick; bricks that are there come first, which may spare
+/// others.
+std::vector<RayBricks::Meeting> RayBricks::meetings(std::span<const RangedRay> rays) const {
+    std::vector<Meeting> meetings;
+    for (uint32_t r = 0; r < rays.size(); ++r) {
+        TraceRay ray = TraceRay::turned(axis_ray(rays[r].ray), rays[r].range);
+        tree_->visit(ray, [&](uint32_t number, float depth) { meetings.push_back({number, r, depth}); });
+    }
+    std::vector<bool> is_there(slots_.size());
+    for (size_t i = 0; i < slots_.size(); ++i) {
+        const std::lock_guard hold(slots_[i].lock);
+        is_there[i] = slots_[i].brick != nullptr;
+    }
+    std::ranges::sort(meetings, {}, [&](const Meeting& meeting) {
+        return std::tuple(!is_there[meeting.brick], meeting.brick, meeting.ray);
+    });
+    return meetings;
+}
+
+/// Calls meet(brick, ray) where wants(meeting) says so; a brick is only made where some ray wants it.
+template <class Wants, class Meet>
+void RayBricks::for_each_meeting(std::span<const RangedRay> rays, const Wants& wants,
+                                 const Meet& meet) const {
+    std::shared_ptr<const Brick> held;
+    uint32_t held_number = 0;
+    for (const Meeting& meeting : meetings(rays)) {
+        if (!wants(meeting)) continue;
+        if (!held || held_number != meeting.brick) {
+            held.reset();
+            held = brick(meeting.brick), held_number = meeting.brick;
+        }
+        meet(*held, meeting.ray);
+    }
+}
+
+void RayBricks::closest(std::span<const RangedRay> rays, const TakeHit& take) const {
+    std::vector<Hit> nearest(rays.size(), kNoHit);
+    for_each_meeting(
+        rays, [&](const Meeting& meeting) { return meeting.depth <= nearest[meeting.ray].depth; },
+        [&](const Brick& brick, uint32_t ray) {
+            const Grid* grid = nullptr;
+            if (meet(brick, rays[ray], nearest[ray], grid)) take(ray, {nearest[ray], grid, nullptr});
+        });
+}
+
+void RayBricks::in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const {
+    std::ranges::fill(met, InTheWay::Nothing);
+    for_each_meeting(
+        rays, [&](const Meeting& meeting) { return met[meeting.ray] != InTheWay::Opaque; },
+        [&](const Brick& brick, uint32_t ray) {
+            met[ray] = std::max(met[ray], brick.tree->in_the_way(rays[ray].ray, rays[ray].range));
+        });
 }
 
 size_t RayBricks::bytes() const {

@@ -3,33 +3,41 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "accel/wide/extent_tree.h"
 #include "accel/wide/wide_tree.h"
+#include "pipeline/rays/brick_division.h"
 #include "pipeline/rays/ray_dicer.h"
 #include "pipeline/rays/ray_grids.h"
 
 namespace trapeze {
 
-/// What is known of a subpatch before its brick is made.
-struct SubpatchExtent {
-    uint32_t subpatch;
-    uint32_t bytes;  ///< of its grid
-    GridExtent extent;
+/// A ray of many, and the depths that count.
+struct RangedRay {
+    SpaceRay ray;
+    DepthRange range;
 };
+/// Takes a ray's hit, by the ray's index; each one that it gets is in front of those before. The grid is
+/// there during the call.
+using TakeHit = std::function<void(size_t, const RayGridHit&)>;
 
 class RayBricks final : public RayGrids {
   public:
     /// `subpatches` are all that these rays may meet, at least one, in any order. Bricks that are kept take
     /// `most_bytes`; those in use may be more. The dicer outlives this.
-    RayBricks(const RayDicer& dicer, std::vector<SubpatchExtent> subpatches, size_t most_bytes);
+    RayBricks(const RayDicer& dicer, const std::vector<SubpatchExtent>& subpatches, size_t most_bytes);
     ~RayBricks() override;
 
     std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const override;
     InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const override;
+    /// As those of one ray, for many: each brick is made once for all that want it.
+    void closest(std::span<const RangedRay> rays, const TakeHit& take) const;
+    void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const;
     size_t bytes() const override;
     /// Micropolygons made so far, those that were made again, too.
     uint64_t micropolygons_made() const { return made_.load(std::memory_order_relaxed); }
@@ -40,7 +48,16 @@ class RayBricks final : public RayGrids {
     /// A brick's place: there or not.
     struct Slot;
 
-    void divide(std::vector<SubpatchExtent>& subpatches, std::vector<GridExtent>& extents);
+    /// A ray that comes to a brick's bounds at a depth.
+    struct Meeting {
+        uint32_t brick, ray;
+        float depth;
+    };
+
+    static bool meet(const Brick& brick, const RangedRay& ranged, Hit& nearest, const Grid*& grid);
+    std::vector<Meeting> meetings(std::span<const RangedRay> rays) const;
+    template <class Wants, class Meet>
+    void for_each_meeting(std::span<const RangedRay> rays, const Wants& wants, const Meet& meet) const;
     std::shared_ptr<const Brick> brick(uint32_t number) const;
     std::shared_ptr<const Brick> make(uint32_t number) const;
     void make_room() const;

@@ -23,6 +23,18 @@ RenderContext of_rays(const RenderContext& context, const Scene* held) {
     return own;
 }
 
+TessellationOptions how_to_split(const Shading& shading, size_t most_bytes) {
+    TessellationOptions options;
+    options.depth_heights = shading.depth_heights(), options.is_displaced = shading.displacing_surfaces();
+    options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
+    return options;
+}
+
+TessellationOptions coarser(TessellationOptions options, float least_side, const Tessellation& surfaces_of) {
+    options.least_side = least_side, options.surfaces_of = &surfaces_of;
+    return options;
+}
+
 }  // namespace
 
 /// What threads need to make grids.
@@ -40,12 +52,19 @@ RayDicer::RayDicer(const RenderContext& context, const Shading& shading, size_t 
     : held_(samples_motion(context) ? held_scene(*context.scene) : nullptr),
       context_(of_rays(context, held_.get())),
       shading_(shading),
-      tessellation_(context_, shading.depth_heights(), most_bytes, shading.displacing_surfaces(),
-                    SeenBy::Rays),
+      tessellation_(context_, how_to_split(shading, most_bytes)),
       scratches_(std::make_unique<Scratches>()) {
     for (uint32_t i = 0; i < context_.scene->primitives.size(); ++i)
         keeps_opacity_.push_back(shading.keeps_opacity(i));
 }
+
+RayDicer::RayDicer(const RayDicer& finest, float least_side, size_t most_bytes)
+    : held_(finest.held_),
+      context_(finest.context_),
+      shading_(finest.shading_),
+      tessellation_(context_, coarser(how_to_split(shading_, most_bytes), least_side, finest.tessellation_)),
+      keeps_opacity_(finest.keeps_opacity_),
+      scratches_(std::make_unique<Scratches>()) {}
 
 RayDicer::~RayDicer() = default;
 

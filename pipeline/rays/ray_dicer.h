@@ -20,6 +20,8 @@ class RayDicer {
     /// the motion of the camera; else it is as at shutter open. Primitives that take more than `most_bytes`
     /// to list are left out, with an error. The context's scene and `shading` outlive this.
     RayDicer(const RenderContext& context, const Shading& shading, size_t most_bytes);
+    /// Of the same scene, with sides of so many pixels at least.
+    RayDicer(const RayDicer& finest, float least_side, size_t most_bytes);
     ~RayDicer();
 
     const RenderContext& context() const { return context_; }
@@ -36,7 +38,7 @@ class RayDicer {
     int make_point(const SubpatchPoint& point, ShadingGrid& grid) const;
 
   private:
-    std::unique_ptr<const Scene> held_;  ///< null: the camera does not move
+    std::shared_ptr<const Scene> held_;  ///< null: the camera does not move
     RenderContext context_;              ///< of held_, if there is one
     const Shading& shading_;
     Tessellation tessellation_;

@@ -10,9 +10,8 @@
 
 #include "core/scene/ray_scene.h"
 #include "core/scene/render_context.h"
-#include "pipeline/rays/ray_bricks.h"
-#include "pipeline/rays/ray_dicer.h"
-#include "pipeline/rays/ray_grids.h"
+#include "pipeline/rays/level_spans.h"
+#include "pipeline/rays/ray_level.h"
 #include "pipeline/rays/solid_hits.h"
 
 namespace trapeze {
@@ -28,38 +27,43 @@ class RayWorld final : public RayScene {
     bool has(RayKind kind) const override;
     std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const override;
     std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const override;
+    void closest(std::span<const RaySegment* const> rays, RayKind kind,
+                 std::span<std::optional<RaySurfaceHit>> hits) const override;
+    void blocked(std::span<const RaySegment* const> rays, RayKind kind,
+                 std::span<std::optional<bool>> blocked) const override;
+    bool has_levels() const override { return !rule_.is_simple(); }
+    size_t rays_at_once() const override;
     int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const override;
     float spacing(const V3f& P) const override;
 
     /// Memory of grids and trees that is held now.
     size_t bytes() const;
     /// Memory of the lists of subpatches.
-    size_t list_bytes() const { return dicer_.tessellation().bytes(); }
+    size_t list_bytes() const;
     /// Of all that rays may meet, and those made so far, which may be fewer or more.
-    uint64_t micropolygon_count() const { return micropolygons_; }
+    uint64_t micropolygon_count() const;
     uint64_t micropolygons_made() const;
 
   private:
-    /// Primitives that the same kinds of rays see.
-    struct Group {
-        std::unique_ptr<RayGrids> grids;    ///< null: none
-        const RayBricks* bricks = nullptr;  ///< `grids`, where they are made as rays come by
-    };
-    /// A bit for each RayKind.
-    static constexpr unsigned kMasks = 8;
-
-    void make_groups(size_t most_bytes);
+    const RenderContext& context() const { return levels_[0]->dicer().context(); }
+    std::vector<int> make_levels(size_t most_bytes);
     std::optional<RaySurfaceHit> closest_of_all(const RaySegment& ray, RayKind kind) const;
-    std::optional<RaySurfaceHit> closest_in(const RayGrids& grids, const RaySegment& ray) const;
-    RaySurfaceHit hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const;
-    bool from_outside(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
-    bool shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
+    template <class Ends, class Ask>
+    void for_each_level(std::span<const RaySegment* const> rays, const Ends& ends, const Ask& ask) const;
+    template <class Of>
+    auto sum_of(const Of& of) const {
+        decltype(of(*levels_[0])) sum = 0;
+        for (const std::unique_ptr<RayLevel>& level : levels_)
+            if (level) sum += of(*level);
+        return sum;
+    }
 
-    RayDicer dicer_;
+    std::array<std::unique_ptr<RayLevel>, kMostRayLevels>
+        levels_;  ///< null: not worth while; never the finest
+    LevelRule rule_;
+    bool makes_bricks_ = false;
+    size_t rays_at_once_ = 0;          ///< where bricks are made
     std::optional<SolidHits> solids_;  ///< of a scene that has solids
-    std::vector<GridArena> arenas_;    ///< of grids that are in memory as a whole
-    std::array<Group, kMasks> groups_;
-    uint64_t micropolygons_ = 0;
 };
 
 /// The ray world of a render whose shaders ask for rays; else null. Tells when they ask and nothing is there

@@ -52,6 +52,7 @@ constexpr UsualValue kUsual[] = {
     {"trace", "bias", ValueType::Float},
     {"trace", "displacements", ValueType::Integer},
     {"trace", "maxdepth", ValueType::Integer},
+    {"trace", "levels", ValueType::Integer},
     {"trace", "maxdiffusedepth", ValueType::Integer},
     {"trace", "maxspeculardepth", ValueType::Integer},
     {"trace", "samplemotion", ValueType::Integer},

@@ -19,9 +19,6 @@ using vm::Operand;
 using vm::Run;
 using vm::Step;
 
-/// Rays that are in memory at once, about.
-constexpr size_t kRaysAtOnce = 4096;
-
 /// The category that asks for directions alone.
 constexpr std::string_view kSamplePattern = "samplepattern";
 
@@ -119,7 +116,8 @@ bool GatherCall::next(Run&, const uint32_t* live) {
 void GatherCall::send(const uint32_t* live) {
     size_t count = 0;
     for (const RayLane& lane : lanes_) count += live[lane.lane] ? 1 : 0;
-    const int turns = static_cast<int>(std::max<size_t>(kRaysAtOnce / std::max<size_t>(count, 1), 1));
+    const int turns = static_cast<int>(
+        std::max<size_t>(rays_at_once(*asker_.service().scene) / std::max<size_t>(count, 1), 1));
     first_sent_ = turn_, sent_ = std::min(turn_ + turns, most_);
     rays_.clear();
     for (size_t i = 0; i < lanes_.size(); ++i) {
@@ -143,10 +141,13 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
     const LaneMotion motion(asker_, asking);
     WalkedRay ray;
     ray.segment.only = arguments_.only();
+    ray.segment.level = asking.level();
+    ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
         const V3f P = aim.P + motion.way(ray.segment.time);
-        ray.segment.min = aim.leads() ? asker_.bias_at(P, arguments_.bias.at(lane)) : kInfinity;
+        ray.segment.min =
+            aim.leads() ? asker_.bias_at(P, asking.level(), arguments_.bias.at(lane)) : kInfinity;
         ray.segment.max = aim.leads() ? arguments_.max_distance_at(lane) : 0;
         ray.segment.direction = angle == 0                        ? axis
                                 : arguments_.uniform_distribution ? cone.uniform(sequence[s])

@@ -20,12 +20,12 @@ uint64_t RayLane::of_ray(int sample) const {
     return uint64_t{hash(seed, number, 3)} << 32 | hash(seed, number, 4);
 }
 
-float RayAsker::bias_at(const V3f& P, float asked) const {
+float RayAsker::bias_at(const V3f& P, int level, float asked) const {
     if (asked >= 0) return asked;
     if (attributes_.rays.bias > 0) return attributes_.rays.bias;
     const bool displaced = attributes_.displacement || attributes_.displacement_bound > 0;
-    return service_.scene->spacing(P) * std::sqrt(std::max(attributes_.shading_rate, 1.0f)) *
-           (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
+    const float side = std::max(std::sqrt(std::max(attributes_.shading_rate, 1.0f)), level_side(level));
+    return service_.scene->spacing(P) * side * (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
 }
 
 RayMedium RayAsker::medium(const RayLane& lane, const V3f& direction) const {

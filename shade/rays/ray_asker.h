@@ -35,6 +35,8 @@ struct RayLane {
     const ShadingGrid* grid = nullptr;  ///< whose vertex it is, if any is known
     size_t first_of_grid = 0;
 
+    /// Of the geometry that it lies on.
+    uint8_t level() const { return grid ? grid->hit_level : uint8_t{0}; }
     /// The seed of what one of its rays hits.
     uint64_t of_ray(int sample) const;
 };
@@ -47,8 +49,8 @@ class RayAsker {
         : service_(service), attributes_(attributes) {}
 
     const RayService& service() const { return service_; }
-    /// How far from P rays begin; `asked` below 0: the call does not say.
-    float bias_at(const V3f& P, float asked) const;
+    /// How far from P, which lies on a level of geometry, rays begin; `asked` below 0: the call does not say.
+    float bias_at(const V3f& P, int level, float asked) const;
     /// Whether rays meet the scene at times of their own.
     bool samples_motion() const { return attributes_.rays.sample_motion; }
     /// The depths of what rays of a kind hit.

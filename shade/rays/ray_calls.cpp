@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "shade/rays/gather_call.h"
 #include "shade/rays/lane_motion.h"
+#include "shade/rays/lane_spread.h"
 #include "shade/rays/ray_aim.h"
 #include "shade/rays/ray_directions.h"
 #include "shade/rays/sample_base.h"
@@ -23,8 +24,6 @@ using vm::Operand;
 using vm::Run;
 using vm::Step;
 
-/// Rays that are in memory at once, about.
-constexpr size_t kRaysAtOnce = 4096;
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
 bool is_finite(const V3f& v) {
@@ -183,9 +182,10 @@ void RayCalls::trace(Run& run, const Step& step, std::span<const Operand> operan
     if (!run.context().batch) return put(out, {}, nothing);
     const std::vector<RayLane> lanes = lanes_of(run, step, !out.lane_mask);
     if (step.op == Op::IndirectDiffuse && !arguments.map().empty()) return look_at_sky(call, out, lanes);
+    const size_t most = rays_at_once(*asker_.service().scene);
     for (size_t first = 0; first < lanes.size();) {
         size_t end = first, count = 0;
-        for (; end < lanes.size() && count < kRaysAtOnce; ++end)
+        for (; end < lanes.size() && count < most; ++end)
             count += static_cast<size_t>(call.samples_at(lanes[end].lane));
         const LaneRays sent = rays_of(call, std::span(lanes).subspan(first, end - first));
         for (size_t i = first, ray = 0; i < end; ++i) {
@@ -225,10 +225,8 @@ RayCalls::LaneRays RayCalls::rays_of(const Call& call, std::span<const RayLane> 
     sent.followed = follow(call, sent.rays);
     const RayArguments& arguments = call.arguments;
     if (!sent.followed || arguments.environment_map.empty() || lanes.empty()) return sent;
-    // Each ray stands for its share of the cone.
     const size_t lane = lanes.front().lane;
-    const float sphere_part = kTurn * (1 - portable::cos(call.angle_at(lane)));
-    const float width = std::sqrt(sphere_part / static_cast<float>(call.samples_at(lane)));
+    const float width = spread_of(call.angle_at(lane), call.samples_at(lane));
     std::vector<V3f> directions;
     for (const WalkedRay& ray : sent.rays) directions.push_back(ray.segment.direction);
     sent.sky = sky_in(call.run, call.step, arguments.environment_map, arguments.environment_space,
@@ -240,6 +238,17 @@ RayCalls::LaneRays RayCalls::rays_of(const Call& call, std::span<const RayLane> 
     return sent;
 }
 
+/// How far a lane's rays go apart from those of its neighbours. Those that end at a point come together
+/// there.
+float RayCalls::spread_beside_of(const Call& call, const RayLane& asking, const RayAim& aim,
+                                 const LaneMotion& motion) const {
+    if (!asker_.service().scene->has_levels() || call.over_sky() || call.ends_at_point()) return 0;
+    const uint32_t* const mask = call.run.masks().all() ? nullptr : call.run.masks().current();
+    return spread_beside(asking, aim.direction, [&](size_t lane) {
+        return mask && !mask[lane] ? V3f(0, 0, 0) : call.aim_at(lane, motion, aim.time).direction;
+    });
+}
+
 /// A lane's rays; none where it does not know where to.
 void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<WalkedRay>& rays) const {
     const RayArguments& arguments = call.arguments;
@@ -248,17 +257,19 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     const float angle = call.angle_at(lane);
     WalkedRay ray;
     ray.segment.only = arguments.only();
+    ray.segment.level = asking.level();
     RayAim aim = call.aim_at(lane, motion, 0);
     if (!aim.leads()) return;
     Cone cone(aim.direction, angle);
     const auto look_along = [&] {
-        ray.segment.min = asker_.bias_at(aim.P, arguments.bias.at(lane));
+        ray.segment.min = asker_.bias_at(aim.P, asking.level(), arguments.bias.at(lane));
         ray.segment.max = arguments.max_distance_at(lane);
         if (call.ends_at_point()) ray.segment.max = std::min(ray.segment.max, aim.length - ray.segment.min);
         ray.segment.time = aim.time;
     };
     look_along();
     const int samples = call.samples_at(lane);
+    ray.segment.spread = std::max(spread_of(angle, samples), spread_beside_of(call, asking, aim, motion));
     const RaySequence sequence(asking.seed, samples);
     const SampleBase base(call.run);
     const bool by_cosine = call.over_sky() && !arguments.uniform_distribution;

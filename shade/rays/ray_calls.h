@@ -11,6 +11,9 @@
 
 namespace trapeze {
 
+class LaneMotion;
+struct RayAim;
+
 /// Carries out the calls of one grid's shaders, in one thread.
 class RayCalls : public vm::Rays {
   public:
@@ -35,6 +38,8 @@ class RayCalls : public vm::Rays {
     std::vector<RayLane> lanes_of(vm::Run& run, const vm::Step& step, bool uniform);
     LaneRays rays_of(const Call& call, std::span<const RayLane> lanes) const;
     void add_rays(const Call& call, const RayLane& lane, std::vector<WalkedRay>& rays) const;
+    float spread_beside_of(const Call& call, const RayLane& asking, const RayAim& aim,
+                           const LaneMotion& motion) const;
     bool follow(const Call& call, std::span<WalkedRay> rays) const;
     void look_at_sky(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes) const;
 

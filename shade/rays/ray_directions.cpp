@@ -30,4 +30,9 @@ V3f Cone::by_cosine(const V2f& square) const {
     return around(std::sqrt(sine2), std::sqrt(std::max(0.0f, 1 - sine2)), square.y);
 }
 
+float spread_of(float angle, int samples) {
+    constexpr float kTurn = 6.28318530718f;
+    return std::sqrt(kTurn * (1 - portable::cos(angle)) / static_cast<float>(samples));
+}
+
 }  // namespace trapeze

@@ -25,4 +25,8 @@ class Cone {
     float least_cosine_;
 };
 
+/// How much wider each of so many rays that fill a cone grows on each unit of its way (RaySegment::spread):
+/// by its share of the solid angle.
+float spread_of(float angle, int samples);
+
 }  // namespace trapeze

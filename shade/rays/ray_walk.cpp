@@ -8,8 +8,10 @@
 namespace trapeze {
 namespace {
 
-/// Rays that go on together, and the most surfaces that one looks through.
-constexpr size_t kTogether = 256;
+/// Hits that are shaded together; rays in memory at once, about; and the most surfaces that one looks
+/// through.
+constexpr size_t kShadedTogether = 256;
+constexpr size_t kRaysAtOnce = 4096;
 constexpr int kMostLayers = 64;
 /// Less light than this is none: half of the smallest step of eight bits.
 constexpr float kNothing = 1.0f / 512;
@@ -50,6 +52,13 @@ void move_to_hit(const RaySegment& ray, const RaySurfaceHit& hit, int vertex, Sh
     if (grid.P.size() == 1) grid.P.front().set(at, ray.origin + ray.direction * hit.distance);
 }
 
+std::vector<const RaySegment*> segments_of(std::span<const WalkedRay> rays) {
+    std::vector<const RaySegment*> segments;
+    segments.reserve(rays.size());
+    for (const WalkedRay& ray : rays) segments.push_back(&ray.segment);
+    return segments;
+}
+
 /// What the attributes of a hit say that it stands for.
 RayAsk::HitMode mode_of(const RayAttributes& attributes, RayKind kind, bool opacity_alone) {
     using HitMode = RayAsk::HitMode;
@@ -60,52 +69,62 @@ RayAsk::HitMode mode_of(const RayAttributes& attributes, RayKind kind, bool opac
 
 }  // namespace
 
+size_t rays_at_once(const RayScene& scene) {
+    return std::max(scene.rays_at_once(), kRaysAtOnce);
+}
+
 void RayWalk::radiance(std::span<WalkedRay> rays, const RayAsk& ask) {
-    std::vector<WalkedRay*> together;
-    for (size_t i = 0; i < rays.size(); i += kTogether) {
-        together.clear();
-        for (WalkedRay& ray : rays.subspan(i, std::min(kTogether, rays.size() - i))) together.push_back(&ray);
-        walk(together, ask, Wants::Color);
-    }
+    std::vector<WalkedRay*> all;
+    for (WalkedRay& ray : rays) all.push_back(&ray);
+    walk(all, ask, Wants::Color);
     count_of(ask.kind, stats_) += rays.size();
 }
 
 void RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance) {
     std::vector<WalkedRay*> open;  // it is not known at once whether they are blocked
     const bool walks = with_distance || ask.hit_mode;
-    for (WalkedRay& ray : rays) {
-        const std::optional<bool> blocked = walks ? std::nullopt : scene_.blocked(ray.segment, ask.kind);
-        if (!blocked) open.push_back(&ray);
-        if (blocked.value_or(false)) ray.through = V3f(0, 0, 0);
+    std::vector<std::optional<bool>> blocked(rays.size());
+    if (!walks) scene_.blocked(segments_of(rays), ask.kind, blocked);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        if (!blocked[i]) open.push_back(&rays[i]);
+        if (blocked[i].value_or(false)) rays[i].through = V3f(0, 0, 0);
     }
     count_of(ask.kind, stats_) += rays.size();
-    const std::span<WalkedRay*> all(open);
-    for (size_t i = 0; i < all.size(); i += kTogether)
-        walk(all.subspan(i, std::min(kTogether, all.size() - i)), ask, Wants::Opacity);
+    walk(open, ask, Wants::Opacity);
 }
 
 void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
-    for (WalkedRay& ray : rays)
-        if (const std::optional<RaySurfaceHit> hit = scene_.closest(ray.segment, ask.kind))
-            ray.distance = hit->distance;
+    std::vector<std::optional<RaySurfaceHit>> hits(rays.size());
+    scene_.closest(segments_of(rays), ask.kind, hits);
+    for (size_t i = 0; i < rays.size(); ++i)
+        if (hits[i]) rays[i].distance = hits[i]->distance;
     count_of(ask.kind, stats_) += rays.size();
 }
 
 /// All go on together, a surface farther each time.
 void RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants) {
     std::vector<WalkedRay*> going(rays.begin(), rays.end());
+    std::vector<const RaySegment*> segments;
+    std::vector<std::optional<RaySurfaceHit>> hits;
+    std::vector<Met> met;
     const int layers = ask.first_alone ? 1 : kMostLayers;
     for (int layer = 0; layer < layers && !going.empty(); ++layer) {
-        met_.clear();
-        for (WalkedRay* ray : going)
-            if (const std::optional<RaySurfaceHit> hit = scene_.closest(ray->segment, ask.kind)) {
-                ray->distance = std::min(ray->distance, hit->distance);
-                met_.push_back({ray, *hit});
-            }
-        visit_hits(ask, wants, layer == 0);
+        segments.clear(), met.clear();
+        for (const WalkedRay* ray : going) segments.push_back(&ray->segment);
+        hits.resize(going.size());
+        scene_.closest(segments, ask.kind, hits);
+        for (size_t i = 0; i < going.size(); ++i) {
+            if (!hits[i]) continue;
+            going[i]->distance = std::min(going[i]->distance, hits[i]->distance);
+            met.push_back({going[i], *hits[i]});
+        }
         going.clear();
-        for (const Met& met : met_)
-            if (pass(met, ask)) going.push_back(met.ray);
+        for (size_t first = 0; first < met.size(); first += kShadedTogether) {
+            const auto some = std::span(met).subspan(first, std::min(kShadedTogether, met.size() - first));
+            visit_hits(some, ask, wants, layer == 0);
+            for (const Met& one : some)
+                if (pass(one, ask)) going.push_back(one.ray);
+        }
     }
 }
 
@@ -129,6 +148,7 @@ bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
     ray.medium = {met.hit.primitive, met.hit.from_outside}, ray.medium_from = met.hit.distance;
     const V3f P = ray.segment.origin + ray.segment.direction * met.hit.distance;
     ray.segment.min = behind(met.hit, scene_.spacing(P));
+    ray.segment.level = met.hit.level;  // else finer geometry of the same surface might be met once more
     return true;
 }
 
@@ -162,7 +182,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     const bool in_medium = grid.medium != RayMedium();
     const V3f from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
     for (size_t i = 0; i < vertices; ++i) grid.I.set(i, place_at(grid, i, ray.time) - from);
-    grid.hit_vertex = vertex, grid.hit_time = ray.time;
+    grid.hit_vertex = vertex, grid.hit_time = ray.time, grid.hit_level = met.hit.level;
     grid.ordinal = met.ray->seed;
     grid.answers.clear();
     met.grid = &grid;
@@ -171,19 +191,19 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
 
 /// Shades hits, and asks the first ones. Hits of one primitive are shaded side by side; in which order
 /// changes nothing but the time.
-void RayWalk::visit_hits(const RayAsk& ask, Wants wants, bool first) {
+void RayWalk::visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first) {
     HitVisit visit;
     visit.kind = ask.kind, visit.label = ask.label, visit.depths = ask.depths;
     visit.outputs = first ? ask.outputs : nullptr;
     const bool asks = visit.outputs && !visit.outputs->empty();
     std::vector<ShadingGrid*> shaded, asked;
-    for (Met& met : met_) {
-        const bool own_colors = !shades(met.hit, ask, wants);
-        const bool runs = !own_colors || (ask.shades && medium_of(met) != RayMedium());
+    for (Met& one : met) {
+        const bool own_colors = !shades(one.hit, ask, wants);
+        const bool runs = !own_colors || (ask.shades && medium_of(one) != RayMedium());
         if (!runs && !asks) continue;
-        ShadingGrid& grid = grid_of(met, shaded.size() + asked.size());
+        ShadingGrid& grid = grid_of(one, shaded.size() + asked.size());
         grid.for_opacity = wants == Wants::Opacity, grid.own_colors = own_colors;
-        if (runs) met.vertex = grid.hit_vertex;
+        if (runs) one.vertex = grid.hit_vertex;
         (runs ? shaded : asked).push_back(&grid);
     }
     stats_.shaded_hits += shaded.size();
@@ -194,8 +214,8 @@ void RayWalk::visit_hits(const RayAsk& ask, Wants wants, bool first) {
         });
         if (!grids->empty()) shade_(*grids, visit);
     }
-    for (const Met& met : met_)
-        if (asks && met.ray->answers && met.grid) std::ranges::copy(met.grid->answers, met.ray->answers);
+    for (const Met& one : met)
+        if (asks && one.ray->answers && one.grid) std::ranges::copy(one.grid->answers, one.ray->answers);
 }
 
 }  // namespace trapeze

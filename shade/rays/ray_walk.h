@@ -73,6 +73,9 @@ struct RayAsk {
     const HitOutputs* outputs = nullptr;
 };
 
+/// Rays that should be traced together, at least.
+size_t rays_at_once(const RayScene& scene);
+
 /// A thread's memory: grids of hits.
 struct RayWalkScratch {
     std::deque<ShadingGrid> grids;
@@ -108,7 +111,7 @@ class RayWalk {
     bool pass(const Met& met, const RayAsk& ask) const;
     RayMedium medium_of(const Met& met) const;
     bool shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const;
-    void visit_hits(const RayAsk& ask, Wants wants, bool first);
+    void visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first);
     ShadingGrid& grid_of(Met& met, size_t number);
 
     const RayScene& scene_;
@@ -116,7 +119,6 @@ class RayWalk {
     const VolumeTable& volumes_;
     RayWalkScratch& scratch_;
     RayStats& stats_;
-    std::vector<Met> met_;
 };
 
 }  // namespace trapeze

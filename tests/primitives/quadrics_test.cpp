@@ -61,8 +61,9 @@ TEST(QuadricForms, Sphere) {
 
 TEST(QuadricForms, Cone) {
     for (const auto& [height, radius] : {std::pair{2.0, 1.0}, {-1.5, 1.0}, {0.5, -2.0}, {3.0, 0.01}})
-        expect_swept("Cone", decimal(height) + decimal(radius),
-                     [height = height, radius = radius](double v) { return V3d(radius * (1 - v), 0, height * v); });
+        expect_swept("Cone", decimal(height) + decimal(radius), [height = height, radius = radius](double v) {
+            return V3d(radius * (1 - v), 0, height * v);
+        });
 }
 
 TEST(QuadricForms, Cylinder) {
@@ -108,8 +109,9 @@ TEST(QuadricForms, Paraboloid) {
 
 TEST(QuadricForms, Disk) {
     for (const auto& [height, radius] : {std::pair{0.0, 1.0}, {-1.5, 2.0}, {0.5, -1.0}, {0.0, 0.01}})
-        expect_swept("Disk", decimal(height) + decimal(radius),
-                     [height = height, radius = radius](double v) { return V3d(radius * (1 - v), 0, height); });
+        expect_swept("Disk", decimal(height) + decimal(radius), [height = height, radius = radius](double v) {
+            return V3d(radius * (1 - v), 0, height);
+        });
 }
 
 struct TorusRange {

@@ -18,6 +18,7 @@ namespace {
 constexpr int kLargestPicture = 65536;  ///< pixels along a side
 constexpr float kMostSamples = 64;      ///< along a side of a pixel
 constexpr float kMostRayDepth = 100;    ///< Option "trace" "maxdepth"
+constexpr float kMostRayLevels = 4;     ///< Option "trace" "levels"
 /// A path tracer's noise wants more samples than a surface that is shaded before it is sampled.
 constexpr float kMostHiderSamples = 64;
 constexpr size_t kMostColorSamples = 1000;
@@ -270,6 +271,8 @@ void option(OptionContext& r, ArgumentCursor& c) {
             r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));
         if (category == "trace" && value.name == "maxdepth" && !value.floats.empty())
             o.max_ray_depth = static_cast<int>(std::clamp(value.floats[0], 0.0f, kMostRayDepth));
+        if (category == "trace" && value.name == "levels" && !value.floats.empty())
+            o.ray_levels = static_cast<int>(std::clamp(value.floats[0], 0.0f, kMostRayLevels));
         o.user[category].set(value);
     }
 }

@@ -25,7 +25,8 @@ constexpr Value kOptions[] = {{"user", ""},
                               {"ribparse", "varsubst"},
                               {"shadow", "bias"},
                               {"shadow", "bias0"},
-                              {"trace", "maxdepth"}};
+                              {"trace", "maxdepth"},
+                              {"trace", "levels"}};
 
 /// Attributes likewise. An empty name stands for all of a category.
 constexpr Value kAttributes[] = {{"user", ""},
