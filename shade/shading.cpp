@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -63,6 +64,8 @@ struct Shading::Impl {
 
     void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats, int depth,
                const HitVisit& visit) const;
+
+    std::vector<const BoundShader*> asking_shaders() const;
 
     const RenderContext& context;
     const Access& access;
@@ -141,27 +144,39 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
     }
 }
 
-bool Shading::asks_rays() const {
-    std::set<std::string> varied = variables_of(*impl_->context.scene);
+/// The shaders that may ask for rays.
+std::vector<const BoundShader*> Shading::Impl::asking_shaders() const {
+    std::set<std::string> varied = variables_of(*context.scene);
     // What area lights' shaders are told of each sample (LightRig).
     varied.insert({"__solidangle", "__radiance", "__area"});
     // What connections bring to layers is not known here.
     std::set<const BoundShader*> connected;
-    for (const Material& material : impl_->materials.all())
+    for (const Material& material : materials.all())
         for (const LayeredShader* shader : {material.surface, material.displacement, material.atmosphere})
             if (shader && shader->layers.size() > 1)
                 connected.insert(shader->layers.begin(), shader->layers.end());
-    const std::vector<const BoundShader*> shaders = impl_->materials.shaders();
+    const std::vector<const BoundShader*> shaders = materials.shaders();
     std::set<const BoundShader*> of_area_lights;
-    for (const Lamp* lamp : impl_->materials.lamps())
+    for (const Lamp* lamp : materials.lamps())
         if (lamp->area) of_area_lights.insert(lamp->shader.get());
-    const bool any_seen =
-        std::ranges::any_of(impl_->context.scene->primitives,
-                            [](const Primitive& primitive) { return primitive.attributes->rays.seen(); });
-    return std::ranges::any_of(shaders, [&](const BoundShader* shader) {
+    const bool any_seen = std::ranges::any_of(context.scene->primitives, [](const Primitive& primitive) {
+        return primitive.attributes->rays.seen();
+    });
+    std::vector<const BoundShader*> asking;
+    std::ranges::copy_if(shaders, std::back_inserter(asking), [&](const BoundShader* shader) {
         return asks_for_rays(*shader, connected.contains(shader) ? nullptr : &varied) &&
                (any_seen || !of_area_lights.contains(shader));
     });
+    return asking;
+}
+
+bool Shading::asks_rays() const {
+    return !impl_->asking_shaders().empty();
+}
+
+bool Shading::asks_clouds_alone() const {
+    return std::ranges::all_of(impl_->asking_shaders(),
+                               [](const BoundShader* shader) { return trapeze::asks_clouds_alone(*shader); });
 }
 
 std::vector<const LightInstance*> Shading::mesh_lights() const {

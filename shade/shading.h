@@ -52,6 +52,8 @@ class Shading {
     /// Whether a shader may ask for rays: it calls trace() or one of its kin. Area lights ask where there is
     /// a primitive that some rays see.
     bool asks_rays() const;
+    /// Whether the shaders that may ask for rays ask point clouds instead, if these can be read.
+    bool asks_clouds_alone() const;
     /// The lights whose shapes are meshes, to be made of the primitives whose emitters they are.
     std::vector<const LightInstance*> mesh_lights() const;
     /// Those meshes. Until then such lights are dark; they stay so, with a warning, without a mesh of any

@@ -76,7 +76,7 @@ const std::map<std::string, Names> kWings = {
     {"shade",
      {"shade/clouds", "shade/lights", "shade/maps", "shade/materials", "shade/planes", "shade/rays",
       "shade/vm"}},
-    {"shade/clouds", {"shade/maps", "shade/vm"}},
+    {"shade/clouds", {"shade/maps", "shade/rays", "shade/vm"}},
     {"shade/code", {"shade/operations", "shade/rsl/analysis", "shade/rsl/syntax", "shade/vm/kernels"}},
     {"shade/maps", {"shade/operations", "shade/planes", "shade/vm", "shade/vm/kernels"}},
     {"shade/maps/openimageio", {"shade/maps"}},

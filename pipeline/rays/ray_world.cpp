@@ -195,7 +195,7 @@ std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Sha
     auto world = std::make_unique<RayWorld>(context, shading, most_bytes);
     const bool empty =
         !world->has(RayKind::Diffuse) && !world->has(RayKind::Specular) && !world->has(RayKind::Transmission);
-    if (empty && context.diagnostics && !context.is_cancelled())
+    if (empty && context.diagnostics && !context.is_cancelled() && !shading.asks_clouds_alone())
         context.diagnostics->warning(
             {},
             "shaders trace rays, but no primitive is seen by rays; Attribute \"visibility\" \"int diffuse\" 1, "

@@ -38,6 +38,14 @@ void CloudCalls::bake(Run& run, const Step& step, std::span<const Operand> opera
     }
 }
 
+bool CloudCalls::over_discs(Run& run, const Step& step, std::span<const Operand> operands) {
+    PointBasedCall call(run, step, operands, places_.clouds);
+    if (!call.is_answered()) return false;
+    if (!discs_) discs_ = std::make_unique<PointBasedScratch>();
+    call.run(*discs_);
+    return true;
+}
+
 void CloudCalls::finish() {
     if (places_.bakes && !baked_.empty()) places_.bakes->add(std::move(baked_));
     baked_.clear();

@@ -1,12 +1,14 @@
-/// The shading language's bake3d() and texture3d().
+/// The shading language's bake3d() and texture3d(), and its occlusion() and indirectdiffuse() by clouds.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/scene/shading_grid.h"
 #include "shade/clouds/cloud_bakes.h"
 #include "shade/clouds/cloud_library.h"
+#include "shade/clouds/point_based_call.h"
 #include "shade/vm/context.h"
 
 namespace trapeze {
@@ -28,6 +30,7 @@ class CloudCalls : public vm::Clouds {
 
     void look_up(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
     void bake(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
+    bool over_discs(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
 
     /// Hands on what has been baked.
     void finish();
@@ -37,6 +40,7 @@ class CloudCalls : public vm::Clouds {
     std::span<const ShadingGrid* const> grids_;
     std::vector<BakedGrid> baked_;  ///< in the order of grids_
     std::vector<CloudShare> shares_;
+    std::unique_ptr<PointBasedScratch> discs_;  ///< null until it is needed
 };
 
 }  // namespace trapeze

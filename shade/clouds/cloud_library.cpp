@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "shade/clouds/cloud_surfels.h"
 #include "shade/clouds/ply_file.h"
 #include "shade/clouds/ptc_file.h"
 #include "shade/maps/texture_files.h"
@@ -32,35 +33,58 @@ CloudLibrary::CloudLibrary(const Options& options, Diagnostics* diagnostics, con
         folders_ = paths->second;
 }
 
+std::string CloudLibrary::too_large() const {
+    return fmt::format("with the others it takes more than the {} MiB that clouds may take", limit_ >> 20);
+}
+
 /// Reads a cloud; returns what is wrong, or nothing.
 std::string CloudLibrary::load(const std::string& name, std::unique_ptr<const LoadedCloud>& cloud) {
     const auto file = map_file(name, folders_, access_);
     if (!file) return access_.is_closed(name) ? Access::kClosed : "there is no such file";
     std::string bytes, problem;
-    const std::string too_large =
-        fmt::format("with the others it takes more than the {} MiB that clouds may take", limit_ >> 20);
     // What is read takes about as much again as its file.
     if (!access_.read(*file, (limit_ - bytes_) / 2, &bytes))
-        return bytes.size() > (limit_ - bytes_) / 2 ? too_large : "it cannot be read";
+        return bytes.size() > (limit_ - bytes_) / 2 ? too_large() : "it cannot be read";
     auto read = read_point_cloud(bytes, &problem);
     bytes = {};
     if (!read) return problem;
     auto loaded = std::make_unique<const LoadedCloud>(std::move(*read));
-    if (loaded->bytes() > limit_ - bytes_) return too_large;
+    if (loaded->bytes() > limit_ - bytes_) return too_large();
     bytes_ += loaded->bytes();
     cloud = std::move(loaded);
     return {};
 }
 
+/// What is known of a file, which is read now if it has not been. To be called with the lock.
+CloudLibrary::Entry& CloudLibrary::entry(const std::string& name) {
+    const auto [found, is_new] = clouds_.try_emplace(name);
+    if (is_new) found->second.problem = load(name, found->second.cloud);
+    return found->second;
+}
+
 const LoadedCloud* CloudLibrary::find(const std::string& name, SourceLocation at) {
     if (name.empty()) return nullptr;
     const std::lock_guard lock(mutex_);
-    const auto [entry, is_new] = clouds_.try_emplace(name);
-    if (is_new)
-        if (const std::string problem = load(name, entry->second); !problem.empty() && diagnostics_)
-            diagnostics_->error(at, fmt::format("point cloud \"{}\" cannot be read: {}", name, problem),
-                                "point-cloud " + name);
-    return entry->second.get();
+    Entry& known = entry(name);
+    if (!known.problem.empty() && !known.reported && diagnostics_)
+        diagnostics_->error(at, fmt::format("point cloud \"{}\" cannot be read: {}", name, known.problem),
+                            "point-cloud " + name);
+    known.reported = true;
+    return known.cloud.get();
+}
+
+const SurfelTree* CloudLibrary::surfels(const std::string& name, std::string* problem) {
+    const std::lock_guard lock(mutex_);
+    Entry& known = entry(name);
+    if (known.cloud && !known.surfels && known.surfel_problem.empty()) {
+        auto tree = std::make_unique<const SurfelTree>(surfels_of(known.cloud->cloud));
+        if (tree->bytes() <= limit_ - bytes_)
+            bytes_ += tree->bytes(), known.surfels = std::move(tree);
+        else
+            known.surfel_problem = too_large();
+    }
+    if (!known.surfels) *problem = known.cloud ? known.surfel_problem : known.problem;
+    return known.surfels.get();
 }
 
 }  // namespace trapeze

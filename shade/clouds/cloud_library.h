@@ -14,6 +14,7 @@
 #include "core/scene/scene.h"
 #include "shade/clouds/cloud_tree.h"
 #include "shade/clouds/point_cloud.h"
+#include "shade/clouds/surfel_tree.h"
 
 namespace trapeze {
 
@@ -47,15 +48,28 @@ class CloudLibrary {
     /// which is not. Thread-safe; the cloud lives as long as this.
     const LoadedCloud* find(const std::string& name, SourceLocation at);
 
+    /// The points of a file as discs; null, and why, where it cannot be read. Thread-safe; they live as long
+    /// as this.
+    const SurfelTree* surfels(const std::string& name, std::string* problem);
+
   private:
+    struct Entry {
+        std::unique_ptr<const LoadedCloud> cloud;
+        std::string problem;  ///< why there is none
+        bool reported = false;
+        std::unique_ptr<const SurfelTree> surfels;
+        std::string surfel_problem;
+    };
+    Entry& entry(const std::string& name);
     std::string load(const std::string& name, std::unique_ptr<const LoadedCloud>& cloud);
+    std::string too_large() const;
 
     std::vector<std::string> folders_;
     Diagnostics* diagnostics_;
     const Access& access_;
     size_t limit_ = size_t{1} << 31, bytes_ = 0;
     std::mutex mutex_;
-    std::map<std::string, std::unique_ptr<const LoadedCloud>, std::less<>> clouds_;
+    std::map<std::string, Entry, std::less<>> clouds_;
 };
 
 }  // namespace trapeze

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "core/portable_math.h"
+
 namespace trapeze {
 namespace {
 
@@ -12,6 +14,8 @@ using rsl::Op;
 
 /// The most rays of a call: a bound on absurd input.
 constexpr float kMostSamples = 65536;
+/// Of "maxsolidangle", steradians.
+constexpr float kMaxSolidAngle = 0.1f;
 constexpr float kPi = std::numbers::pi_v<float>;
 
 bool is_text(const vm::Registers& registers, const vm::Step& step, size_t operand) {
@@ -48,6 +52,7 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     const size_t first = step.outputs + (of_map ? 2 : map_first ? 1 : 0);
     if (map_first) map_ = registers.text_input(step, 0);
     bias.otherwise = -1, samples_.otherwise = 1;
+    max_solid_angle.otherwise = kMaxSolidAngle, clamp.otherwise = 1;
     cone_angle_.otherwise = kPi / 2, max_distance_.otherwise = kInfinity;
     from_ = &operands[first], towards_ = &operands[first + 1 < end ? first + 1 : first];
     if (of_light) {
@@ -70,11 +75,17 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     const size_t unnamed = step.op == Op::Gather ? 0 : 1, named = step.outputs - unnamed;
     for (size_t k = 0; k < named; ++k)
         outputs.push_back({registers.text_input(step, plain + k), &operands[unnamed + k]});
-    const std::pair<std::string_view, LaneValue*> known[] = {
-        {"samples", &samples_},         {"bias", &bias},
-        {"maxdist", &max_distance_},    {"coneangle", &cone_angle_},
-        {"falloff", &falloff},          {"samplecone", &sample_cone_},
-        {"falloffmode", &falloff_mode}, {"samplebase", &sample_base}};
+    const std::pair<std::string_view, LaneValue*> known[] = {{"samples", &samples_},
+                                                             {"bias", &bias},
+                                                             {"maxdist", &max_distance_},
+                                                             {"coneangle", &cone_angle_},
+                                                             {"falloff", &falloff},
+                                                             {"samplecone", &sample_cone_},
+                                                             {"falloffmode", &falloff_mode},
+                                                             {"samplebase", &sample_base},
+                                                             {"pointbased", &point_based},
+                                                             {"maxsolidangle", &max_solid_angle},
+                                                             {"clamp", &clamp}};
     V3f threshold;
     for (size_t i = end + named; i + 1 < step.count; i += 2) {
         const std::string& name = registers.text(registers.register_of(step, i));
@@ -93,6 +104,8 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
 void RayArguments::take_text(std::string_view name, const std::string& text) {
     using Sides = RayFilter::Sides;
     using HitMode = RayAttributes::HitMode;
+    if (name == "filename") cloud = text;
+    if (name == "coordsystem" && !text.empty()) cloud_space = text;
     if (name == "distribution") uniform_distribution = text == "uniform";
     if (name == "label") label = text;
     if (name == "environmentmap") environment_map = text;
@@ -139,6 +152,13 @@ float RayArguments::cone_angle_at(size_t lane) const {
 float RayArguments::max_distance_at(size_t lane) const {
     const float most = max_distance_.at(lane);
     return most > 0 && most < kInfinity ? most : std::numeric_limits<float>::infinity();
+}
+
+float RayArguments::falloff_at(float distance, size_t lane) const {
+    const float by = falloff.at(lane);
+    if (!(by > 0) || distance >= kInfinity) return 1;
+    if (falloff_mode.at(lane) == 0) return portable::exp(-by * distance);
+    return portable::pow(std::max(0.0f, 1 - distance / max_distance_at(lane)), by);
 }
 
 }  // namespace trapeze

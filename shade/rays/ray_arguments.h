@@ -35,6 +35,9 @@ struct RayArguments {
     /// is given.
     float cone_angle_at(size_t lane) const;
     float max_distance_at(size_t lane) const;  ///< "maxdist"; infinite where there is no bound
+    /// How much a hit at a distance counts for occlusion().
+    float falloff_at(float distance, size_t lane) const;
+    RayFilter::Sides sides() const { return filter_.sides; }  ///< "hitsides"
     /// Of "hitsides" and "subset"; null where all hits count.
     const RayFilter* only() const { return filters_ ? &filter_ : nullptr; }
     /// The first argument, if it is a text: a map, a category.
@@ -43,6 +46,9 @@ struct RayArguments {
     LaneValue bias;                   ///< below 0: not given
     LaneValue falloff, falloff_mode;  ///< of occlusion: by distance; mode 0 exponential, 1 a power
     LaneValue sample_base;            ///< "samplebase": the part of a micropolygon from which rays begin
+    LaneValue point_based;            ///< not 0: discs of a cloud are asked, not rays
+    LaneValue max_solid_angle, clamp;
+    std::string cloud, cloud_space = "world";  ///< "filename", "coordsystem"
     /// "distribution": all directions alike, or by the cosine.
     bool uniform_distribution = false;
     bool distant_light = false;                      ///< of shadow(): the light is nowhere

@@ -47,18 +47,10 @@ float result_of_nothing(Op op, bool colors) {
     return op == Op::Trace && !colors ? kInfinity : 0;
 }
 
-/// How much a hit at a distance counts for occlusion().
-float falloff_at(float distance, const RayArguments& arguments, size_t lane) {
-    const float falloff = arguments.falloff.at(lane);
-    if (!(falloff > 0) || distance >= kInfinity) return 1;
-    if (arguments.falloff_mode.at(lane) == 0) return portable::exp(-falloff * distance);
-    return portable::pow(std::max(0.0f, 1 - distance / arguments.max_distance_at(lane)), falloff);
-}
-
 /// How much of the light along a ray is hidden.
 float hidden_by(const WalkedRay& ray, const RayArguments& arguments, size_t lane) {
     const float open = (ray.through.x + ray.through.y + ray.through.z) / 3;
-    return (1 - open) * falloff_at(ray.distance, arguments, lane);
+    return (1 - open) * arguments.falloff_at(ray.distance, lane);
 }
 
 /// Colours of a map in directions of the current space, each averaged over a width (radians).

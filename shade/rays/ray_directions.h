@@ -18,6 +18,10 @@ class Cone {
     /// As many as the cosine of the angle to the axis says; rims beyond a right angle count as a right angle.
     V3f by_cosine(const V2f& square) const;
 
+    /// Two directions across the axis, at right angles.
+    const V3f& across() const { return across_; }
+    const V3f& along() const { return along_; }
+
   private:
     V3f around(float sine, float cosine, float turn) const;
 

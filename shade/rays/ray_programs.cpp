@@ -20,9 +20,9 @@ bool holds(const std::vector<std::string>& texts) {
     return std::ranges::find(texts, rsl::kTracedMap) != texts.end();
 }
 
-/// Whether the code may trace. A text may reach a call by way of variables: that the code knows it at all is
+/// Whether maps may be traced. A text may reach a call by way of variables: that the code knows it at all is
 /// taken for asking.
-bool asks(const rsl::Program& program, const BoundShader& shader) {
+bool traces_maps(const rsl::Program& program, const BoundShader& shader) {
     const auto knows = [&](rsl::RegisterId id) { return holds(program.reg(id).texts); };
     bool traced = std::ranges::any_of(
         program.code, [&](const rsl::Instruction& i) { return std::ranges::any_of(i.operands, knows); });
@@ -30,9 +30,26 @@ bool asks(const rsl::Program& program, const BoundShader& shader) {
         const bool is_open = program.reg(program.parameters[i].id).kind == rsl::Register::Kind::Parameter;
         traced = traced || (is_open && holds(shader.values()[i].texts));
     }
+    return traced;
+}
+
+/// Whether the code may trace.
+bool asks(const rsl::Program& program, const BoundShader& shader) {
+    const bool traced = traces_maps(program, shader);
     return calls(program.code, traced) ||
            std::ranges::any_of(shader.program().parameters,
                                [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
+}
+
+/// Whether an instruction is occlusion() or indirectdiffuse() with "pointbased" and anything but 0.
+bool is_point_based(const rsl::Program& program, const rsl::Instruction& i) {
+    if (i.op != Op::Occlusion && i.op != Op::IndirectDiffuse) return false;
+    for (size_t k = i.outputs; k + 1 < i.operands.size(); ++k) {
+        if (program.reg(i.operands[k]).texts != std::vector<std::string>{"pointbased"}) continue;
+        const rsl::Register& value = program.reg(i.operands[k + 1]);
+        return value.kind != rsl::Register::Kind::Constant || value.values != std::vector<float>{0};
+    }
+    return false;
 }
 
 /// Whether a program sets Oi to anything but Os or what `allowed` says of a register.
@@ -56,6 +73,13 @@ bool sets_opacity(const rsl::Program& program, const Allowed& allowed) {
 bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied) {
     if (!asks(shader.program(), shader)) return false;
     return !varied || asks(specialised_program(shader, *varied), shader);
+}
+
+bool asks_clouds_alone(const BoundShader& shader) {
+    const rsl::Program& program = shader.program();
+    return !traces_maps(program, shader) && std::ranges::all_of(program.code, [&](const rsl::Instruction& i) {
+        return !rsl::sends_rays(i.op) || is_point_based(program, i);
+    });
 }
 
 bool leaves_traces(const rsl::Program& program) {

@@ -12,6 +12,9 @@ namespace trapeze {
 /// Without it, that holds for all.
 bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied = nullptr);
 
+/// Whether all calls of the shader that may trace ask for point clouds (occlusion(), "pointbased").
+bool asks_clouds_alone(const BoundShader& shader);
+
 /// Whether a surface shader makes another opacity than Os, which is the primitive's own.
 bool changes_opacity(const rsl::Program& program);
 /// Whether a surface that is opaque when a program begins is so when it ends: it sets Oi to nothing but Os

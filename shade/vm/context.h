@@ -58,6 +58,8 @@ class Clouds {
     virtual void look_up(Run& run, const Step& step, std::span<const Operand> operands) = 0;
     /// Op::Bake3d.
     virtual void bake(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+    /// Op::Occlusion or IndirectDiffuse by the discs of a cloud; false where rays are to be sent.
+    virtual bool over_discs(Run& run, const Step& step, std::span<const Operand> operands) = 0;
 };
 
 /// The lights of a grid, and what they send to points.

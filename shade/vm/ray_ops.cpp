@@ -1,4 +1,5 @@
-// The built-in functions that ask for rays. The scene is not known here: shade/rays answers.
+// The built-in functions that ask for rays. The scene is not known here: shade/rays answers, and shade/clouds
+// where discs stand for it.
 #include <array>
 #include <cctype>
 #include <string>
@@ -24,6 +25,12 @@ void trace(Run& run, const Step& step, std::span<const Operand> operands) {
         run.context().rays->trace(run, step, operands);
     else
         miss(run, step, operands);
+}
+
+/// By discs of a point cloud, or by rays.
+void look_over_sky(Run& run, const Step& step, std::span<const Operand> operands) {
+    Clouds* const clouds = run.context().clouds;
+    if (!clouds || !clouds->over_discs(run, step, operands)) trace(run, step, operands);
 }
 
 RayFacts facts_of(const Run& run) {
@@ -66,9 +73,14 @@ void ray_label(Run& run, const Step& step, std::span<const Operand>) {
 }
 
 constexpr ContextRow kRayRows[] = {
-    {Op::Trace, trace},        {Op::Transmission, trace},    {Op::Visibility, trace},
-    {Op::Occlusion, trace},    {Op::IndirectDiffuse, trace}, {Op::RayInfo, ray_info},
-    {Op::RayLevel, ray_level}, {Op::RayLabel, ray_label},
+    {Op::Trace, trace},
+    {Op::Transmission, trace},
+    {Op::Visibility, trace},
+    {Op::Occlusion, look_over_sky},
+    {Op::IndirectDiffuse, look_over_sky},
+    {Op::RayInfo, ray_info},
+    {Op::RayLevel, ray_level},
+    {Op::RayLabel, ray_label},
 };
 
 }  // namespace

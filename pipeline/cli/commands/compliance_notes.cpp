@@ -81,7 +81,7 @@ constexpr Capability kCapabilities[] = {
      "shutter open or, with Attribute \"trace\" \"samplemotion\", while it is open; gather() tells of hits. They are shaded with their own derivatives. The geometry is diced as "
      "finely as a pixel is at its distance from the eye. Solids are cut, clipping planes cut the camera's view alone."},
     {"Global Illumination", "supported",
-     "occlusion() and indirectdiffuse() send rays, also where point clouds are asked for; no photon maps."},
+     "occlusion() and indirectdiffuse() send rays, or ask point clouds (\"pointbased\"); no photon maps."},
     {"Area Lights", "supported",
      "AreaLightSource shines from its primitives, sampled anew at each vertex (Attribute \"light\" \"nsamples\"); "
      "\"arealight\" casts shadows of what transmission rays see. Shaders that do not look at P shine from the middle "
@@ -194,8 +194,8 @@ constexpr const char* kRispec[] = {"version",
 constexpr RequestNote kFunctions[] = {
     {"bake3d", "PRMan's .ptc and PLY, of what the camera's picture holds"},
     {"texture3d", "point clouds; no brick maps"},
-    {"indirectdiffuse", "rays; with a map's name 0"},
-    {"occlusion", "rays; opacities are the primitives' own"},
+    {"indirectdiffuse", "rays, or point clouds; with a map's name 0"},
+    {"occlusion", "rays, for which opacities are the primitives' own, or point clouds"},
     {"rayinfo", "\"depth\""},
     {"trace", "a colour, or the distance to the nearest hit"},
     {"incident", "0: rays are not traced"},

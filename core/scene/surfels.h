@@ -1,0 +1,25 @@
+/// Surface as discs: what point-based occlusion looks at instead of the surface itself.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/math.h"
+
+namespace trapeze {
+
+/// Structure of arrays, all of one space and of one length, but for radiosities.
+struct Surfels {
+    std::vector<V3f> positions;
+    std::vector<V3f> normals;      ///< of unit length, on the front; zero where a disc faces all sides
+    std::vector<float> areas;      ///< above zero
+    std::vector<V3f> radiosities;  ///< what they send, as colours of surfaces are; empty: nothing is known
+
+    size_t size() const { return positions.size(); }
+    size_t bytes() const {
+        return (positions.capacity() + normals.capacity() + radiosities.capacity()) * sizeof(V3f) +
+               areas.capacity() * sizeof(float);
+    }
+};
+
+}  // namespace trapeze

@@ -1,0 +1,171 @@
+#include "shade/clouds/point_based_call.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/portable_math.h"
+
+namespace trapeze {
+namespace {
+
+using rsl::Op;
+using vm::Operand;
+using vm::Run;
+using vm::Step;
+
+/// Sets some lanes, or all where the operand is uniform.
+void put_value(const Operand& out, size_t first, size_t count, const V3f& value) {
+    for (int k = 0; k < (out.stride ? 3 : 1); ++k) {
+        float* const plane = out.data + static_cast<size_t>(k) * out.stride;
+        if (out.lane_mask)
+            std::fill_n(plane + first, count, value[k]);
+        else
+            std::fill_n(plane, kLanes, value[k]);
+    }
+}
+
+}  // namespace
+
+PointBasedCall::PointBasedCall(Run& run, const Step& step, std::span<const Operand> operands,
+                               CloudLibrary* library)
+    : run_(run), step_(step), operands_(operands), arguments_(run, step, operands) {
+    if (arguments_.point_based.at(0) == 0 || !library || !run.context().batch) return;
+    if (find_cloud(*library) && !set_space()) tree_ = nullptr;
+}
+
+/// Looks for the discs that the call names.
+bool PointBasedCall::find_cloud(CloudLibrary& library) {
+    const bool light = step_.op == Op::IndirectDiffuse;
+    const char* const call = light ? "indirectdiffuse" : "occlusion";
+    const std::string& name = arguments_.cloud;
+    const auto use_rays = [&](const std::string& why) {
+        run_.warn(step_, fmt::format("{}: {}; rays are sent instead", call, why), "pointbased " + name);
+        return false;
+    };
+    if (name.empty()) return use_rays("\"pointbased\" needs a \"filename\"");
+    std::string problem;
+    const SurfelTree* const tree = library.surfels(name, &problem);
+    if (!tree) return use_rays(fmt::format("point cloud \"{}\" cannot be read: {}", name, problem));
+    if (tree->empty()) return use_rays(fmt::format("point cloud \"{}\" has no areas", name));
+    if (light && !tree->has_radiosities())
+        return use_rays(fmt::format("point cloud \"{}\" has no channel color \"_radiosity\"", name));
+    tree_ = tree;
+    return true;
+}
+
+bool PointBasedCall::set_space() {
+    if (!run_.context().spaces || arguments_.cloud_space == "current") return true;
+    const auto to = run_.context().spaces->matrix("current", arguments_.cloud_space);
+    const double volume = to ? std::abs(M44d(*to).determinant()) : 0;
+    if (!(volume > 0) || !std::isfinite(volume)) {
+        run_.warn(step_,
+                  fmt::format("\"pointbased\": there is no coordinate system \"{}\"; rays are sent instead",
+                              arguments_.cloud_space),
+                  "pointbased-space " + arguments_.cloud_space);
+        return false;
+    }
+    moved_ = true;
+    const M44d exact(*to);
+    to_space_ = *to, from_space_ = M44f(exact.inverse());
+    normals_to_space_ = M44f(exact.inverse().transposed());
+    scale_ = static_cast<float>(portable::pow(volume, 1.0 / 3));
+    return true;
+}
+
+/// The lanes of vertices that run, or the first where all results are uniform. What the vertex at a hit finds
+/// holds for its whole grid.
+std::vector<PointBasedCall::Lanes> PointBasedCall::lanes() const {
+    std::vector<Lanes> lanes;
+    const uint32_t* const mask = run_.masks().all() ? nullptr : run_.masks().current();
+    const bool uniform = std::ranges::none_of(operands_.first(step_.outputs),
+                                              [](const Operand& out) { return out.lane_mask != 0; });
+    for (const vm::GridSpan& span : run_.context().batch->spans) {
+        const auto count = static_cast<size_t>(span.shape.vertex_count());
+        const bool one = span.hit_vertex >= 0;
+        for (size_t i = one ? static_cast<size_t>(span.hit_vertex) : 0; i < count; ++i) {
+            const size_t lane = span.first + i;
+            if (!mask || mask[lane]) {
+                lanes.push_back(one ? Lanes{lane, span.first, count} : Lanes{lane, lane, 1});
+                if (uniform) return lanes;
+            }
+            if (one) break;
+        }
+    }
+    return lanes;
+}
+
+void PointBasedCall::run(PointBasedScratch& scratch) const {
+    for (const Lanes& of : lanes()) {
+        look(of.asks, scratch);
+        put(of, scratch.raster);
+    }
+}
+
+/// Lanes mostly ask for the same part of the sky.
+const SkyPart& PointBasedCall::sky_of(size_t lane) const {
+    const float angle = arguments_.cone_angle_at(lane);
+    if (!sky_ || angle != sky_angle_) sky_.emplace(angle, arguments_.uniform_distribution);
+    sky_angle_ = angle;
+    return *sky_;
+}
+
+/// Fills the raster with what a lane sees.
+void PointBasedCall::look(size_t lane, PointBasedScratch& scratch) const {
+    SurfelPlace place;
+    place.position = arguments_.from_at(lane), place.normal = arguments_.towards_at(lane);
+    if (moved_) {
+        to_space_.multVecMatrix(V3f(place.position), place.position);
+        normals_to_space_.multDirMatrix(V3f(place.normal), place.normal);
+    }
+    place.normal.normalize();
+    const bool looks = std::isfinite(place.position.length2()) && place.normal.length2() > 0;
+    scratch.raster.start(looks ? place.normal : V3f(0, 0, 1), sky_of(lane), arguments_.clamp.at(lane) != 0);
+    if (!looks) return;
+    place.max_solid_angle = arguments_.max_solid_angle.at(lane);
+    place.max_distance = arguments_.max_distance_at(lane) * scale_;
+    place.bias = arguments_.bias.at(lane) * scale_;
+    tree_->cut(place, scratch.pieces);
+    // What is hidden does not depend on the order where all counts alike.
+    if (step_.op == Op::IndirectDiffuse || arguments_.falloff.operand)
+        std::ranges::sort(scratch.pieces, [](const SurfelPiece& a, const SurfelPiece& b) {
+            if (a.distance != b.distance) return a.distance < b.distance;
+            return a.is_cluster != b.is_cluster ? b.is_cluster : a.number < b.number;
+        });
+    for (const SurfelPiece& piece : scratch.pieces) add(piece, lane, scratch.raster);
+}
+
+void PointBasedCall::add(const SurfelPiece& piece, size_t lane, SurfelRaster& raster) const {
+    using Sides = RayFilter::Sides;
+    const Sides sides = arguments_.sides();
+    SeenSurface seen;
+    const float distance2 = piece.distance * piece.distance;
+    if (sides != Sides::Back) seen.front = piece.front / distance2;
+    if (sides != Sides::Front) seen.back = piece.back / distance2;
+    if (!(seen.front > 0) && !(seen.back > 0)) return;
+    if (step_.op == Op::IndirectDiffuse)
+        seen.color = tree_->radiosity(piece);
+    else
+        seen.counts = arguments_.falloff_at(piece.distance / scale_, lane);
+    if (piece.is_large)
+        raster.add_disc(piece.way, tree_->surfels().normals[piece.number], tree_->disc_radius(piece.number),
+                        seen);
+    else
+        raster.add_small(piece.way / piece.distance, seen);
+}
+
+void PointBasedCall::put(const Lanes& lanes, const SurfelRaster& raster) const {
+    const float hidden = std::min(1.0f, raster.hidden());
+    put_value(operands_[0], lanes.first, lanes.count,
+              step_.op == Op::IndirectDiffuse ? raster.light() : V3f(hidden));
+    for (const RayArguments::Output& output : arguments_.outputs) {
+        if (output.name == "occlusion") put_value(*output.operand, lanes.first, lanes.count, V3f(hidden));
+        if (output.name != "environmentdir") continue;
+        V3f way = raster.open_way();
+        if (moved_) from_space_.multDirMatrix(V3f(way), way);
+        put_value(*output.operand, lanes.first, lanes.count, way.normalized());
+    }
+}
+
+}  // namespace trapeze

@@ -1,0 +1,59 @@
+/// One call of occlusion() or indirectdiffuse() with "pointbased" 1: discs of a cloud instead of rays
+/// [Christensen08].
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "shade/clouds/cloud_library.h"
+#include "shade/clouds/surfel_raster.h"
+#include "shade/clouds/surfel_tree.h"
+#include "shade/rays/ray_arguments.h"
+#include "shade/vm/machine.h"
+
+namespace trapeze {
+
+/// A thread's memory for calls.
+struct PointBasedScratch {
+    std::vector<SurfelPiece> pieces;
+    SurfelRaster raster;
+};
+
+class PointBasedCall {
+  public:
+    /// Reports, by the run, what is wrong. Without a library no cloud is found.
+    PointBasedCall(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands,
+                   CloudLibrary* library);
+
+    /// False where the call asks for rays, or for a cloud that there is not.
+    bool is_answered() const { return tree_ != nullptr; }
+    /// Sets the result and the outputs of the lanes that run; only of a call that is answered.
+    void run(PointBasedScratch& scratch) const;
+
+  private:
+    /// Lanes that get what the first vertex of them finds.
+    struct Lanes {
+        size_t asks = 0, first = 0, count = 1;
+    };
+    std::vector<Lanes> lanes() const;
+    bool find_cloud(CloudLibrary& library);
+    bool set_space();
+    void look(size_t lane, PointBasedScratch& scratch) const;
+    void add(const SurfelPiece& piece, size_t lane, SurfelRaster& raster) const;
+    void put(const Lanes& lanes, const SurfelRaster& raster) const;
+    const SkyPart& sky_of(size_t lane) const;
+
+    vm::Run& run_;
+    const vm::Step& step_;
+    std::span<const vm::Operand> operands_;
+    const RayArguments arguments_;
+    const SurfelTree* tree_ = nullptr;
+    bool moved_ = false;  ///< the cloud's space is another than the current one
+    M44f to_space_, normals_to_space_, from_space_;
+    float scale_ = 1;  ///< lengths in the cloud's space, of one in the current space
+    mutable std::optional<SkyPart> sky_;
+    mutable float sky_angle_ = 0;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,197 @@
+#include "shade/clouds/surfel_raster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/portable_math.h"
+#include "shade/rays/ray_directions.h"
+
+namespace trapeze {
+namespace {
+
+constexpr float kHalfTurn = std::numbers::pi_v<float>;
+constexpr int kSide = SkyPart::kSide;
+constexpr float kPixel = 2.0f / kSide;  ///< a pixel's side; the disc's radius is 1
+
+/// A disc of radius r covers (1 - (d / (kSpread r))^2)^3 times kPeak at a distance d from its middle, which
+/// adds up to its area. On a square grid of discs the sum is 1 to some hundredths: the function's transform,
+/// by J4, is zero at the grid's frequency.
+constexpr float kSpread = 2.14f, kPeak = 4 / (kSpread * kSpread);
+
+float cubed(float x) {
+    return x * x * x;
+}
+
+/// The middle of a pixel along an axis.
+float middle(int i) {
+    return (static_cast<float>(i) + 0.5f) * kPixel - 1;
+}
+
+/// Pixels along an axis whose middles are between two places.
+struct PixelRange {
+    PixelRange(float low, float high)
+        : first(static_cast<int>(std::clamp((low + 1) / kPixel, 0.0f, static_cast<float>(kSide)))),
+          end(static_cast<int>(std::clamp((high + 1) / kPixel + 1, 0.0f, static_cast<float>(kSide)))) {}
+    int first, end;
+};
+
+/// The directions of the pixels, of those beyond the rim the rim's; and which part of each is within it.
+struct Pixels {
+    Pixels() {
+        const SkyPart all(kHalfTurn / 2, false);
+        float most = 0;
+        for (int p = 0; p < SkyPart::kPixels; ++p) most = std::max(most, all.weight(p));
+        for (int j = 0; j < kSide; ++j)
+            for (int i = 0; i < kSide; ++i) {
+                const auto p = static_cast<size_t>(j * kSide + i);
+                const float px = middle(i), py = middle(j), r = std::sqrt(px * px + py * py);
+                const float scale = r > 1 ? 1 / r : 1;
+                x[p] = px * scale, y[p] = py * scale;
+                z[p] = r < 1 ? std::sqrt(1 - r * r) : 0;
+                inside[p] = all.weight(static_cast<int>(p)) / most;
+            }
+        area = kHalfTurn * most;
+    }
+    std::array<float, SkyPart::kPixels> x, y, z, inside;
+    float area = 0;  ///< of a pixel that is inside wholly; all together are the unit disc
+};
+
+const Pixels& pixels() {
+    static const Pixels all;
+    return all;
+}
+
+/// Where along an axis a cone about a direction goes, seen from above.
+PixelRange extent_of(float along, float sine, float cosine) {
+    const float across = std::sqrt(std::max(0.0f, 1 - along * along)) * sine, mean = along * cosine;
+    return {along < -cosine ? -1 : mean - across, along > cosine ? 1 : mean + across};
+}
+
+}  // namespace
+
+SkyPart::SkyPart(float angle, bool uniform) {
+    constexpr int kParts = 8;  // of a pixel along each axis
+    const float rim = angle < kHalfTurn / 2 ? portable::sin(angle) : 1.0f, rim2 = rim * rim;
+    double sum = 0;
+    for (int p = 0; p < kPixels; ++p) {
+        double weight = 0;
+        for (int part = 0; part < kParts * kParts; ++part) {
+            const auto place = [](int pixel, int of) {
+                return (static_cast<float>(pixel) + (static_cast<float>(of) + 0.5f) / kParts) * kPixel - 1;
+            };
+            const float x = place(p % kSide, part % kParts), y = place(p / kSide, part / kParts);
+            const float r2 = x * x + y * y;
+            if (r2 < rim2) weight += uniform ? 1 / std::sqrt(1 - static_cast<double>(r2)) : 1.0;
+        }
+        weights_[static_cast<size_t>(p)] = static_cast<float>(weight);
+        sum += weight;
+    }
+    // A cone that is narrower than a pixel's parts are apart is its pixels in the middle.
+    if (!(sum > 0)) {
+        for (const int p : {kPixels / 2 - kSide / 2 - 1, kPixels / 2 - kSide / 2, kPixels / 2 + kSide / 2 - 1,
+                            kPixels / 2 + kSide / 2})
+            weights_[static_cast<size_t>(p)] = 1;
+        sum = 4;
+    }
+    for (float& weight : weights_) weight = static_cast<float>(weight / sum);
+}
+
+void SurfelRaster::start(const V3f& normal, const SkyPart& sky, bool clamp) {
+    const Cone frame(normal, 0);
+    across_ = frame.across(), along_ = frame.along(), normal_ = normal;
+    sky_ = &sky, clamp_ = clamp;
+    front_.fill(0), back_.fill(0);
+    hidden_ = 0, light_ = V3f(0);
+}
+
+/// A closed thing covers the same pixels by its fronts and its backs: what it hides is the larger of both.
+void SurfelRaster::cover(int pixel, float front, float back, float* sum) {
+    const auto p = static_cast<size_t>(pixel);
+    if (!clamp_) {
+        *sum += (front + back) * sky_->weight(pixel);
+        return;
+    }
+    const float before = std::max(front_[p], back_[p]);
+    front_[p] = std::min(1.0f, front_[p] + front), back_[p] = std::min(1.0f, back_[p] + back);
+    *sum += (std::max(front_[p], back_[p]) - before) * sky_->weight(pixel);
+}
+
+void SurfelRaster::take(float part, const SeenSurface& thing) {
+    hidden_ += part * thing.counts;
+    light_ += thing.color * part;
+}
+
+/// It is spread over an ellipse, of what a ball of its solid angle would be, and a pixel more.
+void SurfelRaster::add_small(const V3f& way, const SeenSurface& thing) {
+    const V3f at = to_raster(way);
+    if (!(at.z > 0)) return;
+    const float solid_angle = std::max(thing.front, thing.back);
+    const float across = kSpread * std::sqrt(solid_angle / kHalfTurn) + kPixel;
+    const float out = (across - kPixel) * at.z + kPixel;
+    const float r = std::sqrt(at.x * at.x + at.y * at.y), ex = r > 0 ? at.x / r : 1,
+                ey = r > 0 ? at.y / r : 0;
+    const float wide = std::sqrt(out * ex * out * ex + across * ey * across * ey);
+    const float high = std::sqrt(out * ey * out * ey + across * ex * across * ex);
+    const PixelRange columns(at.x - wide, at.x + wide), rows(at.y - high, at.y + high);
+    const float ox = ex / out, oy = ey / out, ax = -ey / across, ay = ex / across;
+    const Pixels& all = pixels();
+    std::array<float, SkyPart::kPixels> shares;
+    float sum = 0;
+    size_t next = 0;
+    for (int j = rows.first; j < rows.end; ++j)
+        for (int i = columns.first; i < columns.end; ++i) {
+            const float dx = middle(i) - at.x, dy = middle(j) - at.y;
+            const float u = dx * ox + dy * oy, v = dx * ax + dy * ay;
+            const float share = cubed(std::max(0.0f, 1 - u * u - v * v));
+            shares[next++] = share;
+            sum += share * all.inside[static_cast<size_t>(j * kSide + i)];
+        }
+    if (!(sum > 0)) return;
+    const float scale = at.z / (all.area * sum);
+    const float front = thing.front * scale, back = thing.back * scale;
+    float part = 0;
+    next = 0;
+    for (int j = rows.first; j < rows.end; ++j)
+        for (int i = columns.first; i < columns.end; ++i)
+            if (const float share = shares[next++]; share > 0)
+                cover(j * kSide + i, front * share, back * share, &part);
+    take(part, thing);
+}
+
+/// A ray through the middle of each pixel meets the disc's plane.
+void SurfelRaster::add_disc(const V3f& way, const V3f& normal, float radius, const SeenSurface& thing) {
+    const float reach = radius * kSpread, distance = way.length();
+    const V3f at = to_raster(way), turned = to_raster(normal == V3f(0) ? way / -distance : normal);
+    const float sine = distance > reach ? reach / distance : 1;
+    const float cosine = distance > reach ? std::sqrt(1 - sine * sine) : -1;
+    const PixelRange columns = extent_of(at.x / distance, sine, cosine);
+    const PixelRange rows = extent_of(at.y / distance, sine, cosine);
+    const float plane = at.dot(turned), of_reach = 1 / (reach * reach);
+    const float front = thing.front > 0 ? kPeak : 0, back = thing.back > 0 ? kPeak : 0;
+    const Pixels& all = pixels();
+    float part = 0;
+    for (int j = rows.first; j < rows.end; ++j)
+        for (int i = columns.first; i < columns.end; ++i) {
+            const auto p = static_cast<size_t>(j * kSide + i);
+            const V3f ray(all.x[p], all.y[p], all.z[p]);
+            const float t = plane / ray.dot(turned);
+            if (!(t > 0 && t < distance + reach)) continue;
+            const float share = cubed(std::max(0.0f, 1 - (ray * t - at).length2() * of_reach));
+            if (share > 0) cover(j * kSide + i, front * share, back * share, &part);
+        }
+    take(part, thing);
+}
+
+V3f SurfelRaster::open_way() const {
+    const Pixels& all = pixels();
+    V3f sum(0);
+    for (int p = 0; p < SkyPart::kPixels; ++p) {
+        const auto i = static_cast<size_t>(p);
+        const float open = (1 - std::max(front_[i], back_[i])) * sky_->weight(p);
+        sum += V3f(all.x[i], all.y[i], all.z[i]) * open;
+    }
+    return across_ * sum.x + along_ * sum.y + normal_ * sum.z;
+}
+
+}  // namespace trapeze

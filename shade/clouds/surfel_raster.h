@@ -1,0 +1,68 @@
+/// The sky over a point as a small raster, in which near things hide those behind them [Christensen08].
+///
+/// The hemisphere is seen from above, as a disc: a direction (x, y, z) with z along the normal is at (x, y).
+/// A pixel's area is then the part of the sky that it stands for, by the cosine.
+#pragma once
+
+#include <array>
+
+#include "core/math.h"
+
+namespace trapeze {
+
+/// Which part of the sky counts, and how much of it each pixel is.
+class SkyPart {
+  public:
+    /// `angle`: from the normal to the rim, radians; beyond a right angle nothing is seen. `uniform`: all
+    /// solid angles alike, else by the cosine.
+    SkyPart(float angle, bool uniform);
+
+    static constexpr int kSide = 16;  ///< pixels
+    static constexpr int kPixels = kSide * kSide;
+
+    /// Of a pixel, the parts of all pixels' sum.
+    float weight(int pixel) const { return weights_[static_cast<size_t>(pixel)]; }
+    const float* weights() const { return weights_.data(); }
+
+  private:
+    std::array<float, kPixels> weights_;
+};
+
+/// What is in the way of light from a direction.
+struct SeenSurface {
+    float front = 0, back = 0;  ///< solid angles of either side
+    float counts = 1;           ///< how much it adds to what is hidden
+    V3f color{0, 0, 0};
+};
+
+class SurfelRaster {
+  public:
+    /// Forgets everything. `normal` has unit length. Without `clamp` everything counts, also behind others.
+    void start(const V3f& normal, const SkyPart& sky, bool clamp);
+
+    /// Adds a thing that is so small that its outline is of no matter. `way`: of unit length. Things are to
+    /// be added from the nearest to the farthest where `counts` or colours differ.
+    void add_small(const V3f& way, const SeenSurface& thing);
+    /// Adds a disc; `normal` has unit length, or none where it faces the place. Only whether the thing has a
+    /// front or a back matters, not how large they are.
+    void add_disc(const V3f& way, const V3f& normal, float radius, const SeenSurface& thing);
+
+    float hidden() const { return hidden_; }     ///< part of the sky
+    const V3f& light() const { return light_; }  ///< the mean of the colours, black where there is nothing
+    /// The mean direction in which nothing is, not normalised.
+    V3f open_way() const;
+
+  private:
+    void cover(int pixel, float front, float back, float* sum);
+    void take(float part, const SeenSurface& thing);
+    V3f to_raster(const V3f& way) const { return {way.dot(across_), way.dot(along_), way.dot(normal_)}; }
+
+    V3f across_, along_, normal_;
+    const SkyPart* sky_ = nullptr;
+    bool clamp_ = true;
+    std::array<float, SkyPart::kPixels> front_, back_;  ///< covered parts of pixels
+    float hidden_ = 0;
+    V3f light_{0, 0, 0};
+};
+
+}  // namespace trapeze

@@ -1,0 +1,248 @@
+#include "shade/clouds/surfel_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trapeze {
+namespace {
+
+constexpr float kUnitDisc = std::numbers::pi_v<float>;
+constexpr uint32_t kLeafSurfels = 8;
+constexpr int kMostDepth = 40;           ///< leaves there may hold any number: discs in one place
+constexpr size_t kMostWaiting = 8 * 41;  ///< nodes: seven of each level and eight of the last
+constexpr float kSelfPart = 0.25f;       ///< of a disc's radius, where no bias is given
+
+/// Whether distances to it are numbers.
+bool is_within_numbers(const V3f& v) {
+    return std::isfinite(v.length2());
+}
+
+bool counts(const Surfels& surfels, uint32_t i) {
+    return is_within_numbers(surfels.positions[i]) && is_within_numbers(surfels.normals[i]) &&
+           std::isfinite(surfels.areas[i]) && surfels.areas[i] > 0;
+}
+
+float usable(float max_solid_angle) {
+    return std::min(std::max(max_solid_angle, SurfelTree::kLeastSolidAngle), SurfelTree::kMostSolidAngle);
+}
+
+V3f finite(const V3f& color) {
+    return is_within_numbers(color) ? color : V3f(0);
+}
+
+/// The discs' area: what is seen from all directions in the mean is a quarter of it.
+float whole_area(const Harmonics& area) {
+    return 4 * area[0] * harmonics_at(V3f(0, 0, 1))[0];
+}
+
+/// Areas of the fronts that are seen from a direction, and from the opposite one. Nine harmonics know the
+/// difference exactly, and the sum of discs that all look one way too large or too small by a sixteenth: what
+/// they lack is added as far as the discs do so, which their vector area tells.
+BothWays areas_seen(const Harmonics& area, const V3f& from, const Harmonics& at) {
+    constexpr float kOfVector = 1.02332671f;  // sqrt(pi / 3), the vector area's in band 1
+    const V3f vector = V3f(area[3], area[1], area[2]) / kOfVector;
+    const float all = whole_area(area), length = vector.length();
+    BothWays seen = both_ways(area, at);
+    if (all > 0 && length > 0) {
+        const float aligned = std::min(length / all, 1.0f), x = std::abs(vector.dot(from)) / length;
+        const float lacks = x / 2 - 0.25f - 0.15625f * (3 * x * x - 1);
+        const float cubed = aligned * aligned * aligned, more = all * cubed * cubed * lacks;
+        seen.there += more, seen.back += more;
+    }
+    return {std::clamp(seen.there, 0.0f, all), std::clamp(seen.back, 0.0f, all)};
+}
+
+/// The mean colour of a side, from power and area as seen; where next to nothing is seen, of all sides.
+float mean_color(float power, float area, float all_power, float all_area) {
+    constexpr float kLeastPart = 0.1f;
+    if (area < kLeastPart * all_area) return std::max(0.0f, all_power / all_area);
+    return std::max(0.0f, power / area);
+}
+
+/// Cells are halved along those axes along which they are not much shorter than along others: they stay about
+/// as long as wide.
+unsigned octant_of(const V3f& p, const Box3f& box) {
+    const V3f size = box.size(), middle = box.min + size * 0.5f;
+    const float most = std::max({size.x, size.y, size.z});
+    unsigned octant = 0;
+    for (int k = 0; k < 3; ++k)
+        if (size[k] > most / 2 && p[k] >= middle[k]) octant |= 1u << k;
+    return octant;
+}
+
+}  // namespace
+
+SurfelTree::SurfelTree(const Surfels& surfels) {
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < surfels.size(); ++i)
+        if (counts(surfels, i)) order.push_back(i);
+    if (order.empty()) return;
+    nodes_.resize(1);
+    nodes_[0].end = static_cast<uint32_t>(order.size());
+    build(0, order, surfels, 0);
+    nodes_.shrink_to_fit();
+    surfels_.positions.reserve(order.size()), surfels_.normals.reserve(order.size());
+    surfels_.areas.reserve(order.size());
+    for (const uint32_t i : order) {
+        surfels_.positions.push_back(surfels.positions[i]);
+        surfels_.normals.push_back(surfels.normals[i]);
+        surfels_.areas.push_back(surfels.areas[i]);
+    }
+    if (!surfels.radiosities.empty()) {
+        surfels_.radiosities.reserve(order.size());
+        for (const uint32_t i : order) surfels_.radiosities.push_back(finite(surfels.radiosities[i]));
+    }
+    sum_up();
+}
+
+size_t SurfelTree::bytes() const {
+    return surfels_.bytes() + nodes_.capacity() * sizeof(Node) + powers_.capacity() * sizeof(Power);
+}
+
+float SurfelTree::disc_radius(uint32_t surfel) const {
+    return std::sqrt(surfels_.areas[surfel] / kUnitDisc);
+}
+
+/// Sorts a node's part of `order` by octants, and makes its children.
+void SurfelTree::build(uint32_t number, std::vector<uint32_t>& order, const Surfels& from, int depth) {
+    const uint32_t first = nodes_[number].first, end = nodes_[number].end;
+    if (end - first <= kLeafSurfels || depth == kMostDepth) return;
+    Box3f box;
+    for (uint32_t i = first; i < end; ++i) box.extendBy(from.positions[order[i]]);
+    if (!is_within_numbers(box.size()) || box.min == box.max) return;
+    std::array<std::vector<uint32_t>, 8> octants;
+    for (uint32_t i = first; i < end; ++i)
+        octants[octant_of(from.positions[order[i]], box)].push_back(order[i]);
+    const auto child = static_cast<uint32_t>(nodes_.size());
+    uint32_t next = first;
+    for (const std::vector<uint32_t>& octant : octants) {
+        if (octant.empty()) continue;
+        Node node;
+        node.first = next;
+        for (const uint32_t i : octant) order[next++] = i;
+        node.end = next;
+        nodes_.push_back(node);
+    }
+    octants = {};
+    const auto children = static_cast<uint32_t>(nodes_.size()) - child;
+    nodes_[number].child = child, nodes_[number].children = children;
+    for (uint32_t i = 0; i < children; ++i) build(child + i, order, from, depth + 1);
+}
+
+/// Children stand behind their parents: from the end, they are known when they are asked for.
+void SurfelTree::sum_up() {
+    if (has_radiosities()) powers_.resize(nodes_.size());
+    for (size_t n = nodes_.size(); n-- > 0;) sum_node(nodes_[n], powers_.empty() ? nullptr : &powers_[n]);
+}
+
+void SurfelTree::sum_node(Node& node, Power* power) {
+    V3d sum(0);
+    double area = 0;
+    for (uint32_t i = node.first; i < node.end; ++i) {
+        const auto own = static_cast<double>(surfels_.areas[i]);
+        sum += V3d(surfels_.positions[i]) * own;
+        area += own;
+    }
+    node.middle = V3f(sum / area);
+    for (uint32_t i = node.first; i < node.end; ++i)
+        node.radius = std::max(node.radius, (surfels_.positions[i] - node.middle).length() + disc_radius(i));
+    const auto add = [](Harmonics& to, const Harmonics& more) {
+        for (size_t i = 0; i < to.size(); ++i) to[i] += more[i];
+    };
+    node.area.fill(0);
+    if (power)
+        for (Harmonics& channel : *power) channel.fill(0);
+    for (uint32_t c = node.child; c < node.child + node.children; ++c) {
+        add(node.area, nodes_[c].area);
+        for (size_t k = 0; power && k < 3; ++k) add((*power)[k], powers_[c][k]);
+    }
+    for (uint32_t i = node.first; i < node.end && node.children == 0; ++i) {
+        add_cosine(node.area, surfels_.normals[i], surfels_.areas[i]);
+        for (int k = 0; power && k < 3; ++k)
+            add_cosine((*power)[static_cast<size_t>(k)], surfels_.normals[i],
+                       surfels_.areas[i] * surfels_.radiosities[i][k]);
+    }
+}
+
+void SurfelTree::cut(const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const {
+    pieces.clear();
+    if (nodes_.empty()) return;
+    const float most = usable(place.max_solid_angle);
+    uint32_t waiting[kMostWaiting];
+    size_t count = 0;
+    waiting[count++] = 0;
+    while (count > 0) {
+        const uint32_t number = waiting[--count];
+        const Node& node = nodes_[number];
+        const V3f way = node.middle - place.position;
+        if (way.dot(place.normal) + node.radius <= 0) continue;
+        const float distance2 = way.length2();
+        if (distance2 > 0 && std::sqrt(distance2) - node.radius > place.max_distance) continue;
+        if (kUnitDisc * node.radius * node.radius < most * distance2) {
+            add_node(node, number, place, pieces);
+            continue;
+        }
+        for (uint32_t i = node.first; i < node.end && node.children == 0; ++i) add_disc(i, place, pieces);
+        for (uint32_t c = node.children; c-- > 0;) waiting[count++] = node.child + c;
+    }
+}
+
+/// A cluster as a whole, as its middle is seen.
+void SurfelTree::add_node(const Node& node, uint32_t number, const SurfelPlace& place,
+                          std::vector<SurfelPiece>& pieces) const {
+    if (node.end - node.first == 1) return add_disc(node.first, place, pieces);
+    SurfelPiece piece;
+    piece.way = node.middle - place.position;
+    piece.distance = piece.way.length();
+    if (!std::isfinite(piece.distance) || piece.distance > place.max_distance) return;
+    if (piece.way.dot(place.normal) <= 0) return;
+    const V3f from = piece.way / -piece.distance;
+    const BothWays seen = areas_seen(node.area, from, harmonics_at(from));
+    piece.front = seen.there, piece.back = seen.back;
+    piece.number = number, piece.is_cluster = true;
+    pieces.push_back(piece);
+}
+
+void SurfelTree::add_disc(uint32_t surfel, const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const {
+    SurfelPiece piece;
+    piece.way = surfels_.positions[surfel] - place.position;
+    const V3f& normal = surfels_.normals[surfel];
+    const float area = surfels_.areas[surfel], distance2 = piece.way.length2();
+    const float most = usable(place.max_solid_angle);
+    piece.distance = std::sqrt(distance2);
+    if (!(distance2 > 0) || !std::isfinite(distance2) || piece.distance > place.max_distance) return;
+    piece.is_large = area > most * distance2;
+    const float toward = -piece.way.dot(normal);  // the distance between the place and the disc's plane
+    const float seen = normal == V3f(0) ? area : area * std::abs(toward) / piece.distance;
+    if (normal == V3f(0))
+        piece.front = piece.back = area;
+    else
+        (toward > 0 ? piece.front : piece.back) = seen;
+    const float bias = place.bias < 0 ? kSelfPart * disc_radius(surfel) : place.bias;
+    if (piece.is_large && (normal == V3f(0) ? piece.distance : std::abs(toward)) < bias) return;
+    if (!piece.is_large && piece.way.dot(place.normal) <= 0) return;
+    piece.number = surfel;
+    pieces.push_back(piece);
+}
+
+V3f SurfelTree::radiosity(const SurfelPiece& piece) const {
+    if (!has_radiosities()) return V3f(0);
+    if (!piece.is_cluster) return surfels_.radiosities[piece.number];
+    const Harmonics at = harmonics_at(piece.way / -piece.distance);
+    const Harmonics& of_node = nodes_[piece.number].area;
+    const BothWays area = both_ways(of_node, at);
+    const float all = whole_area(of_node), sides = piece.front + piece.back;
+    V3f color(0);
+    for (int k = 0; k < 3 && sides > 0; ++k) {
+        const Harmonics& channel = powers_[piece.number][static_cast<size_t>(k)];
+        const BothWays power = both_ways(channel, at);
+        const float all_power = whole_area(channel);
+        color[k] = (mean_color(power.there, area.there, all_power, all) * piece.front +
+                    mean_color(power.back, area.back, all_power, all) * piece.back) /
+                   sides;
+    }
+    return color;
+}
+
+}  // namespace trapeze

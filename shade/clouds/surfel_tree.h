@@ -1,0 +1,80 @@
+/// Finds, for a point, the few discs and clusters of discs that stand for all discs of a cloud
+/// [Christensen08].
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/scene/surfels.h"
+#include "shade/clouds/spherical_harmonics.h"
+
+namespace trapeze {
+
+/// Where a cloud is looked at from, and how closely.
+struct SurfelPlace {
+    V3f position, normal;          ///< of unit length: what lies below is not seen
+    float max_solid_angle = 0.1f;  ///< of a cluster that is taken as one, steradians
+    float max_distance = std::numeric_limits<float>::infinity();
+    /// Large discs whose plane passes nearer do not count: they are the surface itself. Below 0: a quarter
+    /// of each disc's radius.
+    float bias = -1;
+};
+
+/// A disc or a cluster, as seen from a place.
+struct SurfelPiece {
+    V3f way;                    ///< from the place to the middle
+    float distance = 0;         ///< the way's length
+    float front = 0, back = 0;  ///< areas of either side, projected along the way
+    uint32_t number = 0;        ///< of a surfel of the tree, or of a node
+    bool is_cluster = false;
+    bool is_large = false;  ///< a disc that takes more than the solid angle: its outline matters
+};
+
+/// An octree over discs. Immutable; asked by all threads.
+class SurfelTree {
+  public:
+    /// Discs that are not finite, or have no area, are left out.
+    explicit SurfelTree(const Surfels& surfels);
+
+    /// The pieces that stand for all discs above the place's horizon, each disc by one of them, in an order
+    /// that depends on the tree alone.
+    void cut(const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const;
+
+    bool empty() const { return surfels_.size() == 0; }
+    bool has_radiosities() const { return !surfels_.radiosities.empty(); }
+    /// The discs, in the tree's order.
+    const Surfels& surfels() const { return surfels_; }
+    float disc_radius(uint32_t surfel) const;
+    /// The mean colour of what a piece shows.
+    V3f radiosity(const SurfelPiece& piece) const;
+    size_t bytes() const;
+
+    /// Between these thresholds of solid angles work has a bound and clusters look small.
+    static constexpr float kLeastSolidAngle = 1e-4f, kMostSolidAngle = 1;
+
+  private:
+    struct Node {
+        V3f middle{0, 0, 0};  ///< the discs' mean place, weighted by their areas
+        float radius = 0;     ///< of a ball around it that holds the discs
+        Harmonics area{};     ///< of the fronts, as seen from a direction
+        uint32_t first = 0;   ///< of its surfels
+        uint32_t end = 0;
+        uint32_t child = 0;     ///< the first of its children, which stand side by side
+        uint32_t children = 0;  ///< 0: a leaf
+    };
+    using Power = std::array<Harmonics, 3>;
+
+    void build(uint32_t number, std::vector<uint32_t>& order, const Surfels& from, int depth);
+    void sum_up();
+    void sum_node(Node& node, Power* power);
+    void add_node(const Node& node, uint32_t number, const SurfelPlace& place,
+                  std::vector<SurfelPiece>& pieces) const;
+    void add_disc(uint32_t surfel, const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const;
+
+    Surfels surfels_;
+    std::vector<Node> nodes_;
+    std::vector<Power> powers_;  ///< of nodes: area times radiosity; empty without radiosities
+};
+
+}  // namespace trapeze

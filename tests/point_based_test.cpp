@@ -1,0 +1,232 @@
+/// occlusion() and indirectdiffuse() by point clouds, in scenes.
+#include <gtest/gtest.h>
+
+#include "shade/clouds/clouds_harness.h"
+#include "shade/clouds/surfels_harness.h"
+#include "tests/clouds_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// Towards the camera from the square that asks, which is at z = 5.
+const std::string kAsks = "normal up = normal(0, 0, -1); ";
+/// A place is asked for 16 pixels.
+const std::string kCoarse = "ShadingRate 16 ";
+const std::string kBall = kHidden + kSeen + "Translate 0 0 3 Sphere .5 -.5 .5 360 ";
+
+PointCloud cloud_of(const Surfels& surfels, bool radiosity = false) {
+    PointCloud cloud;
+    cloud.positions = surfels.positions, cloud.normals = surfels.normals;
+    for (const float area : surfels.areas)
+        cloud.radii.push_back(std::sqrt(area / static_cast<float>(kHalfTurn64)));
+    if (!radiosity) return cloud;
+    cloud.channels = {{"_radiosity", ChannelType::Color}};
+    for (const V3f& color : surfels.radiosities)
+        cloud.values.insert(cloud.values.end(), {color.x, color.y, color.z});
+    return cloud;
+}
+
+/// A ball of radius 1 / 2, 2 above the square.
+PointCloud ball(int discs = 4000) {
+    return cloud_of(sphere(discs, {0, 0, 3}, .5));
+}
+
+/// A scene with a cloud, whose shader leaves what it finds.
+struct PointBased : Clouds {
+    explicit PointBased(const PointCloud& cloud) { folder().write("a.ptc", ptc_of(cloud)); }
+
+    /// Red of all pixels; `found`: what is in Ci, where `file` is the cloud's.
+    std::vector<Pixel> asks(const std::string& found, const std::string& things = "",
+                            const std::string& before = "") {
+        shader("asks", kAsks + before + "Ci = " + found + ";");
+        return pixels(
+            render({"AttributeBegin " + things + "\nAttributeEnd " + surface("asks") + kCoarse + kAsker})[0]);
+    }
+};
+
+const std::string kCall = "occlusion(P, up, 0, \"pointbased\", 1, \"filename\", file";
+
+/// (R / d)^2 cos(theta) of a ball, at all places of a plane.
+TEST(PointBased, BallsHideTheirFormFactor) {
+    PointBased scene(ball());
+    const auto seen = scene.asks("color(" + kCall + "), expected, 1)", "",
+                                 "vector way = P - point(0, 0, 3); float d = length(way);"
+                                 "float expected = .25 * 2 / (d * d * d);");
+    scene.expect_nothing_said();
+    for (const Pixel& pixel : seen) EXPECT_NEAR(pixel.red, pixel.green, .12f * pixel.green);
+    // The smaller clusters are, the nearer.
+    for (const Pixel& pixel : scene.asks("color(" + kCall + ", \"maxsolidangle\", .01), expected, 1)", "",
+                                         "vector way = P - point(0, 0, 3); float d = length(way);"
+                                         "float expected = .25 * 2 / (d * d * d);"))
+        EXPECT_NEAR(pixel.red, pixel.green, .05f * pixel.green);
+}
+
+/// A disc of radius 2 at a height of 1 sends 4 / 5 of its colour to below its middle.
+TEST(PointBased, DiscsSendTheirFormFactor) {
+    Surfels surfels;
+    add_sheet(surfels, 60, {-2, -2, 4}, {4, 0, 0}, {0, 4, 0});
+    for (size_t i = 0; i < surfels.size(); ++i) {
+        const V3f& p = surfels.positions[i];
+        if (p.x * p.x + p.y * p.y > 4) surfels.areas[i] = 0;
+        surfels.radiosities.emplace_back(.2f, .5f, .8f);
+    }
+    PointBased scene(cloud_of(surfels, true));
+    const auto seen = scene.asks(
+        "indirectdiffuse(P, up, 0, \"pointbased\", 1, \"filename\", file, \"maxsolidangle\", .03)");
+    scene.expect_nothing_said();
+    const Pixel& middle = seen[32 * 64 + 32];
+    EXPECT_NEAR(middle.red, .2f * .8f, .05f * .16f);
+    EXPECT_NEAR(middle.green, .5f * .8f, .05f * .4f);
+    EXPECT_NEAR(middle.blue, .8f * .8f, .05f * .64f);
+}
+
+/// What is baked by a frame hides in the next one, as rays see it there.
+TEST(PointBased, BakedCloudsHideAsRaysSee) {
+    Clouds clouds;
+    clouds.shader("bakes", "bake3d(file, \"\", P, Nn, \"interpolate\", 1); Ci = 1;");
+    clouds.shader("asks", kAsks + "float points = " + kCall +
+                              ", \"maxsolidangle\", .03, \"hitsides\", \"front\");"
+                              "float rays = occlusion(P, up, 1024); Ci = color(points, rays, 1);");
+    const std::string things = "Translate 0 0 3.5 Rotate 30 1 0 0 Scale .7 .7 .7 Sphere 1 -1 1 360 ";
+    const std::vector<Image> images = clouds.render(
+        {clouds.surface("bakes") + things, "AttributeBegin " + kHidden + kSeen + things + "AttributeEnd " +
+                                               clouds.surface("asks") + kCoarse + kAsker});
+    clouds.expect_nothing_said();
+    // The camera sees no back, but shades it, so that it bakes.
+    float most = 0;
+    for (const Pixel& pixel : pixels(images[1])) {
+        EXPECT_NEAR(pixel.red, pixel.green, .02f + .05f * pixel.green);
+        most = std::max(most, pixel.green);
+    }
+    EXPECT_GT(most, .2f);
+}
+
+/// Of a sheet that faces the place one side hides, of one that is turned away the other.
+TEST(PointBased, SidesAreChosen) {
+    for (const bool turned : {false, true}) {
+        Surfels surfels;
+        const V3f x(0, 2, 0), y(2, 0, 0);
+        add_sheet(surfels, 40, {-1, -1, 4}, turned ? y : x, turned ? x : y);
+        PointBased scene(cloud_of(surfels));
+        const auto seen = scene.asks("color(" + kCall + ", \"hitsides\", \"front\"), " + kCall +
+                                     ", \"hitsides\", \"back\"), " + kCall + ", \"hitsides\", \"both\"))");
+        const Pixel& middle = seen[32 * 64 + 32];
+        EXPECT_GT(middle.blue, .4f);
+        EXPECT_EQ(turned ? middle.red : middle.green, middle.blue);
+        EXPECT_EQ(turned ? middle.green : middle.red, 0);
+    }
+}
+
+/// As rays have them: nothing counts beyond "maxdist", and less with its distance by "falloff".
+TEST(PointBased, DistancesCount) {
+    PointBased scene(ball());
+    const Pixel near = scene.asks("color(" + kCall + ", \"maxdist\", 1.4), " + kCall + ", \"maxdist\", 9), " +
+                                  kCall + "))")[32 * 64 + 32];
+    EXPECT_EQ(near.red, 0);
+    EXPECT_EQ(near.green, near.blue);
+    for (const char* const mode : {"0", "1"}) {
+        const std::string falloff =
+            std::string("\"falloff\", .7, \"falloffmode\", ") + mode + ", \"maxdist\", 6";
+        const Pixel far = scene.asks(
+            "color(" + kCall + "), " + kCall + ", " + falloff + "), occlusion(P, up, 4096, " + falloff + "))",
+            kBall)[32 * 64 + 32];
+        EXPECT_LT(far.green, .8f * far.red);
+        EXPECT_NEAR(far.green, far.blue, .1f * far.blue);
+    }
+}
+
+/// The cloud is in a space of its own, and lengths are in the current one.
+TEST(PointBased, CoordinateSystemsMoveClouds) {
+    PointBased scene(cloud_of(sphere(4000, {0, 0, 1}, .25)));
+    const std::string space = ", \"coordsystem\", \"cloud\"";
+    const auto seen = scene.asks("color(" + kCall + space + "), " + kCall + space + ", \"maxdist\", 1.4), " +
+                                     kCall + space + ", \"maxdist\", 2.6))",
+                                 "TransformBegin Translate 0 0 1 Rotate 20 0 0 1 Scale 2 2 2 "
+                                 "CoordinateSystem \"cloud\" TransformEnd");
+    scene.expect_nothing_said();
+    const Pixel& middle = seen[32 * 64 + 32];
+    EXPECT_NEAR(middle.red, .25f / 4, .08f / 16);
+    EXPECT_EQ(middle.green, 0);
+    EXPECT_NEAR(middle.blue, middle.red, 1e-3f);
+}
+
+/// A cone of half angle 1 / 4 about the normal is all that counts, and so holds the ball alone.
+TEST(PointBased, ConesAndOutputs) {
+    PointBased scene(ball());
+    const auto seen = scene.asks("color(cone, found, ycomp(way))", "",
+                                 "float found = 0; vector way = 0;"
+                                 "float cone = " +
+                                     kCall +
+                                     ", \"coneangle\", .15);"
+                                     "color light = indirectdiffuse(P, up, 0, \"pointbased\", 1,"
+                                     "  \"filename\", file, \"occlusion\", found, \"environmentdir\", way);");
+    EXPECT_GT(seen[32 * 64 + 32].red, .9f);
+    EXPECT_EQ(seen[0].red, 0);
+}
+
+/// Each of these says why, at its place, and sends rays instead: every pixel is as with rays alone.
+TEST(PointBased, WithoutACloudRaysAreSent) {
+    struct Wrong {
+        std::string call, says;
+    };
+    Surfels surfels = sphere(100, {0, 0, 3}, .5);
+    PointCloud flat = cloud_of(surfels);
+    std::ranges::fill(flat.radii, 0.0f);
+    const std::string of_rays = "occlusion(P, up, 16";
+    for (
+        const Wrong& wrong :
+        {Wrong{
+             of_rays + ", \"pointbased\", 1, \"filename\", \"none.ptc\")",
+             "occlusion: point cloud \"none.ptc\" cannot be read: there is no such file; rays are sent instead"},
+         Wrong{of_rays + ", \"pointbased\", 1, \"filename\", file)", "has no areas; rays are sent instead"},
+         Wrong{of_rays + ", \"pointbased\", 1, \"filename\", file, \"coordsystem\", \"nowhere\")",
+               "has no areas"}}) {
+        PointBased scene(flat);
+        const auto rays = scene.asks(of_rays + ")", kBall);
+        scene.expect_nothing_said();
+        const auto seen = scene.asks(wrong.call, kBall);
+        ASSERT_EQ(scene.said.size(), 1u);
+        EXPECT_EQ(scene.said[0].severity, Severity::Warning);
+        EXPECT_NE(scene.said[0].text.find(wrong.says), std::string::npos) << to_string(scene.said[0]);
+        EXPECT_NE(to_string(scene.said[0]).find("asks.sl:1:"), std::string::npos);
+        for (size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(rays[i].red, seen[i].red);
+        EXPECT_GT(seen[32 * 64 + 32].red, 0);
+    }
+    PointBased scene(ball());
+    scene.asks("indirectdiffuse(P, up, 4, \"pointbased\", 1, \"filename\", file)", kBall);
+    ASSERT_EQ(scene.said.size(), 1u);
+    EXPECT_NE(scene.said[0].text.find("has no channel color \"_radiosity\""), std::string::npos);
+}
+
+/// With 0 the name says nothing.
+TEST(PointBased, ZeroSendsRays) {
+    PointBased scene(ball());
+    const auto seen =
+        scene.asks("color(occlusion(P, up, 16, \"pointbased\", 0, \"filename\", file), 0, 0)", kBall);
+    EXPECT_GT(seen[32 * 64 + 32].red, 0);
+    scene.expect_nothing_said();
+}
+
+/// Also at hits of rays.
+TEST(PointBased, AreTheSameBitsForAnyThreadsAndRegions) {
+    std::vector<std::vector<float>> pictures;
+    for (const int threads : {1, 2, 5})
+        for (const int regions : {1, 7}) {
+            PointBased scene(ball());
+            scene.threads = threads, scene.settings.regions_at_least = regions;
+            scene.shader("asks", kAsks + "float falls = " + kCall + ", \"falloff\", 1); Ci = color(" + kCall +
+                                     "), falls, comp(trace(P, normalize(vector(xcomp(P), .3, -1))), 1));");
+            pictures.push_back(
+                scene
+                    .render({scene.surface("asks") + kCoarse +
+                             "Attribute \"visibility\" \"int specular\" 1 " +
+                             "Translate 0 0 1.1 Sphere .3 -.3 .3 360 Translate 0 0 -1.1 " + kAsker})[0]
+                    .rgba);
+            scene.expect_nothing_said();
+            EXPECT_EQ(pictures.back(), pictures.front());
+        }
+    EXPECT_GT(*std::ranges::max_element(pictures[0]), .01f);
+}
+
+}  // namespace
+}  // namespace trapeze::testing
