@@ -137,7 +137,7 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
         const Material* const left =
             medium.primitive != RayMedium::kNone ? &materials.of(medium.primitive) : nullptr;
         GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr,
-                {&clouds, depth == 0 ? &bakes : nullptr}, left)
+                {&clouds, depth == 0 ? &bakes : nullptr, rays}, left)
             .run(depth == 0 ? aovs : AovLayout(), visit.outputs);
         stats.shaded_vertices += vertices;
         first = next;
@@ -203,7 +203,7 @@ void Shading::displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratc
         const Material& material = impl_->materials.of(grid->primitive_index);
         if (material.attributes->rays.displaced)
             GridRun(impl_->context, impl_->textures, material, {&grid, 1}, scratch.state->run, nullptr,
-                    {&impl_->clouds, nullptr})
+                    {&impl_->clouds, nullptr, nullptr})
                 .run_displacement();
         grid->Ci = grid->Cs, grid->Oi = grid->Os;
     }

@@ -198,6 +198,57 @@ TEST(PointBased, WithoutACloudRaysAreSent) {
     EXPECT_NE(scene.said[0].text.find("has no channel color \"_radiosity\""), std::string::npos);
 }
 
+const std::string kOfScene = "occlusion(P, up, 0, \"pointbased\", 1";
+
+/// Without a file, discs are made of what diffuse rays see, in the right number for its opacity.
+TEST(PointBased, ScenesAreMadeDiscsOf) {
+    PointBased scene(ball());
+    const std::string both = "color(" + kOfScene + ", \"maxsolidangle\", .03), expected, 1)";
+    const std::string expects =
+        "vector way = P - point(0, 0, 3); float d = length(way);"
+        "float expected = .25 * 2 / (d * d * d);";
+    for (const Pixel& pixel : scene.asks(both, kBall, expects))
+        EXPECT_NEAR(pixel.red, pixel.green, .06f * pixel.green);
+    // A disc that half covers its place and one behind it: what both hide adds up, as that of unrelated
+    // discs.
+    const Pixel half =
+        scene.asks("color(" + kOfScene + "), 0, 0)",
+                   "Opacity .5 .5 .5 " + kHidden + kSeen + "Translate 0 0 4 Disk 0 2 360")[32 * 64 + 32];
+    EXPECT_NEAR(half.red, .4f, .03f);
+    const Pixel unseen = scene.asks("color(" + kOfScene + "), 0, 0)",
+                                    kHidden +
+                                        "Attribute \"visibility\" \"int specular\" 1 "
+                                        "Translate 0 0 3 Sphere .5 -.5 .5 360")[32 * 64 + 32];
+    EXPECT_EQ(unseen.red, 0);
+    scene.expect_nothing_said();
+}
+
+/// Outsides are fronts, whichever way a surface is parametrised.
+TEST(PointBased, OutsidesAreFronts) {
+    for (const char* const turned : {"", "ReverseOrientation ", "Scale -1 1 1 "}) {
+        PointBased scene(ball());
+        const Pixel middle =
+            scene.asks("color(" + kOfScene +
+                           ", \"hitsides\", \"front\"), occlusion(P, up, 64, "
+                           "\"hitsides\", \"front\"), " +
+                           kOfScene + "))",
+                       kHidden + kSeen + turned + "Translate 0 0 4 Disk 0 2 360")[32 * 64 + 32];
+        EXPECT_GT(middle.blue, .7f);
+        EXPECT_NEAR(middle.red, middle.green, .05f);
+    }
+}
+
+/// The scene has no colours without shading it.
+TEST(PointBased, ColoursOfTheSceneAreTraced) {
+    PointBased scene(ball());
+    const auto rays = scene.asks("indirectdiffuse(P, up, 4)", kBall);
+    scene.expect_nothing_said();
+    const auto seen = scene.asks("indirectdiffuse(P, up, 4, \"pointbased\", 1)", kBall);
+    ASSERT_EQ(scene.said.size(), 1u);
+    EXPECT_NE(scene.said[0].text.find("has no colours"), std::string::npos);
+    for (size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(rays[i].red, seen[i].red);
+}
+
 /// With 0 the name says nothing.
 TEST(PointBased, ZeroSendsRays) {
     PointBased scene(ball());
@@ -207,7 +258,7 @@ TEST(PointBased, ZeroSendsRays) {
     scene.expect_nothing_said();
 }
 
-/// Also at hits of rays.
+/// Of files and of the scene; with an order of discs and without; also at hits of rays.
 TEST(PointBased, AreTheSameBitsForAnyThreadsAndRegions) {
     std::vector<std::vector<float>> pictures;
     for (const int threads : {1, 2, 5})
@@ -215,13 +266,14 @@ TEST(PointBased, AreTheSameBitsForAnyThreadsAndRegions) {
             PointBased scene(ball());
             scene.threads = threads, scene.settings.regions_at_least = regions;
             scene.shader("asks", kAsks + "float falls = " + kCall + ", \"falloff\", 1); Ci = color(" + kCall +
-                                     "), falls, comp(trace(P, normalize(vector(xcomp(P), .3, -1))), 1));");
-            pictures.push_back(
-                scene
-                    .render({scene.surface("asks") + kCoarse +
-                             "Attribute \"visibility\" \"int specular\" 1 " +
-                             "Translate 0 0 1.1 Sphere .3 -.3 .3 360 Translate 0 0 -1.1 " + kAsker})[0]
-                    .rgba);
+                                     "), falls, comp(trace(P, normalize(vector(xcomp(P), .3, -1))), 1) + " +
+                                     kOfScene + "));");
+            pictures.push_back(scene
+                                   .render({scene.surface("asks") + kCoarse +
+                                            "Attribute \"visibility\" \"int specular\" 1 \"int diffuse\" 1 "
+                                            "Translate 0 0 1.1 Sphere .3 -.3 .3 360 Translate 0 0 -1.1 " +
+                                            kAsker})[0]
+                                   .rgba);
             scene.expect_nothing_said();
             EXPECT_EQ(pictures.back(), pictures.front());
         }

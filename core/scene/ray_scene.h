@@ -11,6 +11,7 @@
 #include "core/scene/ray_groups.h"
 #include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
+#include "core/scene/surfels.h"
 
 namespace trapeze {
 
@@ -84,6 +85,9 @@ class RayScene {
     virtual int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const = 0;
     /// A pixel's side at a point, camera space: rays know surfaces no better.
     virtual float spacing(const V3f& P) const = 0;
+    /// All that rays of a kind meet as discs, at shutter open in camera space; the areas are smaller where
+    /// surfaces are not opaque. Nothing where it takes more than `most_bytes`.
+    virtual std::optional<Surfels> surfels(RayKind, size_t /*most_bytes*/) const { return {}; }
 };
 
 }  // namespace trapeze

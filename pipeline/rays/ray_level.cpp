@@ -75,6 +75,10 @@ bool RayLevel::has(RayKind kind) const {
     return false;
 }
 
+bool RayLevel::is_seen(uint32_t primitive, RayKind kind) const {
+    return sees(kind, mask_of(dicer_.attributes(primitive).rays));
+}
+
 bool RayLevel::makes_bricks() const {
     return std::ranges::any_of(groups_, [](const Group& group) { return group.bricks != nullptr; });
 }

@@ -28,6 +28,8 @@ class RayLevel {
     void make_grids(size_t most_bytes);
 
     bool has(RayKind kind) const;
+    /// Whether rays of a kind see a primitive.
+    bool is_seen(uint32_t primitive, RayKind kind) const;
     /// RayScene's, of this level, without regard to solids.
     std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const;
     std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const;

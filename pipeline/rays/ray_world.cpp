@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/rays/make_surfels.h"
+
 namespace trapeze {
 namespace {
 
@@ -187,6 +189,12 @@ int RayWorld::dice(const RaySurfaceHit& hit, ShadingGrid& grid) const {
 
 float RayWorld::spacing(const V3f& P) const {
     return rule_.pixel(P);
+}
+
+std::optional<Surfels> RayWorld::surfels(RayKind kind, size_t most_bytes) const {
+    const RayLevel& finest = *levels_[0];
+    return make_surfels(
+        finest.dicer(), [&](uint32_t primitive) { return finest.is_seen(primitive, kind); }, most_bytes);
 }
 
 std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Shading& shading,

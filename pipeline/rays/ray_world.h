@@ -35,6 +35,7 @@ class RayWorld final : public RayScene {
     size_t rays_at_once() const override;
     int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const override;
     float spacing(const V3f& P) const override;
+    std::optional<Surfels> surfels(RayKind kind, size_t most_bytes) const override;
 
     /// Memory of grids and trees that is held now.
     size_t bytes() const;

@@ -39,7 +39,7 @@ void CloudCalls::bake(Run& run, const Step& step, std::span<const Operand> opera
 }
 
 bool CloudCalls::over_discs(Run& run, const Step& step, std::span<const Operand> operands) {
-    PointBasedCall call(run, step, operands, places_.clouds);
+    const PointBasedCall call(run, step, operands, places_.clouds, places_.scene);
     if (!call.is_answered()) return false;
     if (!discs_) discs_ = std::make_unique<PointBasedScratch>();
     call.run(*discs_);

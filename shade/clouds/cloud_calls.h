@@ -17,6 +17,7 @@ namespace trapeze {
 struct CloudPlaces {
     CloudLibrary* clouds = nullptr;
     CloudBakes* bakes = nullptr;  ///< null for what rays hit
+    const RayScene* scene = nullptr;
 };
 
 /// Carries out the calls of the shaders of one batch of grids, in one thread. All it refers to must outlive

@@ -29,30 +29,40 @@ void put_value(const Operand& out, size_t first, size_t count, const V3f& value)
 }  // namespace
 
 PointBasedCall::PointBasedCall(Run& run, const Step& step, std::span<const Operand> operands,
-                               CloudLibrary* library)
+                               CloudLibrary* library, const RayScene* scene)
     : run_(run), step_(step), operands_(operands), arguments_(run, step, operands) {
     if (arguments_.point_based.at(0) == 0 || !library || !run.context().batch) return;
-    if (find_cloud(*library) && !set_space()) tree_ = nullptr;
+    tree_ = find_cloud(*library, scene);
+    // What is made of the scene is in the current space.
+    if (tree_ && !arguments_.cloud.empty() && !set_space()) tree_ = nullptr;
 }
 
-/// Looks for the discs that the call names.
-bool PointBasedCall::find_cloud(CloudLibrary& library) {
+/// Says why there is no cloud.
+const SurfelTree* PointBasedCall::use_rays(const std::string& why) const {
+    const char* const call = step_.op == Op::IndirectDiffuse ? "indirectdiffuse" : "occlusion";
+    run_.warn(step_, fmt::format("{}: {}; rays are sent instead", call, why),
+              fmt::format("pointbased {} {}", call, arguments_.cloud));
+    return nullptr;
+}
+
+/// The discs of the file that the call names, or else of the scene; null where rays are to be sent.
+const SurfelTree* PointBasedCall::find_cloud(CloudLibrary& library, const RayScene* scene) const {
     const bool light = step_.op == Op::IndirectDiffuse;
-    const char* const call = light ? "indirectdiffuse" : "occlusion";
     const std::string& name = arguments_.cloud;
-    const auto use_rays = [&](const std::string& why) {
-        run_.warn(step_, fmt::format("{}: {}; rays are sent instead", call, why), "pointbased " + name);
-        return false;
-    };
-    if (name.empty()) return use_rays("\"pointbased\" needs a \"filename\"");
     std::string problem;
+    if (name.empty()) {
+        if (light)
+            return use_rays(
+                "what \"pointbased\" makes of the scene has no colours, a \"filename\" is needed");
+        const SurfelTree* const tree = scene ? library.surfels(*scene, &problem) : nullptr;
+        return tree || problem.empty() ? tree : use_rays("the scene as discs: " + problem);
+    }
     const SurfelTree* const tree = library.surfels(name, &problem);
     if (!tree) return use_rays(fmt::format("point cloud \"{}\" cannot be read: {}", name, problem));
     if (tree->empty()) return use_rays(fmt::format("point cloud \"{}\" has no areas", name));
     if (light && !tree->has_radiosities())
         return use_rays(fmt::format("point cloud \"{}\" has no channel color \"_radiosity\"", name));
-    tree_ = tree;
-    return true;
+    return tree;
 }
 
 bool PointBasedCall::set_space() {

@@ -22,9 +22,10 @@ struct PointBasedScratch {
 
 class PointBasedCall {
   public:
-    /// Reports, by the run, what is wrong. Without a library no cloud is found.
+    /// Reports, by the run, what is wrong. Without a library no cloud is found. `scene`: whose discs are
+    /// asked where the call names no file; null: nobody's.
     PointBasedCall(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands,
-                   CloudLibrary* library);
+                   CloudLibrary* library, const RayScene* scene);
 
     /// False where the call asks for rays, or for a cloud that there is not.
     bool is_answered() const { return tree_ != nullptr; }
@@ -37,7 +38,8 @@ class PointBasedCall {
         size_t asks = 0, first = 0, count = 1;
     };
     std::vector<Lanes> lanes() const;
-    bool find_cloud(CloudLibrary& library);
+    const SurfelTree* find_cloud(CloudLibrary& library, const RayScene* scene) const;
+    const SurfelTree* use_rays(const std::string& why) const;
     bool set_space();
     void look(size_t lane, PointBasedScratch& scratch) const;
     void add(const SurfelPiece& piece, size_t lane, SurfelRaster& raster) const;

@@ -41,15 +41,19 @@ bool asks(const rsl::Program& program, const BoundShader& shader) {
                                [&](const rsl::ProgramParameter& p) { return calls(p.initial, traced); });
 }
 
-/// Whether an instruction is occlusion() or indirectdiffuse() with "pointbased" and anything but 0.
-bool is_point_based(const rsl::Program& program, const rsl::Instruction& i) {
+/// Whether an instruction is occlusion() or indirectdiffuse() with a "filename", and "pointbased" that is not
+/// known to be 0.
+bool is_of_cloud(const rsl::Program& program, const rsl::Instruction& i) {
     if (i.op != Op::Occlusion && i.op != Op::IndirectDiffuse) return false;
-    for (size_t k = i.outputs; k + 1 < i.operands.size(); ++k) {
-        if (program.reg(i.operands[k]).texts != std::vector<std::string>{"pointbased"}) continue;
-        const rsl::Register& value = program.reg(i.operands[k + 1]);
-        return value.kind != rsl::Register::Kind::Constant || value.values != std::vector<float>{0};
-    }
-    return false;
+    const auto value_of = [&](const char* name) -> const rsl::Register* {
+        for (size_t k = i.outputs; k + 1 < i.operands.size(); ++k)
+            if (program.reg(i.operands[k]).texts == std::vector<std::string>{name})
+                return &program.reg(i.operands[k + 1]);
+        return nullptr;
+    };
+    const rsl::Register* const asked = value_of("pointbased");
+    return asked && value_of("filename") &&
+           (asked->kind != rsl::Register::Kind::Constant || asked->values != std::vector<float>{0});
 }
 
 /// Whether a program sets Oi to anything but Os or what `allowed` says of a register.
@@ -78,7 +82,7 @@ bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varie
 bool asks_clouds_alone(const BoundShader& shader) {
     const rsl::Program& program = shader.program();
     return !traces_maps(program, shader) && std::ranges::all_of(program.code, [&](const rsl::Instruction& i) {
-        return !rsl::sends_rays(i.op) || is_point_based(program, i);
+        return !rsl::sends_rays(i.op) || is_of_cloud(program, i);
     });
 }
 

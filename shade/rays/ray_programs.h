@@ -12,7 +12,7 @@ namespace trapeze {
 /// Without it, that holds for all.
 bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied = nullptr);
 
-/// Whether all calls of the shader that may trace ask for point clouds (occlusion(), "pointbased").
+/// Whether all calls of the shader that may trace ask files of point clouds (occlusion(), "pointbased").
 bool asks_clouds_alone(const BoundShader& shader);
 
 /// Whether a surface shader makes another opacity than Os, which is the primitive's own.

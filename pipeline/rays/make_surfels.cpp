@@ -1,0 +1,81 @@
+#include "pipeline/rays/make_surfels.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace trapeze {
+namespace {
+
+constexpr size_t kSurfelGrain = 16;  // subpatches
+
+int blocks(int micropolygons) {
+    return (micropolygons + kSurfelSide - 1) / kSurfelSide;
+}
+
+size_t surfels_of(const GridShape& shape) {
+    return static_cast<size_t>(blocks(shape.nu) * blocks(shape.nv));
+}
+
+/// Sums over the micropolygons of a block.
+struct Block {
+    V3f place{0, 0, 0}, vector_area{0, 0, 0};
+    float area = 0, hiding_area = 0;
+
+    void add(const Grid& grid, int u, int v) {
+        V3f middle(0), opacity(0);
+        for (int corner = 0; corner < 4; ++corner) {
+            const int i = u + (corner & 1), j = v + (corner >> 1);
+            middle += grid.vertex(i, j, 0) * 0.25f, opacity += grid.opacity(i, j) * 0.25f;
+        }
+        const V3f across = grid.vertex(u + 1, v + 1, 0) - grid.vertex(u, v, 0);
+        const V3f other = grid.vertex(u, v + 1, 0) - grid.vertex(u + 1, v, 0);
+        const V3f own = across.cross(other) * 0.5f;
+        const float size = own.length();
+        area += size, vector_area += own, place += middle * size;
+        hiding_area += size * std::clamp((opacity.x + opacity.y + opacity.z) / 3, 0.0f, 1.0f);
+    }
+};
+
+/// The discs of a grid, from number `at` on. Blocks without an area, or that are not seen, stay without one.
+void put(const Grid& grid, bool reversed, Surfels& surfels, size_t at) {
+    for (int v = 0; v < grid.shape.nv; v += kSurfelSide)
+        for (int u = 0; u < grid.shape.nu; u += kSurfelSide, ++at) {
+            Block block;
+            for (int j = v; j < std::min<int>(v + kSurfelSide, grid.shape.nv); ++j)
+                for (int i = u; i < std::min<int>(u + kSurfelSide, grid.shape.nu); ++i) block.add(grid, i, j);
+            surfels.positions[at] = block.area > 0 ? block.place / block.area : V3f(0);
+            surfels.normals[at] = block.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
+            surfels.areas[at] = block.hiding_area;
+        }
+}
+
+}  // namespace
+
+std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<bool(uint32_t)>& wanted,
+                                    size_t most_bytes) {
+    const std::vector<SubpatchInfo>& subpatches = dicer.tessellation().subpatches();
+    std::vector<size_t> first(subpatches.size() + 1, 0);
+    for (size_t i = 0; i < subpatches.size(); ++i)
+        first[i + 1] = first[i] + (wanted(subpatches[i].primitive) ? surfels_of(subpatches[i].shape) : 0);
+    Surfels surfels;
+    if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float))) return {};
+    surfels.positions.resize(first.back(), V3f(0)), surfels.normals.resize(first.back(), V3f(0));
+    surfels.areas.resize(first.back(), 0);
+    // Who waits for it may hold what other tasks of the frame want.
+    tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<size_t>(0, subpatches.size(), kSurfelGrain), [&](const auto& range) {
+                for (size_t i = range.begin(); i != range.end() && !dicer.context().is_cancelled(); ++i) {
+                    if (first[i] == first[i + 1]) continue;
+                    GridArena passing(1);
+                    const Grid grid = dicer.make(i, passing);
+                    put(grid, dicer.attributes(grid.primitive).reverse_orientation, surfels, first[i]);
+                }
+            });
+    });
+    return surfels;
+}
+
+}  // namespace trapeze
