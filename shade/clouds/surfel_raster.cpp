@@ -19,8 +19,22 @@ constexpr float kPixel = 2.0f / kSide;  ///< a pixel's side; the disc's radius i
 /// by J4, is zero at the grid's frequency.
 constexpr float kSpread = 2.14f, kPeak = 4 / (kSpread * kSpread);
 
-float cubed(float x) {
-    return x * x * x;
+/// Floats that are worked on together: the compiler makes vectors of them.
+constexpr int kLanes = SurfelRaster::kLanes;
+using Lanes = SurfelRaster::Lanes;
+
+/// In an order of its own, the same everywhere.
+float added(const Lanes& lanes) {
+    float sum = 0;
+    for (const float lane : lanes) sum += lane;
+    return sum;
+}
+
+float larger(float a, float b) {
+    return a > b ? a : b;
+}
+float smaller(float a, float b) {
+    return a < b ? a : b;
 }
 
 /// The middle of a pixel along an axis.
@@ -35,6 +49,17 @@ struct PixelRange {
           end(static_cast<int>(std::clamp((high + 1) / kPixel + 1, 0.0f, static_cast<float>(kSide)))) {}
     int first, end;
 };
+
+/// Calls use(row, first column) for kLanes pixels at a time, which hold those of the ranges.
+template <class Use>
+void for_each_row(const PixelRange& columns, const PixelRange& rows, const Use& use) {
+    static_assert(kSide == 2 * kLanes);
+    const bool one = columns.end - columns.first <= kLanes;
+    for (int j = rows.first; j < rows.end; ++j) {
+        use(j, one ? std::min(columns.first, kLanes) : 0);
+        if (!one) use(j, kLanes);
+    }
+}
 
 /// The directions of the pixels, of those beyond the rim the rim's; and which part of each is within it.
 struct Pixels {
@@ -105,16 +130,19 @@ void SurfelRaster::start(const V3f& normal, const SkyPart& sky, bool clamp) {
     hidden_ = 0, light_ = V3f(0);
 }
 
-/// A closed thing covers the same pixels by its fronts and its backs: what it hides is the larger of both.
-void SurfelRaster::cover(int pixel, float front, float back, float* sum) {
-    const auto p = static_cast<size_t>(pixel);
-    if (!clamp_) {
-        *sum += (front + back) * sky_->weight(pixel);
-        return;
+/// Covers shares of some pixels in a row. A closed thing covers the same pixels by its fronts and its backs:
+/// what it hides is the larger of both.
+void SurfelRaster::cover(int first, const float* shares, float front, float back, Lanes& sums) {
+    float* const fronts = &front_[static_cast<size_t>(first)];
+    float* const backs = &back_[static_cast<size_t>(first)];
+    const float* const weights = sky_->weights() + first;
+    for (size_t k = 0; k < kLanes && clamp_; ++k) {
+        const float before = larger(fronts[k], backs[k]);
+        fronts[k] = smaller(1, fronts[k] + front * shares[k]);
+        backs[k] = smaller(1, backs[k] + back * shares[k]);
+        sums[k] += (larger(fronts[k], backs[k]) - before) * weights[k];
     }
-    const float before = std::max(front_[p], back_[p]);
-    front_[p] = std::min(1.0f, front_[p] + front), back_[p] = std::min(1.0f, back_[p] + back);
-    *sum += (std::max(front_[p], back_[p]) - before) * sky_->weight(pixel);
+    for (size_t k = 0; k < kLanes && !clamp_; ++k) sums[k] += (front + back) * shares[k] * weights[k];
 }
 
 void SurfelRaster::take(float part, const SeenSurface& thing) {
@@ -137,26 +165,29 @@ void SurfelRaster::add_small(const V3f& way, const SeenSurface& thing) {
     const float ox = ex / out, oy = ey / out, ax = -ey / across, ay = ex / across;
     const Pixels& all = pixels();
     std::array<float, SkyPart::kPixels> shares;
-    float sum = 0;
-    size_t next = 0;
-    for (int j = rows.first; j < rows.end; ++j)
-        for (int i = columns.first; i < columns.end; ++i) {
-            const float dx = middle(i) - at.x, dy = middle(j) - at.y;
-            const float u = dx * ox + dy * oy, v = dx * ax + dy * ay;
-            const float share = cubed(std::max(0.0f, 1 - u * u - v * v));
-            shares[next++] = share;
-            sum += share * all.inside[static_cast<size_t>(j * kSide + i)];
+    Lanes sums{};
+    float* to = shares.data();
+    for_each_row(columns, rows, [&](int j, int first) {
+        const float dy = middle(j) - at.y, u_of_row = dy * oy, v_of_row = dy * ay;
+        const float* const inside = &all.inside[static_cast<size_t>(j * kSide + first)];
+        for (int k = 0; k < kLanes; ++k) {
+            const float dx = middle(first + k) - at.x, u = dx * ox + u_of_row, v = dx * ax + v_of_row;
+            const float left = 1 - u * u - v * v, share = left > 0 ? left * left * left : 0;
+            to[k] = share;
+            sums[static_cast<size_t>(k)] += share * inside[k];
         }
+        to += kLanes;
+    });
+    const float sum = added(sums);
     if (!(sum > 0)) return;
     const float scale = at.z / (all.area * sum);
-    const float front = thing.front * scale, back = thing.back * scale;
-    float part = 0;
-    next = 0;
-    for (int j = rows.first; j < rows.end; ++j)
-        for (int i = columns.first; i < columns.end; ++i)
-            if (const float share = shares[next++]; share > 0)
-                cover(j * kSide + i, front * share, back * share, &part);
-    take(part, thing);
+    const float* from = shares.data();
+    Lanes parts{};
+    for_each_row(columns, rows, [&](int j, int first) {
+        cover(j * kSide + first, from, thing.front * scale, thing.back * scale, parts);
+        from += kLanes;
+    });
+    take(added(parts), thing);
 }
 
 /// A ray through the middle of each pixel meets the disc's plane.
@@ -170,17 +201,19 @@ void SurfelRaster::add_disc(const V3f& way, const V3f& normal, float radius, con
     const float plane = at.dot(turned), of_reach = 1 / (reach * reach);
     const float front = thing.front > 0 ? kPeak : 0, back = thing.back > 0 ? kPeak : 0;
     const Pixels& all = pixels();
-    float part = 0;
-    for (int j = rows.first; j < rows.end; ++j)
-        for (int i = columns.first; i < columns.end; ++i) {
-            const auto p = static_cast<size_t>(j * kSide + i);
-            const V3f ray(all.x[p], all.y[p], all.z[p]);
-            const float t = plane / ray.dot(turned);
-            if (!(t > 0 && t < distance + reach)) continue;
-            const float share = cubed(std::max(0.0f, 1 - (ray * t - at).length2() * of_reach));
-            if (share > 0) cover(j * kSide + i, front * share, back * share, &part);
+    Lanes parts{}, shares;
+    for_each_row(columns, rows, [&](int j, int first) {
+        const auto p = static_cast<size_t>(j * kSide + first);
+        for (size_t k = 0; k < kLanes; ++k) {
+            const float x = all.x[p + k], y = all.y[p + k], z = all.z[p + k];
+            const float t = plane / (x * turned.x + y * turned.y + z * turned.z);
+            const float dx = x * t - at.x, dy = y * t - at.y, dz = z * t - at.z;
+            const float left = 1 - (dx * dx + dy * dy + dz * dz) * of_reach;
+            shares[k] = t > 0 && left > 0 ? left * left * left : 0;
         }
-    take(part, thing);
+        cover(j * kSide + first, shares.data(), front, back, parts);
+    });
+    take(added(parts), thing);
 }
 
 V3f SurfelRaster::open_way() const {

@@ -37,6 +37,10 @@ struct SeenSurface {
 
 class SurfelRaster {
   public:
+    /// Pixels that are filled together.
+    static constexpr int kLanes = 8;
+    using Lanes = std::array<float, kLanes>;
+
     /// Forgets everything. `normal` has unit length. Without `clamp` everything counts, also behind others.
     void start(const V3f& normal, const SkyPart& sky, bool clamp);
 
@@ -53,7 +57,7 @@ class SurfelRaster {
     V3f open_way() const;
 
   private:
-    void cover(int pixel, float front, float back, float* sum);
+    void cover(int first, const float* shares, float front, float back, Lanes& sums);
     void take(float part, const SeenSurface& thing);
     V3f to_raster(const V3f& way) const { return {way.dot(across_), way.dot(along_), way.dot(normal_)}; }
 

@@ -11,6 +11,7 @@ constexpr float kUnitDisc = std::numbers::pi_v<float>;
 constexpr uint32_t kLeafSurfels = 8;
 constexpr int kMostDepth = 40;           ///< leaves there may hold any number: discs in one place
 constexpr size_t kMostWaiting = 8 * 41;  ///< nodes: seven of each level and eight of the last
+constexpr float kLeastPart = 0.3f;       ///< of the threshold, that clusters at the horizon are compared by
 constexpr float kSelfPart = 0.25f;       ///< of a disc's radius, where no bias is given
 
 /// Whether distances to it are numbers.
@@ -37,26 +38,25 @@ float whole_area(const Harmonics& area) {
 }
 
 /// Areas of the fronts that are seen from a direction, and from the opposite one. Nine harmonics know the
-/// difference exactly, and the sum of discs that all look one way too large or too small by a sixteenth: what
-/// they lack is added as far as the discs do so, which their vector area tells.
-BothWays areas_seen(const Harmonics& area, const V3f& from, const Harmonics& at) {
-    constexpr float kOfVector = 1.02332671f;  // sqrt(pi / 3), the vector area's in band 1
-    const V3f vector = V3f(area[3], area[1], area[2]) / kOfVector;
-    const float all = whole_area(area), length = vector.length();
+/// difference exactly: it is the discs' vector area along the direction. The sum of discs that all look one
+/// way they have too large or too small by a sixteenth; what they lack is added as far as the discs do so.
+BothWays areas_seen(const Harmonics& area, float lacking, float of_vector, const Harmonics& at) {
     BothWays seen = both_ways(area, at);
-    if (all > 0 && length > 0) {
-        const float aligned = std::min(length / all, 1.0f), x = std::abs(vector.dot(from)) / length;
-        const float lacks = x / 2 - 0.25f - 0.15625f * (3 * x * x - 1);
-        const float cubed = aligned * aligned * aligned, more = all * cubed * cubed * lacks;
-        seen.there += more, seen.back += more;
-    }
-    return {std::clamp(seen.there, 0.0f, all), std::clamp(seen.back, 0.0f, all)};
+    const float all = whole_area(area), x = std::abs(seen.there - seen.back) * of_vector;
+    const float lacks = lacking * (x / 2 - 0.25f - 0.15625f * (3 * x * x - 1));
+    return {std::clamp(seen.there + lacks, 0.0f, all), std::clamp(seen.back + lacks, 0.0f, all)};
+}
+
+/// The length of the discs' vector area.
+float vector_area(const Harmonics& area) {
+    constexpr float kOfVector = 1.02332671f;  // sqrt(pi / 3), a vector's in band 1
+    return V3f(area[3], area[1], area[2]).length() / kOfVector;
 }
 
 /// The mean colour of a side, from power and area as seen; where next to nothing is seen, of all sides.
 float mean_color(float power, float area, float all_power, float all_area) {
-    constexpr float kLeastPart = 0.1f;
-    if (area < kLeastPart * all_area) return std::max(0.0f, all_power / all_area);
+    constexpr float kLeastSeen = 0.1f;
+    if (area < kLeastSeen * all_area) return std::max(0.0f, all_power / all_area);
     return std::max(0.0f, power / area);
 }
 
@@ -150,7 +150,6 @@ void SurfelTree::sum_node(Node& node, Power* power) {
     const auto add = [](Harmonics& to, const Harmonics& more) {
         for (size_t i = 0; i < to.size(); ++i) to[i] += more[i];
     };
-    node.area.fill(0);
     if (power)
         for (Harmonics& channel : *power) channel.fill(0);
     for (uint32_t c = node.child; c < node.child + node.children; ++c) {
@@ -163,6 +162,10 @@ void SurfelTree::sum_node(Node& node, Power* power) {
             add_cosine((*power)[static_cast<size_t>(k)], surfels_.normals[i],
                        surfels_.areas[i] * surfels_.radiosities[i][k]);
     }
+    const float all = whole_area(node.area), length = vector_area(node.area);
+    if (!(all > 0 && length > 0)) return;
+    const float aligned = std::min(length / all, 1.0f), cubed = aligned * aligned * aligned;
+    node.of_vector = 1 / length, node.lacking = all * cubed * cubed;
 }
 
 void SurfelTree::cut(const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const {
@@ -178,8 +181,12 @@ void SurfelTree::cut(const SurfelPlace& place, std::vector<SurfelPiece>& pieces)
         const V3f way = node.middle - place.position;
         if (way.dot(place.normal) + node.radius <= 0) continue;
         const float distance2 = way.length2();
-        if (distance2 > 0 && std::sqrt(distance2) - node.radius > place.max_distance) continue;
-        if (kUnitDisc * node.radius * node.radius < most * distance2) {
+        const float reach = place.max_distance + node.radius;
+        if (distance2 > reach * reach) continue;
+        // Things near the horizon cover fewer of the raster's pixels, by the cosine: they may be larger.
+        const float distance = std::sqrt(distance2), up = way.dot(place.normal) + node.radius;
+        const float part = std::clamp(up, kLeastPart * distance, distance);
+        if (kUnitDisc * node.radius * node.radius * part < most * distance2 * distance) {
             add_node(node, number, place, pieces);
             continue;
         }
@@ -198,7 +205,7 @@ void SurfelTree::add_node(const Node& node, uint32_t number, const SurfelPlace& 
     if (!std::isfinite(piece.distance) || piece.distance > place.max_distance) return;
     if (piece.way.dot(place.normal) <= 0) return;
     const V3f from = piece.way / -piece.distance;
-    const BothWays seen = areas_seen(node.area, from, harmonics_at(from));
+    const BothWays seen = areas_seen(node.area, node.lacking, node.of_vector, harmonics_at(from));
     piece.front = seen.there, piece.back = seen.back;
     piece.number = number, piece.is_cluster = true;
     pieces.push_back(piece);

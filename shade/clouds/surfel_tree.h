@@ -57,6 +57,8 @@ class SurfelTree {
     struct Node {
         V3f middle{0, 0, 0};  ///< the discs' mean place, weighted by their areas
         float radius = 0;     ///< of a ball around it that holds the discs
+        float lacking = 0;    ///< how much of what harmonics lack is to be added (areas_seen())
+        float of_vector = 0;  ///< one over the length of the discs' vector area
         Harmonics area{};     ///< of the fronts, as seen from a direction
         uint32_t first = 0;   ///< of its surfels
         uint32_t end = 0;
