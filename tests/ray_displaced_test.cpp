@@ -1,0 +1,59 @@
+/// Rays that meet displaced surfaces, next to the closed forms of what these have become.
+#include <gtest/gtest.h>
+
+#include "tests/rays_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// The form factor (r / d)^2 cos(theta) is that of the larger ball.
+TEST(RayDisplaced, OcclusionOfABallIsItsFormFactor) {
+    Case c;
+    // A ball whose radius is blown up from .25 to .5.
+    c.shaders["blow"] =
+        "displacement blow() { vector out = normalize(vector(P - point(0, 0, 3)));"
+        "  P += .25 * out; N = normal(out); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [.3] "
+        "ShadingRate .25 Displacement \"blow\" " +
+        sphere("0 0 3", ".25");
+    constexpr int kSamples = 64;
+    const Image image = c.render(
+        "vector m = point(0, 0, 3) - P; float d2 = m . m; float expected = .25 / d2 * (2 / sqrt(d2));"
+        "Ci = color(occlusion(P, normal(0, 0, -1), " +
+        std::to_string(kSamples) + "), expected, 1);");
+    double bias = 0, independent = 0;
+    for (const Pixel& p : pixels(image)) {
+        const double expected = static_cast<double>(p.green), error = static_cast<double>(p.red) - expected;
+        ASSERT_LT(std::abs(error), 5 * std::sqrt(expected * (1 - expected) / kSamples));
+        independent += expected * (1 - expected) / kSamples / 4096, bias += error / 4096;
+    }
+    // Micropolygons lie up to 1e-3 of the radius inside: the area falls by less than 2e-3.
+    EXPECT_NEAR(bias, 0, 4 * std::sqrt(independent / 4096) + 2e-4);
+}
+
+/// The penumbra of a disk light behind an edge that a displacement has lifted to where it is looked for: as
+/// in area_lights_test, a disk of radius 3, 100 away, and an edge at z = -10.
+TEST(RayDisplaced, ThePenumbraIsThatOfTheLiftedEdge) {
+    Case c;
+    c.may_say = "ris";
+    c.asker =
+        "AttributeBegin Translate 0 0 -95 Scale 6 6 1 Light \"PxrDiskLight\" \"l\" \"int fixedSampleCount\" [64] "
+        "AttributeEnd ";
+    c.shaders["lift"] = "displacement lift() { P += vector(1, 0, -2); N = calculatenormal(P); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [2.5] "
+        "Displacement \"lift\" Patch \"bilinear\" \"P\" [-4 3 -8 -1 3 -8 -4 -3 -8 -1 -3 -8] ";
+    const Image image = c.render(
+        "float t = clamp(-xcomp(P) * 85 / 15 / 3, -1, 1); float shown = (acos(t) - t * sqrt(1 - t * t)) / PI;"
+        "Ci = color(comp(diffuse(normal(0, 0, -1)), 0) * 10009 / 9, shown, 1);");
+    double error = 0;
+    for (const Pixel& p : pixels(image)) {
+        ASSERT_NEAR(p.red, p.green, 0.1f);
+        error += static_cast<double>(p.red - p.green) / 4096;
+    }
+    EXPECT_NEAR(error, 0, 0.003);
+}
+
+}  // namespace
+}  // namespace trapeze::testing
