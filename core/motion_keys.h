@@ -25,11 +25,13 @@ struct MotionSegment {
     float local = 0;
 };
 
-/// The segment that a time lies in. key_count - 1 is a power of two, so that the scaling below is exact.
+/// The segment that a time lies in; any, of a time that is no number. key_count - 1 is a power of two, so
+/// that the scaling below is exact.
 inline MotionSegment segment_at(float time01, int key_count) {
     if (key_count <= 1) return {};
     const float scaled = time01 * static_cast<float>(key_count - 1);
-    const int index = std::clamp(static_cast<int>(scaled), 0, key_count - 2);
+    const int last = key_count - 2;
+    const int index = scaled >= static_cast<float>(last) ? last : scaled > 0 ? static_cast<int>(scaled) : 0;
     return {index, scaled - static_cast<float>(index)};
 }
 

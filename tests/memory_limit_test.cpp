@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "core/sanitizer_harness.h"
 #include "tests/program_harness.h"
 
 namespace trapeze::testing {
@@ -55,17 +56,6 @@ double least_mebibytes() {
     return measured(folder, "render a.rib -t 2 --memory 64M").mebibytes;
 }
 
-#if defined(__has_feature)
-#define TRAPEZE_HAS_FEATURE(name) __has_feature(name)
-#else
-#define TRAPEZE_HAS_FEATURE(name) 0
-#endif
-constexpr bool kSanitized =
-#if defined(__SANITIZE_ADDRESS__) || TRAPEZE_HAS_FEATURE(address_sanitizer)
-    true;
-#else
-    false;
-#endif
 constexpr double kMostSeconds = kSanitized ? 1200 : 120;  ///< on a slow and busy machine
 
 /// `times` the limit of 64 MiB may be taken.

@@ -23,10 +23,13 @@ constexpr std::string_view kOfTheFile[] = {
     "maxSamplesPerPixel", "multiView",         "name",        "part",       "pixelAspectRatio", "preview",
     "screenWindowCenter", "screenWindowWidth", "tiles",       "type",       "version",          "view"};
 
-/// Erases first: OpenEXR throws where an attribute exists with another type.
+/// Erases one of another type first, at which OpenEXR would throw. (It does not free what it erases.)
 template <class Attribute, class Value>
 void insert(Imf::Header& header, const std::string& name, Value value) {
-    header.erase(name.c_str());
+    const auto known = header.find(name.c_str());
+    if (known != header.end() &&
+        std::string_view(known.attribute().typeName()) != Attribute::staticTypeName())
+        header.erase(name.c_str());
     header.insert(name.c_str(), Attribute(value));
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/sanitizer_harness.h"
 #include "pipeline/cli/support/exit_codes.h"
 
 namespace trapeze {
@@ -18,9 +19,7 @@ void take(size_t bytes) noexcept {
 }
 
 TEST(LimitMemory, EndsTheProcessThatTakesMore) {
-#if defined(__SANITIZE_ADDRESS__)
-    GTEST_SKIP() << "its own memory counts";
-#endif
+    if (kSanitized) GTEST_SKIP() << "the sanitizer's own memory counts";
     constexpr size_t kMebibyte = size_t{1} << 20;
     EXPECT_EXIT((limit_memory(16 * kMebibyte), take(64 * kMebibyte)), ::testing::ExitedWithCode(kExitOk), "");
     EXPECT_EXIT((limit_memory(16 * kMebibyte), take(1200 * kMebibyte)),

@@ -69,12 +69,14 @@ void add_far_wall(QuadMesh& wall, QuadMesh& lamps) {
         Chance chance(22, static_cast<uint32_t>(i));
         const double from = kPanel * i, to = from + kPanel;
         const V3d a(kFarWall, 0, from), b(kFarWall, 0, to);
-        const V3d color = mixed({.10, .11, .15}, {.22, .15, .12}, chance.unit()) * chance.between(.5, 1.2);
+        const double bright = chance.between(.5, 1.2), tint = chance.unit();
+        const V3d color = mixed({.10, .11, .15}, {.22, .15, .12}, tint) * bright;
         wall.add_wall(a, b, chance.between(2.6, 3.4), color * .3, color);
         wall.add_box({kFarWall - .2, 0, from - .15}, {kFarWall, 3.8, from + .15}, V3d(.05, .05, .06));
         if (chance.unit() < .4) {
             const double y = chance.between(.8, 1.6);
-            const V3d light = mixed(kSodium, {.35, .65, 1}, chance.unit()) * chance.between(.3, 1.6);
+            const double shine = chance.between(.3, 1.6), hue = chance.unit();
+            const V3d light = mixed(kSodium, {.35, .65, 1}, hue) * shine;
             lamps.add_wall({kFarWall - .05, y, from + .5}, {kFarWall - .05, y, to - .5}, .9, light * .7,
                            light);
         }
@@ -128,11 +130,13 @@ void add_house(QuadMesh& walls, QuadMesh& lamps, const House& house, uint32_t nu
     const double x = side ? house.low.x - .1 : house.high.x + .1;
     for (double y = 4; y < house.high.y - 1; y += step) {
         for (double z = house.low.z + 2; z < house.high.z - 1; z += step) {
-            const V3d light = mixed(kWhite, kSodium, chance.unit()) * chance.between(1.5, 9);
+            const double bright = chance.between(1.5, 9), tint = chance.unit();
+            const V3d light = mixed(kWhite, kSodium, tint) * bright;
             if (chance.unit() < lit) lamps.add_wall({x, y, z}, {x, y, z + .9}, .8, light, light);
         }
         for (double at = house.low.x + 2; at < house.high.x - 1; at += step) {
-            const V3d light = mixed(kWhite, kSodium, chance.unit()) * chance.between(1.5, 9);
+            const double bright = chance.between(1.5, 9), tint = chance.unit();
+            const V3d light = mixed(kWhite, kSodium, tint) * bright;
             if (chance.unit() < lit) lamps.add_lamp({at, y + .4, house.low.z - .1}, .45, .4, light);
         }
     }
@@ -195,9 +199,11 @@ void write_horizon(RibWriter& rib) {
         const double x = -140 + 16. * i + chance.between(-6, 6), z = chance.between(330, 520);
         const double height = chance.between(18, 60) + (chance.unit() < .2 ? 45 : 0);
         walls.add_lamp({x, height / 2, z}, chance.between(7, 12), height / 2, V3d(.05, .045, .075));
-        for (int k = 0; k < 9; ++k)
-            lamps.add_lamp({x + chance.between(-7, 7), chance.between(3, height - 2), z - 1}, .7, .7,
-                           mixed(kWhite, kSodium, chance.unit()) * chance.between(3, 16));
+        for (int k = 0; k < 9; ++k) {
+            const double light = chance.between(3, 16), tint = chance.unit();
+            const double beside = chance.between(-7, 7), y = chance.between(3, height - 2);
+            lamps.add_lamp({x + beside, y, z - 1}, .7, .7, mixed(kWhite, kSodium, tint) * light);
+        }
     }
     walls.write(rib);
     lamps.write(rib);

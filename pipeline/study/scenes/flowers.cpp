@@ -87,11 +87,12 @@ void write_field(RibWriter& rib, const SceneParameters& p) {
     for (uint32_t i = 0; i < flowers; ++i) {
         Chance chance(kFlowerChance, i);
         const Place place = scattered(chance);
-        const int object =
-            flower_object(kind_at(place, chance), static_cast<uint32_t>(kFlowerVariants * chance.unit()));
+        const auto variant = static_cast<uint32_t>(kFlowerVariants * chance.unit());
+        const int object = flower_object(kind_at(place, chance), variant);
         const double size = chance.between(.75, 1.2) * fitting(place);
-        write_plant(rib, {object, place.x, place.z, chance.between(-65, 65), size}, chance.between(-7, 7),
-                    chance.between(.7, 1.2) * sway(place.x, place.z), p);
+        const double swaying = chance.between(.7, 1.2) * sway(place.x, place.z);
+        const double leaning = chance.between(-7, 7), turned = chance.between(-65, 65);
+        write_plant(rib, {object, place.x, place.z, turned, size}, leaning, swaying, p);
     }
     const auto tufts = static_cast<uint32_t>(std::ceil(kTufts * p.scale));
     for (uint32_t i = 0; i < tufts; ++i) {
@@ -99,8 +100,9 @@ void write_field(RibWriter& rib, const SceneParameters& p) {
         const Place place = scattered(chance);
         const int object = tuft_object(static_cast<uint32_t>(kTuftVariants * chance.unit()));
         const double size = chance.between(.7, 1.25) * fitting(place);
-        write_plant(rib, {object, place.x, place.z, chance.between(0, 360), size}, chance.between(-6, 6),
-                    chance.between(.7, 1.2) * sway(place.x, place.z), p);
+        const double swaying = chance.between(.7, 1.2) * sway(place.x, place.z);
+        const double leaning = chance.between(-6, 6), turned = chance.between(0, 360);
+        write_plant(rib, {object, place.x, place.z, turned, size}, leaning, swaying, p);
     }
     for (const Chosen& plant : chosen()) write_plant(rib, plant, 0, -.25, p);
 }
@@ -151,9 +153,10 @@ void write_clouds(RibWriter& rib) {
         const auto block = rib.block("Attribute");
         const double light = chance.between(.86, 1.02);
         rib.request("Color", Numbers{light, .92 * light, .84 * light});
-        rib.request("Translate", 34 * bank + chance.between(-13, 13),
-                    17 + 4.5 * std::sin(2.1 * bank) + chance.between(-1, 1), 140 + chance.unit());
-        rib.request("Scale", chance.between(4, 10), chance.between(.6, 1.5), 1);
+        const double z = 140 + chance.unit(), up = chance.between(-1, 1), beside = chance.between(-13, 13);
+        rib.request("Translate", 34 * bank + beside, 17 + 4.5 * std::sin(2.1 * bank) + up, z);
+        const double high = chance.between(.6, 1.5), wide = chance.between(4, 10);
+        rib.request("Scale", wide, high, 1);
         rib.request("Disk", 0, 1, 360);
     }
 }
