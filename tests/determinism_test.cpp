@@ -57,7 +57,9 @@ TEST_P(TinyScene, IsTheSameOnEveryInstructionSet) {
     }
     limit_simd("best", &error);
     EXPECT_GT(usable, 0);
+#if !defined(HWY_COMPILE_ONLY_STATIC)  // else one instruction set alone is compiled in
     EXPECT_EQ(targets.size(), static_cast<size_t>(usable)) << "the limit limits nothing";
+#endif
 }
 
 /// Those that make maps need the program, which makes them between worlds.
