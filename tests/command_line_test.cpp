@@ -172,9 +172,6 @@ TEST(CommandLine, ProgramsOfScenesRunWhereAllowed) {
 }
 
 TEST(CommandLine, TheInstructionSetCanBeLimited) {
-#if defined(HWY_COMPILE_ONLY_STATIC)
-    GTEST_SKIP() << "one instruction set alone is compiled in";
-#endif
     WorkFolder folder;
     folder.write("a.rib", kSphere);
     std::set<std::string> targets;
@@ -191,7 +188,9 @@ TEST(CommandLine, TheInstructionSetCanBeLimited) {
         targets.insert(nlohmann::json::parse(file_text(folder / "s.json"))["simd_target"].get<std::string>());
     }
     EXPECT_GT(usable, 0);
+#if !defined(HWY_COMPILE_ONLY_STATIC)  // else one instruction set alone is compiled in
     EXPECT_EQ(targets.size(), static_cast<size_t>(usable)) << "the limit limits nothing";
+#endif
     EXPECT_EQ(run_program(folder, "render a.rib --simd best").exit_code, 0);
     const Outcome wrong = run_program(folder, "render a.rib --simd avx9");
     EXPECT_EQ(wrong.exit_code, 2);

@@ -26,6 +26,9 @@ struct RayFilter {
     RaySubset subset;
 };
 
+/// Of the geometry that rays meet: Option "trace" "levels".
+inline constexpr int kMostRayLevels = 4;
+
 /// How long sides of micropolygons are at least on a level of the geometry, in pixels; on level 0 they are as
 /// long as the picture's.
 inline float level_side(int level) {
@@ -64,14 +67,12 @@ class RayScene {
 
     /// Whether any primitive is seen by rays of a kind.
     virtual bool has(RayKind kind) const = 0;
-    /// The nearest hit within the segment. One-sided surfaces (Sides 1) are seen from outside only.
-    virtual std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const = 0;
-    /// Whether something opaque is in the way; nothing where that cannot be told without its opacity.
-    virtual std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const = 0;
-    /// The same of many rays, hits[i] being that of rays[i]. Where geometry is made as rays come by it is
-    /// made for all of them at once.
+    /// hits[i]: the nearest hit within rays[i]. One-sided surfaces (Sides 1) are seen from outside only.
+    /// Where geometry is made as rays come by it is made for all of them at once.
     virtual void closest(std::span<const RaySegment* const> rays, RayKind kind,
                          std::span<std::optional<RaySurfaceHit>> hits) const = 0;
+    /// Whether something opaque is in the way of each; nothing where that cannot be told without its
+    /// opacity.
     virtual void blocked(std::span<const RaySegment* const> rays, RayKind kind,
                          std::span<std::optional<bool>> blocked) const = 0;
     /// Whether RaySegment::spread counts.

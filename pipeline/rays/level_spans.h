@@ -10,8 +10,6 @@
 
 namespace trapeze {
 
-inline constexpr int kMostRayLevels = 4;
-
 /// A part of a ray's segment, by distances from its origin.
 struct LevelSpan {
     int level = 0;

@@ -26,10 +26,14 @@ float depth_scale(const V3f& direction) {
     return std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
 }
 
+/// A segment in the form in which grids are asked.
+RangedRay ranged(const RaySegment& ray) {
+    const float scale = depth_scale(ray.direction);
+    return {{ray.origin, ray.direction, ray.time}, {ray.min * scale, ray.max * scale}};
+}
+
 /// The share of the memory that is for grids; the rest is for trees over them.
 constexpr double kGridShare = 0.8;
-/// The share of it for bricks, where they are made; the rest is for rays that wait for them.
-constexpr double kBrickShare = 0.6;
 
 }  // namespace
 
@@ -111,8 +115,7 @@ std::optional<RaySurfaceHit> RayLevel::closest(const RaySegment& ray, RayKind ki
 
 std::optional<RaySurfaceHit> RayLevel::closest_in(const RayGrids& grids, const RaySegment& ray) const {
     const float scale = depth_scale(ray.direction);
-    const SpaceRay space{ray.origin, ray.direction, ray.time};
-    DepthRange range{ray.min * scale, ray.max * scale};
+    auto [space, range] = ranged(ray);
     while (range.min <= range.max) {
         const std::optional<RayGridHit> found = grids.closest(space, range);
         if (!found) return {};
@@ -126,30 +129,29 @@ std::optional<RaySurfaceHit> RayLevel::closest_in(const RayGrids& grids, const R
 /// Rays whose nearest hit does not count go on behind it, all together.
 void RayLevel::closest_in(const RayBricks& bricks, std::span<const RaySegment> rays,
                           std::span<std::optional<RaySurfaceHit>> hits) const {
-    std::vector<RangedRay> ranged;
-    std::vector<uint32_t> going(rays.size());
+    std::vector<RangedRay> asked;
+    for (const RaySegment& ray : rays) asked.push_back(ranged(ray));
+    std::vector<uint32_t> going(rays.size());  // asked[r] is ray going[r]
     std::iota(going.begin(), going.end(), 0u);
-    std::vector<float> from(rays.size());
-    for (size_t i = 0; i < rays.size(); ++i) from[i] = rays[i].min * depth_scale(rays[i].direction);
     while (!going.empty()) {
-        ranged.clear();
-        for (const uint32_t i : going)
-            ranged.push_back({{rays[i].origin, rays[i].direction, rays[i].time},
-                              {from[i], rays[i].max * depth_scale(rays[i].direction)}});
-        std::vector<uint32_t> again;
         std::vector<bool> counts(going.size(), true);  // the last hit, if there is one
-        bricks.closest(ranged, [&](size_t r, const RayGridHit& found) {
+        std::vector<float> behind(going.size());
+        bricks.closest(asked, [&](size_t r, const RayGridHit& found) {
             const uint32_t i = going[r];
             counts[r] = shows(*found.grid, MicropolygonId::unpack(found.hit.id), rays[i]);
-            from[i] = std::nextafter(found.hit.depth, kInfinity);
+            behind[r] = std::nextafter(found.hit.depth, kInfinity);
             if (counts[r])
                 hits[i] = hit_of(rays[i], found.hit.depth / depth_scale(rays[i].direction), found);
             else
                 hits[i].reset();
         });
-        for (size_t r = 0; r < going.size(); ++r)
-            if (!counts[r] && from[going[r]] <= ranged[r].range.max) again.push_back(going[r]);
-        going = std::move(again);
+        size_t left = 0;
+        for (size_t r = 0; r < going.size(); ++r) {
+            if (counts[r] || behind[r] > asked[r].range.max) continue;
+            going[left] = going[r], asked[left] = asked[r];
+            asked[left++].range.min = behind[r];
+        }
+        going.resize(left), asked.resize(left);
     }
 }
 
@@ -174,25 +176,20 @@ void RayLevel::closest(std::span<const RaySegment> rays, RayKind kind,
 
 void RayLevel::blocked(std::span<const RaySegment> rays, RayKind kind,
                        std::span<std::optional<bool>> blocked) const {
-    std::vector<RangedRay> ranged;
+    std::vector<RangedRay> asked;
     std::vector<uint32_t> open;
     std::vector<InTheWay> met;
     std::ranges::fill(blocked, std::optional(false));
     for (unsigned mask = 0; mask < kMasks; ++mask) {
         const Group& group = groups_[mask];
         if (!sees(kind, mask) || !group.grids) continue;
-        ranged.clear(), open.clear();
-        for (uint32_t i = 0; i < rays.size(); ++i) {
-            if (blocked[i] == true) continue;
-            const float scale = depth_scale(rays[i].direction);
-            ranged.push_back({{rays[i].origin, rays[i].direction, rays[i].time},
-                              {rays[i].min * scale, rays[i].max * scale}});
-            open.push_back(i);
-        }
-        met.resize(ranged.size());
-        if (group.bricks) group.bricks->in_the_way(ranged, met);
-        for (size_t r = 0; r < ranged.size(); ++r) {
-            if (!group.bricks) met[r] = group.grids->in_the_way(ranged[r].ray, ranged[r].range);
+        asked.clear(), open.clear();
+        for (uint32_t i = 0; i < rays.size(); ++i)
+            if (blocked[i] != true) asked.push_back(ranged(rays[i])), open.push_back(i);
+        met.resize(asked.size());
+        if (group.bricks) group.bricks->in_the_way(asked, met);
+        for (size_t r = 0; r < asked.size(); ++r) {
+            if (!group.bricks) met[r] = group.grids->in_the_way(asked[r].ray, asked[r].range);
             if (met[r] == InTheWay::Opaque && !rays[open[r]].only)
                 blocked[open[r]] = true;
             else if (met[r] != InTheWay::Nothing)
@@ -249,13 +246,12 @@ RaySurfaceHit RayLevel::hit_of(const RaySegment& ray, float distance, const RayG
 }
 
 std::optional<bool> RayLevel::blocked(const RaySegment& ray, RayKind kind) const {
-    const float scale = depth_scale(ray.direction);
-    const DepthRange range{ray.min * scale, ray.max * scale};
+    const auto [space, range] = ranged(ray);
     bool sure = true;
     for (uint32_t mask = 0; mask < kMasks; ++mask) {
         const Group& group = groups_[mask];
         if (!sees(kind, mask) || !group.grids) continue;
-        const InTheWay met = group.grids->in_the_way({ray.origin, ray.direction, ray.time}, range);
+        const InTheWay met = group.grids->in_the_way(space, range);
         if (met == InTheWay::Opaque && !ray.only) return true;
         sure &= met == InTheWay::Nothing;
     }

@@ -16,6 +16,10 @@
 
 namespace trapeze {
 
+/// The share of their memory that bricks get where grids are made as rays come by; the rest is for rays that
+/// wait for them.
+inline constexpr double kBrickShare = 0.6;
+
 class RayLevel {
   public:
     /// The finest one. It has no grids yet. Arguments as RayDicer's.

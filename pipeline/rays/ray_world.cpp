@@ -12,9 +12,7 @@ namespace {
 
 /// The share of a render's memory that what rays meet may take, besides the lists of subpatches.
 constexpr double kRayShare = 0.5;
-/// The share of a render's memory that rays may take which wait for the same geometry, and about what each of
-/// them takes.
-constexpr double kShareOfWaiting = 0.2;
+/// About what a ray takes that waits for geometry, and the most that wait.
 constexpr size_t kBytesOfRay = 384, kMostAtOnce = size_t{1} << 18;
 
 /// Scenes of fewer micropolygons have one level: time is not gained by more where all is in memory.
@@ -31,8 +29,8 @@ RayWorld::RayWorld(const RenderContext& context, const Shading& shading, size_t 
     if (!scene.solids.empty()) solids_.emplace(scene);
     rule_ = LevelRule(context.camera, make_levels(most_bytes));
     const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
-    rays_at_once_ =
-        static_cast<size_t>(kShareOfWaiting * static_cast<double>(most_bytes)) / threads / kBytesOfRay;
+    rays_at_once_ = static_cast<size_t>(kRayShare * (1 - kBrickShare) * static_cast<double>(most_bytes)) /
+                    threads / kBytesOfRay;
     // From the coarsest one on: what most rays meet is the last to be made again and again.
     size_t rest = static_cast<size_t>(kRayShare * static_cast<double>(most_bytes));
     for (int number = kMostRayLevels - 1; number >= 0 && !context.is_cancelled(); --number) {

@@ -25,12 +25,13 @@ class RayWorld final : public RayScene {
     ~RayWorld() override;
 
     bool has(RayKind kind) const override;
-    std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const override;
-    std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const override;
     void closest(std::span<const RaySegment* const> rays, RayKind kind,
                  std::span<std::optional<RaySurfaceHit>> hits) const override;
     void blocked(std::span<const RaySegment* const> rays, RayKind kind,
                  std::span<std::optional<bool>> blocked) const override;
+    /// Of one ray.
+    std::optional<RaySurfaceHit> closest(const RaySegment& ray, RayKind kind) const;
+    std::optional<bool> blocked(const RaySegment& ray, RayKind kind) const;
     bool has_levels() const override { return !rule_.is_simple(); }
     size_t rays_at_once() const override;
     int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const override;

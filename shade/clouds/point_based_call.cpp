@@ -15,17 +15,6 @@ using vm::Operand;
 using vm::Run;
 using vm::Step;
 
-/// Sets some lanes, or all where the operand is uniform.
-void put_value(const Operand& out, size_t first, size_t count, const V3f& value) {
-    for (int k = 0; k < (out.stride ? 3 : 1); ++k) {
-        float* const plane = out.data + static_cast<size_t>(k) * out.stride;
-        if (out.lane_mask)
-            std::fill_n(plane + first, count, value[k]);
-        else
-            std::fill_n(plane, kLanes, value[k]);
-    }
-}
-
 }  // namespace
 
 PointBasedCall::PointBasedCall(Run& run, const Step& step, std::span<const Operand> operands,
@@ -84,33 +73,15 @@ bool PointBasedCall::set_space() {
     return true;
 }
 
-/// The lanes of vertices that run, or the first where all results are uniform. What the vertex at a hit finds
-/// holds for its whole grid.
-std::vector<PointBasedCall::Lanes> PointBasedCall::lanes() const {
-    std::vector<Lanes> lanes;
-    const uint32_t* const mask = run_.masks().all() ? nullptr : run_.masks().current();
+/// Only the first lane is told anything where all results are uniform.
+void PointBasedCall::run(PointBasedScratch& scratch) const {
     const bool uniform = std::ranges::none_of(operands_.first(step_.outputs),
                                               [](const Operand& out) { return out.lane_mask != 0; });
-    for (const vm::GridSpan& span : run_.context().batch->spans) {
-        const auto count = static_cast<size_t>(span.shape.vertex_count());
-        const bool one = span.hit_vertex >= 0;
-        for (size_t i = one ? static_cast<size_t>(span.hit_vertex) : 0; i < count; ++i) {
-            const size_t lane = span.first + i;
-            if (!mask || mask[lane]) {
-                lanes.push_back(one ? Lanes{lane, span.first, count} : Lanes{lane, lane, 1});
-                if (uniform) return lanes;
-            }
-            if (one) break;
-        }
-    }
-    return lanes;
-}
-
-void PointBasedCall::run(PointBasedScratch& scratch) const {
-    for (const Lanes& of : lanes()) {
-        look(of.asks, scratch);
-        put(of, scratch.raster);
-    }
+    for_each_asking_lane(run_, [&](const vm::GridSpan&, size_t, const AskingLane& asking) {
+        look(asking.lane, scratch);
+        put(asking, scratch.raster);
+        return !uniform;
+    });
 }
 
 /// Lanes mostly ask for the same part of the sky.
@@ -165,16 +136,16 @@ void PointBasedCall::add(const SurfelPiece& piece, size_t lane, SurfelRaster& ra
         raster.add_small(piece.way / piece.distance, seen);
 }
 
-void PointBasedCall::put(const Lanes& lanes, const SurfelRaster& raster) const {
+void PointBasedCall::put(const AskingLane& lanes, const SurfelRaster& raster) const {
     const float hidden = std::min(1.0f, raster.hidden());
-    put_value(operands_[0], lanes.first, lanes.count,
+    put_lanes(operands_[0], lanes.first, lanes.count,
               step_.op == Op::IndirectDiffuse ? raster.light() : V3f(hidden));
     for (const RayArguments::Output& output : arguments_.outputs) {
-        if (output.name == "occlusion") put_value(*output.operand, lanes.first, lanes.count, V3f(hidden));
+        if (output.name == "occlusion") put_lanes(*output.operand, lanes.first, lanes.count, V3f(hidden));
         if (output.name != "environmentdir") continue;
         V3f way = raster.open_way();
         if (moved_) from_space_.multDirMatrix(V3f(way), way);
-        put_value(*output.operand, lanes.first, lanes.count, way.normalized());
+        put_lanes(*output.operand, lanes.first, lanes.count, way.normalized());
     }
 }
 

@@ -9,6 +9,7 @@
 #include "shade/clouds/cloud_library.h"
 #include "shade/clouds/surfel_raster.h"
 #include "shade/clouds/surfel_tree.h"
+#include "shade/rays/asking_lanes.h"
 #include "shade/rays/ray_arguments.h"
 #include "shade/vm/machine.h"
 
@@ -33,17 +34,12 @@ class PointBasedCall {
     void run(PointBasedScratch& scratch) const;
 
   private:
-    /// Lanes that get what the first vertex of them finds.
-    struct Lanes {
-        size_t asks = 0, first = 0, count = 1;
-    };
-    std::vector<Lanes> lanes() const;
     const SurfelTree* find_cloud(CloudLibrary& library, const RayScene* scene) const;
     const SurfelTree* use_rays(const std::string& why) const;
     bool set_space();
     void look(size_t lane, PointBasedScratch& scratch) const;
     void add(const SurfelPiece& piece, size_t lane, SurfelRaster& raster) const;
-    void put(const Lanes& lanes, const SurfelRaster& raster) const;
+    void put(const AskingLane& lanes, const SurfelRaster& raster) const;
     const SkyPart& sky_of(size_t lane) const;
 
     vm::Run& run_;

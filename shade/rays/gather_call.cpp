@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "shade/rays/asking_lanes.h"
 #include "shade/rays/lane_motion.h"
 #include "shade/rays/ray_aim.h"
 #include "shade/rays/ray_directions.h"
@@ -42,11 +43,7 @@ float lane_of(bool set) {
 
 /// Sets the lanes that a lane speaks for.
 void put(const Operand& out, const RayLane& lane, int component, float value) {
-    float* const plane = out.data + static_cast<size_t>(component) * out.stride;
-    if (out.lane_mask)
-        std::fill_n(plane + lane.first, lane.count, value);
-    else
-        std::fill_n(plane, kLanes, value);
+    put_lanes(out, lane.first, lane.count, component, value);
 }
 
 void put(const Operand& out, const RayLane& lane, int width, const V3f& value) {

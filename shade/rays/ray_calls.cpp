@@ -8,6 +8,7 @@
 
 #include "core/portable_math.h"
 #include "core/random.h"
+#include "shade/rays/asking_lanes.h"
 #include "shade/rays/gather_call.h"
 #include "shade/rays/lane_motion.h"
 #include "shade/rays/lane_spread.h"
@@ -30,15 +31,9 @@ bool is_finite(const V3f& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Sets the result of the lanes that a lane speaks for, or that of all lanes where it is uniform.
+/// Sets the result of the lanes that a lane speaks for.
 void put(const Operand& out, const RayLane& lane, const V3f& value) {
-    for (int k = 0; k < (out.stride ? 3 : 1); ++k) {
-        float* const plane = out.data + static_cast<size_t>(k) * out.stride;
-        if (out.lane_mask)
-            std::fill_n(plane + lane.first, lane.count, value[k]);
-        else
-            std::fill_n(plane, kLanes, value[k]);
-    }
+    put_lanes(out, lane.first, lane.count, value);
 }
 
 /// The result of a call that sees nothing.
@@ -146,23 +141,14 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
     std::vector<uint32_t>& calls = calls_[&step];
     calls.resize(std::max(calls.size(), run.lanes()));
     std::vector<RayLane> lanes;
-    const uint32_t* mask = run.masks().all() ? nullptr : run.masks().current();
-    for (const vm::GridSpan& span : run.context().batch->spans) {
-        const auto count = static_cast<size_t>(span.shape.vertex_count());
+    for_each_asking_lane(run, [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
         const uint32_t grid = hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32),
                                    asker_.service().seed);
-        for (size_t i = 0; i < count; ++i) {
-            if (span.hit_vertex >= 0 && i != static_cast<size_t>(span.hit_vertex)) continue;
-            const size_t lane = span.first + i;
-            if (mask && !mask[lane]) continue;
-            RayLane asks{lane, hash(grid, static_cast<uint32_t>(i), step.first, calls[lane]++), lane};
-            // What the vertex at a hit finds holds for its whole grid.
-            asks.grid = span.grid, asks.first_of_grid = span.first;
-            if (span.hit_vertex >= 0) asks.first = span.first, asks.count = count;
-            lanes.push_back(asks);
-            if (uniform) return lanes;
-        }
-    }
+        const size_t lane = asking.lane;
+        lanes.push_back({lane, hash(grid, static_cast<uint32_t>(vertex), step.first, calls[lane]++),
+                         asking.first, asking.count, span.grid, span.first});
+        return !uniform;
+    });
     return lanes;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/scene/layer_limit.h"
+#include "core/scene/ray_scene.h"
 #include "pipeline/rib/reader/file_search.h"
 #include "pipeline/rib/reader/open_files.h"
 #include "pipeline/rib/requests/colorspaces.h"
@@ -18,7 +19,6 @@ namespace {
 constexpr int kLargestPicture = 65536;  ///< pixels along a side
 constexpr float kMostSamples = 64;      ///< along a side of a pixel
 constexpr float kMostRayDepth = 100;    ///< Option "trace" "maxdepth"
-constexpr float kMostRayLevels = 4;     ///< Option "trace" "levels"
 /// A path tracer's noise wants more samples than a surface that is shaded before it is sampled.
 constexpr float kMostHiderSamples = 64;
 constexpr size_t kMostColorSamples = 1000;
@@ -272,7 +272,7 @@ void option(OptionContext& r, ArgumentCursor& c) {
         if (category == "trace" && value.name == "maxdepth" && !value.floats.empty())
             o.max_ray_depth = static_cast<int>(std::clamp(value.floats[0], 0.0f, kMostRayDepth));
         if (category == "trace" && value.name == "levels" && !value.floats.empty())
-            o.ray_levels = static_cast<int>(std::clamp(value.floats[0], 0.0f, kMostRayLevels));
+            o.ray_levels = static_cast<int>(std::clamp(value.floats[0], 0.0f, float{kMostRayLevels}));
         o.user[category].set(value);
     }
 }
