@@ -38,17 +38,15 @@ bool same_uniforms(const LayeredShader* shader, const ShadingGrid& a, const Shad
     return true;
 }
 
-/// Calls use(grids) for the parts of a list that can share a run of the shader, each in one run.
-template <class Use>
-void for_each_run(std::vector<ShadingGrid*> grids, const LayeredShader& shader, const Use& use) {
-    while (!grids.empty()) {
-        const ShadingGrid& first = *grids.front();
-        const auto rest = std::stable_partition(grids.begin(), grids.end(), [&](const ShadingGrid* grid) {
-            return same_uniforms(&shader, first, *grid);
-        });
-        use(std::span<ShadingGrid* const>(grids.begin(), rest));
-        grids.erase(grids.begin(), rest);
-    }
+/// Takes from a list the grids that can share a run of the shader with its first.
+std::vector<ShadingGrid*> take_run(std::vector<ShadingGrid*>& grids, const LayeredShader& shader) {
+    const ShadingGrid& first = *grids.front();
+    const auto rest = std::stable_partition(grids.begin(), grids.end(), [&](const ShadingGrid* grid) {
+        return same_uniforms(&shader, first, *grid);
+    });
+    std::vector<ShadingGrid*> taken(grids.begin(), rest);
+    grids.erase(grids.begin(), rest);
+    return taken;
 }
 
 std::vector<BorderWeld> welds_of(std::span<ShadingGrid* const> grids) {
@@ -89,29 +87,30 @@ GridRun::GridRun(const RenderContext& context, Textures& textures, const Materia
 }
 
 /// Displaces the grids, but leaves in their places what rays see undisplaced: it has the normals alone.
-GridRun::Layers GridRun::displace_seen() {
+Task<GridRun::Layers> GridRun::displace_seen() {
     const bool stay = grids_.front()->hit_vertex >= 0 && !material_.attributes->rays.displaced;
     std::vector<std::vector<Triples>> places;
     for (const ShadingGrid* grid : grids_)
         if (stay) places.push_back(grid->P);
-    Layers layers = displace();
+    Layers layers = co_await displace();
     for (size_t g = 0; g < places.size(); ++g) grids_[g]->P = std::move(places[g]);
-    return layers;
+    co_return layers;
 }
 
-void GridRun::run_displacement() {
-    if (material_.displacement) displace();
-    if (material_.surface_moves) color(*material_.surface, false, messages_.surface);
+Task<> GridRun::run_displacement() {
+    if (material_.displacement) co_await displace();
+    if (material_.surface_moves) co_await color(*material_.surface, false, messages_.surface);
 }
 
-void GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
+Task<> GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
     Layers displaced, surface, atmosphere;
-    if (material_.displacement) displaced = displace_seen();
+    if (material_.displacement) displaced = co_await displace_seen();
     if (grids_.front()->own_colors)
         set_own_colors();
     else
-        surface = run_surface();
-    if (const LayeredShader* shader = volume()) atmosphere = color(*shader, true, messages_.atmosphere);
+        surface = co_await run_surface();
+    if (const LayeredShader* shader = volume())
+        atmosphere = co_await color(*shader, true, messages_.atmosphere);
     if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
     if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
     clouds_.finish();
@@ -131,19 +130,19 @@ void GridRun::set_own_colors() {
     }
 }
 
-GridRun::Layers GridRun::run_surface() {
+Task<GridRun::Layers> GridRun::run_surface() {
     // What the first layer does not name stays as the primitive has it; the rest is taken from the registers.
     const rsl::Program& first = material_.surface->layers.front()->program();
     for (ShadingGrid* grid : grids_) {
         if (!first.find_global("Ci")) grid->Ci = grid->Cs;
         if (!first.find_global("Oi")) grid->Oi = grid->Os;
     }
-    return color(*material_.surface, false, messages_.surface);
+    co_return co_await color(*material_.surface, false, messages_.surface);
 }
 
-vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
-                                  std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
-                                  bool shaded, Layers& layers) {
+Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t layer,
+                                        std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
+                                        bool shaded, Layers& layers) {
     const BoundShader& bound = *shader.layers[layer];
     // Two layers may be the same shader: each has registers of its own, by its number.
     vm::Registers& registers = scratch_.machine.registers(bound.executable(), layer);
@@ -181,26 +180,27 @@ vm::Registers& GridRun::run_layer(const LayeredShader& shader, size_t layer,
     const auto& lights = grids.front()->for_opacity ? material_.other_lights : material_.lights;
     scratch_.lights.start(scratch_.machine, lights, surroundings, batch.lanes,
                           variable_planes(registers, "N"), context_.seed);
-    bound.set_run_defaults(scratch_.machine, registers, surroundings, grids);
+    co_await bound.set_run_defaults(scratch_.machine, registers, surroundings, grids);
     shader.connect(layer, layers);
-    scratch_.machine.run(registers, surroundings);
-    return registers;
+    co_await scratch_.machine.run(registers, surroundings);
+    co_return &registers;
 }
 
 /// Displaces the pieces of the grids' borders by all layers: what those who share a border point take of it.
-void GridRun::move_borders(const LayeredShader& shader) {
+Task<> GridRun::move_borders(const LayeredShader& shader) {
     std::vector<ShadingGrid*> borders;
     for (ShadingGrid* grid : grids_)
         for (ShadingGrid& pieces : grid->border) borders.push_back(&pieces);
     // Messages would be answered from the grids' run, which has other lanes.
     const vm::Registers* const of_grids = std::exchange(messages_.displacement, nullptr);
-    for_each_run(std::move(borders), shader, [&](std::span<ShadingGrid* const> run) {
+    while (!borders.empty()) {
+        const std::vector<ShadingGrid*> run = take_run(borders, shader);
         const std::vector<const ShadingGrid*> read = to_read(run);
         const vm::Batch batch = batch_of(read, true);
         Layers layers;
         messages_.displacement = nullptr;
         for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
-            const vm::Registers& registers = run_layer(shader, layer, read, batch, false, layers);
+            const vm::Registers& registers = *co_await run_layer(shader, layer, read, batch, false, layers);
             if (&shader == material_.displacement) messages_.displacement = &registers;
             size_t first = 0;
             for (ShadingGrid* pieces : run) {
@@ -208,7 +208,7 @@ void GridRun::move_borders(const LayeredShader& shader) {
                 first += pieces->vertex_count();
             }
         }
-    });
+    }
     messages_.displacement = of_grids;
 }
 
@@ -233,36 +233,39 @@ void GridRun::note_moves(const vm::Registers& registers) {
     }
 }
 
-GridRun::Layers GridRun::displace() {
+Task<GridRun::Layers> GridRun::displace() {
     const LayeredShader& shader = *material_.displacement;
     const std::vector<BorderWeld> welds = welds_of(grids_);
-    move_borders(shader);
+    co_await move_borders(shader);
     Layers layers;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
-        const vm::Registers& registers = run_layer(shader, layer, read_, batch_, false, layers);
+        const vm::Registers& registers = *co_await run_layer(shader, layer, read_, batch_, false, layers);
         messages_.displacement = &registers;
         move_grids(registers);
     }
     for (size_t g = 0; g < grids_.size(); ++g) welds[g].close(*grids_[g]);
-    return layers;
+    co_return layers;
 }
 
 /// Runs a shader that sets colours. A surface shader that moves P displaces the surface behind it, as a
 /// displacement shader does; `announced` becomes the registers that messages are answered from.
-GridRun::Layers GridRun::color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced) {
+Task<GridRun::Layers> GridRun::color(const LayeredShader& shader, bool shaded,
+                                     const vm::Registers*& announced) {
     const bool moves = &shader == material_.surface && material_.surface_moves;
     const std::vector<BorderWeld> welds = moves ? welds_of(grids_) : std::vector<BorderWeld>();
-    if (moves) move_borders(shader);
+    if (moves) co_await move_borders(shader);
     Layers layers;
     for (size_t layer = 0; layer < shader.layers.size(); ++layer) {
-        vm::Registers& registers = run_layer(shader, layer, read_, batch_, shaded || layer > 0, layers);
+        const bool has_colors = shaded || layer > 0;
+        const vm::Registers& registers =
+            *co_await run_layer(shader, layer, read_, batch_, has_colors, layers);
         announced = &registers;
         take_colors(registers, grids_);
         if (moves && writes_variable(registers.program(), "P")) move_grids(registers);
         if (&shader == material_.surface && material_.surface_only_sets_P) note_moves(registers);
     }
     for (size_t g = 0; g < welds.size(); ++g) welds[g].close(*grids_[g]);
-    return layers;
+    co_return layers;
 }
 
 }  // namespace trapeze

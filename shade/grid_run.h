@@ -41,24 +41,24 @@ class GridRun {
 
     /// Displaces the grids at all keys, sets Ci and Oi, fills the output variables `aovs`, and answers what
     /// is asked of hits.
-    void run(const AovLayout& aovs, const HitOutputs* asked = nullptr);
+    Task<> run(const AovLayout& aovs, const HitOutputs* asked = nullptr);
     /// Displaces the grids alone.
-    void run_displacement();
+    Task<> run_displacement();
 
   private:
     using Layers = std::vector<vm::Registers*>;
 
     /// Runs one layer on `grids`, whose lanes `batch` describes; `shaded`: Ci and Oi begin as the grids have
     /// them. Adds the layer's registers to `layers` and returns them.
-    vm::Registers& run_layer(const LayeredShader& shader, size_t layer,
-                             std::span<const ShadingGrid* const> grids, const vm::Batch& batch, bool shaded,
-                             Layers& layers);
+    Task<vm::Registers*> run_layer(const LayeredShader& shader, size_t layer,
+                                   std::span<const ShadingGrid* const> grids, const vm::Batch& batch,
+                                   bool shaded, Layers& layers);
     // These return the registers of all layers of their shader.
-    Layers displace();
-    Layers run_surface();
-    Layers displace_seen();
-    Layers color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
-    void move_borders(const LayeredShader& shader);
+    Task<Layers> displace();
+    Task<Layers> run_surface();
+    Task<Layers> displace_seen();
+    Task<Layers> color(const LayeredShader& shader, bool shaded, const vm::Registers*& announced);
+    Task<> move_borders(const LayeredShader& shader);
     void move_grids(const vm::Registers& registers);
     const LayeredShader* volume() const;
     void set_own_colors();

@@ -168,8 +168,8 @@ void Imager::run(int x0, int y, int count, float* rgba) const {
         surroundings.diagnostics = impl_->context.diagnostics;
         surroundings.near_clip = impl_->context.camera.near_clip;
         surroundings.far_clip = impl_->context.camera.far_clip;
-        shader.set_run_defaults(machine, registers, surroundings, {});
-        machine.run(registers, surroundings);
+        shader.set_run_defaults(machine, registers, surroundings, {}).get();
+        machine.run(registers, surroundings).get();
         const vm::Operand *color = variable(registers, "Ci"), *alpha = variable(registers, "alpha");
         for (size_t i = 0; i < pixels; ++i) {
             for (size_t c = 0; c < 3 && color; ++c)

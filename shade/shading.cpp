@@ -62,8 +62,8 @@ struct Shading::Impl {
             volumes.add(i, materials.of(i).interior, materials.of(i).exterior);
     }
 
-    void shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats, int depth,
-               const HitVisit& visit) const;
+    Task<> shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats, int depth,
+                 const HitVisit& visit) const;
 
     std::vector<const BoundShader*> asking_shaders() const;
 
@@ -94,21 +94,21 @@ void Shading::shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats)
 }
 
 void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const {
-    impl_->shade(grids, scratch, stats, 0, {});
+    impl_->shade(grids, scratch, stats, 0, {}).get();
 }
 
 /// `depth`: bounces of rays between the camera and the grids, which are visited by the last of them. What
 /// rays hit has no output variables.
-void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats,
-                          int depth, const HitVisit& visit) const {
-    if (!visit.shades) return answer_hits(*visit.outputs, {}, {}, {}, grids);
+Task<> Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats,
+                            int depth, const HitVisit& visit) const {
+    if (!visit.shades) co_return answer_hits(*visit.outputs, {}, {}, {}, grids);
     ShadeScratch::State& state = *scratch.state;
     RayService service;
     if (rays) {
         service.scene = rays;
         service.shade = [&](std::span<ShadingGrid* const> hits, const HitVisit& of_hits) {
             if (!state.deeper) state.deeper = std::make_unique<ShadeScratch>();
-            shade(hits, *state.deeper, stats, depth + 1, of_hits);
+            return shade(hits, *state.deeper, stats, depth + 1, of_hits);
         };
         service.depth = depth;
         service.visit = visit;
@@ -136,9 +136,10 @@ void Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scr
         const RayMedium& medium = grids[first]->medium;
         const Material* const left =
             medium.primitive != RayMedium::kNone ? &materials.of(medium.primitive) : nullptr;
-        GridRun(context, textures, material, batch, state.run, rays ? &service : nullptr,
-                {&clouds, depth == 0 ? &bakes : nullptr, rays}, left)
-            .run(depth == 0 ? aovs : AovLayout(), visit.outputs);
+        GridRun run(context, textures, material, batch, state.run, rays ? &service : nullptr,
+                    {&clouds, depth == 0 ? &bakes : nullptr, rays}, left);
+        const AovLayout none;
+        co_await run.run(depth == 0 ? aovs : none, visit.outputs);
         stats.shaded_vertices += vertices;
         first = next;
     }
@@ -204,7 +205,8 @@ void Shading::displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratc
         if (material.attributes->rays.displaced)
             GridRun(impl_->context, impl_->textures, material, {&grid, 1}, scratch.state->run, nullptr,
                     {&impl_->clouds, nullptr, nullptr})
-                .run_displacement();
+                .run_displacement()
+                .get();
         grid->Ci = grid->Cs, grid->Oi = grid->Os;
     }
 }

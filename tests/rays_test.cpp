@@ -278,6 +278,18 @@ TEST(RayTrace, DepthCutsTheSeriesOfTwoMirrors) {
     shine(10, "", 100);
 }
 
+/// A hundred bounces, each of which runs a shader that waits for the next.
+TEST(RayTrace, FollowsAsManyBouncesAsMayBeAskedFor) {
+    Case c;
+    c.shaders["counts"] =
+        "surface counts() { Oi = 1; vector way = reflect(normalize(I), normalize(N));"
+        "Ci = 1 + color trace(P, way); }";
+    c.options = "Option \"trace\" \"int maxdepth\" [100] ";
+    c.asker = "Attribute \"trace\" \"int maxspeculardepth\" [100] ";
+    c.things = c.asker + "Surface \"counts\" " + wall("2") + wall("5.5");
+    expect_told(c.render("Ci = told(1 + comp(color trace(P, vector(0, 0, -1)), 0), 101, 1);"), 0, 64 * 64);
+}
+
 /// What is too deep is black, but still in the way: the colour of rays is, their opacity and distance are
 /// not.
 TEST(RayTrace, DepthDoesNotEndDistancesAndShadows) {

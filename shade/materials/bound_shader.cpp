@@ -94,7 +94,7 @@ BoundShader::BoundShader(std::shared_ptr<const vm::Executable> executable, const
             value.texts.resize(width ? 0 : elements);
             continue;
         }
-        machine.run_initial(registers, i, context);
+        machine.run_initial(registers, i, context).get();
         for (size_t e = 0; e < elements; ++e) {
             if (!width) value.texts.push_back(registers.text(parameter.id, e));
             const vm::Operand& operand = registers.operand(parameter.id);
@@ -191,13 +191,14 @@ void BoundShader::set_parameters(vm::Registers& registers, std::span<const Shadi
     }
 }
 
-void BoundShader::set_run_defaults(vm::Machine& machine, vm::Registers& registers, const vm::Context& context,
-                                   std::span<const ShadingGrid* const> grids) const {
+Task<> BoundShader::set_run_defaults(vm::Machine& machine, vm::Registers& registers,
+                                     const vm::Context& context,
+                                     std::span<const ShadingGrid* const> grids) const {
     for (const size_t i : run_defaults_) {
         const rsl::ProgramParameter& parameter = program().parameters[i];
         // Grids of one run all have the variable, or none has (can_share_run()).
         if (grids.empty() || !suitable_variable(*grids.front(), parameter.name, parameter.type))
-            machine.run_initial(registers, i, context);
+            co_await machine.run_initial(registers, i, context);
     }
 }
 

@@ -29,8 +29,8 @@ class BoundShader {
 
     /// Computes the defaults that follow from the point (Executable::has_run_default) of parameters that
     /// nothing else gives, once the registers have their parameters and predefined variables.
-    void set_run_defaults(vm::Machine& machine, vm::Registers& registers, const vm::Context& context,
-                          std::span<const ShadingGrid* const> grids) const;
+    Task<> set_run_defaults(vm::Machine& machine, vm::Registers& registers, const vm::Context& context,
+                            std::span<const ShadingGrid* const> grids) const;
 
     /// The shader's laid-out code, by which machines know their registers for it.
     const std::shared_ptr<const vm::Executable>& executable() const { return executable_; }

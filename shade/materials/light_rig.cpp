@@ -86,12 +86,12 @@ void LightRig::start(vm::Machine& machine, const std::vector<const Lamp*>& lamps
     }
 }
 
-const vm::Lights::Arriving& LightRig::arriving(size_t light, const vm::Operand& P, bool lasting) {
+Task<const vm::Lights::Arriving*> LightRig::arriving(size_t light, const vm::Operand& P, bool lasting) {
     Slot& slot = slots_[light];
-    if (lasting && slot.lasts) return slot.arriving;
-    run(light, slot, P);
+    if (lasting && slot.lasts) co_return &slot.arriving;
+    co_await run(light, slot, P);
     slot.lasts = lasting;
-    return slot.arriving;
+    co_return &slot.arriving;
 }
 
 const vm::Registers* LightRig::registers(size_t light) const {
@@ -168,7 +168,7 @@ void LightRig::set_sample(vm::Registers& registers, const Lamp& lamp) const {
     }
 }
 
-void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
+Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     const Turn& turn = turns_[light];
     const Lamp& lamp = *(*lamps_)[turn.lamp];
     const rsl::Program& program = lamp.shader->program();
@@ -198,8 +198,8 @@ void LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
     context.spaces = lamp.spaces.get();
     context.light_output = &output;
     context.lights = nullptr;
-    lamp.shader->set_run_defaults(*machine_, registers, context, {});
-    machine_->run(registers, context);
+    co_await lamp.shader->set_run_defaults(*machine_, registers, context, {});
+    co_await machine_->run(registers, context);
 
     Arriving& arriving = slot.arriving;
     arriving.ambient = !program.directional;

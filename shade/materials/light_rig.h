@@ -37,7 +37,7 @@ class LightRig : public vm::Lights {
                size_t lanes, const Plane3& N, uint32_t seed = 0);
 
     size_t count() const override { return turns_.size(); }
-    const Arriving& arriving(size_t light, const vm::Operand& P, bool lasting) override;
+    Task<const Arriving*> arriving(size_t light, const vm::Operand& P, bool lasting) override;
     bool in_category(size_t light, std::string_view wanted) override;
 
     /// The light's variables, for lightsource(), once it has run; null before.
@@ -61,7 +61,7 @@ class LightRig : public vm::Lights {
         size_t capacity = 0;  ///< lanes that `planes` have room for
         std::unique_ptr<float, void (*)(void*)> planes{nullptr, nullptr};
     };
-    void run(size_t light, Slot& slot, const vm::Operand& P);
+    Task<> run(size_t light, Slot& slot, const vm::Operand& P);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
     void sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P);
     void set_sample(vm::Registers& registers, const Lamp& lamp) const;

@@ -38,7 +38,7 @@ class OneLamp {
         const vm::Context surroundings;
         LightRig rig;
         rig.start(machine_, lamps, surroundings, kLanes, {});
-        const vm::Lights::Arriving& light = rig.arriving(0, operand, false);
+        const vm::Lights::Arriving& light = *rig.arriving(0, operand, false).get();
         const auto first = [](const float* p) { return V3f(p[0], p[kLanes], p[2 * kLanes]); };
         if (light.ambient) return {V3f(0), V3f(0), first(light.Cl)};
         return {first(light.L), first(light.direction), first(light.Cl)};
@@ -142,7 +142,8 @@ TEST(Lights, AParameterOfTheWrongTypeIsReported) {
     std::vector<Diagnostic> reported;
     Diagnostics diagnostics([&](const Diagnostic& d) { reported.push_back(d); });
     const ShaderInstance lamp = shader("pointlight", {color("intensity", V3f(5))});
-    OneLamp{lamp, &diagnostics};
+    const OneLamp made(lamp, &diagnostics);
+    EXPECT_TRUE(made.exists());
     ASSERT_EQ(reported.size(), 1u);
     EXPECT_NE(reported[0].text.find("declares \"intensity\" as float"), std::string::npos)
         << reported[0].text;

@@ -91,9 +91,9 @@ void GatherCall::add_output(std::string_view name, int width, const Operand& ope
     asked_.all.push_back(std::move(*wanted));
 }
 
-bool GatherCall::next(Run&, const uint32_t* live) {
-    if (turn_ >= most_) return false;
-    if (turn_ >= sent_) send(live);
+Task<bool> GatherCall::next(Run&, const uint32_t* live) {
+    if (turn_ >= most_) co_return false;
+    if (turn_ >= sent_) co_await send(live);
     std::fill(hits_.begin(), hits_.end(), lane_of(false));
     std::fill(misses_.begin(), misses_.end(), lane_of(false));
     for (size_t i = 0; i < lanes_.size(); ++i) {
@@ -106,11 +106,11 @@ bool GatherCall::next(Run&, const uint32_t* live) {
         tell(lane, ray);
     }
     ++turn_;
-    return true;
+    co_return true;
 }
 
 /// Traces as many turns of all live lanes as fit.
-void GatherCall::send(const uint32_t* live) {
+Task<> GatherCall::send(const uint32_t* live) {
     size_t count = 0;
     for (const RayLane& lane : lanes_) count += live[lane.lane] ? 1 : 0;
     const int turns = static_cast<int>(
@@ -124,7 +124,7 @@ void GatherCall::send(const uint32_t* live) {
         first_rays_[i] = rays_.size();
         add_rays(lanes_[i], first_sent_, end - first_sent_);
     }
-    if (traces_) follow();
+    if (traces_) co_await follow();
 }
 
 /// A lane's rays of some turns. Those that lead nowhere are empty: they miss.
@@ -157,7 +157,7 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
 }
 
 /// Sends the rays into the scene, for no more than what is asked. What is too deep to be shaded is black.
-void GatherCall::follow() {
+Task<> GatherCall::follow() {
     const RayService& service = asker_.service();
     RayWalk walk(*service.scene, service.shade, *service.volumes, *service.scratch, *service.stats);
     RayAsk ask;
@@ -171,8 +171,8 @@ void GatherCall::follow() {
     ask.first_alone = !colors;
     answers_.assign(rays_.size() * asked_.size, 0.0f);
     for (size_t i = 0; i < rays_.size(); ++i) rays_[i].answers = answers_.data() + i * asked_.size;
-    if (!colors && asked_.empty()) return walk.distance(rays_, ask);
-    walk.radiance(rays_, ask);
+    if (!colors && asked_.empty()) co_return walk.distance(rays_, ask);
+    co_await walk.radiance(rays_, ask);
     if (too_deep)
         for (WalkedRay& ray : rays_) ray.seen = V3f(0, 0, 0);
 }

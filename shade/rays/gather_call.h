@@ -17,7 +17,7 @@ class GatherCall final : public vm::GatherTurns {
     GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, vm::Run& run, const vm::Step& step,
                std::span<const vm::Operand> operands);
 
-    bool next(vm::Run& run, const uint32_t* live) override;
+    Task<bool> next(vm::Run& run, const uint32_t* live) override;
     const float* hits() const override { return hits_.data(); }
     const float* misses() const override { return misses_.data(); }
 
@@ -34,9 +34,9 @@ class GatherCall final : public vm::GatherTurns {
 
     void add_output(std::string_view name, int width, const vm::Operand& operand, vm::Run& run,
                     const vm::Step& step);
-    void send(const uint32_t* live);
+    Task<> send(const uint32_t* live);
     void add_rays(const RayLane& lane, int first, int count);
-    void follow();
+    Task<> follow();
     void tell(const RayLane& lane, const WalkedRay& ray) const;
 
     const RayAsker& asker_;

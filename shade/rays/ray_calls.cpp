@@ -152,37 +152,43 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
     return lanes;
 }
 
-void RayCalls::trace(Run& run, const Step& step, std::span<const Operand> operands) {
+Task<> RayCalls::trace(Run& run, const Step& step, std::span<const Operand> operands) {
     const Operand& out = operands[0];
     const RayArguments arguments(run, step, operands);
     const Call call{run, step, arguments, out.stride != 0, asker_.samples_motion()};
     const V3f nothing(result_of_nothing(step.op, call.colors));
-    if (!run.context().batch) return put(out, {}, nothing);
+    if (!run.context().batch) co_return put(out, {}, nothing);
     const std::vector<RayLane> lanes = lanes_of(run, step, !out.lane_mask);
-    if (step.op == Op::IndirectDiffuse && !arguments.map().empty()) return look_at_sky(call, out, lanes);
+    if (step.op == Op::IndirectDiffuse && !arguments.map().empty()) co_return look_at_sky(call, out, lanes);
     const size_t most = rays_at_once(*asker_.service().scene);
     for (size_t first = 0; first < lanes.size();) {
         size_t end = first, count = 0;
         for (; end < lanes.size() && count < most; ++end)
             count += static_cast<size_t>(call.samples_at(lanes[end].lane));
-        const LaneRays sent = rays_of(call, std::span(lanes).subspan(first, end - first));
-        for (size_t i = first, ray = 0; i < end; ++i) {
-            const size_t lane = lanes[i].lane, from = ray;
-            V3f sum(0, 0, 0);
-            LaneSums sums;
-            for (; ray < sent.ends[i - first]; ++ray) {
-                const WalkedRay& one = sent.rays[ray];
-                sum += call.share_of(one, lane);
-                if (!sent.followed) continue;
-                if (!sent.sky.empty()) sums.sky += sent.sky[ray];
-                sums.open_way +=
-                    one.segment.direction * ((one.through.x + one.through.y + one.through.z) / 3);
-                sums.hidden += hidden_by(one, arguments, lane);
-            }
-            put(out, lanes[i], ray > from ? sum / static_cast<float>(ray - from) : nothing);
-            sums.put(arguments, lanes[i], ray - from);
-        }
+        const LaneRays sent = co_await rays_of(call, std::span(lanes).subspan(first, end - first));
+        tell(call, out, std::span(lanes).subspan(first, end - first), sent, nothing);
         first = end;
+    }
+}
+
+/// Sets the results of lanes whose rays have been sent; those that sent none get `nothing`.
+void RayCalls::tell(const Call& call, const Operand& out, std::span<const RayLane> lanes,
+                    const LaneRays& sent, const V3f& nothing) {
+    const RayArguments& arguments = call.arguments;
+    for (size_t i = 0, ray = 0; i < lanes.size(); ++i) {
+        const size_t lane = lanes[i].lane, from = ray;
+        V3f sum(0, 0, 0);
+        LaneSums sums;
+        for (; ray < sent.ends[i]; ++ray) {
+            const WalkedRay& one = sent.rays[ray];
+            sum += call.share_of(one, lane);
+            if (!sent.followed) continue;
+            if (!sent.sky.empty()) sums.sky += sent.sky[ray];
+            sums.open_way += one.segment.direction * ((one.through.x + one.through.y + one.through.z) / 3);
+            sums.hidden += hidden_by(one, arguments, lane);
+        }
+        put(out, lanes[i], ray > from ? sum / static_cast<float>(ray - from) : nothing);
+        sums.put(arguments, lanes[i], ray - from);
     }
 }
 
@@ -194,15 +200,15 @@ std::unique_ptr<vm::GatherTurns> RayCalls::gather(Run& run, const Step& step,
 }
 
 /// Sends the rays of some lanes. What is behind them counts as far as they are open.
-RayCalls::LaneRays RayCalls::rays_of(const Call& call, std::span<const RayLane> lanes) const {
+Task<RayCalls::LaneRays> RayCalls::rays_of(const Call& call, std::span<const RayLane> lanes) const {
     LaneRays sent;
     for (const RayLane& lane : lanes) {
         add_rays(call, lane, sent.rays);
         sent.ends.push_back(sent.rays.size());
     }
-    sent.followed = follow(call, sent.rays);
+    sent.followed = co_await follow(call, sent.rays);
     const RayArguments& arguments = call.arguments;
-    if (!sent.followed || arguments.environment_map.empty() || lanes.empty()) return sent;
+    if (!sent.followed || arguments.environment_map.empty() || lanes.empty()) co_return sent;
     const size_t lane = lanes.front().lane;
     const float width = spread_of(call.angle_at(lane), call.samples_at(lane));
     std::vector<V3f> directions;
@@ -213,7 +219,7 @@ RayCalls::LaneRays RayCalls::rays_of(const Call& call, std::span<const RayLane> 
         sent.sky[i] *= sent.rays[i].through;
         sent.rays[i].seen += sent.sky[i];
     }
-    return sent;
+    co_return sent;
 }
 
 /// How far a lane's rays go apart from those of its neighbours. Those that end at a point come together
@@ -269,7 +275,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
 }
 
 /// Sends the rays of a call; false where they are too deep to see anything.
-bool RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
+Task<bool> RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     const RayService& service = asker_.service();
     const RayArguments& arguments = call.arguments;
     RayWalk walk(*service.scene, service.shade, *service.volumes, *service.scratch, *service.stats);
@@ -286,14 +292,14 @@ bool RayCalls::follow(const Call& call, std::span<WalkedRay> rays) const {
     ask.shades = !too_deep;
     if (op == Op::Trace && !call.colors) {
         walk.distance(rays, ask);
-        return true;
+        co_return true;
     }
     if (op == Op::Trace || op == Op::Environment || op == Op::IndirectDiffuse) {
-        if (!too_deep) walk.radiance(rays, ask);
-        return !too_deep;
+        if (!too_deep) co_await walk.radiance(rays, ask);
+        co_return !too_deep;
     }
-    walk.transmission(rays, ask, op == Op::Occlusion && arguments.falloff.operand);
-    return true;
+    co_await walk.transmission(rays, ask, op == Op::Occlusion && arguments.falloff.operand);
+    co_return true;
 }
 
 /// indirectdiffuse(map, direction): the mean of a map about the direction, by the cosine.

@@ -20,7 +20,7 @@ class RayCalls : public vm::Rays {
     /// `attributes`: of the surface that is shaded.
     RayCalls(const RayService& service, const Attributes& attributes) : asker_(service, attributes) {}
 
-    void trace(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
+    Task<> trace(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands) override;
     std::unique_ptr<vm::GatherTurns> gather(vm::Run& run, const vm::Step& step,
                                             std::span<const vm::Operand> operands) override;
     vm::RayFacts facts() const override;
@@ -36,11 +36,13 @@ class RayCalls : public vm::Rays {
     };
 
     std::vector<RayLane> lanes_of(vm::Run& run, const vm::Step& step, bool uniform);
-    LaneRays rays_of(const Call& call, std::span<const RayLane> lanes) const;
+    Task<LaneRays> rays_of(const Call& call, std::span<const RayLane> lanes) const;
+    static void tell(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes,
+                     const LaneRays& sent, const V3f& nothing);
     void add_rays(const Call& call, const RayLane& lane, std::vector<WalkedRay>& rays) const;
     float spread_beside_of(const Call& call, const RayLane& asking, const RayAim& aim,
                            const LaneMotion& motion) const;
-    bool follow(const Call& call, std::span<WalkedRay> rays) const;
+    Task<bool> follow(const Call& call, std::span<WalkedRay> rays) const;
     void look_at_sky(const Call& call, const vm::Operand& out, std::span<const RayLane> lanes) const;
 
     const RayAsker asker_;

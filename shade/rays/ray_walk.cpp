@@ -73,14 +73,14 @@ size_t rays_at_once(const RayScene& scene) {
     return std::max(scene.rays_at_once(), kRaysAtOnce);
 }
 
-void RayWalk::radiance(std::span<WalkedRay> rays, const RayAsk& ask) {
+Task<> RayWalk::radiance(std::span<WalkedRay> rays, const RayAsk& ask) {
     std::vector<WalkedRay*> all;
     for (WalkedRay& ray : rays) all.push_back(&ray);
-    walk(all, ask, Wants::Color);
+    co_await walk(all, ask, Wants::Color);
     count_of(ask.kind, stats_) += rays.size();
 }
 
-void RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance) {
+Task<> RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance) {
     std::vector<WalkedRay*> open;  // it is not known at once whether they are blocked
     const bool walks = with_distance || ask.hit_mode;
     std::vector<std::optional<bool>> blocked(rays.size());
@@ -90,7 +90,7 @@ void RayWalk::transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool wi
         if (blocked[i].value_or(false)) rays[i].through = V3f(0, 0, 0);
     }
     count_of(ask.kind, stats_) += rays.size();
-    walk(open, ask, Wants::Opacity);
+    co_await walk(open, ask, Wants::Opacity);
 }
 
 void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
@@ -102,7 +102,7 @@ void RayWalk::distance(std::span<WalkedRay> rays, const RayAsk& ask) {
 }
 
 /// All go on together, a surface farther each time.
-void RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants) {
+Task<> RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants) {
     std::vector<WalkedRay*> going(rays.begin(), rays.end());
     std::vector<const RaySegment*> segments;
     std::vector<std::optional<RaySurfaceHit>> hits;
@@ -121,7 +121,7 @@ void RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wa
         going.clear();
         for (size_t first = 0; first < met.size(); first += kShadedTogether) {
             const auto some = std::span(met).subspan(first, std::min(kShadedTogether, met.size() - first));
-            visit_hits(some, ask, wants, layer == 0);
+            co_await visit_hits(some, ask, wants, layer == 0);
             for (const Met& one : some)
                 if (pass(one, ask)) going.push_back(one.ray);
         }
@@ -191,7 +191,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
 
 /// Shades hits, and asks the first ones. Hits of one primitive are shaded side by side; in which order
 /// changes nothing but the time.
-void RayWalk::visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first) {
+Task<> RayWalk::visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first) {
     HitVisit visit;
     visit.kind = ask.kind, visit.label = ask.label, visit.depths = ask.depths;
     visit.outputs = first ? ask.outputs : nullptr;
@@ -207,12 +207,12 @@ void RayWalk::visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, boo
         (runs ? shaded : asked).push_back(&grid);
     }
     stats_.shaded_hits += shaded.size();
-    for (std::vector<ShadingGrid*>* grids : {&shaded, &asked}) {
+    for (std::vector<ShadingGrid*>* grids : std::array{&shaded, &asked}) {
         visit.shades = grids == &shaded;
         std::ranges::stable_sort(*grids, {}, [](const ShadingGrid* grid) {
             return std::tuple(grid->primitive_index, grid->medium, grid->own_colors);
         });
-        if (!grids->empty()) shade_(*grids, visit);
+        if (!grids->empty()) co_await shade_(*grids, visit);
     }
     for (const Met& one : met)
         if (asks && one.ray->answers && one.grid) std::ranges::copy(one.grid->answers, one.ray->answers);

@@ -15,6 +15,7 @@
 #include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
 #include "core/stats.h"
+#include "core/task.h"
 #include "shade/rays/hit_outputs.h"
 #include "shade/rays/volume_table.h"
 
@@ -55,7 +56,7 @@ struct HitVisit {
 };
 
 /// Shades grids of hits, one micropolygon each: sets Ci and Oi, and answers what is asked.
-using ShadeHits = std::function<void(std::span<ShadingGrid* const>, const HitVisit&)>;
+using ShadeHits = std::function<Task<>(std::span<ShadingGrid* const>, const HitVisit&)>;
 
 /// What all rays of a call have in common.
 struct RayAsk {
@@ -90,9 +91,9 @@ class RayWalk {
 
     /// Sets what rays see, from front to back until nothing shines through, `through` and `distance`; answers
     /// what is asked of first hits.
-    void radiance(std::span<WalkedRay> rays, const RayAsk& ask);
+    Task<> radiance(std::span<WalkedRay> rays, const RayAsk& ask);
     /// Sets `through`; and `distance`, if that is wanted, too.
-    void transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance);
+    Task<> transmission(std::span<WalkedRay> rays, const RayAsk& ask, bool with_distance);
     /// Sets `distance` alone: no surface is too transparent to be found.
     void distance(std::span<WalkedRay> rays, const RayAsk& ask);
 
@@ -107,11 +108,11 @@ class RayWalk {
         ShadingGrid* grid = nullptr;
     };
 
-    void walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants);
+    Task<> walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants wants);
     bool pass(const Met& met, const RayAsk& ask) const;
     RayMedium medium_of(const Met& met) const;
     bool shades(const RaySurfaceHit& hit, const RayAsk& ask, Wants wants) const;
-    void visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first);
+    Task<> visit_hits(std::span<Met> met, const RayAsk& ask, Wants wants, bool first);
     ShadingGrid& grid_of(Met& met, size_t number);
 
     const RayScene& scene_;

@@ -37,11 +37,11 @@ class TwoLights : public Lights {
         for (size_t i = 0; i < kLanes; ++i) std::memcpy(&planes_[9 * kLanes + i], &all, sizeof all);
     }
     size_t count() const override { return 2; }
-    const Arriving& arriving(size_t light, const Operand&, bool) override {
+    Task<const Arriving*> arriving(size_t light, const Operand&, bool) override {
         arriving_.ambient = light == 0;
         const float colors[2][3] = {{0.1f, 0.2f, 0.3f}, {1, 2, 4}};
         for (size_t k = 0; k < 3; ++k) std::fill_n(&planes_[(6 + k) * kLanes], kLanes, colors[light][k]);
-        return arriving_;
+        co_return &arriving_;
     }
     bool in_category(size_t, std::string_view) override { return true; }
 

@@ -10,6 +10,7 @@
 
 #include "core/diagnostics.h"
 #include "core/math.h"
+#include "core/task.h"
 #include "shade/planes/planes.h"
 #include "shade/rsl/syntax/type.h"
 #include "shade/vm/footprint.h"
@@ -78,7 +79,7 @@ class Lights {
         const Registers* registers = nullptr;  ///< the light's variables
     };
     /// `lasting`: P will not change in this run, and what was found for it may be kept.
-    virtual const Arriving& arriving(size_t light, const Operand& P, bool lasting) = 0;
+    virtual Task<const Arriving*> arriving(size_t light, const Operand& P, bool lasting) = 0;
     /// Whether its category (output parameter __category) is among those wanted: "a,b", or "-a" for all
     /// others.
     virtual bool in_category(size_t light, std::string_view wanted) = 0;
@@ -90,7 +91,7 @@ class GatherTurns {
     virtual ~GatherTurns() = default;
     /// Takes the next turn of the lanes whose bits are set in `live`, which only ever lose some, and sets the
     /// outputs in these. False when no lane has a ray left.
-    virtual bool next(Run& run, const uint32_t* live) = 0;
+    virtual Task<bool> next(Run& run, const uint32_t* live) = 0;
     /// Masks of the lanes whose ray of this turn hits something, and of those where it does not.
     virtual const float* hits() const = 0;
     virtual const float* misses() const = 0;
@@ -110,7 +111,7 @@ class Rays {
     virtual ~Rays() = default;
     /// One of Op::Trace, Transmission, Visibility, Occlusion or IndirectDiffuse; Environment; or Shadow, of
     /// the light whose shader calls it.
-    virtual void trace(Run& run, const Step& step, std::span<const Operand> operands) = 0;
+    virtual Task<> trace(Run& run, const Step& step, std::span<const Operand> operands) = 0;
     /// The rays of Op::Gather. The operands stay as they are until the block is left.
     virtual std::unique_ptr<GatherTurns> gather(Run& run, const Step& step,
                                                 std::span<const Operand> operands) = 0;

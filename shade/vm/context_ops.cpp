@@ -24,11 +24,25 @@ ContextOp find_context_op(rsl::Op op) {
         case ContextFamily::Rays:
             return find_ray_op(op);
         case ContextFamily::Lights:
-            return find_light_op(op);
+            return nullptr;
         case ContextFamily::Messages:
             return find_message_op(op);
     }
     return nullptr;
+}
+
+WaitingOp find_waiting_op(rsl::Op op) {
+    using rsl::ContextFamily;
+    switch (rsl::row_of(op).context) {
+        case ContextFamily::Maps:
+            return find_waiting_map_op(op);
+        case ContextFamily::Rays:
+            return find_waiting_ray_op(op);
+        case ContextFamily::Lights:
+            return find_light_op(op);
+        default:
+            return nullptr;
+    }
 }
 
 }  // namespace trapeze::vm

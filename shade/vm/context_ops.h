@@ -16,8 +16,19 @@ struct ContextRow {
     ContextOp function;
 };
 
+struct WaitingRow {
+    rsl::Op op;
+    WaitingOp function;
+};
+
 inline ContextOp context_op_in(std::span<const ContextRow> rows, rsl::Op op) {
     for (const ContextRow& row : rows)
+        if (row.op == op) return row.function;
+    return nullptr;
+}
+
+inline WaitingOp waiting_op_in(std::span<const WaitingRow> rows, rsl::Op op) {
+    for (const WaitingRow& row : rows)
         if (row.op == op) return row.function;
     return nullptr;
 }
@@ -29,9 +40,11 @@ ContextOp find_neighbour_op(rsl::Op op);
 ContextOp find_random_op(rsl::Op op);
 ContextOp find_map_op(rsl::Op op);
 ContextOp find_cloud_op(rsl::Op op);
-ContextOp find_light_op(rsl::Op op);
 ContextOp find_ray_op(rsl::Op op);
 ContextOp find_message_op(rsl::Op op);
+WaitingOp find_waiting_map_op(rsl::Op op);
+WaitingOp find_light_op(rsl::Op op);
+WaitingOp find_waiting_ray_op(rsl::Op op);
 
 /// Floats in a plane of an operand.
 inline size_t plane_size(const Run& run, const Operand& operand) {

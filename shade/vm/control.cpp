@@ -64,10 +64,6 @@ size_t Run::control(const std::vector<Step>& steps, size_t at) {
         case Op::EndScope:
             if (step.varying) masks_.leave_block();
             return at + 1;
-        case Op::Illuminance:
-            return enter_lights() ? next_light(steps, at) : step.target + 1;
-        case Op::EndIlluminance:
-            return next_light(steps, step.target);
         case Op::Illuminate:
         case Op::Solar:
             return enter_illuminate(step, at);
@@ -75,12 +71,25 @@ size_t Run::control(const std::vector<Step>& steps, size_t at) {
         case Op::EndSolar:
             masks_.leave_block();
             return at + 1;
-        case Op::Gather:
         case Op::GatherElse:
-        case Op::EndGather:
-            return gather_step(steps, at);
+            return turn_to_misses(step, at);
         default:
             return at + 1;
+    }
+}
+
+/// Of steps that wait (may_wait() in executable.cpp).
+Task<size_t> Run::waiting_control(const std::vector<Step>& steps, size_t at) {
+    const Step& step = steps[at];
+    scratch_used_ = 0;
+    switch (step.op) {
+        case Op::Illuminance:
+            if (!enter_lights()) co_return step.target + 1;
+            co_return co_await next_light(steps, at);
+        case Op::EndIlluminance:
+            co_return co_await next_light(steps, step.target);
+        default:
+            co_return co_await gather_step(steps, at);
     }
 }
 
@@ -198,7 +207,7 @@ bool Run::enter_lights() {
 
 /// Goes on with the first light, from the next one on, that reaches any lane; past the block when there is
 /// none.
-size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
+Task<size_t> Run::next_light(const std::vector<Step>& steps, size_t opening) {
     const Step& step = steps[opening];
     const Operand& P = registers_.input(step, 1);
     const bool with_cone = step.count - step.outputs == 4;
@@ -207,7 +216,7 @@ size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
         if (next_lights_.back() > 0 && steps_are_spent(step, step.target - opening)) break;
         const size_t number = next_lights_.back()++;
         // The light's own shader runs here, if what it sends to P is not known yet.
-        const Lights::Arriving& light = lights.arriving(number, P, is_lasting_P(P));
+        const Lights::Arriving& light = *co_await lights.arriving(number, P, is_lasting_P(P));
         if (light.ambient || !lights.in_category(number, registers_.text_input(step, 0))) continue;
         // Lanes that the light does not reach, or outside the cone asked for, sit this turn out.
         const float* reached = light.lit;
@@ -228,11 +237,11 @@ size_t Run::next_light(const std::vector<Step>& steps, size_t opening) {
         std::memcpy(L.data, light.L, 3 * lanes() * sizeof(float));
         std::memcpy(Cl.data, light.Cl, 3 * lanes() * sizeof(float));
         current_light_ = number;
-        return opening + 1;
+        co_return opening + 1;
     }
     next_lights_.pop_back();
     masks_.leave_block();
-    return step.target + 1;
+    co_return step.target + 1;
 }
 
 const float* Run::P_data() const {

@@ -28,6 +28,11 @@ size_t left_by(const rsl::Code& code, const Blocks& blocks, size_t i) {
     return left;
 }
 
+/// Whether control may have to run the shaders of lights, or of what rays hit.
+bool may_wait(Op op) {
+    return op == Op::Illuminance || op == Op::EndIlluminance || op == Op::Gather || op == Op::EndGather;
+}
+
 /// The end of the half of a block in which instruction i stands: its middle where that is still to come, or
 /// its closing instruction. Lanes that have been switched off meet the others there.
 size_t rest_of_block(const Blocks& blocks, size_t i) {
@@ -161,7 +166,9 @@ std::vector<Step> Executable::make_steps(const rsl::Code& code) {
         step.count = static_cast<uint32_t>(instruction.operands.size());
         operands_.insert(operands_.end(), instruction.operands.begin(), instruction.operands.end());
         step.kernel = kernel_of(instruction);
-        if (!step.kernel) step.context_op = find_context_op(step.op);
+        if (!step.kernel)
+            step.context_op = find_context_op(step.op), step.waiting_op = find_waiting_op(step.op);
+        step.waits = step.waiting_op || may_wait(step.op);
         step.target = static_cast<uint32_t>(target_of(code, blocks, i));
         if (blocks.opening[i] != Blocks::kNone) step.varying = code[blocks.opening[i]].varying;
         // A jump is one for all lanes, or one lane by lane, as the block that it leaves is.

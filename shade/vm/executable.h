@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/task.h"
 #include "shade/code/program.h"
 #include "shade/vm/kernels/kernel.h"
 #include "shade/vm/start_values.h"
@@ -29,8 +30,12 @@ struct Step;
 /// `operands` are the step's, but outputs may be scratch planes.
 using ContextOp = void (*)(Run& run, const Step& step, std::span<const Operand> operands);
 
+/// The same for operations that may run other shaders: those of lights, or of what rays hit.
+using WaitingOp = Task<> (*)(Run& run, const Step& step, std::span<const Operand> operands);
+
 /// Null for an operation that there is none for.
 ContextOp find_context_op(rsl::Op op);
+WaitingOp find_waiting_op(rsl::Op op);
 
 /// One instruction.
 struct Step {
@@ -43,8 +48,10 @@ struct Step {
     int32_t immediate = 0;
     uint32_t first = 0, count = 0;  ///< operands, in Executable::operands
     uint32_t target = 0;            ///< of control: the step to go on with when no lane is left
-    Kernel kernel = nullptr;        ///< null: `context_op` does it; of control: the machine itself
+    Kernel kernel = nullptr;        ///< null: `context_op` or `waiting_op` does it; of control: the machine
     ContextOp context_op = nullptr;
+    WaitingOp waiting_op = nullptr;
+    bool waits = false;  ///< other shaders may have to run first: `waiting_op`, or control
     SourceLocation at;
 };
 

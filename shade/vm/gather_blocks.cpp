@@ -18,7 +18,7 @@ class RaysIntoNothing final : public GatherTurns {
         turns_ = samples >= 1 ? static_cast<int>(std::min(samples, kMostSamples)) : 0;
         std::memset(misses_.data(), 0xff, lanes * sizeof(float));
     }
-    bool next(Run&, const uint32_t*) override { return turns_-- > 0; }
+    Task<bool> next(Run&, const uint32_t*) override { co_return turns_-- > 0; }
     const float* hits() const override { return hits_.data(); }
     const float* misses() const override { return misses_.data(); }
 
@@ -29,8 +29,8 @@ class RaysIntoNothing final : public GatherTurns {
 
 }  // namespace
 
-/// Gather, GatherElse and EndGather.
-size_t Run::gather_step(const std::vector<Step>& steps, size_t at_step) {
+/// Gather and EndGather.
+Task<size_t> Run::gather_step(const std::vector<Step>& steps, size_t at_step) {
     const Step& step = steps[at_step];
     switch (step.op) {
         case Op::Gather: {
@@ -41,32 +41,37 @@ size_t Run::gather_step(const std::vector<Step>& steps, size_t at_step) {
             else
                 gathers_.push_back(
                     std::make_unique<RaysIntoNothing>(lanes(), at(registers_.input(step, kSamples), 0, 0)));
-            return next_rays(steps, at_step);
+            co_return co_await next_rays(steps, at_step);
         }
-        case Op::GatherElse:
-            masks_.start_turn(gathers_.back()->misses());
-            return masks_.none() ? step.target : at_step + 1;
         default:
             if (!steps_are_spent(steps[step.target], at_step - step.target))
-                return next_rays(steps, step.target);
+                co_return co_await next_rays(steps, step.target);
             gathers_.pop_back();
             masks_.leave_block();
-            return at_step + 1;
+            co_return at_step + 1;
     }
+}
+
+/// GatherElse.
+size_t Run::turn_to_misses(const Step& step, size_t at_step) {
+    masks_.start_turn(gathers_.back()->misses());
+    return masks_.none() ? step.target : at_step + 1;
 }
 
 /// Begins a turn with the lanes whose rays hit something; goes past the block when there are no more rays, or
 /// all lanes have left it.
-size_t Run::next_rays(const std::vector<Step>& steps, size_t opening) {
+Task<size_t> Run::next_rays(const std::vector<Step>& steps, size_t opening) {
     const size_t otherwise = steps[opening].target;
     masks_.next_turn();
-    if (!masks_.none() && gathers_.back()->next(*this, masks_.current())) {
+    bool takes_turn = !masks_.none();
+    if (takes_turn) takes_turn = co_await gathers_.back()->next(*this, masks_.current());
+    if (takes_turn) {
         masks_.start_turn(gathers_.back()->hits());
-        return masks_.none() ? otherwise : opening + 1;
+        co_return masks_.none() ? otherwise : opening + 1;
     }
     gathers_.pop_back();
     masks_.leave_block();
-    return steps[otherwise].target + 1;
+    co_return steps[otherwise].target + 1;
 }
 
 }  // namespace trapeze::vm

@@ -21,48 +21,52 @@ void clear(const Run& run, const Operand& out) {
     for (size_t k = 0; k < 3; ++k) std::fill_n(out.data + k * out.stride, run.lanes(), 0.0f);
 }
 
-/// Calls `add(light)` for each light that is ambient, or for each that is not.
-template <class Add>
-void for_lights(Run& run, const Step& step, bool ambient, const Add& add) {
+/// Adds what a light sends to operand 0.
+using AddLight = void (*)(const Run& run, Op op, std::span<const Operand> operands,
+                          const Lights::Arriving& light);
+
+/// Sums over the lights that are ambient, or over those that are not.
+Task<> sum_lights(Run& run, const Step& step, std::span<const Operand> operands, bool ambient, AddLight add) {
+    clear(run, operands[0]);
     Lights* lights = run.context().lights;
-    if (!lights) return;
+    if (!lights) co_return;
     const Operand& P = run.registers().input(step, 0);
     for (size_t i = 0; i < lights->count(); ++i) {
-        const Lights::Arriving& light = lights->arriving(i, P, run.is_lasting_P(P));
-        if (light.ambient == ambient) add(light);
+        const Lights::Arriving* const light = co_await lights->arriving(i, P, run.is_lasting_P(P));
+        if (light->ambient == ambient) add(run, step.op, operands, *light);
     }
 }
 
 /// ambient(): what ambient lights, which have no direction, send.
-void ambient(Run& run, const Step& step, std::span<const Operand> operands) {
-    clear(run, operands[0]);
-    for_lights(run, step, true, [&](const Lights::Arriving& light) {
-        add_light(run.lanes(), planes_of(run, light.Cl), 1, operands[0]);
-    });
+Task<> ambient(Run& run, const Step& step, std::span<const Operand> operands) {
+    return sum_lights(run, step, operands, true,
+                      [](const Run& r, Op, std::span<const Operand> out, const Lights::Arriving& light) {
+                          vm::add_light(r.lanes(), planes_of(r, light.Cl), 1, out[0]);
+                      });
 }
 
 /// diffuse(N): a light may say with __nondiffuse that it counts less here, or not at all.
-void diffuse(Run& run, const Step& step, std::span<const Operand> operands) {
-    clear(run, operands[0]);
-    for_lights(run, step, false, [&](const Lights::Arriving& light) {
-        if (light.diffuse > 0)
-            add_diffuse(run.lanes(), operands[2], planes_of(run, light.direction), planes_of(run, light.Cl),
-                        light.diffuse, operands[0]);
-    });
+Task<> diffuse(Run& run, const Step& step, std::span<const Operand> operands) {
+    return sum_lights(run, step, operands, false,
+                      [](const Run& r, Op, std::span<const Operand> all, const Lights::Arriving& light) {
+                          if (light.diffuse > 0)
+                              add_diffuse(r.lanes(), all[2], planes_of(r, light.direction),
+                                          planes_of(r, light.Cl), light.diffuse, all[0]);
+                      });
 }
 
 /// specular() and phong(): P, N, V and roughness or size.
-void highlights(Run& run, const Step& step, std::span<const Operand> operands) {
-    clear(run, operands[0]);
-    const auto add = step.op == Op::Specular ? add_specular : add_phong;
-    for_lights(run, step, false, [&](const Lights::Arriving& light) {
-        if (light.specular > 0)
-            add(run.lanes(), operands[2], operands[3], operands[4], planes_of(run, light.direction),
-                planes_of(run, light.Cl), light.specular, operands[0]);
-    });
+Task<> highlights(Run& run, const Step& step, std::span<const Operand> operands) {
+    return sum_lights(run, step, operands, false,
+                      [](const Run& r, Op op, std::span<const Operand> all, const Lights::Arriving& light) {
+                          const auto add = op == Op::Specular ? add_specular : add_phong;
+                          if (light.specular > 0)
+                              add(r.lanes(), all[2], all[3], all[4], planes_of(r, light.direction),
+                                  planes_of(r, light.Cl), light.specular, all[0]);
+                      });
 }
 
-constexpr ContextRow kLightRows[] = {
+constexpr WaitingRow kLightRows[] = {
     {Op::Ambient, ambient},
     {Op::Diffuse, diffuse},
     {Op::Specular, highlights},
@@ -71,8 +75,8 @@ constexpr ContextRow kLightRows[] = {
 
 }  // namespace
 
-ContextOp find_light_op(Op op) {
-    return context_op_in(kLightRows, op);
+WaitingOp find_light_op(Op op) {
+    return waiting_op_in(kLightRows, op);
 }
 
 }  // namespace trapeze::vm

@@ -34,12 +34,14 @@ Registers& Machine::registers(const std::shared_ptr<const Executable>& executabl
     return *registers;
 }
 
-void Machine::run(Registers& registers, const Context& context) {
-    Run(*this, registers, context).run(registers.executable().code());
+Task<> Machine::run(Registers& registers, const Context& context) {
+    Run run(*this, registers, context);
+    co_await run.run(registers.executable().code());
 }
 
-void Machine::run_initial(Registers& registers, size_t parameter, const Context& context) {
-    Run(*this, registers, context).run(registers.executable().initial(parameter));
+Task<> Machine::run_initial(Registers& registers, size_t parameter, const Context& context) {
+    Run run(*this, registers, context);
+    co_await run.run(registers.executable().initial(parameter));
 }
 
 namespace {
@@ -86,9 +88,21 @@ void Run::warn(const Step& step, std::string text, std::string kind) {
     if (context_.diagnostics) context_.diagnostics->warning(step.at, std::move(text), std::move(kind));
 }
 
+Task<> Run::run(const std::vector<Step>& steps) {
+    for (size_t at = 0; (at = run_to_wait(steps, at)) < steps.size();) {
+        if (steps[at].waiting_op) {
+            co_await waiting(steps[at]);
+            ++at;
+        } else {
+            at = co_await waiting_control(steps, at);
+        }
+    }
+}
+
+/// Runs steps from one on, until one may have to wait for other shaders, or to the end; returns where it is.
 /// Control says where to go on; after any other step it is the next.
-void Run::run(const std::vector<Step>& steps) {
-    for (size_t at = 0; at < steps.size();) {
+size_t Run::run_to_wait(const std::vector<Step>& steps, size_t at) {
+    while (at < steps.size() && !steps[at].waits) {
         const Step& step = steps[at];
         if (rsl::is_control(step.op)) {
             at = control(steps, at);
@@ -97,6 +111,7 @@ void Run::run(const std::vector<Step>& steps) {
             ++at;
         }
     }
+    return at;
 }
 
 /// Does a step with these operands, which are its own or scratch in place of its outputs, over `count` lanes.
@@ -107,45 +122,81 @@ void Run::call(const Step& step, std::span<const Operand> operands, size_t count
         step.context_op(*this, step, operands);
 }
 
-/// A step that is no control. It may write where its outputs are when all lanes run, and also when some do
-/// not but nothing outlives the block in which they were switched off (Instruction::masked); else it goes
-/// through scratch. A masked step with no lane left is not done at all.
-void Run::plain(const Step& step) {
-    const std::span<const Operand> operands = registers_.operands_of(step);
-    scratch_used_ = 0;
+/// A step that is no control may write where its outputs are when all lanes run, and also when some do not
+/// but nothing outlives the block in which they were switched off (Instruction::masked); else it goes through
+/// scratch. A masked step with no lane left is not done at all.
+Run::Way Run::way_of(const Step& step) const {
     if (step.masked && !masks_.all()) {
-        if (masks_.none()) return;
+        if (masks_.none()) return Way::NotAtAll;
         // A uniform output has one value for all lanes, and is set whichever of them run.
-        if (step.varying) return through_scratch(step, operands);
+        if (step.varying) return Way::ThroughScratch;
     }
-    if (step.through_scratch) return through_scratch(step, operands);
-    call(step, operands, step.varying ? lanes() : kLanes);
+    return step.through_scratch ? Way::ThroughScratch : Way::InPlace;
 }
 
-/// Computes into other planes, of which lanes that run are copied.
-void Run::through_scratch(const Step& step, std::span<const Operand> operands) {
+/// Computes into other planes, of which lanes that run are copied (take_back()).
+class Run::Redirected {
+  public:
+    Redirected(Run& run, const Step& step, std::span<const Operand> operands) : all_(in_place_) {
+        if (operands.size() > kMaxInPlace) {
+            many_.resize(operands.size());
+            all_ = many_;
+        }
+        all_ = all_.first(operands.size());
+        std::copy(operands.begin(), operands.end(), all_.begin());
+        for (size_t k = 0; k < step.outputs; ++k) {
+            const uint32_t planes = run.planes_of(step, k);
+            if (!planes) continue;  // a text
+            all_[k].data = run.scratch(planes);
+            // What the operation does not set is copied back, too, and must be what it was.
+            if (rsl::keeps_output(step.op)) run.copy_planes(operands[k], planes, all_[k].data);
+        }
+    }
+    Redirected(const Redirected&) = delete;
+    Redirected& operator=(const Redirected&) = delete;
+
+    std::span<const Operand> operands() const { return all_; }
+
+  private:
     // More operands than this have only calls with many named arguments.
-    constexpr size_t kMaxInPlace = 32;
-    Operand in_place[kMaxInPlace];
-    std::vector<Operand> many;
-    std::span<Operand> redirected(in_place, std::min(operands.size(), kMaxInPlace));
-    if (operands.size() > kMaxInPlace) {
-        many.resize(operands.size());
-        redirected = many;
-    }
-    std::copy(operands.begin(), operands.end(), redirected.begin());
-    for (size_t k = 0; k < step.outputs; ++k) {
-        const uint32_t planes = registers_.executable().places()[registers_.register_of(step, k)].planes;
-        if (!planes) continue;  // a text
-        redirected[k].data = scratch(planes);
-        // What the operation does not set is copied back, too, and must be what it was.
-        if (rsl::keeps_output(step.op)) copy_planes(operands[k], planes, redirected[k].data);
-    }
-    call(step, redirected, step.varying ? lanes() : kLanes);
-    for (size_t k = 0; k < step.outputs; ++k) {
-        const uint32_t planes = registers_.executable().places()[registers_.register_of(step, k)].planes;
-        if (planes) copy_running(step.masked && !masks_.all(), redirected[k].data, planes, operands[k]);
-    }
+    static constexpr size_t kMaxInPlace = 32;
+    Operand in_place_[kMaxInPlace];
+    std::vector<Operand> many_;
+    std::span<Operand> all_;
+};
+
+void Run::take_back(const Step& step, const Redirected& redirected) {
+    const std::span<const Operand> outputs = registers_.operands_of(step);
+    for (size_t k = 0; k < step.outputs; ++k)
+        if (const uint32_t planes = planes_of(step, k))
+            copy_running(step.masked && !masks_.all(), redirected.operands()[k].data, planes, outputs[k]);
+}
+
+void Run::plain(const Step& step) {
+    scratch_used_ = 0;
+    const Way way = way_of(step);
+    const size_t count = step.varying ? lanes() : kLanes;
+    if (way == Way::InPlace) call(step, registers_.operands_of(step), count);
+    if (way != Way::ThroughScratch) return;
+    const Redirected redirected(*this, step, registers_.operands_of(step));
+    call(step, redirected.operands(), count);
+    take_back(step, redirected);
+}
+
+/// The same, with other shaders in between.
+Task<> Run::waiting(const Step& step) {
+    scratch_used_ = 0;
+    const Way way = way_of(step);
+    if (way == Way::InPlace) co_await step.waiting_op(*this, step, registers_.operands_of(step));
+    if (way != Way::ThroughScratch) co_return;
+    const Redirected redirected(*this, step, registers_.operands_of(step));
+    co_await step.waiting_op(*this, step, redirected.operands());
+    take_back(step, redirected);
+}
+
+/// Planes of a step's output; 0 of a text.
+uint32_t Run::planes_of(const Step& step, size_t output) const {
+    return registers_.executable().places()[registers_.register_of(step, output)].planes;
 }
 
 /// All lanes of so many planes of an operand, one after the other.

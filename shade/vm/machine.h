@@ -29,9 +29,9 @@ class Machine {
     struct Level;
 
     /// Runs the program's code. The registers have been started, and its parameters and variables set.
-    void run(Registers& registers, const Context& context);
+    Task<> run(Registers& registers, const Context& context);
     /// Computes a parameter's default.
-    void run_initial(Registers& registers, size_t parameter, const Context& context);
+    Task<> run_initial(Registers& registers, size_t parameter, const Context& context);
 
   private:
     friend class Run;
@@ -63,7 +63,7 @@ class Run {
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    void run(const std::vector<Step>& steps);
+    Task<> run(const std::vector<Step>& steps);
 
     Machine& machine() { return machine_; }
     Registers& registers() { return registers_; }
@@ -91,11 +91,20 @@ class Run {
     bool may_print() { return ++printed_ <= kMostPrinted; }
 
   private:
+    size_t run_to_wait(const std::vector<Step>& steps, size_t at);
     /// Does a step of control (control.cpp); returns where to go on. `at` is the step's index in `steps`.
     size_t control(const std::vector<Step>& steps, size_t at);
+    Task<size_t> waiting_control(const std::vector<Step>& steps, size_t at);
+    /// How a step that is no control is done.
+    enum class Way : uint8_t { NotAtAll, InPlace, ThroughScratch };
+    Way way_of(const Step& step) const;
     void plain(const Step& step);
-    void through_scratch(const Step& step, std::span<const Operand> operands);
+    Task<> waiting(const Step& step);
+    /// Operands of a step, with scratch in place of its outputs.
+    class Redirected;
+    void take_back(const Step& step, const Redirected& redirected);
     void call(const Step& step, std::span<const Operand> operands, size_t lanes);
+    uint32_t planes_of(const Step& step, size_t output) const;
     void copy_planes(const Operand& from, size_t planes, float* to) const;
     void copy_running(bool masked, const float* from, size_t planes, const Operand& to) const;
     const float* condition(const Step& step);
@@ -110,9 +119,10 @@ class Run {
     /// Bounds of LoopLimits, which end what a mistake in a shader would never end.
     bool steps_are_spent(const Step& opening, size_t steps);
     bool turns_are_spent(const Step& opening);
-    size_t next_light(const std::vector<Step>& steps, size_t opening);
-    size_t gather_step(const std::vector<Step>& steps, size_t at);
-    size_t next_rays(const std::vector<Step>& steps, size_t opening);
+    Task<size_t> next_light(const std::vector<Step>& steps, size_t opening);
+    Task<size_t> gather_step(const std::vector<Step>& steps, size_t at);
+    Task<size_t> next_rays(const std::vector<Step>& steps, size_t opening);
+    size_t turn_to_misses(const Step& step, size_t at);
     size_t enter_illuminate(const Step& step, size_t at);
     void leave_light(const Step& step, const Operand& L);
 

@@ -15,7 +15,6 @@ bool asks_for_rays(Run& run, const Step& step) {
 }
 
 void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
-    if (asks_for_rays(run, step)) return run.context().rays->trace(run, step, operands);
     if (run.context().maps)
         run.context().maps->look_up(run, step, operands);
     else
@@ -23,15 +22,25 @@ void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
             std::fill_n(operands[0].data + k * operands[0].stride, plane_size(run, operands[0]), 0.0f);
 }
 
-constexpr ContextRow kMapRows[] = {
-    {Op::Texture, look_up}, {Op::Environment, look_up}, {Op::Shadow, look_up},
-    {Op::Bump, look_up},    {Op::TextureInfo, look_up},
-};
+Task<> trace_or_look_up(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (asks_for_rays(run, step))
+        co_await run.context().rays->trace(run, step, operands);
+    else
+        look_up(run, step, operands);
+}
+
+constexpr ContextRow kMapRows[] = {{Op::Texture, look_up}, {Op::Bump, look_up}, {Op::TextureInfo, look_up}};
+constexpr WaitingRow kWaitingMapRows[] = {{Op::Environment, trace_or_look_up},
+                                          {Op::Shadow, trace_or_look_up}};
 
 }  // namespace
 
 ContextOp find_map_op(Op op) {
     return context_op_in(kMapRows, op);
+}
+
+WaitingOp find_waiting_map_op(Op op) {
+    return waiting_op_in(kWaitingMapRows, op);
 }
 
 }  // namespace trapeze::vm

@@ -20,17 +20,17 @@ void miss(Run& run, const Step& step, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::span(values).first(static_cast<size_t>(width)));
 }
 
-void trace(Run& run, const Step& step, std::span<const Operand> operands) {
+Task<> trace(Run& run, const Step& step, std::span<const Operand> operands) {
     if (run.context().rays)
-        run.context().rays->trace(run, step, operands);
+        co_await run.context().rays->trace(run, step, operands);
     else
         miss(run, step, operands);
 }
 
 /// By discs of a point cloud, or by rays.
-void look_over_sky(Run& run, const Step& step, std::span<const Operand> operands) {
+Task<> look_over_sky(Run& run, const Step& step, std::span<const Operand> operands) {
     Clouds* const clouds = run.context().clouds;
-    if (!clouds || !clouds->over_discs(run, step, operands)) trace(run, step, operands);
+    if (!clouds || !clouds->over_discs(run, step, operands)) co_await trace(run, step, operands);
 }
 
 RayFacts facts_of(const Run& run) {
@@ -73,20 +73,26 @@ void ray_label(Run& run, const Step& step, std::span<const Operand>) {
 }
 
 constexpr ContextRow kRayRows[] = {
+    {Op::RayInfo, ray_info},
+    {Op::RayLevel, ray_level},
+    {Op::RayLabel, ray_label},
+};
+constexpr WaitingRow kWaitingRayRows[] = {
     {Op::Trace, trace},
     {Op::Transmission, trace},
     {Op::Visibility, trace},
     {Op::Occlusion, look_over_sky},
     {Op::IndirectDiffuse, look_over_sky},
-    {Op::RayInfo, ray_info},
-    {Op::RayLevel, ray_level},
-    {Op::RayLabel, ray_label},
 };
 
 }  // namespace
 
 ContextOp find_ray_op(Op op) {
     return context_op_in(kRayRows, op);
+}
+
+WaitingOp find_waiting_ray_op(Op op) {
+    return waiting_op_in(kWaitingRayRows, op);
 }
 
 }  // namespace trapeze::vm

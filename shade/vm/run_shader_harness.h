@@ -43,8 +43,8 @@ class ShaderRun {
         context.batch = &batch_;
         context.spaces = &spaces;
         context.diagnostics = &scene_.diagnostics;
-        bound.set_run_defaults(machine_, *registers_, context, grids);
-        machine_.run(*registers_, context);
+        bound.set_run_defaults(machine_, *registers_, context, grids).get();
+        machine_.run(*registers_, context).get();
     }
 
     size_t vertices() const { return grid_.vertex_count(); }

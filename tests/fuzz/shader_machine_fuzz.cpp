@@ -64,9 +64,9 @@ class ThreeLights : public Lights {
         arriving_.lit = planes_.data() + 9 * lanes;
     }
     size_t count() const override { return 3; }
-    const Arriving& arriving(size_t light, const Operand&, bool) override {
+    Task<const Arriving*> arriving(size_t light, const Operand&, bool) override {
         arriving_.ambient = light == 1;
-        return arriving_;
+        co_return &arriving_;
     }
     bool in_category(size_t light, std::string_view wanted) override { return wanted.size() != light; }
 
@@ -109,7 +109,7 @@ class Side {
         for (size_t i = 0; i < program().parameters.size(); ++i) {
             // As if defaults could name variables that are not there yet.
             set_variables();
-            machine_.run_initial(registers(), i, context);
+            machine_.run_initial(registers(), i, context).get();
         }
         set_variables();
         Batch batch{static_cast<size_t>(kShape.vertex_count()), kLanes, {{0, kShape, false, 1}}};
@@ -122,7 +122,7 @@ class Side {
         context.lights = &lights;
         context.messages = &messages;
         if (program().kind == rsl::ShaderKind::Light) context.light_output = &output;
-        machine_.run(registers(), context);
+        machine_.run(registers(), context).get();
         return diagnostics.count(Severity::Error) == 0;
     }
 
