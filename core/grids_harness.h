@@ -43,6 +43,7 @@ class GridMaker {
     Facing facing = Facing::Both;
 
     const Grids& grids() const { return grids_; }
+    Grids& grids() { return grids_; }
 
   private:
     static float time_of_key(int key, int key_count) {

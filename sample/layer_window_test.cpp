@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "core/scene/scene.h"
 #include "core/simd/targets_harness.h"
 #include "sample/frame_harness.h"
 #include "sample/visibility.h"
@@ -111,10 +112,10 @@ struct Case {
 
 class LayerWindows : public ::testing::TestWithParam<Case> {
   protected:
-    static void expect_agreement(const TestFrame& frame, const GridMaker& maker, uint32_t most, size_t room,
+    static void expect_agreement(const TestFrame& frame, const Grids& grids, uint32_t most, size_t room,
                                  size_t group) {
-        const auto truth = Tile("bruteforce", GetParam().pattern, frame, maker.grids()).whole_lists();
-        Tile tile(GetParam().method, GetParam().pattern, frame, maker.grids());
+        const auto truth = Tile("bruteforce", GetParam().pattern, frame, grids).whole_lists();
+        Tile tile(GetParam().method, GetParam().pattern, frame, grids);
         EXPECT_TRUE(tile.lists_in_passes(most, room, group) == truth)
             << most << " layers, room for " << room << ", groups of " << group;
     }
@@ -122,21 +123,50 @@ class LayerWindows : public ::testing::TestWithParam<Case> {
 
 TEST_P(LayerWindows, TogetherFindWhatBruteForceFinds) {
     const GridMaker maker = sheets(60, true);
+    const Grids& grids = maker.grids();
     const TestFrame frame(16, 16, 2, true, true);
     constexpr size_t kAll = size_t{1} << 40;
-    for (const uint32_t most : {1u, 5u, 40u}) expect_agreement(frame, maker, most, kAll, kAll);
+    for (const uint32_t most : {1u, 5u, 40u}) expect_agreement(frame, grids, most, kAll, kAll);
     for (const size_t room : {size_t{1}, size_t{2500}})
-        expect_agreement(frame, maker, kAllLayers, room, kAll);
-    expect_agreement(frame, maker, 5, 500, 100);
+        expect_agreement(frame, grids, kAllLayers, room, kAll);
+    expect_agreement(frame, grids, 5, 500, 100);
 }
 
 TEST_P(LayerWindows, FindStillThingsThroughAPinhole) {
     const GridMaker maker = sheets(60, false);
+    const Grids& grids = maker.grids();
     const TestFrame frame(16, 16, 3, false, false);
     for_each_target([&] {
-        expect_agreement(frame, maker, 2, 1000, 700);
-        expect_agreement(frame, maker, kAllLayers, 5000, size_t{1} << 20);
+        expect_agreement(frame, grids, 2, 1000, 700);
+        expect_agreement(frame, grids, kAllLayers, 5000, size_t{1} << 20);
     });
+}
+
+/// Where a list begins in a solid follows from what lies in front of it and behind.
+TEST_P(LayerWindows, FindWhatIsLeftOfSolids) {
+    GridMaker maker = sheets(60, true);
+    Grids& grids = maker.grids();
+    TestFrame frame(16, 16, 1, true, true);
+    Scene scene;
+    using Operation = Solid::Operation;
+    scene.solids = {{Operation::Difference, -1, 0},
+                    {Operation::Primitive, 0, 0},
+                    {Operation::Union, 0, 1},
+                    {Operation::Primitive, 2, 0},
+                    {Operation::Primitive, 2, 1}};
+    for (const int solid : {1, 3, 4, -1}) scene.primitives.emplace_back().solid = solid;
+    scene.clipping_planes.push_back({V3f(0, 0.1f, 1), 3.5f});
+    for (size_t i = 0; i < grids.grids.size(); ++i) {
+        grids.grids[i].primitive = static_cast<uint32_t>(i % scene.primitives.size());
+        if (scene.primitives[grids.grids[i].primitive].solid >= 0) grids.grids[i].opaque = false;
+    }
+    frame.context.scene = &scene;
+    constexpr size_t kAll = size_t{1} << 40;
+    expect_agreement(frame, grids, 3, kAll, kAll);
+    expect_agreement(frame, grids, kAllLayers, 5000, kAll);
+    expect_agreement(frame, grids, 5, 2000, 100);
+    // Lists that are longer than the room, each for itself.
+    if (std::string_view(GetParam().method).starts_with("raytrace")) expect_agreement(frame, grids, 5, 20, 2);
 }
 
 TEST_P(LayerWindows, KeepToTheirRoom) {

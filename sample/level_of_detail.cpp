@@ -41,8 +41,8 @@ class DetailVisibility : public Visibility {
         hits.hits.resize(kept);
     }
     BuildStats build_stats() const override { return method_->build_stats(); }
+    bool walks_whole_lists() const override { return method_->walks_whole_lists(); }
     int tile_side() const override { return method_->tile_side(); }
-    bool bounds_layers() const override { return method_->bounds_layers(); }
 
   private:
     float number_of(const SampleTile& samples, size_t s) const {

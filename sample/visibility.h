@@ -24,13 +24,14 @@ class Visibility {
     virtual ~Visibility() = default;
 
     /// Every sample's hits within the clipping range, front to back, to the first opaque one; or those of
-    /// them that scratch.window wants, where layers are bounded. May be called from many threads at once,
-    /// each with its own scratch and stats.
+    /// them that scratch.window wants. May be called from many threads at once, each with its own scratch and
+    /// stats.
     virtual void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const = 0;
     virtual BuildStats build_stats() const { return {}; }
-    /// Whether resolve() keeps to scratch.window. Else it finds all that there is, whatever that takes.
-    virtual bool bounds_layers() const { return true; }
+    /// Whether resolve() takes as long for a part of the samples' lists as for the whole: then few samples at
+    /// a time are to be looked at, of which nothing is left for another pass.
+    virtual bool walks_whole_lists() const { return false; }
 
     /// Side in pixels, a multiple of kTileSide, of the tiles that the method likes to resolve. Any size is
     /// right; this one is fast.

@@ -62,7 +62,7 @@ std::optional<std::vector<std::atomic<bool>>> seen_grids(const RenderContext& co
                                                          const LayerLimits& limits) {
     std::vector<std::atomic<bool>> seen(grids.grids.size());
     std::atomic<bool> has_room{true};
-    const bool bounded = !every_grid_is_opaque(grids) && visibility.bounds_layers();
+    const bool bounded = !every_grid_is_opaque(grids);
     const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
     tbb::enumerable_thread_specific<TileLooker> lookers;
     const auto look = [&](size_t i) {

@@ -43,7 +43,7 @@ void LayerPasses::add_tile(const LayerTask& task, const SampleTile& samples, Sam
     const size_t count = samples.size();
     const LayerLimits& limits = task.limits;
     // Opaque grids give a hit for each sample, whatever is asked for.
-    const bool bounded = !task.all_opaque && task.visibility.bounds_layers();
+    const bool bounded = !task.all_opaque;
     const bool begins_whole = !bounded || count <= limits.room / 2;
     if (begins_whole) {
         scratch.window = bounded ? LayerWindow{{}, limits.most, limits.room} : LayerWindow{};
@@ -101,18 +101,21 @@ void LayerPasses::add_to_stack(const LayerTask& task, const SampleTile& samples,
 }
 
 /// Passes for a group of samples at a time, until none sees anything more. Samples that are done make place
-/// for others.
+/// for others. Where lists are walked to their ends groups become as small as lists are long.
 void LayerPasses::find_rest(const LayerTask& task, const SampleTile& samples, SampleScratch& scratch,
                             SampleStats& stats) {
     const size_t half = task.limits.room / 2;  // the other half is for what is found too far behind
-    const size_t group_size = std::min(half, std::max(kLeastGroup, half / kLayersAtOnce));
-    group_.clear();
+    size_t group_size = std::min(half, std::max(kLeastGroup, half / kLayersAtOnce));
+    group_.clear(), put_off_.clear();
+    const auto take_in = [this](uint32_t sample) {
+        group_.push_back(sample);
+        behind_[sample] = resume_[sample];
+    };
     for (uint32_t next = 0;;) {
-        for (; next < samples.size() && group_.size() < group_size; ++next) {
-            if (resume_[next] == kBehindAll) continue;
-            group_.push_back(next);
-            behind_[next] = resume_[next];
-        }
+        for (; !put_off_.empty() && group_.size() < group_size; put_off_.pop_back()) take_in(put_off_.back());
+        for (; next < samples.size() && group_.size() < group_size; ++next)
+            if (resume_[next] != kBehindAll) take_in(next);
+        std::sort(group_.begin(), group_.end());
         if (group_.empty()) return;
         const auto most = static_cast<uint32_t>(std::min<size_t>(task.limits.most, half / group_.size()));
         scratch.window = {behind_, most, task.limits.room};
@@ -121,6 +124,12 @@ void LayerPasses::find_rest(const LayerTask& task, const SampleTile& samples, Sa
         Stopwatch watch;
         add_to_stack(task, samples, scratch, group_);
         costs_.composite_seconds += watch.lap();
+        if (group_.empty() || !task.visibility.walks_whole_lists()) continue;
+        group_size = std::max<size_t>(1, group_size / 2);
+        for (; group_.size() > group_size; group_.pop_back()) {
+            put_off_.push_back(group_.back());
+            behind_[group_.back()] = kBehindAll;
+        }
     }
 }
 

@@ -60,10 +60,11 @@ class LayerPasses {
 
     HitBuffer hits_;
     LayerStack stack_;
-    std::vector<Hit> resume_;      ///< sample -> its hits behind this are still to come; or kBehindAll
-    std::vector<Hit> behind_;      ///< the same of the samples that a pass is for
-    std::vector<uint32_t> taken_;  ///< sample -> layers that it has had
-    std::vector<uint32_t> group_;  ///< samples that a pass is for, in order
+    std::vector<Hit> resume_;        ///< sample -> its hits behind this are still to come; or kBehindAll
+    std::vector<Hit> behind_;        ///< the same of the samples that a pass is for
+    std::vector<uint32_t> taken_;    ///< sample -> layers that it has had
+    std::vector<uint32_t> group_;    ///< samples that a pass is for, in order
+    std::vector<uint32_t> put_off_;  ///< samples that have been in a group that was too large
     LayerCosts costs_;
 };
 

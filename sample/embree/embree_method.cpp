@@ -7,6 +7,7 @@
 /// what it tests and visits: those counts stay 0.
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/simd/simd_limit.h"
 #include "sample/embree/embree_library.h"
@@ -17,23 +18,16 @@
 namespace trapeze {
 namespace {
 
+/// Rays that fill a packet. Layers of the rays that are traced together take this share of the room.
+constexpr size_t kLeastRays = 16, kLayersShare = 8;
+
 /// A micropolygon counts once a sample, where it is nearest: Embree may report both sides of a diagonal, and
 /// what it has split more than once.
-void drop_repeated(HitBuffer& hits) {
-    size_t kept = 0;
-    for (size_t sample = 0; sample + 1 < hits.first.size(); ++sample) {
-        const size_t begin = hits.first[sample], end = hits.first[sample + 1], first_kept = kept;
-        hits.first[sample] = static_cast<uint32_t>(kept);
-        for (size_t i = begin; i < end; ++i) {
-            const auto same = [id = hits.hits[i].id](const Hit& hit) { return hit.id == id; };
-            const auto list = hits.hits.begin();
-            if (std::none_of(list + static_cast<std::ptrdiff_t>(first_kept),
-                             list + static_cast<std::ptrdiff_t>(kept), same))
-                hits.hits[kept++] = hits.hits[i];
-        }
-    }
-    hits.first.back() = static_cast<uint32_t>(kept);
-    hits.hits.resize(kept);
+void drop_repeated(std::vector<LooseHits::Entry>& entries) {
+    using Entry = LooseHits::Entry;
+    std::ranges::sort(entries, {}, [](const Entry& e) { return std::tuple(e.sample, e.id, e.depth); });
+    const auto same = [](const Entry& a, const Entry& b) { return a.sample == b.sample && a.id == b.id; };
+    entries.erase(std::unique(entries.begin(), entries.end(), same), entries.end());
 }
 
 /// The device's configuration: Embree is held to what our own vector code may use, so that both can be
@@ -54,9 +48,9 @@ std::unique_ptr<EmbreeTracer> build(const Grids& grids, const EmbreeChoices& cho
     return library->build(grids, choices);
 }
 
-/// Hits that are not opaque, as Embree finds them.
-struct EmbreeLayers {
-    std::vector<LooseHits::Entry> entries;
+struct EmbreeOwn {
+    std::vector<uint32_t> wanted;          ///< samples
+    std::vector<LooseHits::Entry> layers;  ///< hits of some rays that are not opaque, as Embree finds them
 };
 
 /// Brings tiles into an order, has them traced, and makes hit lists of what comes back.
@@ -69,32 +63,48 @@ class EmbreeTraced final : public Visibility {
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        const auto order = order_.of(samples, scratch.own.of<TileOrderScratch>());
+        auto& own = scratch.own.of<EmbreeOwn>();
+        own.wanted.clear();
+        for (const uint32_t sample : order_.of(samples, scratch.own.of<TileOrderScratch>()))
+            if (scratch.window.wants(sample)) own.wanted.push_back(sample);
         scratch.nearest.assign(samples.size(), Hit{kInfinity, MicropolygonId::kNone});
-        scratch.found.begin(samples.size());
-        std::vector<LooseHits::Entry>& layers = scratch.own.of<EmbreeLayers>().entries;
-        layers.clear();
-        tracer_->trace(samples, order, scratch, layers);
-        stats.rays += samples.size();
+        stats.rays += own.wanted.size();
         if (all_opaque_) {
-            buffer_of_nearest(scratch, samples.size(), hits);
-            return;
+            own.layers.clear();
+            tracer_->trace(samples, own.wanted, scratch, own.layers);
+            return buffer_of_nearest(scratch, samples.size(), hits);
         }
-        for (const LooseHits::Entry& entry : layers) scratch.found.add(entry.sample, entry.hit());
-        // Opaque hits join the loose ones, so that one sort by depth orders both.
-        for (size_t sample = 0; sample < samples.size(); ++sample) {
-            if (scratch.nearest[sample].id == MicropolygonId::kNone) continue;
-            scratch.found.add(static_cast<uint32_t>(sample), scratch.nearest[sample]);
+        scratch.found.begin(samples.size(), scratch.window);
+        const std::span<const uint32_t> wanted(own.wanted);
+        for (size_t first = 0, count = kLeastRays; first < wanted.size();) {
+            const auto some = wanted.subspan(first, std::min(count, wanted.size() - first));
+            trace_layers(samples, some, scratch, own.layers);
+            first += some.size();
+            // As many rays as have room for what the last ones have crossed.
+            const size_t crossed = own.layers.size() / some.size() + 1;
+            count = std::max(kLeastRays, scratch.window.room / kLayersShare / crossed);
         }
+        scratch.own_list_bytes = own.layers.capacity() * sizeof(LooseHits::Entry);
         buffer_of_loose_hits(scratch, samples.size(), hits);
-        drop_repeated(hits);
     }
 
     BuildStats build_stats() const override { return tracer_->stats(); }
-    /// The two triangles of a micropolygon may both be hit, at different depths.
-    bool bounds_layers() const override { return false; }
+    bool walks_whole_lists() const override { return true; }
 
   private:
+    /// Whole lists of some rays, of which what is wanted is kept. Opaque hits join the loose ones, so that
+    /// one sort by depth orders both.
+    void trace_layers(const SampleTile& samples, std::span<const uint32_t> rays, SampleScratch& scratch,
+                      std::vector<LooseHits::Entry>& layers) const {
+        layers.clear();
+        tracer_->trace(samples, rays, scratch, layers);
+        drop_repeated(layers);
+        for (const LooseHits::Entry& entry : layers) scratch.found.add(entry.sample, entry.hit());
+        for (const uint32_t sample : rays)
+            if (scratch.nearest[sample].id != MicropolygonId::kNone)
+                scratch.found.add(sample, scratch.nearest[sample]);
+    }
+
     TileOrder order_;
     bool all_opaque_;
     std::unique_ptr<EmbreeTracer> tracer_;
