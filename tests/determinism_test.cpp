@@ -42,6 +42,13 @@ TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
     }
 }
 
+/// Whether the build has one instruction set alone, as those for sanitizers: then all names stand for it.
+#if defined(HWY_COMPILE_ONLY_STATIC)
+constexpr bool kOneInstructionSet = true;
+#else
+constexpr bool kOneInstructionSet = false;
+#endif
+
 TEST_P(TinyScene, IsTheSameOnEveryInstructionSet) {
     const std::string path = tiny_scene_path(GetParam());
     const auto reference = render_scene(path, {}, 2);
@@ -54,12 +61,11 @@ TEST_P(TinyScene, IsTheSameOnEveryInstructionSet) {
         const auto limited = render_scene(path, {}, 2);
         expect_same(reference, limited, std::string(name));
         targets.insert(std::string(limited[0].stats.simd_target));
+        if (kOneInstructionSet) break;
     }
     limit_simd("best", &error);
     EXPECT_GT(usable, 0);
-#if !defined(HWY_COMPILE_ONLY_STATIC)  // else one instruction set alone is compiled in
     EXPECT_EQ(targets.size(), static_cast<size_t>(usable)) << "the limit limits nothing";
-#endif
 }
 
 /// Those that make maps need the program, which makes them between worlds.
