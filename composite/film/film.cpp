@@ -6,6 +6,7 @@
 #include "composite/film/exposure.h"
 #include "composite/film/layer_stack.h"
 #include "composite/film/pixel_depth.h"
+#include "composite/film/pixel_sums.h"
 #include "composite/film/resolve_layers.h"
 #include "composite/film/tile_sums.h"
 
@@ -49,6 +50,10 @@ struct FilmPart {
 
     size_t first_of(int px, int py) const { return samples.first_of_pixel(px, py); }
     bool has_hits(size_t sample) const { return stack ? stack->has_hits(sample) : !hits.of(sample).empty(); }
+    SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {
+        if (stack) return stack->color(sample);
+        return resolve_layers(hits.of(sample), layers, hits.first[sample], grids, midpoint);
+    }
     bool hits_anything() const {
         if (stack) return true;
         if (hits.hits.empty() || hits.size() != samples.size()) return false;
@@ -173,14 +178,53 @@ void Film::add_tile(int column, int row, const FilmPart& whole) {
     });
 }
 
-/// Adds weights and colours of a tile's samples. The usual filters' sizes are compiled in.
+/// Adds weights and colours of a tile's samples: all of a pixel together where that pays; else the usual
+/// filters' sizes are compiled in.
 void Film::accumulate(const FilmPart& part, TileSums& sums) {
+    if (PixelSums::suits(kernel_, part.samples.samples_per_pixel)) return accumulate_pixels(part, sums);
     const int taps = kernel_.taps_x() == kernel_.taps_y() ? kernel_.taps_x() : 0;
     if (taps == 1) return accumulate_taps<1>(part, sums);
     if (taps == 2) return accumulate_taps<2>(part, sums);
     if (taps == 3) return accumulate_taps<3>(part, sums);
     if (taps == 4) return accumulate_taps<4>(part, sums);
     accumulate_taps<0>(part, sums);
+}
+
+void Film::accumulate_pixels(const FilmPart& part, TileSums& sums) {
+    constexpr float kNothing[4] = {};
+    const SampleTile& samples = part.samples;
+    const auto count = static_cast<size_t>(samples.samples_per_pixel);
+    const bool midpoint = depth_filter_ == DepthFilter::Midpoint;
+    const bool colored = sums.channels(Sum::Color) > 0, ids = !image_.id.empty();
+    PixelSums pixel(kernel_, samples.samples_per_pixel);
+    HitLayers layers;
+    for (int py = part.pixels.y0; py < part.pixels.y1; ++py) {
+        if (colored && !part.stack)
+            layers.interpolate(samples, part.hits, part.first_of(part.pixels.x0, py),
+                               part.first_of(part.pixels.x1, py), part.grids);
+        for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
+            const size_t first = part.first_of(px, py);
+            PixelDepth depth(depth_filter_);
+            CentrePrimitive primitive(px, py);
+            bool seen = false;
+            for (size_t s = 0; s < count && colored; ++s) {
+                const size_t sample = first + s;
+                if (!part.has_hits(sample)) {
+                    if (ids) primitive.add(samples.x[sample], samples.y[sample], kNoPrimitive);
+                    pixel.set_color(s, kNothing);
+                    continue;
+                }
+                const SampleColor color = part.color(sample, layers, midpoint);
+                pixel.set_color(s, color.rgba);
+                seen = true;
+                depth.add(color.depth);
+                if (ids) primitive.add(samples.x[sample], samples.y[sample], color.primitive);
+            }
+            pixel.sum(samples.x.data() + first, samples.y.data() + first, px, py, seen);
+            sums.add(px - kernel_.reach_x(), py - kernel_.reach_y(), pixel, seen);
+            if (colored) record_pixel(px, py, depth.value(), primitive.value());
+        }
+    }
 }
 
 /// Adds a tile's samples and records its pixels' depths. kTaps: taps along both axes; 0: as the kernel has
@@ -208,10 +252,7 @@ void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
                     if (ids) primitive.add(x, y, kNoPrimitive);
                     continue;
                 }
-                const SampleColor color = part.stack
-                                              ? part.stack->color(sample)
-                                              : resolve_layers(part.hits.of(sample), layers,
-                                                               part.hits.first[sample], part.grids, midpoint);
+                const SampleColor color = part.color(sample, layers, midpoint);
                 sums.add<kTaps, 4>(Sum::Color, taps, weights.data(), color.rgba);
                 depth.add(color.depth);
                 if (ids) primitive.add(x, y, color.primitive);

@@ -74,6 +74,7 @@ class Film {
     /// kTaps: as FilterKernel::weigh() takes it.
     template <int kTaps>
     void accumulate_taps(const FilmPart& part, TileSums& sums);
+    void accumulate_pixels(const FilmPart& part, TileSums& sums);
     void accumulate_aovs(const FilmPart& part, TileSums& sums) const;
     void record_pixel(int px, int py, float depth, uint32_t primitive);
     void settle(int tile);

@@ -144,8 +144,8 @@ double filter_value(std::string_view name, double x, double y, double width_x, d
     return row.value(std::sqrt(x * x + stretched * stretched), width_x);
 }
 
-FilterKernel::Axis FilterKernel::make_axis(float width) {
-    Axis axis;
+FilterAxis FilterKernel::make_axis(float width) {
+    FilterAxis axis;
     axis.half_width = width / 2;
     axis.taps = static_cast<int>(std::ceil(width));
     axis.reach = static_cast<int>(std::ceil((width - 1) / 2));  // as sampled_pixels() has it
@@ -163,10 +163,11 @@ FilterKernel::FilterKernel(const PixelFilter& filter, Diagnostics* diagnostics) 
     x_ = make_axis(sane_width(filter.width_x)), y_ = make_axis(sane_width(filter.width_y));
     separable_ = row.form == Form::Separable;
     if (separable_) {
-        for (Axis* axis : {&x_, &y_})
-            for (int phase = 0; phase <= kPhases + 1; ++phase)
+        for (FilterAxis* axis : {&x_, &y_})
+            for (int phase = 0; phase <= FilterAxis::kPhases + 1; ++phase)
                 for (int i = 0; i < axis->taps; ++i) {
-                    const double x = axis->half_width - 1.0 + static_cast<double>(phase) / kPhases - i;
+                    const double x =
+                        axis->half_width - 1.0 + static_cast<double>(phase) / FilterAxis::kPhases - i;
                     axis->phases.push_back(static_cast<float>(row.value(x, 2.0 * axis->half_width)));
                 }
         return;

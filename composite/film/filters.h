@@ -26,6 +26,48 @@ struct FilterTaps {
     int x0 = 0, y0 = 0;
 };
 
+/// One axis of the support. A sample's first tap is the first pixel whose centre lies less than half a
+/// width to its left; its phase in [0, 1) is how far it lies beyond the position where that tap came in.
+/// Both give all distances: tap i is at half_width - 1 + phase - i.
+struct FilterAxis {
+    /// How finely a sample's phase is tabulated, between which weights are interpolated.
+    static constexpr int kPhases = 1024;
+
+    float half_width = 1;
+    int taps = 2, reach = 1;
+    float rim = 0;  ///< phases below this leave the last tap outside of the support (widths between
+                    ///< integers); its weight is then 0
+    std::vector<float> phases;  ///< of a separable filter: kPhases + 2 rows of `taps` weights, interpolated
+
+    int locate(float position, int pixel, float* phase) const {
+        // Rounding may put a sample on its pixel's far edge; it stays that pixel's. So does one that is
+        // no number.
+        const float in_pixel = std::max(0.0f, std::min(0x1.fffffep-1f, position - static_cast<float>(pixel)));
+        const float begin = in_pixel + start();
+        const int first = static_cast<int>(begin);
+        *phase = begin - static_cast<float>(first);
+        return pixel - reach + first;
+    }
+    /// Where the samples on a pixel's near edge are, from where the first of `reach` pixels comes in: in [0,
+    /// 1).
+    float start() const { return static_cast<float>(reach) + 0.5f - half_width; }
+    /// Pixels that samples of one pixel reach, along this axis.
+    int columns() const { return taps + (start() > 0 ? 1 : 0); }
+    int spare() const { return taps > 2 * reach && rim > 0 ? 1 : 0; }
+    template <int kTaps>
+    int weigh(float position, int pixel, float* weights) const {
+        float phase;
+        const int first = locate(position, pixel, &phase), n = kTaps ? kTaps : taps;
+        const float at = phase * kPhases;
+        const int row = static_cast<int>(at);
+        const float part = at - static_cast<float>(row);
+        const float* low = phases.data() + static_cast<size_t>(row) * n;
+        for (int i = 0; i < n; ++i) weights[i] = low[i] + part * (low[n + i] - low[i]);
+        if (phase < rim) weights[n - 1] = 0;
+        return first;
+    }
+};
+
 /// A filter ready to weigh millions of samples: tabulated, in double precision from the C library and
 /// rounded, so that its last bits do not depend on the processor. What the tables lose is below 1e-5 of the
 /// largest weight.
@@ -34,6 +76,10 @@ class FilterKernel {
     /// Warns once about a name that is not known and uses the gaussian.
     explicit FilterKernel(const PixelFilter& filter, Diagnostics* diagnostics = nullptr);
 
+    /// Whether weights are products of those along both axes.
+    bool is_separable() const { return separable_; }
+    const FilterAxis& x() const { return x_; }
+    const FilterAxis& y() const { return y_; }
     int taps_x() const { return x_.taps; }
     int taps_y() const { return y_.taps; }
     int tap_count() const { return x_.taps * y_.taps; }
@@ -63,46 +109,9 @@ class FilterKernel {
     }
 
   private:
-    /// Taps along an axis, at most; and how finely a sample's phase is tabulated, between which weights are
-    /// interpolated.
+    /// Taps along an axis, at most.
     static constexpr int kMaxTaps = 64;
-    static constexpr int kPhases = 1024;
 
-    /// One axis of the support. A sample's first tap is the first pixel whose centre lies less than half a
-    /// width to its left; its phase in [0, 1) is how far it lies beyond the position where that tap came in.
-    /// Both give all distances: tap i is at half_width - 1 + phase - i.
-    struct Axis {
-        float half_width = 1;
-        int taps = 2, reach = 1;
-        float rim = 0;  ///< phases below this leave the last tap outside of the support (widths between
-                        ///< integers); its weight is then 0
-        std::vector<float>
-            phases;  ///< of a separable filter: kPhases + 2 rows of `taps` weights, interpolated
-
-        int locate(float position, int pixel, float* phase) const {
-            // Rounding may put a sample on its pixel's far edge; it stays that pixel's. So does one that is
-            // no number.
-            const float in_pixel =
-                std::max(0.0f, std::min(0x1.fffffep-1f, position - static_cast<float>(pixel)));
-            const float start = in_pixel + (static_cast<float>(reach) + 0.5f - half_width);
-            const int first = static_cast<int>(start);
-            *phase = start - static_cast<float>(first);
-            return pixel - reach + first;
-        }
-        int spare() const { return taps > 2 * reach && rim > 0 ? 1 : 0; }
-        template <int kTaps>
-        int weigh(float position, int pixel, float* weights) const {
-            float phase;
-            const int first = locate(position, pixel, &phase), n = kTaps ? kTaps : taps;
-            const float at = phase * kPhases;
-            const int row = static_cast<int>(at);
-            const float part = at - static_cast<float>(row);
-            const float* low = phases.data() + static_cast<size_t>(row) * n;
-            for (int i = 0; i < n; ++i) weights[i] = low[i] + part * (low[n + i] - low[i]);
-            if (phase < rim) weights[n - 1] = 0;
-            return first;
-        }
-    };
     /// The table of a filter that is a function of the distance from the centre.
     struct RadialTable {
         std::vector<float>
@@ -111,10 +120,10 @@ class FilterKernel {
         float last = 0;    ///< index from which on the filter is 0
         float aspect = 1;  ///< y times this, then the distance is taken
     };
-    static Axis make_axis(float width);
+    static FilterAxis make_axis(float width);
     FilterTaps weigh_radially(float x, float y, int pixel_x, int pixel_y, float* weights) const;
 
-    Axis x_, y_;
+    FilterAxis x_, y_;
     bool separable_ = true;
     RadialTable radial_;
 };

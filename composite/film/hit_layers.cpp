@@ -11,7 +11,7 @@
 #define TRAPEZE_COMPOSITE_HIT_LAYERS_ONCE
 namespace trapeze {
 
-/// What is needed of some hits, from all over memory to lanes.
+/// What is needed of some hits on smooth grids, from all over memory to lanes.
 struct GatheredHits {
     static constexpr size_t kCount = 16;
 
@@ -24,8 +24,8 @@ struct GatheredHits {
     /// Channel c of corner k is row 4 * c + k of these, or, where colours are floats, of those after them.
     alignas(64) Lanes<uint16_t> color[12], opacity[12];  ///< halves
     alignas(64) Lanes<float> full_color[12], full_opacity[12];
-    alignas(64) Lanes<uint32_t> constant, opaque;  ///< all bits set where they hold
-    bool moves = false, some_constant = false, some_see_through = false, float_colors = false;
+    alignas(64) Lanes<uint32_t> opaque;  ///< all bits set where it holds
+    bool moves = false, some_see_through = false, float_colors = false;
 };
 
 }  // namespace trapeze
@@ -74,14 +74,9 @@ HWY_INLINE void blend_rows(const GatheredHits& hits, const GatheredHits::Lanes<T
             if (!hits.moves) return start;
             return position_at(start, hn::Load(d, hits.delta[row] + i), local);
         };
-        WeightLanes<FloatLanes> w = hit_weights(
+        const WeightLanes<FloatLanes> w = hit_weights(
             d, quad_lanes(hn::Load(d, hits.ox + i), hn::Load(d, hits.oy + i), hn::Load(d, hits.oz + i),
                           hn::Load(d, hits.ux + i), hn::Load(d, hits.uy + i), vertex));
-        if (hits.some_constant) {
-            const auto constant = mask_at(hits.constant + i);
-            w = {hn::IfThenElse(constant, one, w.w00), hn::IfThenZeroElse(constant, w.w10),
-                 hn::IfThenZeroElse(constant, w.w01), hn::IfThenZeroElse(constant, w.w11)};
-        }
         for (int c = 0; c < 3; ++c) hn::StoreU(blend(w, color + 4 * c, i), d, planes[c] + i);
         for (int c = 0; c < 3; ++c) {
             FloatLanes opacity = one;  // weights sum to 1 only within rounding
@@ -163,8 +158,8 @@ void gather_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, 
         for (auto& row : to.delta) row[lane] = 0;
     }
     gather_colors(grid, in_rows, lane, to);
-    to.opaque[lane] = grid.opaque ? ~0u : 0u, to.constant[lane] = grid.smooth ? 0u : ~0u;
-    to.some_see_through |= !grid.opaque, to.some_constant |= !grid.smooth;
+    to.opaque[lane] = grid.opaque ? ~0u : 0u;
+    to.some_see_through |= !grid.opaque;
 }
 
 }  // namespace
@@ -190,19 +185,31 @@ void HitLayers::interpolate(const SampleTile& samples, const HitBuffer& hits, si
         plane.resize(std::max(plane.size(), count + GatheredHits::kCount));
     GatheredHits gathered{};
     gathered.float_colors = !grids.grids.empty() && grids.grids.front().float_colors;
-    size_t done = 0, lane = 0;
+    const size_t grid_count = grids.grids.size();
+    size_t at = 0, lane = 0, places[GatheredHits::kCount];
     const auto blend = [&] {
+        alignas(64) GatheredHits::Lanes<float> blended[6];
         float* planes[6];
-        for (int k = 0; k < 6; ++k) planes[k] = planes_[k].data() + done;
+        const bool in_a_row = lane == GatheredHits::kCount && places[lane - 1] == places[0] + lane - 1;
+        for (size_t k = 0; k < 6; ++k) planes[k] = in_a_row ? planes_[k].data() + places[0] : blended[k];
         HWY_DYNAMIC_DISPATCH(blend_hits)(gathered, planes);
-        done += lane, lane = 0;
-        gathered.moves = gathered.some_constant = gathered.some_see_through = false;
+        for (size_t k = 0; k < 6 && !in_a_row; ++k)
+            for (size_t i = 0; i < lane; ++i) planes_[k][places[i]] = blended[k][i];
+        lane = 0;
+        gathered.moves = gathered.some_see_through = false;
     };
     for (size_t sample = begin; sample < end; ++sample)
         for (const Hit& hit : hits.of(sample)) {
+            const size_t place = at++;
             const MicropolygonId id = MicropolygonId::unpack(hit.id);
-            if (id.grid < grids.grids.size())
-                gather_hit(samples.rays[sample], grids.grids[id.grid], id, lane, gathered);
+            if (id.grid >= grid_count) continue;
+            const Grid& grid = grids.grids[id.grid];
+            if (!grid.smooth) {
+                put(place, {grid.color(id.u, id.v), grid.opacity(id.u, id.v)});
+                continue;
+            }
+            gather_hit(samples.rays[sample], grid, id, lane, gathered);
+            places[lane] = place;
             if (++lane == GatheredHits::kCount) blend();
         }
     if (lane > 0) blend();

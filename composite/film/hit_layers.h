@@ -37,6 +37,13 @@ class HitLayers {
     }
 
   private:
+    void put(size_t place, const Layer& layer) {
+        for (int c = 0; c < 3; ++c) {
+            planes_[c][place] = layer.color[c];
+            planes_[3 + c][place] = layer.opacity[c];
+        }
+    }
+
     size_t first_ = 0;              ///< number of the first hit whose layer is here
     std::vector<float> planes_[6];  ///< Ci, Oi; whole vectors can be written
 };
