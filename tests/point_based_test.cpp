@@ -238,6 +238,68 @@ TEST(PointBased, OutsidesAreFronts) {
     }
 }
 
+/// A floor that ends at x = 0, and what stands or hangs there: a wall upwards, or the sides of a block.
+const std::string kFloor = "Patch \"bilinear\" \"P\" [0 1 5 1 1 5 0 -1 5 1 -1 5] ";
+const std::string kWall = "Patch \"bilinear\" \"P\" [0 8 2 0 8 5 0 -8 2 0 -8 5] ";
+const std::string kSides =
+    "Patch \"bilinear\" \"P\" [0 1 5 0 -1 5 0 1 7 0 -1 7] Patch \"bilinear\" \"P\" [1 -1 5 1 1 5 1 -1 7 1 1 7] ";
+
+/// What is hidden of the sky over the floor, as the scene's discs say in red and a cloud's in green;
+/// `expected` in blue. The cloud is baked of the same things in a frame before.
+std::vector<Pixel> on_floor(Clouds& clouds, const std::string& things, const std::string& expected) {
+    clouds.shader("bakes", "bake3d(file, \"\", P, normalize(N), \"interpolate\", 1); Ci = 1;");
+    clouds.shader("asks", kAsks + expected + "Ci = color(" + kOfScene + "), " + kCall + "), expected);");
+    const std::string all = kCoarse + "Attribute \"dice\" \"int rasterorient\" 0 " + kSeen;
+    const std::vector<Image> images = clouds.render(
+        {all + clouds.surface("bakes") + "Sides 2 " + kFloor + things,
+         all + clouds.surface("asks") + kFloor + "AttributeBegin " + kHidden + things + "AttributeEnd"});
+    clouds.expect_nothing_said();
+    return pixels(images[1]);
+}
+
+/// Of a wall of height h, as far to both sides as b, a point at a distance d from it sees
+/// (atan(b / d) - d / sqrt(d^2 + h^2) atan(b / sqrt(d^2 + h^2))) / pi: at the wall itself a half.
+TEST(PointBased, CreasesAreHalfHidden) {
+    for (const bool turned : {false, true}) {
+        Clouds clouds;
+        const auto seen = on_floor(clouds, (turned ? "ReverseOrientation " : "") + kWall,
+                                   "float d = max(xcomp(P), .03), s = sqrt(d * d + 9);"
+                                   "float b = 8 - abs(ycomp(P)), c = 8 + abs(ycomp(P));"
+                                   "float expected = (atan(b / d) + atan(c / d) - d / s * (atan(b / s) +"
+                                   "  atan(c / s))) / (2 * PI);");
+        for (size_t i = 0; i < 64; ++i) {
+            const Pixel& pixel = seen[32 * 64 + i];
+            if (pixel.blue == 0) continue;
+            EXPECT_NEAR(pixel.red, pixel.blue, .02f) << i;
+            EXPECT_NEAR(pixel.green, pixel.blue, .05f) << i;
+        }
+        EXPECT_GT(seen[32 * 64 + 33].blue, .48f);
+    }
+}
+
+/// Of walls that lean, as rays see it that leave from beside the crease.
+TEST(PointBased, CreasesAreAsRaysSeeThem) {
+    for (const char* const top : {"-1.7", "1.7"}) {
+        Clouds clouds;
+        const std::string x(top);
+        const auto seen =
+            on_floor(clouds, "Patch \"bilinear\" \"P\" [" + x + " 8 2 0 8 5 " + x + " -8 2 0 -8 5] ",
+                     "float expected = occlusion(P + vector(.03, 0, 0), up, 1024, \"bias\", 1e-4);");
+        EXPECT_GT(seen[32 * 64 + 33].blue, .2f);
+        for (size_t i = 33; i < 64; ++i)
+            EXPECT_NEAR(seen[32 * 64 + i].red, seen[32 * 64 + i].blue, .03f) << i;
+    }
+}
+
+/// The top of a block is flat up to its edges, which nothing hides.
+TEST(PointBased, EdgesOfBlocksDoNotHideThemselves) {
+    Clouds clouds;
+    for (const Pixel& pixel : on_floor(clouds, kSides, "float expected = 0;")) {
+        EXPECT_LT(pixel.red, 1e-3f);
+        EXPECT_LT(pixel.green, .02f);
+    }
+}
+
 /// The scene has no colours without shading it.
 TEST(PointBased, ColoursOfTheSceneAreTraced) {
     PointBased scene(ball());

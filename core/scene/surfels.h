@@ -1,6 +1,7 @@
 /// Surface as discs: what point-based occlusion looks at instead of the surface itself.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -8,17 +9,21 @@
 
 namespace trapeze {
 
-/// Structure of arrays, all of one space and of one length, but for radiosities.
+/// A piece of surface, corner after corner around it.
+using SurfelQuad = std::array<V3f, 4>;
+
+/// Structure of arrays, all of one space and of one length, but for those that may be empty.
 struct Surfels {
     std::vector<V3f> positions;
-    std::vector<V3f> normals;      ///< of unit length, on the front; zero where a disc faces all sides
-    std::vector<float> areas;      ///< above zero
-    std::vector<V3f> radiosities;  ///< what they send, as colours of surfaces are; empty: nothing is known
+    std::vector<V3f> normals;       ///< of unit length, on the front; zero where a disc faces all sides
+    std::vector<float> areas;       ///< above zero
+    std::vector<SurfelQuad> quads;  ///< the surface that they stand for; empty: it is not known
+    std::vector<V3f> radiosities;   ///< what they send, as colours of surfaces are; empty: nothing is known
 
     size_t size() const { return positions.size(); }
     size_t bytes() const {
         return (positions.capacity() + normals.capacity() + radiosities.capacity()) * sizeof(V3f) +
-               areas.capacity() * sizeof(float);
+               areas.capacity() * sizeof(float) + quads.capacity() * sizeof(SurfelQuad);
     }
 };
 

@@ -48,6 +48,10 @@ void put(const Grid& grid, bool reversed, Surfels& surfels, size_t at) {
             surfels.positions[at] = block.area > 0 ? block.place / block.area : V3f(0);
             surfels.normals[at] = block.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
             surfels.areas[at] = block.hiding_area;
+            const int u1 = std::min<int>(u + kSurfelSide, grid.shape.nu);
+            const int v1 = std::min<int>(v + kSurfelSide, grid.shape.nv);
+            surfels.quads[at] = {grid.vertex(u, v, 0), grid.vertex(u1, v, 0), grid.vertex(u1, v1, 0),
+                                 grid.vertex(u, v1, 0)};
         }
 }
 
@@ -60,9 +64,9 @@ std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<b
     for (size_t i = 0; i < subpatches.size(); ++i)
         first[i + 1] = first[i] + (wanted(subpatches[i].primitive) ? surfels_of(subpatches[i].shape) : 0);
     Surfels surfels;
-    if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float))) return {};
+    if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float) + sizeof(SurfelQuad))) return {};
     surfels.positions.resize(first.back(), V3f(0)), surfels.normals.resize(first.back(), V3f(0));
-    surfels.areas.resize(first.back(), 0);
+    surfels.areas.resize(first.back(), 0), surfels.quads.resize(first.back());
     // Who waits for it may hold what other tasks of the frame want.
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(

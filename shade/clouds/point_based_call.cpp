@@ -15,6 +15,22 @@ using vm::Operand;
 using vm::Run;
 using vm::Step;
 
+/// How far vertices at a grid's edge look from, of the way to the vertex beside them.
+constexpr float kAside = 0.25f;
+
+/// From a vertex towards the inside of its grid, where it is at the grid's edge: from within the plane of a
+/// wall that stands there nothing is seen of the wall. What a ray has hit is not at an edge.
+V3f aside_of(const vm::GridSpan& span, size_t vertex) {
+    const int nu = span.shape.nu, nv = span.shape.nv;
+    if (!span.grid || span.hit_vertex >= 0 || span.grid->P.empty()) return V3f(0);
+    const int i = static_cast<int>(vertex) % (nu + 1), j = static_cast<int>(vertex) / (nu + 1);
+    const auto inwards = [](int at, int end) { return end == 0 ? 0 : at == 0 ? 1 : at == end ? -1 : 0; };
+    const int beside = (j + inwards(j, nv)) * (nu + 1) + i + inwards(i, nu);
+    const Triples& P = span.grid->P.front();
+    const V3f way = (P.at(static_cast<size_t>(beside)) - P.at(vertex)) * kAside;
+    return std::isfinite(way.length2()) ? way : V3f(0);
+}
+
 }  // namespace
 
 PointBasedCall::PointBasedCall(Run& run, const Step& step, std::span<const Operand> operands,
@@ -77,8 +93,8 @@ bool PointBasedCall::set_space() {
 void PointBasedCall::run(PointBasedScratch& scratch) const {
     const bool uniform = std::ranges::none_of(operands_.first(step_.outputs),
                                               [](const Operand& out) { return out.lane_mask != 0; });
-    for_each_asking_lane(run_, [&](const vm::GridSpan&, size_t, const AskingLane& asking) {
-        look(asking.lane, scratch);
+    for_each_asking_lane(run_, [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
+        look(asking.lane, aside_of(span, vertex), scratch);
         put(asking, scratch.raster);
         return !uniform;
     });
@@ -92,10 +108,10 @@ const SkyPart& PointBasedCall::sky_of(size_t lane) const {
     return *sky_;
 }
 
-/// Fills the raster with what a lane sees.
-void PointBasedCall::look(size_t lane, PointBasedScratch& scratch) const {
+/// Fills the raster with what a lane sees from beside its point.
+void PointBasedCall::look(size_t lane, const V3f& aside, PointBasedScratch& scratch) const {
     SurfelPlace place;
-    place.position = arguments_.from_at(lane), place.normal = arguments_.towards_at(lane);
+    place.position = arguments_.from_at(lane) + aside, place.normal = arguments_.towards_at(lane);
     if (moved_) {
         to_space_.multVecMatrix(V3f(place.position), place.position);
         normals_to_space_.multDirMatrix(V3f(place.normal), place.normal);
@@ -114,10 +130,11 @@ void PointBasedCall::look(size_t lane, PointBasedScratch& scratch) const {
             if (a.distance != b.distance) return a.distance < b.distance;
             return a.is_cluster != b.is_cluster ? b.is_cluster : a.number < b.number;
         });
-    for (const SurfelPiece& piece : scratch.pieces) add(piece, lane, scratch.raster);
+    for (const SurfelPiece& piece : scratch.pieces) add(piece, place, lane, scratch.raster);
 }
 
-void PointBasedCall::add(const SurfelPiece& piece, size_t lane, SurfelRaster& raster) const {
+void PointBasedCall::add(const SurfelPiece& piece, const SurfelPlace& place, size_t lane,
+                         SurfelRaster& raster) const {
     using Sides = RayFilter::Sides;
     const Sides sides = arguments_.sides();
     SeenSurface seen;
@@ -129,7 +146,10 @@ void PointBasedCall::add(const SurfelPiece& piece, size_t lane, SurfelRaster& ra
         seen.color = tree_->radiosity(piece);
     else
         seen.counts = arguments_.falloff_at(piece.distance / scale_, lane);
-    if (piece.is_large)
+    if (piece.is_large && !tree_->surfels().quads.empty())
+        raster.add_quad(tree_->quad_from(place.position, piece.number), tree_->surfels().areas[piece.number],
+                        seen);
+    else if (piece.is_large)
         raster.add_disc(piece.way, tree_->surfels().normals[piece.number], tree_->disc_radius(piece.number),
                         seen);
     else

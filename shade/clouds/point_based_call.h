@@ -37,8 +37,8 @@ class PointBasedCall {
     const SurfelTree* find_cloud(CloudLibrary& library, const RayScene* scene) const;
     const SurfelTree* use_rays(const std::string& why) const;
     bool set_space();
-    void look(size_t lane, PointBasedScratch& scratch) const;
-    void add(const SurfelPiece& piece, size_t lane, SurfelRaster& raster) const;
+    void look(size_t lane, const V3f& aside, PointBasedScratch& scratch) const;
+    void add(const SurfelPiece& piece, const SurfelPlace& place, size_t lane, SurfelRaster& raster) const;
     void put(const AskingLane& lanes, const SurfelRaster& raster) const;
     const SkyPart& sky_of(size_t lane) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/portable_math.h"
 #include "shade/rays/ray_directions.h"
@@ -18,6 +19,12 @@ constexpr float kPixel = 2.0f / kSide;  ///< a pixel's side; the disc's radius i
 /// adds up to its area. On a square grid of discs the sum is 1 to some hundredths: the function's transform,
 /// by J4, is zero at the grid's frequency.
 constexpr float kSpread = 2.14f, kPeak = 4 / (kSpread * kSpread);
+
+/// Discs rise above the horizon from this part of their radius on; and are steep, which a square of a sine
+/// tells.
+constexpr float kRises = 0.1f, kSteep = 0.05f;
+/// How soft the edges of pieces of surface are, radians: a pixel in the middle.
+constexpr float kEdge = kPixel;
 
 /// Floats that are worked on together: the compiler makes vectors of them.
 constexpr int kLanes = SurfelRaster::kLanes;
@@ -61,7 +68,21 @@ void for_each_row(const PixelRange& columns, const PixelRange& rows, const Use& 
     }
 }
 
-/// The directions of the pixels, of those beyond the rim the rim's; and which part of each is within it.
+/// The middle of the part of a pixel that is within the rim; of a pixel beyond it the pixel's own.
+V2f middle_within(int i, int j) {
+    constexpr int kParts = 8;
+    V2f sum(0, 0);
+    int count = 0;
+    for (int part = 0; part < kParts * kParts; ++part) {
+        const auto off = [](int k) { return ((static_cast<float>(k) + 0.5f) / kParts - 0.5f) * kPixel; };
+        const V2f at(middle(i) + off(part % kParts), middle(j) + off(part / kParts));
+        if (at.length2() < 1) sum += at, ++count;
+    }
+    return count > 0 ? sum / static_cast<float>(count) : V2f(middle(i), middle(j));
+}
+
+/// The directions of the pixels, of those at the rim what is in the middle of the part within it; and which
+/// part of each is within it.
 struct Pixels {
     Pixels() {
         const SkyPart all(kHalfTurn / 2, false);
@@ -70,9 +91,9 @@ struct Pixels {
         for (int j = 0; j < kSide; ++j)
             for (int i = 0; i < kSide; ++i) {
                 const auto p = static_cast<size_t>(j * kSide + i);
-                const float px = middle(i), py = middle(j), r = std::sqrt(px * px + py * py);
-                const float scale = r > 1 ? 1 / r : 1;
-                x[p] = px * scale, y[p] = py * scale;
+                const V2f at = middle_within(i, j);
+                const float r = at.length(), scale = r > 1 ? 1 / r : 1;
+                x[p] = at.x * scale, y[p] = at.y * scale;
                 z[p] = r < 1 ? std::sqrt(1 - r * r) : 0;
                 inside[p] = all.weight(static_cast<int>(p)) / most;
             }
@@ -91,6 +112,20 @@ const Pixels& pixels() {
 PixelRange extent_of(float along, float sine, float cosine) {
     const float across = std::sqrt(std::max(0.0f, 1 - along * along)) * sine, mean = along * cosine;
     return {along < -cosine ? -1 : mean - across, along > cosine ? 1 : mean + across};
+}
+
+/// Columns and rows of what is seen between four corners, and half an edge's width around.
+std::pair<PixelRange, PixelRange> extents_of(const std::array<V3f, 4>& corners, const V3f& middle) {
+    constexpr float kLeast = 0.1f, kWider = kEdge / 2;
+    const float length = middle.length();
+    float nearest = 1;
+    for (const V3f& corner : corners)
+        nearest = smaller(nearest, corner.dot(middle) / larger(corner.length() * length, 1e-30f));
+    if (!(nearest > kLeast)) return {PixelRange(-1, 1), PixelRange(-1, 1)};
+    const float sine = std::sqrt(1 - nearest * nearest) + kWider;
+    const float cosine = std::sqrt(larger(0, 1 - sine * sine));
+    const V3f at = middle / length;
+    return {extent_of(at.x, smaller(sine, 1), cosine), extent_of(at.y, smaller(sine, 1), cosine)};
 }
 
 }  // namespace
@@ -191,15 +226,26 @@ void SurfelRaster::add_small(const V3f& way, const SeenSurface& thing) {
 }
 
 /// A ray through the middle of each pixel meets the disc's plane.
+///
+/// Of a wall that ends where the place's surface begins the discs' soft rims would be half lost below the
+/// horizon: what would go there is mirrored, along the disc, to where the wall is. Discs whose middle is on
+/// the horizon, or below, count by their fronts alone: the backs are those of a thing that the place is on,
+/// beyond its edge.
 void SurfelRaster::add_disc(const V3f& way, const V3f& normal, float radius, const SeenSurface& thing) {
     const float reach = radius * kSpread, distance = way.length();
     const V3f at = to_raster(way), turned = to_raster(normal == V3f(0) ? way / -distance : normal);
+    const bool rises = at.z > kRises * radius;
+    if (!rises && !(thing.front > 0)) return;
     const float sine = distance > reach ? reach / distance : 1;
     const float cosine = distance > reach ? std::sqrt(1 - sine * sine) : -1;
     const PixelRange columns = extent_of(at.x / distance, sine, cosine);
     const PixelRange rows = extent_of(at.y / distance, sine, cosine);
+    // Along the disc, upwards; how much of a height it takes to the mirrored one.
+    const V3f upward = V3f(0, 0, 1) - turned * turned.z;
+    const V3f mirror = rises && upward.z > kSteep ? upward * (2 / upward.z) : V3f(0);
     const float plane = at.dot(turned), of_reach = 1 / (reach * reach);
     const float front = thing.front > 0 ? kPeak : 0, back = thing.back > 0 ? kPeak : 0;
+    const float mirrors = mirror == V3f(0) ? 0 : 1;
     const Pixels& all = pixels();
     Lanes parts{}, shares;
     for_each_row(columns, rows, [&](int j, int first) {
@@ -208,8 +254,52 @@ void SurfelRaster::add_disc(const V3f& way, const V3f& normal, float radius, con
             const float x = all.x[p + k], y = all.y[p + k], z = all.z[p + k];
             const float t = plane / (x * turned.x + y * turned.y + z * turned.z);
             const float dx = x * t - at.x, dy = y * t - at.y, dz = z * t - at.z;
+            const float h = z * t, mx = dx - h * mirror.x, my = dy - h * mirror.y, mz = dz - h * mirror.z;
             const float left = 1 - (dx * dx + dy * dy + dz * dz) * of_reach;
-            shares[k] = t > 0 && left > 0 ? left * left * left : 0;
+            const float mirrored = mirrors * (1 - (mx * mx + my * my + mz * mz) * of_reach);
+            const float own = left > 0 ? left * left * left : 0;
+            const float other = mirrored > 0 ? mirrored * mirrored * mirrored : 0;
+            shares[k] = t > 0 ? own + other : 0;
+        }
+        cover(j * kSide + first, shares.data(), front, back, parts);
+    });
+    take(added(parts), thing);
+}
+
+/// Of each edge the plane through it and the place: a direction is as far within the piece as it is within
+/// all four.
+void SurfelRaster::add_quad(const SurfelQuad& ways, float area, const SeenSurface& thing) {
+    std::array<V3f, 4> corners, edges;
+    V3f middle(0), turned(0);
+    for (size_t k = 0; k < 4; ++k) corners[k] = to_raster(ways[k]), middle += corners[k];
+    int planes = 0;
+    for (size_t k = 0; k < 4; ++k) {
+        edges[k] = corners[k].cross(corners[(k + 1) % 4]);
+        turned += edges[k];
+        const float length = edges[k].length();
+        planes += length > 0 ? 1 : 0;
+        edges[k] = length > 0 ? edges[k] / length : V3f(0);
+    }
+    if (planes < 3) return;
+    const float side = turned.dot(middle) < 0 ? -1.0f / kEdge : 1.0f / kEdge;
+    std::array<float, 4> within;  // of an edge that is a point, all is
+    for (size_t k = 0; k < 4; ++k) within[k] = edges[k] == V3f(0) ? 1 : 0.5f, edges[k] *= side;
+    const float own = (corners[2] - corners[0]).cross(corners[3] - corners[1]).length() / 2;
+    const float part = own > area ? area / own : 1;
+    const float front = thing.front > 0 ? part : 0, back = thing.back > 0 ? part : 0;
+    const auto [columns, rows] = extents_of(corners, middle);
+    const Pixels& all = pixels();
+    Lanes parts{}, shares;
+    for_each_row(columns, rows, [&](int j, int first) {
+        const auto p = static_cast<size_t>(j * kSide + first);
+        for (size_t k = 0; k < kLanes; ++k) {
+            float share = 1;
+            for (size_t e = 0; e < 4; ++e) {
+                const float in = all.x[p + k] * edges[e].x + all.y[p + k] * edges[e].y +
+                                 all.z[p + k] * edges[e].z + within[e];
+                share *= in < 0 ? 0 : smaller(in, 1);
+            }
+            shares[k] = share;
         }
         cover(j * kSide + first, shares.data(), front, back, parts);
     });

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "core/math.h"
+#include "core/scene/surfels.h"
 
 namespace trapeze {
 
@@ -50,6 +51,9 @@ class SurfelRaster {
     /// Adds a disc; `normal` has unit length, or none where it faces the place. Only whether the thing has a
     /// front or a back matters, not how large they are.
     void add_disc(const V3f& way, const V3f& normal, float radius, const SeenSurface& thing);
+    /// Adds a piece of surface. `ways`: from the place to its corners; `area`: what it hides, less than it
+    /// has where light shines through. Pieces that share edges leave nothing open between them.
+    void add_quad(const SurfelQuad& ways, float area, const SeenSurface& thing);
 
     float hidden() const { return hidden_; }     ///< part of the sky
     const V3f& light() const { return light_; }  ///< the mean of the colours, black where there is nothing

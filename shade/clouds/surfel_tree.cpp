@@ -12,7 +12,9 @@ constexpr uint32_t kLeafSurfels = 8;
 constexpr int kMostDepth = 40;           ///< leaves there may hold any number: discs in one place
 constexpr size_t kMostWaiting = 8 * 41;  ///< nodes: seven of each level and eight of the last
 constexpr float kLeastPart = 0.3f;       ///< of the threshold, that clusters at the horizon are compared by
-constexpr float kSelfPart = 0.25f;       ///< of a disc's radius, where no bias is given
+/// Of a disc's radius, where no bias is given. Measured against rays (docs/results.md): with less curved
+/// surfaces hide themselves, with more contacts are open.
+constexpr float kSelfPart = 0.35f;
 
 /// Whether distances to it are numbers.
 bool is_within_numbers(const V3f& v) {
@@ -83,11 +85,12 @@ SurfelTree::SurfelTree(const Surfels& surfels) {
     build(0, order, surfels, 0);
     nodes_.shrink_to_fit();
     surfels_.positions.reserve(order.size()), surfels_.normals.reserve(order.size());
-    surfels_.areas.reserve(order.size());
+    surfels_.areas.reserve(order.size()), surfels_.quads.reserve(surfels.quads.empty() ? 0 : order.size());
     for (const uint32_t i : order) {
         surfels_.positions.push_back(surfels.positions[i]);
         surfels_.normals.push_back(surfels.normals[i]);
         surfels_.areas.push_back(surfels.areas[i]);
+        if (!surfels.quads.empty()) surfels_.quads.push_back(surfels.quads[i]);
     }
     if (!surfels.radiosities.empty()) {
         surfels_.radiosities.reserve(order.size());
@@ -102,6 +105,12 @@ size_t SurfelTree::bytes() const {
 
 float SurfelTree::disc_radius(uint32_t surfel) const {
     return std::sqrt(surfels_.areas[surfel] / kUnitDisc);
+}
+
+SurfelQuad SurfelTree::quad_from(const V3f& place, uint32_t surfel) const {
+    SurfelQuad quad = surfels_.quads[surfel];
+    for (V3f& corner : quad) corner -= place;
+    return quad;
 }
 
 /// Sorts a node's part of `order` by octants, and makes its children.
@@ -211,6 +220,16 @@ void SurfelTree::add_node(const Node& node, uint32_t number, const SurfelPlace& 
     pieces.push_back(piece);
 }
 
+/// Whether a disc is the surface that the place is on, which it would cover. A wall that stands on the
+/// surface may be as near, but stands across it.
+bool SurfelTree::is_own_surface(const SurfelPiece& piece, uint32_t surfel, const SurfelPlace& place) const {
+    const V3f& normal = surfels_.normals[surfel];
+    const float beside = normal == V3f(0) ? piece.distance : std::abs(piece.way.dot(normal));
+    if (place.bias >= 0) return beside < place.bias;
+    const float along = normal == V3f(0) ? 1 : std::abs(normal.dot(place.normal));
+    return beside < kSelfPart * disc_radius(surfel) * along;
+}
+
 void SurfelTree::add_disc(uint32_t surfel, const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const {
     SurfelPiece piece;
     piece.way = surfels_.positions[surfel] - place.position;
@@ -226,8 +245,7 @@ void SurfelTree::add_disc(uint32_t surfel, const SurfelPlace& place, std::vector
         piece.front = piece.back = area;
     else
         (toward > 0 ? piece.front : piece.back) = seen;
-    const float bias = place.bias < 0 ? kSelfPart * disc_radius(surfel) : place.bias;
-    if (piece.is_large && (normal == V3f(0) ? piece.distance : std::abs(toward)) < bias) return;
+    if (piece.is_large && is_own_surface(piece, surfel, place)) return;
     if (!piece.is_large && piece.way.dot(place.normal) <= 0) return;
     piece.number = surfel;
     pieces.push_back(piece);

@@ -16,8 +16,8 @@ struct SurfelPlace {
     V3f position, normal;          ///< of unit length: what lies below is not seen
     float max_solid_angle = 0.1f;  ///< of a cluster that is taken as one, steradians
     float max_distance = std::numeric_limits<float>::infinity();
-    /// Large discs whose plane passes nearer do not count: they are the surface itself. Below 0: a quarter
-    /// of each disc's radius.
+    /// Large discs whose plane passes nearer do not count: they are the surface itself. Below 0: a third of
+    /// each disc's radius where it lies as the surface does, and the less the more it stands across.
     float bias = -1;
 };
 
@@ -46,6 +46,8 @@ class SurfelTree {
     /// The discs, in the tree's order.
     const Surfels& surfels() const { return surfels_; }
     float disc_radius(uint32_t surfel) const;
+    /// The ways from a place to the corners of what a disc stands for.
+    SurfelQuad quad_from(const V3f& place, uint32_t surfel) const;
     /// The mean colour of what a piece shows.
     V3f radiosity(const SurfelPiece& piece) const;
     size_t bytes() const;
@@ -73,6 +75,7 @@ class SurfelTree {
     void add_node(const Node& node, uint32_t number, const SurfelPlace& place,
                   std::vector<SurfelPiece>& pieces) const;
     void add_disc(uint32_t surfel, const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const;
+    bool is_own_surface(const SurfelPiece& piece, uint32_t surfel, const SurfelPlace& place) const;
 
     Surfels surfels_;
     std::vector<Node> nodes_;
