@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <memory>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -10,6 +12,7 @@
 #include "shade/area_lights.h"
 #include "shade/clouds/cloud_bakes.h"
 #include "shade/clouds/cloud_library.h"
+#include "shade/clouds/scene_surfels.h"
 #include "shade/grid_run.h"
 #include "shade/materials/named_maps.h"
 #include "shade/rays/ray_programs.h"
@@ -63,15 +66,20 @@ struct Shading::Impl {
     }
 
     Task<> shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats, int depth,
-                 const HitVisit& visit) const;
+                 const HitVisit& visit, bool of_discs = false) const;
+    ShadeSurfels surfel_shader() const;
+    void take_surfel_stats(ShadeStats& stats) const;
 
     std::vector<const BoundShader*> asking_shaders() const;
 
     const RenderContext& context;
     const Access& access;
-    mutable Textures textures;    ///< thread-safe
-    mutable CloudLibrary clouds;  ///< thread-safe
-    mutable CloudBakes bakes;     ///< thread-safe
+    mutable Textures textures;             ///< thread-safe
+    mutable CloudLibrary clouds;           ///< thread-safe
+    mutable CloudBakes bakes;              ///< thread-safe
+    mutable SceneSurfels surfels{clouds};  ///< thread-safe
+    mutable std::mutex surfel_mutex;
+    mutable ShadeStats surfel_stats;  ///< of shading discs, until a call takes them for its own
     Materials materials;
     AovLayout aovs;
     VolumeTable volumes;
@@ -95,12 +103,30 @@ void Shading::shade(ShadingGrid& grid, ShadeScratch& scratch, ShadeStats& stats)
 
 void Shading::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats) const {
     impl_->shade(grids, scratch, stats, 0, {}).get();
+    impl_->take_surfel_stats(stats);
+}
+
+void Shading::Impl::take_surfel_stats(ShadeStats& stats) const {
+    const std::lock_guard lock(surfel_mutex);
+    stats += std::exchange(surfel_stats, {});
+}
+
+/// For one thread, which has a scratch of its own: it may be in the midst of shading.
+ShadeSurfels Shading::Impl::surfel_shader() const {
+    return [this, scratch = std::make_shared<ShadeScratch>()](std::span<ShadingGrid* const> grids,
+                                                              const HitVisit& visit) {
+        if (context.is_cancelled()) return;
+        ShadeStats stats;
+        shade(grids, *scratch, stats, 1, visit, true).get();
+        const std::lock_guard lock(surfel_mutex);
+        surfel_stats += stats;
+    };
 }
 
 /// `depth`: bounces of rays between the camera and the grids, which are visited by the last of them. What
-/// rays hit has no output variables.
+/// rays hit has no output variables. `of_discs`: all this is of the scene's discs.
 Task<> Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats,
-                            int depth, const HitVisit& visit) const {
+                            int depth, const HitVisit& visit, bool of_discs) const {
     if (!visit.shades) co_return answer_hits(*visit.outputs, {}, {}, {}, grids);
     ShadeScratch::State& state = *scratch.state;
     RayService service;
@@ -108,7 +134,7 @@ Task<> Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& s
         service.scene = rays;
         service.shade = [&](std::span<ShadingGrid* const> hits, const HitVisit& of_hits) {
             if (!state.deeper) state.deeper = std::make_unique<ShadeScratch>();
-            return shade(hits, *state.deeper, stats, depth + 1, of_hits);
+            return shade(hits, *state.deeper, stats, depth + 1, of_hits, of_discs);
         };
         service.depth = depth;
         service.visit = visit;
@@ -137,7 +163,7 @@ Task<> Shading::Impl::shade(std::span<ShadingGrid* const> grids, ShadeScratch& s
         const Material* const left =
             medium.primitive != RayMedium::kNone ? &materials.of(medium.primitive) : nullptr;
         GridRun run(context, textures, material, batch, state.run, rays ? &service : nullptr,
-                    {&clouds, depth == 0 ? &bakes : nullptr, rays}, left);
+                    {&clouds, depth == 0 ? &bakes : nullptr, &surfels, of_discs}, left);
         const AovLayout none;
         co_await run.run(depth == 0 ? aovs : none, visit.outputs);
         stats.shaded_vertices += vertices;
@@ -197,6 +223,7 @@ size_t Shading::batch_vertices() const {
 
 void Shading::set_rays(const RayScene* rays) {
     impl_->rays = rays;
+    impl_->surfels.set_scene(rays, [impl = impl_.get()] { return impl->surfel_shader(); });
 }
 
 void Shading::displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratch) const {
@@ -204,7 +231,7 @@ void Shading::displace(std::span<ShadingGrid* const> grids, ShadeScratch& scratc
         const Material& material = impl_->materials.of(grid->primitive_index);
         if (material.attributes->rays.displaced)
             GridRun(impl_->context, impl_->textures, material, {&grid, 1}, scratch.state->run, nullptr,
-                    {&impl_->clouds, nullptr, nullptr})
+                    {&impl_->clouds, nullptr, nullptr, false})
                 .run_displacement()
                 .get();
         grid->Ci = grid->Cs, grid->Oi = grid->Os;
@@ -248,7 +275,7 @@ bool Shading::can_be_parted(const ShadingGrid& grid) const {
 
 bool Shading::found_endless_loops() {
     const size_t known = std::exchange(impl_->known_endless, impl_->materials.endless_count());
-    if (impl_->known_endless > known) impl_->bakes.clear();
+    if (impl_->known_endless > known) impl_->bakes.clear(), impl_->surfels.forget_colors();
     return impl_->known_endless > known;
 }
 

@@ -242,7 +242,8 @@ TEST(PointBased, OutsidesAreFronts) {
 const std::string kFloor = "Patch \"bilinear\" \"P\" [0 1 5 1 1 5 0 -1 5 1 -1 5] ";
 const std::string kWall = "Patch \"bilinear\" \"P\" [0 8 2 0 8 5 0 -8 2 0 -8 5] ";
 const std::string kSides =
-    "Patch \"bilinear\" \"P\" [0 1 5 0 -1 5 0 1 7 0 -1 7] Patch \"bilinear\" \"P\" [1 -1 5 1 1 5 1 -1 7 1 1 7] ";
+    "Patch \"bilinear\" \"P\" [0 1 5 0 -1 5 0 1 7 0 -1 7] "
+    "Patch \"bilinear\" \"P\" [1 -1 5 1 1 5 1 -1 7 1 1 7] ";
 
 /// What is hidden of the sky over the floor, as the scene's discs say in red and a cloud's in green;
 /// `expected` in blue. The cloud is baked of the same things in a frame before.
@@ -300,15 +301,90 @@ TEST(PointBased, EdgesOfBlocksDoNotHideThemselves) {
     }
 }
 
-/// The scene has no colours without shading it.
-TEST(PointBased, ColoursOfTheSceneAreTraced) {
+const std::string kLight = "indirectdiffuse(P, up, 0, \"pointbased\", 1";
+
+/// Within a closed box whose walls all send one colour that colour comes from everywhere, but for what
+/// clusters leave open between them.
+TEST(PointBased, BoxesThatShineAreFullOfTheirLight) {
     PointBased scene(ball());
-    const auto rays = scene.asks("indirectdiffuse(P, up, 4)", kBall);
+    scene.shader("shines", "Ci = color(.2, .5, .8);");
+    const std::string box = "Surface \"shines\" " + kHidden + kSeen +
+                            "Translate 0 0 3.1 Scale 2 2 2 "
+                            "Patch \"bilinear\" \"P\" [-1 -1 1 1 -1 1 -1 1 1 1 1 1] "
+                            "Patch \"bilinear\" \"P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1]"
+                            "Patch \"bilinear\" \"P\" [-1 -1 -1 1 -1 -1 -1 -1 1 1 -1 1] "
+                            "Patch \"bilinear\" \"P\" [-1 1 -1 1 1 -1 -1 1 1 1 1 1]"
+                            "Patch \"bilinear\" \"P\" [-1 -1 -1 -1 1 -1 -1 -1 1 -1 1 1] "
+                            "Patch \"bilinear\" \"P\" [1 -1 -1 1 1 -1 1 -1 1 1 1 1] ";
+    for (const auto& [angle, covered] : {std::pair(".1", .88f), std::pair(".01", .92f)}) {
+        const std::string most = std::string(", \"maxsolidangle\", ") + angle + ")";
+        for (const Pixel& pixel :
+             scene.asks("color(comp(light, 0) / hidden, comp(light, 2) / hidden, hidden)", box,
+                        "float hidden = " + kOfScene + most + "; color light = " + kLight + most + ";")) {
+            EXPECT_NEAR(pixel.red, .2f, 1e-3f);
+            EXPECT_NEAR(pixel.green, .8f, 1e-3f);
+            EXPECT_GT(pixel.blue, covered);
+        }
+    }
     scene.expect_nothing_said();
-    const auto seen = scene.asks("indirectdiffuse(P, up, 4, \"pointbased\", 1)", kBall);
-    ASSERT_EQ(scene.said.size(), 1u);
-    EXPECT_NE(scene.said[0].text.find("has no colours"), std::string::npos);
-    for (size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(rays[i].red, seen[i].red);
+}
+
+/// Each side of a sheet sends what its own shading makes of it: the shader knows it by I.
+TEST(PointBased, SidesOfTheSceneHaveColoursOfTheirOwn) {
+    for (const bool turned : {false, true}) {
+        PointBased scene(ball());
+        scene.shader("sides", "Ci = normalize(I).N < 0 ? color(1, 0, .25) : color(0, 1, .25);");
+        const Pixel middle = scene.asks(kLight + ")", "Surface \"sides\" " + kHidden + kSeen +
+                                                          (turned ? "ReverseOrientation " : "") +
+                                                          "Translate 0 0 4 Disk 0 2 360")[32 * 64 + 32];
+        EXPECT_NEAR(turned ? middle.green : middle.red, .8f, .03f);
+        EXPECT_EQ(turned ? middle.red : middle.green, 0);
+        EXPECT_NEAR(middle.blue, .2f, .01f);
+    }
+}
+
+/// The square of a picture's differences between two of its colours, in the mean, of the second one's own.
+float relative_error(const std::vector<Pixel>& seen) {
+    float sum = 0, all = 0;
+    for (const Pixel& pixel : seen)
+        sum += (pixel.red - pixel.green) * (pixel.red - pixel.green), all += pixel.green * pixel.green;
+    return std::sqrt(sum / all);
+}
+
+/// What a wall that a light shines on sends to a floor, and a ball that hides some of it, as by rays; also in
+/// each colour.
+TEST(PointBased, ColoursOfTheSceneBleedAsRaysSay) {
+    for (int channel = 0; channel < 3; ++channel) {
+        PointBased scene(ball());
+        const std::string comp = ", up, 1024), " + std::to_string(channel) + ")";
+        const auto seen =
+            scene.asks("color(comp(" + kLight + "), " + std::to_string(channel) +
+                           "), comp(indirectdiffuse(P" + comp + ", 0)",
+                       "LightSource \"pointlight\" 1 \"from\" [1 .5 2] \"intensity\" [6] Surface \"matte\" " +
+                           kHidden + kSeen +
+                           "AttributeBegin Color .9 .3 .1 "
+                           "Patch \"bilinear\" \"P\" [-1.2 -2 1 -1.2 2 1 -1.2 -2 5.2 -1.2 2 5.2] "
+                           "AttributeEnd Color .2 .3 .9 Translate .3 0 4.3 Sphere .4 -.4 .4 360");
+        scene.expect_nothing_said();
+        EXPECT_LT(relative_error(seen), .06f);
+        EXPECT_GT(seen[32 * 64 + 4].green, .01f);
+    }
+}
+
+/// Light bounces once: shaders of discs that ask for the light of others are told of none, as by rays.
+/// Shadows and occlusion are theirs as everywhere.
+TEST(PointBased, LightBouncesOnce) {
+    for (const char* const pointbased : {"0", "1"}) {
+        PointBased scene(ball());
+        scene.shader("bounces", std::string("Ci = 1 + indirectdiffuse(P, Nn, 4, \"pointbased\", ") +
+                                    pointbased +
+                                    ") - .5 * occlusion(P, faceforward(Nn, I), 4, \"pointbased\", " +
+                                    pointbased + ", \"maxdist\", .1);");
+        const Pixel middle = scene.asks(kLight + ")", "Surface \"bounces\" " + kHidden + kSeen +
+                                                          "Translate 0 0 4 Disk 0 2 360")[32 * 64 + 32];
+        EXPECT_NEAR(middle.red, .8f, .03f);
+        scene.expect_nothing_said();
+    }
 }
 
 /// With 0 the name says nothing.
@@ -329,7 +405,7 @@ TEST(PointBased, AreTheSameBitsForAnyThreadsAndRegions) {
             scene.threads = threads, scene.settings.regions_at_least = regions;
             scene.shader("asks", kAsks + "float falls = " + kCall + ", \"falloff\", 1); Ci = color(" + kCall +
                                      "), falls, comp(trace(P, normalize(vector(xcomp(P), .3, -1))), 1) + " +
-                                     kOfScene + "));");
+                                     kOfScene + ")) + " + kLight + ");");
             pictures.push_back(scene
                                    .render({scene.surface("asks") + kCoarse +
                                             "Attribute \"visibility\" \"int specular\" 1 \"int diffuse\" 1 "

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -89,6 +90,11 @@ class RayScene {
     /// All that rays of a kind meet as discs, at shutter open in camera space; the areas are smaller where
     /// surfaces are not opaque. Nothing where it takes more than `most_bytes`.
     virtual std::optional<Surfels> surfels(RayKind, size_t /*most_bytes*/) const { return {}; }
+    /// As dice(), with the vertex in the middle of what a disc of surfels() stands for, by its id.
+    virtual int dice_surfel(uint64_t /*id*/, ShadingGrid& /*grid*/) const { return -1; }
+    /// Calls it in as many threads as there are, or in fewer; the thread that asks does nothing else
+    /// meanwhile.
+    virtual void in_parallel(const std::function<void()>& work) const { work(); }
 };
 
 }  // namespace trapeze

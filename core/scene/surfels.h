@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/math.h"
@@ -17,13 +18,15 @@ struct Surfels {
     std::vector<V3f> positions;
     std::vector<V3f> normals;       ///< of unit length, on the front; zero where a disc faces all sides
     std::vector<float> areas;       ///< above zero
+    std::vector<uint64_t> ids;      ///< what RayScene::dice_surfel() finds their places by; may be empty
     std::vector<SurfelQuad> quads;  ///< the surface that they stand for; empty: it is not known
     std::vector<V3f> radiosities;   ///< what they send, as colours of surfaces are; empty: nothing is known
 
     size_t size() const { return positions.size(); }
     size_t bytes() const {
         return (positions.capacity() + normals.capacity() + radiosities.capacity()) * sizeof(V3f) +
-               areas.capacity() * sizeof(float) + quads.capacity() * sizeof(SurfelQuad);
+               areas.capacity() * sizeof(float) + quads.capacity() * sizeof(SurfelQuad) +
+               ids.capacity() * sizeof(uint64_t);
     }
 };
 

@@ -38,6 +38,11 @@ struct Block {
     }
 };
 
+/// The first micropolygon's.
+uint64_t surfel_id(uint32_t subpatch, int u, int v) {
+    return MicropolygonId{subpatch, static_cast<uint8_t>(u), static_cast<uint8_t>(v)}.packed();
+}
+
 /// The discs of a grid, from number `at` on. Blocks without an area, or that are not seen, stay without one.
 void put(const Grid& grid, bool reversed, Surfels& surfels, size_t at) {
     for (int v = 0; v < grid.shape.nv; v += kSurfelSide)
@@ -48,6 +53,7 @@ void put(const Grid& grid, bool reversed, Surfels& surfels, size_t at) {
             surfels.positions[at] = block.area > 0 ? block.place / block.area : V3f(0);
             surfels.normals[at] = block.vector_area.normalized() * (reversed ? -1.0f : 1.0f);
             surfels.areas[at] = block.hiding_area;
+            surfels.ids[at] = surfel_id(static_cast<uint32_t>(grid.ordinal), u, v);
             const int u1 = std::min<int>(u + kSurfelSide, grid.shape.nu);
             const int v1 = std::min<int>(v + kSurfelSide, grid.shape.nv);
             surfels.quads[at] = {grid.vertex(u, v, 0), grid.vertex(u1, v, 0), grid.vertex(u1, v1, 0),
@@ -57,6 +63,15 @@ void put(const Grid& grid, bool reversed, Surfels& surfels, size_t at) {
 
 }  // namespace
 
+int dice_surfel(const RayDicer& dicer, uint64_t id, ShadingGrid& grid) {
+    const MicropolygonId first = MicropolygonId::unpack(id);
+    const GridShape shape = dicer.tessellation().subpatches()[first.grid].shape;
+    const auto middle = [](int at, int end) {
+        return static_cast<float>(at + std::min(at + kSurfelSide, end)) / static_cast<float>(2 * end);
+    };
+    return dicer.make_point({first.grid, {middle(first.u, shape.nu), middle(first.v, shape.nv)}}, grid);
+}
+
 std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<bool(uint32_t)>& wanted,
                                     size_t most_bytes) {
     const std::vector<SubpatchInfo>& subpatches = dicer.tessellation().subpatches();
@@ -64,9 +79,11 @@ std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<b
     for (size_t i = 0; i < subpatches.size(); ++i)
         first[i + 1] = first[i] + (wanted(subpatches[i].primitive) ? surfels_of(subpatches[i].shape) : 0);
     Surfels surfels;
-    if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float) + sizeof(SurfelQuad))) return {};
+    if (first.back() > most_bytes / (2 * sizeof(V3f) + sizeof(float) + sizeof(SurfelQuad) + sizeof(uint64_t)))
+        return {};
     surfels.positions.resize(first.back(), V3f(0)), surfels.normals.resize(first.back(), V3f(0));
     surfels.areas.resize(first.back(), 0), surfels.quads.resize(first.back());
+    surfels.ids.resize(first.back());
     // Who waits for it may hold what other tasks of the frame want.
     tbb::this_task_arena::isolate([&] {
         tbb::parallel_for(

@@ -17,4 +17,7 @@ inline constexpr int kSurfelSide = 2;
 std::optional<Surfels> make_surfels(const RayDicer& dicer, const std::function<bool(uint32_t)>& wanted,
                                     size_t most_bytes);
 
+/// RayScene::dice_surfel().
+int dice_surfel(const RayDicer& dicer, uint64_t id, ShadingGrid& grid);
+
 }  // namespace trapeze

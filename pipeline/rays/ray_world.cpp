@@ -1,5 +1,6 @@
 #include "pipeline/rays/ray_world.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -193,6 +194,16 @@ std::optional<Surfels> RayWorld::surfels(RayKind kind, size_t most_bytes) const 
     const RayLevel& finest = *levels_[0];
     return make_surfels(
         finest.dicer(), [&](uint32_t primitive) { return finest.is_seen(primitive, kind); }, most_bytes);
+}
+
+int RayWorld::dice_surfel(uint64_t id, ShadingGrid& grid) const {
+    return trapeze::dice_surfel(levels_[0]->dicer(), id, grid);
+}
+
+/// Who waits for it may hold what other tasks of the frame want.
+void RayWorld::in_parallel(const std::function<void()>& work) const {
+    tbb::this_task_arena::isolate(
+        [&] { tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) { work(); }); });
 }
 
 std::unique_ptr<RayWorld> make_ray_world(const RenderContext& context, const Shading& shading,

@@ -37,6 +37,8 @@ class RayWorld final : public RayScene {
     int dice(const RaySurfaceHit& hit, ShadingGrid& grid) const override;
     float spacing(const V3f& P) const override;
     std::optional<Surfels> surfels(RayKind kind, size_t most_bytes) const override;
+    int dice_surfel(uint64_t id, ShadingGrid& grid) const override;
+    void in_parallel(const std::function<void()>& work) const override;
 
     /// Memory of grids and trees that is held now.
     size_t bytes() const;

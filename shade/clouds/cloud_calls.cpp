@@ -39,7 +39,7 @@ void CloudCalls::bake(Run& run, const Step& step, std::span<const Operand> opera
 }
 
 bool CloudCalls::over_discs(Run& run, const Step& step, std::span<const Operand> operands) {
-    const PointBasedCall call(run, step, operands, places_.clouds, places_.scene);
+    const PointBasedCall call(run, step, operands, places_.clouds, places_.scene, places_.of_discs);
     if (!call.is_answered()) return false;
     if (!discs_) discs_ = std::make_unique<PointBasedScratch>();
     call.run(*discs_);

@@ -17,7 +17,8 @@ namespace trapeze {
 struct CloudPlaces {
     CloudLibrary* clouds = nullptr;
     CloudBakes* bakes = nullptr;  ///< null for what rays hit
-    const RayScene* scene = nullptr;
+    SceneSurfels* scene = nullptr;
+    bool of_discs = false;  ///< calls are of the shaders of the scene's discs
 };
 
 /// Carries out the calls of the shaders of one batch of grids, in one thread. All it refers to must outlive

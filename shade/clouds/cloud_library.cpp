@@ -87,24 +87,16 @@ const SurfelTree* CloudLibrary::surfels(const std::string& name, std::string* pr
     return known.surfels.get();
 }
 
-const SurfelTree* CloudLibrary::surfels(const RayScene& scene, std::string* problem) {
-    const std::lock_guard lock(scene_mutex_);
-    if (!of_scene_ && scene_problem_.empty()) {
-        size_t most = 0;
-        {
-            const std::lock_guard files(mutex_);
-            most = limit_ - bytes_;
-        }
-        const std::optional<Surfels> discs = scene.surfels(RayKind::Diffuse, most);
-        auto tree = discs ? std::make_unique<const SurfelTree>(*discs) : nullptr;
-        const std::lock_guard files(mutex_);
-        if (tree && tree->bytes() <= limit_ - bytes_)
-            bytes_ += tree->bytes(), of_scene_ = std::move(tree);
-        else
-            scene_problem_ = too_large();
-    }
-    *problem = scene_problem_;
-    return of_scene_.get();
+size_t CloudLibrary::bytes_left() {
+    const std::lock_guard lock(mutex_);
+    return limit_ - bytes_;
+}
+
+bool CloudLibrary::reserve(size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    if (bytes > limit_ - bytes_) return false;
+    bytes_ += bytes;
+    return true;
 }
 
 }  // namespace trapeze

@@ -11,7 +11,6 @@
 
 #include "core/diagnostics.h"
 #include "core/files/access.h"
-#include "core/scene/ray_scene.h"
 #include "core/scene/scene.h"
 #include "shade/clouds/cloud_tree.h"
 #include "shade/clouds/point_cloud.h"
@@ -52,9 +51,10 @@ class CloudLibrary {
     /// The points of a file as discs; null, and why, where it cannot be read. Thread-safe; they live as long
     /// as this.
     const SurfelTree* surfels(const std::string& name, std::string* problem);
-    /// What diffuse rays meet as discs, made when it is first asked for; null, and why, where it takes too
-    /// much memory. All calls of a library are for one scene.
-    const SurfelTree* surfels(const RayScene& scene, std::string* problem);
+
+    /// What further clouds may take; and whether so much is there, which is then taken. Thread-safe.
+    size_t bytes_left();
+    bool reserve(size_t bytes);
 
   private:
     struct Entry {
@@ -73,10 +73,6 @@ class CloudLibrary {
     const Access& access_;
     size_t limit_ = size_t{1} << 31, bytes_ = 0;
     std::mutex mutex_;
-    /// Of what the scene holds; not the lock of files, which shaders may look into while the discs are made.
-    std::mutex scene_mutex_;
-    std::unique_ptr<const SurfelTree> of_scene_;
-    std::string scene_problem_;
     std::map<std::string, Entry, std::less<>> clouds_;
 };
 

@@ -34,10 +34,10 @@ V3f aside_of(const vm::GridSpan& span, size_t vertex) {
 }  // namespace
 
 PointBasedCall::PointBasedCall(Run& run, const Step& step, std::span<const Operand> operands,
-                               CloudLibrary* library, const RayScene* scene)
+                               CloudLibrary* library, SceneSurfels* scene, bool of_discs)
     : run_(run), step_(step), operands_(operands), arguments_(run, step, operands) {
     if (arguments_.point_based.at(0) == 0 || !library || !run.context().batch) return;
-    tree_ = find_cloud(*library, scene);
+    tree_ = arguments_.cloud.empty() ? find_scene(scene, of_discs) : find_cloud(*library);
     // What is made of the scene is in the current space.
     if (tree_ && !arguments_.cloud.empty() && !set_space()) tree_ = nullptr;
 }
@@ -50,18 +50,21 @@ const SurfelTree* PointBasedCall::use_rays(const std::string& why) const {
     return nullptr;
 }
 
-/// The discs of the file that the call names, or else of the scene; null where rays are to be sent.
-const SurfelTree* PointBasedCall::find_cloud(CloudLibrary& library, const RayScene* scene) const {
+/// The scene's discs; null where rays are to be sent. The colours of discs are made without those of others:
+/// light bounces once.
+const SurfelTree* PointBasedCall::find_scene(SceneSurfels* scene, bool of_discs) const {
+    const bool light = step_.op == Op::IndirectDiffuse;
+    if (!scene || !scene->has_scene() || (light && of_discs)) return nullptr;
+    std::string problem;
+    const SurfelTree* const tree = light ? scene->find_colored(&problem) : scene->find(&problem);
+    return tree || problem.empty() ? tree : use_rays("the scene as discs: " + problem);
+}
+
+/// The discs of the file that the call names; null where rays are to be sent.
+const SurfelTree* PointBasedCall::find_cloud(CloudLibrary& library) const {
     const bool light = step_.op == Op::IndirectDiffuse;
     const std::string& name = arguments_.cloud;
     std::string problem;
-    if (name.empty()) {
-        if (light)
-            return use_rays(
-                "what \"pointbased\" makes of the scene has no colours, a \"filename\" is needed");
-        const SurfelTree* const tree = scene ? library.surfels(*scene, &problem) : nullptr;
-        return tree || problem.empty() ? tree : use_rays("the scene as discs: " + problem);
-    }
     const SurfelTree* const tree = library.surfels(name, &problem);
     if (!tree) return use_rays(fmt::format("point cloud \"{}\" cannot be read: {}", name, problem));
     if (tree->empty()) return use_rays(fmt::format("point cloud \"{}\" has no areas", name));

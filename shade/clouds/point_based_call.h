@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shade/clouds/cloud_library.h"
+#include "shade/clouds/scene_surfels.h"
 #include "shade/clouds/surfel_raster.h"
 #include "shade/clouds/surfel_tree.h"
 #include "shade/rays/asking_lanes.h"
@@ -24,9 +25,9 @@ struct PointBasedScratch {
 class PointBasedCall {
   public:
     /// Reports, by the run, what is wrong. Without a library no cloud is found. `scene`: whose discs are
-    /// asked where the call names no file; null: nobody's.
+    /// asked where the call names no file; null: nobody's. Shaders of these discs are not told their colours.
     PointBasedCall(vm::Run& run, const vm::Step& step, std::span<const vm::Operand> operands,
-                   CloudLibrary* library, const RayScene* scene);
+                   CloudLibrary* library, SceneSurfels* scene, bool of_discs);
 
     /// False where the call asks for rays, or for a cloud that there is not.
     bool is_answered() const { return tree_ != nullptr; }
@@ -34,7 +35,8 @@ class PointBasedCall {
     void run(PointBasedScratch& scratch) const;
 
   private:
-    const SurfelTree* find_cloud(CloudLibrary& library, const RayScene* scene) const;
+    const SurfelTree* find_cloud(CloudLibrary& library) const;
+    const SurfelTree* find_scene(SceneSurfels* scene, bool of_discs) const;
     const SurfelTree* use_rays(const std::string& why) const;
     bool set_space();
     void look(size_t lane, const V3f& aside, PointBasedScratch& scratch) const;

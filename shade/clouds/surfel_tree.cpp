@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace trapeze {
 namespace {
@@ -62,6 +63,10 @@ float mean_color(float power, float area, float all_power, float all_area) {
     return std::max(0.0f, power / area);
 }
 
+void add(Harmonics& to, const Harmonics& more) {
+    for (size_t i = 0; i < to.size(); ++i) to[i] += more[i];
+}
+
 /// Cells are halved along those axes along which they are not much shorter than along others: they stay about
 /// as long as wide.
 unsigned octant_of(const V3f& p, const Box3f& box) {
@@ -86,10 +91,12 @@ SurfelTree::SurfelTree(const Surfels& surfels) {
     nodes_.shrink_to_fit();
     surfels_.positions.reserve(order.size()), surfels_.normals.reserve(order.size());
     surfels_.areas.reserve(order.size()), surfels_.quads.reserve(surfels.quads.empty() ? 0 : order.size());
+    surfels_.ids.reserve(surfels.ids.empty() ? 0 : order.size());
     for (const uint32_t i : order) {
         surfels_.positions.push_back(surfels.positions[i]);
         surfels_.normals.push_back(surfels.normals[i]);
         surfels_.areas.push_back(surfels.areas[i]);
+        if (!surfels.ids.empty()) surfels_.ids.push_back(surfels.ids[i]);
         if (!surfels.quads.empty()) surfels_.quads.push_back(surfels.quads[i]);
     }
     if (!surfels.radiosities.empty()) {
@@ -100,7 +107,8 @@ SurfelTree::SurfelTree(const Surfels& surfels) {
 }
 
 size_t SurfelTree::bytes() const {
-    return surfels_.bytes() + nodes_.capacity() * sizeof(Node) + powers_.capacity() * sizeof(Power);
+    return surfels_.bytes() + back_radiosities_.capacity() * sizeof(V3f) + nodes_.capacity() * sizeof(Node) +
+           (powers_.capacity() + back_powers_.capacity()) * sizeof(Power);
 }
 
 float SurfelTree::disc_radius(uint32_t surfel) const {
@@ -141,11 +149,37 @@ void SurfelTree::build(uint32_t number, std::vector<uint32_t>& order, const Surf
 
 /// Children stand behind their parents: from the end, they are known when they are asked for.
 void SurfelTree::sum_up() {
-    if (has_radiosities()) powers_.resize(nodes_.size());
-    for (size_t n = nodes_.size(); n-- > 0;) sum_node(nodes_[n], powers_.empty() ? nullptr : &powers_[n]);
+    for (size_t n = nodes_.size(); n-- > 0;) sum_node(nodes_[n]);
+    if (has_radiosities()) powers_ = powers_of(surfels_.radiosities);
 }
 
-void SurfelTree::sum_node(Node& node, Power* power) {
+std::vector<SurfelTree::Power> SurfelTree::powers_of(const std::vector<V3f>& radiosities) const {
+    std::vector<Power> powers(nodes_.size(), Power{});
+    for (size_t n = nodes_.size(); n-- > 0;) {
+        const Node& node = nodes_[n];
+        for (size_t k = 0; k < 3; ++k) {
+            for (uint32_t c = node.child; c < node.child + node.children; ++c)
+                add(powers[n][k], powers[c][k]);
+            for (uint32_t i = node.first; i < node.end && node.children == 0; ++i)
+                add_cosine(powers[n][k], surfels_.normals[i],
+                           surfels_.areas[i] * radiosities[i][static_cast<int>(k)]);
+        }
+    }
+    return powers;
+}
+
+void SurfelTree::set_radiosities(std::vector<V3f> fronts, std::vector<V3f> backs) {
+    for (std::vector<V3f>* const colors : {&fronts, &backs})
+        for (V3f& color : *colors) color = finite(color);
+    powers_ = powers_of(fronts), back_powers_ = powers_of(backs);
+    surfels_.radiosities = std::move(fronts), back_radiosities_ = std::move(backs);
+}
+
+size_t SurfelTree::bytes_of_radiosities() const {
+    return 2 * (surfels_.size() * sizeof(V3f) + nodes_.size() * sizeof(Power));
+}
+
+void SurfelTree::sum_node(Node& node) {
     V3d sum(0);
     double area = 0;
     for (uint32_t i = node.first; i < node.end; ++i) {
@@ -156,21 +190,9 @@ void SurfelTree::sum_node(Node& node, Power* power) {
     node.middle = V3f(sum / area);
     for (uint32_t i = node.first; i < node.end; ++i)
         node.radius = std::max(node.radius, (surfels_.positions[i] - node.middle).length() + disc_radius(i));
-    const auto add = [](Harmonics& to, const Harmonics& more) {
-        for (size_t i = 0; i < to.size(); ++i) to[i] += more[i];
-    };
-    if (power)
-        for (Harmonics& channel : *power) channel.fill(0);
-    for (uint32_t c = node.child; c < node.child + node.children; ++c) {
-        add(node.area, nodes_[c].area);
-        for (size_t k = 0; power && k < 3; ++k) add((*power)[k], powers_[c][k]);
-    }
-    for (uint32_t i = node.first; i < node.end && node.children == 0; ++i) {
+    for (uint32_t c = node.child; c < node.child + node.children; ++c) add(node.area, nodes_[c].area);
+    for (uint32_t i = node.first; i < node.end && node.children == 0; ++i)
         add_cosine(node.area, surfels_.normals[i], surfels_.areas[i]);
-        for (int k = 0; power && k < 3; ++k)
-            add_cosine((*power)[static_cast<size_t>(k)], surfels_.normals[i],
-                       surfels_.areas[i] * surfels_.radiosities[i][k]);
-    }
     const float all = whole_area(node.area), length = vector_area(node.area);
     if (!(all > 0 && length > 0)) return;
     const float aligned = std::min(length / all, 1.0f), cubed = aligned * aligned * aligned;
@@ -253,19 +275,23 @@ void SurfelTree::add_disc(uint32_t surfel, const SurfelPlace& place, std::vector
 
 V3f SurfelTree::radiosity(const SurfelPiece& piece) const {
     if (!has_radiosities()) return V3f(0);
-    if (!piece.is_cluster) return surfels_.radiosities[piece.number];
+    const bool two_sided = !back_radiosities_.empty();
+    if (!piece.is_cluster)
+        return (two_sided && piece.back > piece.front ? back_radiosities_
+                                                      : surfels_.radiosities)[piece.number];
     const Harmonics at = harmonics_at(piece.way / -piece.distance);
     const Harmonics& of_node = nodes_[piece.number].area;
     const BothWays area = both_ways(of_node, at);
     const float all = whole_area(of_node), sides = piece.front + piece.back;
     V3f color(0);
     for (int k = 0; k < 3 && sides > 0; ++k) {
-        const Harmonics& channel = powers_[piece.number][static_cast<size_t>(k)];
-        const BothWays power = both_ways(channel, at);
-        const float all_power = whole_area(channel);
-        color[k] = (mean_color(power.there, area.there, all_power, all) * piece.front +
-                    mean_color(power.back, area.back, all_power, all) * piece.back) /
-                   sides;
+        const auto channel = static_cast<size_t>(k);
+        const Harmonics& fronts = powers_[piece.number][channel];
+        const Harmonics& backs = (two_sided ? back_powers_ : powers_)[piece.number][channel];
+        color[k] =
+            (mean_color(both_ways(fronts, at).there, area.there, whole_area(fronts), all) * piece.front +
+             mean_color(both_ways(backs, at).back, area.back, whole_area(backs), all) * piece.back) /
+            sides;
     }
     return color;
 }

@@ -31,7 +31,7 @@ struct SurfelPiece {
     bool is_large = false;  ///< a disc that takes more than the solid angle: its outline matters
 };
 
-/// An octree over discs. Immutable; asked by all threads.
+/// An octree over discs. Asked by all threads; colours may come later.
 class SurfelTree {
   public:
     /// Discs that are not finite, or have no area, are left out.
@@ -43,6 +43,10 @@ class SurfelTree {
 
     bool empty() const { return surfels_.size() == 0; }
     bool has_radiosities() const { return !surfels_.radiosities.empty(); }
+    /// What the sides of the discs send, in the tree's order. Others may call cut() meanwhile.
+    void set_radiosities(std::vector<V3f> fronts, std::vector<V3f> backs);
+    /// What set_radiosities() takes, besides what it is given.
+    size_t bytes_of_radiosities() const;
     /// The discs, in the tree's order.
     const Surfels& surfels() const { return surfels_; }
     float disc_radius(uint32_t surfel) const;
@@ -71,7 +75,8 @@ class SurfelTree {
 
     void build(uint32_t number, std::vector<uint32_t>& order, const Surfels& from, int depth);
     void sum_up();
-    void sum_node(Node& node, Power* power);
+    void sum_node(Node& node);
+    std::vector<Power> powers_of(const std::vector<V3f>& radiosities) const;
     void add_node(const Node& node, uint32_t number, const SurfelPlace& place,
                   std::vector<SurfelPiece>& pieces) const;
     void add_disc(uint32_t surfel, const SurfelPlace& place, std::vector<SurfelPiece>& pieces) const;
@@ -79,7 +84,9 @@ class SurfelTree {
 
     Surfels surfels_;
     std::vector<Node> nodes_;
-    std::vector<Power> powers_;  ///< of nodes: area times radiosity; empty without radiosities
+    std::vector<Power> powers_;          ///< of nodes: area times radiosity; empty without radiosities
+    std::vector<V3f> back_radiosities_;  ///< of the discs' backs; empty: as the fronts
+    std::vector<Power> back_powers_;     ///< by them, as if they were the fronts'
 };
 
 }  // namespace trapeze
