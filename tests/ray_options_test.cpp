@@ -314,6 +314,44 @@ TEST_F(RaySky, HasAMeanOfItsOwn) {
     EXPECT_NEAR(mean_of("upper", "0, .8, .6"), 0.8, 0.02);
 }
 
+/// By discs what none of them covers, as by rays: the same map in the same space, and nothing of it behind a
+/// wall.
+TEST_F(RaySky, IsSeenBetweenDiscs) {
+    c.asker = "ShadingRate 16 ";
+    c.things =
+        "TransformBegin Rotate 70 1 0 0 CoordinateSystem \"aside\" TransformEnd Surface \"constant\" "
+        "Color .2 .4 .6 " +
+        sphere("0 0 3.5", "1.2");
+    const auto call = [](const std::string& name, const std::string& more) {
+        return name + more +
+               ", \"environmentmap\", \"upper.exr\", \"environmentspace\", \"aside\", "
+               "\"environmentcolor\", e)";
+    };
+    for (const char* const name : {"indirectdiffuse", "occlusion"}) {
+        const std::string rays = call(name, "(P, n, 1024"), discs = call(name, "(P, n, 0, \"pointbased\", 1");
+        const Image image =
+            c.render(kFloor + "color e = 0; color a = " + discs + "; color sky = e; color b = " + rays +
+                     "; Ci = color(comp(a, 0) - comp(b, 0) + .5, comp(sky, 0), comp(e, 0));");
+        float most = 0, least = 1;
+        for (const Pixel& pixel : pixels(image)) {
+            EXPECT_NEAR(pixel.red, .5f, .03f) << name;
+            EXPECT_NEAR(pixel.green, pixel.blue, .03f) << name;
+            most = std::max(most, pixel.blue), least = std::min(least, pixel.blue);
+        }
+        EXPECT_GT(most, .3f);
+        EXPECT_LT(least, most - .1f);
+    }
+}
+
+/// Under a white sky what is open and what is hidden are all, by discs exactly.
+TEST_F(RaySky, OpenAndHiddenAreAllByDiscs) {
+    c.things = "Surface \"constant\" Color 0 0 0 " + sphere("0 0 3", ".9");
+    expect_told(c.render(kFloor + "color e = -1; float o = occlusion(P, n, 0, \"pointbased\", 1, "
+                                  "\"environmentmap\", \"white.exr\", \"environmentcolor\", e);"
+                                  "Ci = told(o + comp(e, 0), 1, o > .01 && o < .99 ? 1 : 0);"),
+                1e-5f, 4000);
+}
+
 /// Under a white sky what is open and what is hidden are all.
 TEST_F(RaySky, OpenAndHiddenAreAll) {
     c.things = "Surface \"constant\" Color 0 0 0 " + sphere("0 0 3", ".9") + "Opacity .5 .5 .5 " + wall("1");

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/portable_math.h"
+#include "shade/rays/ray_directions.h"
+#include "shade/rays/sky_in.h"
 
 namespace trapeze {
 namespace {
@@ -98,7 +100,7 @@ void PointBasedCall::run(PointBasedScratch& scratch) const {
                                               [](const Operand& out) { return out.lane_mask != 0; });
     for_each_asking_lane(run_, [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
         look(asking.lane, aside_of(span, vertex), scratch);
-        put(asking, scratch.raster);
+        put(asking, scratch.raster, sky_over(asking.lane, scratch));
         return !uniform;
     });
 }
@@ -159,12 +161,29 @@ void PointBasedCall::add(const SurfelPiece& piece, const SurfelPlace& place, siz
         raster.add_small(piece.way / piece.distance, seen);
 }
 
-void PointBasedCall::put(const AskingLane& lanes, const SurfelRaster& raster) const {
+/// What comes from behind everything ("environmentmap"), where no disc is.
+V3f PointBasedCall::sky_over(size_t lane, PointBasedScratch& scratch) const {
+    V3f sum(0);
+    if (arguments_.environment_map.empty()) return sum;
+    scratch.raster.open_parts(scratch.ways, scratch.parts);
+    for (V3f& way : scratch.ways) {
+        if (moved_) from_space_.multDirMatrix(V3f(way), way);
+        way.normalize();
+    }
+    const float width = spread_of(arguments_.cone_angle_at(lane), sky_of(lane).pixels_seen());
+    const std::vector<V3f> colors =
+        sky_in(run_, step_, arguments_.environment_map, arguments_.environment_space, scratch.ways, width);
+    for (size_t i = 0; i < colors.size(); ++i) sum += colors[i] * scratch.parts[i];
+    return sum;
+}
+
+void PointBasedCall::put(const AskingLane& lanes, const SurfelRaster& raster, const V3f& sky) const {
     const float hidden = std::min(1.0f, raster.hidden());
     put_lanes(operands_[0], lanes.first, lanes.count,
-              step_.op == Op::IndirectDiffuse ? raster.light() : V3f(hidden));
+              step_.op == Op::IndirectDiffuse ? raster.light() + sky : V3f(hidden));
     for (const RayArguments::Output& output : arguments_.outputs) {
         if (output.name == "occlusion") put_lanes(*output.operand, lanes.first, lanes.count, V3f(hidden));
+        if (output.name == "environmentcolor") put_lanes(*output.operand, lanes.first, lanes.count, sky);
         if (output.name != "environmentdir") continue;
         V3f way = raster.open_way();
         if (moved_) from_space_.multDirMatrix(V3f(way), way);

@@ -20,6 +20,8 @@ namespace trapeze {
 struct PointBasedScratch {
     std::vector<SurfelPiece> pieces;
     SurfelRaster raster;
+    std::vector<V3f> ways;  ///< in which the sky is seen
+    std::vector<float> parts;
 };
 
 class PointBasedCall {
@@ -41,7 +43,8 @@ class PointBasedCall {
     bool set_space();
     void look(size_t lane, const V3f& aside, PointBasedScratch& scratch) const;
     void add(const SurfelPiece& piece, const SurfelPlace& place, size_t lane, SurfelRaster& raster) const;
-    void put(const AskingLane& lanes, const SurfelRaster& raster) const;
+    V3f sky_over(size_t lane, PointBasedScratch& scratch) const;
+    void put(const AskingLane& lanes, const SurfelRaster& raster, const V3f& sky) const;
     const SkyPart& sky_of(size_t lane) const;
 
     vm::Run& run_;

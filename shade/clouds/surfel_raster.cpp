@@ -154,7 +154,7 @@ SkyPart::SkyPart(float angle, bool uniform) {
             weights_[static_cast<size_t>(p)] = 1;
         sum = 4;
     }
-    for (float& weight : weights_) weight = static_cast<float>(weight / sum);
+    for (float& weight : weights_) weight = static_cast<float>(weight / sum), seen_ += weight > 0 ? 1 : 0;
 }
 
 void SurfelRaster::start(const V3f& normal, const SkyPart& sky, bool clamp) {
@@ -304,6 +304,18 @@ void SurfelRaster::add_quad(const SurfelQuad& ways, float area, const SeenSurfac
         cover(j * kSide + first, shares.data(), front, back, parts);
     });
     take(added(parts), thing);
+}
+
+void SurfelRaster::open_parts(std::vector<V3f>& ways, std::vector<float>& parts) const {
+    const Pixels& all = pixels();
+    ways.clear(), parts.clear();
+    for (int p = 0; p < SkyPart::kPixels; ++p) {
+        const auto i = static_cast<size_t>(p);
+        const float open = (1 - std::max(front_[i], back_[i])) * sky_->weight(p);
+        if (!(open > 0)) continue;
+        ways.push_back(across_ * all.x[i] + along_ * all.y[i] + normal_ * all.z[i]);
+        parts.push_back(open);
+    }
 }
 
 V3f SurfelRaster::open_way() const {

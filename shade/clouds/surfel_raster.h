@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/math.h"
 #include "core/scene/surfels.h"
@@ -24,9 +25,11 @@ class SkyPart {
     /// Of a pixel, the parts of all pixels' sum.
     float weight(int pixel) const { return weights_[static_cast<size_t>(pixel)]; }
     const float* weights() const { return weights_.data(); }
+    int pixels_seen() const { return seen_; }  ///< those of any weight
 
   private:
     std::array<float, kPixels> weights_;
+    int seen_ = 0;
 };
 
 /// What is in the way of light from a direction.
@@ -57,6 +60,8 @@ class SurfelRaster {
 
     float hidden() const { return hidden_; }     ///< part of the sky
     const V3f& light() const { return light_; }  ///< the mean of the colours, black where there is nothing
+    /// Directions in which something of the sky is left, and how much of all of it that is.
+    void open_parts(std::vector<V3f>& ways, std::vector<float>& parts) const;
     /// The mean direction in which nothing is, not normalised.
     V3f open_way() const;
 

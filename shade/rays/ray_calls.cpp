@@ -15,6 +15,7 @@
 #include "shade/rays/ray_aim.h"
 #include "shade/rays/ray_directions.h"
 #include "shade/rays/sample_base.h"
+#include "shade/rays/sky_in.h"
 #include "shade/vm/context_ops.h"
 
 namespace trapeze {
@@ -46,19 +47,6 @@ float result_of_nothing(Op op, bool colors) {
 float hidden_by(const WalkedRay& ray, const RayArguments& arguments, size_t lane) {
     const float open = (ray.through.x + ray.through.y + ray.through.z) / 3;
     return (1 - open) * arguments.falloff_at(ray.distance, lane);
-}
-
-/// Colours of a map in directions of the current space, each averaged over a width (radians).
-std::vector<V3f> sky_in(Run& run, const Step& step, std::string_view map, const std::string& space,
-                        std::vector<V3f> directions, float width) {
-    std::vector<V3f> colors(directions.size(), V3f(0, 0, 0));
-    const vm::Context& context = run.context();
-    if (!context.maps || map.empty()) return colors;
-    if (!space.empty() && context.spaces)
-        if (const std::optional<M44f> to = context.spaces->matrix("current", space))
-            for (V3f& direction : directions) to->multDirMatrix(V3f(direction), direction);
-    context.maps->sky(map, step.at, directions, width, colors);
-    return colors;
 }
 
 }  // namespace
