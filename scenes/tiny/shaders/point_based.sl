@@ -1,9 +1,8 @@
-/* What discs of a cloud send and hide; without a file, what those of the scene hide. */
+/* What discs of a cloud send and hide; without a file, those of the scene. */
 surface point_based(string file = "";) {
     normal Nn = faceforward(normalize(N), I);
     float hidden = occlusion(P, Nn, 0, "pointbased", 1, "filename", file);
-    color sent = 0;
-    if (file != "") sent = indirectdiffuse(P, Nn, 0, "pointbased", 1, "filename", file, "hitsides", "front");
+    color sent = indirectdiffuse(P, Nn, 0, "pointbased", 1, "filename", file, "hitsides", "front");
     Ci = Cs * (.7 * (1 - hidden) + sent);
     Oi = 1;
 }
