@@ -50,9 +50,14 @@ struct FilmPart {
 
     size_t first_of(int px, int py) const { return samples.first_of_pixel(px, py); }
     bool has_hits(size_t sample) const { return stack ? stack->has_hits(sample) : !hits.of(sample).empty(); }
+    /// Of a sample that has hits.
     SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {
         if (stack) return stack->color(sample);
-        return resolve_layers(hits.of(sample), layers, hits.first[sample], grids, midpoint);
+        const size_t first = hits.first[sample];
+        if (!midpoint)
+            if (const Grid* grid = covering_grid(hits.hits[first], grids))
+                return covered(hits.hits[first], *grid, layers.color(first));
+        return resolve_layers(hits.of(sample), layers, first, grids, midpoint);
     }
     bool hits_anything() const {
         if (stack) return true;

@@ -36,6 +36,11 @@ class HitLayers {
         return {{planes_[0][i], planes_[1][i], planes_[2][i]}, {planes_[3][i], planes_[4][i], planes_[5][i]}};
     }
 
+    V3f color(size_t index) const {
+        const size_t i = index - first_;
+        return {planes_[0][i], planes_[1][i], planes_[2][i]};
+    }
+
   private:
     void put(size_t place, const Layer& layer) {
         for (int c = 0; c < 3; ++c) {

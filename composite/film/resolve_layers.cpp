@@ -5,20 +5,6 @@
 namespace trapeze {
 namespace {
 
-/// What the loop below makes of a first hit that hides everything, to the bit.
-template <class LayerOf>
-bool resolve_opaque(const Hit& hit, const Grids& grids, const LayerOf& layer_of, SampleColor& sample) {
-    const MicropolygonId id = MicropolygonId::unpack(hit.id);
-    if (id.grid >= grids.grids.size()) return false;
-    const Grid& grid = grids.grids[id.grid];
-    if (!grid.opaque || grid.matte) return false;
-    const V3f color = layer_of(0, grid, id).color;
-    sample.rgba[0] = color.x, sample.rgba[1] = color.y, sample.rgba[2] = color.z, sample.rgba[3] = 1;
-    sample.depth = hit.depth;
-    sample.primitive = grid.primitive;
-    return true;
-}
-
 /// Whether a layer counts for depth and id: matte ones and those that leave no trace do not.
 bool shows(const Grid& grid, const Layer& layer) {
     return !grid.matte && (layer.opacity != V3f(0) || layer.color != V3f(0));
@@ -71,8 +57,10 @@ void add(std::span<const Hit> hits, const Grids& grids, bool midpoint, const Lay
 
 template <class LayerOf>
 SampleColor resolve(std::span<const Hit> hits, const Grids& grids, bool midpoint, const LayerOf& layer_of) {
-    SampleColor sample;
-    if (!hits.empty() && !midpoint && resolve_opaque(hits.front(), grids, layer_of, sample)) return sample;
+    if (!hits.empty() && !midpoint)
+        if (const Grid* grid = covering_grid(hits.front(), grids))
+            return covered(hits.front(), *grid,
+                           layer_of(0, *grid, MicropolygonId::unpack(hits.front().id)).color);
     LayerSum sum;
     add(hits, grids, midpoint, layer_of, sum);
     return sum.result(midpoint);
