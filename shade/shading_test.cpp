@@ -153,7 +153,7 @@ TEST_P(BatchOf, GivesEachGridTheSameBits) {
     std::vector<ShadingGrid> grids;
     for (uint32_t i = 0; i < 40; ++i) {
         ShadingGrid& grid = grids.emplace_back(scene.grid(1 + static_cast<int>(i * 7 % 16), 1 + i % 3));
-        grid.ordinal = i;
+        grid.ordinal = grid.seed = i;
         grid.primitive_index = i / 15 % 2;
         grid.primitive = &scene.scene.primitives[grid.primitive_index];
         const float Kd = i % 11 < 8 ? 0.3f : 0.9f;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -15,6 +16,7 @@
 #include <set>
 #include <utility>
 
+#include "core/random.h"
 #include "tessellate/dice.h"
 #include "tessellate/shared_grids.h"
 
@@ -334,6 +336,21 @@ Tessellation::Tessellation(const RenderContext& context, const TessellationOptio
     stats_.subpatches = stats_.grids = infos_.size();
 }
 
+namespace {
+
+/// Of a piece, by its primitive and where it lies on it alone: a crop, in whose list of pieces others are
+/// missing, has the numbers of the whole picture.
+uint64_t seed_of(uint32_t primitive, const Subpatch& piece) {
+    const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
+    const auto half = [&](uint32_t which) {
+        return hash(hash(which, primitive, static_cast<uint32_t>(piece.face)),
+                    hash(bits(piece.lo.x), bits(piece.lo.y), bits(piece.hi.x), bits(piece.hi.y)));
+    };
+    return uint64_t{half(1)} << 32 | half(2);
+}
+
+}  // namespace
+
 Tessellation::~Tessellation() = default;
 
 size_t Tessellation::bytes() const {
@@ -348,8 +365,10 @@ void Tessellation::dice(size_t subpatch, ShadingGrid& grid, DiceScratch& scratch
     const TessellatedPrimitive& p = impl_->primitives[info.primitive];
     dice_subpatch(p.dice_context(impl_->metric), p.splits.subpatches[subpatch - p.first_subpatch], grid,
                   *scratch.state, wanted);
+    const Subpatch& piece = p.splits.subpatches[subpatch - p.first_subpatch];
     grid.primitive_index = info.primitive;
     grid.ordinal = subpatch;
+    grid.seed = seed_of(info.primitive, piece);
 }
 
 int Tessellation::dice_point(const SubpatchPoint& point, ShadingGrid& grid, DiceScratch& scratch) const {

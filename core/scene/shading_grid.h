@@ -59,7 +59,8 @@ struct ShadingGrid {
     int key_count = 1;
     const Primitive* primitive = nullptr;
     uint32_t primitive_index = 0;
-    uint64_t ordinal = 0;              ///< place in the order of the whole frame's grids
+    uint64_t ordinal = 0;  ///< place in the order of the frame's grids
+    uint64_t seed = 0;     ///< of random numbers: of its place on its primitive, or of the ray that hit
     bool reverse_orientation = false;  ///< dPdu x dPdv points inside
 
     std::vector<Triples>

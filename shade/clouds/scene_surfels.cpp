@@ -39,7 +39,7 @@ void look_at(ShadingGrid& grid, int vertex, const V3f& normal, float distance, u
     const RayAttributes& rays = grid.primitive->attributes->rays;
     grid.own_colors = rays.diffuse_hits == RayAttributes::HitMode::Primitive;
     const auto low = static_cast<uint32_t>(id), high = static_cast<uint32_t>(id >> 32);
-    grid.ordinal = uint64_t{hash(low, high, 5, back)} << 32 | hash(low, high, 6, back);
+    grid.seed = uint64_t{hash(low, high, 5, back)} << 32 | hash(low, high, 6, back);
     grid.answers.clear();
     grid.Ci.fill(grid.vertex_count(), V3f(0));  // of a frame that is cancelled
 }

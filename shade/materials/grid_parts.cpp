@@ -79,7 +79,7 @@ ShadingGrid part_of(const ShadingGrid& grid, size_t first, size_t count) {
     part.key_count = grid.key_count;
     part.primitive = grid.primitive;
     part.primitive_index = grid.primitive_index;
-    part.ordinal = grid.ordinal;
+    part.ordinal = grid.ordinal, part.seed = grid.seed;
     part.reverse_orientation = grid.reverse_orientation;
     part.P = {part_of(grid.P.front(), first, count)};
     for (const auto member : {&ShadingGrid::N, &ShadingGrid::Ng, &ShadingGrid::dPdu, &ShadingGrid::dPdv,

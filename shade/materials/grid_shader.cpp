@@ -146,7 +146,7 @@ vm::Batch batch_of(std::span<const ShadingGrid* const> grids, bool shared) {
     for (const ShadingGrid* grid : grids) {
         const auto in_piece = static_cast<size_t>(grid->shape.vertex_count());
         for (size_t first = 0; first < grid->vertex_count(); first += in_piece) {
-            const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->ordinal;
+            const uint64_t seed = shared ? place_seed(grid->P.front().at(first)) : grid->seed;
             vm::GridSpan& span = batch.spans.emplace_back();
             span.first = batch.vertices, span.shape = grid->shape, span.seed = seed;
             span.reverse_orientation = grid->reverse_orientation;

@@ -12,7 +12,7 @@ namespace trapeze {
 
 /// The lanes of a run over grids side by side. `shared`: the grids are pieces of borders, whose random
 /// numbers follow from their positions, so that all grids that share a piece shade it alike; else from a
-/// grid's ordinal.
+/// grid's seed.
 vm::Batch batch_of(std::span<const ShadingGrid* const> grids, bool shared = false);
 
 /// Sets the predefined variables that the program names (RISpec 3.2, tables 12.1 to 12.5) from the grids,

@@ -183,7 +183,7 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     const V3f from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
     for (size_t i = 0; i < vertices; ++i) grid.I.set(i, place_at(grid, i, ray.time) - from);
     grid.hit_vertex = vertex, grid.hit_time = ray.time, grid.hit_level = met.hit.level;
-    grid.ordinal = met.ray->seed;
+    grid.seed = met.ray->seed;
     grid.answers.clear();
     met.grid = &grid;
     return grid;
