@@ -196,7 +196,7 @@ TEST(RayMotion, MovingThingsLetNothingThrough) {
                 "point o = point(0, 0, 5); float leaks = 0; uniform float i;"
                 "for (i = 0; i < 64; i += 1) {"
                 "vector w = vector(random() - .5, random() - .5, random() - .5);"
-                "if (trace(o + .1 * w, w) > 1e20) leaks += 1; } Ci = told(leaks, 0, 1);");
+                "if (float trace(o + .1 * w, w) > 1e20) leaks += 1; } Ci = told(leaks, 0, 1);");
             SCOPED_TRACE(thing + rate);
             expect_told(image, 0, 64 * 64);
         }

@@ -78,7 +78,7 @@ TEST(RayOcclusion, InAClosedBoxIsAll) {
                              "for (j = -1; j < 2; j += 1) for (k = -1; k < 2; k += 1)"
                              "if (i != 0 || j != 0 || k != 0) {"
                              "vector w = point(2 * i, 2 * j, 4.5 + 3.5 * k) - P;"
-                             "near += trace(P, w) < 1e5 ? 1 : 0; } Ci = told(near, 26, 1);"),
+                             "near += float trace(P, w) < 1e5 ? 1 : 0; } Ci = told(near, 26, 1);"),
                     0, 64 * 64);
     }
 }
@@ -143,6 +143,9 @@ TEST(RayLeaks, ClosedThingsHaveNone) {
     const std::string corners = "\"P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1] ";
     const std::pair<std::string, std::string> things[] = {
         {"Sphere 1 -1 1 360 ", "point(0, 0, 5)"},
+        {"Displacement \"bumps\" Attribute \"displacementbound\" \"float sphere\" [.3] "
+         "Attribute \"trace\" \"int displacements\" [1] Sphere 1 -1 1 360 ",
+         "point(0, 0, 5)"},
         {"Torus .7 .3 0 360 360 ", "point(.7, 0, 5)"},
         {"Cylinder 1 -1 1 360 Disk 1 1 360 Disk -1 1 360 ", "point(0, 0, 5)"},
         {"Translate 0 0 -.5 Cone 1 1 360 Disk 0 1 360 ", "point(0, 0, 4.7)"},
@@ -156,7 +159,9 @@ TEST(RayLeaks, ClosedThingsHaveNone) {
         if (inside.empty()) continue;  // a teapot is not closed
         for (const char* rate : {".5", "20"}) {
             Case c;
-            c.things = std::string("ShadingRate ") + rate + " Translate 0 0 5 Rotate 20 1 2 3 " + thing;
+            c.shaders["bumps"] =
+                "displacement bumps() { P += .2 * (noise(4 * transform(\"object\", P)) - .5) * normalize(N);"
+                "N = calculatenormal(P); }";
             // From the middle, turned as the thing is.
             const std::string middle = inside == "point(.7, 0, 5)" || inside == "point(0, 0, 4.7)"
                                            ? "transform(\"thing\", \"current\", " + std::string(inside) + ")"
@@ -169,7 +174,7 @@ TEST(RayLeaks, ClosedThingsHaveNone) {
                 c.render("point o = " + middle +
                          "; float leaks = 0; uniform float i; for (i = 0; i < 64; i += 1) {"
                          "vector w = vector(random() - .5, random() - .5, random() - .5);"
-                         "if (trace(o + .1 * w, w) > 1e20) leaks += 1; } Ci = told(leaks, 0, 1);");
+                         "if (float trace(o + .1 * w, w) > 1e20) leaks += 1; } Ci = told(leaks, 0, 1);");
             SCOPED_TRACE(thing + rate);
             expect_told(image, 0, 64 * 64);
         }

@@ -154,6 +154,8 @@ TEST(RayHits, KnowTheirRays) {
         expect(asks, "k = trace(P, w)", trace);
         expect(asks, "k = indirectdiffuse(P, w, 1, \"coneangle\", .1)", indirect);
     }
+    expect("n = isindirectray();", "k = comp(indirectdiffuse(P, w, 1, \"coneangle\", 0), 0)", "1");
+    expect("n = isindirectray() + isshadowray();", "k = comp(color trace(P, w), 0)", "0");
     expect("n = raydepth();", "k = trace(P, w)", "1");
 }
 

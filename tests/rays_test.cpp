@@ -278,6 +278,15 @@ TEST(RayTrace, DepthCutsTheSeriesOfTwoMirrors) {
     shine(10, "", 100);
 }
 
+/// Comparisons by size are of floats: they ask for the distance.
+TEST(RayTrace, IsADistanceWhereItIsCompared) {
+    Case c;
+    expect_told(c.render("Ci = told(trace(P, vector(0, 0, -1)) > 1e20 ? 1 : 0, 1, 1);"), 0, 64 * 64);
+    c.things = "Color 0 0 0 " + wall("3");
+    expect_told(c.render("Ci = told(2.5 < trace(P, vector(0, 0, -1)) ? 1 : 0, 0, 1);"), 0, 64 * 64);
+    expect_told(c.render("Ci = told(trace(P, vector(0, 0, -1)) > 1.5 ? 1 : 0, 1, 1);"), 0, 64 * 64);
+}
+
 /// A hundred bounces, each of which runs a shader that waits for the next.
 TEST(RayTrace, FollowsAsManyBouncesAsMayBeAskedFor) {
     Case c;

@@ -129,8 +129,9 @@ constexpr bool asks_surroundings(Op op) {
 }
 /// Whether the operation may send rays into the scene.
 constexpr bool sends_rays(Op op) {
-    return op == Op::Gather || (row_of(op).context == ContextFamily::Rays && op != Op::RayInfo &&
-                                op != Op::RayLevel && op != Op::RayLabel);
+    return op == Op::Gather ||
+           (row_of(op).context == ContextFamily::Rays && op != Op::RayInfo && op != Op::RayLevel &&
+            op != Op::RayLabel && op != Op::IsIndirectRay && op != Op::IsShadowRay);
 }
 /// Whether the operation may go when nobody reads its outputs.
 constexpr bool is_pure(Op op) {

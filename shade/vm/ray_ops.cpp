@@ -68,14 +68,19 @@ void ray_level(Run& run, const Step&, std::span<const Operand> operands) {
     fill_operand(run, operands[0], std::array{static_cast<float>(facts_of(run).depth)});
 }
 
+/// isindirectray() and isshadowray(): at what diffuse rays, or those of shadows, have hit.
+void is_of_kind(Run& run, const Step& step, std::span<const Operand> operands) {
+    const std::string_view wanted = step.op == Op::IsIndirectRay ? "diffuse" : "transmission";
+    fill_operand(run, operands[0], std::array{facts_of(run).type == wanted ? 1.0f : 0.0f});
+}
+
 void ray_label(Run& run, const Step& step, std::span<const Operand>) {
     run.registers().text(run.registers().register_of(step, 0)) = facts_of(run).label;
 }
 
 constexpr ContextRow kRayRows[] = {
-    {Op::RayInfo, ray_info},
-    {Op::RayLevel, ray_level},
-    {Op::RayLabel, ray_label},
+    {Op::RayInfo, ray_info},         {Op::RayLevel, ray_level},     {Op::RayLabel, ray_label},
+    {Op::IsIndirectRay, is_of_kind}, {Op::IsShadowRay, is_of_kind},
 };
 constexpr WaitingRow kWaitingRayRows[] = {
     {Op::Trace, trace},

@@ -237,6 +237,8 @@ constexpr Builtin kBuiltins[] = {
     {"rayinfo", 'f', "s?", Op::RayInfo},
     {"raylevel", 'f', "", Op::RayLevel},
     {"raydepth", 'f', "", Op::RayLevel},
+    {"isindirectray", 'f', "", Op::IsIndirectRay},
+    {"isshadowray", 'f', "", Op::IsShadowRay},
     {"raylabel", 's', "", Op::RayLabel},
 
     // Maps (15.7).
@@ -290,8 +292,6 @@ constexpr Builtin kBuiltins[] = {
     {"areashadow", 'c', ".", Op::Unavailable},
     {"fulltrace", 'c', ".", Op::Unavailable},
     {"rayhittest", 'f', ".", Op::Unavailable},
-    {"isindirectray", 'f', ".", Op::Unavailable},
-    {"isshadowray", 'f', ".", Op::Unavailable},
 };
 
 constexpr std::string_view kRayOutputs[] = {"environmentcolor", "environmentdir", "occlusion"};

@@ -9,7 +9,7 @@ namespace {
 // triple with a float is worse than choosing an overload that gives the triple. kSameFamily: among vectors
 // and normals; kUnusual: where a point is involved; kTruth: between a condition and a float; kFill: a float
 // becomes all three components; kFillMatrix: a float becomes the diagonal; kOdd: operators on triples that
-// are seldom meant (products of vectors, comparisons by size).
+// are seldom meant (products of vectors).
 constexpr int kSameFamily = 1, kUnusual = 2, kTruth = 3, kFill = 4, kFillMatrix = 5, kOdd = 6;
 
 bool is_geometric(Base base) {
@@ -64,10 +64,11 @@ std::optional<OperatorPlan> plan_alike(Base result, Base a, Base b) {
     return {};
 }
 
-/// Comparisons of triples, which are unusual: a value that may be a float is one.
+/// Comparisons of triples by size, which RISpec does not have: a value that may be a float is one, even where
+/// an overload that gives floats is the last resort, as trace()'s distance is.
 std::optional<OperatorPlan> plan_order(Base a, Base b) {
     auto planned = plan_alike(Base::Bool, a, b);
-    if (planned) planned->cost += kOdd;
+    if (planned) planned->cost += kLastResort + kOdd;
     return planned;
 }
 
