@@ -150,6 +150,35 @@ TEST(AreaLights, ShapesOfRslAreThoseOfTheirPrimitives) {
                0.01, 0.15);
 }
 
+/// From afar a shape counts by the mean of its cosines, which is what it hides of the sky there over its
+/// area. Thin ones have fine micropolygons, however long they are; and places where shapes stand do not
+/// count.
+TEST(AreaLights, CurvedShapesGiveWhatTheyHide) {
+    constexpr double kTube = 2 / M_PI;
+    const double bowl = (M_PI / 4) / (M_PI / 24 * (5 * std::sqrt(5.0) - 1));
+    const std::pair<std::string, double> cases[] = {
+        {"Rotate 90 0 1 0 Cylinder .02 -1 1 360 ", kTube},
+        {"Rotate 90 0 1 0 Rotate 90 0 0 1 Cylinder .02 -1 1 360 ", kTube},
+        {"Rotate 90 0 1 0 Cylinder .1 -1 1 360 ", kTube},
+        {"Torus .4 .1 0 360 360 ", kTube},
+        {"Torus 1 .03 0 360 360 ", kTube},
+        {"Translate 0 0 -.25 Paraboloid .5 0 .5 360 ", bowl},
+        {"Rotate 90 0 1 0 Translate 0 0 -50 Cylinder .1 49 51 360 ", kTube},
+    };
+    for (const auto& [shape, expected] : cases) {
+        SCOPED_TRACE(shape);
+        expect_lit(lit_by(arealight("Translate 0 0 -98 " + shape))
+                       .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), " +
+                               std::to_string(expected) + ", 1);"),
+                   0.01, 0.3);
+    }
+    // A disk is round wherever it is.
+    expect_lit(lit_by(arealight("Translate 0 0 -40 Disk 40 1 360 "))
+                   .render(asks("float a2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P), sum = 4 + a2 + 1;"
+                                "float expected = (1 - (4 + a2 - 1) / sqrt(sum * sum - 4 * a2)) / 2;")),
+               0.003, 0.08);
+}
+
 /// Sides 1: the square shines where its outside is. Of two orders of its corners one is turned to us.
 TEST(AreaLights, SidesSayWhereAShapeShines) {
     int lit = 0;

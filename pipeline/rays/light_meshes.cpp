@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "core/portable_math.h"
 #include "tessellate/tessellate.h"
 
 namespace trapeze {
@@ -13,17 +16,45 @@ namespace {
 /// which the area is less by a thousandth.
 constexpr float kAlongASide = 32;
 
+/// Normals turn by so much, radians, across a micropolygon: as on a circle of some forty sides, of which the
+/// area is less by a thousandth, too. More than that, in the mean, and the primitive is diced more finely.
+constexpr double kTurn = 0.15;
+/// A light has no more micropolygons than about these because they turn.
+constexpr double kMostMicropolygons = 1 << 18;
+/// Of dicing. Where few micropolygons do not tell how much it turns, the next ones do.
+constexpr int kMostTries = 3;
+
+/// The longest side of a box about all of a quadric's circles, in its space.
+float size_of(const Quadric& quadric) {
+    const auto& v = quadric.values;
+    switch (quadric.kind) {
+        case Quadric::Kind::Sphere:
+            return 2 * std::abs(v[0]);
+        case Quadric::Kind::Cone:
+            return std::max(std::abs(v[0]), 2 * std::abs(v[1]));
+        case Quadric::Kind::Cylinder:
+        case Quadric::Kind::Paraboloid:
+            return std::max(2 * std::abs(v[0]), std::abs(v[2] - v[1]));
+        case Quadric::Kind::Hyperboloid:
+            return std::max(
+                {2 * V2f(v[0], v[1]).length(), 2 * V2f(v[3], v[4]).length(), std::abs(v[5] - v[2])});
+        case Quadric::Kind::Disk:
+            return 2 * std::abs(v[1]);
+        case Quadric::Kind::Torus:
+            return 2 * (std::abs(v[0]) + std::abs(v[1]));
+    }
+    return 0;
+}
+
 /// About the longest side of a primitive, camera space; 0: not known.
 float size_of(const Primitive& primitive) {
     const M44f& space = primitive.camera_from_object.front();
     if (const auto* quadric = std::get_if<Quadric>(&primitive.shape().topology)) {
-        float largest = 0, stretch = 0;
-        for (int i = 0; i + 1 < quadric->value_count; ++i)
-            if (std::isfinite(quadric->values[static_cast<size_t>(i)]))
-                largest = std::max(largest, std::abs(quadric->values[static_cast<size_t>(i)]));
+        float stretch = 0;
         for (int row = 0; row < 3; ++row)
             stretch = std::max(stretch, V3f(space[row][0], space[row][1], space[row][2]).length());
-        return 2 * largest * stretch;
+        const float size = size_of(*quadric) * stretch;
+        return std::isfinite(size) ? size : 0;
     }
     const Parameter* points = primitive.shape().variables.find("P");
     if (!points) return 0;
@@ -44,14 +75,8 @@ struct LightScene {
         float size = 0;
         for (const Primitive& primitive : of_frame.scene->primitives) {
             if (primitive.emitter.get() != &light) continue;
-            Primitive part = primitive;
-            auto attributes = std::make_shared<Attributes>(*primitive.attributes);
-            attributes->rays.transmission = true;
-            attributes->shading_rate = 1;
-            attributes->dice = {};
-            attributes->surface = attributes->displacement = nullptr;
-            part.attributes = std::move(attributes);
-            scene.primitives.push_back(std::move(part));
+            scene.primitives.push_back(primitive);
+            set_rate(scene.primitives.size() - 1, 1);
             size = std::max(size, size_of(primitive));
         }
         scene.camera_from_world = of_frame.scene->camera_from_world;
@@ -67,7 +92,74 @@ struct LightScene {
     }
     LightScene(const LightScene&) = delete;
     LightScene& operator=(const LightScene&) = delete;
+
+    /// A primitive's micropolygons take so many of the camera's pixels.
+    void set_rate(size_t primitive, float rate) {
+        auto attributes = std::make_shared<Attributes>(*scene.primitives[primitive].attributes);
+        attributes->rays.transmission = true;
+        attributes->shading_rate = rate;
+        attributes->dice = {};
+        attributes->surface = attributes->displacement = nullptr;
+        scene.primitives[primitive].attributes = std::move(attributes);
+    }
 };
+
+/// How much a primitive's normals turn across the micropolygons that it has.
+struct Turning {
+    double micropolygons = 0, area = 0;
+    double squares = 0;  ///< of the angles, radians, by area
+
+    void add(const ShadingGrid& grid) {
+        const Triples& P = grid.P.front();
+        for (int j = 0; j < grid.shape.nv; ++j)
+            for (int i = 0; i < grid.shape.nu; ++i) {
+                const auto at = [&](int du, int dv) {
+                    return static_cast<size_t>(grid.shape.row_index(i + du, j + dv));
+                };
+                const size_t corners[] = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
+                const double part = static_cast<double>((P.at(corners[3]) - P.at(corners[0]))
+                                                            .cross(P.at(corners[2]) - P.at(corners[1]))
+                                                            .length());
+                ++micropolygons;
+                if (!(part > 0) || !std::isfinite(part)) continue;
+                area += part;
+                for (const auto& [from, to] : {std::pair{0, 1}, {2, 3}, {0, 2}, {1, 3}})
+                    squares += part / 2 * angle2(grid.Ng.at(corners[from]), grid.Ng.at(corners[to]));
+            }
+    }
+
+    /// By how much sides have to be shorter.
+    double factor() const { return area > 0 ? std::max(1.0, std::sqrt(squares / area) / kTurn) : 1; }
+
+  private:
+    static double angle2(const V3f& a, const V3f& b) {
+        const double angle =
+            portable::atan2(static_cast<double>(a.cross(b).length()), static_cast<double>(a.dot(b)));
+        return angle * angle;
+    }
+};
+
+/// Has primitives of which normals turn too much across a micropolygon diced more finely; false: there are
+/// none.
+bool refine(LightScene& parts, const std::vector<Turning>& turnings) {
+    double micropolygons = 0, wanted = 0;
+    for (const Turning& turning : turnings) {
+        micropolygons += turning.micropolygons;
+        wanted += turning.micropolygons * turning.factor() * turning.factor();
+    }
+    const double least = wanted > kMostMicropolygons ? std::sqrt(kMostMicropolygons / wanted) : 1;
+    if (micropolygons >= kMostMicropolygons) return false;
+    bool any = false;
+    for (size_t i = 0; i < turnings.size(); ++i) {
+        // A little more than that is a matter of rounding.
+        const double factor = turnings[i].factor() * least;
+        if (factor < 1.15) continue;
+        const float rate = parts.scene.primitives[i].attributes->shading_rate;
+        parts.set_rate(i, rate / static_cast<float>(factor * factor));
+        any = true;
+    }
+    return any;
+}
 
 /// Every other bit of a number, from the first on.
 int every_other_bit(int bits) {
@@ -100,18 +192,24 @@ void add_triangles(const ShadingGrid& grid, LightMesh& mesh) {
 
 LightMesh mesh_of(const RenderContext& of_frame, const LightInstance& light, const Shading& shading,
                   size_t most_bytes) {
-    const LightScene parts(of_frame, light);
+    LightScene parts(of_frame, light);
     LightMesh mesh;
     if (parts.scene.primitives.empty()) return mesh;
     TessellationOptions options;
     options.depth_heights = shading.depth_heights();
     options.most_bytes = most_bytes, options.seen_by = SeenBy::Rays;
-    const Tessellation tessellation(parts.context, options);
-    DiceScratch scratch;
-    ShadingGrid grid;
-    for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
-        tessellation.dice(i, grid, scratch);
-        add_triangles(grid, mesh);
+    for (int tries = 1; !of_frame.is_cancelled(); ++tries) {
+        const Tessellation tessellation(parts.context, options);
+        DiceScratch scratch;
+        ShadingGrid grid;
+        std::vector<Turning> turnings(parts.scene.primitives.size());
+        mesh.triangles.clear();
+        for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
+            tessellation.dice(i, grid, scratch);
+            add_triangles(grid, mesh);
+            turnings[tessellation.subpatches()[i].primitive].add(grid);
+        }
+        if (tries == kMostTries || !refine(parts, turnings)) break;
     }
     return mesh;
 }
