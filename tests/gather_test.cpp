@@ -318,5 +318,28 @@ TEST(Gather, IsTheSameForEveryOrderOfWork) {
     EXPECT_EQ(c.render(body).rgba, first.rgba);
 }
 
+/// A colour does not go into a float, and a name that is found only in a run is looked at then.
+TEST(Gather, SaysWhatItDoesNotKnow) {
+    for (const auto& [body, text] :
+         {std::pair("gather(\"\", P, w, 0, 1, \"surface:Ci\", h) { }", "gather() knows no \"surface:Ci\""),
+          {"string a = \"smap\"; if (h == 7) a = \"x\"; h = trace(P, w, concat(a, \"les\"), 3);",
+           "trace() knows no \"smaples\""},
+          {"string a = \"side\"; h = trace(P, w, \"hitsides\", concat(a, \"ways\"));", "not \"sideways\""}}) {
+        const WorkFolder folder;
+        std::vector<Diagnostic> said;
+        folder.write("ask.sl", std::string("surface ask() { float h = 3; vector w = vector(0, 0, -1); ") +
+                                   body + " Ci = h; Oi = 1; }");
+        folder.write("a.rib", kPicture + "Option \"searchpath\" \"string shader\" [\"" +
+                                  folder.path().string() + "\"] WorldBegin AttributeBegin " + kHidden +
+                                  kSeen + wall("3") + "AttributeEnd Surface \"ask\" " + kAsker +
+                                  " WorldEnd\n");
+        Diagnostics diagnostics([&](const Diagnostic& d) { said.push_back(d); });
+        render_worlds((folder / "a.rib").string(), RenderSettings(), 2, diagnostics);
+        ASSERT_EQ(said.size(), 1u) << body;
+        EXPECT_NE(said[0].text.find(text), std::string::npos) << said[0].text;
+        EXPECT_NE(said[0].place.find("ask.sl:1:"), std::string::npos) << said[0].place;
+    }
+}
+
 }  // namespace
 }  // namespace trapeze::testing

@@ -78,10 +78,12 @@ void GatherCall::add_output(std::string_view name, int width, const Operand& ope
                                                                     {"ray:origin", From::Origin},
                                                                     {"ray:direction", From::Direction},
                                                                     {"ray:length", From::Length}};
-    for (const auto& [known, from] : kOfRays)
-        if (known == name && width == (from == From::Length ? 1 : 3))
-            return outputs_.push_back({from, width, operand});
-    std::optional<HitOutput> wanted = hit_output(name, width);
+    const auto* const of_ray = std::ranges::find(kOfRays, name, &std::pair<std::string_view, From>::first);
+    std::optional<HitOutput> wanted;
+    if (of_ray == std::end(kOfRays))
+        wanted = hit_output(name, width);
+    else if (width == (of_ray->second == From::Length ? 1 : 3))
+        return outputs_.push_back({of_ray->second, width, operand});
     if (!wanted || (width != 1 && width != 3))
         return run.warn(step, fmt::format("gather() knows no \"{}\" of this type: it stays as it is", name),
                         fmt::format("rsl-gather-output {}", name));

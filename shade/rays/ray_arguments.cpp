@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/portable_math.h"
+#include "shade/operations/ray_parameters.h"
 
 namespace trapeze {
 namespace {
@@ -32,6 +33,52 @@ size_t plain_arguments(const vm::Registers& registers, const vm::Step& step) {
     if (step.op == Op::Occlusion) return map_first ? 4 : 3;        // a map that is not used, P, N, samples
     if (step.op == Op::IndirectDiffuse) return map_first ? 2 : 3;  // a map and a direction; P, N, samples
     return 2;
+}
+
+std::string_view name_of(Op op) {
+    switch (op) {
+        case Op::Trace:
+            return "trace";
+        case Op::Occlusion:
+            return "occlusion";
+        case Op::IndirectDiffuse:
+            return "indirectdiffuse";
+        case Op::Environment:
+            return "environment";
+        case Op::Shadow:
+            return "shadow";
+        case Op::Gather:
+            return "gather";
+        default:
+            return "transmission";
+    }
+}
+
+/// Says what is wrong with the argument whose name is an operand, if the analysis has not: it has seen what
+/// is constant, where it knew that rays are sent.
+void warn_of(vm::Run& run, const vm::Step& step, size_t operand, bool of_map) {
+    using Is = rsl::RayArgumentValue::Is;
+    const vm::Registers& registers = run.registers();
+    const std::string& name = registers.text(registers.register_of(step, operand));
+    const rsl::RegisterId value = registers.register_of(step, operand + 1);
+    const auto is_constant = [&](size_t k) {
+        return registers.reg(registers.register_of(step, k)).kind == rsl::Register::Kind::Constant;
+    };
+    const bool numbers = registers.reg(value).type.base != rsl::Base::String;
+    if (is_constant(operand) && (numbers || is_constant(operand + 1)) &&
+        (!of_map || is_constant(step.outputs)))
+        return;
+    const rsl::Type& type = registers.reg(value).type;
+    const Is is = type.is_array()                  ? Is::Other
+                  : type.base == rsl::Base::Float  ? Is::Number
+                  : type.base == rsl::Base::String ? Is::Text
+                  : type.is_triple()               ? Is::Triple
+                                                   : Is::Other;
+    const std::string* const text = is == Is::Text ? &registers.text(value) : nullptr;
+    const std::string problem = rsl::ray_argument_problem(name_of(step.op), name, {is, text}, of_map);
+    if (!problem.empty())
+        run.warn(step, problem,
+                 rsl::ray_argument_warning(step.at.source, step.at.line, step.at.column, name));
 }
 
 /// Where the point that is shaded is; lights have it elsewhere. Null where there is none.
@@ -90,6 +137,7 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     for (size_t i = end + named; i + 1 < step.count; i += 2) {
         const std::string& name = registers.text(registers.register_of(step, i));
         const bool text = is_text(registers, step, i + 1);
+        warn_of(run, step, i, of_map);
         if (text) take_text(name, registers.text(registers.register_of(step, i + 1)));
         if (!text && name == "othreshold") {
             const vm::Operand& given = operands[i + 1];

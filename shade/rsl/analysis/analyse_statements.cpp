@@ -213,7 +213,10 @@ void Analyser::gather(Statement& s) {
         value(s.expressions[i], i < 5 ? kWanted[i] : is_name ? Base::String : Base::Void);
         if (i < 5 || is_name) continue;
         const Expression& name = *s.expressions[i - 1];
-        if (!is_gather_output(name)) continue;
+        if (!is_gather_output(name)) {
+            check_ray_argument("gather", s.at, name, *s.expressions[i]);
+            continue;
+        }
         if (is_place(*s.expressions[i]))
             check_written(*s.expressions[i]);
         else

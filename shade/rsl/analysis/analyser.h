@@ -79,6 +79,9 @@ class Analyser {
     void light_loop(Statement& s);
     void ignore_options(Statement& s, const std::string& word);
     void gather(Statement& s);
+    void check_ray_arguments(const Expression& call, const Signature& signature);
+    void check_ray_argument(std::string_view call, SourceLocation at, const Expression& name,
+                            const Expression& value);
     void jump(const Statement& s);
     void return_statement(Statement& s);
     void loop(Statement& s);

@@ -222,6 +222,30 @@ TEST(Analysis, UnknownNamesGetSuggestions) {
         "error 1:25: there is no variable \"Ci\"; surface shaders have one, this is a displacement shader\n");
 }
 
+TEST(Analysis, ArgumentsOfRaysAreChecked) {
+    const auto traced = [](const std::string& given) {
+        return in_surface("Ci = trace(P, N, " + given + ");");
+    };
+    EXPECT_TRUE(traced("\"smaples\", 3").starts_with("warning 1:84: trace() knows no \"smaples\", which "));
+    EXPECT_EQ(
+        traced("\"samples\", color(1, 2, 3)"),
+        "warning 1:84: \"samples\" of trace() takes a float, not a triple of floats: it changes nothing\n");
+    EXPECT_EQ(traced("\"label\", 3"),
+              "warning 1:84: \"label\" of trace() takes a string, not a float: it changes nothing\n");
+    EXPECT_EQ(
+        traced("\"hitsides\", \"sideways\""),
+        "warning 1:84: \"hitsides\" of trace() knows \"front\", \"back\", \"both\", not \"sideways\"\n");
+    EXPECT_NE(in_surface("gather(\"x\", P, N, .1, 4, \"distribution\", \"gaussian\") ;"), "");
+    EXPECT_NE(in_surface("Ci = environment(\"raytrace\", N, \"smaples\", 4);"), "");
+    // Of PRMan, and of maps: nothing changes, and nothing is said.
+    EXPECT_EQ(
+        traced(
+            "\"maxpixeldist\", 20, \"excludesubset\", \"a\", \"hitsides\", \"\", \"othreshold\", color(1)"),
+        "");
+    EXPECT_EQ(
+        in_surface("Ci = environment(\"raytrace\", N, \"blur\", .1) + environment(\"a\", N, \"x\", 1);"), "");
+}
+
 TEST(Analysis, GlobalsAreMadeWhenNamed) {
     Heard heard;
     const auto unit = compiled("surface t() { normal Nf = faceforward(normalize(N), I); Ci = Cs; }", heard);

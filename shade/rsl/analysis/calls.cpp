@@ -231,6 +231,7 @@ void Analyser::choose_call(Expression& e, Base base) {
         enter_function(e, *best->function);
     else
         use_globals(e);
+    check_ray_arguments(e, *best);
     if (e.builtin && e.builtin->op == Op::Unavailable && unavailable_.insert(e.builtin->name).second)
         reporter_.warning(e.at,
                           "function \"" + e.text + "\" of later renderers is not there, and does nothing");
