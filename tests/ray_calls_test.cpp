@@ -197,7 +197,7 @@ TEST(RayArguments, AbsurdOnesDoNoHarm) {
         "float nan = 1e30 * (2 + s); nan *= nan; nan -= nan; vector w = vector(0, 0, -1);";
     for (const char* value : {"-1", "0", "nan", "1e-30", "-1e30"})
         for (const char* name :
-             {"samples", "samplecone", "maxdist", "bias", "coneangle", "falloff", "unknown"}) {
+             {"samples", "samplecone", "maxdist", "bias", "coneangle", "falloff", "maxerror"}) {
             const std::string more = std::string(", \"") + name + "\", " + value + ");";
             for (const std::string call :
                  {"color k = trace(P, w", "color k = transmission(P, point(0, 0, 0)",
