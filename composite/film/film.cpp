@@ -50,6 +50,11 @@ struct FilmPart {
 
     size_t first_of(int px, int py) const { return samples.first_of_pixel(px, py); }
     bool has_hits(size_t sample) const { return stack ? stack->has_hits(sample) : !hits.of(sample).empty(); }
+    /// The layers of a row of pixels; a stack has had them.
+    void interpolate_row(int py, HitLayers& layers) const {
+        if (!stack)
+            layers.interpolate(samples, hits, first_of(pixels.x0, py), first_of(pixels.x1, py), grids);
+    }
     /// Of a sample that has hits.
     SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {
         if (stack) return stack->color(sample);
@@ -204,9 +209,7 @@ void Film::accumulate_pixels(const FilmPart& part, TileSums& sums) {
     PixelSums pixel(kernel_, samples.samples_per_pixel);
     HitLayers layers;
     for (int py = part.pixels.y0; py < part.pixels.y1; ++py) {
-        if (colored && !part.stack)
-            layers.interpolate(samples, part.hits, part.first_of(part.pixels.x0, py),
-                               part.first_of(part.pixels.x1, py), part.grids);
+        if (colored) part.interpolate_row(py, layers);
         for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
             const size_t first = part.first_of(px, py);
             PixelDepth depth(depth_filter_);
@@ -243,9 +246,7 @@ void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
     const bool colored = sums.channels(Sum::Color) > 0, ids = !image_.id.empty();
     HitLayers layers;
     for (int py = part.pixels.y0; py < part.pixels.y1; ++py) {
-        if (colored && !part.stack)
-            layers.interpolate(samples, part.hits, part.first_of(part.pixels.x0, py),
-                               part.first_of(part.pixels.x1, py), part.grids);
+        if (colored) part.interpolate_row(py, layers);
         for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
             PixelDepth depth(depth_filter_);
             CentrePrimitive primitive(px, py);
