@@ -70,6 +70,8 @@ std::unique_ptr<LightSampler> sampler_of(const LightInstance& light, Textures& t
             return make_flat_sampler(shape, camera_from_light);
         case Kind::Sphere:
             return make_sphere_sampler(camera_from_light);
+        case Kind::Cylinder:
+            return make_cylinder_sampler(camera_from_light);
         case Kind::Distant:
             return make_distant_sampler(shape.angle, camera_from_light);
         case Kind::Dome: {

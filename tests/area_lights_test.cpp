@@ -81,6 +81,13 @@ TEST(AreaLights, ASphereGivesItsSquaredSine) {
                0.001, 0.01);
 }
 
+/// From afar, of a radius of .1 and 2 long: its radiance by what it hides of the sky, over pi.
+TEST(AreaLights, ACylinderGivesItsOutline) {
+    expect_lit(lit_by(ris("PxrCylinderLight", "Translate 0 0 -95 Rotate 30 0 0 1 Scale 2 .2 .2"))
+                   .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), .4 / PI, 1);"),
+               0.002, 0.02);
+}
+
 TEST(AreaLights, ADisksInTheSkyAndADomeLightAsTheirColoursSay) {
     expect_lit(lit_by(ris("PxrDistantLight", "Rotate 60 1 0 0",
                           "\"float intensity\" [2] \"float angleExtent\" [40] \"int areaNormalize\" [1] "))

@@ -13,10 +13,11 @@ struct LightInstance;
 
 /// The shape of a light. Points on it are chosen anew for each point that it shines on.
 struct LightShape {
-    /// Rect, Disk and Sphere have the width 1 about the origin of the light's space, the first two in the
-    /// plane z = 0. They shine along +z, and outwards. Mesh: the primitives whose emitter the light is.
-    /// Distant: a disk in the sky, which shines along +z. Dome: the whole sky, with its zenith at +z.
-    enum class Kind : uint8_t { Rect, Disk, Sphere, Mesh, Distant, Dome };
+    /// Rect, Disk, Sphere and Cylinder have the width 1 about the origin of the light's space, the first two
+    /// in the plane z = 0. These shine along +z, the others outwards. A Cylinder is 1 long along x and open
+    /// at its ends. Mesh: the primitives whose emitter the light is. Distant: a disk in the sky, which shines
+    /// along +z. Dome: the whole sky, with its zenith at +z.
+    enum class Kind : uint8_t { Rect, Disk, Sphere, Mesh, Distant, Dome, Cylinder };
 
     Kind kind = Kind::Mesh;
     int samples = kDefaultSamples;  ///< points for each point that it shines on; 1 .. kMostSamples

@@ -6,6 +6,7 @@
 namespace trapeze::rib::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -114,6 +115,18 @@ TEST(ReadRis, ALightOfAnObjectShinesWhereItIsPlaced) {
                    "AttributeEnd\n");
     ASSERT_EQ(r.attributes().lights.size(), 1u);
     EXPECT_EQ(r.attributes().lights[0]->shader.camera_from_shader.translation(), V3f(7, 1, 0));
+}
+
+TEST(ReadRis, LightsOfUnknownNamesAreReportedAndDoNotShine) {
+    const Outcome r = read_world(
+        "Light \"PxrNoSuchLight\" \"a\"\nLight \"PxrNoSuchLight\" \"b\"\n"
+        "Light \"PxrCylinderLight\" \"c\"\n" +
+        kBall);
+    ASSERT_EQ(r.attributes().lights.size(), 1u);
+    EXPECT_EQ(r.attributes().lights[0]->handle, "c");
+    EXPECT_EQ(r.attributes().lights[0]->shape->kind, LightShape::Kind::Cylinder);
+    EXPECT_THAT(r.messages,
+                ElementsAre(AllOf(HasSubstr("2:1: warning"), HasSubstr("no light \"PxrNoSuchLight\""))));
 }
 
 /// Intensity is the radiance of a disk: half a right angle to each side of the direction has sin^2 = 1/2.

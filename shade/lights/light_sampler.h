@@ -46,6 +46,7 @@ struct DomeMap {
 /// Kinds Rect and Disk.
 std::unique_ptr<LightSampler> make_flat_sampler(const LightShape& shape, const M44f& camera_from_light);
 std::unique_ptr<LightSampler> make_sphere_sampler(const M44f& camera_from_light);
+std::unique_ptr<LightSampler> make_cylinder_sampler(const M44f& camera_from_light);
 std::unique_ptr<LightSampler> make_mesh_sampler(const LightMesh& mesh, bool two_sided);
 std::unique_ptr<LightSampler> make_distant_sampler(float angle, const M44f& camera_from_light);
 /// Without colours the dome is white. Null, too, where all of it is black.

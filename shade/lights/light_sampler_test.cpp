@@ -147,6 +147,47 @@ TEST(LightSamples, OfEllipsoidsGiveTheirOutline) {
     EXPECT_NEAR(seen(*light, V3f(0), V3f(0, 0, -1), 1024), expected, 0.005 * expected);
 }
 
+/// What a face gets of a cylinder around the x axis, open at its ends: by sums over its sides.
+double of_cylinder(double radius, double length, const V3d& middle, const V3f& P, const V3f& N) {
+    constexpr int kSteps = 1000;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const double angle = 2 * kPiOfLights * (i + 0.5) / kSteps;
+            const V3d normal(0, std::cos(angle), std::sin(angle));
+            const V3d way =
+                V3d(P) - (middle + normal * radius + V3d(length * ((j + 0.5) / kSteps - 0.5), 0, 0));
+            sum +=
+                std::max(0.0, way.dot(normal)) * std::max(0.0, -way.dot(V3d(N))) / std::pow(way.length2(), 2);
+        }
+    return sum * 2 * kPiOfLights * radius * length / (double(kSteps) * kSteps) / kPiOfLights;
+}
+
+TEST(LightSamples, OfCylindersGiveTheirQuadrature) {
+    M44f place = stretched(3, 2);
+    place[2][2] = 2;
+    place[3][2] = -4;
+    const auto light = make_cylinder_sampler(place);
+    EXPECT_NEAR(light->area(), static_cast<float>(6 * kPiOfLights), 1e-4f);
+    for (const V3f& P : {V3f(0, 0, 0), V3f(1, 2, 3), V3f(4, 0, -1), V3f(0.3f, 0.1f, -2.8f)}) {
+        const V3f N = (V3f(0, 0, -4) - P).normalized();
+        const double expected = of_cylinder(1, 3, V3d(0, 0, -4), P, N);
+        EXPECT_NEAR(seen(*light, P, N, 4096), expected, 0.003 * expected) << P;
+    }
+    EXPECT_EQ(seen(*light, V3f(0, 0.2f, -4), V3f(0, 0, 1), 64), 0) << "inside it is dark";
+    EXPECT_EQ(seen(*light, V3f(9, 0.2f, -4), V3f(-1, 0, 0), 64), 0) << "its ends are open";
+}
+
+/// A tube flattened to an ellipse across, and skewed along: from far away it is its outline.
+TEST(LightSamples, OfSkewedCylindersGiveTheirOutline) {
+    M44f place = stretched(4, 1);
+    place[2][2] = 3, place[0][1] = 2;
+    place[3][2] = -200;
+    const auto light = make_cylinder_sampler(place);
+    const double expected = 4 * 1 / (200.0 * 200) / kPiOfLights;  // its length along x by its width along y
+    EXPECT_NEAR(seen(*light, V3f(0), V3f(0, 0, -1), 4096), expected, 0.01 * expected);
+}
+
 /// A square of two triangles, and one of very many that has another order of corners.
 TEST(LightSamples, OfMeshesGiveLambertsFormula) {
     const V3f a(-1, -1, 0), b(1, -1, 0), c(1, 1, 0), d(-1, 1, 0);
@@ -254,6 +295,7 @@ TEST(LightSamples, ShapesOfNoAreaMakeNone) {
         EXPECT_EQ(make_flat_sampler(shape(LightShape::Kind::Rect), m), nullptr);
         EXPECT_EQ(make_flat_sampler(shape(LightShape::Kind::Disk), m), nullptr);
         EXPECT_EQ(make_sphere_sampler(m), nullptr);
+        EXPECT_EQ(make_cylinder_sampler(m), nullptr);
     }
     LightMesh needle;
     needle.triangles = {{V3f(0), V3f(1), V3f(2)}, {V3f(0), V3f(NAN), V3f(1, 0, 0)}};

@@ -108,7 +108,12 @@ void add_ris_light(LightContext& r, const std::string& handle, const ShaderInsta
         r.state.change_attributes().emitter = std::move(emitter);
         return;
     }
-    r.add_world_light(ris_light(handle, shader, parameters, samples));
+    auto light = ris_light(handle, shader, parameters, samples);
+    if (!light)
+        return r.report.warn_once(
+            fmt::format("no light {} of RIS is known; \"{}\" does not shine", in_quotes(shader.name), handle),
+            "ris-light " + shader.name);
+    r.add_world_light(std::move(light));
 }
 
 int light_samples(const LightContext& r) {

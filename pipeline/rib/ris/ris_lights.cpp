@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/portable_math.h"
 
@@ -226,11 +227,14 @@ std::shared_ptr<LightInstance> ris_light(const std::string& handle, const Shader
         set_sampling(*light, p);
         return light;
     }
-    return of_shape(handle, shader, p,
-                    contains(name, "Rect") || contains(name, "Portal") ? Kind::Rect
-                    : contains(name, "Disk")                           ? Kind::Disk
-                                                                       : Kind::Sphere,
-                    samples);
+    constexpr std::pair<std::string_view, Kind> kShapes[] = {{"Rect", Kind::Rect},
+                                                             {"Portal", Kind::Rect},
+                                                             {"Disk", Kind::Disk},
+                                                             {"Sphere", Kind::Sphere},
+                                                             {"Cylinder", Kind::Cylinder}};
+    for (const auto& [part, kind] : kShapes)
+        if (contains(name, part)) return of_shape(handle, shader, p, kind, samples);
+    return {};
 }
 
 /// A light of RSL, which casts no shadows.

@@ -15,7 +15,8 @@ namespace trapeze::rib {
 bool is_ris_light(std::string_view shader);
 
 /// `shader` has the name, the place and the space. Not for lights that shine from shapes which are still to
-/// come, which mesh_light() is for. `samples`: where the light does not say how many.
+/// come, which mesh_light() is for. `samples`: where the light does not say how many. Null: no light of this
+/// name is known.
 std::shared_ptr<LightInstance> ris_light(const std::string& handle, const ShaderInstance& shader,
                                          const RisParameters& parameters,
                                          int samples = LightShape::kDefaultSamples);
