@@ -5,25 +5,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "tessellate/topology/order_by_face.h"
 
 namespace trapeze {
 
 VertexTable::VertexTable(const PlacedSurface& surface) : key_count_(surface.key_count()) {
     // Vertices are evaluated in the order of faces, since surfaces keep the face evaluated last.
     std::vector<SurfacePoint> points(surface.surface().vertex_count());
-    for (uint32_t v = 0; v < points.size(); ++v) points[v] = surface.surface().vertex(v);
-    std::vector<uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](uint32_t a, uint32_t b) { return points[a].face < points[b].face; });
+    std::vector<int> faces(points.size());
+    for (uint32_t v = 0; v < points.size(); ++v)
+        points[v] = surface.surface().vertex(v), faces[v] = points[v].face;
+    const std::vector<uint32_t> order = order_by_face(faces, surface.surface().face_count());
     positions_.resize(points.size() * key_count_);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, order.size(), 1024), [&](const auto& range) {
         EvaluationScratch scratch;
-        for (size_t i = range.begin(); i < range.end(); ++i) {
-            const uint32_t v = order[i];
-            surface.positions(points[v].face, {&points[v].uv, 1}, surface.key_count(), scratch,
-                              {positions_.data() + v * key_count_, key_count_});
+        std::vector<V2f> uv;
+        for (size_t first = range.begin(), end = first; first < range.end(); first = end) {
+            // The run of vertices on one face: one call of the surface for all of them.
+            const int face = points[order[first]].face;
+            uv.clear();
+            for (; end < range.end() && points[order[end]].face == face; ++end)
+                uv.push_back(points[order[end]].uv);
+            const std::span<V3f> P = scratch.points(2, uv.size() * key_count_);
+            surface.positions(face, uv, surface.key_count(), scratch, P);
+            for (size_t key = 0; key < key_count_; ++key)
+                for (size_t i = 0; i < uv.size(); ++i)
+                    positions_[order[first + i] * key_count_ + key] = P[key * uv.size() + i];
         }
     });
 }

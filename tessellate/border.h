@@ -40,6 +40,9 @@ struct BorderSide {
     uint32_t edge = 0;
     const EdgeInterval* interval = nullptr;
     int first = 0, step = 1, count = 0;
+    /// Where the grid's vertices lie is where the edge's are, bit for bit; only its ends, which are vertices
+    /// of the surface, are listed as shared points.
+    bool in_place = false;
 
     /// The interval's vertex that is the side's vertex i.
     int vertex(int i) const { return first + step * i; }

@@ -6,6 +6,7 @@
 #include "tessellate/camera_variables.h"
 #include "tessellate/normals.h"
 #include "tessellate/shared_border.h"
+#include "tessellate/topology/point_lanes.h"
 
 namespace trapeze {
 namespace {
@@ -30,8 +31,9 @@ class Dicer {
         prepare_grid();
         find_border();
         place_vertices();
-        snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), context_.displaced,
-                               scratch_.uv);
+        if (!all_in_place_)
+            snap_border_parameters(context_.edges, subpatch_, sides_, points(), border(), context_.displaced,
+                                   scratch_.uv);
         if (wanted == DiceFor::Hits && !context_.displaced) {
             evaluate_places();
             set_border_positions();
@@ -89,25 +91,51 @@ class Dicer {
     void find_border() {
         for (int s = 0; s < 4; ++s) {
             BorderSide& side = sides_[s] = border_side(context_.edges, subpatch_.sides[s]);
-            const int first = point_count_, n = s == kBottom || s == kTop ? shape_.nu : shape_.nv;
+            const EdgeLine line = context_.edges.line(side.edge);
+            const int n = s == kBottom || s == kTop ? shape_.nu : shape_.nv;
+            side.in_place = !context_.displaced && is_whole_edge(side, line, s, n);
+            all_in_place_ &= side.in_place;
+            const int first = point_count_;
+            if (side.in_place) {
+                for (const EdgeEnd* end : {&line.start, &line.finish}) {
+                    const int corner = border_vertex(s, end == &line.start ? 0 : n);
+                    scratch_.border_vertices[border_count_++] = {corner, point_count_, s, corner};
+                    scratch_.points[point_count_++] = {true, end->id, {}, 1, false};
+                }
+                continue;
+            }
             for (int i = 0; i <= side.count; ++i)
-                points_[point_count_++] = context_.edges.vertex(side.edge, *side.interval, side.vertex(i));
+                scratch_.points[point_count_++] = context_.edges.vertex(line, *side.interval, side.vertex(i));
             for (int i = 0; i <= n; ++i) {
-                const int number = side.vertex_of_border(i, n);
-                const int corner = number == 0            ? border_vertex(s, 0)
-                                   : number == side.count ? border_vertex(s, n)
-                                                          : -1;
-                border_[border_count_++] = {border_vertex(s, i), first + number, s, corner};
+                const int point = side.vertex_of_border(i, n);
+                const int corner = point == 0            ? border_vertex(s, 0)
+                                   : point == side.count ? border_vertex(s, n)
+                                                         : -1;
+                scratch_.border_vertices[border_count_++] = {border_vertex(s, i), first + point, s, corner};
             }
         }
     }
 
+    /// Whether a side is a whole edge of this face between vertices, as finely cut as the grid: then
+    /// place_vertices() has the edge's own parameters.
+    bool is_whole_edge(const BorderSide& side, const EdgeLine& line, int s, int n) const {
+        const SurfaceSide& on = subpatch_.sides[s];
+        if (line.face != subpatch_.face || side.count != n || side.interval->depth != 0 || on.begin != 0 ||
+            on.end != 1 || line.start.on_edge || line.finish.on_edge)
+            return false;
+        const V2f& lo = subpatch_.lo;
+        const V2f& hi = subpatch_.hi;
+        const V2f from = s == kRight ? V2f(hi.x, lo.y) : s == kTop ? V2f(lo.x, hi.y) : lo;
+        const V2f to = s == kBottom ? V2f(hi.x, lo.y) : s == kLeft ? V2f(lo.x, hi.y) : hi;
+        return line.from == from && line.to == to && line_uv(line, *side.interval, n) == to;
+    }
+
     std::span<const BorderPoint> points() const {
-        return {points_.data(), static_cast<size_t>(point_count_)};
+        return {scratch_.points.data(), static_cast<size_t>(point_count_)};
     }
     /// Side by side; corners come twice.
     std::span<const BorderVertex> border() const {
-        return {border_.data(), static_cast<size_t>(border_count_)};
+        return {scratch_.border_vertices.data(), static_cast<size_t>(border_count_)};
     }
 
     /// The grid's number of vertex i of a side, counted from its low end.
@@ -144,10 +172,8 @@ class Dicer {
         scratch_.dPdv.resize(count_);
         surface_.positions_and_derivatives(subpatch_.face, scratch_.uv, static_cast<int>(keys),
                                            scratch_.evaluation, scratch_.P, scratch_.dPdu, scratch_.dPdv);
-        for (size_t key = 0; key < keys; ++key) {
-            Triples& P = grid_.P[key];
-            for (size_t i = 0; i < count_; ++i) P.set(i, scratch_.P[key * count_ + i]);
-        }
+        for (size_t key = 0; key < keys; ++key)
+            to_planes({scratch_.P.data() + key * count_, count_}, 1, grid_.P[key]);
     }
 
     /// Positions alone.
@@ -157,7 +183,7 @@ class Dicer {
         surface_.positions(subpatch_.face, scratch_.uv, static_cast<int>(keys), scratch_.evaluation,
                            scratch_.P);
         for (size_t key = 0; key < keys; ++key)
-            for (size_t i = 0; i < count_; ++i) grid_.P[key].set(i, scratch_.P[key * count_ + i]);
+            to_planes({scratch_.P.data() + key * count_, count_}, 1, grid_.P[key]);
     }
 
     /// Whether the primitive has variables that stand for Cs or Os.
@@ -175,16 +201,16 @@ class Dicer {
     /// Puts border vertices where their shared points are, at all keys. Only the others are evaluated.
     void set_border_positions() {
         const size_t keys = grid_.P.size();
-        std::array<BorderPoint, kMaxBorderPoints> wanted;
+        std::array<BorderPoint, kMaxBorderPoints>& wanted = scratch_.wanted;
         std::array<int, kMaxBorderPoints> place;  // of border points in `wanted`; -1: not wanted
-        place.fill(-1);
+        std::fill_n(place.begin(), point_count_, -1);
         size_t count = 0;
         for (const BorderVertex& at : border()) {
-            if (place[at.point] >= 0 || is_in_place(at.vertex, points_[at.point])) continue;
+            if (place[at.point] >= 0 || is_in_place(at.vertex, scratch_.points[at.point])) continue;
             place[at.point] = static_cast<int>(count);
-            wanted[count++] = points_[at.point];
+            wanted[count++] = scratch_.points[at.point];
         }
-        scratch_.border.resize(kMaxBorderPoints * keys);
+        scratch_.border.resize(std::max(scratch_.border.size(), kMaxBorderPoints * keys));
         border_positions(surface_, *context_.vertices, {wanted.data(), count}, scratch_.evaluation,
                          scratch_.border);
         for (const BorderVertex& at : border()) {
@@ -198,20 +224,21 @@ class Dicer {
     void set_normals() {
         const float outside = attributes_.reverse_orientation ? -1.0f : 1.0f;
         scratch_.degenerate.clear();
+        unit_normals(scratch_.dPdu, scratch_.dPdv, grid_.Ng);
         for (size_t i = 0; i < count_; ++i) {
-            V3f& du = scratch_.dPdu[i];
-            V3f& dv = scratch_.dPdv[i];
-            const V3f n =
-                normal_at(surface_, {subpatch_.face, scratch_.uv[i]}, scratch_.evaluation, &du, &dv);
+            if (grid_.Ng.at(i) != V3f(0, 0, 0)) continue;
+            const V3f n = normal_at(surface_, {subpatch_.face, scratch_.uv[i]}, scratch_.evaluation,
+                                    &scratch_.dPdu[i], &scratch_.dPdv[i]);
             if (n == V3f(0, 0, 0)) scratch_.degenerate.push_back(static_cast<int>(i));
-            grid_.Ng.set(i, n * outside);
+            grid_.Ng.set(i, n);
         }
+        if (outside < 0)
+            for (std::vector<float>& plane : grid_.Ng.c)
+                for (float& value : plane) value = -value;
         borrow_normals();
         const V2f faces = surface_.surface().faces_per_unit(subpatch_.face);
-        for (size_t i = 0; i < count_; ++i) {
-            grid_.dPdu.set(i, scratch_.dPdu[i] * faces.x);
-            grid_.dPdv.set(i, scratch_.dPdv[i] * faces.y);
-        }
+        to_planes(scratch_.dPdu, faces.x, grid_.dPdu);
+        to_planes(scratch_.dPdv, faces.y, grid_.dPdv);
         for (int k = 0; k < 3; ++k) std::ranges::copy(grid_.Ng.c[k], grid_.N.c[k].begin());
     }
 
@@ -250,9 +277,8 @@ class Dicer {
     const GridShape shape_;
     const size_t count_;
     std::array<BorderSide, 4> sides_;
-    std::array<BorderPoint, kMaxBorderPoints> points_;  ///< shared, side by side
-    std::array<BorderVertex, kMaxBorderPoints> border_;
     int point_count_ = 0, border_count_ = 0;
+    bool all_in_place_ = true;  ///< all sides are
 };
 
 }  // namespace

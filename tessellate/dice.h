@@ -17,6 +17,15 @@ struct DiceContext {
     bool displaced = false;        ///< grids are to have borders by which they stay together
 };
 
+/// A border vertex of the grid and the shared point that it takes. Several vertices may take one point, where
+/// the grid is finer than its edge.
+struct BorderVertex {
+    int vertex = 0;  ///< of the grid
+    int point = 0;   ///< of the subpatch's border points
+    int side = 0;
+    int corner = -1;  ///< the grid's corner that takes the same point; -1: none
+};
+
 /// Memory for one grid at a time. P: key by key, a grid's vertices row by row; dPdu and dPdv at the first
 /// key, by the face's parameters. All camera space.
 struct DiceScratch::State {
@@ -25,6 +34,8 @@ struct DiceScratch::State {
     std::vector<V3f> P, dPdu, dPdv, border;
     std::vector<int> degenerate;      ///< vertices without a normal
     std::vector<Triples> spare_keys;  ///< P of grids with more keys than the present one
+    std::array<BorderPoint, kMaxBorderPoints> points, wanted;  ///< of the border
+    std::array<BorderVertex, kMaxBorderPoints> border_vertices;
 };
 
 /// Dices a subpatch into `grid`, whose earlier contents are replaced and whose memory is reused. The grid's

@@ -6,7 +6,7 @@ namespace trapeze {
 namespace {
 
 /// Pieces of an interval that are measured first, and where these want more segments than that.
-constexpr int kCoarsePieces = 4, kFinePieces = 8;
+constexpr int kCoarsePieces = kCoarseEdgePieces, kFinePieces = 8;
 /// A face's parameter between a line and the one beside it.
 constexpr float kBeside = 1.0f / 16384;
 
@@ -49,7 +49,7 @@ class EdgeCutter {
         RateEstimate estimate = measure_.of(P);
         if (estimate.segments(rate) > kCoarsePieces) {
             pieces = kFinePieces;
-            P = points(interval, pieces, 1);
+            P = refined(interval);
             estimate = measure_.of(P);
         }
         if (!measure_.may_want_less(estimate)) return estimate;
@@ -74,6 +74,18 @@ class EdgeCutter {
         return P;
     }
 
+    /// The points of kFinePieces, of which those of kCoarsePieces are there, at the first key.
+    std::span<const V3f> refined(EdgeInterval interval) {
+        static_assert(kFinePieces == 2 * kCoarsePieces);
+        std::array<V2f, kCoarsePieces> uv;
+        std::array<V3f, kCoarsePieces> between;
+        interval.segments = kFinePieces;
+        for (int i = 0; i < kCoarsePieces; ++i) uv[i] = line_uv(line_, interval, 2 * i + 1);
+        surface_.positions(line_.face, uv, 1, scratch_, between);
+        for (int i = kCoarsePieces; i > 0; --i) P_[2 * i] = P_[i], P_[2 * i - 1] = between[i - 1];
+        return {P_.data(), kFinePieces + 1};
+    }
+
     const PlacedSurface& surface_;
     const EdgeLine& line_;
     const LineMeasure& measure_;
@@ -91,6 +103,11 @@ void EdgeTessellations::add(const PlacedSurface& surface, const EdgeLine& line, 
     const size_t first = intervals_.size();
     EdgeCutter(surface, line, measure, rate, scratch, intervals_).cut({});
     records_.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(intervals_.size() - first)});
+}
+
+void EdgeTessellations::add_whole(uint8_t segments) {
+    records_.push_back({static_cast<uint32_t>(intervals_.size()), 1});
+    intervals_.push_back({0, 0, segments});
 }
 
 void EdgeTessellations::append(const EdgeTessellations& other) {
@@ -131,8 +148,7 @@ const EdgeInterval* Edges::interval(uint32_t edge, float a, float b) const {
     return b <= holds_a.end() ? &holds_a : nullptr;
 }
 
-BorderPoint Edges::vertex(uint32_t edge, const EdgeInterval& interval, int number) const {
-    const EdgeLine l = line(edge);
+BorderPoint Edges::vertex(const EdgeLine& l, const EdgeInterval& interval, int number) const {
     BorderPoint point;
     if (number == 0 && interval.begin == 0)
         point = end(l.start);
@@ -142,6 +158,12 @@ BorderPoint Edges::vertex(uint32_t edge, const EdgeInterval& interval, int numbe
         return {false, 0, {l.face, line_uv(l, interval, number)}, 0, false};
     ++point.hops;
     return point;
+}
+
+bool Edges::is_vertex(uint32_t edge, float parameter) const {
+    if (edge >= of_surface->size() || (parameter != 0 && parameter != 1)) return false;
+    const EdgeLine l = surface->edge(edge);
+    return !(parameter == 0 ? l.start : l.finish).on_edge;
 }
 
 BorderPoint Edges::end(const EdgeEnd& at) const {

@@ -46,6 +46,9 @@ struct BorderPoint {
     bool moved = false;  ///< not at the parameter asked for: snapped to a vertex
 };
 
+/// Pieces of an interval that are measured first.
+inline constexpr int kCoarseEdgePieces = 4;
+
 /// The intervals of many edges, numbered from 0. Those of one edge are sorted and cover [0, 1].
 class EdgeTessellations {
   public:
@@ -58,6 +61,8 @@ class EdgeTessellations {
     /// Cuts one more edge, number size(). `rate`: the wished length of segments.
     void add(const PlacedSurface& surface, const EdgeLine& line, const LineMeasure& measure,
              const EdgeRate& rate, EvaluationScratch& scratch);
+    /// Adds one more edge that is one interval.
+    void add_whole(uint8_t segments);
     /// Adds other edges, numbered on.
     void append(const EdgeTessellations& other);
     /// Edge i becomes edge new_number[i].
@@ -87,7 +92,12 @@ struct Edges {
     /// The interval that holds [a, b], or null when the edge is split within it.
     const EdgeInterval* interval(uint32_t edge, float a, float b) const;
     /// The point of vertex `number` of an edge's interval; at the edge's own ends these decide.
-    BorderPoint vertex(uint32_t edge, const EdgeInterval& interval, int number) const;
+    BorderPoint vertex(uint32_t edge, const EdgeInterval& interval, int number) const {
+        return vertex(line(edge), interval, number);
+    }
+    BorderPoint vertex(const EdgeLine& line, const EdgeInterval& interval, int number) const;
+    /// Whether an edge of the surface ends in a vertex there, which then decides.
+    bool is_vertex(uint32_t edge, float parameter) const;
     /// The point at an edge's end: a vertex of the surface, or the vertex of another edge nearest to where it
     /// ends there.
     BorderPoint end(const EdgeEnd& end) const;

@@ -1,6 +1,6 @@
 #include "tessellate/normals.h"
 
-#include <cmath>
+#include "tessellate/topology/point_lanes.h"
 
 namespace trapeze {
 
@@ -16,19 +16,6 @@ void nearby_derivatives(const PlacedSurface& surface, SurfacePoint at, Evaluatio
 }
 
 }  // namespace
-
-V3f unit_normal(const V3f& dPdu, const V3f& dPdv) {
-    // Scaled first: derivatives of tiny faces have squares that underflow.
-    const auto scale = [](const V3f& v) {
-        const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-        return largest > 0 && std::isfinite(largest) ? 1 / largest : 0.0f;
-    };
-    const V3f u = dPdu * scale(dPdu), v = dPdv * scale(dPdv);
-    const V3f n = u.cross(v);
-    const float length = std::sqrt(n.dot(n));
-    constexpr float kParallel = 1e-5f;  // below, the cross product is mostly rounding
-    return length > kParallel ? n / length : V3f(0, 0, 0);
-}
 
 V3f normal_at(const PlacedSurface& surface, SurfacePoint at, EvaluationScratch& scratch, V3f* dPdu,
               V3f* dPdv) {

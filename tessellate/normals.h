@@ -5,9 +5,6 @@
 
 namespace trapeze {
 
-/// dPdu x dPdv, unit length, or 0 when they are parallel, 0 or not finite.
-V3f unit_normal(const V3f& dPdu, const V3f& dPdv);
-
 /// The unit normal of camera-space derivatives at a point; where they have none (a pole, a collapsed edge),
 /// these become those next to it, moved towards the middle of its face. A function of the point alone, so
 /// that all who share it agree. 0 when there is none there either.

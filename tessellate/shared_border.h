@@ -9,15 +9,6 @@
 
 namespace trapeze {
 
-/// A border vertex of the grid and the shared point that it takes. Several vertices may take one point, where
-/// the grid is finer than its edge.
-struct BorderVertex {
-    int vertex = 0;  ///< of the grid
-    int point = 0;   ///< of the subpatch's border points
-    int side = 0;
-    int corner = -1;  ///< the grid's corner that takes the same point; -1: none
-};
-
 /// Moves the face's own parameters of border vertices to where their shared points are on this face, so that
 /// variables agree with positions, and between faces that have them alike. Grid corners may take the same
 /// point, where a piece of a face is smaller than a micropolygon: then another piece reaches beyond itself,

@@ -10,7 +10,7 @@ namespace {
 constexpr size_t kIntervalsLikeAPart = 8;
 /// Pieces of a rectangle along u and v between samples: at first, and where a small rectangle's do not tell
 /// enough.
-constexpr int kCoarse = 2, kFine = 4;
+constexpr int kCoarse = kCoarseLatticePieces, kFine = 4;
 
 /// A rectangle on its way; depth_u and depth_v: how often it was halved along each.
 struct Node {
@@ -61,7 +61,7 @@ class FaceSplitter {
         parts_ = 0;
         Node node;
         node.sides = surface_.surface().sides(face);
-        split(node);
+        if (!emit_whole(node)) split(node);
     }
 
   private:
@@ -89,6 +89,17 @@ class FaceSplitter {
         ++parts_;
         const bool along_u = split_u && (!split_v || want[0].pixels >= want[1].pixels);
         for (const Node& half : halves(node, along_u, room)) split(half);
+    }
+
+    /// Adds a face that is known to need no split, its sides neither.
+    bool emit_whole(const Node& node) {
+        if (context_.estimates.empty()) return false;
+        const FaceEstimate& estimate = context_.estimates[face_];
+        if (estimate.nu == 0) return false;
+        if (!std::ranges::all_of(node.sides, [&](const SurfaceSide& s) { return in_interval(s); }))
+            return false;
+        emit(node, {Want{false, estimate.nu}, Want{false, estimate.nv}});
+        return true;
     }
 
     bool in_interval(const SurfaceSide& side) const {
@@ -122,27 +133,47 @@ class FaceSplitter {
         if (!want[0].less && !want[1].less) return want;
         const int keys = context_.measure->keys();
         if (lattice.pieces != kFine || keys != 1) lattice = sample(node, kFine, keys);
-        return wanted(lattice, true);
+        return foreshortened(lattice);
     }
 
-    std::array<Want, 2> wanted(const Lattice& lattice, bool foreshortened = false) const {
+    /// By lengths at the first key alone, of all lines of the lattice together.
+    std::array<Want, 2> wanted(const Lattice& lattice) const {
         std::array<Want, 2> want;
-        const float rate = context_.rate.pixels_per_segment;
-        const LineMeasure& measure = *context_.measure;
+        const size_t row = lattice.row(), pieces = lattice.pieces;
+        const std::span<const V3f> P = lattice.P.first(row * row);
+        std::array<float, LineMeasure::kMostLengths> lengths;
+        for (int d = 0; d < 2; ++d) {
+            // Along u from the last of a line to the first of the next, too, which nobody asks for.
+            const size_t step = d == 0 ? 1 : row, next_line = d == 0 ? row : 1;
+            context_.measure->lengths(P.first(P.size() - step), P.subspan(step), lengths);
+            for (size_t line = 0; line < row; ++line) {
+                RateEstimate along;
+                for (size_t i = 0; i < pieces; ++i) along.add(lengths[line * next_line + i * step]);
+                take_in(along, want[d]);
+            }
+        }
+        return want;
+    }
+
+    /// By what is seen of the lengths at all keys that the measure looks at.
+    std::array<Want, 2> foreshortened(const Lattice& lattice) const {
+        std::array<Want, 2> want;
         LatticeLine points, beside;
         for (int d = 0; d < 2; ++d)
-            for (int line = 0; line <= lattice.pieces; ++line) {
-                const std::span<const V3f> P = lattice.line(d, line, points);
-                const RateEstimate along =
-                    foreshortened
-                        ? measure.foreshortened(P, lattice.line(d, line > 0 ? line - 1 : line + 1, beside))
-                        : measure.of(P);
-                want[d].split |= along.wants_split(rate);
-                want[d].segments = std::max(want[d].segments, along.clamped_segments(context_.rate));
-                want[d].pixels = std::max(want[d].pixels, along.sum);
-                want[d].less |= measure.may_want_less(along);
-            }
+            for (int line = 0; line <= lattice.pieces; ++line)
+                take_in(
+                    context_.measure->foreshortened(lattice.line(d, line, points),
+                                                    lattice.line(d, line > 0 ? line - 1 : line + 1, beside)),
+                    want[d]);
         return want;
+    }
+
+    /// One more line of the lattice.
+    void take_in(const RateEstimate& along, Want& want) const {
+        want.split |= along.wants_split(context_.rate.pixels_per_segment);
+        want.segments = std::max(want.segments, along.clamped_segments(context_.rate));
+        want.pixels = std::max(want.pixels, along.sum);
+        want.less |= context_.measure->may_want_less(along);
     }
 
     /// The two halves of a rectangle, and the edge made between them, whose ends lie on the rectangle's
@@ -252,6 +283,7 @@ class FaceSplitter {
         size_t count = 0;
         for (const SurfaceSide& side : node.sides)
             for (const float parameter : {side.begin, side.end}) {
+                if (edges_.is_vertex(side.edge, parameter)) continue;
                 const BorderPoint corner = edges_.end({true, side.edge, parameter});
                 if (corner.moved) corners[count++] = corner;
             }

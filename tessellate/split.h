@@ -5,9 +5,13 @@
 
 #include "core/stats.h"
 #include "tessellate/border.h"
+#include "tessellate/face_estimates.h"
 #include "tessellate/raster_bound.h"
 
 namespace trapeze {
+
+/// Pieces of a rectangle along u and v between samples that are measured first.
+inline constexpr int kCoarseLatticePieces = 2;
 
 /// A rectangle [lo, hi] of a face, to be diced as `shape`. `sides`: where each of its sides lies on its edge,
 /// within one interval of it.
@@ -27,6 +31,7 @@ struct SplitContext {
     const RasterBound* raster = nullptr;
     EdgeRate rate;
     float displacement_bound = 0;
+    std::span<const FaceEstimate> estimates;      ///< of all faces, or none
     size_t most_parts_of_face = size_t{1} << 20;  ///< about; then its interior is not split further
 };
 

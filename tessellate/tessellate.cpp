@@ -19,6 +19,7 @@
 #include "core/random.h"
 #include "tessellate/dice.h"
 #include "tessellate/shared_grids.h"
+#include "tessellate/topology/order_by_face.h"
 
 namespace trapeze {
 namespace {
@@ -67,25 +68,30 @@ namespace {
 /// Cuts the surface's edges, in tasks of those that are evaluated on the same faces (surfaces keep the face
 /// evaluated last); the result is by number of the edge.
 EdgeTessellations tessellate_edges(const PlacedSurface& placed, const LineMeasure& measure,
-                                   const EdgeRate& rate) {
+                                   const EdgeRate& rate, std::span<const FaceEstimate> estimates) {
     const Surface& surface = placed.surface();
     const uint32_t count = surface.edge_count();
-    std::vector<std::pair<int, uint32_t>> order(count);  // face, edge
-    for (uint32_t e = 0; e < count; ++e) order[e] = {surface.edge(e).face, e};
-    std::sort(order.begin(), order.end());
+    std::vector<int> faces(count);
+    for (uint32_t e = 0; e < count; ++e) faces[e] = surface.edge(e).face;
+    const std::vector<uint32_t> order = order_by_face(faces, surface.face_count());
     const size_t tasks = (count + kEdgesPerTask - 1) / kEdgesPerTask;
     std::vector<EdgeTessellations> parts(tasks);
     tbb::parallel_for(size_t{0}, tasks, [&](size_t task) {
         EvaluationScratch scratch;
         const size_t end = std::min<size_t>((task + 1) * kEdgesPerTask, count);
-        for (size_t i = task * kEdgesPerTask; i < end; ++i)
-            parts[task].add(placed, surface.edge(order[i].second), measure, rate, scratch);
+        for (size_t i = task * kEdgesPerTask; i < end; ++i) {
+            const EdgeLine line = surface.edge(order[i]);
+            const int side = estimates.empty() ? -1 : side_along(line);
+            const uint8_t segments = side < 0 ? uint8_t{0} : estimates[line.face].sides[side];
+            if (segments > 0)
+                parts[task].add_whole(segments);
+            else
+                parts[task].add(placed, line, measure, rate, scratch);
+        }
     });
     EdgeTessellations edges;
     for (const EdgeTessellations& part : parts) edges.append(part);
-    std::vector<uint32_t> numbers(count);
-    for (uint32_t i = 0; i < count; ++i) numbers[i] = order[i].second;
-    edges.renumber(numbers);
+    edges.renumber(order);
     edges.shrink_to_fit();
     return edges;
 }
@@ -234,7 +240,8 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     out.pixels_per_segment = rate.pixels_per_segment;
     const LineMeasure measure(metric, context.camera, *out.placed, out.displaced, rate.pixels_per_segment,
                               by_rays);
-    out.surface_edges = tessellate_edges(*out.placed, measure, rate);
+    const std::vector<FaceEstimate> estimates = estimate_faces(*out.placed, measure, rate);
+    out.surface_edges = tessellate_edges(*out.placed, measure, rate, estimates);
     SplitContext split;
     split.surface = out.placed.get();
     split.surface_edges = &out.surface_edges;
@@ -242,6 +249,7 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     split.measure = &measure;
     split.raster = &raster;
     split.rate = rate;
+    split.estimates = estimates;
     split.displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
     split.most_parts_of_face = most_parts;
     std::optional<Splits> splits = split_all(split, context, options.most_bytes);

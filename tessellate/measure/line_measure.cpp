@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/grid.h"
+#include "tessellate/measure/lattice_measure.h"
 
 namespace trapeze {
 namespace {
@@ -65,12 +66,25 @@ LineMeasure::LineMeasure(const ScreenMetric& metric, const Camera& camera, const
       perspective_(camera.perspective) {}
 
 RateEstimate LineMeasure::of(std::span<const V3f> P) const {
+    std::array<float, kMostPieces> counted;
+    const size_t pieces = P.size() - 1;
+    lengths(P.first(pieces), P.subspan(1), counted);
     RateEstimate estimate;
-    for (size_t i = 0; i + 1 < P.size(); ++i) {
-        const PixelLength length = metric_.of(P[i], P[i + 1]);
-        estimate.add(std::max(length.seen, least_ * length.square_on));
-    }
+    for (size_t i = 0; i < pieces; ++i) estimate.add(counted[i]);
     return estimate;
+}
+
+void LineMeasure::lengths(std::span<const V3f> from, std::span<const V3f> to,
+                          std::span<float> counted) const {
+    std::array<PixelLength, kMostLengths> lengths;
+    metric_.of(from, to, lengths);
+    for (size_t i = 0; i < from.size(); ++i)
+        counted[i] = std::max(lengths[i].seen, least_ * lengths[i].square_on);
+}
+
+void LineMeasure::of(const FaceLattices& lattices, const M44f& camera_from_object,
+                     LatticeLines& lines) const {
+    measure_lattices(lattices, camera_from_object, metric_, least_, lines);
 }
 
 /// Sine of the angle by which rays to a point differ over the lens.
@@ -98,8 +112,10 @@ RateEstimate LineMeasure::foreshortened(std::span<const V3f> P, std::span<const 
         const V3f* const p = P.data() + static_cast<size_t>(key) * points;
         const V3f* const q = beside.data() + static_cast<size_t>(key) * points;
         std::array<float, kMostPieces> scale;  // pixels of a unit of length
+        std::array<PixelLength, kMostPieces> lengths;
+        metric_.of({p, pieces}, {p + 1, pieces}, lengths);
         for (size_t i = 0; i < pieces; ++i) {
-            const PixelLength length = metric_.of(p[i], p[i + 1]);
+            const PixelLength& length = lengths[i];
             const float own = (p[i + 1] - p[i]).length();
             scale[i] = own > 0 ? length.square_on / own : 0;
             const float at_most = std::max(length.seen, least_ * length.square_on);

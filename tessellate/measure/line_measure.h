@@ -47,11 +47,15 @@ struct RateEstimate {
     int clamped_segments(const EdgeRate& rate) const;  ///< 1..16
 };
 
+struct FaceLattices;
+struct LatticeLines;
+
 /// The measure of one primitive's lines under one camera. Immutable: threads share it.
 class LineMeasure {
   public:
     /// The most pieces of a line, and the most keys at which foreshortening is trusted.
     static constexpr int kMostPieces = 8, kMostKeys = 3;
+    static constexpr size_t kMostLengths = 32;
 
     /// `displaced`: the surface will not lie where it is measured. The surface's attributes say whether
     /// foreshortening counts, unless it is seen `from_all_sides`.
@@ -61,6 +65,13 @@ class LineMeasure {
     /// The estimate from a line's points at the first key, at most kMostPieces pieces: no piece counts less
     /// than it may at the least, so that foreshortened() never wants more.
     RateEstimate of(std::span<const V3f> P) const;
+
+    /// What pieces count of which nothing else is known, from[i] to to[i], at most kMostLengths.
+    void lengths(std::span<const V3f> from, std::span<const V3f> to, std::span<float> counted) const;
+
+    /// Whether of(P) alone decides, and of(lattices) has the same for many faces.
+    bool measures_lattices() const { return keys_ == 0 && metric_.is_perspective(); }
+    void of(const FaceLattices& lattices, const M44f& camera_from_object, LatticeLines& lines) const;
 
     /// Whether a line of this estimate may want fewer segments: by foreshortened().
     bool may_want_less(const RateEstimate& estimate) const {

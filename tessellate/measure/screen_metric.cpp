@@ -1,11 +1,28 @@
 #include "tessellate/measure/screen_metric.h"
 
+#include <array>
 #include <cmath>
 
 #include "core/portable_math.h"
 
 namespace trapeze {
 namespace {
+
+/// Pieces at once: loops over lanes are what compilers vectorise.
+constexpr size_t kLanes = 8;
+using Lanes = std::array<float, kLanes>;
+
+/// Points in lanes; those behind the last are as the last.
+struct PointLanes {
+    Lanes x, y, z;
+
+    explicit PointLanes(std::span<const V3f> points) {
+        for (size_t l = 0; l < kLanes; ++l) {
+            const V3f& p = points[std::min(l, points.size() - 1)];
+            x[l] = p.x, y[l] = p.y, z[l] = p.z;
+        }
+    }
+};
 
 /// The parameter of the segment's point nearest to the origin.
 template <class V>
@@ -49,6 +66,41 @@ PixelLength ScreenMetric::perspective_length(const V3f& p, const V3f& q) const {
     const float square_on = distance > 0 ? d.length() / distance : 0.0f;
     const float scale = pixels_ / view_cosine_;
     return {angle / view_cosine_ * scale, square_on * scale, false};
+}
+
+void ScreenMetric::perspective_lengths(std::span<const V3f> from, std::span<const V3f> to,
+                                       std::span<PixelLength> lengths) const {
+    const PointLanes p(from), q(to);
+    const float least = view_cosine_ * view_cosine_;
+    Lanes seen, square_on;
+    std::array<int32_t, kLanes> in_view;
+    for (size_t l = 0; l < kLanes; ++l) {
+        const float pp = p.x[l] * p.x[l] + p.y[l] * p.y[l] + p.z[l] * p.z[l];
+        const float qq = q.x[l] * q.x[l] + q.y[l] * q.y[l] + q.z[l] * q.z[l];
+        in_view[l] = (p.z[l] > 0 ? 1 : 0) & (q.z[l] > 0 ? 1 : 0) & (p.z[l] * p.z[l] >= least * pp ? 1 : 0) &
+                     (q.z[l] * q.z[l] >= least * qq ? 1 : 0);
+        const float p_scale = 1 / p.z[l], q_scale = 1 / q.z[l];
+        const float x = (q.x[l] * q_scale - p.x[l] * p_scale) * pixels_x_;
+        const float y = (q.y[l] * q_scale - p.y[l] * p_scale) * pixels_y_;
+        const float dx = q.x[l] - p.x[l], dy = q.y[l] - p.y[l], dz = q.z[l] - p.z[l];
+        seen[l] = std::sqrt(x * x + y * y);
+        square_on[l] = std::sqrt(dx * dx + dy * dy + dz * dz) * pixels_ * 2 / (p.z[l] + q.z[l]);
+    }
+    for (size_t l = 0; l < from.size(); ++l)
+        lengths[l] =
+            in_view[l] ? PixelLength{seen[l], square_on[l], true} : perspective_length(from[l], to[l]);
+}
+
+void ScreenMetric::of(std::span<const V3f> from, std::span<const V3f> to,
+                      std::span<PixelLength> lengths) const {
+    if (!perspective_) {
+        for (size_t i = 0; i < from.size(); ++i) lengths[i] = orthographic_length(from[i], to[i]);
+        return;
+    }
+    for (size_t first = 0; first < from.size(); first += kLanes) {
+        const size_t count = std::min(kLanes, from.size() - first);
+        perspective_lengths(from.subspan(first, count), to.subspan(first, count), lengths.subspan(first));
+    }
 }
 
 PixelLength ScreenMetric::orthographic_length(const V3f& p, const V3f& q) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "core/math.h"
 #include "core/scene/camera.h"
@@ -29,15 +30,28 @@ class ScreenMetric {
     PixelLength of(const V3f& p, const V3f& q) const {
         return perspective_ ? perspective_length(p, q) : orthographic_length(p, q);
     }
+    /// Lengths of several pieces, from[i] to to[i], the same bits.
+    void of(std::span<const V3f> from, std::span<const V3f> to, std::span<PixelLength> lengths) const;
     /// Pixels of the piece as it is seen, but not less than the least foreshortening leaves of it.
     float length(const V3f& p, const V3f& q) const {
         const PixelLength length = of(p, q);
         return std::max(length.seen, kLeastForeshortening * length.square_on);
     }
 
+    /// What lengths in a perspective view are made of: pixels for a unit of the image plane along its axes
+    /// and the larger of both, and the cosine of the angle to the image's farthest corner.
+    bool is_perspective() const { return perspective_; }
+    float pixels_x() const { return pixels_x_; }
+    float pixels_y() const { return pixels_y_; }
+    float pixels() const { return pixels_; }
+    float view_cosine() const { return view_cosine_; }
+
   private:
     /// In view: raster distance. Else the angle at the eye, in pixels as large as at the picture's corner.
     PixelLength perspective_length(const V3f& p, const V3f& q) const;
+    /// perspective_length() of up to kLanes pieces.
+    void perspective_lengths(std::span<const V3f> from, std::span<const V3f> to,
+                             std::span<PixelLength> lengths) const;
     /// Raster distance, shrunk outside the picture by how far outside it is.
     PixelLength orthographic_length(const V3f& p, const V3f& q) const;
 

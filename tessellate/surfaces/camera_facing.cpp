@@ -37,7 +37,6 @@ V3f CameraFacing::across(const V3f& point, const V3f& tangent) const {
     const V3f along = transform_vector(camera_from_object_, tangent);
     // Across the ray and the tangent in camera space; mirrored spaces turn it over.
     V3f side = ray.cross(along) * outside_;
-    constexpr float kParallel = 1e-5f;  // below, the direction is mostly rounding
     if (!(side.dot(side) > kParallel * kParallel * ray.dot(ray) * along.dot(along)))
         side = unit_or_zero(ray).cross(std::abs(ray.x) < std::abs(ray.z) ? V3f(1, 0, 0) : V3f(0, 1, 0));
     // Where the way back to object space leaves nothing of it, some direction all the same.

@@ -24,6 +24,12 @@ class CameraFacing {
     /// How many times longer an object-space length is in camera space, on an average.
     float scale() const { return scale_; }
     const M44f& camera_from_object() const { return camera_from_object_; }
+    const M44f& object_from_camera() const { return object_from_camera_; }
+    bool is_perspective() const { return perspective_; }
+    /// -1 in mirrored spaces, else 1.
+    float outside() const { return outside_; }
+    /// Sine of the angle between ray and tangent below which a direction across both is mostly rounding.
+    static constexpr float kParallel = 1e-5f;
 
   private:
     /// A direction of camera space in object space, not of unit length.
@@ -31,7 +37,7 @@ class CameraFacing {
 
     M44f camera_from_object_, object_from_camera_;
     bool perspective_;
-    float outside_;  ///< -1 in mirrored spaces
+    float outside_;
     float scale_;
     V3f u_axis_, v_axis_;
 };

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tessellate/surfaces/camera_facing.h"
-#include "tessellate/surfaces/curve_values.h"
+#include "tessellate/surfaces/ribbon_cache.h"
 #include "tessellate/surfaces/surface_variables.h"
 #include "tessellate/topology/placed_surface.h"
 #include "tessellate/topology/topology_surface.h"
@@ -44,39 +43,39 @@ class CurvesSurface : public TopologySurface<CurvesSurface> {
         return {1, static_cast<float>(strip.all) / static_cast<float>(strip.count)};
     }
     bool has_motion_keys() const override { return true; }
+    std::unique_ptr<SurfaceScratch> make_scratch() const override { return std::make_unique<RibbonCache>(); }
 
     void evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch, std::span<V3f> P,
                   std::span<V3f> dPdu, std::span<V3f> dPdv) const override;
     bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int key) const override;
+    bool has_lattices() const override { return rows_come_together(); }
+    void lattices(int first, int count, FaceLattices& lattices) const override;
 
   private:
     friend class CurveComponents;
 
-    /// One segment at one motion key.
-    struct Segment {
-        CurvePiece P, width, N;
-        V3f start{0, 0, 0}, end{0, 0, 0};  ///< of a line: what the ribbon spans at its joints
-    };
-    /// The centre line's place and what the ribbon spans there, with their derivatives along the segment.
-    struct Across {
-        V3f centre{0, 0, 0}, by_t{0, 0, 0}, span{0, 0, 0}, span_by_t{0, 0, 0};
-    };
-
+    /// Whether facing_rows() knows this kind of ribbon.
+    bool rows_come_together() const { return curves_.cubic && !keys_.front().N; }
     /// A variable along a segment at a motion key, between its shape keys.
     CurvePiece piece(CurveVariable RibbonVariables::*variable, int curve, int segment, int key) const;
     /// A control point's place at a motion key.
     V3f control(int curve, int point, int key) const;
     /// All that shapes one segment at a motion key.
-    Segment segment(int curve, int number, int key) const;
+    RibbonSegment segment(int curve, int number, int key) const;
     /// What the ribbon of a line spans at its begin (t = 0) or end (1), which is control point `point`.
-    V3f joint_span(const Segment& segment, int curve, int point, float t, int key) const;
+    V3f joint_span(const RibbonSegment& segment, int curve, int point, float t, int key) const;
     /// The unit direction across the ribbon: across N where there is one, else across the ray that sees it.
-    V3f direction(const Segment& segment, const V3f& at, const V3f& tangent, float t, int key) const;
-    /// The ribbon at t of a segment. The direction's own change along the curve is left out of the
-    /// derivative.
-    Across across(const Segment& segment, float t, int key) const;
+    V3f direction(const RibbonSegment& segment, const V3f& at, const V3f& tangent, float t, int key) const;
+    /// The ribbon at t of a segment.
+    RibbonRow across(const RibbonSegment& segment, float t, int key) const;
+    /// The ribbon at several places of a segment, the same bits.
+    void make_rows(const RibbonSegment& segment, int key, std::span<const RibbonCache::WantedRow> wanted,
+                   std::span<RibbonRow> rows) const;
+    /// The ribbon at the first `count` of cache.v of a face, to cache.rows.
+    /// `keep`: they will be asked for again.
+    void make_rows(int face, int key, size_t count, bool keep, RibbonCache& cache) const;
 
     const Primitive& primitive_;
     const Curves& curves_;
@@ -112,8 +111,8 @@ V3f CurvesSurface::control(int curve, int point, int key) const {
     return p + (xyz(pieces_.control(keys_[mix.first + 1].P, curve, point)) - p) * mix.to_next;
 }
 
-CurvesSurface::Segment CurvesSurface::segment(int curve, int number, int key) const {
-    Segment s;
+RibbonSegment CurvesSurface::segment(int curve, int number, int key) const {
+    RibbonSegment s;
     s.P = piece(&RibbonVariables::P, curve, number, key);
     if (keys_.front().width)
         s.width = piece(&RibbonVariables::width, curve, number, key);
@@ -130,7 +129,7 @@ CurvesSurface::Segment CurvesSurface::segment(int curve, int number, int key) co
 
 /// What a ribbon of lines spans at a control point: lines meet in a mitre, wider by 1 / cos of half the bend.
 /// bend.
-V3f CurvesSurface::joint_span(const Segment& segment, int curve, int point, float t, int key) const {
+V3f CurvesSurface::joint_span(const RibbonSegment& segment, int curve, int point, float t, int key) const {
     const int n = topology_.vertices_of(curve);
     const V3f at = control(curve, point, key);
     // Unit directions of the lines that come to the point and leave it; 0 at an end.
@@ -145,7 +144,7 @@ V3f CurvesSurface::joint_span(const Segment& segment, int curve, int point, floa
     return direction(segment, at, tangent, t, key) * (segment.width.at(t)[0] * mitre);
 }
 
-V3f CurvesSurface::direction(const Segment& segment, const V3f& at, const V3f& tangent, float t,
+V3f CurvesSurface::direction(const RibbonSegment& segment, const V3f& at, const V3f& tangent, float t,
                              int key) const {
     if (keys_.front().N) {
         // Normals along the tangent say nothing: then the ribbon faces the camera there.
@@ -155,10 +154,10 @@ V3f CurvesSurface::direction(const Segment& segment, const V3f& at, const V3f& t
     return facing_[key].across(at, tangent);
 }
 
-CurvesSurface::Across CurvesSurface::across(const Segment& segment, float t, int key) const {
+RibbonRow CurvesSurface::across(const RibbonSegment& segment, float t, int key) const {
     Control p, by_t, width, width_by_t;
     segment.P.at(t, &p, &by_t);
-    Across a;
+    RibbonRow a;
     a.centre = xyz(p), a.by_t = xyz(by_t);
     if (!curves_.cubic) {
         a.span = segment.start * (1 - t) + segment.end * t;
@@ -168,7 +167,7 @@ CurvesSurface::Across CurvesSurface::across(const Segment& segment, float t, int
     // Where control points coincide the curve has no speed: the direction a little towards the middle.
     V3f tangent = a.by_t;
     const V3f chord = xyz(segment.P.curve.p[3]) - xyz(segment.P.curve.p[0]);
-    if (!(tangent.dot(tangent) > 1e-10f * chord.dot(chord))) {
+    if (!(tangent.dot(tangent) > kLeastSpeed2 * chord.dot(chord))) {
         Control near, near_by_t;
         segment.P.at(t + (0.5f - t) / 64, &near, &near_by_t);
         tangent = xyz(near_by_t);
@@ -180,26 +179,107 @@ CurvesSurface::Across CurvesSurface::across(const Segment& segment, float t, int
     return a;
 }
 
-void CurvesSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch*, std::span<V3f> P,
-                             std::span<V3f> dPdu, std::span<V3f> dPdv) const {
-    const CurveTopology::Strip strip = topology_.strip(face);
-    const float count = static_cast<float>(strip.count);
-    int loaded = -1;
-    Segment of;
-    Across a;
-    for (size_t i = 0; i < uv.size(); ++i) {
-        if (i == 0 || uv[i].y != uv[i - 1].y) {  // rows of grids have one v
-            const float along = uv[i].y * count;
-            const int number = std::clamp(static_cast<int>(along), 0, strip.count - 1);
-            if (number != loaded) of = segment(strip.curve, strip.first + number, key);
-            loaded = number;
-            a = across(of, along - static_cast<float>(number), key);
+void CurvesSurface::make_rows(const RibbonSegment& segment, int key,
+                              std::span<const RibbonCache::WantedRow> wanted,
+                              std::span<RibbonRow> rows) const {
+    for (; !wanted.empty(); wanted = wanted.subspan(std::min(wanted.size(), kRowsAtOnce))) {
+        const size_t count = std::min(wanted.size(), kRowsAtOnce);
+        std::array<RibbonRow*, kRowsAtOnce> out;
+        for (size_t i = 0; i < count; ++i) out[i] = &rows[wanted[i].number];
+        uint32_t others = (1u << count) - 1;
+        if (rows_come_together()) {
+            std::array<float, kRowsAtOnce> t;
+            for (size_t i = 0; i < count; ++i) t[i] = wanted[i].t;
+            others = facing_rows(segment.P.curve, segment.width, facing_[key], {t.data(), count}, out);
         }
-        const float u = uv[i].x - 0.5f;
-        P[i] = a.centre + a.span * u;
-        if (!dPdu.empty()) dPdu[i] = a.span;
-        if (!dPdv.empty()) dPdv[i] = (a.by_t + a.span_by_t * u) * count;
+        for (size_t i = 0; i < count; ++i)
+            if (others >> i & 1) *out[i] = across(segment, wanted[i].t, key);
     }
+}
+
+void CurvesSurface::make_rows(int face, int key, size_t count, bool keep, RibbonCache& cache) const {
+    const CurveTopology::Strip strip = topology_.strip(face);
+    size_t wants = 0;
+    int of = -1;  // the segment that they are of
+    const auto make = [&] {
+        if (wants == 0) return;
+        RibbonCache::Segment& held = cache.segment_at(key, of);
+        if (!held.is(face, key, of)) held = {face, key, of, segment(strip.curve, strip.first + of, key)};
+        const std::span<const RibbonCache::WantedRow> wanted(cache.wanted.data(), wants);
+        make_rows(held.segment, key, wanted, cache.rows);
+        for (const RibbonCache::WantedRow& row : keep ? wanted : wanted.first(0))
+            cache.row_at(cache.v[row.number]) = {face, key, cache.v[row.number], cache.rows[row.number]};
+        wants = 0;
+    };
+    for (size_t i = 0; i < count; ++i) {
+        const float v = cache.v[i];
+        const RibbonCache::Row& held = cache.row_at(v);
+        if (held.is(face, key, v)) {
+            cache.rows[i] = held.row;
+            continue;
+        }
+        const float along = v * static_cast<float>(strip.count);
+        const int number = std::clamp(static_cast<int>(along), 0, strip.count - 1);
+        if (number != of) make();
+        of = number;
+        cache.wanted[wants++] = {along - static_cast<float>(number), i};
+    }
+    make();
+}
+
+void CurvesSurface::evaluate(int face, std::span<const V2f> uv, int key, SurfaceScratch* scratch,
+                             std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
+    std::unique_ptr<SurfaceScratch> own;
+    if (!scratch) own = make_scratch(), scratch = own.get();
+    RibbonCache& cache = static_cast<RibbonCache&>(*scratch);
+    const float count = static_cast<float>(topology_.strip(face).count);
+    for (size_t first = 0, end = 0; first < uv.size(); first = end) {
+        // Rows of grids have one v.
+        size_t rows = 0;
+        for (; end < uv.size(); ++end) {
+            if (end > first && uv[end].y == uv[end - 1].y) continue;
+            if (rows == RibbonCache::kMostRows) break;
+            cache.v[rows++] = uv[end].y;
+        }
+        make_rows(face, key, rows, dPdu.empty(), cache);
+        const RibbonRow* row = cache.rows.data();
+        for (size_t i = first; i < end; ++i) {
+            if (i > first && uv[i].y != uv[i - 1].y) ++row;
+            P[i] = row->centre + row->span * (uv[i].x - 0.5f);
+        }
+        if (dPdu.empty() && dPdv.empty()) continue;
+        row = cache.rows.data();
+        for (size_t i = first; i < end; ++i) {
+            if (i > first && uv[i].y != uv[i - 1].y) ++row;
+            if (!dPdu.empty()) dPdu[i] = row->span;
+            if (!dPdv.empty()) dPdv[i] = (row->by_t + row->span_by_t * (uv[i].x - 0.5f)) * count;
+        }
+    }
+}
+
+/// Faces with as many segments as the first one.
+void CurvesSurface::lattices(int first, int count, FaceLattices& lattices) const {
+    std::array<RibbonLanes, kSmoothSegmentsPerFace> segments;
+    const int of_first = topology_.strip(first).count;
+    uint32_t faces = 0;
+    bool cubic_width = false;
+    for (int i = 0; i < FaceLattices::kFaces; ++i) {
+        // Lanes without a face are as the first.
+        const CurveTopology::Strip strip = topology_.strip(i < count ? first + i : first);
+        if (strip.count != of_first) continue;
+        if (i < count) faces |= 1u << i;
+        for (int number = 0; number < of_first; ++number) {
+            const RibbonSegment s = segment(strip.curve, strip.first + number, 0);
+            RibbonLanes& lanes = segments[number];
+            cubic_width = s.width.cubic;
+            for (int p = 0; p < 4; ++p) {
+                for (int k = 0; k < 3; ++k) lanes.P[p][k][i] = s.P.curve.p[p][k];
+                lanes.width[p][i] = s.width.curve.p[p][0];
+            }
+        }
+    }
+    facing_lattices({segments.data(), static_cast<size_t>(of_first)}, cubic_width, facing_[0], faces,
+                    lattices);
 }
 
 /// Values of variables on one face.
@@ -254,9 +334,9 @@ Box3f CurvesSurface::bound(int face, V2f lo, V2f hi, int key) const {
         // Segment i of the strip is at v * count from i to i + 1.
         const float first = static_cast<float>(i);
         if (to < first || from > first + 1) continue;
-        const Segment s = segment(strip.curve, strip.first + i, key);
-        const CurvePiece part =
-            s.P.restricted(std::clamp(from - first, 0.0f, 1.0f), std::clamp(to - first, 0.0f, 1.0f));
+        const RibbonSegment s = segment(strip.curve, strip.first + i, key);
+        const float low = std::clamp(from - first, 0.0f, 1.0f), high = std::clamp(to - first, 0.0f, 1.0f);
+        const CurvePiece part = low == 0 && high == 1 ? s.P : s.P.restricted(low, high);
         for (const Control& p : part.hull()) box.extendBy(xyz(p));
         for (const Control& w : s.width.hull()) widest = std::max(widest, std::abs(w[0]));
     }

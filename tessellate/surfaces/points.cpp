@@ -3,6 +3,7 @@
 /// as the circles they stand for. The "type" that RenderMans added makes them spheres to shading, or pictures
 /// (rectangles) that face the camera.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -40,6 +41,16 @@ DiskPoint disk_point(V2f uv) {
     if (sideways) return {at, by_r, by_other};
     return {exchanged(at), exchanged(by_other), exchanged(by_r)};
 }
+
+/// disk_point() of a lattice's points.
+struct DiskLattice {
+    V2f at[FaceLattices::kRows][FaceLattices::kColumns];
+
+    DiskLattice() {
+        for (int r = 0; r < FaceLattices::kRows; ++r)
+            for (int c = 0; c < FaceLattices::kColumns; ++c) at[r][c] = disk_point(FaceLattices::uv(r, c)).at;
+    }
+};
 
 /// How much larger than its circle a polygon's circle is, when both are to have the same area.
 float polygon_factor(int corners) {
@@ -102,6 +113,8 @@ class PointsSurface : public Surface {
     bool evaluate_variables(int face, std::span<const V2f> uv, SurfaceScratch* scratch,
                             ShadingGrid& grid) const override;
     Box3f bound(int face, V2f lo, V2f hi, int key) const override;
+    bool has_lattices() const override { return true; }
+    void lattices(int first, int count, FaceLattices& lattices) const override;
 
   private:
     static constexpr V2f kCorners[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -112,7 +125,8 @@ class PointsSurface : public Surface {
         V3f x{0, 0, 0}, y{0, 0, 0};  ///< to the corners of what is drawn; of a rectangle, to its sides
         bool rectangle = false;
 
-        V2f at(V2f uv) const { return rectangle ? uv * 2.0f - V2f(1, 1) : disk_point(uv).at; }
+        V2f at(V2f uv) const { return rectangle ? on_rectangle(uv) : disk_point(uv).at; }
+        static V2f on_rectangle(V2f uv) { return uv * 2.0f - V2f(1, 1); }
     };
     Disk disk(int point, int key) const;
     void set_sphere_normals(const Disk& disk, std::span<const V2f> uv, ShadingGrid& grid) const;
@@ -222,6 +236,29 @@ void PointsSurface::evaluate(int face, std::span<const V2f> uv, int key, Surface
         if (!dPdu.empty()) dPdu[i] = d.x * p.by_u.x + d.y * p.by_u.y;
         if (!dPdv.empty()) dPdv[i] = d.x * p.by_v.x + d.y * p.by_v.y;
     }
+}
+
+void PointsSurface::lattices(int first, int count, FaceLattices& lattices) const {
+    constexpr int kFaces = FaceLattices::kFaces;
+    std::array<float, kFaces> centre[3], x[3], y[3];
+    std::array<bool, kFaces> rectangle;
+    for (int i = 0; i < kFaces; ++i) {
+        const Disk d = disk(first + std::min(i, count - 1), 0);
+        for (int k = 0; k < 3; ++k) centre[k][i] = d.centre[k], x[k][i] = d.x[k], y[k][i] = d.y[k];
+        rectangle[i] = d.rectangle;
+    }
+    static const DiskLattice on_disks;
+    for (int r = 0; r < FaceLattices::kRows; ++r)
+        for (int c = 0; c < FaceLattices::kColumns; ++c) {
+            if (!FaceLattices::has(r, c)) continue;
+            const V2f on_disk = on_disks.at[r][c], on_rectangle = Disk::on_rectangle(FaceLattices::uv(r, c));
+            for (int k = 0; k < 3; ++k)
+                for (int i = 0; i < kFaces; ++i) {
+                    const V2f& at = rectangle[i] ? on_rectangle : on_disk;
+                    lattices.P[r][c][k][i] = centre[k][i] + x[k][i] * at.x + y[k][i] * at.y;
+                }
+        }
+    lattices.there = (1u << count) - 1;
 }
 
 /// One value for each point, whatever the class.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tessellate/topology/point_lanes.h"
+
 namespace trapeze {
 namespace {
 
@@ -133,15 +135,16 @@ void PlacedSurface::positions_and_derivatives(int face, std::span<const V2f> uv,
         V3f* const out = P.data() + key * n;
         const std::span<const V3f> a = object_points(mix.first);
         if (mix.to_next == 0) {
-            for (size_t i = 0; i < n; ++i) out[i] = transform_point(m, a[i]);
+            transform_points(m, a.first(n), out);
             continue;
         }
         const std::span<const V3f> b = object_points(mix.first + 1);
-        for (size_t i = 0; i < n; ++i) out[i] = transform_point(m, a[i] + (b[i] - a[i]) * mix.to_next);
+        for (size_t i = 0; i < n; ++i) out[i] = a[i] + (b[i] - a[i]) * mix.to_next;
+        transform_points(m, {out, n}, out);
     }
     // Derivatives are wanted at the first key alone.
-    for (V3f& d : dPdu) d = transform_vector(camera_from_object_[0], d);
-    for (V3f& d : dPdv) d = transform_vector(camera_from_object_[0], d);
+    transform_vectors(camera_from_object_[0], dPdu);
+    transform_vectors(camera_from_object_[0], dPdv);
 }
 
 Box3f PlacedSurface::bound(int face, V2f lo, V2f hi, int key) const {

@@ -18,6 +18,7 @@
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
 #include "core/scene/shading_grid.h"
+#include "tessellate/topology/face_lattices.h"
 
 namespace trapeze {
 
@@ -98,6 +99,12 @@ class Surface {
     /// Surfaces without a cheap sure bound return an empty box: the splitter then samples the rectangle and
     /// grows the result.
     virtual Box3f bound(int /*face*/, V2f /*lo*/, V2f /*hi*/, int /*shape_key*/) const { return {}; }
+
+    /// Whether lattices() makes points of many faces for less than evaluate() does.
+    virtual bool has_lattices() const { return false; }
+    /// The points of faces first .. first + count - 1, at most FaceLattices::kFaces, at shape key 0, the same
+    /// bits as evaluate() has; of all or some of them.
+    virtual void lattices(int /*first*/, int /*count*/, FaceLattices& /*lattices*/) const {}
 
     /// How many times a face the unit of grid.u and grid.v spans: 1 unless they run over a whole mesh.
     /// Derivatives in the grid are by grid.u and grid.v, those of evaluate() by the face's.

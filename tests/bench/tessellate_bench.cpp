@@ -135,6 +135,62 @@ BENCHMARK(subdivision_mesh)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
+/// Cubic hairs of one segment, four control points, that lie all over the picture; about a pixel wide.
+std::shared_ptr<const Shape> hairs(int count, float length) {
+    Curves curves;
+    curves.cubic = true;
+    curves.basis = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
+    curves.vertices_per_curve.assign(count, 4);
+    std::vector<float> P;
+    for (int i = 0; i < count; ++i) {
+        // Low-discrepancy places and directions; the golden ratio and its square root's like.
+        const auto part = [i](float step) { return std::fmod(static_cast<float>(i) * step, 1.0f); };
+        const V3f root(3.4f * part(0.618034f) - 1.7f, 1.8f * part(0.754878f) - 0.9f, 0.5f * part(0.569840f));
+        const float angle = kTurn * part(0.466921f);
+        for (int k = 0; k < 4; ++k) {
+            const float along = length * static_cast<float>(k) / 3,
+                        turn = angle + 0.2f * static_cast<float>(k);
+            const V3f p = root + V3f(std::cos(turn), std::sin(turn), 0.3f) * along;
+            P.insert(P.end(), {p.x, p.y, p.z});
+        }
+    }
+    ParameterList variables;
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, P));
+    variables.set(testing::parameter("constantwidth", StorageClass::Constant, ValueType::Float, {0.003f}));
+    return testing::shape_of(curves, variables);
+}
+
+/// range(0), range(1): hundredths of the picture's height that a hair is long, motion keys.
+void curves(benchmark::State& state) {
+    TestScene scene;
+    place(scene, hairs(20000, 0.02f * static_cast<float>(state.range(0))), static_cast<int>(state.range(1)));
+    run(state, scene);
+}
+BENCHMARK(curves)
+    ->Args({1, 1})
+    ->Args({4, 1})
+    ->Args({4, 2})
+    ->Args({16, 1})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+/// range(0): motion keys.
+void points(benchmark::State& state) {
+    std::vector<float> P;
+    for (int i = 0; i < 100000; ++i) {
+        const auto part = [i](float step) { return std::fmod(static_cast<float>(i) * step, 1.0f); };
+        P.insert(P.end(),
+                 {3.4f * part(0.618034f) - 1.7f, 1.8f * part(0.754878f) - 0.9f, 0.5f * part(0.569840f)});
+    }
+    ParameterList variables;
+    variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point, P));
+    variables.set(testing::parameter("constantwidth", StorageClass::Constant, ValueType::Float, {0.01f}));
+    TestScene scene;
+    place(scene, testing::shape_of(Points{100000}, variables), static_cast<int>(state.range(0)));
+    run(state, scene);
+}
+BENCHMARK(points)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
 void split_sphere(benchmark::State& state) {
     TestScene scene;
     place(scene, testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), 1);
