@@ -1,6 +1,7 @@
 #include "composite/film/hit_layers.h"
 
 #include <algorithm>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "composite/film/hit_layers.cpp"
@@ -17,13 +18,16 @@ struct GatheredHits {
 
     template <class T>
     using Lanes = T[kCount];
+    /// One number of each hit's four corners, two of which lie next to each other in memory.
+    template <class T>
+    using Corners = T[kCount][4];
 
     alignas(64) Lanes<float> ox, oy, oz, ux, uy, local_time;
-    /// Coordinate c of corner k is row 4 * c + k: at the segment's first key, and on to its next.
-    alignas(64) Lanes<float> start[12], delta[12];
-    /// Channel c of corner k is row 4 * c + k of these, or, where colours are floats, of those after them.
-    alignas(64) Lanes<uint16_t> color[12], opacity[12];  ///< halves
-    alignas(64) Lanes<float> full_color[12], full_opacity[12];
+    /// Coordinates at the segment's first key, and on to its next.
+    alignas(64) Corners<float> start[3], delta[3];
+    alignas(64) Corners<uint16_t> color[3], opacity[3];  ///< halves
+    /// Where colours are floats.
+    alignas(64) Corners<float> full_color[3], full_opacity[3];
     alignas(64) Lanes<uint32_t> opaque;  ///< all bits set where it holds
     bool moves = false, some_see_through = false, float_colors = false;
 };
@@ -40,48 +44,62 @@ namespace HWY_NAMESPACE {
 using F = hn::CappedTag<float, GatheredHits::kCount>;
 using FloatLanes = hn::Vec<F>;
 
-HWY_INLINE FloatLanes load_lanes(const float* row) {
-    return hn::Load(F(), row);
+/// The four corners' numbers of as many hits as there are lanes.
+struct CornerLanes {
+    FloatLanes k[4];
+};
+
+HWY_INLINE CornerLanes load_corners(const float (*corners)[4]) {
+    CornerLanes lanes;
+    hn::LoadInterleaved4(F(), corners[0], lanes.k[0], lanes.k[1], lanes.k[2], lanes.k[3]);
+    return lanes;
 }
-HWY_INLINE FloatLanes load_lanes(const uint16_t* row) {
+HWY_INLINE CornerLanes load_corners(const uint16_t (*corners)[4]) {
+    const hn::Rebind<uint16_t, F> bits;
     const hn::Rebind<hwy::float16_t, F> half;
-    return hn::PromoteTo(F(), hn::Load(half, reinterpret_cast<const hwy::float16_t*>(row)));
+    hn::Vec<decltype(bits)> b[4];
+    hn::LoadInterleaved4(bits, corners[0], b[0], b[1], b[2], b[3]);
+    CornerLanes lanes;
+    for (int k = 0; k < 4; ++k) lanes.k[k] = hn::PromoteTo(F(), hn::BitCast(half, b[k]));
+    return lanes;
 }
 
 /// A channel from the four corners, halves or floats.
 template <class T>
-HWY_INLINE FloatLanes blend(const WeightLanes<FloatLanes>& w, const GatheredHits::Lanes<T>* corners,
-                            size_t i) {
-    FloatLanes sum = hn::Add(hn::Zero(F()), hn::Mul(w.w00, load_lanes(corners[0] + i)));
-    sum = hn::Add(sum, hn::Mul(w.w10, load_lanes(corners[1] + i)));
-    sum = hn::Add(sum, hn::Mul(w.w01, load_lanes(corners[2] + i)));
-    return hn::Add(sum, hn::Mul(w.w11, load_lanes(corners[3] + i)));
+HWY_INLINE FloatLanes blend(const WeightLanes<FloatLanes>& w, const T (*corners)[4]) {
+    const CornerLanes at = load_corners(corners);
+    FloatLanes sum = hn::Add(hn::Zero(F()), hn::Mul(w.w00, at.k[0]));
+    sum = hn::Add(sum, hn::Mul(w.w10, at.k[1]));
+    sum = hn::Add(sum, hn::Mul(w.w01, at.k[2]));
+    return hn::Add(sum, hn::Mul(w.w11, at.k[3]));
 }
 
-/// Of hits whose colours are the rows `color` and `opacity`.
+/// Of hits whose colours are `color` and `opacities`.
 template <class T>
-HWY_INLINE void blend_rows(const GatheredHits& hits, const GatheredHits::Lanes<T>* color,
-                           const GatheredHits::Lanes<T>* opacities, float* const* planes) {
+HWY_INLINE void blend_corners(const GatheredHits& hits, const GatheredHits::Corners<T>* color,
+                              const GatheredHits::Corners<T>* opacities, float* const* planes) {
     const F d;
     const auto mask_at = [d](const uint32_t* lanes) HWY_ATTR {
         return hn::MaskFromVec(hn::BitCast(d, hn::Load(hn::RebindToUnsigned<F>(), lanes)));
     };
     for (size_t i = 0; i < GatheredHits::kCount; i += hn::Lanes(d)) {
         const FloatLanes local = hn::Load(d, hits.local_time + i), one = hn::Set(d, 1.0f);
-        const auto vertex = [&](int component, int corner) HWY_ATTR {
-            const int row = 4 * component + corner;
-            const FloatLanes start = hn::Load(d, hits.start[row] + i);
-            if (!hits.moves) return start;
-            return position_at(start, hn::Load(d, hits.delta[row] + i), local);
-        };
+        CornerLanes position[3];
+        for (int c = 0; c < 3; ++c) {
+            position[c] = load_corners(hits.start[c] + i);
+            if (!hits.moves) continue;
+            const CornerLanes delta = load_corners(hits.delta[c] + i);
+            for (int k = 0; k < 4; ++k) position[c].k[k] = position_at(position[c].k[k], delta.k[k], local);
+        }
+        const auto vertex = [&](int component, int corner) HWY_ATTR { return position[component].k[corner]; };
         const WeightLanes<FloatLanes> w = hit_weights(
             d, quad_lanes(hn::Load(d, hits.ox + i), hn::Load(d, hits.oy + i), hn::Load(d, hits.oz + i),
                           hn::Load(d, hits.ux + i), hn::Load(d, hits.uy + i), vertex));
-        for (int c = 0; c < 3; ++c) hn::StoreU(blend(w, color + 4 * c, i), d, planes[c] + i);
+        for (int c = 0; c < 3; ++c) hn::StoreU(blend(w, color[c] + i), d, planes[c] + i);
         for (int c = 0; c < 3; ++c) {
             FloatLanes opacity = one;  // weights sum to 1 only within rounding
             if (hits.some_see_through)
-                opacity = hn::IfThenElse(mask_at(hits.opaque + i), one, blend(w, opacities + 4 * c, i));
+                opacity = hn::IfThenElse(mask_at(hits.opaque + i), one, blend(w, opacities[c] + i));
             hn::StoreU(opacity, d, planes[3 + c] + i);
         }
     }
@@ -89,9 +107,9 @@ HWY_INLINE void blend_rows(const GatheredHits& hits, const GatheredHits::Lanes<T
 
 void blend_hits(const GatheredHits& hits, float* const* planes) {
     if (hits.float_colors)
-        blend_rows(hits, hits.full_color, hits.full_opacity, planes);
+        blend_corners(hits, hits.full_color, hits.full_opacity, planes);
     else
-        blend_rows(hits, hits.color, hits.opacity, planes);
+        blend_corners(hits, hits.color, hits.opacity, planes);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -105,59 +123,66 @@ HWY_EXPORT(blend_hits);
 
 namespace {
 
-uint16_t lane_value(Imath::half value) {
-    return value.bits();
-}
-float lane_value(float value) {
-    return value;
-}
-
-/// Gathers three planes of `size` values at a hit's four corners, as lane `lane` of twelve rows.
+/// Copies a micropolygon's corners from a plane of colours, row by row.
 template <class Stored, class Lane>
-void gather_planes(const Stored* planes, size_t size, const int* at, size_t lane,
-                   GatheredHits::Lanes<Lane>* rows) {
-    for (size_t c = 0; c < 3; ++c)
-        for (int k = 0; k < 4; ++k) rows[4 * c + k][lane] = lane_value(planes[c * size + at[k]]);
+void copy_corners(const Stored* at, int vertices_u, Lane (&corners)[4]) {
+    static_assert(sizeof(Stored) == sizeof(Lane));
+    std::memcpy(corners, at, 2 * sizeof(Lane));
+    std::memcpy(corners + 2, at + vertices_u, 2 * sizeof(Lane));
 }
 
-/// Gathers a hit's colours and opacities at its four corners, places `at` in planes of rows.
-void gather_colors(const Grid& grid, const int* at, size_t lane, GatheredHits& to) {
-    const auto size = static_cast<size_t>(grid.shape.vertex_count());
-    if (to.float_colors) {
-        gather_planes(grid.full_colors(), size, at, lane, to.full_color);
-        if (!grid.opaque) gather_planes(grid.full_colors() + 3 * size, size, at, lane, to.full_opacity);
-    } else {
-        gather_planes(grid.half_colors(), size, at, lane, to.color);
-        if (!grid.opaque) gather_planes(grid.half_colors() + 3 * size, size, at, lane, to.opacity);
-    }
+/// Gathers a hit's colours and opacities at its corners, as lane `lane`.
+template <class Stored, class Lane>
+void gather_colors(const Grid& grid, const Stored* planes, const MicropolygonId& id, size_t lane,
+                   GatheredHits::Corners<Lane>* color, GatheredHits::Corners<Lane>* opacity) {
+    const int size = grid.shape.vertex_count(), row = grid.shape.vertices_u();
+    const Stored* at = planes + grid.shape.row_index(id.u, id.v);
+    for (int c = 0; c < 3; ++c, at += size) copy_corners(at, row, color[c][lane]);
+    if (grid.opaque) return;
+    for (int c = 0; c < 3; ++c, at += size) copy_corners(at, row, opacity[c][lane]);
 }
+
+/// Where a micropolygon's corners are in planes of tiles.
+struct TiledCorners {
+    int at[4];
+    bool in_one_tile;
+
+    TiledCorners(const GridShape& shape, int u, int v) : in_one_tile((u & 3) < 3 && (v & 3) < 3) {
+        at[0] = shape.tiled_index(u, v);
+        if (in_one_tile) return;
+        for (int k = 1; k < 4; ++k) at[k] = shape.tiled_index(u + (k & 1), v + (k >> 1));
+    }
+    void copy(const float* plane, float (&corners)[4]) const {
+        if (in_one_tile) {
+            std::memcpy(corners, plane + at[0], 2 * sizeof(float));
+            std::memcpy(corners + 2, plane + at[0] + 4, 2 * sizeof(float));
+        } else {
+            for (int k = 0; k < 4; ++k) corners[k] = plane[at[k]];
+        }
+    }
+};
 
 /// Gathers what interpolation needs of a hit: its ray, corners, colours and opacities, as lane `lane`.
 void gather_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, size_t lane,
                 GatheredHits& to) {
     to.ox[lane] = ray.ox, to.oy[lane] = ray.oy, to.oz[lane] = ray.oz;
     to.ux[lane] = ray.ux, to.uy[lane] = ray.uy;
-    int tiled[4], in_rows[4];
-    for (int k = 0; k < 4; ++k) {
-        const int i = id.u + (k & 1), j = id.v + (k >> 1);
-        tiled[k] = grid.shape.tiled_index(i, j), in_rows[k] = grid.shape.row_index(i, j);
-    }
+    const TiledCorners corners(grid.shape, id.u, id.v);
     const MotionSegment segment = grid.moves() ? segment_at(ray.time, grid.key_count) : MotionSegment{};
     to.local_time[lane] = segment.local;
-    for (int c = 0; c < 3; ++c) {
-        const float* start = grid.plane(segment.index, c);
-        for (int k = 0; k < 4; ++k) to.start[4 * c + k][lane] = start[tiled[k]];
-    }
+    const int size = grid.shape.plane_size();
+    const float* plane = grid.plane(segment.index, 0);
+    for (int c = 0; c < 3; ++c, plane += size) corners.copy(plane, to.start[c][lane]);
     if (grid.moves()) {
         to.moves = true;
-        for (int c = 0; c < 3; ++c) {
-            const float* delta = grid.plane(segment.index, 3 + c);
-            for (int k = 0; k < 4; ++k) to.delta[4 * c + k][lane] = delta[tiled[k]];
-        }
+        for (int c = 0; c < 3; ++c, plane += size) corners.copy(plane, to.delta[c][lane]);
     } else {
-        for (auto& row : to.delta) row[lane] = 0;
+        for (auto& delta : to.delta) std::fill_n(delta[lane], 4, 0.0f);
     }
-    gather_colors(grid, in_rows, lane, to);
+    if (to.float_colors)
+        gather_colors(grid, grid.full_colors(), id, lane, to.full_color, to.full_opacity);
+    else
+        gather_colors(grid, grid.half_colors(), id, lane, to.color, to.opacity);
     to.opaque[lane] = grid.opaque ? ~0u : 0u;
     to.some_see_through |= !grid.opaque;
 }
