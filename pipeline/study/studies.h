@@ -7,6 +7,7 @@ namespace trapeze {
 
 void study_table1(StudyBench& bench, StudyResult& result);
 void study_table2(StudyBench& bench, StudyResult& result);
+void study_table3(StudyBench& bench, StudyResult& result);
 void study_table4(StudyBench& bench, StudyResult& result);
 void study_table5(StudyBench& bench, StudyResult& result);
 void study_fig9(StudyBench& bench, StudyResult& result);

@@ -16,6 +16,8 @@ constexpr StudyRow kStudies[] = {
     {"table1", "Table 1: effects", "sampling time of the Car with defocus, motion blur, and both",
      study_table1},
     {"table2", "Table 2: sampling time", "four scenes at the reference sample rate", study_table2},
+    {"table3", "Table 3: whole frames", "four frames as large as the paper's, from RIB to picture",
+     study_table3},
     {"table4", "Table 4: acceleration structures",
      "build and trace time with other bounds, and without each idea", study_table4},
     {"table5", "Table 5: sample rates and shading rates",

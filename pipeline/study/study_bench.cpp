@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <limits>
+
 #include "pipeline/compare/blur.h"
 #include "pipeline/compare/comparison.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sampler_list.h"
 #include "pipeline/compare/value_text.h"
+#include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/read_rib.h"
 
 namespace trapeze {
@@ -52,24 +56,56 @@ StudyScene StudyBench::scene(const std::string& label, const std::string& name, 
     return scene;
 }
 
-SharedFrame StudyBench::frame(const StudyScene& scene) {
-    go_on();
-    stage("shading " + scene.label);
+RenderSettings StudyBench::render_settings() const {
     RenderSettings settings;
     settings.memory_bytes = settings_.memory_bytes;
     settings.cancelled = settings_.cancelled;
     settings.on_progress = settings_.on_progress;
+    return settings;
+}
+
+StudySceneFacts& StudyBench::note_facts(const StudyScene& scene, const FrameStats& stats) {
+    StudySceneFacts& facts = result_.scenes.emplace_back();
+    facts.label = scene.label, facts.command = scene_command_line(scene);
+    facts.width = stats.width, facts.height = stats.height;
+    facts.micropolygons = stats.tessellate.micropolygons;
+    facts.grids = stats.tessellate.grids;
+    return facts;
+}
+
+FrameStats StudyBench::render(const StudyScene& scene, const SampleRate& rate) {
+    go_on();
+    stage("rendering " + scene.label);
+    const RenderSettings settings = render_settings();
+    std::optional<FrameResult> result;
+    const std::string text = scene_text(scene.name, scene.parameters);
+    const auto start = std::chrono::steady_clock::now();
+    read_rib_text(text, scene.name, ReadOptions{}, diagnostics_, [&](Scene&& world) {
+        world.options.samples_x = static_cast<float>(rate.x);
+        world.options.samples_y = static_cast<float>(rate.y);
+        const RenderContext context = make_context(world, settings, diagnostics_);
+        result = render_frame(context, settings);
+    });
+    if (!result) throw StudyStopped();
+    FrameStats& stats = result->stats;
+    stats.seconds.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    StudySceneFacts& facts = note_facts(scene, stats);
+    facts.largest_defocus = facts.largest_motion = std::numeric_limits<float>::quiet_NaN();
+    return std::move(stats);
+}
+
+SharedFrame StudyBench::frame(const StudyScene& scene) {
+    go_on();
+    stage("shading " + scene.label);
+    const RenderSettings settings = render_settings();
     std::optional<SharedFrame> frame;
     const std::string text = scene_text(scene.name, scene.parameters);
     read_rib_text(text, scene.name, ReadOptions{}, diagnostics_,
                   [&](Scene&& world) { frame = share_frame(std::move(world), settings, diagnostics_); });
     if (!frame) throw StudyStopped();
     const FrameBlur blur = measure_blur(frame->context.camera, frame->grids);
-    StudySceneFacts& facts = result_.scenes.emplace_back();
-    facts.label = scene.label, facts.command = scene_command_line(scene);
-    facts.width = frame->stats.width, facts.height = frame->stats.height;
+    StudySceneFacts& facts = note_facts(scene, frame->stats);
     facts.micropolygons = frame->grids.micropolygon_count();
-    facts.grids = frame->stats.tessellate.grids;
     facts.largest_defocus = blur.defocus.largest, facts.largest_motion = blur.motion.largest;
     return std::move(*frame);
 }

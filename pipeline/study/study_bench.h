@@ -27,6 +27,7 @@ class StudyBench {
     /// Writes scenes and figures into `result`. All must outlive this.
     StudyBench(const StudySettings& settings, Diagnostics& diagnostics, StudyResult& result);
 
+    int rounds() const { return settings_.rounds; }
     bool quick() const { return settings_.quick; }
     /// The rate of pictures that the paper supersamples 13x13 or finer.
     SampleRate reference_rate() const { return settings_.quick ? SampleRate{8, 8} : SampleRate{13, 13}; }
@@ -37,7 +38,10 @@ class StudyBench {
 
     /// Reads, dices and shades the scene, and notes its facts.
     SharedFrame frame(const StudyScene& scene);
-    /// The facts of the scene that frame() made last.
+    /// Renders the scene to a picture, which is let go, by ray tracing; the total is from its text on. Its
+    /// facts have no blur.
+    FrameStats render(const StudyScene& scene, const SampleRate& rate);
+    /// The facts of the scene that frame() or render() made last.
     const StudySceneFacts& last_facts() const { return result_.scenes.back(); }
 
     /// Measures methods, which are separated by spaces; the results are by rate, then by method.
@@ -50,6 +54,9 @@ class StudyBench {
     void stage(const std::string& what) const;
 
   private:
+    RenderSettings render_settings() const;
+    StudySceneFacts& note_facts(const StudyScene& scene, const FrameStats& stats);
+
     const StudySettings& settings_;
     Diagnostics& diagnostics_;
     StudyResult& result_;

@@ -1,6 +1,7 @@
 /// What a study found: values for the terminal, the JSON and the HTML report.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -50,7 +51,9 @@ struct StudySceneFacts {
     std::string label, command;  ///< the paper's name of its counterpart; how to write the scene as RIB
     int width = 0, height = 0;
     uint64_t micropolygons = 0, grids = 0;
-    float largest_defocus = 0, largest_motion = 0;  ///< pixels
+    float largest_defocus = 0, largest_motion = 0;  ///< pixels; not numbers where that was not measured
+
+    bool blur_is_known() const { return !std::isnan(largest_defocus); }
 
     double micropolygons_per_pixel() const {
         return static_cast<double>(micropolygons) / (static_cast<double>(width) * height);

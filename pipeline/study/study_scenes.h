@@ -12,6 +12,11 @@ namespace trapeze {
 /// micropolygons a pixel.
 std::array<StudyScene, 4> scenes_of_the_paper(const StudyBench& bench);
 
+/// Our four scenes as large as the paper's are, to within some percent, in the order of paper::kScenes and at
+/// their sizes: transparent fur on a mirror, flowers, the halberd, cars. A sixteenth where the bench is
+/// quick.
+std::array<StudyScene, 4> frames_of_the_paper(const StudyBench& bench);
+
 /// The counterpart of Car, with five or more micropolygons a pixel.
 StudyScene car_scene(const StudyBench& bench);
 /// The scene of the controlled study [Hou10 figure 8].

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "pipeline/study/paper_figures.h"
 #include "pipeline/study/study_scenes.h"
 
 namespace trapeze {
@@ -41,6 +42,32 @@ TEST(StudyBench, MeasuresAMadeSceneAndKeepsTheFigures) {
     EXPECT_EQ(b.result.figures[2]["scene"], "trapeze scene hair -r 64x36 --scale 0.05");
     ASSERT_EQ(lines.size(), 4u);
     EXPECT_TRUE(lines[3].starts_with("Furball, 2x2 interval: build ")) << lines[3];
+}
+
+TEST(StudyBench, RendersWholeFramesAndKeepsTheirFacts) {
+    Bench b;
+    StudyBench bench(b.settings, b.diagnostics, b.result);
+    const FrameStats stats = bench.render(tiny(), {3, 2});
+    EXPECT_EQ(b.messages, "");
+    EXPECT_EQ(stats.samples, 66u * 38 * 6) << "the filter's margin, too";
+    EXPECT_GE(stats.seconds.total, stats.seconds.tessellate + stats.seconds.trace);
+    EXPECT_GT(bench.last_facts().micropolygons, 1000u);
+    EXPECT_FALSE(bench.last_facts().blur_is_known());
+}
+
+/// Frames as large as the paper's would take a test too long: those of quick studies.
+TEST(StudyScenes, FramesHaveThePapersProportions) {
+    Bench b;
+    b.settings.quick = true;
+    StudyBench bench(b.settings, b.diagnostics, b.result);
+    size_t i = 0;
+    for (const StudyScene& scene : frames_of_the_paper(bench)) {
+        const FrameStats stats = bench.render(scene, {1, 1});
+        EXPECT_EQ(scene.label, paper::kScenes[i]);
+        EXPECT_EQ(stats.width, 1280 / 4);
+        EXPECT_EQ(stats.height, paper::kHeight[i++] / 4);
+    }
+    EXPECT_EQ(b.messages, "");
 }
 
 TEST(StudyBench, StopsWhenCancelledOrOutOfMemory) {

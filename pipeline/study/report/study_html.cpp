@@ -84,13 +84,17 @@ std::string scenes(const StudyResult& r) {
         "for</th><th>pixels</th>"
         "<th>micropolygons</th><th>a pixel</th><th>grids</th><th>largest circle of confusion</th><th>longest "
         "motion</th><th>written by</th></tr></thead>\n<tbody>\n";
-    for (const StudySceneFacts& s : r.scenes)
+    for (const StudySceneFacts& s : r.scenes) {
+        const auto pixels = [&](float value) {
+            return s.blur_is_known() ? number_text(value) + " px" : std::string("-");
+        };
         out += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td>{} &times; {}</td><td>{}</td><td>{}</td><td>{}</td><td>{} "
-            "px</td><td>{} px</td><td><code>{}</code></td></tr>\n",
+            "<tr><th scope=\"row\">{}</th><td>{} &times; {}</td><td>{}</td><td>{}</td><td>{}</td><td>{}"
+            "</td><td>{}</td><td><code>{}</code></td></tr>\n",
             escaped(s.label), s.width, s.height, count_text(static_cast<double>(s.micropolygons)),
-            number_text(s.micropolygons_per_pixel()), s.grids, number_text(s.largest_defocus),
-            number_text(s.largest_motion), escaped(s.command));
+            number_text(s.micropolygons_per_pixel()), s.grids, pixels(s.largest_defocus),
+            pixels(s.largest_motion), escaped(s.command));
+    }
     return out + "</tbody></table></div>\n</section>\n";
 }
 

@@ -19,12 +19,15 @@ std::string table_of(const StudyTable& table) {
 
 std::string study_text(const StudyResult& result) {
     std::string text = result.title + "\n\n";
-    for (const StudySceneFacts& scene : result.scenes)
-        text += fmt::format(
-            "{}: {} micropolygons ({} a pixel), circles of confusion to {} px, motion to {} px\n    {}\n",
-            scene.label, count_text(static_cast<double>(scene.micropolygons)),
-            number_text(scene.micropolygons_per_pixel()), number_text(scene.largest_defocus),
-            number_text(scene.largest_motion), scene.command);
+    for (const StudySceneFacts& scene : result.scenes) {
+        std::string blur;
+        if (scene.blur_is_known())
+            blur = fmt::format(", circles of confusion to {} px, motion to {} px",
+                               number_text(scene.largest_defocus), number_text(scene.largest_motion));
+        text += fmt::format("{}: {} micropolygons ({} a pixel){}\n    {}\n", scene.label,
+                            count_text(static_cast<double>(scene.micropolygons)),
+                            number_text(scene.micropolygons_per_pixel()), blur, scene.command);
+    }
     text += "\n";
     for (const StudyTable& table : result.tables) text += table_of(table);
     for (const std::string& note : result.notes) text += note + "\n";

@@ -2,40 +2,13 @@
 /// measuring what hairs cost from RIB to picture; the hairs of `hair` are patches, as the paper's are.
 #include <algorithm>
 
-#include "pipeline/study/scenes/scene_parts.h"
+#include "pipeline/study/scenes/fur.h"
 
 namespace trapeze::scenes {
 namespace {
 
-constexpr int kHairs = 100000;  ///< at scale 1
-constexpr int kHairsOfRequest = 1000;
+constexpr int kHairs = 100000;   ///< at scale 1
 constexpr double kWidth = .006;  ///< at the root, scale 1; the ball's radius is 1
-
-/// Control points of one Bezier segment, bent towards the ground and swirling about the upright axis.
-void append_hair(Numbers& points, Chance chance) {
-    const V3d n = chance.direction(), up(0, 1, 0);
-    const double length = chance.between(.35, .6), step = length / 3;
-    V3d direction = (n + .4 * up.cross(n) - .9 * up + .3 * chance.direction()).normalized();
-    V3d point = .97 * n;
-    for (int i = 0; i < 4; ++i) {
-        points.insert(points.end(), {point.x, point.y, point.z});
-        point += step * direction;
-        direction = (direction + .45 * V3d(0, -1, 0)).normalized();
-    }
-}
-
-void write_hairs(RibWriter& rib, int first, int count, double width) {
-    Numbers points, widths, colors;
-    for (int i = first; i < first + count; ++i) {
-        append_hair(points, Chance(11, static_cast<uint32_t>(i)));
-        Chance chance(12, static_cast<uint32_t>(i));
-        const double root = width * chance.between(.8, 1.2), light = chance.between(.6, 1.1);
-        widths.insert(widths.end(), {root, .2 * root});
-        colors.insert(colors.end(), {.85 * light, .55 * light, .3 * light});
-    }
-    rib.request("Curves", "cubic", Integers(static_cast<size_t>(count), 4), "nonperiodic", "P", points,
-                "varying float width", widths, "uniform color Cs", colors);
-}
 
 void write_furball_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("LightSource", "ambientlight", 1, "intensity", Numbers{.15});
@@ -62,8 +35,7 @@ void write_furball_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("Surface", "plastic", "Kd", Numbers{.8}, "Ks", Numbers{.25}, "roughness", Numbers{1.2});
     rib.request("Basis", "bezier", 3, "bezier", 3);
     const int hairs = std::max(1, static_cast<int>(std::lround(kHairs * p.scale)));
-    for (int first = 0; first < hairs; first += kHairsOfRequest)
-        write_hairs(rib, first, std::min(kHairsOfRequest, hairs - first), kWidth / std::sqrt(p.scale));
+    write_fur(rib, 0, hairs, kWidth / std::sqrt(p.scale), {.85, .55, .3});
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ void write_frame(RibWriter& rib, const Shot& shot, const SceneParameters& p) {
     rib.request("Format", p.width, p.height, 1);
     rib.request("PixelSamples", 8, 8);
     rib.request("PixelFilter", "gaussian", 2, 2);
+    if (shot.most_layers > 0) rib.request("Hider", "hidden", "int maxvpdepth", Integers{shot.most_layers});
     rib.request("Projection", "perspective", "fov", Numbers{shot.fov});
     rib.request("Clipping", .05, 10000);
     if (p.defocus > 0)

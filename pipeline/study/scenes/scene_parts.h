@@ -43,6 +43,7 @@ struct Shot {
     /// As RISpec's DepthOfField.
     double f_stop = 0, focal_length = 1, focal_distance = 1;  ///< f_stop at defocus 1
     double shading_rate = 1;
+    int most_layers = 0;  ///< of a sample; 0: all
 };
 
 /// A whole RIB file of one frame; `write_world` writes what is in the world.
@@ -60,6 +61,7 @@ void write_bilinear(RibWriter& rib, const V3d (&corners)[4]);
 // The scenes of scene_names().
 std::string hair_scene(const SceneParameters& parameters);
 std::string furball_scene(const SceneParameters& parameters);
+std::string furballs_scene(const SceneParameters& parameters);
 std::string halberd_scene(const SceneParameters& parameters);
 std::string flowers_scene(const SceneParameters& parameters);
 std::string car_study_scene(const SceneParameters& parameters);

@@ -11,9 +11,9 @@ struct SceneRow {
 };
 
 constexpr SceneRow kScenes[] = {
-    {"hair", scenes::hair_scene},           {"furball", scenes::furball_scene},
-    {"halberd", scenes::halberd_scene},     {"flowers", scenes::flowers_scene},
-    {"car-study", scenes::car_study_scene},
+    {"hair", scenes::hair_scene},         {"furball", scenes::furball_scene},
+    {"furballs", scenes::furballs_scene}, {"halberd", scenes::halberd_scene},
+    {"flowers", scenes::flowers_scene},   {"car-study", scenes::car_study_scene},
 };
 
 }  // namespace

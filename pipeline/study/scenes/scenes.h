@@ -10,8 +10,8 @@ namespace trapeze {
 
 /// What makes a scene larger, faster or more blurred than it is by itself.
 struct SceneParameters {
-    /// Multiplies the number of micropolygons: through the number of hairs or flowers in the scenes of that
-    /// name, through ShadingRate in the others.
+    /// Multiplies the number of micropolygons: through the number of hairs or flowers in scenes of such,
+    /// through ShadingRate in the others.
     double scale = 1;
     double motion = 1;        ///< multiplies the distances moved while the shutter is open; 0: nothing moves
     double defocus = 1;       ///< multiplies the lens; 0: a pinhole
