@@ -67,7 +67,7 @@ class Dicer {
         grid_.reverse_orientation = attributes_.reverse_orientation;
         grid_.displaced = false;
         grid_.I.resize(0);
-        grid_.hit_vertex = -1, grid_.hit_level = 0;
+        grid_.hit_vertex = -1, grid_.hit_level = 0, grid_.hit_place.reset();
         grid_.medium = {};
         grid_.own_colors = false;
         grid_.shared_vertices.clear();

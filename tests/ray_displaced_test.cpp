@@ -32,6 +32,26 @@ TEST(RayDisplaced, OcclusionOfABallIsItsFormFactor) {
     EXPECT_NEAR(bias, 0, 4 * std::sqrt(independent / 4096) + 2e-4);
 }
 
+/// What shaders find at a hit is where the ray has met the displaced surface, not where that was before: P is
+/// on the ray, and I leads along it. So it is for what the hit's shader asks in turn.
+TEST(RayDisplaced, HitsAreSeenWhereTheyHaveBeenMet) {
+    for (const std::string tells : {"vtransform(\"world\", I)", "transform(\"world\", P) - from"}) {
+        Case c;
+        c.shaders["lift"] =
+            "displacement lift() { P += vector(0, .3 * xcomp(P), 1); N = calculatenormal(P); }";
+        c.shaders["tells"] = "surface tells() { vector from = point(.2, .1, 5); vector w = " + tells +
+                             "; Ci = color(xcomp(w), ycomp(w), zcomp(w)) / length(w) + 1; Oi = 1; }";
+        c.things =
+            "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [2] "
+            "Displacement \"lift\" Surface \"tells\" " +
+            wall("2");
+        expect_told(c.render("vector d = normalize(vector(xcomp(P), ycomp(P), -1));"
+                             "color seen = trace(point(.2, .1, 5), d) - 1;"
+                             "Ci = told(comp(seen, 0) + 2 * comp(seen, 1), xcomp(d) + 2 * ycomp(d), 1);"),
+                    1e-5f, 64 * 64);
+    }
+}
+
 /// The penumbra of a disk light behind an edge that a displacement has lifted to where it is looked for: as
 /// in area_lights_test, a disk of radius 3, 100 away, and an edge at z = -10.
 TEST(RayDisplaced, ThePenumbraIsThatOfTheLiftedEdge) {

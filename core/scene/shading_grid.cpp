@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion_keys.h"
 #include "core/scene/depth_filter.h"
 #include "core/scene/level_of_detail.h"
 #include "core/scene/scene.h"
@@ -80,6 +81,22 @@ bool faces_the_eye(const Shape& shape) {
 }
 
 }  // namespace
+
+V3f place_at(const ShadingGrid& grid, size_t vertex, float time01) {
+    if (grid.P.size() == 1) return grid.P.front().at(vertex);
+    const MotionSegment at = segment_at(time01, static_cast<int>(grid.P.size()));
+    const auto key = static_cast<size_t>(at.index);
+    const V3f from = grid.P[key].at(vertex);
+    return from + (grid.P[key + 1].at(vertex) - from) * at.local;
+}
+
+void move_hit_to(const V3f& place, ShadingGrid& grid) {
+    const auto hit = static_cast<size_t>(grid.hit_vertex);
+    const V3f way = place - place_at(grid, hit, grid.hit_time);
+    for (Triples& P : grid.P)
+        for (size_t i = 0; i < P.size(); ++i) P.set(i, P.at(i) + way);
+    if (grid.P.size() == 1) grid.P.front().set(hit, place);
+}
 
 Facing facing_for_sides(int sides, bool reverse_orientation) {
     if (sides != 1) return Facing::Both;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <compare>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,9 +71,11 @@ struct ShadingGrid {
     /// From where the points are seen, to P: of what a ray has hit. Without values they are seen by the
     /// camera.
     Triples I;
-    int hit_vertex = -1;       ///< of what a ray has hit: the vertex there; only this one traces rays in turn
-    float hit_time = 0;        ///< of what a ray has hit: when; its own rays go at that time, too
-    uint8_t hit_level = 0;     ///< of what a ray has hit: RaySurfaceHit::level
+    int hit_vertex = -1;    ///< of what a ray has hit: the vertex there; only this one traces rays in turn
+    float hit_time = 0;     ///< of what a ray has hit: when; its own rays go at that time, too
+    uint8_t hit_level = 0;  ///< of what a ray has hit: RaySurfaceHit::level
+    /// Of what a ray has hit, where shaders displace it first: the place on the micropolygon, at hit_time.
+    std::optional<V3f> hit_place;
     RayMedium medium;          ///< of what a ray has hit: what it is seen through, if that has a shader
     bool own_colors = false;   ///< of what a ray has hit: stands for the primitive's own Cs and Os
     bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone
@@ -113,6 +116,12 @@ struct ShadingGrid {
         return nullptr;
     }
 };
+
+/// Where a vertex is at a time, 0 at shutter open.
+V3f place_at(const ShadingGrid& grid, size_t vertex, float time01);
+/// Moves the grid of a hit, all of it and at all times, until the vertex that was hit is at `place` at its
+/// time.
+void move_hit_to(const V3f& place, ShadingGrid& grid);
 
 /// Which side of the grid's micropolygons can be hit, for Sides: which sign of projected area shows the
 /// outside. See grid winding in hit_micropolygon.h: with rays along +z, dPdu x dPdv points to the viewer

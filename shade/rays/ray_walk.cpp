@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/motion_keys.h"
-
 namespace trapeze {
 namespace {
 
@@ -31,25 +29,9 @@ float behind(const RaySurfaceHit& hit, float spacing) {
     return hit.distance + std::max(hit.distance * 1e-6f, spacing * 1e-4f);
 }
 
-/// Where a vertex is at a time.
-V3f place_at(const ShadingGrid& grid, size_t vertex, float time) {
-    if (grid.P.size() == 1) return grid.P.front().at(vertex);
-    const MotionSegment at = segment_at(time, static_cast<int>(grid.P.size()));
-    const auto key = static_cast<size_t>(at.index);
-    const V3f from = grid.P[key].at(vertex);
-    return from + (grid.P[key + 1].at(vertex) - from) * at.local;
-}
-
-/// Puts the grid of a hit where the ray has met it: on a micropolygon, which passes beside the limit surface.
-/// Not where shaders are to displace it first.
-void move_to_hit(const RaySegment& ray, const RaySurfaceHit& hit, int vertex, ShadingGrid& grid) {
-    const Attributes& attributes = *grid.primitive->attributes;
-    if (attributes.rays.displaced && (attributes.displacement || attributes.displacement_bound > 0)) return;
-    const auto at = static_cast<size_t>(vertex);
-    const V3f way = ray.origin + ray.direction * hit.distance - place_at(grid, at, ray.time);
-    for (Triples& P : grid.P)
-        for (size_t i = 0; i < P.size(); ++i) P.set(i, P.at(i) + way);
-    if (grid.P.size() == 1) grid.P.front().set(at, ray.origin + ray.direction * hit.distance);
+/// Whether shaders are to displace what rays meet.
+bool is_displaced(const Attributes& attributes) {
+    return attributes.rays.displaced && (attributes.displacement || attributes.displacement_bound > 0);
 }
 
 std::vector<const RaySegment*> segments_of(std::span<const WalkedRay> rays) {
@@ -173,16 +155,21 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
     if (scratch_.grids.size() <= number) scratch_.grids.emplace_back();
     ShadingGrid& grid = scratch_.grids[number];
     const int vertex = scene_.dice(met.hit, grid);
-    move_to_hit(met.ray->segment, met.hit, vertex, grid);
+    const RaySegment& ray = met.ray->segment;
+    grid.hit_vertex = vertex, grid.hit_time = ray.time, grid.hit_level = met.hit.level;
+    // A micropolygon passes beside the limit surface.
+    const V3f place = ray.origin + ray.direction * met.hit.distance;
+    if (is_displaced(*grid.primitive->attributes))
+        grid.hit_place = place;
+    else
+        move_hit_to(place, grid);
     const size_t vertices = grid.vertex_count();
     grid.I.resize(vertices);
-    const RaySegment& ray = met.ray->segment;
     // Seen through a medium, from where that begins.
     grid.medium = medium_of(met);
     const bool in_medium = grid.medium != RayMedium();
     const V3f from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
     for (size_t i = 0; i < vertices; ++i) grid.I.set(i, place_at(grid, i, ray.time) - from);
-    grid.hit_vertex = vertex, grid.hit_time = ray.time, grid.hit_level = met.hit.level;
     grid.seed = met.ray->seed;
     grid.answers.clear();
     met.grid = &grid;
