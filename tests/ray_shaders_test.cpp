@@ -1,4 +1,4 @@
-/// Standard shaders and lights that trace, and glass, next to closed forms.
+/// Standard shaders and lights that trace, next to closed forms.
 #include <gtest/gtest.h>
 
 #include "tests/rays_harness.h"
@@ -8,73 +8,6 @@ namespace {
 
 std::string depth(int bounces) {
     return "Attribute \"trace\" \"int maxspeculardepth\" [" + std::to_string(bounces) + "] ";
-}
-
-/// Where a line from `o` along `d` (of unit length) enters (or leaves, side 1) a sphere of radius R at (0, 0,
-/// 3).
-const std::string kSphere =
-    "point crossed(point o; vector d; float R, side) { vector m = o - point(0, 0, 3); float b = m . d;"
-    "  return o + d * (-b + side * sqrt(max(b * b - m . m + R * R, 0))); }"
-    "vector bent(point at; vector d; float side, eta) {"
-    "  return normalize(refract(d, -side * normalize(vector(at - point(0, 0, 3))), eta)); } ";
-
-/// Surfaces that bend rays, with the index inside over that outside; and what tells where a ray has come to.
-void bend(Case& c) {
-    c.shaders["lens"] =
-        "surface lens(float eta = 1.5;) { Oi = 1; normal Nn = normalize(N); vector d = normalize(I);"
-        "  float enters = d . Nn < 0 ? 1 : 0;"
-        "  Ci = color trace(P, refract(d, enters > 0 ? Nn : -Nn, enters > 0 ? 1 / eta : eta)); }";
-    c.shaders["place"] = "surface place() { Oi = 1; Ci = color(xcomp(P) + 8, ycomp(P) + 8, 1); }";
-}
-
-/// A ball of glass turns rays to the place that Snell's law says. Its micropolygons lie up to 4.9e-4 beside
-/// the sphere (their sides are 1/32), which moves where a ray is bent by as much over the cosine to the
-/// surface, at either side. Along borders of grids the place in the surface's parameters is known to half a
-/// side, 1/64, so that a normal may be off by 1/32: at each surface that turns a ray by 1/2 of it, or 1/3,
-/// and the wall is three radii behind.
-constexpr float kMostOff = 0.06f;
-
-TEST(RayGlass, AThickBallRefractsBySnellsLaw) {
-    for (const double eta : {1.5, 1.2, 1 / 1.3}) {
-        Case c;
-        bend(c);
-        c.functions = kSphere;
-        c.asker = depth(4);
-        c.things = depth(4) + "Surface \"lens\" \"eta\" " + std::to_string(eta) + sphere(" 0 0 3", ".5") +
-                   "Surface \"place\" " + wall("1.5");
-        const Image image =
-            c.render("float eta = " + std::to_string(eta) +
-                     "; vector d = vector(0, 0, -1); float r2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P);"
-                     "color seen = trace(P, d);"
-                     "point a = crossed(P, d, .5, -1); vector d1 = bent(a, d, -1, 1 / eta);"
-                     "point b = crossed(a + .1 * d1, d1, .5, 1); vector d2 = bent(b, d1, 1, eta);"
-                     "point there = b + d2 * ((1.5 - zcomp(b)) / zcomp(d2));"
-                     "Ci = told(comp(seen, 0) - 8, xcomp(there), r2 < .12 ? 1 : 0);");
-        expect_told(image, 4e-3f, 350, kMostOff);
-    }
-}
-
-/// A hollow ball, whose wall is a tenth of its radius: four surfaces, which together bend rays little, but
-/// may add to what each is off.
-TEST(RayGlass, AThinShellRefractsBySnellsLaw) {
-    Case c;
-    bend(c);
-    c.functions = kSphere;
-    const std::string kind = depth(6) + "Attribute \"trace\" \"float bias\" [.01] ";
-    c.asker = kind;
-    c.things = kind + "Surface \"lens\" \"eta\" 1.5 " + sphere("0 0 3", ".5") +
-               "Surface \"lens\" \"eta\" .6666667 " + sphere("0 0 3", ".45") + "Surface \"place\" " +
-               wall("1.5");
-    const Image image = c.render(
-        "vector d = vector(0, 0, -1); float r2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P);"
-        "color seen = trace(P, d);"
-        "point a = crossed(P, d, .5, -1); vector d1 = bent(a, d, -1, 1 / 1.5);"
-        "point b = crossed(a, d1, .45, -1); vector d2 = bent(b, d1, -1, 1.5);"
-        "point e = crossed(b + .1 * d2, d2, .45, 1); vector d3 = bent(e, d2, 1, 1 / 1.5);"
-        "point f = crossed(e, d3, .5, 1); vector d4 = bent(f, d3, 1, 1.5);"
-        "point there = f + d4 * ((1.5 - zcomp(f)) / zcomp(d4));"
-        "Ci = told(comp(seen, 0) - 8, xcomp(there), r2 < .1 ? 1 : 0);");
-    expect_told(image, 4e-3f, 280, 2 * kMostOff);
 }
 
 /// Light that passes the standard glass is weakened at both sides by what Fresnel's formulas reflect there,
