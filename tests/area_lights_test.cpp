@@ -288,21 +288,6 @@ TEST(AreaLightShadows, LookThroughShadersThatAreLitThemselves) {
     EXPECT_NEAR(mean_red(c.render(asks("float expected = 0;"))), mean_red(open) / 16, 1e-3 * mean_red(open));
 }
 
-/// Sixteen times the samples make at most a sixteenth of the mean squared error, over points and seeds.
-TEST(AreaLights, ErrorsFallAtLeastAsOneOverTheSamples) {
-    const auto square = [](int samples) {
-        double sum = 0;
-        for (uint32_t seed = 0; seed < 16; ++seed) {
-            Case c = lit_by(ris("PxrRectLight", "Translate 0 0 3", "", samples));
-            c.settings.seed = seed;
-            for (const Pixel& p : pixels(c.render(asks(kUnitSquare))))
-                sum += std::pow(static_cast<double>(p.red - p.green), 2);
-        }
-        return sum;
-    };
-    EXPECT_LT(square(64), square(4) / 16 * 1.1);
-}
-
 /// Threads, regions and the order of grids leave every bit as it is; the seed does not.
 TEST(AreaLights, PicturesAreTheSameForAnyThreadsAndRegions) {
     const auto render = [](int threads, int regions, uint32_t seed) {
