@@ -59,19 +59,12 @@ std::vector<const ShadingGrid*> to_read(std::span<ShadingGrid* const> grids) {
     return {grids.begin(), grids.end()};
 }
 
-/// From where a ray sees what it has hit and shaders displace.
-V3f seen_from(const ShadingGrid& grid) {
-    if (!grid.hit_place) return V3f(0);
-    const auto hit = static_cast<size_t>(grid.hit_vertex);
-    return place_at(grid, hit, grid.hit_time) - grid.I.at(hit);
-}
-
 /// Of a hit that has been displaced: it is where its ray has met it, but where its surface shader `moves_on`,
 /// and is seen there. I led to where it was before.
-void see_displaced(const V3f& from, bool moves_on, ShadingGrid& grid) {
+void see_displaced(bool moves_on, ShadingGrid& grid) {
     if (!grid.hit_place) return;
     if (!moves_on) move_hit_to(*grid.hit_place, grid);
-    for (size_t i = 0; i < grid.vertex_count(); ++i) grid.I.set(i, place_at(grid, i, grid.hit_time) - from);
+    see_hit(grid);
 }
 
 }  // namespace
@@ -107,12 +100,10 @@ Task<GridRun::Layers> GridRun::displace_seen() {
     std::vector<std::vector<Triples>> places;
     for (const ShadingGrid* grid : grids_)
         if (stay) places.push_back(grid->P);
-    std::vector<V3f> eyes;
-    for (const ShadingGrid* grid : grids_)
-        if (!stay) eyes.push_back(seen_from(*grid));
     Layers layers = co_await displace();
     for (size_t g = 0; g < places.size(); ++g) grids_[g]->P = std::move(places[g]);
-    for (size_t g = 0; g < eyes.size(); ++g) see_displaced(eyes[g], material_.surface_moves, *grids_[g]);
+    if (!stay)
+        for (ShadingGrid* grid : grids_) see_displaced(material_.surface_moves, *grid);
     co_return layers;
 }
 

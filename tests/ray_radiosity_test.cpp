@@ -15,6 +15,9 @@ std::string bounces(int count) {
 
 const char* const kMotion = "MotionBegin [0 1] Translate 0 0 0 Translate .6 -.4 .5 MotionEnd ";
 
+const char* const kTurning =
+    "Translate 0 0 4.5 MotionBegin [0 1] Rotate 0 1 2 3 Rotate 40 1 2 3 MotionEnd Translate 0 0 -4.5 ";
+
 /// How walls come to be where they are, and where they go while the shutter is open.
 struct Pose {
     const char* name;
@@ -168,6 +171,8 @@ TEST_P(RayRadiosity, OfAnIntegratingSphereIsTheSameEverywhere) {
 INSTANTIATE_TEST_SUITE_P(, RayRadiosity,
                          ::testing::Values(Pose{"AtRest"}, Pose{"Moving", kMotion},
                                            Pose{"MovingTogether", kMotion, false, true},
+                                           Pose{"TurningTogether", kTurning, false, true},
+                                           Pose{"DisplacedAndTurningTogether", kTurning, true, true},
                                            Pose{"Displaced", "", true},
                                            Pose{"DisplacedAndMoving", kMotion, true}),
                          [](const ::testing::TestParamInfo<Pose>& pose) { return pose.param.name; });

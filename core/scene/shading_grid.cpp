@@ -6,6 +6,7 @@
 #include "core/motion_keys.h"
 #include "core/scene/depth_filter.h"
 #include "core/scene/level_of_detail.h"
+#include "core/scene/motion_turn.h"
 #include "core/scene/scene.h"
 
 namespace trapeze {
@@ -96,6 +97,14 @@ void move_hit_to(const V3f& place, ShadingGrid& grid) {
     for (Triples& P : grid.P)
         for (size_t i = 0; i < P.size(); ++i) P.set(i, P.at(i) + way);
     if (grid.P.size() == 1) grid.P.front().set(hit, place);
+}
+
+void see_hit(ShadingGrid& grid) {
+    const MotionTurn turn =
+        grid.hit_time > 0 ? MotionTurn(*grid.primitive, static_cast<int>(grid.P.size()), {}) : MotionTurn();
+    grid.I.resize(grid.vertex_count());
+    for (size_t i = 0; i < grid.vertex_count(); ++i)
+        grid.I.set(i, turn.back(place_at(grid, i, grid.hit_time) - grid.hit_from, grid.hit_time));
 }
 
 Facing facing_for_sides(int sides, bool reverse_orientation) {

@@ -68,14 +68,15 @@ struct ShadingGrid {
         P;       ///< position at each key; shaders see and displace P[0], which is moved into all keys
     Triples N;   ///< unit shading normal: primitive variable "N", or the surface's own; oriented outside
     Triples Ng;  ///< unit normal of the surface, dPdu x dPdv, oriented outside
-    /// From where the points are seen, to P: of what a ray has hit. Without values they are seen by the
-    /// camera.
+    /// From where the points are seen, to P: of what a ray has hit, as see_hit() has it. Without values they
+    /// are seen by the camera.
     Triples I;
     int hit_vertex = -1;    ///< of what a ray has hit: the vertex there; only this one traces rays in turn
     float hit_time = 0;     ///< of what a ray has hit: when; its own rays go at that time, too
     uint8_t hit_level = 0;  ///< of what a ray has hit: RaySurfaceHit::level
     /// Of what a ray has hit, where shaders displace it first: the place on the micropolygon, at hit_time.
     std::optional<V3f> hit_place;
+    V3f hit_from{0, 0, 0};     ///< of what a ray has hit: from where it is seen, then
     RayMedium medium;          ///< of what a ray has hit: what it is seen through, if that has a shader
     bool own_colors = false;   ///< of what a ray has hit: stands for the primitive's own Cs and Os
     bool for_opacity = false;  ///< of what a ray has hit: Oi is wanted alone
@@ -122,6 +123,10 @@ V3f place_at(const ShadingGrid& grid, size_t vertex, float time01);
 /// Moves the grid of a hit, all of it and at all times, until the vertex that was hit is at `place` at its
 /// time.
 void move_hit_to(const V3f& place, ShadingGrid& grid);
+
+/// Sets I of a hit's grid: the way from hit_from at its time, turned back to how the surface lies at shutter
+/// open.
+void see_hit(ShadingGrid& grid);
 
 /// Which side of the grid's micropolygons can be hit, for Sides: which sign of projected area shows the
 /// outside. See grid winding in hit_micropolygon.h: with rays along +z, dPdu x dPdv points to the viewer

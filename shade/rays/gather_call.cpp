@@ -148,11 +148,12 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
         ray.segment.min =
             aim.leads() ? asker_.bias_at(P, asking.level(), arguments_.bias.at(lane)) : kInfinity;
         ray.segment.max = aim.leads() ? arguments_.max_distance_at(lane) : 0;
-        ray.segment.direction = angle == 0                        ? axis
-                                : arguments_.uniform_distribution ? cone.uniform(sequence[s])
-                                                                  : cone.by_cosine(sequence[s]);
+        const V3f direction = angle == 0                        ? axis
+                              : arguments_.uniform_distribution ? cone.uniform(sequence[s])
+                                                                : cone.by_cosine(sequence[s]);
+        ray.segment.direction = motion.turned(direction, ray.segment.time, kind_ == RayKind::Diffuse);
         ray.segment.origin = base_.origin(P, arguments_, asking, s);
-        ray.medium = asker_.medium(asking, ray.segment.direction);
+        ray.medium = asker_.medium(asking, direction);
         ray.seed = asking.of_ray(s);
         rays_.push_back(ray);
     }

@@ -22,15 +22,24 @@ float radical_inverse_3(uint32_t number) {
 LaneMotion::LaneMotion(const RayAsker& asker, const RayLane& lane)
     : grid_(lane.grid), vertex_(lane.lane - lane.first_of_grid) {
     if (!grid_) return;
-    const bool is_hit = grid_->hit_vertex >= 0;
-    varies_ = !is_hit && asker.samples_motion();
-    hit_time_ = is_hit ? grid_->hit_time : 0;
+    is_hit_ = grid_->hit_vertex >= 0;
+    varies_ = !is_hit_ && asker.samples_motion();
+    hit_time_ = is_hit_ ? grid_->hit_time : 0;
     if (!varies_ && hit_time_ == 0) return;
     shift_ = unit_float(hash(lane.seed, 7));
     keys_ = static_cast<int>(grid_->P.size());
     // Rays' own geometry has no motion of the camera in it.
-    if (!is_hit) held_ = asker.service().held_from_camera;
+    if (!is_hit_) held_ = asker.service().held_from_camera;
     if (!held_.empty() && keys_ == 1) keys_ = kHeldKeys;
+    if (keys_ > 1) turn_ = MotionTurn(*grid_->primitive, keys_, held_);
+}
+
+V3f LaneMotion::turned(const V3f& direction, float time, bool diffuse) const {
+    return is_hit_ || diffuse ? turn_.forward(direction, time) : direction;
+}
+
+V3f LaneMotion::turned_back(const V3f& direction, float time, bool diffuse) const {
+    return is_hit_ || diffuse ? turn_.back(direction, time) : direction;
 }
 
 float LaneMotion::time(int sample) const {

@@ -3,9 +3,11 @@
 /// Shading is done once for the whole shutter, with everything in its place as the shutter opens [Cook87];
 /// only rays go out at times of their own, from where their point is then. What they hit is shaded as the
 /// shutter opens, too, and its own rays go on at the time of the ray that hit it. So a reflection, a shadow
-/// and what is seen in a reflection agree about where things are.
+/// and what is seen in a reflection agree about where things are. Directions that belong to a surface turn
+/// with it.
 #pragma once
 
+#include "core/scene/motion_turn.h"
 #include "shade/rays/ray_asker.h"
 
 namespace trapeze {
@@ -22,6 +24,11 @@ class LaneMotion {
     V3f way(float time) const;
     /// Where the shaded point itself is at shutter open.
     V3f start() const { return place(0); }
+    /// Where a direction of a ray leads at a time, as its surface turns; and the other way round. All rays of
+    /// hits turn, for the ways that these are seen along have been turned back; of what the camera sees
+    /// diffuse ones alone, which follow the normal: others, the eye's way through glass, stay as they are.
+    V3f turned(const V3f& direction, float time, bool diffuse) const;
+    V3f turned_back(const V3f& direction, float time, bool diffuse) const;
 
   private:
     V3f place(int key) const;
@@ -32,6 +39,8 @@ class LaneMotion {
     int keys_ = 1;
     bool varies_ = false;
     float shift_ = 0, hit_time_ = 0;
+    bool is_hit_ = false;
+    MotionTurn turn_;
 };
 
 }  // namespace trapeze

@@ -77,12 +77,14 @@ struct RayCalls::Call {
     RayAim aim_at(size_t lane, const LaneMotion& motion, float time) const;
 };
 
-/// Where rays of a lane go at a time. Its point moves, what it looks at stays: directions, lights. Of two
-/// points that one moves which is nearer to the point that is shaded.
+/// Where rays of a lane go at a time. Its point moves, and directions turn with its surface where they belong
+/// to it; lights stay. Of two points that one moves which is nearer to the point that is shaded.
 RayAim RayCalls::Call::aim_at(size_t lane, const LaneMotion& motion, float time) const {
     const V3f P = arguments.from_at(lane), towards = arguments.towards_at(lane), moved = motion.way(time);
+    if (!ends_at_point())
+        return RayAim(moved == V3f(0, 0, 0) ? P : P + moved, motion.turned(towards, time, over_sky()), time);
     if (moved == V3f(0, 0, 0)) return RayAim(P, between_points() ? towards - P : towards, time);
-    if (!between_points()) return RayAim(P + moved, ends_at_point() ? towards - moved : towards, time);
+    if (!between_points()) return RayAim(P + moved, towards - moved, time);
     const bool from_here = (P - motion.start()).length2() <= (towards - motion.start()).length2();
     return from_here ? RayAim(P + moved, towards - (P + moved), time) : RayAim(P, towards + moved - P, time);
 }
@@ -256,7 +258,8 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
         ray.segment.origin = base.origin(aim.P, arguments, asking, s);
-        ray.medium = asker_.medium(asking, ray.segment.direction);
+        ray.medium = asker_.medium(
+            asking, motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky()));
         ray.seed = asking.of_ray(s);
         rays.push_back(ray);
     }

@@ -163,13 +163,11 @@ ShadingGrid& RayWalk::grid_of(Met& met, size_t number) {
         grid.hit_place = place;
     else
         move_hit_to(place, grid);
-    const size_t vertices = grid.vertex_count();
-    grid.I.resize(vertices);
     // Seen through a medium, from where that begins.
     grid.medium = medium_of(met);
     const bool in_medium = grid.medium != RayMedium();
-    const V3f from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
-    for (size_t i = 0; i < vertices; ++i) grid.I.set(i, place_at(grid, i, ray.time) - from);
+    grid.hit_from = in_medium ? ray.origin + ray.direction * met.ray->medium_from : ray.origin;
+    see_hit(grid);
     grid.seed = met.ray->seed;
     grid.answers.clear();
     met.grid = &grid;

@@ -1,0 +1,70 @@
+#include "core/scene/motion_turn.h"
+
+#include <cmath>
+
+#include "core/motion_keys.h"
+#include "core/scene/held_camera.h"
+
+namespace trapeze {
+namespace {
+
+/// The matrix at a time: matrices are mixed linearly between their keys, as points move between them.
+M44d mixed(std::span<const M44d> keys, float time01) {
+    if (keys.size() == 1) return keys.front();
+    const MotionSegment at = segment_at(time01, static_cast<int>(keys.size()));
+    const double part = static_cast<double>(at.local);
+    const auto index = static_cast<size_t>(at.index);
+    return keys[index] * (1 - part) + keys[index + 1] * part;
+}
+
+/// Whether a matrix does more than move; rounding is no turn.
+bool turns(const M44d& matrix) {
+    constexpr double kRounding = 1e-5;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            if (std::abs(matrix[row][column] - (row == column ? 1 : 0)) > kRounding) return true;
+    return false;
+}
+
+}  // namespace
+
+MotionTurn::MotionTurn(const Primitive& primitive, int keys, std::span<const M44f> held) {
+    const std::vector<M44d> poses(primitive.camera_from_object.begin(), primitive.camera_from_object.end());
+    if (keys <= 1 || poses.empty() || (poses.size() == 1 && held.empty())) return;
+    bool any = false;
+    const M44d first = poses.front().inverse();
+    for (int key = 0; key < keys; ++key) {
+        const float time = static_cast<float>(key) / static_cast<float>(keys - 1);
+        from_first_.push_back(first * mixed(poses, time) * M44d(held_at(held, key, held.empty() ? 1 : keys)));
+        any |= turns(from_first_.back());
+    }
+    if (!any) from_first_.clear();
+}
+
+/// Gram and Schmidt's axes: a rotation's own, and those of what lies between two turns about one axis.
+MotionTurn::Axes MotionTurn::at(float time01) const {
+    const M44d m = mixed(from_first_, time01);
+    Axes axes;
+    axes.x = V3d(m[0][0], m[0][1], m[0][2]).normalized();
+    const V3d y(m[1][0], m[1][1], m[1][2]), z(m[2][0], m[2][1], m[2][2]);
+    axes.y = (y - axes.x * axes.x.dot(y)).normalized();
+    axes.z = axes.x.cross(axes.y);
+    if (axes.z.dot(z) < 0) axes.z = -axes.z;
+    return axes;
+}
+
+V3f MotionTurn::forward(const V3f& direction, float time01) const {
+    if (is_none() || time01 == 0) return direction;
+    const Axes axes = at(time01);
+    const V3d d(direction);
+    return V3f(axes.x * d.x + axes.y * d.y + axes.z * d.z);
+}
+
+V3f MotionTurn::back(const V3f& direction, float time01) const {
+    if (is_none() || time01 == 0) return direction;
+    const Axes axes = at(time01);
+    const V3d d(direction);
+    return V3f(V3d(axes.x.dot(d), axes.y.dot(d), axes.z.dot(d)));
+}
+
+}  // namespace trapeze

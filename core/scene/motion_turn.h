@@ -1,0 +1,36 @@
+/// How a primitive's own space turns while the shutter is open. Shading is done as it opens: directions that
+/// belong to a surface turn with it until its rays go out.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/math.h"
+#include "core/scene/scene.h"
+
+namespace trapeze {
+
+/// Rotations between motion keys, of camera space as the shutter opens. What does not turn has none.
+class MotionTurn {
+  public:
+    MotionTurn() = default;
+    /// `keys`: those of the primitive's grids. `held`: Scene::held_from_camera, where positions at the keys
+    /// still hold the camera's own motion; else empty.
+    MotionTurn(const Primitive& primitive, int keys, std::span<const M44f> held);
+
+    bool is_none() const { return from_first_.empty(); }
+    /// Where a direction of shutter open leads at a time; and the other way round.
+    V3f forward(const V3f& direction, float time01) const;
+    V3f back(const V3f& direction, float time01) const;
+
+  private:
+    /// Rows are where the axes of shutter open lead, of unit length and at right angles.
+    struct Axes {
+        V3d x, y, z;
+    };
+    Axes at(float time01) const;
+
+    std::vector<M44d> from_first_;  ///< at each key
+};
+
+}  // namespace trapeze
