@@ -59,6 +59,32 @@ TEST(RayOcclusion, ErrorsOfPointsAndCallsAreIndependent) {
     EXPECT_NEAR(neighbours / independent, 0, 0.08);
 }
 
+/// On both sides of a wall from z = 2 to the floor at z = 5, up to the crease, where a half is hidden: of a
+/// wall of height h, as far to both sides as b, a point at a distance d sees
+/// (atan(b / d) - d / sqrt(d^2 + h^2) atan(b / sqrt(d^2 + h^2))) / pi.
+TEST(RayOcclusion, OfACreaseIsThatOfItsWall) {
+    for (const bool together : {false, true}) {
+        Case c;
+        c.things = "Patch \"bilinear\" \"P\" [0 8 5 0 8 2 0 -8 5 0 -8 2] ";
+        if (together) c.things = "PointsPolygons [4] [0 1 2 3] \"P\" [0 -8 5 0 -8 2 0 8 2 0 8 5] ";
+        c.asks =
+            "Patch \"bilinear\" \"P\" [-1.2 1.2 5 0 1.2 5 -1.2 -1.2 5 0 -1.2 5] "
+            "Patch \"bilinear\" \"P\" [0 1.2 5 1.2 1.2 5 0 -1.2 5 1.2 -1.2 5] ";
+        const Image image = c.render(
+            "float d = max(abs(xcomp(P)), 1e-4), s = sqrt(d * d + 9), b = 8 - ycomp(P), c = 8 + ycomp(P);"
+            "float expected = (atan(b / d) + atan(c / d) - d / s * (atan(b / s) + atan(c / s))) / (2 * PI);"
+            "Ci = color(occlusion(P, normal(0, 0, -1), 256), expected, 1);");
+        double square = 0;
+        int creased = 0;
+        for (const Pixel& p : pixels(image)) {
+            ASSERT_NEAR(p.red, p.green, .03f);
+            square += std::pow(static_cast<double>(p.red - p.green), 2) / 4096, creased += p.green > .499f;
+        }
+        EXPECT_LT(std::sqrt(square), .007);
+        EXPECT_GE(creased, 64);
+    }
+}
+
 TEST(RayOcclusion, InAClosedBoxIsAll) {
     Case c;
     const std::string box =
@@ -135,6 +161,30 @@ TEST(RaySelfHits, ABicubicPatchHasNone) {
 }
 TEST(RaySelfHits, APolygonHasNone) {
     expect_open("Rotate 40 1 .3 0 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]");
+}
+
+/// The inside of a sphere: chords are 2 r cos(theta) long, of micropolygons less by their sagitta, (h
+/// sqrt 2)^2 / 8 r for sides h, at either end, divided by the cosine. What is met is not the surface
+/// that the ray has left.
+TEST(RaySelfHits, TheInsideOfASphereHasNone) {
+    for (const char* const place : {"Translate 0 0 5 ", "Translate 0 0 5 Rotate 50 1 2 3 "})
+        for (const float tilt : {.07f, .1f, .2f, .5f, 1.0f}) {
+            Case c;
+            c.asker = kSeen + place + "CoordinateSystem \"middle\" ";
+            c.asks = "AttributeBegin Sphere 1 -1 1 360 AttributeEnd ";
+            SCOPED_TRACE(place + std::to_string(tilt));
+            // h = 1/32, foreshortened to less than 1/10 where it counts; tilts from the tangent plane.
+            expect_near(
+                c.render("normal n = normalize(P - point \"middle\" (0, 0, 0));"
+                         "vector along = normalize(n ^ vector(.3, .5, .7));"
+                         "along = rotate(along, 2 * PI * random(), point(0, 0, 0), point(0, 0, 0) + n);"
+                         "float tilt = " +
+                         std::to_string(tilt) +
+                         ", found = trace(P, cos(tilt) * along - sin(tilt) * n);"
+                         "float most = 2 * sin(tilt);"
+                         "Ci = color(found, 2 * sin(tilt), 1);"),
+                1 / 1024.0f / tilt, 2500);
+        }
 }
 
 /// A quarter of a million rays from inside of closed things; all hit something.

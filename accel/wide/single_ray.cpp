@@ -263,8 +263,7 @@ class SingleRay {
 };
 
 template <class Policy, class Counts>
-HWY_INLINE Policy traced(const Query& query, Counts counts) {
-    Policy policy;
+HWY_INLINE Policy traced(const Query& query, Counts counts, Policy policy = {}) {
     if (query.tree.moves())
         SingleRay<true, Policy, Counts>(query, policy, counts).run();
     else
@@ -275,8 +274,8 @@ HWY_INLINE Policy traced(const Query& query, Counts counts) {
 ClosestHit trace_closest(const Query& query, SingleRayCounts* counts) {
     return counts ? traced<ClosestHit>(query, CountAll{*counts}) : traced<ClosestHit>(query, CountNothing());
 }
-FirstOpaque trace_opaque(const Query& query) {
-    return traced<FirstOpaque>(query, CountNothing());
+FirstOpaque trace_opaque(const Query& query, float near) {
+    return traced(query, CountNothing(), FirstOpaque{.near = near});
 }
 AnyHit trace_any(const Query& query, SingleRayCounts* counts) {
     return counts ? traced<AnyHit>(query, CountAll{*counts}) : traced<AnyHit>(query, CountNothing());
@@ -318,10 +317,10 @@ bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, Single
     return HWY_DYNAMIC_DISPATCH(trace_any)({tree, trace_ray}, counts).found;
 }
 
-InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range) {
+InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near) {
     TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
     if (!has_numbers(trace_ray)) return InTheWay::Nothing;
-    const FirstOpaque met = HWY_DYNAMIC_DISPATCH(trace_opaque)({tree, trace_ray});
+    const FirstOpaque met = HWY_DYNAMIC_DISPATCH(trace_opaque)({tree, trace_ray}, near);
     return met.opaque ? InTheWay::Opaque : met.layers ? InTheWay::Layers : InTheWay::Nothing;
 }
 

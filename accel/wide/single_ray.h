@@ -20,6 +20,6 @@ std::optional<Hit> closest_hit(const WideTree& tree, const SpaceRay& ray, DepthR
                                SingleRayCounts* counts = nullptr);
 bool any_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, SingleRayCounts* counts = nullptr);
 /// WideTree::in_the_way().
-InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range);
+InTheWay opaque_hit(const WideTree& tree, const SpaceRay& ray, DepthRange range, float near);
 
 }  // namespace trapeze

@@ -145,8 +145,8 @@ bool WideTree::any(const SpaceRay& ray, DepthRange range) const {
     return any_hit(*this, ray, range);
 }
 
-InTheWay WideTree::in_the_way(const SpaceRay& ray, DepthRange range) const {
-    return opaque_hit(*this, ray, range);
+InTheWay WideTree::in_the_way(const SpaceRay& ray, DepthRange range, float near) const {
+    return opaque_hit(*this, ray, range, near);
 }
 
 }  // namespace trapeze

@@ -107,8 +107,10 @@ class WideTree final : public RayQuery {
 
     std::optional<Hit> closest(const SpaceRay& ray, DepthRange range) const override;
     bool any(const SpaceRay& ray, DepthRange range) const override;
-    /// In one go what any() and, where grids are not all opaque, closest() would be asked for.
-    InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const;
+    /// In one go what any() and, where grids are not all opaque, closest() would be asked for. Whether hits
+    /// nearer than `near` count is not sure: all of these are Layers.
+    InTheWay in_the_way(const SpaceRay& ray, DepthRange range,
+                        float near = -std::numeric_limits<float>::infinity()) const;
 
     const Grids& grids() const { return grids_; }
     const RayReach& reach() const { return reach_; }

@@ -2,6 +2,7 @@
 /// geometry for them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -36,6 +37,25 @@ inline float level_side(int level) {
     return level == 0 ? 0.0f : static_cast<float>(1 << (2 * level));
 }
 
+/// The surface that a ray leaves, near its beginning. What rays meet of it lies within a slab along its
+/// tangent plane: hits of micropolygons within the slab do not count (shade/rays/surface_slab.h).
+struct LeftSurface {
+    float most = 0;          ///< distances from which all hits count
+    float half = kInfinity;  ///< of the slab's thickness; infinite: hits count from `most` on
+    V3f normal{0, 0, 0};     ///< of the slab, unit length or 0
+
+    /// From where on hits along a unit direction may count: where it has left the slab.
+    float distance(const V3f& direction) const {
+        const float rise = std::abs(direction.dot(normal));
+        return half < most * rise ? half / rise : most;
+    }
+    /// Whether a way from the beginning leads out of the slab on the side of a direction.
+    bool is_left(const V3f& way, const V3f& direction) const {
+        const float height = way.dot(normal);
+        return (direction.dot(normal) < 0 ? -height : height) > half;
+    }
+};
+
 /// A part of a ray, in camera space at shutter open: held there while the shutter is open, also where the
 /// camera moves.
 struct RaySegment {
@@ -44,6 +64,7 @@ struct RaySegment {
     float time = 0;                                               ///< 0 at shutter open, 1 at shutter close
     float spread = 0;   ///< how much wider it grows on each unit of its way: what it stands for is a cone
     uint8_t level = 0;  ///< of the geometry that it left; it meets none that is finer
+    LeftSurface left;
     const RayFilter* only = nullptr;  ///< hits that count; null: all that the attributes let be seen
 };
 

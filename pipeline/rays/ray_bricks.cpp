@@ -108,12 +108,12 @@ std::optional<RayGridHit> RayBricks::closest(const SpaceRay& ray, DepthRange ran
     return nearest;
 }
 
-InTheWay RayBricks::in_the_way(const SpaceRay& ray, DepthRange range) const {
-    TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+InTheWay RayBricks::in_the_way(const RangedRay& ray) const {
+    TraceRay trace_ray = TraceRay::turned(axis_ray(ray.ray), ray.range);
     InTheWay most = InTheWay::Nothing;
     tree_->visit(trace_ray, [&](uint32_t number, float) {
         if (most == InTheWay::Opaque) return;
-        most = std::max(most, brick(number)->tree->in_the_way(ray, range));
+        most = std::max(most, brick(number)->tree->in_the_way(ray.ray, ray.range, ray.near));
         if (most == InTheWay::Opaque) trace_ray.t_max = -std::numeric_limits<float>::infinity();
     });
     return most;
@@ -169,7 +169,8 @@ void RayBricks::in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> 
     for_each_meeting(
         rays, [&](const Meeting& meeting) { return met[meeting.ray] != InTheWay::Opaque; },
         [&](const Brick& brick, uint32_t ray) {
-            met[ray] = std::max(met[ray], brick.tree->in_the_way(rays[ray].ray, rays[ray].range));
+            const RangedRay& asked = rays[ray];
+            met[ray] = std::max(met[ray], brick.tree->in_the_way(asked.ray, asked.range, asked.near));
         });
 }
 

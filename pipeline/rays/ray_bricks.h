@@ -17,11 +17,6 @@
 
 namespace trapeze {
 
-/// A ray of many, and the depths that count.
-struct RangedRay {
-    SpaceRay ray;
-    DepthRange range;
-};
 /// Takes a ray's hit, by the ray's index; each one that it gets is in front of those before. The grid is
 /// there during the call.
 using TakeHit = std::function<void(size_t, const RayGridHit&)>;
@@ -34,7 +29,7 @@ class RayBricks final : public RayGrids {
     ~RayBricks() override;
 
     std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const override;
-    InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const override;
+    InTheWay in_the_way(const RangedRay& ray) const override;
     /// As those of one ray, for many: each brick is made once for all that want it.
     void closest(std::span<const RangedRay> rays, const TakeHit& take) const;
     void in_the_way(std::span<const RangedRay> rays, std::span<InTheWay> met) const;

@@ -12,6 +12,13 @@
 
 namespace trapeze {
 
+/// A ray, and the depths that count.
+struct RangedRay {
+    SpaceRay ray;
+    DepthRange range;
+    float near = 0;  ///< as WideTree::in_the_way()'s
+};
+
 /// Where a ray meets a grid.
 struct RayGridHit {
     Hit hit;  ///< its id's grid is the subpatch: Grid::ordinal
@@ -27,7 +34,7 @@ class RayGrids {
     /// As RayQuery's.
     virtual std::optional<RayGridHit> closest(const SpaceRay& ray, DepthRange range) const = 0;
     /// As WideTree's.
-    virtual InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const = 0;
+    virtual InTheWay in_the_way(const RangedRay& ray) const = 0;
     /// Memory that is held now.
     virtual size_t bytes() const = 0;
 };

@@ -29,7 +29,7 @@ float depth_scale(const V3f& direction) {
 /// A segment in the form in which grids are asked.
 RangedRay ranged(const RaySegment& ray) {
     const float scale = depth_scale(ray.direction);
-    return {{ray.origin, ray.direction, ray.time}, {ray.min * scale, ray.max * scale}};
+    return {{ray.origin, ray.direction, ray.time}, {ray.min * scale, ray.max * scale}, ray.left.most * scale};
 }
 
 /// The share of the memory that is for grids; the rest is for trees over them.
@@ -115,12 +115,11 @@ std::optional<RaySurfaceHit> RayLevel::closest(const RaySegment& ray, RayKind ki
 
 std::optional<RaySurfaceHit> RayLevel::closest_in(const RayGrids& grids, const RaySegment& ray) const {
     const float scale = depth_scale(ray.direction);
-    auto [space, range] = ranged(ray);
+    auto [space, range, near] = ranged(ray);
     while (range.min <= range.max) {
         const std::optional<RayGridHit> found = grids.closest(space, range);
         if (!found) return {};
-        if (shows(*found->grid, MicropolygonId::unpack(found->hit.id), ray))
-            return hit_of(ray, found->hit.depth / scale, *found);
+        if (counts(ray, *found)) return hit_of(ray, found->hit.depth / scale, *found);
         range.min = std::nextafter(found->hit.depth, kInfinity);
     }
     return {};
@@ -134,20 +133,20 @@ void RayLevel::closest_in(const RayBricks& bricks, std::span<const RaySegment> r
     std::vector<uint32_t> going(rays.size());  // asked[r] is ray going[r]
     std::iota(going.begin(), going.end(), 0u);
     while (!going.empty()) {
-        std::vector<bool> counts(going.size(), true);  // the last hit, if there is one
+        std::vector<bool> counted(going.size(), true);  // the last hit, if there is one
         std::vector<float> behind(going.size());
         bricks.closest(asked, [&](size_t r, const RayGridHit& found) {
             const uint32_t i = going[r];
-            counts[r] = shows(*found.grid, MicropolygonId::unpack(found.hit.id), rays[i]);
+            counted[r] = counts(rays[i], found);
             behind[r] = std::nextafter(found.hit.depth, kInfinity);
-            if (counts[r])
+            if (counted[r])
                 hits[i] = hit_of(rays[i], found.hit.depth / depth_scale(rays[i].direction), found);
             else
                 hits[i].reset();
         });
         size_t left = 0;
         for (size_t r = 0; r < going.size(); ++r) {
-            if (counts[r] || behind[r] > asked[r].range.max) continue;
+            if (counted[r] || behind[r] > asked[r].range.max) continue;
             going[left] = going[r], asked[left] = asked[r];
             asked[left++].range.min = behind[r];
         }
@@ -189,7 +188,7 @@ void RayLevel::blocked(std::span<const RaySegment> rays, RayKind kind,
         met.resize(asked.size());
         if (group.bricks) group.bricks->in_the_way(asked, met);
         for (size_t r = 0; r < asked.size(); ++r) {
-            if (!group.bricks) met[r] = group.grids->in_the_way(asked[r].ray, asked[r].range);
+            if (!group.bricks) met[r] = group.grids->in_the_way(asked[r]);
             if (met[r] == InTheWay::Opaque && !rays[open[r]].only)
                 blocked[open[r]] = true;
             else if (met[r] != InTheWay::Nothing)
@@ -221,6 +220,19 @@ bool RayLevel::shows(const Grid& grid, const MicropolygonId& id, const RaySegmen
     return from_outside(grid, id, ray) == (sides == Sides::Front);
 }
 
+/// Whether a hit counts: not where it may be the surface that the ray leaves.
+bool RayLevel::counts(const RaySegment& ray, const RayGridHit& found) const {
+    const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
+    if (found.hit.depth < ray.left.most * depth_scale(ray.direction)) {
+        const auto is_left = [&](int i, int j) {
+            const V3f corner = found.grid->vertex(id.u + i, id.v + j, ray.time);
+            return ray.left.is_left(corner - ray.origin, ray.direction);
+        };
+        if (!is_left(0, 0) && !is_left(1, 0) && !is_left(0, 1) && !is_left(1, 1)) return false;
+    }
+    return shows(*found.grid, id, ray);
+}
+
 RaySurfaceHit RayLevel::hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const {
     const MicropolygonId id = MicropolygonId::unpack(found.hit.id);
     const Grid& grid = *found.grid;
@@ -246,12 +258,12 @@ RaySurfaceHit RayLevel::hit_of(const RaySegment& ray, float distance, const RayG
 }
 
 std::optional<bool> RayLevel::blocked(const RaySegment& ray, RayKind kind) const {
-    const auto [space, range] = ranged(ray);
+    const RangedRay asked = ranged(ray);
     bool sure = true;
     for (uint32_t mask = 0; mask < kMasks; ++mask) {
         const Group& group = groups_[mask];
         if (!sees(kind, mask) || !group.grids) continue;
-        const InTheWay met = group.grids->in_the_way(space, range);
+        const InTheWay met = group.grids->in_the_way(asked);
         if (met == InTheWay::Opaque && !ray.only) return true;
         sure &= met == InTheWay::Nothing;
     }

@@ -67,6 +67,7 @@ class RayLevel {
                     std::span<std::optional<RaySurfaceHit>> hits) const;
     RaySurfaceHit hit_of(const RaySegment& ray, float distance, const RayGridHit& found) const;
     bool from_outside(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
+    bool counts(const RaySegment& ray, const RayGridHit& found) const;
     bool shows(const Grid& grid, const MicropolygonId& id, const RaySegment& ray) const;
 
     const uint8_t level_ = 0;

@@ -26,8 +26,8 @@ class WholeRayGrids final : public RayGrids {
         return RayGridHit{with_ordinal(*hit, grids_), &grids_.grids[MicropolygonId::unpack(hit->id).grid],
                           nullptr};
     }
-    InTheWay in_the_way(const SpaceRay& ray, DepthRange range) const override {
-        return tree_.in_the_way(ray, range);
+    InTheWay in_the_way(const RangedRay& ray) const override {
+        return tree_.in_the_way(ray.ray, ray.range, ray.near);
     }
     size_t bytes() const override { return grids_.bytes() + tree_.stats().tree_bytes; }
 

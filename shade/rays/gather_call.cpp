@@ -145,13 +145,13 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
         const V3f P = aim.P + motion.way(ray.segment.time);
-        ray.segment.min =
-            aim.leads() ? asker_.bias_at(P, asking.level(), arguments_.bias.at(lane)) : kInfinity;
+        ray.segment.left = asker_.left_at(P, asking, ray.segment.time, arguments_.bias.at(lane));
         ray.segment.max = aim.leads() ? arguments_.max_distance_at(lane) : 0;
         const V3f direction = angle == 0                        ? axis
                               : arguments_.uniform_distribution ? cone.uniform(sequence[s])
                                                                 : cone.by_cosine(sequence[s]);
         ray.segment.direction = motion.turned(direction, ray.segment.time, kind_ == RayKind::Diffuse);
+        ray.segment.min = aim.leads() ? ray.segment.left.distance(ray.segment.direction) : kInfinity;
         ray.segment.origin = base_.origin(P, arguments_, asking, s);
         ray.medium = asker_.medium(asking, direction);
         ray.seed = asking.of_ray(s);

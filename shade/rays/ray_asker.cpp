@@ -8,10 +8,16 @@
 namespace trapeze {
 namespace {
 
-/// How far from a point its rays begin, in micropolygons' sides. A ray that leaves a micropolygon's vertex
-/// may be said to hit it as deep as the micropolygon goes, where that is a needle (hit_micropolygon.h): some
-/// have sides of nearly two. Two dicings of a displaced surface differ by more.
+/// How far from a point its rays begin at most, in micropolygons' sides. A ray that leaves a micropolygon's
+/// vertex may be said to hit it as deep as the micropolygon goes, where that is a needle
+/// (hit_micropolygon.h): some have sides of nearly two. Two dicings of a displaced surface differ by more.
 constexpr float kBiasOfSide = 2, kBiasOfDisplacedSide = 3;
+
+/// Points, and curves without normals: what rays meet of them need not be turned alike.
+bool turns_to_camera(const Primitive& primitive) {
+    const Topology& topology = primitive.shape().topology;
+    return std::holds_alternative<Curves>(topology) || std::holds_alternative<Points>(topology);
+}
 
 }  // namespace
 
@@ -20,12 +26,30 @@ uint64_t RayLane::of_ray(int sample) const {
     return uint64_t{hash(seed, number, 3)} << 32 | hash(seed, number, 4);
 }
 
-float RayAsker::bias_at(const V3f& P, int level, float asked) const {
-    if (asked >= 0) return asked;
-    if (attributes_.rays.bias > 0) return attributes_.rays.bias;
+/// Of the micropolygons that rays meet on a level, in pixels.
+float RayAsker::side(int level) const {
+    return std::max(std::sqrt(std::max(attributes_.shading_rate, 1.0f)), level_side(level));
+}
+
+float RayAsker::bend_of(const ShadingGrid& grid) const {
+    const bool displaced = attributes_.displacement || attributes_.displacement_bound > 0 || grid.displaced;
+    if (displaced || turns_to_camera(*grid.primitive)) return kInfinity;
+    return trapeze::bend_of(grid, *service_.scene, side(grid.hit_level));
+}
+
+LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, float time, float asked) const {
+    if (asked >= 0) return {asked};
+    if (attributes_.rays.bias > 0) return {attributes_.rays.bias};
     const bool displaced = attributes_.displacement || attributes_.displacement_bound > 0;
-    const float side = std::max(std::sqrt(std::max(attributes_.shading_rate, 1.0f)), level_side(level));
-    return service_.scene->spacing(P) * side * (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
+    LeftSurface left;
+    left.most =
+        service_.scene->spacing(P) * side(lane.level()) * (displaced ? kBiasOfDisplacedSide : kBiasOfSide);
+    if (!(lane.bend < left.most) || (time > 0 && lane.grid->P.size() > 1)) return left;
+    const size_t vertex = lane.lane - lane.first_of_grid;
+    const float rounding = rounding_at(*lane.grid, vertex);
+    if (!((P - lane.grid->P.front().at(vertex)).length() <= rounding)) return left;
+    left.half = lane.bend + rounding, left.normal = lane.grid->Ng.at(vertex);
+    return left;
 }
 
 RayMedium RayAsker::medium(const RayLane& lane, const V3f& direction) const {

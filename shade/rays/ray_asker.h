@@ -8,6 +8,7 @@
 
 #include "core/scene/scene.h"
 #include "shade/rays/ray_walk.h"
+#include "shade/rays/surface_slab.h"
 #include "shade/vm/machine.h"
 
 namespace trapeze {
@@ -34,6 +35,7 @@ struct RayLane {
     size_t first = 0, count = 1;
     const ShadingGrid* grid = nullptr;  ///< whose vertex it is, if any is known
     size_t first_of_grid = 0;
+    float bend = kInfinity;  ///< of the grid, RayAsker::bend_of()
 
     /// Of the geometry that it lies on.
     uint8_t level() const { return grid ? grid->hit_level : uint8_t{0}; }
@@ -49,8 +51,10 @@ class RayAsker {
         : service_(service), attributes_(attributes) {}
 
     const RayService& service() const { return service_; }
-    /// How far from P, which lies on a level of geometry, rays begin; `asked` below 0: the call does not say.
-    float bias_at(const V3f& P, int level, float asked) const;
+    /// bend_of() a grid of the surface, next to what rays meet of it; infinite where it is not known.
+    float bend_of(const ShadingGrid& grid) const;
+    /// How far from P the rays of a lane begin that leave at a time; `asked` below 0: the call does not say.
+    LeftSurface left_at(const V3f& P, const RayLane& lane, float time, float asked) const;
     /// Whether rays meet the scene at times of their own.
     bool samples_motion() const { return attributes_.rays.sample_motion; }
     /// The depths of what rays of a kind hit.
@@ -61,6 +65,8 @@ class RayAsker {
     bool is_too_deep(RayKind kind) const;
 
   private:
+    float side(int level) const;
+
     const RayService& service_;
     const Attributes& attributes_;
 };

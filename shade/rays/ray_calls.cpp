@@ -64,6 +64,8 @@ struct RayCalls::Call {
     bool ends_at_point() const {
         return between_points() || (step.op == Op::Shadow && !arguments.distant_light);
     }
+    /// Who asks what a direction leads to asks it of P.
+    bool is_exact() const { return step.op == Op::Trace || step.op == Op::Environment; }
     bool over_sky() const { return step.op == Op::Occlusion || step.op == Op::IndirectDiffuse; }
     /// The half angle of the cone that a lane's rays fill.
     float angle_at(size_t lane) const {
@@ -136,10 +138,18 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
                                    asker_.service().seed);
         const size_t lane = asking.lane;
         lanes.push_back({lane, hash(grid, static_cast<uint32_t>(vertex), step.first, calls[lane]++),
-                         asking.first, asking.count, span.grid, span.first});
+                         asking.first, asking.count, span.grid, span.first, bend_of(span.grid)});
         return !uniform;
     });
     return lanes;
+}
+
+/// Of one of the grids, or none.
+float RayCalls::bend_of(const ShadingGrid* grid) {
+    if (!grid) return kInfinity;
+    const auto [known, is_new] = bends_.try_emplace(grid);
+    if (is_new) known->second = asker_.bend_of(*grid);
+    return known->second;
 }
 
 Task<> RayCalls::trace(Run& run, const Step& step, std::span<const Operand> operands) {
@@ -236,12 +246,17 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
     if (!aim.leads()) return;
     Cone cone(aim.direction, angle);
     const auto look_along = [&] {
-        ray.segment.min = asker_.bias_at(aim.P, asking.level(), arguments.bias.at(lane));
+        ray.segment.left = asker_.left_at(aim.P, asking, aim.time, arguments.bias.at(lane));
         ray.segment.max = arguments.max_distance_at(lane);
-        if (call.ends_at_point()) ray.segment.max = std::min(ray.segment.max, aim.length - ray.segment.min);
+        if (call.ends_at_point())
+            ray.segment.max = std::min(ray.segment.max, aim.length - ray.segment.left.most);
         ray.segment.time = aim.time;
     };
     look_along();
+    const bool moves_in = !call.is_exact() && ray.segment.left.half < kInfinity;
+    const V3f inwards = moves_in
+                            ? inwards_at(*asking.grid, lane - asking.first_of_grid, ray.segment.left.half)
+                            : V3f(0, 0, 0);
     const int samples = call.samples_at(lane);
     ray.segment.spread = std::max(spread_of(angle, samples), spread_beside_of(call, asking, aim, motion));
     const RaySequence sequence(asking.seed, samples);
@@ -257,7 +272,8 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
         ray.segment.direction = angle == 0  ? aim.direction
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
-        ray.segment.origin = base.origin(aim.P, arguments, asking, s);
+        ray.segment.min = ray.segment.left.distance(ray.segment.direction);
+        ray.segment.origin = base.origin(aim.P, arguments, asking, s) + inwards;
         ray.medium = asker_.medium(
             asking, motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky()));
         ray.seed = asking.of_ray(s);

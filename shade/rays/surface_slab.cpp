@@ -1,0 +1,82 @@
+#include "shade/rays/surface_slab.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/scene.h"
+
+namespace trapeze {
+namespace {
+
+constexpr float kRounding = std::numeric_limits<float>::epsilon();
+/// Last bits of the largest terms that a position is the sum of: on the way from a face's corners to camera
+/// space, once more for what rays meet, and where hits are found.
+constexpr float kRoundings = 8;
+/// Micropolygons that rays meet have sides of nearly twice what is wished, and diagonals of 2^1/2 times that:
+/// within r = 2^1.5 sides of a vertex a surface of curvature k rises by k r^2 / 2.
+constexpr float kBendOfSides = 4;
+/// Shorter edges tell of rounding alone; in roundings.
+constexpr float kShortestEdge = 16;
+
+/// Of two vertices beside each other: how far the surface turns, or rises above their tangent planes, within
+/// the side of a micropolygon that rays meet. What turns over a longer edge may turn within a side of it.
+float bend_along(const ShadingGrid& grid, size_t i, size_t j, float side) {
+    const V3f way = grid.P.front().at(j) - grid.P.front().at(i);
+    const V3f from = grid.Ng.at(i), to = grid.Ng.at(j);
+    const float length = way.length(), rounding = rounding_at(grid, i);
+    if (!(length > kShortestEdge * rounding)) return 0;
+    const float rise = std::max(std::abs(way.dot(from)), std::abs(way.dot(to))) - rounding;
+    const float turn = std::max((to - from).length(), 2 * rise / length);
+    return kBendOfSides * side * side * turn / std::min(length, side);
+}
+
+/// Of the slab's half thickness, so that rays leave their own slab before they come to that of another face,
+/// unless they are nearly along their own; of a side.
+constexpr float kInwards = 16, kMostInwards = 1.0f / 4;
+
+}  // namespace
+
+float rounding_at(const ShadingGrid& grid, size_t vertex) {
+    float reach =
+        grid.P.front().at(vertex).length() + grid.dPdu.at(vertex).length() + grid.dPdv.at(vertex).length();
+    const std::vector<M44f>& poses = grid.primitive->camera_from_object;
+    if (!poses.empty())
+        reach += 2 * V3f(poses.front()[3][0], poses.front()[3][1], poses.front()[3][2]).length();
+    return kRoundings * kRounding * reach;
+}
+
+float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels) {
+    const size_t row = size_t{grid.shape.nu} + 1;
+    float most = 0;
+    for (size_t v = 0; v <= grid.shape.nv; ++v)
+        for (size_t u = 0; u < row; ++u) {
+            const size_t at = v * row + u;
+            const float side = pixels * scene.spacing(grid.P.front().at(at));
+            const bool across = u + 1 < row, along = v < grid.shape.nv;
+            if (across) most = std::max(most, bend_along(grid, at, at + 1, side));
+            if (along) most = std::max(most, bend_along(grid, at, at + row, side));
+            if (!across || !along) continue;
+            most = std::max(most, bend_along(grid, at, at + row + 1, side));
+            most = std::max(most, bend_along(grid, at + 1, at + row, side));
+        }
+    return most;
+}
+
+V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half) {
+    if (grid.hit_vertex >= 0) return V3f(0, 0, 0);
+    const Triples& P = grid.P.front();
+    const size_t row = size_t{grid.shape.nu} + 1, u = vertex % row, v = vertex / row;
+    const V3f here = P.at(vertex);
+    V3f way(0, 0, 0);
+    if (u == 0) way += P.at(vertex + 1) - here;
+    if (u == grid.shape.nu) way += P.at(vertex - 1) - here;
+    if (v == 0) way += P.at(vertex + row) - here;
+    if (v == grid.shape.nv) way += P.at(vertex - row) - here;
+    const V3f normal = grid.Ng.at(vertex);
+    way -= normal * way.dot(normal);  // a chord would lead below what is convex
+    const float length = way.length();
+    return length > 0 ? way * std::min(kInwards * half / length, kMostInwards) : way;
+}
+
+}  // namespace trapeze
