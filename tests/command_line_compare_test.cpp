@@ -82,7 +82,7 @@ TEST(CommandLine, AStudySaysWhatHeldAndWritesItsFigures) {
     EXPECT_GT(json["scenes"][0]["micropolygons"], 100000);
     EXPECT_EQ(json["checks"].size(), 3u);
     EXPECT_NE(file_text(folder / "r.html").find("<svg"), std::string::npos);
-    EXPECT_EQ(run_program(folder, "study table3").exit_code, 2);
+    EXPECT_EQ(run_program(folder, "study table6").exit_code, 2);
     EXPECT_EQ(run_program(folder, "study fig9 --quick --json no/such/folder/r.json").exit_code, 6);
     EXPECT_EQ(run_program(folder, "study fig9 --quick --memory 1K").exit_code, 7);
 }
