@@ -120,7 +120,7 @@ TEST(CommandLinePages, BashOffersAllThatHelpHas) {
     EXPECT_EQ(offered(folder, "trapeze render a.rib --progress = pr"), " prman \n");
     EXPECT_EQ(offered(folder, "trapeze render --sampler rayt"), " raytrace \n");
     EXPECT_EQ(offered(folder, "trapeze a.rib --thr"), " --threads \n") << "render is left out";
-    EXPECT_EQ(offered(folder, "trapeze study tab"), " table1 table2 table4 table5 \n");
+    EXPECT_EQ(offered(folder, "trapeze study tab"), " table1 table2 table3 table4 table5 \n");
     EXPECT_EQ(offered(folder, "trapeze render sc"), "  \n") << "files, which bash finds";
 }
 

@@ -60,7 +60,7 @@ const std::map<std::string, Names> kWings = {
     {"pipeline/rib/ris", {"pipeline/rib/syntax"}},
     {"pipeline/rib/state", {"pipeline/rib/ris", "pipeline/rib/syntax"}},
     {"pipeline/rib/write", {"pipeline/rib", "pipeline/rib/syntax"}},
-    {"pipeline/study", {"pipeline/compare", "pipeline/rib", "pipeline/study/scenes"}},
+    {"pipeline/study", {"pipeline/compare", "pipeline/frame", "pipeline/rib", "pipeline/study/scenes"}},
     {"pipeline/study/report",
      {"pipeline/compare", "pipeline/compare/report", "pipeline/frame", "pipeline/study"}},
     {"pipeline/study/scenes", {"pipeline/rib/write"}},
