@@ -12,6 +12,8 @@
 
 #include <algorithm>
 
+#include "accel/wide/block_view.h"
+#include "accel/wide/two_registers-inl.h"
 #include "accel/wide/wide_grid.h"
 #include "core/hit_micropolygon-inl.h"
 
@@ -19,14 +21,6 @@ HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using F32 = hn::ScalableTag<float>;
-using I32 = hn::RebindToSigned<F32>;
-using VF = hn::Vec<F32>;
-using VI = hn::Vec<I32>;
-using MF = hn::Mask<F32>;
-
-constexpr size_t kLanes = hn::MaxLanes(F32());
 
 /// The least component of a direction across a slab, as in accel/slabs.h: nearer ones are taken as this.
 inline constexpr float kLeastDirection = 1e-18f;
@@ -40,19 +34,6 @@ HWY_INLINE VF reciprocal(VF v) {
     const VF guess = hn::ApproximateReciprocal(v);
     return hn::Mul(guess, hn::NegMulAdd(v, guess, hn::Set(d, 2.0f)));
 }
-
-/// Where a block's 5 x 5 vertices lie in a plane of positions: those of a tile and, where `right` and `down`
-/// say, the first column and row of the tiles behind it. At the grid's end, where there is no such tile, they
-/// repeat the last ones.
-struct BlockView {
-    const float* tile;  ///< of the plane x
-    size_t plane;       ///< floats to the planes y, z, dx, dy, dz
-    int right, down;    ///< offsets of the fifth column and row
-    int rows;           ///< of micropolygons
-
-    /// Floats from `tile` to vertex (i, j) of the block, 0 <= i, j <= 4.
-    int offset(int i, int j) const { return (j < 4 ? j * 4 : down) + (i < 4 ? i : right); }
-};
 
 /// A block of up to 4 x 4 micropolygons of a grid in one motion segment, and what its hits are called.
 struct Block {
@@ -190,55 +171,11 @@ HWY_INLINE void decode(const BlockBits& bits, VI& u, VI& v) {
 
 /// Looks up a block's vertices for lanes of micropolygons (u, v): corner 00, 10, 01, 11 of each, in get()'s
 /// corners[0 .. 3], from any of the planes x, y, z, dx, dy, dz.
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+using CornerLookup = TwoRegisterLookup<WideRegisters>;
+#else
 class CornerLookup {
   public:
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-    // The 25 vertices of a plane are in two registers: the tile, then the fifth column, row and corner.
-    CornerLookup(const BlockView& block, VI u, VI v) : block_(block) {
-        at_[0] = hn::Add(hn::ShiftLeft<2>(v), u).raw;
-        for (int c = 0; c < 3; ++c)
-            at_[1 + c] = _mm512_permutexvar_epi32(at_[0], _mm512_load_si512(kCorners[c]));
-    }
-    /// Every lane its own micropolygon, v * 4 + u.
-    explicit CornerLookup(const BlockView& block) : block_(block) {
-        at_[0] = hn::Iota(I32(), 0).raw;
-        for (int c = 0; c < 3; ++c) at_[1 + c] = _mm512_load_si512(kCorners[c]);
-    }
-    HWY_INLINE void load(int plane, VF& own, VF& behind) const {
-        load(block_, plane, own, behind);
-    }
-    /// The tile's vertices, and the fifth column, row and corner; what is left repeats some of them.
-    static HWY_INLINE void load(const BlockView& block, int plane, VF& own, VF& behind) {
-        const __m512i kBehind = _mm512_setr_epi32(0, 4, 8, 12, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0);
-        const float* tile = block.tile + static_cast<size_t>(plane) * block.plane;
-        const __m512 down = _mm512_castps128_ps512(_mm_loadu_ps(tile + block.down));
-        const __m512 last = _mm512_permutex2var_ps(_mm512_loadu_ps(tile + block.right), kBehind, down);
-        own = VF{_mm512_load_ps(tile)};
-        behind = VF{_mm512_mask_mov_ps(last, 1 << 8, _mm512_set1_ps(tile[block.down + block.right]))};
-    }
-    /// Corner 10, 01 or 11 (1 to 3) of each lane's micropolygon, out of what load() gave.
-    HWY_INLINE VF corner(int corner, VF own, VF behind) const {
-        return VF{_mm512_permutex2var_ps(own.raw, at_[corner], behind.raw)};
-    }
-    HWY_INLINE void get(int plane, VF* corners) const {
-        VF own, behind;
-        load(plane, own, behind);
-        corners[0] = VF{_mm512_permutexvar_ps(at_[0], own.raw)};
-        for (int c = 1; c < 4; ++c) corners[c] = corner(c, own, behind);
-    }
-
-  private:
-    /// Where micropolygon v * 4 + u has its corners 10, 01 and 11 in two registers: places of 16 and more are
-    /// in the second one.
-    alignas(64) static constexpr int32_t kCorners[3][16] = {
-        {1, 2, 3, 16, 5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19},
-        {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 22, 23},
-        {5, 6, 7, 17, 9, 10, 11, 18, 13, 14, 15, 19, 21, 22, 23, 24},
-    };
-
-    const BlockView& block_;
-    __m512i at_[4];
-#else
     CornerLookup(const BlockView& block, VI u, VI v) : block_(block) {
         const I32 di;
         const VI three = hn::Set(di, 3), row = hn::ShiftLeft<2>(v);
@@ -257,8 +194,8 @@ class CornerLookup {
   private:
     const BlockView& block_;
     VI at_[4];
-#endif
 };
+#endif
 
 /// Micropolygons (u, v) of the block, each lane its own, moved along the rays: what depth_inside() and
 /// inside() read.

@@ -106,4 +106,14 @@ struct BundleScratch {
     uint32_t nearer[kWaitingRoom];  ///< packets of those that have come to see something nearer
 };
 
+/// The arguments of trace_bundle(), which dispatch hands on as one.
+struct TraceInput {
+    const WideTree& tree;
+    DepthRange range;
+    float inverse_focal;
+    RayBundle& rays;
+    BundleScratch& scratch;
+    SampleStats& stats;
+};
+
 }  // namespace trapeze

@@ -1,7 +1,7 @@
 /// Packets of rays through one point that lie close together, against still micropolygons: the rays stay
 /// where they are (nothing is compacted), boxes and micropolygons are chosen for the packet as a whole, and
-/// only what is left is put to the predicate, lanes being rays. Compiled once a target; AVX-512 alone, where
-/// a block's vertices fit two registers and a packet is one vector.
+/// only what is left is put to the predicate, lanes being rays. Compiled once a target; only AVX-512 traces
+/// by it (kHasSharpPackets), tests on all others, so that every machine tests it.
 #if defined(TRAPEZE_ACCEL_SHARP_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TRAPEZE_ACCEL_SHARP_PACKETS_INL_H_
 #undef TRAPEZE_ACCEL_SHARP_PACKETS_INL_H_
@@ -16,15 +16,16 @@
 #include "accel/wide/box_codes-inl.h"
 #include "accel/wide/bundle_state-inl.h"
 #include "accel/wide/ray_intervals-inl.h"
+#include "accel/wide/whole_block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-
-inline constexpr bool kHasSharpPackets = true;
+/// Whether pinholes are traced by sharp packets: where a packet is as many rays as a block has micropolygons.
+/// Other targets trace them as they trace all else.
+inline constexpr bool kHasSharpPackets = HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86;
 
 /// The intervals of a packet's slopes. All of its rays start at the origin of camera space.
 struct PacketSlopes {
@@ -43,50 +44,62 @@ HWY_INLINE uint32_t boxes_met(const WideGrid& grid, const FrameAxes& axes, const
     const float dx = 0.50001f * (slopes.ux_high - slopes.ux_low) + 0x1p-22f * std::abs(ux),
                 dy = 0.50001f * (slopes.uy_high - slopes.uy_low) + 0x1p-22f * std::abs(uy);
     const auto boxes = static_cast<size_t>(grid.box_count());
-    VF near = hn::Set(d, z_low), far = hn::Set(d, std::min(z_high, farthest + grid.slack()));
-    for (size_t k = 0; k < 3; ++k) {
-        const float* axis = axes.axis[k];
-        // At depth z a ray of the packet lies within (dx, dy) * z of the middle ray; this is that along the
-        // frame's axis k.
-        const VF grow = hn::Set(d, reach * (std::abs(axis[0]) * dx + std::abs(axis[1]) * dy));
-        const float along = axis[0] * ux + axis[1] * uy + axis[2];
-        const VF inverse = hn::Set(d, 1.0f / (std::abs(along) < kLeastDirection ? kLeastDirection : along));
-        const VF a = hn::Mul(hn::Sub(hn::Load(d, planes + k * BoxPlanes::kMost), grow), inverse);
-        const VF b = hn::Mul(hn::Add(hn::Load(d, planes + (3 + k) * BoxPlanes::kMost), grow), inverse);
-        near = hn::Max(near, hn::Min(a, b)), far = hn::Min(far, hn::Max(a, b));
+    uint32_t met = 0;
+    for (size_t b = 0; b < BoxPlanes::kMost; b += kLanes) {
+        VF near = hn::Set(d, z_low), far = hn::Set(d, std::min(z_high, farthest + grid.slack()));
+        for (size_t k = 0; k < 3; ++k) {
+            const float* axis = axes.axis[k];
+            // At depth z a ray of the packet lies within (dx, dy) * z of the middle ray; this is that along
+            // the frame's axis k.
+            const VF grow = hn::Set(d, reach * (std::abs(axis[0]) * dx + std::abs(axis[1]) * dy));
+            const float along = axis[0] * ux + axis[1] * uy + axis[2];
+            const VF inverse =
+                hn::Set(d, 1.0f / (std::abs(along) < kLeastDirection ? kLeastDirection : along));
+            const float* low = planes + k * BoxPlanes::kMost + b;
+            const VF p = hn::Mul(hn::Sub(hn::Load(d, low), grow), inverse);
+            const VF q = hn::Mul(hn::Add(hn::Load(d, low + 3 * BoxPlanes::kMost), grow), inverse);
+            near = hn::Max(near, hn::Min(p, q)), far = hn::Min(far, hn::Max(p, q));
+        }
+        met |= mask_bits(hn::And(hn::Le(near, far), hn::FirstN(d, boxes - std::min(boxes, b)))) << b;
     }
-    return static_cast<uint32_t>(hn::And(hn::Le(near, far), hn::FirstN(d, boxes)).raw);
+    return met;
 }
 
 /// The micropolygons of a block that some ray of a packet may hit, as bits v * 4 + u: those whose corners,
 /// moved along all slopes of the packet, lie about the ray in a and in b. Exact in floats, with nothing
 /// grown: the predicate's roundings are monotone in the slope.
 HWY_INLINE uint32_t micropolygons_met(const BlockView& block, const PacketSlopes& slopes) {
+    constexpr size_t kParts = BlockParts::kParts;
     const F32 d;
-    const CornerLookup lookup(block);
-    VF own[3], behind[3];
-    for (int k = 0; k < 3; ++k) lookup.load(k, own[k], behind[k]);
-    VF met_low[2], met_high[2];  // of a, then b, over a micropolygon's corners
-    for (int k = 0; k < 2; ++k) {
-        const VF from = hn::Set(d, k == 0 ? slopes.ux_low : slopes.uy_low),
-                 to = hn::Set(d, k == 0 ? slopes.ux_high : slopes.uy_high);
-        const auto offsets = [&](VF x, VF z, VF& low, VF& high) HWY_ATTR {
-            const VF p = hn::Mul(from, z), q = hn::Mul(to, z);
-            low = hn::Sub(x, hn::Max(p, q)), high = hn::Sub(x, hn::Min(p, q));
-        };
-        VF low, high, low_behind, high_behind;
-        offsets(own[k], own[2], low, high);
-        offsets(behind[k], behind[2], low_behind, high_behind);
-        met_low[k] = low, met_high[k] = high;
-        for (int corner = 1; corner < 4; ++corner) {
-            met_low[k] = hn::Min(met_low[k], lookup.corner(corner, low, low_behind));
-            met_high[k] = hn::Max(met_high[k], lookup.corner(corner, high, high_behind));
+    uint32_t all = 0;
+    for (size_t first = 0; first < 16; first += kLanes) {
+        const BlockParts lookup(block, static_cast<int>(first));
+        VF vertices[3][kParts];
+        for (int k = 0; k < 3; ++k) lookup.load(k, vertices[k]);
+        VF met_low[2], met_high[2];  // of a, then b, over a micropolygon's corners
+        for (int k = 0; k < 2; ++k) {
+            const VF from = hn::Set(d, k == 0 ? slopes.ux_low : slopes.uy_low),
+                     to = hn::Set(d, k == 0 ? slopes.ux_high : slopes.uy_high);
+            VF low[kParts], high[kParts];
+#pragma GCC unroll 4
+            for (size_t i = 0; i < kParts; ++i) {
+                const VF p = hn::Mul(from, vertices[2][i]), q = hn::Mul(to, vertices[2][i]);
+                low[i] = hn::Sub(vertices[k][i], hn::Max(p, q));
+                high[i] = hn::Sub(vertices[k][i], hn::Min(p, q));
+            }
+            met_low[k] = lookup.corner(k00, low), met_high[k] = lookup.corner(k00, high);
+#pragma GCC unroll 3
+            for (int corner = 1; corner < 4; ++corner) {
+                met_low[k] = hn::Min(met_low[k], lookup.corner(corner, low));
+                met_high[k] = hn::Max(met_high[k], lookup.corner(corner, high));
+            }
         }
+        const VF zero = hn::Zero(d);
+        const MF met = hn::And(hn::And(hn::Le(met_low[0], zero), hn::Ge(met_high[0], zero)),
+                               hn::And(hn::Le(met_low[1], zero), hn::Ge(met_high[1], zero)));
+        all |= mask_bits(met) << first;
     }
-    const VF zero = hn::Zero(d);
-    const MF met = hn::And(hn::And(hn::Le(met_low[0], zero), hn::Ge(met_high[0], zero)),
-                           hn::And(hn::Le(met_low[1], zero), hn::Ge(met_high[1], zero)));
-    return static_cast<uint32_t>(met.raw);
+    return all;
 }
 
 /// The corners of one micropolygon of a block against rays through the origin.
@@ -209,12 +222,6 @@ inline void visit_sharp(BundleState& t, const Candidate& candidate, const WideGr
     });
     if (nearer) t.refresh_farthest();
 }
-
-#else
-// Other targets trace pinholes as they trace all else; visit_sharp() is never called.
-inline constexpr bool kHasSharpPackets = false;
-inline void visit_sharp(BundleState&, const Candidate&, const WideGrid&) {}
-#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace trapeze
