@@ -62,5 +62,23 @@ TEST_F(SimdLimit, WhatTheMachineLacksOrNobodyKnowsIsRefusedAndChangesNothing) {
 #endif
 }
 
+/// One an instruction set that kernels are compiled for. On a machine without it, nothing is tested on it:
+/// tests/run reads what this test says then, and repeats it in its last lines.
+class InstructionSet : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(InstructionSet, IsTestedOnThisMachine) {
+    std::string error;
+    const bool is_there = limit_simd(GetParam(), &error);
+    ASSERT_TRUE(limit_simd("best", &error));
+    if (!is_there) GTEST_SKIP() << "this machine has no " << GetParam() << ": no test has run on it";
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, InstructionSet, ::testing::ValuesIn([] {
+                             std::vector<std::string_view> names = simd_names();
+                             std::erase(names, "best");
+                             return names;
+                         }()),
+                         [](const auto& tested) { return std::string(tested.param); });
+
 }  // namespace
 }  // namespace trapeze
