@@ -36,6 +36,33 @@ inline void add_sheets(GridMaker& maker, int count, int keys, Noise& noise) {
     }
 }
 
+/// Adds a closed, bumpy, moving torus about the point `middle` whose shared vertices are the same bits on
+/// both sides. with_hole: grid (0, 1) is of single micropolygons, and number (2, 2) of it is not there.
+inline void add_torus(GridMaker& maker, int keys, const V3f& middle = V3f(0), bool with_hole = false) {
+    constexpr int kAround = 6, kAcross = 4;  // grids
+    const auto vertex = [&middle](int i, int j, float t) {
+        constexpr float kTurn = 6.2831853f;
+        const float phi = kTurn * static_cast<float>(i % (16 * kAround)) / (16 * kAround);
+        const float theta = kTurn * static_cast<float>(j % (16 * kAcross)) / (16 * kAcross);
+        const float r = 1 + 0.1f * std::sin(5 * phi) + 0.2f * t * std::cos(phi);
+        const float ring = 3 + r * std::cos(theta);
+        return middle + V3f(ring * std::cos(phi) + t, ring * std::sin(phi), r * std::sin(theta) - 0.5f * t);
+    };
+    for (int gu = 0; gu < kAround; ++gu)
+        for (int gv = 0; gv < kAcross; ++gv) {
+            const auto at = [&](int i, int j, float t) { return vertex(16 * gu + i, 16 * gv + j, t); };
+            if (!with_hole || gu != 0 || gv != 1) {
+                maker.add(16, 16, keys, at);
+                continue;
+            }
+            for (int v = 0; v < 16; ++v)
+                for (int u = 0; u < 16; ++u) {
+                    if (u == 2 && v == 2) continue;
+                    maker.add(1, 1, keys, [&](int i, int j, float t) { return at(u + i, v + j, t); });
+                }
+        }
+}
+
 /// The truth, for rays in any direction: the nearest hit by testing every micropolygon, without any bound.
 inline Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange range) {
     const TurnedRay turned = axis_ray(ray);

@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -17,26 +18,10 @@ namespace trapeze {
 namespace {
 
 using testing::add_sheets;
+using testing::add_torus;
 using testing::closest_naively;
 using testing::GridMaker;
 using testing::Noise;
-
-/// A closed, bumpy, moving torus whose shared vertices are the same bits on both sides.
-void add_torus(GridMaker& maker, int keys) {
-    constexpr int kAround = 6, kAcross = 4;  // grids
-    const auto vertex = [](int i, int j, float t) {
-        constexpr float kTurn = 6.2831853f;
-        const float phi = kTurn * static_cast<float>(i % (16 * kAround)) / (16 * kAround);
-        const float theta = kTurn * static_cast<float>(j % (16 * kAcross)) / (16 * kAcross);
-        const float r = 1 + 0.1f * std::sin(5 * phi) + 0.2f * t * std::cos(phi);
-        const float ring = 3 + r * std::cos(theta);
-        return V3f(ring * std::cos(phi) + t, ring * std::sin(phi), r * std::sin(theta) - 0.5f * t);
-    };
-    for (int gu = 0; gu < kAround; ++gu)
-        for (int gv = 0; gv < kAcross; ++gv)
-            maker.add(16, 16, keys,
-                      [&](int i, int j, float t) { return vertex(16 * gu + i, 16 * gv + j, t); });
-}
 
 TEST(PaperTree, ClosestAndAnyInAllDirectionsEqualTestingEverything) {
     for (const int keys : {1, 2, 5}) {
@@ -157,6 +142,21 @@ std::vector<uint32_t> walk(const TopLevel& top, size_t index, Visit&& visit) {
     return below;
 }
 
+/// Looks whether a node's box holds a vertex of some of the grids below at a time.
+void expect_inside(const TopLevel& top, size_t index, const Grid& grid, Noise& noise) {
+    const float time = noise(0, 1);
+    const MotionSegment s = segment_at(time, top.key_count);
+    const auto& column = top.frame_of(index).column;
+    const KeyBox *box = top.boxes_of(index) + s.index, *next = top.key_count > 1 ? box + 1 : box;
+    const V3f p = grid.vertex(static_cast<int>(noise.engine() % grid.shape.vertices_u()),
+                              static_cast<int>(noise.engine() % grid.shape.vertices_v()), time);
+    for (int k = 0; k < 3; ++k) {
+        const float at = column[0][k] * p.x + column[1][k] * p.y + column[2][k] * p.z, slop = 1e-5f;
+        ASSERT_GE(at + slop, box->low[k] + s.local * (next->low[k] - box->low[k]));
+        ASSERT_LE(at - slop, box->high[k] + s.local * (next->high[k] - box->high[k]));
+    }
+}
+
 TEST(PaperTree, EveryNodeHoldsTheVerticesBelowAtAnyTime) {
     Noise noise;
     GridMaker maker;
@@ -167,23 +167,53 @@ TEST(PaperTree, EveryNodeHoldsTheVerticesBelowAtAnyTime) {
     size_t nodes = 0;
     const auto all = walk(top, top.nodes.size() - 1, [&](size_t index, const std::vector<uint32_t>& below) {
         ++nodes;
-        const auto& column = top.frame_of(index).column;
-        for (int round = 0; round < 30; ++round) {
-            const float time = noise(0, 1);
-            const MotionSegment s = segment_at(time, top.key_count);
-            const KeyBox* box = top.boxes_of(index) + s.index;
-            const Grid& grid = maker.grids().grids[below[noise.engine() % below.size()]];
-            const V3f p = grid.vertex(static_cast<int>(noise.engine() % grid.shape.vertices_u()),
-                                      static_cast<int>(noise.engine() % grid.shape.vertices_v()), time);
-            for (int k = 0; k < 3; ++k) {
-                const float at = column[0][k] * p.x + column[1][k] * p.y + column[2][k] * p.z, slop = 1e-5f;
-                ASSERT_GE(at + slop, box[0].low[k] + s.local * (box[1].low[k] - box[0].low[k]));
-                ASSERT_LE(at - slop, box[0].high[k] + s.local * (box[1].high[k] - box[0].high[k]));
-            }
-        }
+        for (int round = 0; round < 30; ++round)
+            expect_inside(top, index, maker.grids().grids[below[noise.engine() % below.size()]], noise);
     });
     EXPECT_EQ(nodes, 2 * maker.grids().grids.size() - 1);
     EXPECT_EQ(std::set<uint32_t>(all.begin(), all.end()).size(), maker.grids().grids.size());
+}
+
+/// Nodes of more than 1024 grids are bounded from their children's boxes, each of which is turned: fibres
+/// that all run alike, along no axis, keep such nodes oriented, in frames that differ.
+TEST(PaperTree, NodesOfThousandsOfGridsHoldWhatIsBelow) {
+    for (const int keys : {1, 2}) {
+        Noise noise;
+        GridMaker maker;
+        for (int n = 0; n < 5000; ++n) {
+            const V3f root = noise.point(1), way = V3f(6, 5, 4) + noise.point(0.3f),
+                      shift = noise.point(0.5f), across = noise.point(0.01f);
+            maker.add(1, 4, keys, [=](int i, int j, float t) {
+                return root + way * (0.25f * static_cast<float>(j)) + across * static_cast<float>(i) +
+                       shift * t;
+            });
+        }
+        const PaperTree tree(maker.grids());
+        const TopLevel& top = tree.top();
+        size_t large = 0, turned = 0;
+        walk(top, top.nodes.size() - 1, [&](size_t index, const std::vector<uint32_t>& below) {
+            if (below.size() <= 1024) return;
+            ++large;
+            const uint32_t first = 2 * top.nodes[index].link.index();
+            for (const uint32_t child : {first, first + 1})
+                for (size_t row = 0; row < 3; ++row)
+                    turned +=
+                        !std::ranges::equal(top.frame_of(index).column[row], top.frame_of(child).column[row]);
+            for (const uint32_t grid : below)
+                for (int round = 0; round < 4; ++round)
+                    expect_inside(top, index, maker.grids().grids[grid], noise);
+        });
+        EXPECT_GT(large, 3u);
+        EXPECT_GT(turned, 0u);
+        int hits = 0;
+        for (int round = 0; round < 40; ++round) {
+            const SpaceRay ray{noise.point(3), noise.point(1), noise(0, 1)};
+            const Hit truth = closest_naively(maker.grids(), ray, {});
+            ASSERT_EQ(tree.closest(ray, {}).value_or(kNoHit), truth);
+            hits += truth != kNoHit;
+        }
+        EXPECT_GT(hits, 4);
+    }
 }
 
 TEST(PaperTree, IsTheSameFromAnyNumberOfThreads) {

@@ -121,6 +121,63 @@ TEST(WideTree, BoxesHoldTheirVerticesAtAnyTime) {
     }
 }
 
+/// The boxes of children on the way from the root to a grid.
+struct Path {
+    std::vector<std::pair<uint32_t, int>> steps;  ///< node, child
+};
+
+/// Calls visit(grid, path) for all grids below a node.
+template <class Visit>
+void walk(const WideTree& tree, uint32_t node, Path& path, const Visit& visit) {
+    for (int i = 0; i < WideNode::kChildren; ++i) {
+        const uint32_t link = tree.nodes()[node].child[i];
+        if (link == kNoLink) continue;
+        path.steps.emplace_back(node, i);
+        if (link & kGridLink)
+            visit(link & ~kGridLink, path);
+        else
+            walk(tree, link, path, visit);
+        path.steps.pop_back();
+    }
+}
+
+/// Every box above grids, at any time, holds all that is below; every grid is below the root once.
+TEST(WideTree, BoxesHoldTheirSubtreesAtAnyTime) {
+    for (const int keys : {1, 2, 9}) {
+        Noise noise;
+        GridMaker maker;
+        add_waves(maker, 3000, keys, noise);
+        const WideTree tree(maker.grids(), {});
+        std::vector<int> times_met(maker.grids().grids.size(), 0);
+        size_t deepest = 0;
+        Path path;
+        walk(tree, 0, path, [&](uint32_t index, const Path& way) {
+            ++times_met[index];
+            deepest = std::max(deepest, way.steps.size());
+            const Grid& grid = maker.grids().grids[index];
+            for (const float time : {0.0f, noise(0, 1), noise(0, 1), 1.0f}) {
+                Box3f box;
+                for (int j = 0; j <= grid.shape.nv; ++j)
+                    for (int i = 0; i <= grid.shape.nu; ++i) box.extendBy(grid.vertex(i, j, time));
+                for (const auto& [node, child] : way.steps)
+                    for (int k = 0; k < 3; ++k) {
+                        float low = tree.nodes()[node].low[k][child],
+                              high = tree.nodes()[node].high[k][child];
+                        if (tree.moves()) {
+                            const WideNodeMotion& motion = tree.node_motions()[node];
+                            low += time * from_bfloat16(motion.low[k][child]);
+                            high += time * from_bfloat16(motion.high[k][child]);
+                        }
+                        ASSERT_LE(low, box.min[k]) << "grid " << index << ", node " << node;
+                        ASSERT_GE(high, box.max[k]) << "grid " << index << ", node " << node;
+                    }
+            }
+        });
+        for (const int times : times_met) ASSERT_EQ(times, 1);
+        EXPECT_GE(deepest, 3u);
+    }
+}
+
 /// What grids of 16 x 16 and of 6 x 6 micropolygons take, ribbons of 16, and what turns in many segments.
 TEST(WideTree, TakesFewBytesAMicropolygon) {
     const auto bytes = [](int nu, int nv, int keys, int grids) {
