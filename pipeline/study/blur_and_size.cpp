@@ -16,7 +16,6 @@ namespace {
 
 constexpr const char* kMethods = "raytrace interval interleaveuvt:k=4";
 constexpr const char* kNames[] = {"ray tracing", "INTERVAL", "INTERLEAVEUVT k = 4"};
-constexpr size_t kRaytrace = 0, kInterval = 1, kUvt = 2;
 /// The paper's tree with each ray from its root: what a ray costs that owes nothing to its neighbours. Few
 /// samples are enough.
 constexpr const char* kAlone = "raytrace:tree=paper,bundle=off";
@@ -40,8 +39,6 @@ struct Sweep {
     std::vector<double> x;
     std::vector<std::vector<double>> seconds{3};
     std::vector<double> alone_nanoseconds, alone_nodes;
-
-    double growth(size_t method) const { return seconds[method].back() / seconds[method].front(); }
 };
 
 /// Measures the methods and single rays at one point of a sweep.
@@ -100,23 +97,8 @@ void add_sweep(StudyResult& result, const Sweep& sweep, const std::string& what,
     result.plots.push_back(plot_of(sweep, "Time against " + what, x_title));
     result.plots.push_back(plot_alone(sweep, "A ray by itself against " + what, x_title));
     result.tables.push_back(table_of(sweep, "Time against " + what, x_title));
-    const auto grown = [&](size_t method) { return number_text(sweep.growth(method)) + "x"; };
-    StudyCheck interval{what + ": ray tracing's time grows less than INTERVAL's from none to most",
-                        "\"significantly less sensitive\" (to defocus)",
-                        fmt::format("{} against {} from none to most", grown(kRaytrace), grown(kInterval))};
-    interval.held = sweep.growth(kRaytrace) < sweep.growth(kInterval);
-    bool ahead = true;
-    double least = 1e30;
-    for (size_t i = 0; i < sweep.x.size(); ++i) {
-        const double ratio = sweep.seconds[kUvt][i] / sweep.seconds[kRaytrace][i];
-        ahead = ahead && ratio > 1, least = std::min(least, ratio);
-    }
-    StudyCheck uvt{what + ": ray tracing stays ahead of INTERLEAVEUVT k = 4 at every blur",
-                   "ahead everywhere", "k = 4 takes at least " + number_text(least) + "x its time"};
-    uvt.held = ahead;
-    const StudyCheck bounded = check_of_blur(what + ": ray tracing", sweep.seconds[kRaytrace]);
-    const StudyCheck alone = check_of_blur(what + ": a ray by itself", sweep.alone_nanoseconds);
-    result.checks.insert(result.checks.end(), {interval, uvt, bounded, alone});
+    const auto checks = checks_of_sweep(what, sweep.seconds, sweep.alone_nanoseconds);
+    result.checks.insert(result.checks.end(), checks.begin(), checks.end());
 }
 
 }  // namespace

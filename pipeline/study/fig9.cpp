@@ -9,6 +9,7 @@
 #include "pipeline/compare/value_text.h"
 #include "pipeline/study/paper_figures.h"
 #include "pipeline/study/sah_cost.h"
+#include "pipeline/study/shape_checks.h"
 #include "pipeline/study/studies.h"
 #include "pipeline/study/study_scenes.h"
 
@@ -52,14 +53,6 @@ double part_at_most(const std::vector<double>& values, double bound) {
     return static_cast<double>(count) / static_cast<double>(values.size());
 }
 
-std::string percent(double part) {
-    return fmt::format("{:+.1f} %", 100 * part);
-}
-
-std::string share(double part) {
-    return fmt::format("{:.0f} % of the grids", 100 * part);
-}
-
 }  // namespace
 
 void study_fig9(StudyBench& bench, StudyResult& result) {
@@ -76,13 +69,14 @@ void study_fig9(StudyBench& bench, StudyResult& result) {
     const double better = part_at_most(differences, 0), not_much_worse = part_at_most(differences, .2);
     const auto [least, most] = std::minmax_element(differences.begin(), differences.end());
     result.histograms.push_back(histogram_of(differences));
-    result.tables.push_back({"Relative difference in SAH cost",
-                             {"", "here", "the paper's"},
-                             {{"mean", percent(mean), percent(paper::kFigure9Mean)},
-                              {"at most 0", share(better), share(paper::kFigure9Better)},
-                              {"at most +20 %", share(not_much_worse), share(paper::kFigure9NotMuchWorse)},
-                              {"least", percent(*least), percent(paper::kFigure9Least)},
-                              {"most", percent(*most), percent(paper::kFigure9Most)}}});
+    result.tables.push_back(
+        {"Relative difference in SAH cost",
+         {"", "here", "the paper's"},
+         {{"mean", percent_text(mean), percent_text(paper::kFigure9Mean)},
+          {"at most 0", share_text(better), share_text(paper::kFigure9Better)},
+          {"at most +20 %", share_text(not_much_worse), share_text(paper::kFigure9NotMuchWorse)},
+          {"least", percent_text(*least), percent_text(paper::kFigure9Least)},
+          {"most", percent_text(*most), percent_text(paper::kFigure9Most)}}});
     result.figures.push_back({{"scene", scene_command_line(scene)},
                               {"grids", differences.size()},
                               {"mean", mean},
@@ -93,13 +87,9 @@ void study_fig9(StudyBench& bench, StudyResult& result) {
                               {"histogram_low", result.histograms[0].low},
                               {"histogram_bin", kBin},
                               {"histogram", result.histograms[0].counts}});
-    result.checks.push_back({"parametric splits cost no more than greedy SAH on the mean",
-                             percent(paper::kFigure9Mean), percent(mean), mean <= 0});
-    result.checks.push_back({"parametric splits are at least as good for most grids",
-                             share(paper::kFigure9Better), share(better), better > .5});
-    result.checks.push_back({"they are no worse than 20 % for at least nine grids in ten",
-                             share(paper::kFigure9NotMuchWorse), share(not_much_worse),
-                             not_much_worse >= .9});
+    result.checks =
+        checks_of_splits({mean, better, not_much_worse},
+                         {paper::kFigure9Mean, paper::kFigure9Better, paper::kFigure9NotMuchWorse});
 }
 
 }  // namespace trapeze

@@ -67,24 +67,7 @@ void set_column(Times& grid, size_t column, const std::vector<double>& values) {
 
 void add_effect_checks(StudyResult& result, const Times& here) {
     const Times printed = times_of(paper::kTable1);
-    const auto spread_text = [](const std::vector<double>& row) {
-        return number_text(spread(row)) + " between the slowest and the fastest effect";
-    };
-    StudyCheck uvt{"INTERLEAVEUVT k = 2 costs the same for every effect, but for a quarter",
-                   spread_text(printed[2]), spread_text(here[2])};
-    uvt.held = spread(here[2]) <= 1.25;
-    const auto both = [](const std::vector<double>& row) { return row[2] / std::max(row[0], row[1]); };
-    const auto both_text = [&](const std::vector<double>& row) {
-        return "both effects " + number_text(both(row)) + "x the dearer one alone";
-    };
-    StudyCheck interval{
-        "INTERVAL costs at least 1.5 times as much for both effects as for the dearer one alone",
-        both_text(printed[1]), both_text(here[1])};
-    interval.held = both(here[1]) >= 1.5;
-    StudyCheck tracing{"a second effect adds less to ray tracing than to INTERVAL", both_text(printed[0]),
-                       both_text(here[0])};
-    tracing.held = both(here[0]) < both(here[1]);
-    result.checks.insert(result.checks.end(), {uvt, interval, tracing});
+    result.checks = checks_of_effects(here, printed);
     for (size_t effect = 0; effect < 3; ++effect) {
         constexpr const char* kEffects[] = {"defocus", "motion blur", "both"};
         result.checks.push_back(

@@ -124,6 +124,14 @@ double spread(const std::vector<double>& values) {
     return *high / *low;
 }
 
+std::string percent_text(double part) {
+    return fmt::format("{:+.1f} %", 100 * part);
+}
+
+std::string share_text(double part) {
+    return fmt::format("{:.0f} % of the grids", 100 * part);
+}
+
 std::string paper_seconds(double seconds) {
     return seconds < 0 ? "-" : number_text(seconds) + " s";
 }
@@ -202,6 +210,74 @@ StudyCheck check_of_order(const std::string& scene, const std::vector<double>& h
     check.here = text(here), check.paper = text(paper);
     check.held = here[kRaytraceRow] < std::min({here[kIntervalRow], here[kUvt2Row], here[kUvt4Row]});
     return check;
+}
+
+std::vector<StudyCheck> checks_of_effects(const std::vector<std::vector<double>>& here,
+                                          const std::vector<std::vector<double>>& paper) {
+    const auto spread_text = [](const std::vector<double>& row) {
+        return number_text(spread(row)) + " between the slowest and the fastest effect";
+    };
+    StudyCheck uvt{"INTERLEAVEUVT k = 2 costs the same for every effect, but for a quarter",
+                   spread_text(paper[kUvt2Row]), spread_text(here[kUvt2Row])};
+    uvt.held = spread(here[kUvt2Row]) <= 1.25;
+    const auto both = [](const std::vector<double>& row) { return row[2] / std::max(row[0], row[1]); };
+    const auto both_text = [&](const std::vector<double>& row) {
+        return "both effects " + number_text(both(row)) + "x the dearer one alone";
+    };
+    StudyCheck interval{
+        "INTERVAL costs at least 1.5 times as much for both effects as for the dearer one alone",
+        both_text(paper[kIntervalRow]), both_text(here[kIntervalRow])};
+    interval.held = both(here[kIntervalRow]) >= 1.5;
+    StudyCheck tracing{"a second effect adds less to ray tracing than to INTERVAL",
+                       both_text(paper[kRaytraceRow]), both_text(here[kRaytraceRow])};
+    tracing.held = both(here[kRaytraceRow]) < both(here[kIntervalRow]);
+    return {uvt, interval, tracing};
+}
+
+std::vector<StudyCheck> checks_of_sweep(const std::string& what,
+                                        const std::vector<std::vector<double>>& seconds,
+                                        const std::vector<double>& alone) {
+    constexpr size_t kRaytrace = 0, kInterval = 1, kUvt = 2;
+    const auto growth = [&](size_t method) { return seconds[method].back() / seconds[method].front(); };
+    StudyCheck interval{
+        what + ": ray tracing's time grows less than INTERVAL's from none to most",
+        "\"significantly less sensitive\" (to defocus)",
+        fmt::format("{} against {} from none to most", times(growth(kRaytrace)), times(growth(kInterval)))};
+    interval.held = growth(kRaytrace) < growth(kInterval);
+    double least = 1e30;
+    for (size_t i = 0; i < seconds[kUvt].size(); ++i)
+        least = std::min(least, seconds[kUvt][i] / seconds[kRaytrace][i]);
+    StudyCheck uvt{what + ": ray tracing stays ahead of INTERLEAVEUVT k = 4 at every blur",
+                   "ahead everywhere", "k = 4 takes at least " + number_text(least) + "x its time"};
+    uvt.held = least > 1;
+    return {interval, uvt, check_of_blur(what + ": ray tracing", seconds[kRaytrace]),
+            check_of_blur(what + ": a ray by itself", alone)};
+}
+
+std::vector<StudyCheck> checks_of_splits(const SplitCosts& here, const SplitCosts& paper) {
+    return {{"parametric splits cost no more than greedy SAH on the mean", percent_text(paper.mean),
+             percent_text(here.mean), here.mean <= 0},
+            {"parametric splits are at least as good for most grids", share_text(paper.at_most_0),
+             share_text(here.at_most_0), here.at_most_0 > .5},
+            {"they are no worse than 20 % for at least nine grids in ten", share_text(paper.at_most_fifth),
+             share_text(here.at_most_fifth), here.at_most_fifth >= .9}};
+}
+
+StudyCheck check_of_bounds(const std::string& scene, const std::string& others, double here, double paper) {
+    return {scene + ": oriented boxes beat " + others + " by at least the paper's ratio",
+            number_text(paper) + "x the trace time", number_text(here) + "x the trace time", here >= paper};
+}
+
+StudyCheck check_of_parametric_splits(const std::string& scene, const GreedyRatios& here,
+                                      const GreedyRatios& paper) {
+    const auto text = [](const GreedyRatios& ratios) {
+        return fmt::format("without: build {}x, trace {}x", number_text(ratios.build),
+                           number_text(ratios.trace));
+    };
+    return {scene +
+                ": parametric splits build more than twice as fast as greedy SAH, and trace no more "
+                "than 5 % slower",
+            text(paper), text(here), here.build > 2 && here.trace >= .95};
 }
 
 }  // namespace trapeze

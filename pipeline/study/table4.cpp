@@ -128,28 +128,19 @@ StudyCheck bounds_check(const SceneRun& run, size_t scene, size_t alternative) {
                  there = printed.trace / printed_ours.trace;
     const std::string name =
         alternative == kWholeMotion ? (run.moves ? "4D AABBs" : "3D AABBs") : "AABB hyper-trapezoids";
-    StudyCheck check{run.label + ": oriented boxes beat " + name + " by at least the paper's ratio",
-                     number_text(there) + "x the trace time", number_text(here) + "x the trace time"};
-    check.held = here >= there;
+    StudyCheck check = check_of_bounds(run.label, name, here, there);
     check.why = why(ours, other);
     return check;
 }
 
 StudyCheck parametric_check(const SceneRun& run, size_t scene) {
     const MethodResult &ours = *run.of(kOurs), &greedy = *run.of(kGreedySah);
-    const auto text = [](double build, double trace) {
-        return fmt::format("without: build {}x, trace {}x", number_text(build), number_text(trace));
-    };
-    const double build = greedy.build_median() / ours.build_median();
-    const double trace = greedy.resolve_median() / ours.resolve_median();
     const paper::BuildTrace &printed = paper::kTable4[kGreedySah][scene],
                             &printed_ours = paper::kTable4[kOurs][scene];
-    StudyCheck check{run.label +
-                         ": parametric splits build more than twice as fast as greedy SAH, and trace no more "
-                         "than 5 % slower",
-                     text(printed.build / printed_ours.build, printed.trace / printed_ours.trace),
-                     text(build, trace)};
-    check.held = build > 2 && trace >= .95;
+    StudyCheck check = check_of_parametric_splits(
+        run.label,
+        {greedy.build_median() / ours.build_median(), greedy.resolve_median() / ours.resolve_median()},
+        {printed.build / printed_ours.build, printed.trace / printed_ours.trace});
     check.why = why(ours, greedy);
     return check;
 }
