@@ -7,12 +7,14 @@
 #include <map>
 #include <random>
 
+#include "sample/every_method_harness.h"
 #include "sample/frame_harness.h"
 #include "sample/visibility.h"
 
 namespace trapeze {
 namespace {
 
+using testing::every_method;
 using testing::GridMaker;
 using testing::TestFrame;
 
@@ -64,26 +66,6 @@ class Prepared {
     SampleScratch scratch_;
 };
 
-/// All methods that find what brute force finds, in the forms that differ in how they go through tiles, and
-/// the patterns that they were made for.
-std::map<std::string, std::string> exact_methods() {
-    std::map<std::string, std::string> all;
-    for (const VisibilityMethod& method : visibility_methods()) {
-        if (!method.is_exact) continue;
-        std::string error;
-        all[std::string(method.name)] =
-            method.natural_pattern(choose_sampler(method.name, "", &error)->method);
-    }
-    for (const char* form : {"raytrace:tree=paper", "raytrace:tree=paper,bundle=off"})
-        all[form] = "stratified";
-    all["interval:cull=on"] = "interval";
-    for (const char* form : {"interval:pairing=shuffled", "interval:pairing=shuffled,cull=on"})
-        all[form] = "stratified";
-    for (const char* form : {"interleaveuvt:cull=on,k=4", "interleaveuvt:k=4"}) all[form] = "interleaved:k=4";
-    all["interleaveuvt:k=1"] = "interleaved:k=1";
-    return all;
-}
-
 /// How many samples see other things in `a` than in `b`.
 size_t differing(const Resolved& a, const Resolved& b) {
     EXPECT_EQ(a.hits.size(), b.hits.size());
@@ -100,7 +82,7 @@ TEST(ManyThings, ThousandsOfGridsAreSeenAsByBruteForce) {
         ASSERT_GT(maker.grids().grids.size(), 4096u);
         const PixelRect all{0, 0, 48, 40};
         std::map<std::string, Resolved> truths;
-        for (const auto& [method, pattern] : exact_methods()) {
+        for (const auto& [method, pattern] : every_method()) {
             Resolved& truth = truths[pattern];
             if (truth.hits.size() == 0)
                 Prepared(frame, maker.grids(), "bruteforce", pattern).resolve(all, truth);
@@ -121,7 +103,7 @@ TEST(ManyThings, TilesOfAnySideShowTheSame) {
     GridMaker maker;
     add_sheets(maker, 60, 16, 0.08f, 2);
     const PixelRect all{-3, -3, 153, 143};
-    for (const auto& [method, pattern] : exact_methods()) {
+    for (const auto& [method, pattern] : every_method()) {
         Prepared truth(frame, maker.grids(), "bruteforce", pattern),
             tested(frame, maker.grids(), method, pattern);
         Resolved whole, tile;
@@ -154,7 +136,7 @@ TEST(ManyThings, HundredsOfSlotsAndThousandsOfTuplesAreRight) {
     add_sheets(maker, 12, 12, 0.2f, 2);
     const PixelRect pixels{3, 2, 21, 18};
     std::map<std::string, Resolved> truths;
-    for (const auto& [method, pattern] : exact_methods()) {
+    for (const auto& [method, pattern] : every_method()) {
         Resolved& truth = truths[pattern];
         if (truth.hits.size() == 0)
             Prepared(frame, maker.grids(), "bruteforce", pattern).resolve(pixels, truth);

@@ -5,9 +5,12 @@
 
 #include "core/simd/simd_limit.h"
 
+#include <algorithm>
 #include <random>
+#include <set>
 
 #include "core/grids_harness.h"
+#include "sample/every_method_harness.h"
 #include "sample/frame_harness.h"
 #include "sample/patterns/stratified_pattern.h"
 #include "sample/swept_bound.h"
@@ -26,7 +29,7 @@ void add_wall(GridMaker& maker, float z, int side = 4) {
     });
 }
 
-class EveryMethod : public ::testing::TestWithParam<std::string_view> {
+class EveryMethod : public ::testing::TestWithParam<std::string> {
   protected:
     HitBuffer resolve(const TestFrame& frame, const Grids& grids) {
         std::string error;
@@ -160,19 +163,10 @@ TEST_P(EveryMethod, ScratchMayComeFromLargerTilesAndOtherGrids) {
     EXPECT_TRUE(resolve(frame, one.grids()) == fresh);
 }
 
-/// The rows of the table, and what else their options make of them.
-std::vector<std::string_view> methods_to_test() {
-    std::vector<std::string_view> names = {"raytrace:tree=paper",
-                                           "raytrace:tree=paper,bundle=off",
-                                           "raytrace:tree=paper,split=sah,bounds=aabb4d",
-                                           "raytrace:tree=paper,bounds=aabb,leaf=32",
-                                           "interval:cull=on",
-                                           "interval:pairing=shuffled",
-                                           "interval:pairing=shuffled,cull=on",
-                                           "interleaveuvt:k=1",
-                                           "interleaveuvt:k=4,cull=on"};
-    for (const VisibilityMethod& method : visibility_methods())
-        if (method.is_exact) names.push_back(method.name);
+std::vector<std::string> methods_to_test() {
+    std::vector<std::string> names = {"raytrace:tree=paper,split=sah,bounds=aabb4d",
+                                      "raytrace:tree=paper,bounds=aabb,leaf=32"};
+    for (const testing::MethodForm& form : testing::every_method()) names.push_back(form.name);
     return names;
 }
 
@@ -181,6 +175,29 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::ValuesIn(methods_to_test
     std::erase_if(name, [](char c) { return !std::isalnum(c); });
     return name;
 });
+
+/// What tests call every method is every row of the table, and every value of every option.
+TEST(VisibilityMethods, AreAllInEveryMethod) {
+    std::set<std::string> named;
+    for (const auto& [name, pattern] : testing::every_method(false)) {
+        EXPECT_TRUE(named.insert(name).second) << name << " twice";
+        EXPECT_FALSE(pattern.empty());
+    }
+    for (const VisibilityMethod& method : visibility_methods()) {
+        EXPECT_TRUE(named.contains(std::string(method.name))) << method.name;
+        for (const SpecOption& option : method.options)
+            for (size_t i = 1; i < option.values.size(); ++i) {
+                const std::string choice = std::string(option.name) + "=" + std::string(option.values[i]);
+                EXPECT_TRUE(std::ranges::any_of(named,
+                                                [&](const std::string& name) {
+                                                    return name.starts_with(std::string(method.name) + ":") &&
+                                                           (name + ",").find(choice + ",") !=
+                                                               std::string::npos;
+                                                }))
+                    << method.name << ":" << choice;
+            }
+    }
+}
 
 TEST(VisibilityMethods, AreChosenByName) {
     std::string error;
