@@ -93,7 +93,7 @@ TEST(StudyScenes, AllCanBeMade) {
 
 TEST(Study, UnknownNamesGiveNothing) {
     Bench b;
-    EXPECT_FALSE(run_study("table3", b.settings, b.diagnostics));
+    EXPECT_FALSE(run_study("table6", b.settings, b.diagnostics));
 }
 
 TEST(Study, CancelledStudiesGiveNothing) {
