@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "core/simd/simd-inl.h"
+#include "tessellate/topology/lane_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -28,22 +29,16 @@ using ProjectedLattice = Projected[FaceLattices::kRows][FaceLattices::kColumns];
 HWY_INLINE hn::Mask<F> project(const float (&P)[3][FaceLattices::kFaces], size_t first, const M44f& m,
                                Lanes least, Projected& out) {
     const F d;
-    const Lanes px = hn::Load(d, P[0] + first), py = hn::Load(d, P[1] + first),
-                pz = hn::Load(d, P[2] + first);
-    const auto component = [&](int k) {
-        const Lanes turned =
-            hn::Add(hn::Add(hn::Mul(px, hn::Set(d, m[0][k])), hn::Mul(py, hn::Set(d, m[1][k]))),
-                    hn::Mul(pz, hn::Set(d, m[2][k])));
-        return hn::Add(turned, hn::Set(d, m[3][k]));
-    };
-    const Lanes x = component(0), y = component(1), z = component(2), scale = hn::Div(hn::Set(d, 1), z);
-    hn::Store(x, d, out.x);
-    hn::Store(y, d, out.y);
-    hn::Store(z, d, out.z);
-    hn::Store(hn::Mul(x, scale), d, out.image_x);
-    hn::Store(hn::Mul(y, scale), d, out.image_y);
-    const Lanes zz = hn::Mul(z, z), pp = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), zz);
-    return hn::And(hn::Gt(z, hn::Zero(d)), hn::Ge(zz, hn::Mul(least, pp)));
+    const LaneVectors<F> object = {hn::Load(d, P[0] + first), hn::Load(d, P[1] + first),
+                                   hn::Load(d, P[2] + first)};
+    const LaneVectors<F> p = transformed_points(d, m, object);
+    const Lanes scale = hn::Div(hn::Set(d, 1), p.z);
+    hn::Store(p.x, d, out.x);
+    hn::Store(p.y, d, out.y);
+    hn::Store(p.z, d, out.z);
+    hn::Store(hn::Mul(p.x, scale), d, out.image_x);
+    hn::Store(hn::Mul(p.y, scale), d, out.image_y);
+    return hn::And(hn::Gt(p.z, hn::Zero(d)), hn::Ge(hn::Mul(p.z, p.z), hn::Mul(least, p.length2())));
 }
 
 /// What pieces count: lengths as they are seen, or the least share of those seen square on.

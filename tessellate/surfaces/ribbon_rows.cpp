@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "core/simd/simd-inl.h"
+#include "tessellate/topology/lane_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
@@ -18,9 +19,7 @@ namespace HWY_NAMESPACE {
 using F = hn::CappedTag<float, kRowsAtOnce>;
 using Lanes = hn::Vec<F>;
 
-struct LaneVector {
-    Lanes x, y, z;
-};
+using LaneVector = LaneVectors<F>;
 
 /// A segment's Bezier points in lanes: of several segments, or one and the same.
 struct LaneSegment {
@@ -62,24 +61,6 @@ HWY_INLINE LaneVector combine(const Lanes (&w)[4], const LaneVector (&p)[4]) {
             combine(w, p[0].z, p[1].z, p[2].z, p[3].z)};
 }
 
-HWY_INLINE Lanes dot(const LaneVector& v) {
-    return hn::Add(hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.y, v.y)), hn::Mul(v.z, v.z));
-}
-
-HWY_INLINE LaneVector times(const LaneVector& v, Lanes by) {
-    return {hn::Mul(v.x, by), hn::Mul(v.y, by), hn::Mul(v.z, by)};
-}
-
-HWY_INLINE Lanes component_of(const M44f& m, const LaneVector& v, int k) {
-    const F d;
-    return hn::Add(hn::Add(hn::Mul(v.x, hn::Set(d, m[0][k])), hn::Mul(v.y, hn::Set(d, m[1][k]))),
-                   hn::Mul(v.z, hn::Set(d, m[2][k])));
-}
-
-HWY_INLINE LaneVector transformed(const M44f& m, const LaneVector& v) {
-    return {component_of(m, v, 0), component_of(m, v, 1), component_of(m, v, 2)};
-}
-
 /// Unit directions across rays and tangents, both in camera space; `ok` loses those that have none at once.
 HWY_INLINE LaneVector across(const CameraFacing& facing, const LaneVector& ray, const LaneVector& along,
                              hn::Mask<F>& ok) {
@@ -88,14 +69,14 @@ HWY_INLINE LaneVector across(const CameraFacing& facing, const LaneVector& ray, 
     const auto less = [](Lanes a, Lanes b, Lanes c, Lanes e) {
         return hn::Sub(hn::Mul(a, b), hn::Mul(c, e));
     };
-    const LaneVector side = times({less(ray.y, along.z, ray.z, along.y), less(ray.z, along.x, ray.x, along.z),
-                                   less(ray.x, along.y, ray.y, along.x)},
-                                  outside);
+    const LaneVector cross = {less(ray.y, along.z, ray.z, along.y), less(ray.z, along.x, ray.x, along.z),
+                              less(ray.x, along.y, ray.y, along.x)};
+    const LaneVector side = cross * outside;
     constexpr float kParallel = CameraFacing::kParallel;
-    const Lanes least = hn::Mul(hn::Mul(hn::Set(d, kParallel * kParallel), dot(ray)), dot(along));
-    ok = hn::And(ok, hn::Gt(dot(side), least));
-    const LaneVector object = transformed(facing.object_from_camera(), side);
-    const Lanes length2 = dot(object), length = hn::Sqrt(length2);
+    const Lanes least = hn::Mul(hn::Mul(hn::Set(d, kParallel * kParallel), ray.length2()), along.length2());
+    ok = hn::And(ok, hn::Gt(side.length2(), least));
+    const LaneVector object = transformed_vectors(d, facing.object_from_camera(), side);
+    const Lanes length2 = object.length2(), length = hn::Sqrt(length2);
     // Imath takes the lengths of tiny vectors another way.
     ok = hn::And(ok, hn::Ge(length2, hn::Set(d, 2 * std::numeric_limits<float>::min())));
     ok = hn::And(ok, hn::Le(length2, hn::Set(d, std::numeric_limits<float>::max())));
@@ -111,24 +92,22 @@ HWY_INLINE LaneRow row_at(const LaneSegment& segment, const CameraFacing& facing
     const LaneVector chord = {hn::Sub(segment.P[3].x, segment.P[0].x),
                               hn::Sub(segment.P[3].y, segment.P[0].y),
                               hn::Sub(segment.P[3].z, segment.P[0].z)};
-    row.ok = hn::Gt(dot(row.by_t), hn::Mul(hn::Set(d, kLeastSpeed2), dot(chord)));
+    row.ok = hn::Gt(row.by_t.length2(), hn::Mul(hn::Set(d, kLeastSpeed2), chord.length2()));
 
     const M44f& m = facing.camera_from_object();
     LaneVector ray = {hn::Zero(d), hn::Zero(d), hn::Set(d, 1)};
     if (facing.is_perspective()) {
-        ray = transformed(m, row.centre);
-        ray = {hn::Add(ray.x, hn::Set(d, m[3][0])), hn::Add(ray.y, hn::Set(d, m[3][1])),
-               hn::Add(ray.z, hn::Set(d, m[3][2]))};
+        ray = transformed_points(d, m, row.centre);
     }
-    const LaneVector unit = across(facing, ray, transformed(m, row.by_t), row.ok);
+    const LaneVector unit = across(facing, ray, transformed_vectors(d, m, row.by_t), row.ok);
     const Lanes(&w)[4] = segment.width;
     if (segment.cubic_width) {
-        row.span = times(unit, combine(weights.w, w[0], w[1], w[2], w[3]));
-        row.span_by_t = times(unit, combine(weights.d, w[0], w[1], w[2], w[3]));
+        row.span = unit * combine(weights.w, w[0], w[1], w[2], w[3]);
+        row.span_by_t = unit * combine(weights.d, w[0], w[1], w[2], w[3]);
     } else {
         const Lanes rest = hn::Sub(hn::Set(d, 1), t);
-        row.span = times(unit, hn::Add(hn::Mul(w[0], rest), hn::Mul(w[1], t)));
-        row.span_by_t = times(unit, hn::Sub(w[1], w[0]));
+        row.span = unit * hn::Add(hn::Mul(w[0], rest), hn::Mul(w[1], t));
+        row.span_by_t = unit * hn::Sub(w[1], w[0]);
     }
     return row;
 }

@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>  // compiles this file once a target
 #include <hwy/highway.h>
 
+#include "tessellate/topology/lane_vectors-inl.h"
+
 #ifndef TRAPEZE_TESSELLATE_POINT_LANES_ONCE
 #define TRAPEZE_TESSELLATE_POINT_LANES_ONCE
 namespace trapeze {
@@ -22,16 +24,12 @@ constexpr float kParallelDerivatives = 1e-5f;
 HWY_BEFORE_NAMESPACE();
 namespace trapeze {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// Grids have some tens of vertices: longer vectors would be half empty.
 constexpr size_t kMostLanes = 8;
 using F = hn::CappedTag<float, kMostLanes>;
 using Lanes = hn::Vec<F>;
 
-struct LaneVector {
-    Lanes x, y, z;
-};
+using LaneVector = LaneVectors<F>;
 
 /// Calls f(first, count) for runs of as many points as there are lanes, and one for what is left.
 template <class Body>
@@ -78,20 +76,11 @@ HWY_INLINE void store(const LaneVector& v, Triples& planes, size_t first, size_t
     }
 }
 
-HWY_INLINE Lanes component_of(const M44f& m, const LaneVector& v, int k) {
-    const F d;
-    return hn::Add(hn::Add(hn::Mul(v.x, hn::Set(d, m[0][k])), hn::Mul(v.y, hn::Set(d, m[1][k]))),
-                   hn::Mul(v.z, hn::Set(d, m[2][k])));
-}
-
 void transform_lanes(const M44f& m, const V3f* in, size_t size, bool points, V3f* out) {
     const F d;
     for_runs(size, [&](size_t first, size_t count) {
         const LaneVector v = loaded(in + first, count);
-        LaneVector moved = {component_of(m, v, 0), component_of(m, v, 1), component_of(m, v, 2)};
-        if (points)
-            moved = {hn::Add(moved.x, hn::Set(d, m[3][0])), hn::Add(moved.y, hn::Set(d, m[3][1])),
-                     hn::Add(moved.z, hn::Set(d, m[3][2]))};
+        const LaneVector moved = points ? transformed_points(d, m, v) : transformed_vectors(d, m, v);
         store(moved, out + first, count);
     });
 }
@@ -100,7 +89,7 @@ void planes_of(const V3f* vectors, size_t size, float scale, Triples& planes) {
     const Lanes by = hn::Set(F(), scale);
     for_runs(size, [&](size_t first, size_t count) {
         const LaneVector v = loaded(vectors + first, count);
-        store({hn::Mul(v.x, by), hn::Mul(v.y, by), hn::Mul(v.z, by)}, planes, first, count);
+        store(v * by, planes, first, count);
     });
 }
 
@@ -112,7 +101,7 @@ HWY_INLINE LaneVector scaled(const LaneVector& v) {
     const auto has =
         hn::And(hn::Gt(largest, hn::Zero(d)), hn::Le(largest, hn::Set(d, std::numeric_limits<float>::max())));
     const Lanes scale = hn::IfThenElseZero(has, hn::Div(hn::Set(d, 1), largest));
-    return {hn::Mul(v.x, scale), hn::Mul(v.y, scale), hn::Mul(v.z, scale)};
+    return v * scale;
 }
 
 void normals_of(const V3f* dPdu, const V3f* dPdv, size_t size, Triples& normals) {
@@ -122,8 +111,7 @@ void normals_of(const V3f* dPdu, const V3f* dPdv, size_t size, Triples& normals)
         const Lanes x = hn::Sub(hn::Mul(u.y, v.z), hn::Mul(u.z, v.y));
         const Lanes y = hn::Sub(hn::Mul(u.z, v.x), hn::Mul(u.x, v.z));
         const Lanes z = hn::Sub(hn::Mul(u.x, v.y), hn::Mul(u.y, v.x));
-        const Lanes length2 = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-        const Lanes length = hn::Sqrt(length2);
+        const Lanes length = hn::Sqrt(LaneVector{x, y, z}.length2());
         const auto has = hn::Gt(length, hn::Set(d, kParallelDerivatives));
         store({hn::IfThenElseZero(has, hn::Div(x, length)), hn::IfThenElseZero(has, hn::Div(y, length)),
                hn::IfThenElseZero(has, hn::Div(z, length))},
