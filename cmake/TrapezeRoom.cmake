@@ -14,22 +14,35 @@ function(trapeze_compile_together target)
     endforeach()
 endfunction()
 
-# trapeze_room(NAME SOURCES ... TESTS ... ALONE ... LINKS ... PRIVATE_LINKS ...)
-# A room is one static library and, when tests are built, one test program made of the tests beside its sources.
-# Includes are written from the root of the repository: #include "core/grid.h".
+# trapeze_room_test(NAME PROGRAM TESTS LINKS): a program of tests of a room.
+function(trapeze_room_test name program tests links)
+    add_executable(${program} ${tests})
+    trapeze_compile_together(${program} ${tests})
+    target_compile_options(${program} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
+    target_link_libraries(${program} PRIVATE trapeze_${name} ${links} GTest::gtest_main GTest::gmock)
+    target_compile_definitions(${program} PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${TRAPEZE_TEST_TIMEOUT})
+endfunction()
+
+# trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... ALONE ... LINKS ... PRIVATE_LINKS ... RARELY_RUN)
+# A room is one static library and, when tests are built, one test program made of the tests beside its sources; those
+# that read or write pictures by OpenImageIO are a program of their own, for its 250 libraries take a fifth of a second
+# to load. Includes are written from the root of the repository: #include "core/grid.h". RARELY_RUN: what the room
+# does is little beside what it has done, and the compiler needs not look far.
 function(trapeze_room name)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;TESTS;ALONE;LINKS;PRIVATE_LINKS" ${ARGN})
+    cmake_parse_arguments(ROOM "RARELY_RUN" "" "SOURCES;TESTS;PICTURE_TESTS;ALONE;LINKS;PRIVATE_LINKS" ${ARGN})
     set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     add_library(trapeze_${name} STATIC ${ROOM_SOURCES})
     trapeze_compile_together(trapeze_${name} ${ROOM_SOURCES})
     target_include_directories(trapeze_${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(trapeze_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
+    if(ROOM_RARELY_RUN)
+        target_compile_options(trapeze_${name} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
+    endif()
     if(TRAPEZE_BUILD_TESTS AND ROOM_TESTS)
-        add_executable(${name}_test ${ROOM_TESTS})
-        trapeze_compile_together(${name}_test ${ROOM_TESTS})
-        target_compile_options(${name}_test PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
-        target_link_libraries(${name}_test PRIVATE trapeze_${name} ${ROOM_PRIVATE_LINKS} GTest::gtest_main GTest::gmock)
-        target_compile_definitions(${name}_test PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-        gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${TRAPEZE_TEST_TIMEOUT})
+        trapeze_room_test(${name} ${name}_test "${ROOM_TESTS}" "${ROOM_PRIVATE_LINKS}")
+    endif()
+    if(TRAPEZE_BUILD_TESTS AND ROOM_PICTURE_TESTS)
+        trapeze_room_test(${name} ${name}_pictures_test "${ROOM_PICTURE_TESTS}" "${ROOM_PRIVATE_LINKS};PkgConfig::OIIO")
     endif()
 endfunction()

@@ -5,11 +5,13 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
 #include "core/simd/targets_harness.h"
+#include "sample/every_method_harness.h"
 #include "sample/frame_harness.h"
 #include "sample/patterns/interval_pattern.h"
 #include "sample/patterns/stratified_pattern.h"
@@ -18,6 +20,7 @@
 namespace trapeze {
 namespace {
 
+using testing::every_method;
 using testing::GridMaker;
 using testing::TestFrame;
 using testing::tiles_of;
@@ -378,46 +381,45 @@ TEST_P(Agreement, DualSpaceFindsWhatBruteForceFinds) {
     }
 }
 
-/// What a new method is tested by, before it has tests of its own.
-TEST_P(Agreement, EveryRowOfTheTableFindsWhatBruteForceFinds) {
-    for (const VisibilityMethod& method : visibility_methods()) {
-        if (!method.is_exact) continue;
-        std::string error;
-        const std::string pattern = method.natural_pattern(choose_sampler(method.name, "", &error)->method);
-        const auto truth = resolve(scene(), "bruteforce", pattern);
-        EXPECT_EQ(differing_samples(resolve(scene(), std::string(method.name), pattern), truth), 0u)
-            << method.name;
+/// What brute force finds in a scene, for each pattern that is asked for.
+class Truths {
+  public:
+    explicit Truths(const TestScene& scene) : scene_(scene) {}
+    const std::vector<HitBuffer>& of(const std::string& pattern) {
+        std::vector<HitBuffer>& truth = found_[pattern];
+        if (truth.empty()) truth = resolve(scene_, "bruteforce", pattern);
+        return truth;
     }
+
+  private:
+    const TestScene& scene_;
+    std::map<std::string, std::vector<HitBuffer>> found_;
+};
+
+/// What a new method is tested by, before it has tests of its own.
+TEST_P(Agreement, EveryMethodOfTheTableFindsWhatBruteForceFinds) {
+    Truths truths(scene());
+    for (const auto& [method, pattern] : every_method())
+        EXPECT_EQ(differing_samples(resolve(scene(), method), truths.of(pattern)), 0u) << method;
 }
 
 TEST_P(Agreement, OfAnyNumberOfThreads) {
-    for (const char* method : {"interleaveuvt:cull=on", "dualspace", "raytrace", "raytrace:tree=paper",
-                               "raytrace:tree=paper,bundle=off", "raytrace:tree=paper,split=sah",
-                               "bruteforce", "interval:cull=on", "interval:pairing=shuffled"}) {
-        std::vector<std::vector<HitBuffer>> results;
+    Truths truths(scene());
+    for (const auto& [method, pattern] : every_method())
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
             tbb::task_arena arena(static_cast<int>(threads));
-            arena.execute([&] { results.push_back(resolve(scene(), method)); });
+            arena.execute([&, &method = method, &pattern = pattern] {
+                EXPECT_TRUE(resolve(scene(), method) == truths.of(pattern)) << method << ' ' << threads;
+            });
         }
-        EXPECT_TRUE(results[0] == results[1]) << method;
-        EXPECT_TRUE(results[0] == results[2]) << method;
-    }
 }
 
 TEST_P(Agreement, OfAllInstructionSets) {
-    const auto traced = resolve(scene(), "raytrace:tree=paper");
-    const auto interval_truth = resolve(scene(), "bruteforce", "interval");
-    const auto interleaved_truth = resolve(scene(), "bruteforce", "interleaved");
+    Truths truths(scene());
     for_each_target([&] {
-        EXPECT_TRUE(resolve(scene(), "bruteforce") == traced);
-        EXPECT_TRUE(resolve(scene(), "raytrace") == traced);
-        for (const char* method : {"interval", "interval:cull=on"})
-            EXPECT_TRUE(resolve(scene(), method) == interval_truth) << method;
-        for (const char* method : {"interleaveuvt", "interleaveuvt:cull=on"})
-            EXPECT_TRUE(resolve(scene(), method) == interleaved_truth) << method;
-        EXPECT_TRUE(resolve(scene(), "interval:pairing=shuffled") == traced);
-        EXPECT_TRUE(resolve(scene(), "dualspace") == traced);
+        for (const auto& [method, pattern] : every_method())
+            EXPECT_TRUE(resolve(scene(), method) == truths.of(pattern)) << method;
     });
 }
 

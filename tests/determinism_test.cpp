@@ -2,9 +2,11 @@
 /// crop.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "core/simd/simd_limit.h"
+#include "sample/every_method_harness.h"
 #include "tests/program_harness.h"
 #include "tests/scene_harness.h"
 
@@ -20,7 +22,7 @@ void expect_same(const std::vector<FrameResult>& a, const std::vector<FrameResul
 
 class TinyScene : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
+TEST_P(TinyScene, IsTheSameForEveryThreadCountAndRegionSplit) {
     const std::string path = tiny_scene_path(GetParam());
     RenderSettings settings;
     const auto reference = render_scene(path, settings, 2);
@@ -35,11 +37,44 @@ TEST_P(TinyScene, IsTheSameForEveryMethodThreadCountAndRegionSplit) {
         // A picture this small may have fewer tiles than that.
         for (const FrameResult& result : results) EXPECT_GT(result.stats.regions, 1);
     }
-    for (const char* method : {"raytrace:tree=paper,bundle=off", "bruteforce"}) {
-        RenderSettings other = settings;
-        other.sampler = method;
-        expect_same(reference, render_scene(path, other, 2), method);
+}
+
+/// The rows of the table of methods, each as it is by default, and one of their other forms: these take turns
+/// from scene to scene.
+std::vector<MethodForm> methods_for(const std::string& scene) {
+    std::vector<MethodForm> rows, others;
+    for (MethodForm& form : every_method())
+        (form.name.find(':') == std::string::npos ? rows : others).push_back(std::move(form));
+    const std::vector<std::string> all = tiny_scenes();
+    const auto number = static_cast<size_t>(std::find(all.begin(), all.end(), scene) - all.begin());
+    if (!others.empty()) rows.push_back(others[number % others.size()]);
+    return rows;
+}
+
+/// Methods that have samples of their own show what brute force shows with those.
+TEST_P(TinyScene, IsTheSameForEveryMethod) {
+    const std::string path = tiny_scene_path(GetParam());
+    const auto render = [&](const std::string& method, const std::string& pattern) {
+        RenderSettings settings;
+        settings.sampler = method, settings.pattern = pattern;
+        return render_scene(path, settings, 2);
+    };
+    std::map<std::string, std::vector<FrameResult>> truths;
+    for (const auto& [method, pattern] : methods_for(GetParam())) {
+        std::vector<FrameResult>& truth = truths[pattern];
+        if (truth.empty()) truth = render("bruteforce", pattern);
+        ASSERT_FALSE(truth.empty());
+        if (method != "bruteforce") expect_same(truth, render(method, pattern), method);
     }
+}
+
+/// Scenes are more than forms of methods: each form has its turn.
+TEST(Determinism, EveryFormOfAMethodRendersSomeScene) {
+    std::set<std::string> turns;
+    for (const std::string& scene : tiny_scenes())
+        if (!scene.starts_with("make_"))
+            for (const MethodForm& form : methods_for(scene)) turns.insert(form.name);
+    for (const MethodForm& form : every_method()) EXPECT_TRUE(turns.contains(form.name)) << form.name;
 }
 
 /// Whether the build has one instruction set alone, as those for sanitizers: then all names stand for it.
