@@ -61,8 +61,8 @@ bool has_folder(const std::string& path) {
 OutputFile::~OutputFile() {
     if (file_) std::fclose(file_);
     if (partial_.empty()) return;
-    const std::lock_guard lock(partials().mutex);
     ::unlink(partial_.c_str());
+    const std::lock_guard lock(partials().mutex);
     partials().paths.erase(partial_);
 }
 
@@ -98,23 +98,36 @@ bool OutputFile::find_place(std::string& folder, std::string& name) {
     return ::access(target_.c_str(), W_OK) == 0 || fail_with_errno();
 }
 
+/// The name is noted before the file is there, and the lock is not held while it is made: disks may let a
+/// call wait for as long as they like, and a process that is to end may not wait for them.
 bool OutputFile::open() {
-    std::string folder, name;
-    if (!find_place(folder, name)) return false;
-    const std::lock_guard lock(partials().mutex);
+    std::string folder, partial;
+    if (!find_place(folder, partial)) return false;
     if (!folder.empty() && folder.back() != '/') folder += '/';
-    const std::string partial = folder + name.substr(0, kNameBytes) + "." + std::to_string(::getpid()) +
-                                ".part-" + std::to_string(++partials().count);
+    {
+        const std::lock_guard lock(partials().mutex);
+        partial = folder + partial.substr(0, kNameBytes) + "." + std::to_string(::getpid()) + ".part-" +
+                  std::to_string(++partials().count);
+        partials().paths.insert(partial);
+    }
     file_ = std::fopen(partial.c_str(), "wbx");
     if (!file_ && errno == EEXIST) {
         // It was left by a process of the same number, which was killed.
         ::unlink(partial.c_str());
         file_ = std::fopen(partial.c_str(), "wbx");
     }
-    if (!file_) return fail_with_errno();
-    partial_ = partial;
-    partials().paths.insert(partial);
-    return true;
+    if (!file_) fail_with_errno();
+    const std::lock_guard lock(partials().mutex);
+    if (file_ && partials().paths.contains(partial)) {
+        partial_ = partial;
+        return true;
+    }
+    partials().paths.erase(partial);
+    if (!file_) return false;
+    std::fclose(file_);  // remove_partials() came before the file
+    file_ = nullptr;
+    ::unlink(partial.c_str());
+    return fail("the process is about to end");
 }
 
 bool OutputFile::write(const void* bytes, size_t count) {
@@ -142,8 +155,8 @@ bool OutputFile::commit() {
     const bool closed = std::fclose(file_) == 0;
     file_ = nullptr;
     if (!closed) return fail_with_errno();
-    const std::lock_guard lock(partials().mutex);
     if (::rename(partial_.c_str(), target_.c_str()) != 0) return fail_with_errno();
+    const std::lock_guard lock(partials().mutex);
     partials().paths.erase(partial_);
     partial_.clear();
     return true;

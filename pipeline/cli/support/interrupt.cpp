@@ -12,11 +12,16 @@
 namespace trapeze {
 namespace {
 
-// A signal handler can reach nothing but a global; this is the process's one.
+// A signal handler can reach nothing but globals; these are the process's.
 volatile std::sig_atomic_t g_signal = 0;
+std::atomic<bool> g_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may not wait");
 
+/// Work is asked to stop at once: a signal may break off what the process waits for, a file that is being
+/// written for one, and that is no failure of its own.
 void on_signal(int signal) {
     g_signal = signal;
+    g_requested = true;
 }
 
 /// How often the watcher looks for a signal, and how long work that has been asked to stop may take.
@@ -40,6 +45,7 @@ Interrupt::Interrupt(std::optional<double> time_limit) {
         deadline_ = Clock::now() +
                     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*time_limit));
     g_signal = 0;
+    g_requested = false;
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
     watcher_ = std::thread([this] { watch(); });
@@ -52,6 +58,10 @@ Interrupt::~Interrupt() {
     std::signal(SIGTERM, SIG_DFL);
 }
 
+const std::atomic<bool>& Interrupt::requested() const {
+    return g_requested;
+}
+
 int Interrupt::exit_code() const {
     if (too_late_) return kExitTimeLimit;
     return 128 + (g_signal ? static_cast<int>(g_signal) : SIGINT);
@@ -62,7 +72,7 @@ void Interrupt::watch() {
         std::this_thread::sleep_for(kPoll);
     if (done_) return;
     too_late_ = g_signal == 0;
-    requested_ = true;
+    g_requested = true;
     const auto asked = Clock::now();
     while (!done_ && Clock::now() - asked < kPatience) std::this_thread::sleep_for(kPoll);
     if (done_) return;

@@ -24,7 +24,7 @@ class Interrupt {
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
 
-    const std::atomic<bool>& requested() const { return requested_; }
+    const std::atomic<bool>& requested() const;
     int exit_code() const;  ///< 130, 143 or 8 once requested
 
   private:
@@ -32,7 +32,7 @@ class Interrupt {
     void watch();
 
     std::optional<Clock::time_point> deadline_;
-    std::atomic<bool> requested_{false}, done_{false}, too_late_{false};
+    std::atomic<bool> done_{false}, too_late_{false};
     std::thread watcher_;
 };
 
