@@ -26,7 +26,7 @@ inline SeenNumbers seen_numbers(const Attributes& attributes) {
 
 inline void set_seen_numbers(Attributes& attributes, const SeenNumbers& numbers) {
     if (numbers.are_all()) return;
-    attributes.user["detail"].set(
+    attributes.user.change("detail").set(
         {"seen", {StorageClass::Uniform, ValueType::Float, 2}, {numbers.from, numbers.to}, {}});
 }
 

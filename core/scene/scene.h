@@ -14,6 +14,7 @@
 #include "core/scene/light_shape.h"
 #include "core/scene/parameters.h"
 #include "core/scene/shapes.h"
+#include "core/scene/user_values.h"
 
 namespace trapeze {
 
@@ -152,7 +153,7 @@ struct Attributes {
     } dice;
     /// GeometricApproximation: blur by motion or defocus coarsens dicing by this much; 0: never.
     float motion_factor = 0, focus_factor = 0;
-    std::map<std::string, ParameterList> user;  ///< every Attribute, by category
+    UserValues user;  ///< every Attribute, by category
 };
 
 /// Geometry with its attributes and motion.

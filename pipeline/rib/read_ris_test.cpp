@@ -233,23 +233,27 @@ TEST(ReadRis, AreaLightsShineFromTheirGeometry) {
     EXPECT_EQ(r.attributes(0).surface->name, "constant");
 }
 
-/// Of a light in an object only where it is placed is known: a rectangle stands for its geometry.
-TEST(ReadRis, AreaLightsOfObjectsAreTheirBoxes) {
+/// Each instance is a light of its own, also in objects of objects.
+TEST(ReadRis, AreaLightsOfObjectsShineFromTheirInstances) {
     const Outcome r = read_world(
         "ObjectBegin \"lamp\" Translate 3 2 0\n"
         "AreaLightSource \"PxrStdAreaLight\" \"a\" Polygon \"P\" [-1 0 -1  1 0 -1  1 0 1  -1 0 1]\n"
+        "ObjectEnd ObjectBegin \"pair\" ObjectInstance \"lamp\" " +
+        kBall +
         "ObjectEnd AttributeBegin Translate 1 0 0 ObjectInstance \"lamp\" AttributeEnd\n"
-        "Bxdf \"PxrDiffuse\" \"b\"\n" +
+        "ObjectInstance \"pair\" Bxdf \"PxrDiffuse\" \"b\"\n" +
         kBall);
-    ASSERT_EQ(r.attributes(1).lights.size(), 1u);
-    const LightInstance& light = *r.attributes(1).lights[0];
-    EXPECT_EQ(light.shape->kind, LightShape::Kind::Rect);
-    EXPECT_TRUE(light.shape->two_sided);
-    const M44f& m = light.shader.camera_from_shader;
-    EXPECT_EQ(m.translation(), V3f(4, 2, 0));
-    EXPECT_EQ(std::abs(m[2][1]), 1);  // its z axis is y
-    EXPECT_EQ(V3f(m[0][0], m[0][1], m[0][2]).length(), 2);
-    EXPECT_EQ(V3f(m[1][0], m[1][1], m[1][2]).length(), 2);
+    ASSERT_EQ(r.scene().primitives.size(), 4u);
+    const auto& lights = r.attributes(3).lights;
+    ASSERT_EQ(lights.size(), 2u);
+    for (const auto& light : lights) {
+        EXPECT_EQ(light->shape->kind, LightShape::Kind::Mesh);
+        EXPECT_TRUE(light->shape->two_sided) << "for it is flat";
+    }
+    EXPECT_EQ(r.scene().primitives[0].emitter, lights[0]);
+    EXPECT_EQ(r.scene().primitives[1].emitter, lights[1]);
+    EXPECT_EQ(r.scene().primitives[2].emitter, nullptr);
+    EXPECT_EQ(r.scene().primitives[3].emitter, nullptr);
 }
 
 TEST(ReadRis, WhereNothingLightsBxdfsTheEyeDoes) {

@@ -169,8 +169,8 @@ TEST(ReadyArchive, RequestsAreKeptWithinTheirBudget) {
     EXPECT_EQ(copy.name, "Color");
     EXPECT_EQ(copy.at.source, 9u);
     EXPECT_EQ(copy.at.column, 5u);
-    EXPECT_EQ(copy.arguments.at(0).at.source, 9u);
-    EXPECT_EQ(copy.arguments.at(0).floats, request.arguments[0].floats);
+    EXPECT_EQ(copy.arguments[0].at.source, 9u);
+    EXPECT_EQ(copy.arguments[0].floats, request.arguments[0].floats);
 
     ReadyArchive second(&left);
     second.add(request);

@@ -33,7 +33,7 @@ const Parameter* find_user_value(const std::map<std::string, ParameterList>& lis
 
 std::optional<NamedValue> find_attribute_value(const Attributes& attributes, std::string_view name) {
     if (std::optional<NamedValue> own = find_own(attributes, name)) return own;
-    const Parameter* user = find_user_value(attributes.user, name);
+    const Parameter* user = find_user_value(attributes.user.lists(), name);
     if (!user) return {};
     if (!user->strings.empty()) return NamedValue{{}, user->strings.front()};
     return NamedValue{user->floats, {}};

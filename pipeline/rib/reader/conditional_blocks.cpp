@@ -43,7 +43,7 @@ ConditionValue attribute_value(const Attributes& a, const std::string& name) {
     if (name == "Matte") return {{static_cast<double>(a.matte)}, {}};
     if (name == "Sides") return {{static_cast<double>(a.sides)}, {}};
     if (name == "Surface" && a.surface) return {{}, a.surface->name};
-    return user_value(a.user, name);
+    return user_value(a.user.lists(), name);
 }
 
 /// Options likewise; Frame is the number of FrameBegin.

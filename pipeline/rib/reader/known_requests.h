@@ -41,6 +41,8 @@ using RequestHandler =
 struct Request {
     RequestHandler handler;
     RequestGroup group = RequestGroup::Unsupported;  ///< then it is known, and has no handler
+    std::string name;                                ///< as RIB writes it
+    size_t number = 0;                               ///< its place among request_names()
 };
 
 /// Null for unknown names.

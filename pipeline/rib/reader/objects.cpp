@@ -32,10 +32,10 @@ ShaderPointer placed_in(const M44f& camera_from_object, const ShaderPointer& sha
 
 /// The instance's attributes, but for those that the definition changed between ObjectBegin and its
 /// primitive. Shaders of the definition are placed with the object.
-std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& instance,
-                                                          const AttributeState& at_begin,
-                                                          const AttributeState& at_primitive,
-                                                          const M44f& camera_from_object) {
+std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instance,
+                                                    const AttributeState& at_begin,
+                                                    const AttributeState& at_primitive,
+                                                    const M44f& camera_from_object) {
     auto result = std::make_shared<AttributeState>(instance);
     const Attributes &old = at_begin.attributes, &now = at_primitive.attributes;
     const auto take = [&](auto... members) {
@@ -57,7 +57,7 @@ std::shared_ptr<const AttributeState> instance_attributes(const AttributeState& 
     for (const auto& [category, values] : now.user)
         if (const auto before = old.user.find(category);
             before == old.user.end() || !same(before->second, values))
-            for (const Parameter& value : values.values) result->attributes.user[category].set(value);
+            for (const Parameter& value : values.values) result->attributes.user.change(category).set(value);
     if (at_primitive.displacement_bound != at_begin.displacement_bound)
         result->displacement_bound = at_primitive.displacement_bound;
     if (at_primitive.orientation != Orientation::OfInstance) {
@@ -93,7 +93,7 @@ void SceneBuilder::instance(const std::string& handle) {
     if (found == state_.scope().objects.end()) throw RequestError{"no object " + in_quotes(handle), {}};
     if (found->second == object_) throw RequestError{"an object in its own definition", {}};
     RetainedObject& object = *found->second;
-    place_lights(object);
+    const PlacedEmitters emitters = place_lights(object);
     instanced_primitives_ += object.primitives.size();
     if (instanced_primitives_ > read_options_.most_instanced_primitives) {
         report_.error_of_limit("instances make more than " +
@@ -117,8 +117,13 @@ void SceneBuilder::instance(const std::string& handle) {
         const bool own = primitive.attributes != object.attributes;
         if (own && merged_from != primitive.attributes.get()) {
             merged_from = primitive.attributes.get();
-            merged = instance_attributes(state_.attributes(), *object.attributes, *primitive.attributes,
-                                         state_.camera_from_current());
+            const auto made = instance_attributes(state_.attributes(), *object.attributes,
+                                                  *primitive.attributes, state_.camera_from_current());
+            if (const auto& emitter = primitive.attributes->emitter; emitter != object.attributes->emitter) {
+                const auto placed = emitters.find(emitter ? emitter->light.get() : nullptr);
+                made->emitter = placed != emitters.end() ? placed->second : nullptr;
+            }
+            merged = made;
         }
         place_instance(primitive, own ? merged : state_.current().attributes, solid);
     }
@@ -146,6 +151,7 @@ void SceneBuilder::place_instance(ObjectPrimitive& primitive,
         if (primitive.keys.size() > 1 && !has_room(primitive.keys.size() * bytes_of(*primitive.keys.front())))
             return;
     }
+    place_emitter(*attributes, *primitive.keys.front(), M44f(transform.at(open)));
     emit(primitive.request, primitive.keys, transform, attributes, report_.at(), solid);
 }
 

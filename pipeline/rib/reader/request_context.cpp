@@ -12,6 +12,7 @@
 namespace trapeze::rib {
 namespace {
 
+constexpr size_t kMostReserved = 8;       ///< parameters that memory is taken for before they are read
 constexpr size_t kMostParameters = 1000;  ///< of one request; lists are searched one by one
 
 /// What an undeclared value looks like.
@@ -36,52 +37,57 @@ class ParameterReader {
                     Undeclared undeclared)
         : report_(report), state_(state), cursor_(cursor), undeclared_(undeclared) {}
 
-    /// Nothing when the pair is wrong, which has been reported.
-    std::optional<Parameter> read(const ParameterList& earlier) {
+    /// False when the pair is wrong, which has been reported.
+    bool read(const ParameterList& earlier, Parameter& parameter) {
         if (!cursor_.next_is_string() || cursor_.peek()->strings.size() != 1)
             throw RequestError{"a parameter's name is expected", cursor_.peek()->at};
         name_at_ = cursor_.peek()->at;
-        const std::string token = cursor_.string("a parameter's name");
+        std::string token = cursor_.string("a parameter's name");
         if (cursor_.done()) throw RequestError{in_quotes(token) + " has no value", name_at_};
         if (earlier.values.size() >= kMostParameters)
             throw RequestError{"more than " + std::to_string(kMostParameters) + " parameters", name_at_};
-        Argument value = cursor_.take("a value");
+        Argument& value = cursor_.take_here();
         std::vector<float> numbers = value.take_numbers();
         // Several bare numbers may stand for an array of a fixed size (a colour, say).
         while (value.kind == Argument::Kind::Number && cursor_.next_is_number() && !cursor_.next_is_array())
             numbers.push_back(cursor_.number("a value"));
-        auto declared = declaration_of(token, numbers.size(), value.strings.size());
-        if (!declared) {
+        if (!declare(parameter, token, numbers.size(), value.strings.size())) {
             report_.say(Severity::Error, name_at_, in_quotes(token) + " is not declared; left out",
                         "undeclared-" + token);
-            return {};
+            return false;
         }
-        Parameter parameter{std::move(declared->first), declared->second, std::move(numbers),
-                            std::move(value.strings)};
-        if (!fit_to_declaration(parameter)) return {};
+        parameter.floats = std::move(numbers), parameter.strings = std::move(value.strings);
+        if (!fit_to_declaration(parameter)) return false;
         if (earlier.find(parameter.name)) {
             report_.say(Severity::Warning, name_at_,
                         in_quotes(parameter.name) + " is given twice; the first counts",
                         "repeated-parameter");
-            return {};
+            return false;
         }
         if (parameter.declaration.type == ValueType::Color)
             parameter.floats = state_.scope().rgb(std::move(parameter.floats));
-        return parameter;
+        return true;
     }
 
   private:
-    /// A token with a space in it that is no declaration was meant to be one: it is not guessed.
-    std::optional<std::pair<std::string, Declaration>> declaration_of(const std::string& token,
-                                                                      size_t numbers, size_t strings) {
-        auto declared = state_.declarations().resolve(token);
-        if (undeclared_ == Undeclared::LeaveOut) return declared;
+    /// Takes name and type from the token, which is left as it is where it is unknown. A token with a space
+    /// in it that is no declaration was meant to be one: it is not guessed.
+    bool declare(Parameter& parameter, std::string& token, size_t numbers, size_t strings) {
+        const Declarations::Meaning* const meaning = state_.declarations().find(token);
         // A shader's or a renderer's own parameter of a name that RISpec gives another type to.
-        const bool is_another = declared && state_.declarations().is_predeclared(token) &&
-                                !state_.scope().color_samples && !fits(declared->second, numbers, strings);
-        if (is_another || (!declared && token.find(' ') == std::string::npos))
-            declared = {token, guessed(numbers, strings)};
-        return declared;
+        const bool is_another = undeclared_ == Undeclared::Guess && meaning && meaning->is_predeclared &&
+                                !state_.scope().color_samples &&
+                                !fits(meaning->declaration, numbers, strings);
+        const bool may_guess = undeclared_ == Undeclared::Guess && token.find(' ') == std::string::npos;
+        if (!meaning && !may_guess) return false;
+        const bool is_guessed = is_another || !meaning;
+        parameter.declaration = is_guessed ? guessed(numbers, strings) : meaning->declaration;
+        // A token that is as long as its name is the name.
+        if (is_guessed || meaning->name.size() == token.size())
+            parameter.name = std::move(token);
+        else
+            parameter.name = meaning->name;
+        return true;
     }
 
     /// Values beyond the last whole item are left over; too few, or of the wrong kind, are none.
@@ -124,9 +130,11 @@ class ParameterReader {
 /// A repeated name is a mistake of the file: its first value counts.
 ParameterList RequestContext::parameters(ArgumentCursor& cursor, Undeclared undeclared) const {
     ParameterList list;
+    if (cursor.done()) return list;
+    list.values.reserve(std::min(cursor.left() / 2, kMostReserved));
     ParameterReader reader(report, declared_, cursor, undeclared);
     while (!cursor.done())
-        if (auto parameter = reader.read(list)) list.values.push_back(std::move(*parameter));
+        if (Parameter parameter; reader.read(list, parameter)) list.values.push_back(std::move(parameter));
     return list;
 }
 
@@ -167,8 +175,8 @@ std::shared_ptr<const LightInstance> LightContext::light(const std::string& hand
     return scene_.light(handle);
 }
 
-void GeometryContext::add_shape(std::string request, Shape shape, uint64_t faces) {
-    scene_.add_shape(std::move(request), std::move(shape), faces);
+void GeometryContext::add_shape(const std::string& request, Shape&& shape, uint64_t faces) {
+    scene_.add_shape(request, std::move(shape), faces);
 }
 
 void GeometryContext::place_far_emitter(FarShape shape, float angle) {

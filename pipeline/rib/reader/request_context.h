@@ -92,7 +92,7 @@ class GeometryContext : public RequestContext {
         : RequestContext(context), state(context.state), scene_(scene) {}
 
     /// See SceneBuilder.
-    void add_shape(std::string request, Shape shape, uint64_t faces);
+    void add_shape(const std::string& request, Shape&& shape, uint64_t faces);
     void place_far_emitter(FarShape shape, float angle = 0);
 
     const GraphicsStateStack& state;

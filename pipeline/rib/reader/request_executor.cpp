@@ -36,21 +36,25 @@ struct HandlerCall {
 
 }  // namespace
 
+/// The summary's entries stay where they are.
+uint64_t& RequestExecutor::count_of(const Request& request) {
+    if (request.number >= counts_.size()) counts_.resize(request.number + 1);
+    uint64_t*& count = counts_[request.number];
+    if (!count) count = &report_.summary().requests[request.name];
+    return *count;
+}
+
 /// The order counts: a request is counted before anything of it is judged; variables are replaced before
 /// others are told of it, and these may refuse it.
 void RequestExecutor::execute(RequestText& text) {
-    if (text.name != last_request_.name || !last_request_.request) {
-        last_request_ = {text.name, find_request(text.name), nullptr};
-        if (last_request_.request) last_request_.count = &report_.summary().requests[text.name];
-    }
-    const Request* const request = last_request_.request;
+    const Request* const request = find_request(text.name);
     if (!request) {
         report_.set_request(text.at, clipped(text.name));
         report_.report_unknown_request(text.name);
         return;
     }
-    report_.set_request(text.at, text.name);
-    ++*last_request_.count;
+    report_.set_known_request(text.at, request->name);
+    ++count_of(*request);
     if (request->group == RequestGroup::Unsupported) {
         if (text.problem.empty()) hands_on(text);
         report_.count_unsupported();

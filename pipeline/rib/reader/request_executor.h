@@ -1,7 +1,8 @@
 /// What happens to each request that is read, up to its handler.
 #pragma once
 
-#include <string>
+#include <cstdint>
+#include <vector>
 
 #include "pipeline/rib/reader/known_requests.h"
 #include "pipeline/rib/reader/request_context.h"
@@ -39,12 +40,10 @@ class RequestExecutor {
     const ConditionalBlocks& conditions_;
     const SceneBuilder& scene_;
     RequestContexts& contexts_;
-    /// The last name looked up: requests mostly come in rows. `count` is in the summary.
-    struct {
-        std::string name;
-        const Request* request = nullptr;
-        uint64_t* count = nullptr;
-    } last_request_;
+    uint64_t& count_of(const Request& request);
+
+    /// Of the requests that have come, by their numbers, where the summary counts them; else null.
+    std::vector<uint64_t*> counts_;
 };
 
 }  // namespace trapeze::rib

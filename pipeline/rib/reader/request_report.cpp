@@ -25,7 +25,7 @@ std::string kind_of(Severity severity, const std::string& text) {
 
 void RequestReport::error(SourceLocation at, const std::string& text) {
     const Severity severity = severity_of_errors();
-    say(severity, at.line ? at : at_, text, kind_of(severity, name_ + ": " + text));
+    say(severity, at.line ? at : at_, text, kind_of(severity, name() + ": " + text));
 }
 
 void RequestReport::warn_once(const std::string& text, const std::string& kind) {
@@ -34,13 +34,13 @@ void RequestReport::warn_once(const std::string& text, const std::string& kind) 
 
 /// Shown once for each kind; what is over the limit is left out without further words.
 void RequestReport::error_of_limit(const std::string& text, const std::string& kind) {
-    diagnostics_.error(at_, name_ + ": " + text, kind);
+    diagnostics_.error(at_, name() + ": " + text, kind);
 }
 
 /// Kinds beyond the most are counted together as "further kinds", with the first of them shown.
 void RequestReport::say(Severity severity, SourceLocation at, const std::string& text,
                         const std::string& kind) {
-    const std::string whole = name_ + ": " + text;
+    const std::string whole = name() + ": " + text;
     if (kinds_.size() < kMostKinds) kinds_.insert(kind);
     if (kinds_.contains(kind))
         diagnostics_.report(severity, at, whole, kind);

@@ -22,9 +22,14 @@ class RequestReport {
     RequestReport& operator=(const RequestReport&) = delete;
 
     /// The request that messages are about from now on.
-    void set_request(SourceLocation at, std::string_view name) { at_ = at, name_ = name; }
+    void set_request(SourceLocation at, std::string_view name) {
+        own_name_ = name;
+        set_known_request(at, own_name_);
+    }
+    /// Likewise, of a name that outlives this: nothing is copied.
+    void set_known_request(SourceLocation at, const std::string& name) { at_ = at, name_ = &name; }
     SourceLocation at() const { return at_; }
-    const std::string& name() const { return name_; }
+    const std::string& name() const { return *name_; }
 
     /// An error of the current request, or a warning under ErrorHandler "ignore". Its kind is its text
     /// without the numbers.
@@ -44,11 +49,11 @@ class RequestReport {
     void report_unknown_request(const std::string& name);
 
     /// The request was understood as one that is not honoured.
-    void count_unsupported() { ++summary_.unsupported[name_]; }
+    void count_unsupported() { ++summary_.unsupported[name()]; }
     /// Counts the request as understood, but without effect; `what` follows the request's name.
-    void count_without_effect(const std::string& what = {}) { ++summary_.without_effect[name_ + what]; }
+    void count_without_effect(const std::string& what = {}) { ++summary_.without_effect[name() + what]; }
     /// Counts the request as not needed, since it asks for what is so in any case; `what` says why.
-    void count_not_needed(const std::string& what) { ++summary_.not_needed[name_ + what]; }
+    void count_not_needed(const std::string& what) { ++summary_.not_needed[name() + what]; }
 
     /// ErrorHandler (RISpec 3): Print is the default.
     enum class OnError { Print, Ignore, Abort };
@@ -71,7 +76,8 @@ class RequestReport {
     const std::atomic<bool>* const cancelled_;
     ReadSummary summary_;
     SourceLocation at_;
-    std::string name_;
+    std::string own_name_;  ///< of a request that is none of the table's
+    const std::string* name_ = &own_name_;
     std::set<std::string> kinds_, unknown_requests_;  ///< of messages, and of names, that were shown
     OnError on_error_ = OnError::Print;
     uint64_t errors_before_abort_ = 0;  ///< when ErrorHandler "abort" was read

@@ -34,7 +34,9 @@ float largest_stretch(const M44f& m) {
 
 /// A transformation that overflowed would spoil every bound that it is in.
 bool is_finite(const M44f& m) {
-    return std::all_of(&m[0][0], &m[0][0] + 16, [](float v) { return std::isfinite(v); });
+    float sum = 0;  // 0 times what is not finite is NaN
+    for (int i = 0; i < 16; ++i) sum += m[i / 4][i % 4] * 0;
+    return sum == 0;
 }
 
 /// A primitive that does not deform has one key.
@@ -87,6 +89,7 @@ void SceneBuilder::deliver_world() {
     Scope& scope = state_.scope();
     Options& options = scope.options;
     const float open = options.shutter_open;
+    if (options.pixel_variance > 0 && !options.adaptive) ++report_.summary().without_effect["PixelVariance"];
     // A hider's counts are of paths: where nothing is blurred, edges need fewer.
     if (!scope.has_pixel_samples && options.f_stop >= kInfinity && options.shutter_close <= open) {
         options.samples_x = std::min(options.samples_x, kMostSharpSamples);
@@ -131,20 +134,26 @@ float SceneBuilder::displacement_length(const AttributeState& state,
 }
 
 /// Attributes as the scene has them; primitives in a row mostly share one set, which is made once.
+/// `mirrored`: the determinant of their space is negative.
 std::shared_ptr<const Attributes> SceneBuilder::resolved_attributes(
-    const std::shared_ptr<const AttributeState>& state, const std::vector<M44f>& camera_from_object) {
-    // dPdu x dPdv in camera space is the transformed outward normal times the sign of the determinant.
-    const bool mirrored = M44d(camera_from_object.front()).determinant() < 0;
+    const std::shared_ptr<const AttributeState>& state, const std::vector<M44f>& camera_from_object,
+    bool mirrored) {
     const bool inside = state->orientation == Orientation::Inside;
     const bool reverse = (mirrored != inside) != state->orientation_reversed;
     const float bound = displacement_length(*state, camera_from_object);
     if (resolved_.state == state && resolved_.attributes->reverse_orientation == reverse &&
         resolved_.attributes->displacement_bound == bound)
         return resolved_.attributes;
+    const SeenNumbers seen = state->detail.seen();
+    const bool is_as_it_is = !reverse && bound == 0 && seen.are_all() && !read_options_.shading_rate;
+    if (is_as_it_is) {  // shared with the state, which nobody changes from now on (change_attributes())
+        resolved_ = {state, {state, &state->attributes}};
+        return resolved_.attributes;
+    }
     auto attributes = std::make_shared<Attributes>(state->attributes);
     attributes->reverse_orientation = reverse;
     attributes->displacement_bound = bound;
-    set_seen_numbers(*attributes, state->detail.seen());
+    set_seen_numbers(*attributes, seen);
     if (read_options_.shading_rate) attributes->shading_rate = *read_options_.shading_rate;
     resolved_ = {state, attributes};
     return attributes;
@@ -179,19 +188,20 @@ void SceneBuilder::emit(const std::string& request, std::vector<ShapePointer> sh
         primitive.camera_from_object.push_back(M44f(transform.at(key_time(open, close, k, keys))));
     // A singular transformation flattens the shape: it has no inside, and its normals no direction.
     const auto& spaces = primitive.camera_from_object;
-    if (!std::all_of(spaces.begin(), spaces.end(), is_finite) ||
-        !(std::abs(M44d(spaces.front()).determinant()) > 0)) {
+    const double determinant = M44d(spaces.front()).determinant();
+    if (!std::all_of(spaces.begin(), spaces.end(), is_finite) || !(std::abs(determinant) > 0)) {
         const std::string what = request == report_.name() ? "" : request + ": ";
         report_.error(at, what + "the current transformation is singular; primitive skipped");
         return;
     }
-    ++report_.summary().primitives[request];
+    ++primitive_counts_.of(report_.summary().primitives, request);
     report_.summary().points += point_count(primitive.shape());
     if (primitive.key_count() > 1) ++report_.summary().moving_primitives;
     if (!keeps_geometry() || state->detail.seen().are_none()) return;
     // Shared attributes take memory once.
     const std::shared_ptr<const Attributes> last = resolved_.attributes;
-    primitive.attributes = resolved_attributes(state, spaces);
+    // dPdu x dPdv in camera space is the transformed outward normal times the sign of the determinant.
+    primitive.attributes = resolved_attributes(state, spaces, determinant < 0);
     if (state->emitter) primitive.emitter = state->emitter->light;
     uint64_t bytes = bytes_of(primitive);
     if (primitive.attributes != last) bytes += bytes_of(*primitive.attributes);
@@ -225,7 +235,7 @@ void SceneBuilder::report_turned_away() {
 
 /// What the archive being read has made before, where it is the same; null when there is no room for a new
 /// one. Poses of a motion are counted at its end, at the keys that the scene has.
-ShapePointer SceneBuilder::shared_or_new(Shape shape) {
+ShapePointer SceneBuilder::shared_or_new(Shape&& shape) {
     auto shared = std::make_shared<const Shape>(std::move(shape));
     if (place_.share(shared)) return shared;
     if (keeps_geometry() && !motion_.is_open() && !has_room(bytes_of(*shared))) return nullptr;
@@ -233,17 +243,17 @@ ShapePointer SceneBuilder::shared_or_new(Shape shape) {
 }
 
 /// A light that waits for its shape takes this one, in whichever of the three places it then goes to.
-void SceneBuilder::add_shape(std::string request, Shape shape, uint64_t faces) {
+void SceneBuilder::add_shape(const std::string& request, Shape&& shape, uint64_t faces) {
     if (!takes_geometry()) return;
     if (motion_.is_open()) motion_.expect(request);
     report_.summary().faces += faces;
-    place_emitter(shape);
+    place_emitter(state_.attributes(), shape, state_.camera_from_current());
     ShapePointer shared = shared_or_new(std::move(shape));
     if (!shared) return;
     if (motion_.is_open())
         motion_.add_pose(std::move(shared));
     else if (object_)
-        add_to_object(std::move(request), only(std::move(shared)), {0.0f}, report_.at());
+        add_to_object(request, only(std::move(shared)), {0.0f}, report_.at());
     else
         emit(request, only(std::move(shared)), state_.current().transform, state_.current().attributes,
              report_.at(), solid_of_surface(solids_));

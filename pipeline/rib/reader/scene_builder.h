@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "pipeline/rib/reader/file_search.h"
 #include "pipeline/rib/reader/motion_collector.h"
+#include "pipeline/rib/reader/name_counts.h"
 #include "pipeline/rib/reader/request_report.h"
 #include "pipeline/rib/state/graphics_state_stack.h"
 #include "pipeline/rib/state/ready_archive.h"
@@ -61,7 +63,7 @@ class SceneBuilder {
     /// Says what takes_geometry() has turned away, now that the first world begins, or none came.
     void report_turned_away();
     /// A primitive of `faces` faces, counted under the name of its request.
-    void add_shape(std::string request, Shape shape, uint64_t faces);
+    void add_shape(const std::string& request, Shape&& shape, uint64_t faces);
     /// The primitive of a motion block that ended.
     void add_moving_shape(MovingShape moving);
 
@@ -83,21 +85,24 @@ class SceneBuilder {
     void place_instance(ObjectPrimitive& primitive, const std::shared_ptr<const AttributeState>& attributes,
                         int solid);
 
-    void place_lights(const RetainedObject& object);
-    void place_emitter(const Shape& shape);
+    /// By lights of an object: the emitters that stand for them in an instance.
+    using PlacedEmitters = std::map<const LightInstance*, std::shared_ptr<Emitter>>;
+    PlacedEmitters place_lights(const RetainedObject& object);
+    void place_emitter(const AttributeState& state, const Shape& shape, const M44f& camera_from_shape);
     void add_strays(std::vector<std::shared_ptr<const LightInstance>>& lights);
     void light_world();
 
     bool keeps_geometry() const { return read_options_.keep_geometry && frame_is_wanted_; }
     bool has_room(uint64_t bytes);
-    ShapePointer shared_or_new(Shape shape);
+    ShapePointer shared_or_new(Shape&& shape);
     void add_to_object(std::string request, std::vector<ShapePointer> shapes, std::vector<float> times,
                        SourceLocation at);
     void emit(const std::string& request, std::vector<ShapePointer> shape_keys,
               const MovingTransform& transform, const std::shared_ptr<const AttributeState>& attributes,
               SourceLocation at, int solid);
     std::shared_ptr<const Attributes> resolved_attributes(const std::shared_ptr<const AttributeState>& state,
-                                                          const std::vector<M44f>& camera_from_object);
+                                                          const std::vector<M44f>& camera_from_object,
+                                                          bool mirrored);
     float displacement_length(const AttributeState& attributes, const std::vector<M44f>& camera_from_object);
 
     const ReadOptions& read_options_;
@@ -121,6 +126,8 @@ class SceneBuilder {
         SourceLocation first;
         std::string request;
     } turned_away_;
+
+    NameCounts primitive_counts_;
 
     /// The last primitive's attributes, for the next ones that look alike.
     struct {

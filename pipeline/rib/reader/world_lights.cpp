@@ -58,31 +58,38 @@ void SceneBuilder::add_world_light(std::shared_ptr<const LightInstance> light) {
     lights.push_back(std::move(light));
 }
 
-/// Lights of an object shine from where it is placed, once for each instance.
-void SceneBuilder::place_lights(const RetainedObject& object) {
+/// Lights of an object shine from where it is placed, once for each instance. Those that shine from the
+/// object's shapes get an emitter in each.
+SceneBuilder::PlacedEmitters SceneBuilder::place_lights(const RetainedObject& object) {
+    PlacedEmitters emitters;
     for (const auto& light : object.lights) {
-        if (!object_ && state_.scope().ris.lights.size() >= kMostWorldLights)
-            return add_world_light(light);  // says so
+        if (!object_ && state_.scope().ris.lights.size() >= kMostWorldLights) {
+            add_world_light(light);  // says so
+            break;
+        }
         auto placed = std::make_shared<LightInstance>(*light);
         placed->shader.camera_from_shader = placed->shader.camera_from_shader * state_.camera_from_current();
+        if (placed->shape && placed->shape->kind == LightShape::Kind::Mesh)
+            emitters[light.get()] = std::make_shared<Emitter>(Emitter{placed, true, true});
         add_world_light(std::move(placed));
     }
+    return emitters;
 }
 
 /// The first shape after a light that shines from shapes says on which sides it does. The middle is for
-/// shaders of RSL that do not ask for points of shapes, unless they say where they are.
-void SceneBuilder::place_emitter(const Shape& shape) {
-    Emitter* const emitter = state_.attributes().emitter.get();
+/// shaders of RSL that do not ask for points of shapes, unless they say where they are. A light from before
+/// an object's definition shines from its instances.
+void SceneBuilder::place_emitter(const AttributeState& state, const Shape& shape,
+                                 const M44f& camera_from_shape) {
+    Emitter* const emitter = state.emitter.get();
+    if (object_ && state.emitter == object_->attributes->emitter) return;
     if (!emitter || std::exchange(emitter->is_placed, true)) return;
     const ShaderInstance& shader = emitter->light->shader;
-    if (emitter->is_of_ris) {
-        place_mesh_light(*emitter->light, shape, state_.camera_from_current(), object_ != nullptr);
-        return;
-    }
-    emitter->light->shape->two_sided = state_.attributes().attributes.sides == 2;
+    if (emitter->is_of_ris) return place_mesh_light(*emitter->light, shape);
+    emitter->light->shape->two_sided = state.attributes.sides == 2;
     if (!shader.parameters.find("from"))
         emitter->light->shape->camera_from_middle =
-            with_origin(shader.camera_from_shader, middle_of(shape), state_.camera_from_current());
+            with_origin(shader.camera_from_shader, middle_of(shape), camera_from_shape);
 }
 
 /// The light becomes another in its place: it has been handed on already.

@@ -27,7 +27,7 @@ V3f color_of(StateContext& r, ArgumentCursor& c, const char* what) {
     if (given.size() > samples)
         r.report.warn_once("a number too many for " + std::string(what), "long-color");
     given.resize(samples, given[0]);
-    const auto v = r.state.scope().rgb(given);
+    const auto v = r.state.scope().rgb(std::move(given));
     return {v[0], v[1], v[2]};
 }
 
@@ -129,7 +129,7 @@ void attribute(OptionContext& r, ArgumentCursor& c) {
     const ParameterList values = r.parameters(c, Undeclared::Guess);
     AttributeState& state = r.state.change_attributes();
     for (const Parameter& value : values.values) {
-        state.attributes.user[category].set(value);
+        state.attributes.user.change(category).set(value);
         const bool is_executed = category == "Ri" && execute_ri_value(r, value);
         const UnneededAttribute* const unneeded = unneeded_attribute(category, value.name);
         if (unneeded)

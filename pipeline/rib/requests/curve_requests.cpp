@@ -31,8 +31,11 @@ void check_step(GeometryContext& r, const Curves& curves, int vertices, size_t n
 
 /// Leaves out curves that have too few points for one segment, unless all have.
 void leave_out_short_curves(GeometryContext& r, Curves& curves, ParameterList& variables) {
-    std::vector<char> kept, kept_varying, kept_points;
     const int least = least_points(curves);
+    if (std::all_of(curves.vertices_per_curve.begin(), curves.vertices_per_curve.end(),
+                    [least](int n) { return n >= least; }))
+        return;
+    std::vector<char> kept, kept_varying, kept_points;
     std::string first;
     for (size_t i = 0; i < curves.vertices_per_curve.size(); ++i) {
         const int n = curves.vertices_per_curve[i];
@@ -42,7 +45,6 @@ void leave_out_short_curves(GeometryContext& r, Curves& curves, ParameterList& v
         kept_points.insert(kept_points.end(), static_cast<size_t>(n), keeps);
         if (!keeps && first.empty()) first = has_points(n, i) + ", needs at least " + std::to_string(least);
     }
-    if (first.empty()) return;
     if (std::find(kept.begin(), kept.end(), 1) == kept.end()) throw RequestError{first, {}};
     r.report.warn_once(first + "; curves of fewer are left out", "short-curves");
     select_values(curves.vertices_per_curve, kept);

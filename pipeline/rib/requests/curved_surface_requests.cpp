@@ -110,11 +110,7 @@ void quadric(GeometryContext& r, ArgumentCursor& c) {
     Quadric q;
     q.kind = row.kind, q.value_count = row.count;
     // All in one array, or number by number (a hyperboloid's points may be arrays of three).
-    std::vector<float> values;
-    while (static_cast<int>(values.size()) < row.count && c.next_is_number()) {
-        const std::vector<float> more = c.number_array("a number");
-        values.insert(values.end(), more.begin(), more.end());
-    }
+    const std::vector<float> values = c.numbers_up_to(static_cast<size_t>(row.count));
     if (static_cast<int>(values.size()) != row.count)
         throw RequestError{
             "has " + std::to_string(values.size()) + " numbers, needs " + std::to_string(row.count), {}};

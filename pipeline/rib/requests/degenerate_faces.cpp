@@ -82,6 +82,13 @@ void keep(ParameterList& variables, const FaceCheck& check) {
     }
 }
 
+/// The common case: nothing is wrong with any loop.
+bool is_whole(const std::vector<int>& vertices_per_loop, const std::vector<int>& vertices, int vertex_count) {
+    return std::all_of(vertices_per_loop.begin(), vertices_per_loop.end(), [](int n) { return n >= 3; }) &&
+           std::all_of(vertices.begin(), vertices.end(),
+                       [vertex_count](int index) { return index >= 0 && index < vertex_count; });
+}
+
 /// A polygon without its outline is none; a hole that is none leaves the polygon whole.
 void leave_out(RequestReport& report, PolygonMesh& mesh, ParameterList& variables) {
     FaceCheck check(mesh.vertices, mesh.vertex_count);
@@ -136,10 +143,16 @@ void leave_out(RequestReport& report, SubdivisionMesh& mesh, ParameterList& vari
 }  // namespace
 
 void leave_out_degenerate_faces(RequestReport& report, Shape& shape) {
-    if (auto* polygons = std::get_if<PolygonMesh>(&shape.topology))
-        leave_out(report, *polygons, shape.variables);
-    else if (auto* mesh = std::get_if<SubdivisionMesh>(&shape.topology))
-        leave_out(report, *mesh, shape.variables);
+    if (auto* polygons = std::get_if<PolygonMesh>(&shape.topology)) {
+        const bool has_outlines = std::all_of(polygons->loops_per_polygon.begin(),
+                                              polygons->loops_per_polygon.end(), [](int n) { return n > 0; });
+        if (!has_outlines ||
+            !is_whole(polygons->vertices_per_loop, polygons->vertices, polygons->vertex_count))
+            leave_out(report, *polygons, shape.variables);
+    } else if (auto* mesh = std::get_if<SubdivisionMesh>(&shape.topology)) {
+        if (!is_whole(mesh->vertices_per_face, mesh->vertices, mesh->vertex_count))
+            leave_out(report, *mesh, shape.variables);
+    }
 }
 
 }  // namespace trapeze::rib

@@ -91,6 +91,10 @@ void choose_points(RequestReport& report, ParameterList& list, PointForm form) {
         report.error(in_quotes(name) + " is not for this primitive; left out");
         remove(list, name);
     };
+    // Mostly there is one form alone.
+    size_t forms = 0;
+    for (const Parameter& p : list.values) forms += p.name == "P" || p.name == "Pw" || p.name == "Pz";
+    if (forms == 0 || (forms == 1 && form != PointForm::None && list.find("P"))) return;
     if (form == PointForm::None) leave_out("P"), leave_out("Pw");
     if (form != PointForm::Patch) leave_out("Pz");
     if (list.find("P")) remove(list, "Pw"), remove(list, "Pz");
@@ -161,6 +165,7 @@ bool fit_to_shape(RequestReport& report, Parameter& p, const VariableCounts& cou
 
 ParameterList read_variables(RequestContext& context, ArgumentCursor& cursor, PointForm form) {
     ParameterList list = context.parameters(cursor);
+    if (list.values.empty()) return list;
     check_types(context.report, list);
     choose_points(context.report, list, form);
     return list;
@@ -182,6 +187,7 @@ int point_count_of(const ParameterList& list) {
 /// In this order: heights become points before points are counted, and "st" is split once its length is
 /// right.
 ParameterList checked_variables(RequestReport& report, ParameterList list, const Topology& topology) {
+    if (list.values.empty()) return list;
     expand_pz(list, topology);
     const VariableCounts counts = variable_counts(topology);
     std::erase_if(list.values, [&](Parameter& p) { return !fit_to_shape(report, p, counts); });

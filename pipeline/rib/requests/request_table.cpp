@@ -1,6 +1,7 @@
 #include "pipeline/rib/requests/request_table.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string_view>
 
@@ -12,15 +13,14 @@ constexpr const char* kUnsupported[] = {"Deformation",  "Volume",        "MakeOc
                                         "MakeBrickMap", "MakeTexture3D", "VPInterior",
                                         "VPAtmosphere", "VPSurface",     "Shader"};
 
-/// A map by name that can be asked with a piece of the text, without a copy.
-using Table = std::map<std::string, Request, std::less<>>;
+using Table = std::map<std::string, Request>;
 
 /// Made once, from the groups' tables: a group says what motion blocks do with its requests.
 const Table& table() {
     static const Table all = [] {
         Table rows;
         const auto add = [&](std::span<const RequestRow> requests, RequestGroup group) {
-            for (const RequestRow& row : requests) rows[row.name] = {row.handler, group};
+            for (const RequestRow& row : requests) rows[row.name] = {row.handler, group, {}, 0};
         };
         add(structure_requests(), RequestGroup::Structure);
         add(conditional_requests(), RequestGroup::Structure);
@@ -43,9 +43,46 @@ const Table& table() {
         add(geometry_requests(), RequestGroup::Geometry);
         add(map_requests(), RequestGroup::Option);
         for (const char* name : kUnsupported) rows.try_emplace(name);
+        for (size_t number = 0; auto& [name, request] : rows) request.name = name, request.number = number++;
         return rows;
     }();
     return all;
+}
+
+/// The table by a hash of the names, as a scene asks for millions of requests by name.
+class RequestIndex {
+  public:
+    RequestIndex() {
+        for (const auto& [name, request] : table()) {
+            size_t slot = slot_of(name);
+            while (slots_[slot]) slot = (slot + 1) % kSlots;
+            slots_[slot] = &request;
+        }
+    }
+    const Request* find(std::string_view name) const {
+        if (name.empty()) return nullptr;
+        for (size_t slot = slot_of(name); slots_[slot]; slot = (slot + 1) % kSlots)
+            if (slots_[slot]->name == name) return slots_[slot];
+        return nullptr;
+    }
+
+  private:
+    static constexpr size_t kSlots = 1024;  ///< some eight times as many as there are requests
+
+    /// Of four letters and the length, which tell nearly all names apart.
+    static size_t slot_of(std::string_view name) {
+        const auto letter = [&](size_t i) { return static_cast<unsigned char>(name[i]); };
+        const size_t n = name.size();
+        return (n * 37 + letter(0) * 131u + letter(n / 2) * 17u + letter(n - 1) * 59u +
+                letter(n - 1 - n / 4) * 251u) %
+               kSlots;
+    }
+    std::array<const Request*, kSlots> slots_{};
+};
+
+const RequestIndex& request_index() {
+    static const RequestIndex index;
+    return index;
 }
 
 /// Levenshtein's distance; letters that differ in case are equal.
@@ -67,12 +104,11 @@ int distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 bool is_request(std::string_view name) {
-    return table().contains(name);
+    return request_index().find(name);
 }
 
 const Request* find_request(std::string_view name) {
-    const auto row = table().find(name);
-    return row == table().end() ? nullptr : &row->second;
+    return request_index().find(name);
 }
 
 std::vector<std::string> request_names() {

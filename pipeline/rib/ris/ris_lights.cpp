@@ -160,26 +160,10 @@ std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const Shade
 }
 
 /// A flat shape shines to both sides, others outwards.
-void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape,
-                      bool in_object) {
+void place_mesh_light(LightInstance& light, const Shape& shape) {
     const Box box = box_of(shape);
-    const V3f size = box.high - box.low, middle = (box.low + box.high) * 0.5f;
-    int thin = 0;
-    for (int axis = 1; axis < 3; ++axis)
-        if (size[axis] < size[thin]) thin = axis;
-    const bool is_flat = size[thin] <= 0.01f * std::max({size.x, size.y, size.z});
-    light.shape->two_sided = is_flat;
-    if (!in_object) return;
-    light.shape->kind = is_flat ? LightShape::Kind::Rect : LightShape::Kind::Sphere;
-    // Its z axis is the thin one; the other two have the lengths of the box.
-    M44f box_axes;
-    for (int row = 0; row < 3; ++row) {
-        const int axis = (thin + 1 + row) % 3;
-        for (int column = 0; column < 3; ++column) box_axes[row][column] = 0;
-        box_axes[row][axis] = row == 2 && is_flat ? 1 : size[axis];
-    }
-    for (int column = 0; column < 3; ++column) box_axes[3][column] = middle[column];
-    light.shader.camera_from_shader = box_axes * camera_from_shape;
+    const V3f size = box.high - box.low;
+    light.shape->two_sided = std::min({size.x, size.y, size.z}) <= 0.01f * std::max({size.x, size.y, size.z});
 }
 
 std::shared_ptr<LightInstance> far_light(const LightInstance& light, FarShape shape,

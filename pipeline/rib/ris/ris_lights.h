@@ -26,10 +26,8 @@ bool is_mesh_light(std::string_view shader, bool is_area_light);
 std::shared_ptr<LightInstance> mesh_light(const std::string& handle, const ShaderInstance& shader,
                                           const RisParameters& parameters,
                                           int samples = LightShape::kDefaultSamples);
-/// Tells a mesh light of the first shape that it shines from, whose points are in shape space. In an object,
-/// which is placed later, a rectangle or a ball as large as the shape's box stands for it.
-void place_mesh_light(LightInstance& light, const Shape& shape, const M44f& camera_from_shape,
-                      bool in_object);
+/// Tells a mesh light of the first shape that it shines from.
+void place_mesh_light(LightInstance& light, const Shape& shape);
 
 /// Geometry "envsphere" and "distantlight": what a mesh light of them shines as. Angle: that which the
 /// distant one takes in the sky, in degrees; 0 if unknown.

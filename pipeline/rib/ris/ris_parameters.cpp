@@ -33,7 +33,7 @@ RisParameters RisParameters::read(ArgumentCursor& c) {
             parameter.is_reference |= word == "reference";
             parameter.type = std::exchange(parameter.name, word);
         }
-        Argument value = c.take("a value");
+        Argument& value = c.take_here();
         parameter.strings = value.strings;
         const bool is_number = value.kind == Argument::Kind::Number;
         parameter.numbers = value.take_numbers();

@@ -8,6 +8,9 @@
 namespace trapeze::rib {
 namespace {
 
+/// Inline declarations that are remembered: more than a scene's programmers write, fewer than a program may.
+constexpr size_t kMostInline = 4096;
+
 /// In the order of StorageClass.
 constexpr std::string_view kStorageNames[] = {"constant", "uniform",     "varying",
                                               "vertex",   "facevarying", "facevertex"};
@@ -157,28 +160,33 @@ std::optional<Declaration> parse_declaration(std::string_view text) {
 
 /// Names of shaders' parameters are RISpec's too, and files use them without declaring them.
 Declarations::Declarations() {
-    for (const Predeclared& entry : kPredeclared) known_[entry.name] = entry.declaration;
+    const auto add_one = [&](const char* name, const Declaration& declaration) {
+        known_[name] = {name, declaration, true};
+    };
+    for (const Predeclared& entry : kPredeclared) add_one(entry.name, entry.declaration);
     const auto add = [&](const auto& names, ValueType type) {
-        for (const char* name : names) known_[name] = {StorageClass::Uniform, type, 1};
+        for (const char* name : names) add_one(name, {StorageClass::Uniform, type, 1});
     };
     add(kFloats, ValueType::Float);
     add(kShaderColors, ValueType::Color);
     add(kShaderPoints, ValueType::Point);
     add(kStrings, ValueType::String);
-    known_["sphere"] = {StorageClass::Uniform, ValueType::Float, 1};
-    for (const auto& [name, declaration] : known_) predeclared_.insert(name);
+    add_one("sphere", {StorageClass::Uniform, ValueType::Float, 1});
 }
 
 /// An inline declaration ("uniform color tint") is only looked for where the whole token is no known name:
 /// names with a space in them may be declared.
-std::optional<std::pair<std::string, Declaration>> Declarations::resolve(const std::string& token) const {
-    if (const auto known = known_.find(token); known != known_.end()) return {{token, known->second}};
+const Declarations::Meaning* Declarations::find(const std::string& token) const {
+    if (const auto known = known_.find(token); known != known_.end()) return &known->second;
+    if (const auto again = inline_.find(token); again != inline_.end()) return &again->second;
     std::vector<std::string> words = words_of(token);
-    if (words.size() < 2) return {};
-    const std::string name = std::move(words.back());
+    if (words.size() < 2) return nullptr;
+    std::string name = std::move(words.back());
     words.pop_back();
-    if (const auto declaration = declaration_of(words)) return {{name, *declaration}};
-    return {};
+    const auto declaration = declaration_of(words);
+    if (!declaration) return nullptr;
+    if (inline_.size() >= kMostInline) inline_.clear();
+    return &inline_.emplace(token, Meaning{std::move(name), *declaration, false}).first->second;
 }
 
 }  // namespace trapeze::rib

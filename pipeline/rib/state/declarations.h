@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -23,24 +22,36 @@ class Declarations {
   public:
     Declarations();  ///< RISpec's predeclared names
 
+    /// What a token stands for.
+    struct Meaning {
+        std::string name;  ///< without the declaration that the token may carry
+        Declaration declaration;
+        bool is_predeclared = false;  ///< a bare name of RISpec's own, that nobody has declared anew
+    };
+
     void declare(const std::string& name, const Declaration& declaration) {
-        known_[name] = declaration;
-        predeclared_.erase(name);
+        known_[name] = {name, declaration, false};
     }
     /// A name that was never declared is none to forget; RISpec's own stay.
     void forget(const std::string& name) {
-        if (!predeclared_.contains(name)) known_.erase(name);
+        if (const auto known = known_.find(name); known != known_.end() && !known->second.is_predeclared)
+            known_.erase(known);
     }
-    /// A parameter's token, which may carry its declaration: the bare name and its type, or nothing when it
-    /// is unknown.
-    std::optional<std::pair<std::string, Declaration>> resolve(const std::string& token) const;
-
-    /// A bare name of RISpec's own, that nobody has declared anew.
-    bool is_predeclared(const std::string& token) const { return predeclared_.contains(token); }
+    /// A parameter's token, which may carry its declaration; null when it is unknown. Holds until the next
+    /// token is looked for, or declared.
+    const Meaning* find(const std::string& token) const;
+    /// The same as the bare name and its type.
+    std::optional<std::pair<std::string, Declaration>> resolve(const std::string& token) const {
+        const Meaning* const meaning = find(token);
+        if (!meaning) return {};
+        return {{meaning->name, meaning->declaration}};
+    }
 
   private:
-    std::unordered_map<std::string, Declaration> known_;
-    std::set<std::string> predeclared_;
+    using Meanings = std::unordered_map<std::string, Meaning>;
+
+    Meanings known_;
+    mutable Meanings inline_;  ///< tokens that were read as declarations, for when they come again
 };
 
 }  // namespace trapeze::rib

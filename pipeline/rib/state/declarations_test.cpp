@@ -62,10 +62,10 @@ TEST(Declarations, DeclareReplaces) {
     EXPECT_EQ(declarations.resolve("tint")->second.type, ValueType::Color);
     declarations.declare("tint", *parse_declaration("float"));
     EXPECT_EQ(declarations.resolve("tint")->second.type, ValueType::Float);
-    EXPECT_TRUE(declarations.is_predeclared("Kd"));
+    EXPECT_TRUE(declarations.find("Kd")->is_predeclared);
     declarations.declare("Kd", *parse_declaration("string"));
-    EXPECT_FALSE(declarations.is_predeclared("Kd"));
-    EXPECT_FALSE(declarations.is_predeclared("tint"));
+    EXPECT_FALSE(declarations.find("Kd")->is_predeclared);
+    EXPECT_FALSE(declarations.find("tint")->is_predeclared);
 }
 
 /// RISpec appendix A: the parameters of the standard shaders need no declaration.

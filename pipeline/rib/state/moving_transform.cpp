@@ -121,6 +121,10 @@ float MovingFactor::fastest_turn(float open, float close) const {
 
 /// Neighbouring fixed matrices are multiplied at once; the chain is as long as there are motions.
 void MovingTransform::concat(const M44d& matrix) {
+    if (newest_ && newest_.use_count() == 1 && !newest_->moving) {  // nobody else has it
+        newest_->fixed = matrix * newest_->fixed;
+        return;
+    }
     auto factor = std::make_shared<Factor>();
     factor->fixed = matrix;
     if (newest_) {

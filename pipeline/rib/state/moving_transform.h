@@ -59,7 +59,7 @@ class MovingTransform {
 
         M44d at(float time) const { return moving ? moving->at(time) : fixed; }
     };
-    std::shared_ptr<const Factor> newest_;
+    std::shared_ptr<Factor> newest_;  ///< never changed while it is shared
 };
 
 /// The smallest 2^m + 1 (m <= 4) whose even keys meet all of the times within the shutter; 17 when none does.

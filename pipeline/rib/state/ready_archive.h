@@ -55,7 +55,7 @@ class ReadyArchive {
     struct Known {
         std::string name;
         SourceLocation at;
-        std::vector<Argument> arguments;
+        ArgumentList arguments;
         std::string problem;
         SourceLocation problem_at;
         std::vector<std::weak_ptr<const Shape>> shapes;

@@ -2,6 +2,7 @@
 /// the request, which is skipped as a whole by its executor; the next request is not lost with it.
 #include "pipeline/rib/syntax/arguments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -11,8 +12,6 @@ namespace {
 /// Integers beyond it are kept as doubles too: indices and handles must not be rounded.
 constexpr double kLargestExactFloatInteger = 1 << 24;
 constexpr size_t kMostArguments = 100000;  ///< of one request; arrays count once
-/// Memory of so many strings is kept from one request for the next.
-constexpr size_t kMostSpareStrings = 16;
 /// Characters of a file that a message shows.
 constexpr size_t kLongestShown = 100;
 /// Infinite or not a number, also by rounding to float.
@@ -137,23 +136,13 @@ std::vector<float> Argument::take_numbers() {
     return std::move(floats);
 }
 
-/// Strings keep their memory: a scene has millions of short ones.
-void RequestText::clear() {
-    problem.clear();
-    for (Argument& argument : arguments)
-        if (argument.strings.capacity() == 1 && spare_strings.size() < kMostSpareStrings) {
-            argument.strings.clear();
-            spare_strings.push_back(std::move(argument.strings));
-        }
-    arguments.clear();
-}
-
 /// A loop over tokens up to the next word outside of brackets. It is one function as its cases are one table:
 /// a token kind each.
 bool read_request(Lexer& lexer, RequestText& request, IsRequest is_request, Diagnostics& diagnostics) {
     request.clear();
     if (!find_request_name(lexer, diagnostics)) return false;
-    request.name = lexer.peek().text;
+    request.name.clear();
+    request.name.append(lexer.peek().text);
     request.at = lexer.peek().at;
     lexer.skip();
     while (true) {
@@ -178,10 +167,6 @@ bool read_request(Lexer& lexer, RequestText& request, IsRequest is_request, Diag
             case TokenKind::String: {
                 Argument& argument = request.arguments.emplace_back();
                 argument.kind = Argument::Kind::String, argument.at = token.at;
-                if (!request.spare_strings.empty()) {
-                    argument.strings = std::move(request.spare_strings.back());
-                    request.spare_strings.pop_back();
-                }
                 argument.strings.push_back(token.string);
                 break;
             }
@@ -236,20 +221,31 @@ int ArgumentCursor::integer(const char* what, int lowest, int highest) {
 std::vector<float> ArgumentCursor::numbers(size_t least, size_t most, const char* what) {
     if (!next_is_number()) missing(what);
     const SourceLocation at = peek()->at;
+    std::vector<float> values = numbers_up_to(most);
+    if (values.size() < least || values.size() > most)
+        throw RequestError{std::string(what) + " has " + std::to_string(values.size()) + " numbers, needs " +
+                               std::to_string(most),
+                           at};
+    return values;
+}
+
+/// Bare numbers take memory once.
+std::vector<float> ArgumentCursor::numbers_up_to(size_t most) {
     std::vector<float> values;
-    while (values.size() < most && next_is_number()) {
-        Argument& argument = request_.arguments[next_++];
+    if (next_is_number() && peek()->kind == Argument::Kind::Number)
+        values.reserve(std::min(most, request_.arguments.size() - next_));
+    const size_t count = request_.arguments.size();
+    for (; values.size() < most && next_ < count; ++next_) {
+        Argument& argument = request_.arguments[next_];
         if (argument.kind == Argument::Kind::Number)
             values.push_back(static_cast<float>(argument.number));
+        else if (argument.is_text())
+            break;
         else if (values.empty())
             values = std::move(argument.floats);
         else
             values.insert(values.end(), argument.floats.begin(), argument.floats.end());
     }
-    if (values.size() < least || values.size() > most)
-        throw RequestError{std::string(what) + " has " + std::to_string(values.size()) + " numbers, needs " +
-                               std::to_string(most),
-                           at};
     return values;
 }
 
@@ -295,11 +291,6 @@ std::vector<std::string> ArgumentCursor::string_array(const char* what) {
 std::string ArgumentCursor::handle(const char* what) {
     if (next_is_string()) return string(what);
     return std::to_string(integer(what, INT32_MIN, INT32_MAX));
-}
-
-Argument ArgumentCursor::take(const char* what) {
-    if (done()) missing(what);
-    return std::move(request_.arguments[next_++]);
 }
 
 }  // namespace trapeze::rib

@@ -2,6 +2,8 @@
 /// fixed number of values with or without brackets, then name and value pairs.
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,17 +32,79 @@ struct Argument {
     std::vector<float> take_numbers();
 };
 
+/// The arguments of one request after another: each leaves its memory to one of the next request, of which a
+/// scene has millions. Copies are of what there is now.
+class ArgumentList {
+  public:
+    ArgumentList() = default;
+    ArgumentList(std::initializer_list<Argument> items) : items_(items), size_(items.size()) {}
+    ArgumentList(const ArgumentList& other) : items_(other.begin(), other.end()), size_(other.size_) {}
+    ArgumentList(ArgumentList&& other) noexcept
+        : items_(std::move(other.items_)), size_(std::exchange(other.size_, 0)) {}
+    ArgumentList& operator=(const ArgumentList& other) {
+        if (this != &other) *this = ArgumentList(other);
+        return *this;
+    }
+    ArgumentList& operator=(ArgumentList&& other) noexcept {
+        items_ = std::move(other.items_), size_ = std::exchange(other.size_, 0);
+        return *this;
+    }
+    ~ArgumentList() = default;
+
+    size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    Argument& operator[](size_t i) { return items_[i]; }
+    const Argument& operator[](size_t i) const { return items_[i]; }
+    Argument& back() { return items_[size_ - 1]; }
+    const Argument& back() const { return items_[size_ - 1]; }
+    const Argument& front() const { return items_.front(); }
+    Argument* begin() { return items_.data(); }
+    Argument* end() { return items_.data() + size_; }
+    const Argument* begin() const { return items_.data(); }
+    const Argument* end() const { return items_.data() + size_; }
+
+    /// A number, until the caller makes something else of it.
+    Argument& emplace_back() {
+        if (size_ == items_.size()) {
+            ++size_;
+            return items_.emplace_back();
+        }
+        Argument& argument = items_[size_++];
+        argument.number = 0;
+        if (argument.kind == Argument::Kind::Number) return argument;  // has no more than its number
+        argument.kind = Argument::Kind::Number;
+        leave_little(argument.floats);
+        leave_little(argument.strings);
+        leave_little(argument.large_integers);
+        return argument;
+    }
+    void push_back(Argument argument) { emplace_back() = std::move(argument); }
+    void clear() { size_ = 0; }
+
+  private:
+    /// Empties; keeps the memory of short lists.
+    template <class Value>
+    static void leave_little(std::vector<Value>& values) {
+        constexpr size_t kMostKept = 64;
+        if (values.capacity() > kMostKept)
+            values = {};
+        else
+            values.clear();
+    }
+
+    std::vector<Argument> items_;  ///< the first `size_` are there, others have memory to give
+    size_t size_ = 0;
+};
+
 /// A request's name and all that follows up to the next word.
 struct RequestText {
     std::string name;
     SourceLocation at;
-    std::vector<Argument> arguments;
+    ArgumentList arguments;
     std::string problem;  ///< what is wrong with the arguments as text; empty when nothing
     SourceLocation problem_at;
-    /// Memory of names that earlier requests had, for the next ones.
-    std::vector<std::vector<std::string>> spare_strings;
 
-    void clear();
+    void clear() { problem.clear(), arguments.clear(); }
 };
 
 /// Words that begin a request. Any other word within brackets is an error there, and not the next request.
@@ -85,6 +149,8 @@ class ArgumentCursor {
     /// `count` numbers, as arrays or one by one.
     std::vector<float> numbers(size_t count, const char* what) { return numbers(count, count, what); }
     std::vector<float> numbers(size_t least, size_t most, const char* what);
+    /// Numbers and arrays of them until there are `most`, as they come: perhaps fewer, or more.
+    std::vector<float> numbers_up_to(size_t most);
     /// One string, or an array of one.
     std::string string(const char* what);
     /// An array of any length; a single number counts as an array of one.
@@ -95,8 +161,10 @@ class ArgumentCursor {
     std::vector<std::string> string_array(const char* what);
     /// A handle: a string, or an integer as text.
     std::string handle(const char* what);
-    /// The next argument, of whatever kind.
-    Argument take(const char* what);
+    /// The next argument, which is there, of whatever kind: to be moved from where it is.
+    Argument& take_here() { return request_.arguments[next_++]; }
+    /// How many arguments are left.
+    size_t left() const { return request_.arguments.size() - std::min(next_, request_.arguments.size()); }
     /// Passes over what is left.
     void skip_rest() { next_ = request_.arguments.size(); }
 

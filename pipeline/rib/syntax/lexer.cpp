@@ -45,6 +45,30 @@ bool ends_number(char c) {
     return kEndsNumber[static_cast<unsigned char>(c)];
 }
 
+/// Tables by byte: what words go on with, and what may stand between tokens.
+constexpr auto kInWord = [] {
+    std::array<bool, 256> in_word{};
+    for (int c = 0; c < 128; ++c) {
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+        in_word[static_cast<size_t>(c)] = letter || (c >= '0' && c <= '9');
+    }
+    return in_word;
+}();
+constexpr auto kSpace = [] {
+    std::array<bool, 256> space{};
+    for (size_t c = 0; c < space.size(); ++c) space[c] = is_separator(static_cast<char>(c));
+    for (const char c : std::string_view("\n\r#\x1A")) space[static_cast<unsigned char>(c)] = true;
+    return space;
+}();
+
+bool is_in_word(char c) {
+    return kInWord[static_cast<unsigned char>(c)];
+}
+/// Blanks, ends of lines, and what begins a comment.
+bool is_space(char c) {
+    return kSpace[static_cast<unsigned char>(c)];
+}
+
 /// Whether rounding to float what was rounded to double already may differ from rounding once: the double
 /// lies half-way between two floats.
 bool is_half_way(double value) {
@@ -122,7 +146,7 @@ const char* read_plain_number(const char* p, double* value) {
         digits += decimals;
     }
     if (digits == 0 || digits > 15 || !ends_number(*p)) return nullptr;
-    double v = static_cast<double>(mantissa);
+    auto v = static_cast<double>(static_cast<int64_t>(mantissa));  // below 10^15
     if (decimals > 0) {
         v /= kPowersOfTen[decimals];
         if (is_half_way(v)) return nullptr;
@@ -160,22 +184,23 @@ Lexer::Lexer(std::string_view text, SourceLocation first, EncodedNames names)
 
 /// Blanks, ends of lines and comments. Lines end with \n, \r\n or \r, and are counted here and in strings.
 void Lexer::skip_space() {
-    while (next_ < end_) {
+    const char* p;
+    while (next_ < end_ && is_space(*next_)) {
         const char c = *next_;
         if (c == '\n') {
             ++next_;
             new_line();
+            for (p = next_; p < end_ && *p == ' ';) ++p;  // indentation
+            next_ = p;
         } else if (c == '\r') {
             ++next_;
             if (next_ >= end_ || *next_ != '\n') new_line();  // lines of the old Macintosh
-        } else if (is_separator(c) || c == '\x1A') {          // DOS' end of a text
-            ++next_;
         } else if (c == '#') {
             const char* const begin = next_;
             while (next_ < end_ && *next_ != '\n' && *next_ != '\r') ++next_;
             if (on_comment_) on_comment_({begin, static_cast<size_t>(next_ - begin)});
-        } else {
-            return;
+        } else {  // other blanks, and DOS' end of a text
+            ++next_;
         }
     }
 }
@@ -202,6 +227,11 @@ size_t Lexer::fast_numbers(std::span<double> numbers) {
             p = skip_blanks(next_);
         }
         if (p >= last_stop_) break;
+        if (is_digit(*p) && ends_number(p[1])) {  // half of all numbers
+            numbers[count] = *p - '0';
+            next_ = p + 1;
+            continue;
+        }
         const char* const stop = number_at(p, &numbers[count]);
         if (!stop || stop >= end_ || !ends_number(*stop) || !std::isfinite(numbers[count])) break;
         next_ = stop;
@@ -214,7 +244,9 @@ size_t Lexer::fast_numbers(std::span<double> numbers) {
 void Lexer::scan() {
     // Definitions of codes are no tokens: the loop goes on behind them.
     do {
-        skip_space();
+        // Mostly one blank.
+        if (next_ < end_ && *next_ == ' ') ++next_;
+        if (next_ < end_ && is_space(*next_)) skip_space();
         token_begin_ = next_;
         token_.at = location(next_);
         if (next_ >= end_) {
@@ -224,7 +256,9 @@ void Lexer::scan() {
     } while (is_high(*next_) && !scan_encoded());
     if (is_high(*token_begin_)) return;
     const char c = *next_;
-    if (c == '[' || c == ']') {
+    if (is_letter(c)) {
+        scan_word();
+    } else if (c == '[' || c == ']') {
         token_.kind = c == '[' ? TokenKind::Open : TokenKind::Close;
         ++next_;
     } else if (c == '"') {
@@ -232,28 +266,36 @@ void Lexer::scan() {
     } else if (c == '\'' && scan_single_quoted()) {
         return;
     } else if (!scan_number()) {
-        const char* const start = next_;
-        if (is_letter(c)) {
-            while (next_ < end_ && (is_letter(*next_) || is_digit(*next_))) ++next_;
-            token_.kind = TokenKind::Word;
-        } else {
-            ++next_;
-            while (next_ < end_ && !is_letter(*next_) && !ends_number(*next_) && !is_digit(*next_) &&
-                   !is_high(*next_))
-                ++next_;
-            be_bad(kStrayCharacters, next_);
-            return;
-        }
-        token_.text = {start, static_cast<size_t>(next_ - start)};
-        if (token_.kind == TokenKind::Word && is_non_finite_word(token_.text)) {
-            token_.kind = TokenKind::Number;
-            token_.number = std::numeric_limits<double>::quiet_NaN();
-        }
+        ++next_;
+        while (next_ < end_ && !is_in_word(*next_) && !ends_number(*next_) && !is_high(*next_)) ++next_;
+        be_bad(kStrayCharacters, next_);
     }
 }
 
-/// False where no number begins; the caller makes a word or a mistake of it.
+/// A word that begins at next_.
+void Lexer::scan_word() {
+    const char* const start = next_;
+    const char* p = next_;
+    if (p < last_stop_)
+        while (is_in_word(*p)) ++p;  // which stops there, if not before
+    else
+        while (p < end_ && is_in_word(*p)) ++p;
+    next_ = p;
+    token_.kind = TokenKind::Word;
+    token_.text = {start, static_cast<size_t>(p - start)};
+    if (is_non_finite_word(token_.text)) {
+        token_.kind = TokenKind::Number;
+        token_.number = std::numeric_limits<double>::quiet_NaN();
+    }
+}
+
+/// False where no number begins; the caller makes a mistake of it.
 bool Lexer::scan_number() {
+    if (next_ < last_stop_ && is_digit(*next_) && ends_number(next_[1])) {
+        token_.kind = TokenKind::Number;
+        token_.number = *next_++ - '0';
+        return true;
+    }
     if (const char* const stop = number_at(next_, &token_.number)) {
         token_.kind = TokenKind::Number;
         next_ = stop;
@@ -366,8 +408,13 @@ bool Lexer::scan_single_quoted() {
 /// up to three octal digits, and a backslash before the end of a line, which joins it to the next.
 void Lexer::scan_string() {
     token_.kind = TokenKind::String;
-    token_.string.clear();
     ++next_;
+    // Most strings are as they stand, within a line.
+    const char* const begin = next_;
+    const char* p = begin;
+    while (p < end_ && *p != '"' && *p != '\\' && *p != '\n') ++p;
+    next_ = p;
+    token_.string.assign(begin, p);
     while (next_ < end_ && *next_ != '"') {
         char c = *next_++;
         if (c == '\n') new_line();

@@ -77,6 +77,7 @@ class Lexer {
     void scan();
     void skip_space();
     bool scan_number();
+    void scan_word();
     void scan_string();
     bool scan_single_quoted();
     const char* number_at(const char* p, double* value) const;

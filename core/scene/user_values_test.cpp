@@ -1,0 +1,31 @@
+#include "core/scene/user_values.h"
+
+#include <gtest/gtest.h>
+
+namespace trapeze {
+namespace {
+
+Parameter number(float value) {
+    return {"a", {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}};
+}
+
+TEST(UserValues, CopiesDoNotSeeEachOthersChanges) {
+    UserValues first;
+    EXPECT_TRUE(first.empty());
+    EXPECT_FALSE(first.contains("user"));
+    first.change("user").set(number(1));
+    UserValues second = first;
+    EXPECT_EQ(&first.at("user"), &second.at("user")) << "shared until one changes";
+    second.change("user").set(number(2));
+    second.change("other").set(number(3));
+    EXPECT_EQ(first.at("user").float_or("a", 0), 1);
+    EXPECT_EQ(second.at("user").float_or("a", 0), 2);
+    EXPECT_EQ(first.find("other"), first.end());
+    EXPECT_NE(second.find("other"), second.end());
+    const UserValues third = first;
+    first.change("user").set(number(4));
+    EXPECT_EQ(third.at("user").float_or("a", 0), 1);
+}
+
+}  // namespace
+}  // namespace trapeze
