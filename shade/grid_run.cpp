@@ -186,6 +186,7 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     surroundings.messages = &messages_;
     surroundings.diagnostics = context_.diagnostics;
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
+    surroundings.perspective = context_.camera.perspective;
     // Shadows ask for opacities: area lights that looked for their own shadows there would never end.
     const auto& lights = grids.front()->for_opacity ? material_.other_lights : material_.lights;
     scratch_.lights.start(scratch_.machine, lights, surroundings, batch.lanes,

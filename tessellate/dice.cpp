@@ -58,10 +58,19 @@ class Dicer {
     }
 
   private:
+    /// Which of the subpatch's sides are the face's.
+    uint8_t sides_of_face() const {
+        const auto bit = [](bool is_on_it, uint8_t side) { return is_on_it ? side : uint8_t{0}; };
+        return static_cast<uint8_t>(
+            bit(subpatch_.lo.x <= 0, ShadingGrid::kFirstU) | bit(subpatch_.hi.x >= 1, ShadingGrid::kLastU) |
+            bit(subpatch_.lo.y <= 0, ShadingGrid::kFirstV) | bit(subpatch_.hi.y >= 1, ShadingGrid::kLastV));
+    }
+
     /// Sizes all of the grid's planes. P's of unused keys wait in the scratch, so that grids with fewer keys
     /// in between cost no allocations.
     void prepare_grid() {
         grid_.shape = shape_;
+        grid_.face_sides = sides_of_face();
         grid_.key_count = surface_.key_count();
         grid_.primitive = &surface_.primitive();
         grid_.reverse_orientation = attributes_.reverse_orientation;

@@ -144,17 +144,95 @@ TEST(AreaLights, ShapesOfRslAreThoseOfTheirPrimitives) {
          "SubdivisionMesh \"bilinear\" [4] [0 1 2 3] [] [] [] [] \"P\" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] ",
          "Polygon \"P\" [-.5 -.5 0 0 -.5 0 0 .5 0 -.5 .5 0] Polygon \"P\" [0 -.5 0 .5 -.5 0 .5 .5 0 0 .5 0] "}) {
         SCOPED_TRACE(shape);
-        expect_lit(lit_by(arealight(shape)).render(asks(square)), 0.002, 0.06);
+        expect_lit(lit_by(arealight(shape)).render(asks(square)), 0.002, 0.02);
     }
     expect_lit(lit_by(arealight("Disk 0 1 360 "))
                    .render(asks("float a2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P), sum = 4 + a2 + 1;"
                                 "float expected = (1 - (4 + a2 - 1) / sqrt(sum * sum - 4 * a2)) / 2;")),
-               0.003, 0.08);
+               0.003, 0.03);
     // Of one side a sphere shines outwards: pi over its area is 1.
     expect_lit(lit_by("Sides 1 " + arealight("Sphere .5 -.5 .5 360 ") + " Sides 2 ")
                    .render(asks("vector m = point(0, 0, 3) - P;"
                                 "float expected = .25 / (m . m) * 2 / length(m);")),
-               0.01, 0.15);
+               0.01, 0.08);
+}
+
+/// Particles are balls of their widths, on whatever side their disks are drawn. Of three the mean over their
+/// areas.
+TEST(AreaLights, ParticlesAreBalls) {
+    expect_lit(lit_by(arealight("Points \"P\" [0 0 0] \"constantwidth\" [1] "))
+                   .render(asks("vector m = point(0, 0, 3) - P;"
+                                "float expected = .25 / (m . m) * 2 / length(m);")),
+               0.003, 0.03);
+    // By their form factors over their areas, together.
+    Case three = lit_by(arealight("Scale .5 .5 .5 Points \"P\" [-1 0 0 0 .5 0 1 -1 1] \"width\" [1 2 .5] "));
+    three.functions =
+        "float ball(point at; float r) { extern point P; vector m = at - P;"
+        "  return r * r / (m . m) * -zcomp(m) / length(m); } ";
+    expect_lit(three.render(asks("float sum = ball(point(-.5, 0, 3), .25) + ball(point(0, .25, 3), .5) +"
+                                 "  ball(point(.5, -.5, 3.5), .125);"
+                                 "float expected = sum / (4 * (.0625 + .25 + .015625));")),
+               0.005, 0.1);
+}
+
+/// From afar a curve is a tube, which hides its length by its width of the sky, by the sine of the angle
+/// between its way and the light's; the ribbon that the camera sees is not asked. In the last two the camera
+/// looks along it, and the receiver does not.
+TEST(AreaLights, CurvesAreTubes) {
+    const double slant = std::sqrt(0.5) / M_PI;
+    const std::pair<std::string, double> cases[] = {
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] \"constantwidth\" [.04] ", 1 / M_PI},
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 -1 0 0 1 0] \"constantwidth\" [.04] ", 1 / M_PI},
+        {"Curves \"cubic\" [4] \"nonperiodic\" \"P\" [-1 0 -1 -.5 0 -.5 .5 0 .5 1 0 1] "
+         "\"constantwidth\" [.04] ",
+         slant},
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] \"constantwidth\" [.3] ", 1 / M_PI},
+        {"Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 -1 -1 0 1 1] \"constantwidth\" [.02] ", slant},
+    };
+    for (const auto& [shape, expected] : cases) {
+        SCOPED_TRACE(shape);
+        expect_lit(lit_by(arealight("Translate 0 0 -98 " + shape))
+                       .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), " +
+                               std::to_string(expected) + ", 1);"),
+                   0.005, 0.02);
+    }
+    // Ribbons across normals are ribbons, and shine to both sides.
+    expect_lit(
+        lit_by(arealight("Translate 0 0 -98 Curves \"linear\" [2] \"nonperiodic\" \"P\" [-1 0 0 1 0 0] "
+                         "\"N\" [0 .6 .8 0 .6 .8] \"constantwidth\" [.04] "))
+            .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), .8, 1);"),
+        0.005, 0.02);
+}
+
+/// Every other primitive that has a surface.
+TEST(AreaLights, ShineFromEveryKindOfPrimitive) {
+    const std::string disk =
+        "float a2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P), sum = 4 + a2 + .16;"
+        "float expected = (1 - (4 + a2 - .16) / sqrt(sum * sum - .64 * a2)) / 2 / .16;";
+    const std::string nurbs =
+        "NuPatch 2 2 [0 0 1 1] 0 1 2 2 [0 0 1 1] 0 1 \"P\" [-.5 -.5 0 .5 -.5 0 -.5 .5 0 .5 .5 0] ";
+    const std::string square = kUnitSquare + "expected *= PI;";
+    expect_lit(lit_by(arealight(nurbs)).render(asks(square)), 0.002, 0.02);
+    // A circle of radius .4 is left of it.
+    expect_lit(lit_by(arealight("TrimCurve [1] [3] [0 0 0 .25 .25 .5 .5 .75 .75 1 1 1] [0] [1] [9] "
+                                "[.9 .6364 .5 .0707 .1 .0707 .5 .6364 .9] "
+                                "[.5 .6364 .9 .6364 .5 .0707 .1 .0707 .5] "
+                                "[1 .7071 1 .7071 1 .7071 1 .7071 1] " +
+                                nurbs))
+                   .render(asks(disk)),
+               0.01, 0.06);
+    expect_lit(lit_by(arealight("PatchMesh \"bilinear\" 2 \"nonperiodic\" 2 \"nonperiodic\" \"P\" "
+                                "[-.5 -.5 0 .5 -.5 0 -.5 .5 0 .5 .5 0] "))
+                   .render(asks(square)),
+               0.002, 0.02);
+    expect_lit(lit_by(arealight("PointsGeneralPolygons [1] [4] [0 1 2 3] \"P\" "
+                                "[-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0] "))
+                   .render(asks(square)),
+               0.002, 0.02);
+    // Of a ball half is seen, in the mean over its two sides.
+    expect_lit(lit_by(arealight("Translate 0 0 -98 Blobby 1 [1001 0] [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1] [] "))
+                   .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), .5, 1);"),
+               0.01, 0.05);
 }
 
 /// From afar a shape counts by the mean of its cosines, which is what it hides of the sky there over its
@@ -177,13 +255,13 @@ TEST(AreaLights, CurvedShapesGiveWhatTheyHide) {
         expect_lit(lit_by(arealight("Translate 0 0 -98 " + shape))
                        .render("Ci = color(1e4 * comp(diffuse(normal(0, 0, -1)), 0), " +
                                std::to_string(expected) + ", 1);"),
-                   0.01, 0.3);
+                   0.01, 0.05);
     }
     // A disk is round wherever it is.
     expect_lit(lit_by(arealight("Translate 0 0 -40 Disk 40 1 360 "))
                    .render(asks("float a2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P), sum = 4 + a2 + 1;"
                                 "float expected = (1 - (4 + a2 - 1) / sqrt(sum * sum - 4 * a2)) / 2;")),
-               0.003, 0.08);
+               0.003, 0.03);
 }
 
 /// Sides 1: the square shines where its outside is. Of two orders of its corners one is turned to us.
@@ -202,7 +280,31 @@ TEST(AreaLights, AMeshLightGivesLambertsFormula) {
                       "Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [256] "
                       "Patch \"bilinear\" \"P\" [-.5 -.5 0 .5 -.5 0 -.5 .5 0 .5 .5 0] AttributeEnd ")
                    .render(asks(kUnitSquare)),
-               0.002, 0.06);
+               0.002, 0.02);
+}
+
+/// Of objects each instance shines from where it is; and so does an object behind an AreaLightSource.
+TEST(AreaLights, InstancesShine) {
+    const std::string square = "Patch \"bilinear\" \"P\" [-.5 -.5 0 .5 -.5 0 -.5 .5 0 .5 .5 0] ";
+    const std::string object = "AttributeBegin Attribute \"visibility\" \"int camera\" [0] ObjectBegin 1 ";
+    const std::string places =
+        "AttributeBegin Translate -.6 .2 3 ObjectInstance 1 AttributeEnd "
+        "AttributeBegin Translate 1 0 2 Scale 1 .5 1 Rotate 90 0 1 0 ObjectInstance 1 AttributeEnd ";
+    const std::string two =
+        "float expected = polygon(P, point(-1.1, -.3, 3), point(-.1, -.3, 3), point(-.1, .7, 3), "
+        "point(-1.1, .7, 3)) + polygon(P, point(1, -.25, 1.5), point(1, -.25, 2.5), point(1, .25, 2.5), "
+        "point(1, .25, 1.5));";
+    expect_lit(lit_by(object + "Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [256] " + square +
+                      "ObjectEnd " + places + "AttributeEnd ")
+                   .render(asks(two)),
+               0.003, 0.05);
+    // Of both the mean by their areas, 1 and .5.
+    expect_lit(lit_by(object + square +
+                      "ObjectEnd Attribute \"light\" \"int nsamples\" [256] "
+                      "AreaLightSource \"arealight\" \"a\" " +
+                      places + "AttributeEnd Illuminate \"a\" 1 ")
+                   .render(asks(two + "expected *= PI / 1.5;")),
+               0.003, 0.05);
 }
 
 TEST(AreaLights, WhatIsBehindASurfaceOrTurnedAwayGivesNothing) {

@@ -75,5 +75,63 @@ TEST(RayDisplaced, ThePenumbraIsThatOfTheLiftedEdge) {
     EXPECT_NEAR(error, 0, 0.003);
 }
 
+/// Moving and displaced at once: the ball goes by while the shutter is open, and hides the mean of its form
+/// factors.
+TEST(RayDisplaced, OcclusionOfABallThatMovesIsItsMeanOverTheShutter) {
+    Case c;
+    c.options = "Shutter 0 1 ";
+    c.asker = "Attribute \"trace\" \"int samplemotion\" [1] ";
+    c.shaders["blow"] =
+        "displacement blow() { vector out = vector(transform(\"object\", P)); P += out; N = normal(out); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [.3] "
+        "ShadingRate .25 Displacement \"blow\" MotionBegin [0 1] Translate -.8 .1 3 Translate .8 .1 2.5 MotionEnd "
+        "Sphere .25 -.25 .25 360 ";
+    constexpr int kSamples = 256;
+    const Image image = c.render(
+        "float expected = 0, i; for (i = .5; i < 64; i += 1) {"
+        "  vector m = point(-.8 + 1.6 * i / 64, .1, 3 - .5 * i / 64) - P;"
+        "  expected += .25 / (m . m) * -zcomp(m) / length(m) / 64; }"
+        "Ci = color(occlusion(P, normal(0, 0, -1), " +
+        std::to_string(kSamples) + "), expected, 1);");
+    double bias = 0, independent = 0;
+    for (const Pixel& p : pixels(image)) {
+        const double expected = static_cast<double>(p.green), error = static_cast<double>(p.red) - expected;
+        ASSERT_LT(std::abs(error), 5 * std::sqrt(expected * (1 - expected) / kSamples));
+        independent += expected * (1 - expected) / kSamples / 4096, bias += error / 4096;
+    }
+    // As at rest: micropolygons lie a little inside.
+    EXPECT_NEAR(bias, 0, 4 * std::sqrt(independent / 4096) + 2e-4);
+}
+
+/// Likewise the lifted edge, which goes 1 to the right.
+TEST(RayDisplaced, ThePenumbraOfALiftedEdgeThatMovesIsItsMeanOverTheShutter) {
+    Case c;
+    c.may_say = "ris";
+    c.options = "Shutter 0 1 ";
+    c.asker =
+        "AttributeBegin Translate 0 0 -95 Scale 6 6 1 Light \"PxrDiskLight\" \"l\" \"int fixedSampleCount\" "
+        "[256] AttributeEnd Attribute \"trace\" \"int samplemotion\" [1] ";
+    c.shaders["lift"] = "displacement lift() { P += vector(1, 0, -2); N = calculatenormal(P); }";
+    c.things =
+        "Attribute \"trace\" \"int displacements\" [1] Attribute \"displacementbound\" \"sphere\" [2.5] "
+        "MotionBegin [0 1] Translate -.5 0 0 Translate .5 0 0 MotionEnd "
+        "Displacement \"lift\" Patch \"bilinear\" \"P\" [-4 3 -8 -1 3 -8 -4 -3 -8 -1 -3 -8] ";
+    const Image image = c.render(
+        "float shown = 0, i; for (i = .5; i < 64; i += 1) {"
+        "  float t = clamp(((i / 64 - .5) - .85 * xcomp(P)) / .15 / 3, -1, 1);"
+        "  shown += (acos(t) - t * sqrt(1 - t * t)) / PI / 64; }"
+        "Ci = color(comp(diffuse(normal(0, 0, -1)), 0) * 10009 / 9, shown, 1);");
+    double error = 0, dark = 0, bright = 0;
+    for (const Pixel& p : pixels(image)) {
+        const double shown = static_cast<double>(p.green), off = static_cast<double>(p.red) - shown;
+        ASSERT_LT(std::abs(off), 5 * std::sqrt(shown * (1 - shown) / 256) + 5e-3);
+        error += off / 4096, dark += shown<0.02, bright += shown> 0.98;
+    }
+    EXPECT_NEAR(error, 0, 0.003);
+    EXPECT_GT(dark, 100);
+    EXPECT_GT(bright, 100);
+}
+
 }  // namespace
 }  // namespace trapeze::testing

@@ -159,6 +159,77 @@ TEST(RayHits, KnowTheirRays) {
     expect("n = raydepth();", "k = trace(P, w)", "1");
 }
 
+/// Where rays that have hit began, which way they came and how far: in shaders of surfaces and of lights.
+TEST(RayHits, KnowWhereTheirRaysBegan) {
+    const std::string asks_all =
+        " point o = 0; vector d = 0; float l = -1; string name = concat(\"len\", \"gth\");"
+        "float n = rayinfo(\"origin\", o) + rayinfo(\"direction\", d) + rayinfo(name, l);";
+    const std::pair<std::string, std::string> tells[] = {
+        {"color(xcomp(o), ycomp(o), zcomp(o))", "color(xcomp(P), ycomp(P), zcomp(P))"},
+        {"color(xcomp(d), ycomp(d), zcomp(d))", "color(xcomp(w), ycomp(w), zcomp(w))"},
+        {"l", "2 / -zcomp(w)"},
+        {"n", "3"}};
+    const std::string way = "vector w = normalize(vector(.3, .1, -1));";
+    for (const auto& [told, expected] : tells) {
+        SCOPED_TRACE(told);
+        Case c;
+        c.shaders["tells"] = "surface tells() {" + asks_all + " Oi = 1; Ci = " + told + "; }";
+        c.shaders["tellslight"] = "light tellslight() {" + asks_all + " solar() { Cl = " + told + "; } }";
+        c.shaders["lit"] = "surface lit() { Oi = 1; illuminance(P) { Ci = Cl; } }";
+        const std::string body = way + "color k = color trace(P, w), e = " + expected +
+                                 "; color off = k - e; vector o3 = vector(comp(off, 0), comp(off, 1), "
+                                 "comp(off, 2)); Ci = color(length(o3), comp(k, 0), 1);";
+        for (const std::string surface :
+             {"Surface \"tells\" ", "LightSource \"tellslight\" 1 Surface \"lit\" "}) {
+            c.things = surface + wall("3");
+            for (const Pixel& p : pixels(c.render(body))) ASSERT_NEAR(p.red, 0, 1e-5f) << surface;
+        }
+    }
+}
+
+/// The camera's own begin in the eye, or on the eye's plane.
+TEST(RayHits, TheCamerasRaysBeginInTheEye) {
+    const std::string asks =
+        "point o = 7; vector d = 7; float l = 7, n = rayinfo(\"origin\", o) + rayinfo(\"direction\", d) + "
+        "rayinfo(\"length\", l);";
+    const std::string tells =
+        "Ci = color(length(o - from) + length(d - normalize(P - from)) + abs(l - length(P - from)), n, 1);";
+    for (const auto& [projection, from] :
+         {std::pair("orthographic", "point(xcomp(P), ycomp(P), 0)"), {"perspective", "point(0, 0, 0)"}}) {
+        Case c;
+        c.options = std::string("Projection \"") + projection + "\" ";
+        c.asks = "Scale 5 5 1 " + kAsker;
+        for (const Pixel& p : pixels(c.render("point from = " + std::string(from) + ";" + asks + tells))) {
+            ASSERT_NEAR(p.red, 0, 1e-5f) << projection;
+            ASSERT_EQ(p.green, 3) << projection;
+        }
+        // Lights are asked by the surface that the camera sees.
+        c.shaders["tells"] = "light tells() {" + asks + " solar() { Cl = color(l, zcomp(d), n); } }";
+        c.asker = "LightSource \"tells\" 1 ";
+        for (const Pixel& p :
+             pixels(c.render("point from = " + std::string(from) +
+                             "; illuminance(P) { Ci = color(comp(Cl, 0) - length(P - from), comp(Cl, 1) - "
+                             "5 / length(P - from), comp(Cl, 2)); }"))) {
+            ASSERT_NEAR(p.red, 0, 1e-5f) << projection;
+            ASSERT_NEAR(p.green, 0, 1e-5f) << projection;
+            ASSERT_EQ(p.blue, 3) << projection;
+        }
+    }
+}
+
+/// Variables of another type, and those of vertices that do not ask, stay as they are.
+TEST(RayHits, ToldIsWhoAsksForTheRightType) {
+    Case c;
+    expect_told(c.render("float n = -1; Ci = told(rayinfo(\"origin\", n) + n, -1, 1);"), 0, 64 * 64);
+    expect_told(c.render("point n = 3; Ci = told(rayinfo(\"length\", n) + xcomp(n), 3, 1);"), 0, 64 * 64);
+    expect_told(c.render("string n = \"a\"; float f = rayinfo(\"length\", n); if (n == \"a\") f += 1;"
+                         "Ci = told(f, 1, 1);"),
+                0, 64 * 64);
+    expect_told(c.render("float n = -1; if (xcomp(P) > 0) rayinfo(\"length\", n);"
+                         "Ci = told(n, xcomp(P) > 0 ? 5 : -1, 1);"),
+                1e-6f, 64 * 64);
+}
+
 /// A diffuse bounce leaves the specular ones, and the least of the bounds on the way holds.
 TEST(RayHits, DepthsAreCountedByKind) {
     Case c;

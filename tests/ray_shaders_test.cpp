@@ -111,6 +111,51 @@ TEST(RayShaders, StandardLightsTraceTheirShadows) {
         0, 3000);
 }
 
+/// In an illuminance block the light of the turn casts the shadow: from where it is, past nothing behind it,
+/// or from infinitely far.
+TEST(RayShaders, ShadowsOfSurfacesAreOfTheLightOfTheTurn) {
+    const std::string point_light = "LightSource \"pointlight\" 1 \"from\" [.3 .2 0] ",
+                      sun = "LightSource \"distantlight\" 2 \"from\" [0 0 0] \"to\" [.1 0 1] ";
+    const std::string asks =
+        "float hidden = -1; illuminance(P) { color k = shadow(\"raytrace\", P); hidden = comp(k, 1); }";
+    const std::string by_point =
+        "point from = point(.3, .2, 0); vector way = normalize(from - P), m = point(0, 0, 3) - P;";
+    const std::string by_sun = "vector way = normalize(vector(-.1, 0, -1)), m = point(0, 0, 3) - P;";
+    const std::string tells =
+        "float passes = length(m - (m . way) * way);"
+        "Ci = told(hidden, passes > .3 ? 0 : 1, abs(passes - .3) > .01 ? 1 : 0);";
+    Case c;
+    const std::string ball = "Surface \"constant\" " + sphere("0 0 3", ".3"), behind = wall("-1");
+    c.things = ball + behind;
+    c.asker = point_light;
+    const Image image = c.render(by_point + asks + tells);
+    expect_told(image, 0, 3500);
+    EXPECT_GT(mean_found(image), 0.01);
+    c.things = ball, c.asker = sun;
+    expect_told(c.render(by_sun + asks + tells), 0, 3500);
+    c.things = ball + behind;
+    expect_told(c.render(asks + "Ci = told(hidden, 1, 1);"), 0, 64 * 64);
+    // Of two lights each has its own, also behind another block within the turn.
+    c.things = ball, c.asker = sun + point_light;
+    const std::string both =
+        "float sum = 0, n = 0; illuminance(P) { float own = length(L) < 9 && xcomp(normalize(L)) != "
+        "xcomp(normalize(vector(-.1, 0, -1))) ? 1 : 0;"
+        "  float h = shadow(\"raytrace\", P); if (own == 1) { n += 1; sum += h; } }"
+        "float hidden = n == 1 ? sum : -1;";
+    expect_told(c.render(by_point + both + tells), 0, 3500);
+}
+
+/// Elsewhere nobody knows which light is meant.
+TEST(RayShaders, ShadowsOfNoLightAreWarnedOf) {
+    Case c;
+    c.things = "Surface \"constant\" " + wall("3");
+    c.may_say = "rsl-shadow-without-light";
+    expect_told(c.render("float hidden = shadow(\"raytrace\", P); Ci = told(hidden, 0, 1);"), 0, 64 * 64);
+    ASSERT_EQ(c.said.size(), 1u);
+    EXPECT_EQ(c.said[0].severity, Severity::Warning);
+    EXPECT_NE(to_string(c.said[0]).find("ask.sl:1:"), std::string::npos) << to_string(c.said[0]);
+}
+
 /// In a room of mirrors each bounce behind the first takes one ray, whatever "samples" says.
 TEST(RayShaders, TakeTheirSamplesAtTheFirstBounceAlone) {
     for (const std::string surface :

@@ -193,6 +193,63 @@ TEST(RayTrace, MirrorsShowWhatStandsThere) {
 
 /// What a shader finds at a hit: its place, its parameters, from where it is seen, and after how many
 /// bounces.
+/// Flat mirrors and bent ones that stand on a floor, at z = 5 (below it is black), up to the vertices on it.
+TEST(RayTrace, MirrorsSeeTheFloorThatTheyStandOn) {
+    const std::string flat = "vector w = normalize(vector(.1 * u, -.2, 1));";
+    const auto bent = [](const std::string& down) {
+        return "normal n = normalize(N); if (zcomp(n) > 0) n = -n;"
+               "vector w = normalize(2 * vector(n) + vector(0, 0, " +
+               down + " - 2 * zcomp(n)));";
+    };
+    for (const auto& [mirror, way] :
+         {std::pair("Patch \"bilinear\" \"P\" [-1.2 -.9 5 1.2 -.9 5 -1.2 .9 2 1.2 .9 2] ", flat),
+          {"Polygon \"P\" [-.9 -.9 5 .9 -.9 5 .9 .9 2 -.9 .9 2] ", flat},
+          {"Translate 0 0 5 Scale 1 1 -1 Cone 3 .9 360 ", bent("1.2")},
+          {"Translate 0 0 5 Scale 1 1 -1 Cone 1.5 .9 360 ", bent(".6")}}) {
+        SCOPED_TRACE(mirror);
+        Case c;
+        c.things = "Surface \"constant\" Color 1 1 1 " + wall("5") + " Color 0 0 0 " + wall("9");
+        c.asks = mirror;
+        const std::string far = way + "float far = (5 - zcomp(P)) / zcomp(w);";
+        expect_told(c.render(way + "Ci = told(comp(color trace(P, w), 0), 1, 1);"), 0, 1000);
+        expect_told(c.render(way + "color k = 0; gather(\"\", P, w, 0, 1, \"surface:Ci\", k) { }"
+                                   "Ci = told(comp(k, 0), 1, 1);"),
+                    0, 1000);
+        // Told from P, but for a quarter of a micropolygon where the mirror is bent.
+        expect_told(
+            c.render(far + "float f = -1; point o = 0; color k = 0; gather(\"\", P, w, 0, 1, \"ray:length\", "
+                           "f, \"ray:origin\", o, \"surface:Ci\", k) { }"
+                           "Ci = told(f + length(o - P), far, 1);"),
+            way == flat ? 1e-3f : 0.03f, 1000);
+    }
+}
+
+/// From all vertices of a room's walls, edges and corners among them, into all directions that are not nearly
+/// along the own wall: nothing leaves the room.
+TEST(RayTrace, NothingLeavesARoomFromItsEdges) {
+    const std::string corners = "\"P\" [-2 -2 -1 2 -2 -1 -2 2 -1 2 2 -1 -2 -2 4 2 -2 4 -2 2 4 2 2 4] ";
+    const std::string room =
+        "PointsPolygons [4 4 4 4 4 4] [0 1 3 2 4 5 7 6 0 1 5 4 2 3 7 6 0 2 6 4 1 3 7 5] " + corners;
+    const std::string apart =
+        "Polygon \"P\" [-2 -2 4 2 -2 4 2 2 4 -2 2 4] Polygon \"P\" [-2 -2 -1 2 -2 -1 2 2 -1 -2 2 -1] "
+        "Polygon \"P\" [-2 -2 -1 2 -2 -1 2 -2 4 -2 -2 4] Polygon \"P\" [-2 2 -1 2 2 -1 2 2 4 -2 2 4] "
+        "Polygon \"P\" [-2 -2 -1 -2 2 -1 -2 2 4 -2 -2 4] Polygon \"P\" [2 -2 -1 2 2 -1 2 2 4 2 -2 4] ";
+    for (const std::string& walls : {room, apart}) {
+        SCOPED_TRACE(walls);
+        Case c;
+        c.options = "Projection \"perspective\" \"fov\" 90 ";
+        c.things = "Surface \"constant\" " + walls, c.asks = walls;
+        expect_told(
+            c.render("normal n = faceforward(normalize(N), I); float lost = 0, i;"
+                     "for (i = 0; i < 64; i += 1) {"
+                     "  vector w = vector cellnoise(99 * P + vector(i * 17, 0, 0)) - vector(.5, .5, .5);"
+                     "  if (w . n < 0) w = -w;"
+                     "  if (w . n > .2 * length(w)) lost += 1 - comp(color trace(P, w), 0); }"
+                     "Ci = told(lost, 0, 1);"),
+            0, 64 * 64);
+    }
+}
+
 TEST(RayTrace, HitsHaveTheirOwnPlaceAndParameters) {
     Case c;
     c.things = "Surface \"tells\" Patch \"bilinear\" \"P\" [-2 2 2 2 2 3 -2 -2 2 2 -2 3] ";

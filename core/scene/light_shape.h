@@ -29,12 +29,24 @@ struct LightShape {
     static constexpr int kDefaultSamples = 16, kMostSamples = 2048;
 };
 
-/// Triangles of a light's mesh, camera space at shutter open; (b - a) x (c - a) points outside.
+/// The surface of a light of any shape, camera space at shutter open.
 struct LightMesh {
+    /// (b - a) x (c - a) points outside.
     struct Triangle {
         V3f a, b, c;
     };
+    /// Round, as curves and particles are, of which a ribbon or a disk is drawn: they shine outwards alone.
+    struct Tube {
+        V3f from{0, 0, 0}, to{0, 0, 0};
+        float from_radius = 0, to_radius = 0;
+    };
+    struct Ball {
+        V3f middle{0, 0, 0};
+        float radius = 0;
+    };
     std::vector<Triangle> triangles;
+    std::vector<Tube> tubes;
+    std::vector<Ball> balls;
 };
 using LightMeshes = std::map<const LightInstance*, LightMesh>;
 

@@ -58,6 +58,9 @@ struct ShadingGrid {
     GridShape shape;
     int pieces = 1;  ///< how many grids of `shape` follow each other in each plane; 1 except in a border
     int key_count = 1;
+    /// Which of its sides lie on the sides of its face, where another surface may stand: a bit each.
+    uint8_t face_sides = 0;
+    static constexpr uint8_t kFirstU = 1, kLastU = 2, kFirstV = 4, kLastV = 8, kAllSides = 15;
     const Primitive* primitive = nullptr;
     uint32_t primitive_index = 0;
     uint64_t ordinal = 0;  ///< place in the order of the frame's grids

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/portable_math.h"
+#include "pipeline/rays/round_shapes.h"
 #include "tessellate/tessellate.h"
 
 namespace trapeze {
@@ -65,8 +66,8 @@ float size_of(const Primitive& primitive) {
     return std::max({size.x, size.y, size.z});
 }
 
-/// A scene of the light's primitives alone, each seen by rays and by no shader, and the camera for which a
-/// pixel is what a micropolygon is to be.
+/// A scene of the light's primitives alone, but for those that are balls, each seen by rays and by no shader,
+/// and the camera for which a pixel is what a micropolygon is to be.
 struct LightScene {
     Scene scene;
     RenderContext context;
@@ -74,7 +75,7 @@ struct LightScene {
     LightScene(const RenderContext& of_frame, const LightInstance& light) : context(of_frame) {
         float size = 0;
         for (const Primitive& primitive : of_frame.scene->primitives) {
-            if (primitive.emitter.get() != &light) continue;
+            if (primitive.emitter.get() != &light || are_balls(primitive)) continue;
             scene.primitives.push_back(primitive);
             set_rate(scene.primitives.size() - 1, 1);
             size = std::max(size, size_of(primitive));
@@ -194,6 +195,8 @@ LightMesh mesh_of(const RenderContext& of_frame, const LightInstance& light, con
                   size_t most_bytes) {
     LightScene parts(of_frame, light);
     LightMesh mesh;
+    for (const Primitive& primitive : of_frame.scene->primitives)
+        if (primitive.emitter.get() == &light && are_balls(primitive)) add_balls(primitive, mesh);
     if (parts.scene.primitives.empty()) return mesh;
     TessellationOptions options;
     options.depth_heights = shading.depth_heights();
@@ -203,10 +206,13 @@ LightMesh mesh_of(const RenderContext& of_frame, const LightInstance& light, con
         DiceScratch scratch;
         ShadingGrid grid;
         std::vector<Turning> turnings(parts.scene.primitives.size());
-        mesh.triangles.clear();
+        mesh.triangles.clear(), mesh.tubes.clear();
         for (size_t i = 0; i < tessellation.subpatches().size() && !of_frame.is_cancelled(); ++i) {
             tessellation.dice(i, grid, scratch);
-            add_triangles(grid, mesh);
+            if (are_tubes(*grid.primitive))
+                add_tubes(grid, mesh);
+            else
+                add_triangles(grid, mesh);
             turnings[tessellation.subpatches()[i].primitive].add(grid);
         }
         if (tries == kMostTries || !refine(parts, turnings)) break;

@@ -39,6 +39,17 @@ bool is_map(Op op) {
     return row_of(op).context == ContextFamily::Maps && op != Op::TextureInfo;
 }
 
+/// The operation of a call. What rayinfo() is asked for differs from vertex to vertex, unless it is a text or
+/// a name is given that is known to be of all of them.
+Op operation_of(const Expression& e) {
+    const Op op = e.builtin->op;
+    if (op != Op::RayInfo || e.children[1]->type.base == Base::String) return op;
+    const Expression& name = *e.children[0];
+    const bool may_differ = name.kind != Expression::Kind::Text || name.text == "origin" ||
+                            name.text == "direction" || name.text == "length";
+    return may_differ ? Op::RayWay : op;
+}
+
 /// 0 to 2 for xcomp() to zcomp() and setxcomp() to setzcomp(); -1 for other names.
 int axis_of_function(std::string_view name) {
     const size_t at = name.starts_with("set") ? 3 : 0;
@@ -80,13 +91,14 @@ RegisterId Generator::builtin_value(const Expression& e, std::optional<RegisterI
         else
             inputs.push_back(value(argument));
     }
-    add_unnamed_inputs(builtin.op, inputs);
+    const Op op = operation_of(e);
+    add_unnamed_inputs(op, inputs);
     inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(std::min(positional, inputs.size())),
                   names.begin(), names.end());
     const int32_t number = builtin.op == Op::Random ? random_calls_++ : 0;
     const RegisterId result = outputs.empty() ? constant(0) : outputs.front();
     std::vector<RegisterId> written = outputs;
-    emit(builtin.op, std::move(outputs), inputs, number);
+    emit(op, std::move(outputs), inputs, number);
     size_t at = builtin.result != 'w' ? 1 : 0;
     for (size_t i = 0; i < e.children.size(); ++i)
         if (is_output[i]) write_back(*e.children[i], written[at++]);
@@ -99,6 +111,10 @@ void Generator::add_unnamed_inputs(Op op, Ids& inputs) {
         inputs.push_back(global("Ng", Base::Normal));
     if (op_traits::has(op, op_traits::kNeedsUV))
         for (const char* parameter : {"u", "v"}) inputs.push_back(global(parameter, Base::Float));
+    if (op == Op::RayWay) {
+        inputs.push_back(global(kRayOrigin, Base::Point));
+        inputs.push_back(global(kRayWay, Base::Vector));
+    }
     if (!op_traits::has(op, op_traits::kNeedsP)) return;
     inputs.insert(inputs.begin(), global("P", Base::Point));
     global("N", Base::Normal);  // lights may ask for it

@@ -61,6 +61,19 @@ class Loader {
     std::span<const ShadingGrid* const> grids_;
 };
 
+/// Where the rays began that have hit the grids: of the camera's in the eye, or on the eye's plane in front
+/// of P.
+void load_ray_origin(const Loader& loader, const Operand& out, bool perspective) {
+    std::vector<float> plane;
+    loader.load(out, 3, [&](const ShadingGrid& grid, int k) -> const std::vector<float>& {
+        const std::vector<float>& P = grid.P.front().c[k];
+        if (grid.I.size() == 0 && !perspective && k < 2) return P;
+        plane.assign(P.size(), 0.0f);
+        for (size_t i = 0; i < grid.I.size(); ++i) plane[i] = P[i] - grid.I.c[k][i];
+        return plane;
+    });
+}
+
 /// Sets one predefined variable (RISpec 3.2, tables 12.1 to 12.5). Spaces are the grids', camera space; the
 /// eye is at the origin.
 void set_variable(const Loader& loader, vm::Registers& registers, const vm::StartValue& value,
@@ -122,6 +135,16 @@ void set_variable(const Loader& loader, vm::Registers& registers, const vm::Star
         case Predefined::dtime: {
             const float open = options.shutter_close - options.shutter_open;
             return registers.set_uniform(value.id, &open);
+        }
+        case Predefined::RayOrigin:
+            return load_ray_origin(loader, out, context.camera.perspective);
+        case Predefined::RayWay: {
+            if (loader.are_seen_by_rays()) return loader.load(out, &ShadingGrid::I);
+            if (context.camera.perspective) return loader.load_P(out);
+            const std::vector<float> none{0};
+            return loader.load(out, 3, [&](const ShadingGrid& grid, int k) -> const std::vector<float>& {
+                return k == 2 ? grid.P.front().c[2] : none;
+            });
         }
         case Predefined::Ns:
         case Predefined::Other: {  // E, L, Cl, dPdtime...: blocks set them, or nothing does

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "core/ray_sequence.h"
 #include "core/scene/scene.h"
+#include "core/scene/shading_grid.h"
 #include "shade/vm/kernels/light_kernels.h"
 
 namespace trapeze {
@@ -114,11 +115,29 @@ void LightRig::set_variables(vm::Registers& registers, const Lamp& lamp, const v
             for (int k = 0; k < 3; ++k)
                 std::memcpy(operand.data + static_cast<size_t>(k) * operand.stride, N_[k].data(),
                             lanes_ * sizeof(float));
+        } else if (variable == Predefined::RayOrigin || variable == Predefined::RayWay) {
+            set_ray(operand, variable == Predefined::RayWay, P);
         } else if (rsl::width_of(registers.reg(id).type.base) > 0) {
             const float zeros[16] = {};
             registers.set_uniform(id, zeros);
         }
     }
+}
+
+/// Of the rays that have hit the points which are lit: where they began, or the `way` from there to P. The
+/// camera's begin in the eye, or on the eye's plane.
+void LightRig::set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const {
+    const auto put = [&](size_t lane, const ShadingGrid* grid, size_t vertex) {
+        const V3f here = vm::Run::triple_at(P, lane);
+        V3f origin = surroundings_->perspective ? V3f(0, 0, 0) : V3f(here.x, here.y, 0);
+        if (grid && vertex < grid->I.size()) origin = grid->P.front().at(vertex) - grid->I.at(vertex);
+        for (int k = 0; k < 3; ++k)
+            out.data[static_cast<size_t>(k) * out.stride + lane] = way ? here[k] - origin[k] : origin[k];
+    };
+    for (size_t lane = 0; lane < lanes_; ++lane) put(lane, nullptr, 0);
+    if (!surroundings_->batch) return;
+    for (const vm::GridSpan& span : surroundings_->batch->spans)
+        for (size_t i = 0; span.grid && i < span.grid->I.size(); ++i) put(span.first + i, span.grid, i);
 }
 
 /// Chooses a place of the light's shape for each vertex. Random numbers follow from the vertex and the lamp
@@ -203,6 +222,7 @@ Task<> LightRig::run(size_t light, Slot& slot, const vm::Operand& P) {
 
     Arriving& arriving = slot.arriving;
     arriving.ambient = !program.directional;
+    arriving.distant = output.distant;
     arriving.registers = &registers;
     arriving.L = output.L;
     arriving.direction = planes + kDirection * lanes_;

@@ -63,6 +63,7 @@ class LightRig : public vm::Lights {
     };
     Task<> run(size_t light, Slot& slot, const vm::Operand& P);
     void set_variables(vm::Registers& registers, const Lamp& lamp, const vm::Operand& P) const;
+    void set_ray(const vm::Operand& out, bool way, const vm::Operand& P) const;
     void sample(const Turn& turn, const Lamp& lamp, const vm::Operand& P);
     void set_sample(vm::Registers& registers, const Lamp& lamp) const;
 

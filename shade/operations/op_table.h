@@ -67,6 +67,9 @@ enum : uint32_t {
 /// The name of a map that asks for rays instead, as shaders of PRMan have it.
 inline constexpr std::string_view kTracedMap = "raytrace";
 
+/// Predefined variables that no source can name, inputs of Op::RayWay.
+inline constexpr std::string_view kRayOrigin = "ray:origin", kRayWay = "ray:way";
+
 struct OpRow {
     Op op;
     std::string_view name;      ///< as the listing of a program has it
@@ -130,8 +133,8 @@ constexpr bool asks_surroundings(Op op) {
 /// Whether the operation may send rays into the scene.
 constexpr bool sends_rays(Op op) {
     return op == Op::Gather ||
-           (row_of(op).context == ContextFamily::Rays && op != Op::RayInfo && op != Op::RayLevel &&
-            op != Op::RayLabel && op != Op::IsIndirectRay && op != Op::IsShadowRay);
+           (row_of(op).context == ContextFamily::Rays && op != Op::RayInfo && op != Op::RayWay &&
+            op != Op::RayLevel && op != Op::RayLabel && op != Op::IsIndirectRay && op != Op::IsShadowRay);
 }
 /// Whether the operation may go when nobody reads its outputs.
 constexpr bool is_pure(Op op) {

@@ -66,6 +66,9 @@ GatherCall::GatherCall(const RayAsker& asker, std::vector<RayLane> lanes, Run& r
         add_output(arguments_.outputs[k].name,
                    rsl::width_of(registers.reg(registers.register_of(step, k)).type.base), operands[k], run,
                    step);
+    colors_ = std::ranges::any_of(outputs_, [](const Output& output) {
+        return output.from == From::Color || output.from == From::Opacity;
+    });
     kind_ = arguments_.uniform_distribution ? RayKind::Specular : RayKind::Diffuse;
     for (const RayLane& lane : lanes_) most_ = std::max(most_, arguments_.samples_at(lane.lane));
     first_rays_.resize(lanes_.size(), kNone);
@@ -141,6 +144,9 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
     WalkedRay ray;
     ray.segment.only = arguments_.only();
     ray.segment.level = asking.level();
+    if (colors_ || !asked_.empty())  // who asks for distances alone asks them of P
+        ray.moved =
+            RayAsker::inwards_of_face(asking, asker_.left_at(aim.P, asking, 0, arguments_.bias.at(lane)));
     ray.segment.spread = spread_of(angle, arguments_.samples_at(lane));
     for (int s = first; s < first + count; ++s) {
         ray.segment.time = motion.time(s);
@@ -152,7 +158,7 @@ void GatherCall::add_rays(const RayLane& asking, int first, int count) {
                                                                 : cone.by_cosine(sequence[s]);
         ray.segment.direction = motion.turned(direction, ray.segment.time, kind_ == RayKind::Diffuse);
         ray.segment.min = aim.leads() ? ray.segment.left.distance(ray.segment.direction) : kInfinity;
-        ray.segment.origin = base_.origin(P, arguments_, asking, s);
+        ray.segment.origin = base_.origin(P, arguments_, asking, s) + ray.moved;
         ray.medium = asker_.medium(asking, direction);
         ray.seed = asking.of_ray(s);
         rays_.push_back(ray);
@@ -166,15 +172,12 @@ Task<> GatherCall::follow() {
     RayAsk ask;
     ask.kind = kind_, ask.depths = asker_.depths_behind(kind_), ask.label = arguments_.label;
     ask.hit_mode = arguments_.hit_mode, ask.opaque = arguments_.opaque, ask.outputs = &asked_;
-    const bool colors = std::ranges::any_of(outputs_, [](const Output& output) {
-        return output.from == From::Color || output.from == From::Opacity;
-    });
     const bool too_deep = asker_.is_too_deep(kind_);
-    ask.shades = !too_deep && (colors || asked_.ask_shaders());
-    ask.first_alone = !colors;
+    ask.shades = !too_deep && (colors_ || asked_.ask_shaders());
+    ask.first_alone = !colors_;
     answers_.assign(rays_.size() * asked_.size, 0.0f);
     for (size_t i = 0; i < rays_.size(); ++i) rays_[i].answers = answers_.data() + i * asked_.size;
-    if (!colors && asked_.empty()) co_return walk.distance(rays_, ask);
+    if (!colors_ && asked_.empty()) co_return walk.distance(rays_, ask);
     co_await walk.radiance(rays_, ask);
     if (too_deep)
         for (WalkedRay& ray : rays_) ray.seen = V3f(0, 0, 0);
@@ -186,13 +189,13 @@ void GatherCall::tell(const RayLane& lane, const WalkedRay& ray) const {
         const Operand& out = output.operand;
         switch (output.from) {
             case From::Origin:
-                put(out, lane, output.width, ray.segment.origin);
+                put(out, lane, output.width, ray.segment.origin - ray.moved);
                 continue;
             case From::Direction:
                 put(out, lane, output.width, ray.segment.direction);
                 continue;
             case From::Length:
-                put(out, lane, 0, ray.distance);
+                put(out, lane, 0, ray.told_distance());
                 continue;
             default:
                 break;

@@ -46,6 +46,7 @@ class GatherCall final : public vm::GatherTurns {
     bool traces_ = true;  ///< else all rays miss: "samplepattern"
     std::vector<Output> outputs_;
     HitOutputs asked_;
+    bool colors_ = false;  ///< outputs ask what rays see
     RayKind kind_ = RayKind::Specular;
 
     // Turns turn_ .. sent_ - 1 have been traced, for the lanes that were live then.

@@ -102,10 +102,12 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     max_solid_angle.otherwise = kMaxSolidAngle, clamp.otherwise = 1;
     cone_angle_.otherwise = kPi / 2, max_distance_.otherwise = kInfinity;
     from_ = &operands[first], towards_ = &operands[first + 1 < end ? first + 1 : first];
-    if (of_light) {
-        const vm::LightOutput& light = *run.context().light_output;
-        from_light_ = light.L, lanes_ = run.lanes();
-        distant_light = light.distant;
+    if (const vm::LightOutput* const light = run.context().light_output; of_light && light) {
+        from_light_ = light->L, lanes_ = run.lanes();
+        distant_light = light->distant;
+    } else if (of_light) {  // in an illuminance block, L leads to the light
+        towards_ = &registers.operand(*registers.program().find_global("L"));
+        distant_light = run.light_of_turn()->distant;
     }
     if (step.op == Op::Environment) {
         towards_ = &operands[first], from_ = shaded_point(registers);

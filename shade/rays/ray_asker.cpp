@@ -52,6 +52,18 @@ LeftSurface RayAsker::left_at(const V3f& P, const RayLane& lane, float time, flo
     return left;
 }
 
+V3f RayAsker::inwards(const RayLane& lane, const LeftSurface& left) {
+    if (!(left.half < kInfinity)) return V3f(0, 0, 0);
+    return inwards_at(*lane.grid, lane.lane - lane.first_of_grid, left.half, ShadingGrid::kAllSides);
+}
+
+V3f RayAsker::inwards_of_face(const RayLane& lane, const LeftSurface& left) {
+    if (!(left.half < kInfinity)) return V3f(0, 0, 0);
+    const V3f way = inwards_at(*lane.grid, lane.lane - lane.first_of_grid, left.half, lane.grid->face_sides);
+    const float length = way.length(), most = left.most / (4 * kBiasOfSide);
+    return length > most ? way * (most / length) : way;
+}
+
 RayMedium RayAsker::medium(const RayLane& lane, const V3f& direction) const {
     if (service_.volumes->empty() || !lane.grid) return {};
     const V3f outside = lane.grid->Ng.at(lane.lane - lane.first_of_grid);

@@ -55,6 +55,11 @@ class RayAsker {
     float bend_of(const ShadingGrid& grid) const;
     /// How far from P the rays of a lane begin that leave at a time; `asked` below 0: the call does not say.
     LeftSurface left_at(const V3f& P, const RayLane& lane, float time, float asked) const;
+    /// How far within its own grid the rays of a lane begin that is on an edge of the grid (inwards_at()).
+    static V3f inwards(const RayLane& lane, const LeftSurface& left);
+    /// Of rays that tell what is seen from P: on edges of the face alone, and no farther than a quarter of a
+    /// side of what rays meet.
+    static V3f inwards_of_face(const RayLane& lane, const LeftSurface& left);
     /// Whether rays meet the scene at times of their own.
     bool samples_motion() const { return attributes_.rays.sample_motion; }
     /// The depths of what rays of a kind hit.

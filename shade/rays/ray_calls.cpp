@@ -64,6 +64,8 @@ struct RayCalls::Call {
     bool ends_at_point() const {
         return between_points() || (step.op == Op::Shadow && !arguments.distant_light);
     }
+    /// Who asks how far it is asks it of P.
+    bool is_distance() const { return step.op == Op::Trace && !colors; }
     /// Who asks what a direction leads to asks it of P.
     bool is_exact() const { return step.op == Op::Trace || step.op == Op::Environment; }
     bool over_sky() const { return step.op == Op::Occlusion || step.op == Op::IndirectDiffuse; }
@@ -253,10 +255,9 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
         ray.segment.time = aim.time;
     };
     look_along();
-    const bool moves_in = !call.is_exact() && ray.segment.left.half < kInfinity;
-    const V3f inwards = moves_in
-                            ? inwards_at(*asking.grid, lane - asking.first_of_grid, ray.segment.left.half)
-                            : V3f(0, 0, 0);
+    if (!call.is_distance())
+        ray.moved = call.is_exact() ? RayAsker::inwards_of_face(asking, ray.segment.left)
+                                    : RayAsker::inwards(asking, ray.segment.left);
     const int samples = call.samples_at(lane);
     ray.segment.spread = std::max(spread_of(angle, samples), spread_beside_of(call, asking, aim, motion));
     const RaySequence sequence(asking.seed, samples);
@@ -273,7 +274,7 @@ void RayCalls::add_rays(const Call& call, const RayLane& asking, std::vector<Wal
                                 : by_cosine ? cone.by_cosine(sequence[s])
                                             : cone.uniform(sequence[s]);
         ray.segment.min = ray.segment.left.distance(ray.segment.direction);
-        ray.segment.origin = base.origin(aim.P, arguments, asking, s) + inwards;
+        ray.segment.origin = base.origin(aim.P, arguments, asking, s) + ray.moved;
         ray.medium = asker_.medium(
             asking, motion.turned_back(ray.segment.direction, ray.segment.time, call.over_sky()));
         ray.seed = asking.of_ray(s);

@@ -2,6 +2,7 @@
 /// along them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -24,6 +25,9 @@ namespace trapeze {
 /// A ray and what has come of it.
 struct WalkedRay {
     RaySegment segment;
+    /// How far the segment's origin lies from where who asks is told that the ray begins: within the edge
+    /// that it stands on.
+    V3f moved{0, 0, 0};
     uint64_t seed = 0;  ///< of random numbers of shaders that it meets
     RayMedium medium;   ///< what it goes through from the distance `medium_from` on
     float medium_from = 0;
@@ -33,6 +37,10 @@ struct WalkedRay {
     float* answers = nullptr;    ///< where the first hit's answers to RayAsk::outputs go
 
     bool hits() const { return distance < kInfinity; }
+    /// Of the first hit, from where the ray is said to begin.
+    float told_distance() const {
+        return hits() ? std::max(distance + moved.dot(segment.direction), 0.0f) : distance;
+    }
 };
 
 /// Bounces from the camera, by kinds of rays, and how many there may be.

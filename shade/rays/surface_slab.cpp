@@ -63,16 +63,19 @@ float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels) {
     return most;
 }
 
-V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half) {
+V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides) {
     if (grid.hit_vertex >= 0) return V3f(0, 0, 0);
     const Triples& P = grid.P.front();
     const size_t row = size_t{grid.shape.nu} + 1, u = vertex % row, v = vertex / row;
     const V3f here = P.at(vertex);
     V3f way(0, 0, 0);
-    if (u == 0) way += P.at(vertex + 1) - here;
-    if (u == grid.shape.nu) way += P.at(vertex - 1) - here;
-    if (v == 0) way += P.at(vertex + row) - here;
-    if (v == grid.shape.nv) way += P.at(vertex - row) - here;
+    const auto look_at = [&](uint8_t side, bool is_on_it, size_t beside) {
+        if (is_on_it && (sides & side) != 0) way += P.at(beside) - here;
+    };
+    look_at(ShadingGrid::kFirstU, u == 0, vertex + 1);
+    look_at(ShadingGrid::kLastU, u == grid.shape.nu, vertex - 1);
+    look_at(ShadingGrid::kFirstV, v == 0, vertex + row);
+    look_at(ShadingGrid::kLastV, v == grid.shape.nv, vertex - row);
     const V3f normal = grid.Ng.at(vertex);
     way -= normal * way.dot(normal);  // a chord would lead below what is convex
     const float length = way.length();

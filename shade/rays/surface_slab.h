@@ -20,9 +20,10 @@ float bend_of(const ShadingGrid& grid, const RayScene& scene, float pixels);
 /// How far positions near a vertex of a grid may be rounded.
 float rounding_at(const ShadingGrid& grid, size_t vertex);
 
-/// From a vertex on the border of a grid into the grid along its tangent plane, by some thicknesses of its
-/// slab (LeftSurface::half), but a part of a side at most; else 0. On the edge between two faces a point lies
-/// in both of their planes: what it asks is asked for its own face, from where the other one is seen.
-V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half);
+/// From a vertex on some of the sides of a grid (ShadingGrid::kFirstU ...) into the grid along its tangent
+/// plane, by some thicknesses of its slab (LeftSurface::half), but a part of a side at most; else 0. On the
+/// edge between two faces a point lies in both of their planes: what it asks is asked for its own face, from
+/// where the other one is seen.
+V3f inwards_at(const ShadingGrid& grid, size_t vertex, float half, uint8_t sides);
 
 }  // namespace trapeze

@@ -75,6 +75,7 @@ class Lights {
         const float* direction = nullptr;      ///< L, of unit length
         const float* Cl = nullptr;             ///< 3 planes; zero where the light does not reach
         const float* lit = nullptr;            ///< lanes that the light's cone holds
+        bool distant = false;                  ///< there is no place that L leads to
         float diffuse = 1, specular = 1;       ///< shares in those built-in functions
         const Registers* registers = nullptr;  ///< the light's variables
     };
@@ -149,6 +150,7 @@ struct Context {
     LightOutput* light_output = nullptr;  ///< in lights
     Diagnostics* diagnostics = nullptr;
     float near_clip = 0, far_clip = 1;  ///< camera-space z
+    bool perspective = true;            ///< the camera's
 };
 
 }  // namespace trapeze::vm

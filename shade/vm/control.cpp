@@ -202,6 +202,7 @@ bool Run::enter_lights() {
     if (!context_.lights || context_.lights->count() == 0) return false;
     masks_.enter_loop();
     next_lights_.push_back(0);
+    lights_of_turns_.push_back(nullptr);
     return true;
 }
 
@@ -237,9 +238,11 @@ Task<size_t> Run::next_light(const std::vector<Step>& steps, size_t opening) {
         std::memcpy(L.data, light.L, 3 * lanes() * sizeof(float));
         std::memcpy(Cl.data, light.Cl, 3 * lanes() * sizeof(float));
         current_light_ = number;
+        lights_of_turns_.back() = &light;
         co_return opening + 1;
     }
     next_lights_.pop_back();
+    lights_of_turns_.pop_back();
     masks_.leave_block();
     co_return step.target + 1;
 }

@@ -71,6 +71,10 @@ class Run {
     MaskStack& masks() { return masks_; }
     /// In an illuminance block: the number of the light.
     size_t current_light() const { return current_light_; }
+    /// In an illuminance block: what the light of this turn sends; else null.
+    const Lights::Arriving* light_of_turn() const {
+        return lights_of_turns_.empty() ? nullptr : lights_of_turns_.back();
+    }
     /// Whether an operand is the predefined P, which this program never sets.
     bool is_lasting_P(const Operand& operand) const {
         return operand.data == P_data() && registers_.executable().keeps_P();
@@ -131,7 +135,9 @@ class Run {
     const Context& context_;
     Machine::Level& level_;
     MaskStack& masks_;
-    std::vector<size_t> next_lights_;                    ///< of the Illuminance blocks that are being run
+    // Of the Illuminance blocks that are being run.
+    std::vector<size_t> next_lights_;
+    std::vector<const Lights::Arriving*> lights_of_turns_;
     std::vector<std::unique_ptr<GatherTurns>> gathers_;  ///< of the Gather blocks that are being run
     std::unordered_map<const Step*, int> turns_;
     static constexpr int kMostPrinted = 100'000;

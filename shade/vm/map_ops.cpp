@@ -8,25 +8,31 @@ namespace {
 
 using rsl::Op;
 
-/// Whether shadow() asks for rays instead of a map, by a light that knows where it is; or environment().
-bool asks_for_rays(Run& run, const Step& step) {
-    const bool may = step.op == Op::Environment || (step.op == Op::Shadow && run.context().light_output);
-    return may && run.context().rays && run.registers().text_input(step, 0) == rsl::kTracedMap;
+void fill_with_black(Run& run, std::span<const Operand> operands) {
+    for (size_t k = 0; k < 3; ++k)
+        std::fill_n(operands[0].data + k * operands[0].stride, plane_size(run, operands[0]), 0.0f);
 }
 
 void look_up(Run& run, const Step& step, std::span<const Operand> operands) {
     if (run.context().maps)
         run.context().maps->look_up(run, step, operands);
     else
-        for (size_t k = 0; k < 3; ++k)
-            std::fill_n(operands[0].data + k * operands[0].stride, plane_size(run, operands[0]), 0.0f);
+        fill_with_black(run, operands);
 }
 
+/// Rays instead of a map, by its name. Shadows are those of a light: its shader knows where it is, and so do
+/// the turns of an illuminance block.
 Task<> trace_or_look_up(Run& run, const Step& step, std::span<const Operand> operands) {
-    if (asks_for_rays(run, step))
-        co_await run.context().rays->trace(run, step, operands);
-    else
-        look_up(run, step, operands);
+    if (!run.context().rays || run.registers().text_input(step, 0) != rsl::kTracedMap)
+        co_return look_up(run, step, operands);
+    if (step.op == Op::Environment || run.context().light_output || run.light_of_turn())
+        co_return co_await run.context().rays->trace(run, step, operands);
+    run.warn(
+        step,
+        "shadow(\"raytrace\") is traced in light shaders and in illuminance blocks, where it is known which "
+        "light casts it; here it is 0",
+        "rsl-shadow-without-light");
+    fill_with_black(run, operands);
 }
 
 constexpr ContextRow kMapRows[] = {{Op::Texture, look_up}, {Op::Bump, look_up}, {Op::TextureInfo, look_up}};

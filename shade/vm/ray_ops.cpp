@@ -37,8 +37,32 @@ RayFacts facts_of(const Run& run) {
     return run.context().rays ? run.context().rays->facts() : RayFacts();
 }
 
+/// rayinfo("origin", p), rayinfo("direction", v) and rayinfo("length", f): of the ray that has hit the point,
+/// lane by lane. False: another question, or a variable of another type.
+bool tell_way(Run& run, const Step& step, std::span<const Operand> operands) {
+    const Registers& registers = run.registers();
+    const std::string& what = registers.text_input(step, 0);
+    const bool is_length = what == "length";
+    if (!is_length && what != "origin" && what != "direction") return false;
+    const int width = rsl::width_of(registers.reg(registers.register_of(step, 1)).type.base);
+    const Operand &to = operands[1], &origin = operands[3], &way = operands[4];
+    if (width != (is_length ? 1 : 3)) return false;
+    for (size_t lane = 0; lane < plane_size(run, to); ++lane) {
+        const V3f along = Run::triple_at(way, lane);
+        if (is_length)
+            to.data[lane] = along.length();
+        else
+            for (size_t k = 0; k < 3; ++k)
+                to.data[k * to.stride + lane] =
+                    what == "origin" ? Run::at(origin, static_cast<int>(k), lane) : along.normalized()[k];
+    }
+    return true;
+}
+
 /// rayinfo("depth", d) and its like; unknown questions find nothing.
 void ray_info(Run& run, const Step& step, std::span<const Operand> operands) {
+    if (step.op == Op::RayWay && tell_way(run, step, operands))
+        return fill_operand(run, operands[0], std::array{1.0f});
     const RayFacts facts = facts_of(run);
     Registers& registers = run.registers();
     const std::string& what = registers.text_input(step, 0);
@@ -79,8 +103,8 @@ void ray_label(Run& run, const Step& step, std::span<const Operand>) {
 }
 
 constexpr ContextRow kRayRows[] = {
-    {Op::RayInfo, ray_info},         {Op::RayLevel, ray_level},     {Op::RayLabel, ray_label},
-    {Op::IsIndirectRay, is_of_kind}, {Op::IsShadowRay, is_of_kind},
+    {Op::RayInfo, ray_info},   {Op::RayWay, ray_info},          {Op::RayLevel, ray_level},
+    {Op::RayLabel, ray_label}, {Op::IsIndirectRay, is_of_kind}, {Op::IsShadowRay, is_of_kind},
 };
 constexpr WaitingRow kWaitingRayRows[] = {
     {Op::Trace, trace},

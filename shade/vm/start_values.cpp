@@ -12,14 +12,29 @@ namespace {
 using rsl::Op;
 
 /// Variables that the renderer has values for; others of globals.cpp start as 0.
-constexpr std::pair<std::string_view, Predefined> kNames[] = {
-    {"P", Predefined::P},       {"Ps", Predefined::Ps},       {"N", Predefined::N},
-    {"Ns", Predefined::Ns},     {"Ng", Predefined::Ng},       {"dPdu", Predefined::dPdu},
-    {"dPdv", Predefined::dPdv}, {"Cs", Predefined::Cs},       {"Os", Predefined::Os},
-    {"Ci", Predefined::Ci},     {"Oi", Predefined::Oi},       {"u", Predefined::u},
-    {"v", Predefined::v},       {"s", Predefined::s},         {"t", Predefined::t},
-    {"du", Predefined::du},     {"dv", Predefined::dv},       {"I", Predefined::I},
-    {"time", Predefined::time}, {"dtime", Predefined::dtime}, {"ncomps", Predefined::ncomps}};
+constexpr std::pair<std::string_view, Predefined> kNames[] = {{"P", Predefined::P},
+                                                              {"Ps", Predefined::Ps},
+                                                              {"N", Predefined::N},
+                                                              {"Ns", Predefined::Ns},
+                                                              {"Ng", Predefined::Ng},
+                                                              {"dPdu", Predefined::dPdu},
+                                                              {"dPdv", Predefined::dPdv},
+                                                              {"Cs", Predefined::Cs},
+                                                              {"Os", Predefined::Os},
+                                                              {"Ci", Predefined::Ci},
+                                                              {"Oi", Predefined::Oi},
+                                                              {"u", Predefined::u},
+                                                              {"v", Predefined::v},
+                                                              {"s", Predefined::s},
+                                                              {"t", Predefined::t},
+                                                              {"du", Predefined::du},
+                                                              {"dv", Predefined::dv},
+                                                              {"I", Predefined::I},
+                                                              {"time", Predefined::time},
+                                                              {"dtime", Predefined::dtime},
+                                                              {"ncomps", Predefined::ncomps},
+                                                              {rsl::kRayOrigin, Predefined::RayOrigin},
+                                                              {rsl::kRayWay, Predefined::RayWay}};
 
 Predefined predefined(std::string_view name) {
     const auto* row = std::ranges::find(kNames, name, &std::pair<std::string_view, Predefined>::first);

@@ -8,7 +8,8 @@
 
 namespace trapeze::vm {
 
-/// RISpec 3.2, tables 12.1 to 12.5; Other: what the renderer has no value for, and is zero.
+/// RISpec 3.2, tables 12.1 to 12.5; RayOrigin and RayWay: where the ray began that has hit the point, and its
+/// way from there, which rayinfo() tells; Other: what the renderer has no value for, and is zero.
 enum class Predefined : uint8_t {
     P,
     Ps,
@@ -31,6 +32,8 @@ enum class Predefined : uint8_t {
     ncomps,
     time,
     dtime,
+    RayOrigin,
+    RayWay,
     Other
 };
 

@@ -197,8 +197,9 @@ constexpr RequestNote kFunctions[] = {
     {"indirectdiffuse", "rays, or point clouds; of a map its mean about a direction"},
     {"occlusion", "rays, for which opacities are the primitives' own, or point clouds"},
     {"rayinfo",
-     "\"depth\", \"diffusedepth\", \"speculardepth\", \"shadowdepth\", \"type\" and \"label\"; 0 for all else"},
-    {"shadow", "\"raytrace\" in lights alone: elsewhere a warning, and 0"},
+     "\"depth\", \"diffusedepth\", \"speculardepth\", \"shadowdepth\", \"type\", \"label\", \"origin\", "
+     "\"direction\" and \"length\"; 0 for all else"},
+    {"shadow", "\"raytrace\" in lights and in illuminance blocks: elsewhere a warning, and 0"},
     {"trace", "a colour, or the distance to the nearest hit"},
     {"incident", "0: rays are not traced"},
     {"opposite", "0: rays are not traced"},

@@ -1,0 +1,74 @@
+#include "pipeline/rays/round_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "core/portable_math.h"
+
+namespace trapeze {
+namespace {
+
+/// A number that all points have, or each its own.
+float of_point(const Parameter* parameter, size_t point) {
+    if (!parameter || parameter->floats.empty()) return 1;
+    return parameter->floats[std::min(point, parameter->floats.size() - 1)];
+}
+
+/// The middle of a ribbon at one of its rows, and half its width there.
+struct Section {
+    V3f middle{0, 0, 0};
+    float radius = 0;
+};
+
+/// Of a grid with the ribbon's u from 0 to `part`. Where pieces of a curve meet the row lies askew.
+Section section_of(const ShadingGrid& ribbon, int row, float part) {
+    const auto at = [&](int column) { return static_cast<size_t>(ribbon.shape.row_index(column, row)); };
+    const size_t left = at(0), right = at(ribbon.shape.nu);
+    const V3f from = ribbon.P.front().at(left), half = (ribbon.P.front().at(right) - from) / (2 * part);
+    const V3f along = (ribbon.dPdv.at(left) + ribbon.dPdv.at(right)).normalized();
+    return {from + half, half.cross(along).length()};
+}
+
+}  // namespace
+
+bool are_balls(const Primitive& primitive) {
+    if (!std::holds_alternative<Points>(primitive.shape().topology)) return false;
+    const Parameter* type = primitive.shape().variables.find("type");
+    return !type || type->strings.empty() || (type->strings[0] != "patch" && type->strings[0] != "sprite");
+}
+
+bool are_tubes(const Primitive& primitive) {
+    return std::holds_alternative<Curves>(primitive.shape().topology) &&
+           !primitive.shape().variables.find("N");
+}
+
+void add_balls(const Primitive& points, LightMesh& mesh) {
+    const ParameterList& list = points.shape().variables;
+    const Parameter* P = list.find("P");
+    const Parameter* width = list.find("width");
+    if (!width) width = list.find("constantwidth");
+    const M44f& space = points.camera_from_object.front();
+    // As the camera sees them: of the mean scale.
+    const double scale = portable::cbrt(std::abs(M44d(space).determinant()));
+    const auto count = static_cast<size_t>(std::get<Points>(points.shape().topology).count);
+    for (size_t i = 0; P && i < count && 3 * i + 2 < P->floats.size(); ++i) {
+        const V3f place(P->floats[3 * i], P->floats[3 * i + 1], P->floats[3 * i + 2]);
+        const double radius = std::abs(static_cast<double>(of_point(width, i))) / 2 * scale;
+        mesh.balls.push_back({place * space, static_cast<float>(radius)});
+    }
+}
+
+void add_tubes(const ShadingGrid& ribbon, LightMesh& mesh) {
+    const auto u_at = [&](int column) {
+        return ribbon.u[static_cast<size_t>(ribbon.shape.row_index(column, 0))];
+    };
+    const float part = u_at(ribbon.shape.nu);
+    if (u_at(0) != 0 || !(part > 0)) return;
+    for (int row = 0; row < ribbon.shape.nv; ++row) {
+        const Section near = section_of(ribbon, row, part), far = section_of(ribbon, row + 1, part);
+        mesh.tubes.push_back({near.middle, far.middle, near.radius, far.radius});
+    }
+}
+
+}  // namespace trapeze
