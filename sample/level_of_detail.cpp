@@ -46,10 +46,8 @@ class DetailVisibility : public Visibility {
 
   private:
     float number_of(const SampleTile& samples, size_t s) const {
-        const auto count = static_cast<size_t>(samples.samples_per_pixel);
-        const auto pixel = static_cast<int>(s / count), width = samples.pixels.width();
-        return detail_number(seed_, samples.pixels.x0 + pixel % width, samples.pixels.y0 + pixel / width,
-                             static_cast<int>(s % count));
+        const PixelPlace pixel = samples.pixel_of(s);
+        return detail_number(seed_, pixel.x, pixel.y, static_cast<int>(samples.number_in_pixel(s)));
     }
 
     bool sees(float number, const Hit& hit) const {

@@ -23,6 +23,10 @@ std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const
     return with_cuts(with_levels_of_detail(std::move(visibility), context, grids), context, grids);
 }
 
+bool Sampler::takes_levels() const {
+    return find_named(visibility_methods(), method.name)->takes_lists && pattern.name == "stratified";
+}
+
 std::string Sampler::name() const {
     return spec_text(method, find_named(visibility_methods(), method.name)->options);
 }

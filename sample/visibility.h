@@ -64,6 +64,8 @@ struct VisibilityMethod {
     std::string (*check)(const MethodSpec& method) = nullptr;
     /// Whether the hits are those of brute force, bit for bit. Other libraries have predicates of their own.
     bool is_exact = true;
+    /// Whether resolve() takes tiles of listed pixels: what adaptive sampling asks for.
+    bool takes_lists = false;
 };
 
 const std::vector<VisibilityMethod>& visibility_methods();
@@ -78,6 +80,8 @@ struct Sampler {
     /// Prepares the method for some grids. Samples must come from the pattern that make_pattern() makes with
     /// the same context.
     std::unique_ptr<Visibility> prepare(const RenderContext& context, const Grids& grids) const;
+    /// Whether pixels may have numbers of samples of their own (SamplePattern::levels()).
+    bool takes_levels() const;
     /// The method as a user would name it, without options at their default.
     std::string name() const;
 };

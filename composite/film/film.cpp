@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "composite/film/exposure.h"
-#include "composite/film/layer_stack.h"
+#include "composite/film/film_part.h"
+#include "composite/film/gathered_samples.h"
 #include "composite/film/pixel_depth.h"
 #include "composite/film/pixel_sums.h"
-#include "composite/film/resolve_layers.h"
 #include "composite/film/tile_sums.h"
 
 namespace trapeze {
@@ -39,39 +39,6 @@ bool wants_ids(const Options& options) {
 }
 
 }  // namespace
-
-/// Samples of some pixels and what they see: hits, or what these have been made into.
-struct FilmPart {
-    PixelRect pixels;
-    const SampleTile& samples;
-    const HitBuffer& hits;
-    const Grids& grids;
-    const LayerStack* stack = nullptr;  ///< instead of hits and grids
-
-    size_t first_of(int px, int py) const { return samples.first_of_pixel(px, py); }
-    bool has_hits(size_t sample) const { return stack ? stack->has_hits(sample) : !hits.of(sample).empty(); }
-    /// The layers of a row of pixels; a stack has had them.
-    void interpolate_row(int py, HitLayers& layers) const {
-        if (!stack)
-            layers.interpolate(samples, hits, first_of(pixels.x0, py), first_of(pixels.x1, py), grids);
-    }
-    /// Of a sample that has hits.
-    SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {
-        if (stack) return stack->color(sample);
-        const size_t first = hits.first[sample];
-        if (!midpoint)
-            if (const Grid* grid = covering_grid(hits.hits[first], grids))
-                return covered(hits.hits[first], *grid, layers.color(first));
-        return resolve_layers(hits.of(sample), layers, first, grids, midpoint);
-    }
-    bool hits_anything() const {
-        if (stack) return true;
-        if (hits.hits.empty() || hits.size() != samples.size()) return false;
-        for (int y = pixels.y0; y < pixels.y1; ++y)
-            if (hits.first[first_of(pixels.x1, y)] > hits.first[first_of(pixels.x0, y)]) return true;
-        return false;
-    }
-};
 
 struct Film::Tile {
     /// Set by the thread that adds the tile, before it lowers the neighbours' `missing`.
@@ -146,38 +113,60 @@ void Film::for_each_neighbour(int tile, Visit&& visit) const {
 }
 
 void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) {
-    add_tiles({samples.pixels, samples, hits, grids});
+    add_part({samples.pixels, samples, hits, grids});
 }
 
 void Film::add(const SampleTile& samples, const LayerStack& stack) {
     static const HitBuffer kNoHits;
     static const Grids kNoGrids;
-    add_tiles({samples.pixels, samples, kNoHits, kNoGrids, &stack});
+    add_part({samples.pixels, samples, kNoHits, kNoGrids, &stack});
 }
 
 void Film::begin_stack(size_t sample_count, LayerStack& stack) const {
     stack.begin(sample_count, aovs_, depth_filter_ == DepthFilter::Midpoint);
 }
 
-void Film::add_tiles(const FilmPart& part) {
-    const PixelRect& pixels = part.pixels;
+void Film::add(const GatheredSamples& gathered) {
+    add_tiles(gathered.pixels(), [&](const PixelRect& pixels) {
+        auto sums =
+            std::make_unique<TileSums>(pixels, kernel_, gathered.shows_something(), aovs_.channel_count);
+        gathered.sum(pixels, kernel_, *sums, [this](int px, int py, float depth, uint32_t primitive) {
+            record_pixel(px, py, depth, primitive);
+        });
+        return sums;
+    });
+}
+
+GatherRules Film::gather_rules() const {
+    return {&aovs_, depth_filter_};
+}
+
+void Film::add_part(const FilmPart& whole) {
+    add_tiles(whole.pixels, [&](const PixelRect& pixels) {
+        const FilmPart part{pixels, whole.samples, whole.hits, whole.grids, whole.stack};
+        auto sums = std::make_unique<TileSums>(pixels, kernel_, part.hits_anything(), aovs_.channel_count);
+        accumulate(part, *sums);
+        if (sums->channels(Sum::Aov) > 0) accumulate_aovs(part, *sums);
+        return sums;
+    });
+}
+
+template <class SumsOf>
+void Film::add_tiles(const PixelRect& pixels, const SumsOf& sums_of) {
     if (pixels.empty()) return;
     for (int row = tile_of(pixels.y0); row <= tile_of(pixels.y1 - 1); ++row)
         for (int column = tile_of(pixels.x0); column <= tile_of(pixels.x1 - 1); ++column)
-            add_tile(column - first_tile_x_, row - first_tile_y_, part);
+            add_tile(column - first_tile_x_, row - first_tile_y_, pixels, sums_of);
 }
 
-void Film::add_tile(int column, int row, const FilmPart& whole) {
+template <class SumsOf>
+void Film::add_tile(int column, int row, const PixelRect& pixels, const SumsOf& sums_of) {
     if (column < 0 || column >= tiles_x_ || row < 0 || row >= tiles_y_) return;
     const int index = row * tiles_x_ + column;
     Tile& tile = tiles_[index];
     // A tile counts once, whoever brings it.
     if (tile.added.exchange(true)) return;
-    const FilmPart part{intersection(tile_square(index), whole.pixels), whole.samples, whole.hits,
-                        whole.grids, whole.stack};
-    auto sums = std::make_unique<TileSums>(part.pixels, kernel_, part.hits_anything(), aovs_.channel_count);
-    accumulate(part, *sums);
-    if (sums->channels(Sum::Aov) > 0) accumulate_aovs(part, *sums);
+    std::unique_ptr<TileSums> sums = sums_of(intersection(tile_square(index), pixels));
     if (tile.readers.load(std::memory_order_relaxed) > 0) {
         waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
         tile.sums = std::move(sums);

@@ -14,10 +14,8 @@
 #include <vector>
 
 #include "composite/film/filters.h"
+#include "composite/film/sample_sink.h"
 #include "composite/image.h"
-#include "core/grid.h"
-#include "core/hit_buffer.h"
-#include "core/samples.h"
 #include "core/scene/aov.h"
 #include "core/scene/depth_filter.h"
 #include "core/scene/render_context.h"
@@ -25,27 +23,31 @@
 namespace trapeze {
 
 struct FilmPart;
-class LayerStack;
+class GatheredSamples;
+struct GatherRules;
 class TileSums;
 enum class Sum : uint8_t;
 
-class Film {
+class Film final : public SampleSink {
   public:
     /// Reads the crop, PixelFilter, Exposure and Hider of the context's scene. Image::id is recorded when
     /// asked for here, or by a Display of mode "id".
     /// `leave_gamma`: Exposure's gamma is not applied, but its gain; what comes after adds up light.
     explicit Film(const RenderContext& context, bool record_ids = false, bool leave_gamma = false);
-    ~Film();
+    ~Film() override;
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
 
     /// Adds what samples see: of a rectangle whose sides lie at multiples of kTileSide or at those of
     /// sampled_pixels(). How the picture is cut into such rectangles changes no bit of it. Thread-safe; each
     /// square of kTileSide once (a second time it is ignored).
-    void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids);
-    /// Adds samples whose hits have come in parts: to a stack that was begun by begin_stack().
-    void add(const SampleTile& samples, const LayerStack& stack);
-    void begin_stack(size_t sample_count, LayerStack& stack) const;
+    void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) override;
+    void add(const SampleTile& samples, const LayerStack& stack) override;
+    void begin_stack(size_t sample_count, LayerStack& stack) const override;
+
+    /// Adds pixels with numbers of samples of their own, gathered by the film's rules; rectangles as above.
+    void add(const GatheredSamples& gathered);
+    GatherRules gather_rules() const;
 
     /// The picture. Pixels that still wait for tiles are made of those that came. Call once, after the last
     /// add().
@@ -60,9 +62,12 @@ class Film {
     /// A tile's pixels; and those of them whose samples count.
     PixelRect tile_square(int tile) const;
     PixelRect tile_pixels(int tile) const;
-    /// Calls add_tile() for the tiles that a rectangle has pixels of.
-    void add_tiles(const FilmPart& part);
-    void add_tile(int column, int row, const FilmPart& part);
+    void add_part(const FilmPart& part);
+    /// Adds the tiles that a rectangle has pixels of: sums_of(pixels) makes a tile's sums.
+    template <class SumsOf>
+    void add_tiles(const PixelRect& pixels, const SumsOf& sums_of);
+    template <class SumsOf>
+    void add_tile(int column, int row, const PixelRect& pixels, const SumsOf& sums_of);
     /// Calls visit(tile) for the tiles around a tile, itself included, in the order of tiles.
     template <class Visit>
     void for_each_neighbour(int tile, Visit&& visit) const;

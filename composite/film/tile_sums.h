@@ -46,16 +46,17 @@ class TileSums {
                 for (size_t c = 0; c < n; ++c) row[n * i + c] += weights[i] * values[c];
     }
 
-    /// Adds weights, and colours if there are, of a pixel's samples to the pixels from (x0, y0) on.
-    void add(int x0, int y0, const PixelSums& from, bool colored) {
+    /// Adds weights, and colours if there are, of a pixel's samples to the pixels from (x0, y0) on, each so
+    /// many times over.
+    void add(int x0, int y0, const PixelSums& from, bool colored, float times = 1) {
         float* const weights = values_[at(Sum::Weight)].data();
         float* const colors = values_[at(Sum::Color)].data();
         for (int j = 0; j < from.rows(); ++j)
             for (int i = 0; i < from.columns(); ++i) {
                 const float* const sums = from.at(i, j);
                 const size_t pixel = index(x0 + i, y0 + j);
-                weights[pixel] += sums[0];
-                for (size_t c = 0; c < 4 && colored; ++c) colors[4 * pixel + c] += sums[1 + c];
+                weights[pixel] += times * sums[0];
+                for (size_t c = 0; c < 4 && colored; ++c) colors[4 * pixel + c] += times * sums[1 + c];
             }
     }
 

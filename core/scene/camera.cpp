@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/portable_math.h"
+#include "core/samples.h"
+#include "core/scene/adaptive_sampling.h"
 #include "core/scene/scene.h"
 
 namespace trapeze {
@@ -70,12 +72,30 @@ Camera make_camera(const Options& options) {
     return camera;
 }
 
+namespace {
+
+int floor_to_tile(int pixel) {
+    const int tile = pixel >= 0 ? pixel / kTileSide : -((kTileSide - 1 - pixel) / kTileSide);
+    return tile * kTileSide;
+}
+
+/// The tiles that a rectangle has a part of.
+PixelRect whole_tiles(const PixelRect& r) {
+    return {floor_to_tile(r.x0), floor_to_tile(r.y0), floor_to_tile(r.x1 - 1) + kTileSide,
+            floor_to_tile(r.y1 - 1) + kTileSide};
+}
+
+}  // namespace
+
 PixelRect sampled_pixels(const Camera& camera, const Options& options) {
     // A sample at x reaches the centre p + 1/2 of a pixel when |x - p - 1/2| <= width / 2.
     const auto reach = [](float width) { return std::max(0, static_cast<int>(std::ceil((width - 1) / 2))); };
     const int rx = reach(options.filter.width_x), ry = reach(options.filter.width_y);
     const PixelRect& c = camera.crop;
-    return {c.x0 - rx, c.y0 - ry, c.x1 + rx, c.y1 + ry};
+    const PixelRect pixels{c.x0 - rx, c.y0 - ry, c.x1 + rx, c.y1 + ry};
+    if (pixels.empty() || !adaptive_sampling(options).is_on()) return pixels;
+    const PixelRect all{-rx, -ry, camera.width + rx, camera.height + ry};
+    return intersection(whole_tiles(pixels), all);
 }
 
 M44f screen_from_camera(const Camera& camera) {

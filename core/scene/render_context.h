@@ -16,6 +16,8 @@ struct RenderContext {
     const Scene* scene = nullptr;
     Camera camera;
     int samples_x = 2, samples_y = 2;  ///< of a pixel along each axis, at least 1
+    int sample_levels = 1;             ///< above 1: pixels may stop at a quarter, at most so often less one
+    float pixel_variance = 0;          ///< at which they stop
     uint32_t seed = 0;
     uint32_t most_layers = kAllLayers;   ///< that a sample sees, the nearest
     bool float_colors = false;           ///< a picture holds more of colours than halves do

@@ -78,6 +78,9 @@ struct Options {
     float f_stop = kInfinity, focal_length = 0, focal_distance = 0;  ///< infinite f_stop: pinhole
     float shutter_open = 0, shutter_close = 0;
     float samples_x = 2, samples_y = 2;
+    float pixel_variance = 0;  ///< PixelVariance: the variance that pixels are to have
+    bool adaptive = false;     ///< pixels may stop at fewer samples where they have it
+    float least_samples = 0;   ///< that they take along each axis first; 0: nobody says (adaptive_sampling.h)
     PixelFilter filter;
     float exposure_gain = 1, exposure_gamma = 1;
     int max_ray_depth = 10;  ///< Option "trace" "maxdepth": bounces of a ray

@@ -38,6 +38,7 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     SharedFrame frame;
     // Methods are compared by colour and depth.
     for (Display& display : scene.options.displays) display.variable.reset();
+    scene.options.adaptive = false;  // on the same samples
     frame.scene = std::make_unique<const Scene>(std::move(scene));
     frame.context = make_context(*frame.scene, settings, diagnostics);
     frame.pixels = sampled_pixels(frame.context.camera, frame.scene->options);

@@ -51,13 +51,13 @@ void LayerPasses::add_tile(const LayerTask& task, const SampleTile& samples, Sam
         if (!bounded || holds_all(scratch, hits_, limits.most)) {
             Stopwatch watch;
             if (limits.most != kAllLayers) shorten_lists(hits_, [&](size_t) { return limits.most; });
-            task.film.add(samples, hits_, task.grids);
+            task.sink.add(samples, hits_, task.grids);
             costs_.composite_seconds += watch.lap();
             return;
         }
     }
     Stopwatch watch;
-    task.film.begin_stack(count, stack_);
+    task.sink.begin_stack(count, stack_);
     resume_.assign(count, kInFrontOfAll);
     behind_.assign(count, kBehindAll);
     taken_.assign(count, 0);
@@ -70,7 +70,7 @@ void LayerPasses::add_tile(const LayerTask& task, const SampleTile& samples, Sam
     costs_.composite_seconds += watch.lap();
     find_rest(task, samples, scratch, stats);
     watch.lap();
-    task.film.add(samples, stack_);
+    task.sink.add(samples, stack_);
     costs_.composite_seconds += watch.lap();
 }
 

@@ -1,14 +1,14 @@
-/// From a tile's samples to the film, with no more hits in memory than there is room for. Where layers of
-/// surfaces that are not opaque take more, they come in passes, front to back: each finds the nearest ones
-/// behind where the one before has ended [decision 0032, Hou10 sec. 4].
+/// From a tile's samples to the film or another sink, with no more hits in memory than there is room for.
+/// Where layers of surfaces that are not opaque take more, they come in passes, front to back: each finds the
+/// nearest ones behind where the one before has ended [decision 0032, Hou10 sec. 4].
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "composite/film/film.h"
 #include "composite/film/layer_stack.h"
+#include "composite/film/sample_sink.h"
 #include "core/scene/layer_limit.h"
 #include "sample/visibility.h"
 
@@ -30,7 +30,7 @@ struct LayerTask {
     const Grids& grids;
     bool all_opaque;  ///< every grid is
     const LayerLimits& limits;
-    Film& film;
+    SampleSink& sink;
 };
 
 /// What passes have cost.
@@ -44,7 +44,7 @@ struct LayerCosts {
 /// A thread's working memory, used again from tile to tile.
 class LayerPasses {
   public:
-    /// Finds what a tile's samples see and adds it to the film. Other members of the scratch than its window
+    /// Finds what a tile's samples see and adds it to the sink. Other members of the scratch than its window
     /// are the caller's to set.
     void add_tile(const LayerTask& task, const SampleTile& samples, SampleScratch& scratch,
                   SampleStats& stats);

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "composite/displays/display_plan.h"
+#include "core/scene/adaptive_sampling.h"
 #include "core/scene/glow.h"
 #include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/glow_picture.h"
@@ -88,7 +89,8 @@ void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& gri
     recorder.built(grids.bytes(), build);
     check_memory(frame.context, pixels, grids.bytes() + build.tree_bytes, frame.memory_budget);
 
-    recorder.begin_tiles(tiles_of(pixels, visibility->tile_side()).size());
+    const bool adaptive = frame.pattern.levels() != nullptr;
+    recorder.begin_tiles(tiles_of(pixels, adaptive ? kTileSide : visibility->tile_side()).size());
     resolve_tiles(
         frame.context, pixels, grids, *visibility, frame.pattern, film, recorder.stats(),
         [&recorder] { recorder.progress().step(); }, layer_limits(frame));
@@ -159,8 +161,9 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
     RenderContext context;
     context.scene = &scene;
     context.camera = make_camera(scene.options);
-    context.samples_x = std::max(1, static_cast<int>(std::lround(scene.options.samples_x)));
-    context.samples_y = std::max(1, static_cast<int>(std::lround(scene.options.samples_y)));
+    const AdaptiveSampling sampling = adaptive_sampling(scene.options);
+    context.samples_x = sampling.samples_x, context.samples_y = sampling.samples_y;
+    context.sample_levels = sampling.levels, context.pixel_variance = sampling.variance;
     context.seed = settings.seed;
     context.most_layers = layer_limit(scene.options);
     context.motion = std::any_of(scene.primitives.begin(), scene.primitives.end(),
@@ -176,6 +179,14 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
     const std::optional<Sampler> sampler = choose_sampler(settings.sampler, settings.pattern, &wrong);
     if (!sampler) {
         asked.diagnostics->error({}, wrong);
+        return {};
+    }
+    if (asked.sample_levels > 1 && !sampler->takes_levels()) {
+        asked.diagnostics->error(
+            {},
+            "adaptive sampling needs a method that takes samples one by one, as raytrace "
+            "does, and the pattern stratified; \"" +
+                sampler->name() + "\" with \"" + sampler->pattern.name + "\" takes them all");
         return {};
     }
     const Imager imager(asked, *settings.access);

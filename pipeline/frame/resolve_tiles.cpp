@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "pipeline/frame/adaptive_tile.h"
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/stopwatch.h"
 #include "sample/hit_lists.h"
@@ -16,6 +17,7 @@ struct TileResolver {
     SampleScratch scratch;
     SampleHeat heat;
     LayerPasses passes;
+    AdaptiveTile adaptive;
     SampleStats stats;
     uint64_t sample_count = 0;
     double pattern_seconds = 0;  ///< making samples
@@ -53,11 +55,19 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
                    const std::function<void()>& on_step, const LayerLimits& limits, HeatMap* heat) {
     Stopwatch wall;
     const bool all_opaque = every_grid_is_opaque(grids);
-    const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
+    const bool adaptive = pattern.levels() != nullptr;
+    const std::vector<PixelRect> tiles = tiles_of(pixels, adaptive ? kTileSide : visibility.tile_side());
     tbb::enumerable_thread_specific<TileResolver> resolvers;
     const auto resolve = [&](size_t i) {
         if (context.is_cancelled()) return;
         TileResolver& resolver = resolvers.local();
+        if (adaptive) {
+            resolver.sample_count +=
+                resolver.adaptive.add({context, pattern, visibility, grids, all_opaque, limits, film},
+                                      tiles[i], resolver.passes, resolver.scratch, resolver.stats);
+            on_step();
+            return;
+        }
         Stopwatch watch;
         pattern.make_tile(tiles[i], resolver.samples);
         if (heat) clear_heat(resolver);
@@ -79,7 +89,8 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
         stats.layer_passes += costs.further_passes;
         stats.shows_something = stats.shows_something || costs.shows_something;
         list_bytes += costs.list_bytes;
-        trace += resolver.pattern_seconds + costs.trace_seconds, composite += costs.composite_seconds;
+        trace += resolver.pattern_seconds + resolver.adaptive.pattern_seconds() + costs.trace_seconds;
+        composite += costs.composite_seconds + resolver.adaptive.composite_seconds();
     }
     stats.hit_list_bytes = std::max(stats.hit_list_bytes, list_bytes);
     const auto [trace_wall, composite_wall] = shared_out(wall.lap(), trace, composite);

@@ -151,7 +151,8 @@ VisibilityMethod embree_method() {
                 embree_library(&problem);
                 return problem;
             },
-            false};
+            false,
+            true};
 }
 
 }  // namespace trapeze

@@ -82,20 +82,23 @@ class BruteForce final : public Visibility {
             }
     }
 
-    /// All samples of the pixels, row by row: those of a row of pixels lie one after the other.
+    /// All samples of the pixels, row by row: those of a row of pixels lie one after the other. A list is
+    /// tested whole.
     void test_micropolygon(const MovingQuad& quad, const MicropolygonId& id, bool opaque,
                            const PixelRect& pixels, const SampleTile& samples, SampleScratch& scratch,
                            SampleStats& stats) const {
         BruteForceScratch& own = scratch.own.of<BruteForceScratch>();
         const RayPlanes rays = own.planes();
-        const size_t count = static_cast<size_t>(pixels.width()) * samples.samples_per_pixel;
-        for (int py = pixels.y0; py < pixels.y1; ++py) {
-            const size_t found = find_hits(rays, samples.first_of_pixel(pixels.x0, py), count, quad,
-                                           own.found.data(), own.found_depth.data());
+        const auto test = [&](size_t first, size_t count) {
+            const size_t found =
+                find_hits(rays, first, count, quad, own.found.data(), own.found_depth.data());
             stats.predicate_tests += count, stats.predicate_hits += found;
             for (size_t i = 0; i < found; ++i)
                 keep(own.found[i], {own.found_depth[i], id.packed()}, opaque, scratch);
-        }
+        };
+        if (samples.is_list()) return test(0, samples.size());
+        const size_t count = static_cast<size_t>(pixels.width()) * samples.samples_per_pixel;
+        for (int py = pixels.y0; py < pixels.y1; ++py) test(samples.first_of_pixel(pixels.x0, py), count);
     }
 
     /// Hits outside the clipping range do not count, nor those behind the nearest opaque one so far. Others
@@ -124,7 +127,10 @@ VisibilityMethod brute_force_method() {
             any_pattern,
             [](const VisibilityInput& input) -> std::unique_ptr<Visibility> {
                 return std::make_unique<BruteForce>(input.context, input.grids);
-            }};
+            },
+            nullptr,
+            true,
+            true};
 }
 
 }  // namespace trapeze

@@ -241,6 +241,22 @@ RunRegions::RunRegions(int columns, int rows, bool has_lens, bool has_motion,
     }
 }
 
+RunRegions::RunRegions(const RunRegions& whole, std::span<const uint32_t> samples)
+    : nx(whole.nx),
+      ny(whole.ny),
+      lens(whole.lens),
+      motion(whole.motion),
+      outline(whole.outline),
+      jittered(whole.jittered) {
+    for (size_t s = 0; s < samples.size() + RunSamples::kPadding; ++s) {
+        const uint32_t i = samples[s % samples.size()];  // the first pixel of a run is the whole one's
+        index.push_back(i), pixel.push_back(0);
+        column.push_back(whole.column[i]), row.push_back(whole.row[i]);
+        lens_column.push_back(whole.lens_column[i]), lens_row.push_back(whole.lens_row[i]);
+        time.push_back(whole.time[i]);
+    }
+}
+
 void make_run_samples(const RunRegions& regions, const RunPixels& pixels, const Camera& camera, size_t first,
                       size_t count, RunSamples& out) {
     HWY_DYNAMIC_DISPATCH(make_run_samples)(regions, pixels, camera, first, count, out);

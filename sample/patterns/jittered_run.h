@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/scene/camera.h"
@@ -12,7 +13,16 @@
 namespace trapeze {
 
 /// What a random number of a sample is for: part of what is hashed, so that each use has a number of its own.
-enum SampleDimension : uint32_t { kSubpixelX, kSubpixelY, kLensU, kLensV, kTime, kTimeShift, kShuffle };
+enum SampleDimension : uint32_t {
+    kSubpixelX,
+    kSubpixelY,
+    kLensU,
+    kLensV,
+    kTime,
+    kTimeShift,
+    kShuffle,
+    kVariant
+};
 
 /// Pixels of a run: so many that few samples a pixel also fill vectors.
 inline constexpr size_t kMaxRunPixels = 64;
@@ -33,6 +43,8 @@ struct RunRegions {
     /// `lens_of` and `time_of` tell each subpixel region's.
     RunRegions(int columns, int rows, bool has_lens, bool has_motion, const std::vector<uint32_t>& lens_of,
                const std::vector<uint32_t>& time_of);
+    /// Some of a pixel's samples; runs are of a pixel each.
+    RunRegions(const RunRegions& whole, std::span<const uint32_t> samples);
     int samples_per_pixel() const { return nx * ny; }
 };
 

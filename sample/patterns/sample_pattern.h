@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/scene/render_context.h"
 #include "sample/names/method_spec.h"
 #include "sample/patterns/lens_shape.h"
+#include "sample/patterns/sample_levels.h"
 
 namespace trapeze {
 
@@ -24,6 +26,14 @@ class SamplePattern {
 
     int sample_count() const { return nx_ * ny_; }  ///< of a pixel
 
+    /// The levels that the context asks for; null where it asks for none, or the pattern has none.
+    virtual const SampleLevels* levels() const { return nullptr; }
+    /// Which of the levels' variants a pixel has.
+    virtual size_t variant_of(const PixelPlace&) const { return 0; }
+    /// What levels `from` to `to` add in some pixels of a rectangle, level by level. Of a pattern with
+    /// levels.
+    virtual void make_levels(const PixelRect&, std::span<const PixelPlace>, int, int, SampleTile&) const {}
+
   protected:
     explicit SamplePattern(const RenderContext& context)
         : camera_(context.camera),
@@ -36,6 +46,7 @@ class SamplePattern {
     /// An empty tile of these pixels, with room for their samples.
     void begin_tile(const PixelRect& pixels, SampleTile& tile) const {
         tile.pixels = pixels;
+        tile.listed.clear(), tile.in_pixel.clear();
         tile.samples_per_pixel = sample_count();
         tile.resize(static_cast<size_t>(pixels.width()) * pixels.height() * tile.samples_per_pixel);
     }

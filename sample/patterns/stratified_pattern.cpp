@@ -37,6 +37,12 @@ StratifiedPattern::StratifiedPattern(const RenderContext& context)
     // Hider "jitter" 0: samples lie at the middles of their regions of the pixel. Depth maps of one sample
     // a pixel want the depths at the middles of pixels.
     regions_.jittered = !context.scene || context.scene->options.hider_parameters.float_or("jitter", 1) != 0;
+    if (context.sample_levels <= 1) return;
+    levels_.emplace(PixelStrata{nx_, ny_, lens_of_, time_of_}, context.sample_levels,
+                    hash(context.seed, kVariant));
+    for (size_t variant = 0; variant < levels_->variants(); ++variant)
+        for (int level = 0; level < levels_->count(); ++level)
+            regions_of_levels_.emplace_back(regions_, levels_->added(variant, level));
 }
 
 uint32_t StratifiedPattern::pixel_hash(int px, int py) const {
@@ -75,19 +81,43 @@ void StratifiedPattern::make_tile(const PixelRect& pixels, SampleTile& tile) con
                 run.hash[i] = pixel_hash(px + i, py);
                 run.time_shift[i] = time_shift_of(run.hash[i]);
             }
-            make_run(run, static_cast<size_t>(width) * tile.samples_per_pixel, tile.first_of_pixel(px, py),
-                     made, tile);
+            make_run(regions_, run, static_cast<size_t>(width) * tile.samples_per_pixel,
+                     tile.first_of_pixel(px, py), made, tile);
+        }
+    }
+}
+
+void StratifiedPattern::make_levels(const PixelRect& within, std::span<const PixelPlace> pixels, int from,
+                                    int to, SampleTile& tile) const {
+    tile.pixels = within;
+    tile.listed.assign(pixels.begin(), pixels.end());
+    const size_t below = from > 0 ? levels_->samples(from - 1) : 0;
+    tile.samples_per_pixel = static_cast<int>(levels_->samples(to) - below);
+    tile.resize(pixels.size() * static_cast<size_t>(tile.samples_per_pixel));
+    tile.in_pixel.resize(tile.size());
+    RunPixels run;
+    RunSamples made;
+    size_t at = 0;
+    for (const PixelPlace& pixel : pixels) {
+        run.x[0] = static_cast<float>(pixel.x), run.x_limit[0] = last_place_of(pixel.x);
+        run.y = static_cast<float>(pixel.y), run.y_limit = last_place_of(pixel.y);
+        run.hash[0] = pixel_hash(pixel.x, pixel.y), run.time_shift[0] = time_shift_of(run.hash[0]);
+        const size_t variant = variant_of(pixel);
+        for (int level = from; level <= to; ++level) {
+            const std::span<const uint32_t> added = levels_->added(variant, level);
+            make_run(regions_of_levels_[levels_->index(variant, level)], run, added.size(), at, made, tile);
+            for (const uint32_t sample : added) tile.in_pixel[at++] = static_cast<uint16_t>(sample);
         }
     }
 }
 
 /// Makes `count` samples of a run in parts that fit RunSamples, and copies them to the tile from sample `to`
 /// on.
-void StratifiedPattern::make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made,
-                                 SampleTile& tile) const {
+void StratifiedPattern::make_run(const RunRegions& regions, const RunPixels& run, size_t count, size_t to,
+                                 RunSamples& made, SampleTile& tile) const {
     for (size_t first = 0; first < count; first += RunSamples::kCount, to += RunSamples::kCount) {
         const size_t n = std::min(count - first, RunSamples::kCount);
-        make_run_samples(regions_, run, camera_, first, n, made);
+        make_run_samples(regions, run, camera_, first, n, made);
         std::copy_n(made.x, n, tile.x.data() + to);
         std::copy_n(made.y, n, tile.y.data() + to);
         std::copy_n(made.lens_u, n, tile.lens_u.data() + to);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "core/random.h"
 #include "sample/patterns/jittered_run.h"
 #include "sample/patterns/sample_pattern.h"
 #include "sample/patterns/strata.h"
@@ -17,6 +19,12 @@ class StratifiedPattern final : public SamplePattern {
     explicit StratifiedPattern(const RenderContext& context);
 
     void make_tile(const PixelRect& pixels, SampleTile& tile) const override;
+    const SampleLevels* levels() const override { return levels_ ? &*levels_ : nullptr; }
+    size_t variant_of(const PixelPlace& pixel) const override {
+        return levels_->variant_of(hash(pixel_hash(pixel.x, pixel.y), kVariant));
+    }
+    void make_levels(const PixelRect& within, std::span<const PixelPlace> pixels, int from, int to,
+                     SampleTile& tile) const override;
 
     /// How far a pixel's times are moved along, in regions: what its neighbours do not share.
     uint32_t time_shift(int px, int py) const;
@@ -33,11 +41,14 @@ class StratifiedPattern final : public SamplePattern {
   private:
     uint32_t pixel_hash(int px, int py) const;
     uint32_t time_shift_of(uint32_t pixel_hash) const;
-    void make_run(const RunPixels& run, size_t count, size_t to, RunSamples& made, SampleTile& tile) const;
+    void make_run(const RunRegions& regions, const RunPixels& run, size_t count, size_t to, RunSamples& made,
+                  SampleTile& tile) const;
 
     std::vector<uint32_t> lens_of_;  ///< subpixel region -> lens region, the same in all pixels
     std::vector<uint32_t> time_of_;  ///< subpixel region -> time region, before the pixel's shift
     RunRegions regions_;
+    std::optional<SampleLevels> levels_;
+    std::vector<RunRegions> regions_of_levels_;  ///< by SampleLevels::index()
 };
 
 }  // namespace trapeze

@@ -88,8 +88,15 @@ uint32_t even_bits(uint32_t code) {
     return value;
 }
 
-/// First samples of pixels along the Z-order curve over a tile's rectangle, of whatever size.
+/// First samples of pixels along the Z-order curve over a tile's rectangle, of whatever size; those of a list
+/// as it has them.
 void z_order_of_pixels(const SampleTile& samples, std::vector<uint32_t>& first) {
+    if (samples.is_list()) {
+        first.resize(samples.listed.size());
+        for (size_t i = 0; i < first.size(); ++i)
+            first[i] = static_cast<uint32_t>(i * static_cast<size_t>(samples.samples_per_pixel));
+        return;
+    }
     const int width = samples.pixels.width(), height = samples.pixels.height();
     first.clear();
     const uint32_t side = std::bit_ceil(static_cast<uint32_t>(std::max({width, height, 1})));
@@ -183,14 +190,14 @@ void order_bundles(const SampleTile& samples, RayBlur blur, const BundleOrder& o
     scratch.keys.resize(samples.size());
     const float* lens_u = blur.lens ? samples.lens_u.data() : nullptr;
     const float* time = blur.motion ? samples.time.data() : nullptr;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const auto block = static_cast<uint32_t>(y / side * blocks_x + x / side) << bits;
-            const size_t first = samples.first_of_pixel(samples.pixels.x0 + x, samples.pixels.y0 + y);
-            HWY_DYNAMIC_DISPATCH(add_keys)
-            (lens_u ? lens_u + first : nullptr, samples.lens_v.data() + first, time ? time + first : nullptr,
-             per_pixel, block, lens_bits, time_bits, scratch.keys.data() + first);
-        }
+    for (size_t first = 0; first < samples.size(); first += per_pixel) {
+        const PixelPlace pixel = samples.pixel_of(first);
+        const int x = pixel.x - samples.pixels.x0, y = pixel.y - samples.pixels.y0;
+        const auto block = static_cast<uint32_t>(y / side * blocks_x + x / side) << bits;
+        HWY_DYNAMIC_DISPATCH(add_keys)
+        (lens_u ? lens_u + first : nullptr, samples.lens_v.data() + first, time ? time + first : nullptr,
+         per_pixel, block, lens_bits, time_bits, scratch.keys.data() + first);
+    }
 
     scratch.starts.assign((static_cast<size_t>(blocks_x) * blocks_y << bits) + 1, 0);
     for (const uint32_t key : scratch.keys) ++scratch.starts[key + 1];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 
 namespace trapeze {
 namespace {
@@ -16,8 +17,14 @@ uint32_t even_bits(uint32_t code) {
     return value;
 }
 
-/// Samples pixel by pixel along the Z-order curve over the tile's rectangle, of whatever size.
+/// Samples pixel by pixel along the Z-order curve over the tile's rectangle, of whatever size; those of a
+/// list as it has them.
 void z_order(const SampleTile& samples, std::vector<uint32_t>& order) {
+    if (samples.is_list()) {
+        order.resize(samples.size());
+        std::iota(order.begin(), order.end(), 0u);
+        return;
+    }
     const int width = samples.pixels.width(), height = samples.pixels.height();
     order.clear();
     order.reserve(samples.size());

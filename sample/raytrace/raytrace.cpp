@@ -39,7 +39,9 @@ VisibilityMethod raytrace_method() {
                 return input.spec["tree"] == "wide" && fits ? prepare_wide_raytrace(input)
                                                             : prepare_paper_raytrace(input);
             },
-            check_raytrace};
+            check_raytrace,
+            true,
+            true};
 }
 
 }  // namespace trapeze

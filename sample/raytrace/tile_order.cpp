@@ -21,13 +21,15 @@ std::span<const uint32_t> TileOrder::of(const SampleTile& samples, TileOrderScra
     std::vector<KnownOrder>& known = scratch.known;
     if (!known.empty() && known.front().owner != this) known.clear();
     // Through a lens alone, or a pinhole, an order serves all tiles of the same shape that are sorted alike:
-    // strata of the lens are the same in all pixels (where a pattern's are not, it is only less good).
-    if (!blur_of_rays_.motion)
+    // strata of the lens are the same in all pixels (where a pattern's are not, it is only less good). Lists
+    // have each their own.
+    const bool serves_again = !blur_of_rays_.motion && !samples.is_list();
+    if (serves_again)
         for (const KnownOrder& one : known)
             if (one.kind == kind) return one.order;
-    if (known.empty() || (!blur_of_rays_.motion && known.size() < kMostOrders)) known.emplace_back();
+    if (known.empty() || (serves_again && known.size() < kMostOrders)) known.emplace_back();
     KnownOrder& made = known.back();
-    made.owner = this, made.kind = kind;
+    made.owner = this, made.kind = samples.is_list() ? std::array<int, 6>{} : kind;
     order_bundles(samples, blur_of_rays_, order, scratch.sort, made.order);
     return made.order;
 }

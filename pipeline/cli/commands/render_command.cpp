@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "composite/displays/display_plan.h"
+#include "core/scene/adaptive_sampling.h"
 #include "core/scene/transfer.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
@@ -99,9 +100,21 @@ void RenderJob::override_options(Options& options) const {
     if (arguments_.resolution) std::tie(options.width, options.height) = *arguments_.resolution;
     if (arguments_.crop) options.crop_window = *arguments_.crop;
     if (arguments_.samples) {
-        options.samples_x = static_cast<float>(arguments_.samples->first);
-        options.samples_y = static_cast<float>(arguments_.samples->second);
+        const auto& [least, most] = *arguments_.samples;
+        options.samples_x = static_cast<float>(most.first);
+        options.samples_y = static_cast<float>(most.second);
+        options.adaptive = least.has_value();
+        if (least) options.least_samples = static_cast<float>(std::min(least->first, least->second));
     }
+    if (arguments_.variance) options.pixel_variance = *arguments_.variance, options.adaptive = true;
+    if (arguments_.samples && arguments_.samples->least && !(options.pixel_variance > 0))
+        diagnostics_.warning({},
+                             "nothing says which variance pixels are to have: --variance does, and "
+                             "PixelVariance of the scene; they all have MAX samples",
+                             "no-variance");
+    if (arguments_.variance && !adaptive_sampling(options).is_on())
+        diagnostics_.warning({}, "adaptive sampling takes at least 3x3 samples; all pixels have all",
+                             "too-few-samples");
     if (arguments_.most_layers > 0)
         options.hider_parameters.set({"maxvpdepth",
                                       {StorageClass::Uniform, ValueType::Integer, 1},

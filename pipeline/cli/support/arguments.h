@@ -61,7 +61,9 @@ struct Arguments {
     std::vector<std::string> inputs;
     std::string output;  ///< empty: as the scene says
     std::string driver;  ///< replaces every Display's type; "null" writes nothing
-    std::optional<std::pair<int, int>> resolution, samples;
+    std::optional<std::pair<int, int>> resolution;
+    std::optional<SampleRates> samples;
+    std::optional<float> variance;             ///< of pixels, that adaptive sampling is to reach
     std::optional<std::array<float, 4>> crop;  ///< x0 x1 y0 y1, as parts of the picture
     std::optional<float> shading_rate;
     int most_layers = 0;  ///< of each sample; 0: as the scene says

@@ -68,7 +68,7 @@ TEST(Arguments, AllRenderOptionsArrive) {
     EXPECT_EQ(a.resolution, (std::pair{64, 48}));
     EXPECT_EQ(*a.crop, (std::array<float, 4>{0, 0.5f, 0.25f, 1}));
     EXPECT_EQ(a.threads, -1);
-    EXPECT_EQ(a.samples, (std::pair{4, 2}));
+    EXPECT_EQ(a.samples, (SampleRates{{}, {4, 2}}));
     EXPECT_EQ(a.shading_rate, 0.5f);
     EXPECT_EQ(a.sampler, "bruteforce");
     EXPECT_EQ(a.seed, 7u);
@@ -113,7 +113,7 @@ TEST(Arguments, OfARepeatedOptionTheLastCounts) {
     EXPECT_EQ(a.output, "y.exr");
     EXPECT_EQ(a.resolution, (std::pair{9, 9}));
     EXPECT_EQ(*a.crop, (std::array<float, 4>{0, 0.5f, 0, 0.5f}));
-    EXPECT_EQ(a.samples, (std::pair{2, 2}));
+    EXPECT_EQ(a.samples, (SampleRates{{}, {2, 2}}));
     EXPECT_EQ(a.threads, 2);
     ASSERT_EQ(a.frames->size(), 1u);
     EXPECT_EQ(a.frames->front().first, 7);

@@ -156,8 +156,13 @@ void add_render_options(CLI::App& app, Arguments& a) {
              "replaces the first Display's name; ####, %04d and <frame> are the frame's number", "FILE");
     add_file(app, "-d,--driver", a.driver, "replaces every Display's driver; null writes nothing", "DRIVER");
     add_sampler_option(app, a);
-    add_parsed(app, "--samples", a.samples, parse_samples, "samples per pixel", "N|NxM",
-               ", each from 1 to 64");
+    add_parsed(app, "--samples", a.samples, parse_sample_rates,
+               "samples per pixel; MIN..MAX: as many as --variance asks for", "N|NxM|MIN..MAX",
+               ", each from 1 to 64; MAX is twice or four times MIN, as in 4x4..16x16");
+    app.add_option("--variance", a.variance,
+                   "adaptive sampling: the variance of linear values that pixels are to have, as 0.0001")
+        ->check(in_range(1e-12f, 1e6f))
+        ->type_name("V");
     add_number(app, "--max-layers", a.most_layers, 1, static_cast<int>(kMostLayers),
                "a sample sees the nearest M layers of surfaces, as by Hider \"maxvpdepth\"", "M");
     add_frame_options(app, a);

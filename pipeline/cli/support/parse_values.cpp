@@ -74,6 +74,21 @@ std::optional<std::pair<int, int>> parse_samples(std::string_view text) {
     return pair_of(text, 1, 64);
 }
 
+std::optional<SampleRates> parse_sample_rates(std::string_view text) {
+    const size_t dots = text.find("..");
+    if (dots == std::string_view::npos) {
+        const auto most = parse_samples(text);
+        return most ? std::optional(SampleRates{{}, *most}) : std::nullopt;
+    }
+    const auto least = parse_samples(text.substr(0, dots)), most = parse_samples(text.substr(dots + 2));
+    if (!least || !most) return {};
+    for (const int times : {2, 4})
+        if (most->first == times * least->first && most->second == times * least->second &&
+            least->first > 1 && least->second > 1)
+            return SampleRates{least, *most};
+    return {};
+}
+
 std::optional<std::vector<std::pair<int, int>>> parse_samples_list(std::string_view text) {
     constexpr std::string_view kSeparators = ",; ";
     std::vector<std::pair<int, int>> list;

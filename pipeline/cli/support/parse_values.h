@@ -26,6 +26,18 @@ std::optional<std::pair<int, int>> parse_resolution(std::string_view text);
 /// "8" or "8x4": samples along x and y, 1 to 64.
 std::optional<std::pair<int, int>> parse_samples(std::string_view text);
 
+/// Samples of a pixel along x and y: at most, and of adaptive sampling at least.
+struct SampleRates {
+    std::optional<std::pair<int, int>> least;
+    std::pair<int, int> most;
+
+    bool operator==(const SampleRates&) const = default;
+};
+
+/// "8", "8x4", or "4x4..16x16": then both sides of MIN are at least 2, and those of MAX both twice or both
+/// four times as much.
+std::optional<SampleRates> parse_sample_rates(std::string_view text);
+
 /// "1x1,4x4,8": one or more of these, separated by commas, semicolons or spaces.
 std::optional<std::vector<std::pair<int, int>>> parse_samples_list(std::string_view text);
 

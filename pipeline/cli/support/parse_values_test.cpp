@@ -35,6 +35,16 @@ TEST(ParseSamples, OneNumberIsForBothAxes) {
     for (const char* bad : {"0", "65", "8x", "x", "8x0"}) EXPECT_FALSE(parse_samples(bad)) << bad;
 }
 
+TEST(ParseSampleRates, HaveLevels) {
+    EXPECT_EQ(parse_sample_rates("8"), (SampleRates{{}, {8, 8}}));
+    EXPECT_EQ(parse_sample_rates("4x4..16x16"), (SampleRates{std::pair{4, 4}, {16, 16}}));
+    EXPECT_EQ(parse_sample_rates("4..8"), (SampleRates{std::pair{4, 4}, {8, 8}}));
+    EXPECT_EQ(parse_sample_rates("4x2..8x4"), (SampleRates{std::pair{4, 2}, {8, 4}}));
+    for (const char* bad :
+         {"4..", "..8", "4..4", "8..4", "4..12", "4..32", "1..2", "4x4..8x16", "4...8", "32..128"})
+        EXPECT_FALSE(parse_sample_rates(bad)) << bad;
+}
+
 TEST(ParseSamplesList, KeepsTheOrderAndLeavesOutRepetitions) {
     using List = std::vector<std::pair<int, int>>;
     EXPECT_EQ(parse_samples_list("1x1,4x4,8"), (List{{1, 1}, {4, 4}, {8, 8}}));

@@ -157,10 +157,13 @@ void pixel_samples(OptionContext& r, ArgumentCursor& c) {
 }
 
 /// PRMan's path tracer takes a pixel's samples from its hider: as many as it may take at most, as a square.
-/// Without that, at least as many as it asks for.
+/// Without that, at least as many as it asks for. With both, pixels are sampled as PixelVariance says.
 void set_samples_of_hider(OptionContext& r) {
     const ParameterList& given = r.state.options().hider_parameters;
-    const float samples = std::max(given.float_or("maxsamples", 0), given.float_or("minsamples", 0));
+    const float least = given.float_or("minsamples", 0), most = given.float_or("maxsamples", 0);
+    r.state.options().adaptive = least >= 1 && most > least;
+    r.state.options().least_samples = least >= 1 ? std::sqrt(least) : 0;
+    const float samples = std::max(most, least);
     if (!(samples >= 1) || r.state.scope().has_pixel_samples) return;
     const float side = std::ceil(std::sqrt(std::min(samples, kMostHiderSamples)));
     r.state.options().samples_x = r.state.options().samples_y = side;
@@ -285,11 +288,11 @@ void relative_detail(OptionContext& r, ArgumentCursor& c) {
     r.state.scope().relative_detail = factor;
 }
 
-/// An estimate of variance could choose the number of samples; here it is fixed.
+/// PixelVariance v: what adaptive sampling is to reach, where the hider or the command line asks for that.
 void pixel_variance(OptionContext& r, ArgumentCursor& c) {
-    changeable_options(r);
-    c.number("the variance");
-    r.report.count_without_effect();
+    const float variance = c.number("the variance");
+    require(variance >= 0, "is below 0");
+    changeable_options(r).pixel_variance = variance;
 }
 
 /// RISpec 4.1.1: the half space on the side to which the normal points is cut away.

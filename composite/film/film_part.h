@@ -1,0 +1,47 @@
+/// What the film gets of samples: hits, or what these have been made into.
+#pragma once
+
+#include "composite/film/hit_layers.h"
+#include "composite/film/layer_stack.h"
+#include "composite/film/resolve_layers.h"
+#include "core/hit_buffer.h"
+#include "core/samples.h"
+
+namespace trapeze {
+
+/// Samples of some pixels and what they see.
+struct FilmPart {
+    PixelRect pixels;
+    const SampleTile& samples;
+    const HitBuffer& hits;
+    const Grids& grids;
+    const LayerStack* stack = nullptr;  ///< instead of hits and grids
+
+    size_t first_of(int px, int py) const { return samples.first_of_pixel(px, py); }
+    bool has_hits(size_t sample) const { return stack ? stack->has_hits(sample) : !hits.of(sample).empty(); }
+    /// The layers of some samples in a row; a stack has had them.
+    void interpolate(size_t begin, size_t end, HitLayers& layers) const {
+        if (!stack) layers.interpolate(samples, hits, begin, end, grids);
+    }
+    void interpolate_row(int py, HitLayers& layers) const {
+        interpolate(first_of(pixels.x0, py), first_of(pixels.x1, py), layers);
+    }
+    /// Of a sample that has hits.
+    SampleColor color(size_t sample, const HitLayers& layers, bool midpoint) const {
+        if (stack) return stack->color(sample);
+        const size_t first = hits.first[sample];
+        if (!midpoint)
+            if (const Grid* grid = covering_grid(hits.hits[first], grids))
+                return covered(hits.hits[first], *grid, layers.color(first));
+        return resolve_layers(hits.of(sample), layers, first, grids, midpoint);
+    }
+    bool hits_anything() const {
+        if (stack) return true;
+        if (hits.hits.empty() || hits.size() != samples.size()) return false;
+        for (int y = pixels.y0; y < pixels.y1; ++y)
+            if (hits.first[first_of(pixels.x1, y)] > hits.first[first_of(pixels.x0, y)]) return true;
+        return false;
+    }
+};
+
+}  // namespace trapeze
