@@ -28,7 +28,8 @@ std::string frame(const std::string& display, const std::string& picture = {}) {
            "\nPolygon \"P\" [-2 -2 1  2 -2 1  2 2 1  -2 2 1]\nWorldEnd\nFrameEnd\n";
 }
 
-constexpr const char* kSeen = "Display \"seen.exr\" \"openexr\" \"rgb\" \"string exrpixeltype\" [\"float\"]";
+constexpr const char* kSeenDisplay =
+    "Display \"seen.exr\" \"openexr\" \"rgb\" \"string exrpixeltype\" [\"float\"]";
 constexpr const char* kLook =
     "surface look(string picture = \"\";) { Ci = color texture(picture, 0.5, 0.5); Oi = 1; }";
 
@@ -51,7 +52,7 @@ TEST_P(RoundTrips, AQuarterIsAQuarter) {
                               frame("Display \"" + file + "\" \"file\" \"rgb\" \"quantize\" [0 " +
                                     std::to_string(one) + " 0 " + std::to_string(one) + "] \"dither\" [0]") +
                               "MakeTexture \"" + file + "\" \"kept.tex\" \"clamp\" \"clamp\" \"box\" 1 1\n" +
-                              frame(kSeen, file) +
+                              frame(kSeenDisplay, file) +
                               frame("Display \"made.exr\" \"openexr\" \"rgb\"", "kept.tex"));
     const Outcome outcome = run_program(folder, "render a.rib");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

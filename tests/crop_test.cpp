@@ -9,7 +9,7 @@ namespace trapeze::testing {
 namespace {
 
 /// Balls, hairs and a floor under an area light, by shaders that draw numbers and send rays.
-std::string scene_of(const std::string& options) {
+std::string cropped_scene(const std::string& options) {
     return "Format 64 48 1 PixelSamples 2 2 Projection \"perspective\" \"fov\" [40] Shutter 0 1 " + options +
            "\nWorldBegin Attribute \"visibility\" \"int diffuse\" 1 \"int transmission\" 1 \"int specular\" 1 "
            "AttributeBegin Translate 0 3 6 Rotate 90 1 0 0 Attribute \"light\" \"int nsamples\" 4 "
@@ -31,7 +31,7 @@ TEST(Crop, HasTheRandomNumbersOfTheWholePicture) {
     folder.write("draws.sl", kDraws);
     const auto render = [&](const std::string& options) {
         folder.write("a.rib", "Option \"searchpath\" \"string shader\" [\"" + folder.path().string() +
-                                  ":&\"] " + scene_of(options));
+                                  ":&\"] " + cropped_scene(options));
         auto frames = render_scene((folder / "a.rib").string(), {});
         EXPECT_EQ(frames.size(), 1u);
         return std::move(frames.at(0).image);

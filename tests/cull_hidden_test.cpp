@@ -38,9 +38,9 @@ FrameStats culled(const std::string& text,
     return part[0].stats;
 }
 
-class TinyScene : public ::testing::TestWithParam<std::string> {};
+class HiddenInTinyScene : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(TinyScene, IsTheSameWithoutWhatIsHidden) {
+TEST_P(HiddenInTinyScene, IsTheSameWithoutWhatIsHidden) {
     const std::string path = tiny_scene_path(GetParam());
     const auto reference = render_scene(path, culling(CullHidden::Off));
     for (const char* method : {"raytrace", "interval"}) {
@@ -59,13 +59,7 @@ TEST_P(TinyScene, IsTheSameWithoutWhatIsHidden) {
     }
 }
 
-std::vector<std::string> scenes_without_maps() {
-    std::vector<std::string> names = tiny_scenes();
-    std::erase_if(names, [](const std::string& file) { return file.starts_with("make_"); });
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(scenes_without_maps()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, HiddenInTinyScene, ::testing::ValuesIn(tiny_scenes_without_maps()), test_name);
 
 const std::string kLight = "LightSource \"distantlight\" 1 ";
 const std::string kWall = "Patch \"bilinear\" \"P\" [-9 9 3 9 9 3 -9 -9 3 9 -9 3] ";

@@ -103,14 +103,7 @@ TEST_P(TinyScene, IsTheSameOnEveryInstructionSet) {
     EXPECT_EQ(targets.size(), static_cast<size_t>(usable)) << "the limit limits nothing";
 }
 
-/// Those that make maps need the program, which makes them between worlds.
-std::vector<std::string> scenes_without_maps() {
-    std::vector<std::string> names = tiny_scenes();
-    std::erase_if(names, [](const std::string& file) { return file.starts_with("make_"); });
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(scenes_without_maps()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, TinyScene, ::testing::ValuesIn(tiny_scenes_without_maps()), test_name);
 
 TEST(Seed, ChangesTheSamplesAndNothingElse) {
     RenderSettings settings;

@@ -12,7 +12,7 @@ namespace trapeze::testing {
 namespace {
 
 /// Small bright squares before a dim one that fills 96 x 64 pixels, with motion and defocus.
-std::string scene_of(const std::string& options) {
+std::string glowing_scene(const std::string& options) {
     const std::string folder = ::testing::TempDir() + "glow_scene" + std::to_string(getpid());
     std::filesystem::create_directories(folder);
     const std::string path = folder + "/scene.rib";
@@ -32,7 +32,7 @@ constexpr const char* kGlow = "Imager \"glow\" \"float amount\" [.4] \"float siz
 Image render(const std::string& options, int threads = 2, int regions = 1) {
     RenderSettings settings;
     settings.regions_at_least = regions;
-    return render_scene(scene_of(options), settings, threads).at(0).image;
+    return render_scene(glowing_scene(options), settings, threads).at(0).image;
 }
 
 Image part_of(Image whole, const PixelRect& window) {
@@ -83,7 +83,7 @@ TEST(Glow, LeavesDepthAndOpacity) {
 }
 
 TEST(Glow, AScenesOwnShaderOfThisNameIsRun) {
-    const std::string path = scene_of("Imager \"glow\"");
+    const std::string path = glowing_scene("Imager \"glow\"");
     const std::string shader = std::filesystem::path(path).parent_path().string() + "/glow.sl";
     std::ofstream(shader) << "imager glow() { Ci = color (1, 2, 3); }\n";
     const Image image = render_scene(path, {}).at(0).image;
@@ -96,7 +96,7 @@ TEST(Glow, WhatIsOutOfRangeIsSaidAndClamped) {
     const auto messages = [](const std::string& parameters) {
         std::vector<std::string> said;
         Diagnostics diagnostics([&](const Diagnostic& message) { said.push_back(message.text); });
-        const std::string path = scene_of("Imager \"glow\" " + parameters);
+        const std::string path = glowing_scene("Imager \"glow\" " + parameters);
         const std::vector<std::string> files{path};
         read_rib(files, ReadOptions{}, diagnostics, [&](Scene&& read) {
             const auto glow = find_glow(read.options, &diagnostics);

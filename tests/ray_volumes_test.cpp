@@ -15,7 +15,7 @@ const std::string kThrough =
     "float x = xcomp(P), y = ycomp(P); float r2 = x * x + y * y;"
     "float t = r2 < 1 ? exp(-.5 * 2 * sqrt(1 - r2)) : 1; float sure = abs(r2 - 1) < .08 ? 0 : 1;";
 /// A chord is that of micropolygons: shorter by up to 1e-3, and where they lie inside of a thin part.
-constexpr float kChord = 2e-3f;
+constexpr float kThinChord = 2e-3f;
 
 Case hazy() {
     Case c;
@@ -60,7 +60,7 @@ TEST(RayVolumes, TheInteriorOfASphereIsAlongTheChord) {
                        (outside ? "Interior" : "Exterior") + " \"haze\" \"k\" [.5] " + surface + side +
                        sphere("0 0 3", "1");
             expect_near(c.render(kThrough + "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), t, sure);"),
-                        kChord);
+                        kThinChord);
         }
 }
 
@@ -71,7 +71,7 @@ TEST(RayVolumes, RaysThatBeginInsideAreInside) {
                sphere("0 0 5", "4");
     expect_near(c.render("float x = xcomp(P), y = ycomp(P); float t = exp(-.2 * sqrt(16 - x * x - y * y));"
                          "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), .5 + .5 * t, 1);"),
-                kChord);
+                kThinChord);
 }
 
 /// Media behind each other, each over its own way: the walls' outsides, too, are towards smaller z.
@@ -91,15 +91,15 @@ TEST(RayVolumes, ShadowsFallThroughMedia) {
     Case c = hazy();
     c.things = "Interior \"haze\" \"k\" [.5] Surface \"constant\" Opacity 0 0 0 " + sphere("0 0 3", "1");
     expect_near(c.render(kThrough + "Ci = color(comp(transmission(P, P - vector(0, 0, 5)), 0), t, sure);"),
-                kChord);
+                kThinChord);
     expect_near(c.render(kThrough +
                          "Ci = color(occlusion(P, normal(0, 0, -1), 1, \"coneangle\", 1e-5), 1 - t, sure);"),
-                kChord);
+                kThinChord);
     // Where hits stand for the primitive's own opacity the medium still counts.
     c.asker = "Attribute \"shade\" \"string transmissionhitmode\" \"primitive\" ";
     c.things = "Attribute \"shade\" \"string transmissionhitmode\" \"primitive\" " + c.things;
     expect_near(c.render(kThrough + "Ci = color(comp(transmission(P, P - vector(0, 0, 5)), 0), t, sure);"),
-                kChord);
+                kThinChord);
 }
 
 /// A medium's shader is in its own object's space, whatever the ray hits behind it.
@@ -125,7 +125,7 @@ TEST(RayVolumes, MoveWithTheirSurfaces) {
     c.things = kWhiteWall +
                "Attribute \"trace\" \"int maxspeculardepth\" 9 Interior \"haze\" \"k\" [.5] Surface \"on\" "
                "MotionBegin [0 1] Translate 0 0 1.5 Translate 0 0 3.5 MotionEnd Sphere 1 -1 1 360 ";
-    expect_near(c.render(kThrough + "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), t, sure);"), kChord);
+    expect_near(c.render(kThrough + "Ci = color(comp(trace(P, vector(0, 0, -1)), 0), t, sure);"), kThinChord);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ const std::string kWorld = "WorldBegin\nSphere 1 -1 1 360\nWorldEnd\n";
 /// What is in a file that is closed; every reader repeats it in its message.
 constexpr const char* kSecret = "LeakedSecret 1\n";
 
-bool contains(const std::string& text, const std::string& part) {
+bool holds_text(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
@@ -47,11 +47,11 @@ class Safe : public ::testing::Test {
     /// The RIB says of each of `names` what is wrong, and nothing comes of any.
     void expect_closed(const std::string& rib, const std::vector<std::string>& names) {
         const Outcome run = render(rib);
-        EXPECT_FALSE(contains(run.err, "LeakedSecret")) << run.err;
+        EXPECT_FALSE(holds_text(run.err, "LeakedSecret")) << run.err;
         for (const std::string& name : names)
-            EXPECT_TRUE(contains(run.err, quoted(name) + " lies outside") ||
-                        contains(run.err, quoted(name) + ": lies outside") ||
-                        contains(run.err, quoted(name) + " is not found"))
+            EXPECT_TRUE(holds_text(run.err, quoted(name) + " lies outside") ||
+                        holds_text(run.err, quoted(name) + ": lies outside") ||
+                        holds_text(run.err, quoted(name) + " is not found"))
                 << name << "\n"
                 << run.err;
         EXPECT_NE(run.exit_code, 0);
@@ -87,9 +87,9 @@ TEST_F(Safe, ArchivesLieInside) {
                "WorldBegin\nReadArchive \"/dev/stdin\"\nReadArchive \"/proc/self/environ\"\n"
                "ReadArchive \"pipe\"\nReadArchive \"/dev/zero\"\nSphere 1 -1 1 360\nWorldEnd\n");
     for (const char* name : {"/dev/stdin", "/proc/self/environ", "/dev/zero"})
-        EXPECT_TRUE(contains(devices.err, quoted(name) + " lies outside")) << devices.err;
-    EXPECT_TRUE(contains(devices.err, "\"pipe\" is not found")) << devices.err;
-    EXPECT_FALSE(contains(devices.err, "no such request")) << devices.err;
+        EXPECT_TRUE(holds_text(devices.err, quoted(name) + " lies outside")) << devices.err;
+    EXPECT_TRUE(holds_text(devices.err, "\"pipe\" is not found")) << devices.err;
+    EXPECT_FALSE(holds_text(devices.err, "no such request")) << devices.err;
 }
 
 TEST_F(Safe, SearchPathsOfScenesLeadNowhereElse) {
@@ -112,12 +112,12 @@ TEST_F(Safe, SearchPathsOfScenesLeadNowhereElse) {
         rib += "WorldBegin\nSurface \"leak\"\nReadArchive \"leak.rib\"\nSphere 1 -1 1 360\nWorldEnd\n";
         rib += "FrameEnd\n";
     }
-    EXPECT_TRUE(contains(render(rib, "").err, std::to_string(paths.size()) + " times: LeakedSecret"));
+    EXPECT_TRUE(holds_text(render(rib, "").err, std::to_string(paths.size()) + " times: LeakedSecret"));
     const Outcome run = render(rib);
-    EXPECT_FALSE(contains(run.err, "LeakedSecret")) << run.err;
+    EXPECT_FALSE(holds_text(run.err, "LeakedSecret")) << run.err;
     for (const std::string& path : paths)
-        EXPECT_TRUE(contains(run.err, "the folder " + quoted(path) + " lies outside")) << path << run.err;
-    EXPECT_TRUE(contains(run.err, "\"leak.rib\" is not found")) << run.err;
+        EXPECT_TRUE(holds_text(run.err, "the folder " + quoted(path) + " lies outside")) << path << run.err;
+    EXPECT_TRUE(holds_text(run.err, "\"leak.rib\" is not found")) << run.err;
 }
 
 TEST_F(Safe, FoldersAboveAndBesideAreNotLookedThrough) {
@@ -136,7 +136,7 @@ TEST_F(Safe, FoldersAboveAndBesideAreNotLookedThrough) {
         return file_text(work_ / "job/scenes/.stderr");
     };
     EXPECT_EQ(count_of(run(""), "LeakedSecret"), 3u);
-    EXPECT_FALSE(contains(run("--safe"), "LeakedSecret")) << run("--safe");
+    EXPECT_FALSE(holds_text(run("--safe"), "LeakedSecret")) << run("--safe");
 }
 
 TEST_F(Safe, MembersOfZipArchivesOutsideAreClosed) {
@@ -201,10 +201,10 @@ TEST_F(Safe, MapsLieInsideWhateverComputesTheirNames) {
                 "  float there = 0; textureinfo(name, \"exists\", there);\n}\n");
     const std::string rib = kHead + "WorldBegin\nSurface \"maps\" \"string folder\" [\"" +
                             outside_.path().string() + "\"]\nSphere 1 -1 1 360\nWorldEnd\n";
-    EXPECT_FALSE(contains(render(rib, "").err, "lies outside"));
+    EXPECT_FALSE(holds_text(render(rib, "").err, "lies outside"));
     const Outcome run = render(rib);
-    EXPECT_TRUE(contains(run.err, "texture " + quoted(out("map.exr")) + ": lies outside")) << run.err;
-    EXPECT_TRUE(contains(run.err, "texture \"link.exr\": lies outside")) << run.err;
+    EXPECT_TRUE(holds_text(run.err, "texture " + quoted(out("map.exr")) + ": lies outside")) << run.err;
+    EXPECT_TRUE(holds_text(run.err, "texture \"link.exr\": lies outside")) << run.err;
     EXPECT_EQ(run.exit_code, 1);
 }
 
@@ -216,7 +216,7 @@ TEST_F(Safe, MapsAreOfFormatsThatPicturesAreMostlyIn) {
         render(kHead +
                "WorldBegin\nSurface \"paintedplastic\" \"string texturename\" [\"film.mp4\"]\n"
                "Sphere 1 -1 1 360\nWorldEnd\n");
-    EXPECT_TRUE(contains(run.err, "texture \"film.mp4\": is of a format that is not open to scenes"))
+    EXPECT_TRUE(holds_text(run.err, "texture \"film.mp4\": is of a format that is not open to scenes"))
         << run.err;
 }
 
@@ -239,11 +239,11 @@ TEST_F(Safe, PicturesAreWrittenInside) {
     rib += "Display \"+good/new.exr\" \"exr\" \"rgba\"\n" + kWorld;
     const Outcome run = render(rib);
     for (const std::string& name : names)
-        EXPECT_TRUE(contains(run.err, "cannot write " + quoted(name) + ": it lies outside"))
+        EXPECT_TRUE(holds_text(run.err, "cannot write " + quoted(name) + ": it lies outside"))
             << name << run.err;
-    EXPECT_TRUE(contains(run.err, "cannot write " + quoted(out("depth.tif")) + ": it lies outside"))
+    EXPECT_TRUE(holds_text(run.err, "cannot write " + quoted(out("depth.tif")) + ": it lies outside"))
         << run.err;
-    EXPECT_TRUE(contains(run.err, "cannot write \"notes.txt\": the file that is there is not a picture"))
+    EXPECT_TRUE(holds_text(run.err, "cannot write \"notes.txt\": the file that is there is not a picture"))
         << run.err;
     EXPECT_EQ(run.exit_code, 6);
     EXPECT_EQ(files_in(outside_), "old.exr ");
@@ -269,12 +269,12 @@ TEST_F(Safe, MapsAreMadeInside) {
     rib += "MakeTexture \"in.exr\" \"good.tex\" \"periodic\" \"periodic\" \"box\" 1 1\n" + kWorld;
     const Outcome run = render(rib);
     for (const std::string& map : {maps[0], maps[1], maps[2], out("b.env"), out("c.shd")})
-        EXPECT_TRUE(contains(run.err, "cannot make " + quoted(map) + " from \"in.exr\": it lies outside"))
+        EXPECT_TRUE(holds_text(run.err, "cannot make " + quoted(map) + " from \"in.exr\": it lies outside"))
             << map << run.err;
-    EXPECT_TRUE(contains(
+    EXPECT_TRUE(holds_text(
         run.err, "cannot make \"notes.tex\" from \"in.exr\": the file that is there is not a picture"))
         << run.err;
-    EXPECT_TRUE(contains(run.err, "cannot make \"stolen.tex\"")) << run.err;
+    EXPECT_TRUE(holds_text(run.err, "cannot make \"stolen.tex\"")) << run.err;
     EXPECT_EQ(files_in(outside_), "out.exr ");
     EXPECT_EQ(file_text(work_ / "notes.tex"), "mine");
     EXPECT_FALSE(fs::exists(work_ / "stolen.tex"));
@@ -289,7 +289,7 @@ TEST_F(Safe, NothingIsRun) {
                             "Procedural \"DynamicLoad\" [\"./lib.so\" \"\"] [-1 1 -1 1 -1 1]\n"
                             "System \"touch ran\"\nSphere 1 -1 1 360\nWorldEnd\n";
     const Outcome run = render(rib);
-    EXPECT_TRUE(contains(run.err, "programs are not run (--safe)")) << run.err;
+    EXPECT_TRUE(holds_text(run.err, "programs are not run (--safe)")) << run.err;
     EXPECT_FALSE(fs::exists(work_ / "ran"));
     EXPECT_EQ(render(rib, "--safe --allow-programs").exit_code, 2);
     EXPECT_FALSE(fs::exists(work_ / "ran"));
@@ -305,18 +305,18 @@ TEST_F(Safe, TheEnvironmentAsksForItToo) {
     setenv("LEAK", "yes", 1);
     EXPECT_EQ(count_of(render(rib, "").err, "error: LeakedSecret"), 1u);
     setenv("TRAPEZE_SAFE", "1", 1);
-    EXPECT_FALSE(contains(render(rib, "").err, "LeakedSecret"));
+    EXPECT_FALSE(holds_text(render(rib, "").err, "LeakedSecret"));
     EXPECT_EQ(render(rib, "--allow-programs").exit_code, 2);
     for (const char* command : {"check", "info", "cat"})
-        EXPECT_FALSE(contains(run_program(work_, std::string(command) + " a.rib").err, "LeakedSecret"))
+        EXPECT_FALSE(holds_text(run_program(work_, std::string(command) + " a.rib").err, "LeakedSecret"))
             << command;
     setenv("TRAPEZE_SAFE", "0", 1);
-    EXPECT_TRUE(contains(render(rib, "").err, "LeakedSecret"));
+    EXPECT_TRUE(holds_text(render(rib, "").err, "LeakedSecret"));
     unsetenv("TRAPEZE_SAFE");
     // Conditions know nothing of the environment.
     work_.write("b.rib", "IfBegin \"$LEAK == 'yes'\"\nLeakedSecret\nIfEnd\n" + kWorld);
-    EXPECT_TRUE(contains(run_program(work_, "check b.rib").err, "LeakedSecret"));
-    EXPECT_FALSE(contains(run_program(work_, "check --safe b.rib").err, "LeakedSecret"));
+    EXPECT_TRUE(holds_text(run_program(work_, "check b.rib").err, "LeakedSecret"));
+    EXPECT_FALSE(holds_text(run_program(work_, "check --safe b.rib").err, "LeakedSecret"));
 }
 
 TEST_F(Safe, WhatTheUserSaysIsOpen) {
@@ -356,17 +356,17 @@ TEST(Outside, FilesThatAreNoPicturesStay) {
     };
     const Outcome refused = display("notes.txt");
     EXPECT_EQ(refused.exit_code, 6) << refused.err;
-    EXPECT_TRUE(contains(refused.err, "the file that is there is not a picture")) << refused.err;
+    EXPECT_TRUE(holds_text(refused.err, "the file that is there is not a picture")) << refused.err;
     EXPECT_EQ(file_text(outside / "notes.txt"), "mine");
     for (int i = 0; i < 2; ++i) {
         const Outcome written = display("new.exr");
         EXPECT_EQ(written.exit_code, 0) << written.err;
-        EXPECT_TRUE(contains(written.err, "lies outside of the working folder")) << written.err;
+        EXPECT_TRUE(holds_text(written.err, "lies outside of the working folder")) << written.err;
     }
     // What the user names is written, wherever and whatever it was.
     const Outcome ordered = run_program(work, "render a.rib -t 1 -o " + (outside / "notes.txt").string());
     EXPECT_EQ(ordered.exit_code, 0) << ordered.err;
-    EXPECT_FALSE(contains(ordered.err, "lies outside")) << ordered.err;
+    EXPECT_FALSE(holds_text(ordered.err, "lies outside")) << ordered.err;
     EXPECT_NE(file_text(outside / "notes.txt"), "mine");
 }
 

@@ -1,12 +1,12 @@
 /// Curves of every basis, step and wrap (RISpec 5.6): centre lines against blending functions, widths, and
 /// which way ribbons lie. Points (5.5) as disks.
+#include <cmath>
+
 #include "tests/primitives/blends_harness.h"
 #include "tests/primitives/dice_rib_harness.h"
 
 namespace trapeze::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Without skew: a ribbon's width has one length in them.
 std::vector<Placement> rigid_placements() {
@@ -182,7 +182,7 @@ TEST(PointForms, DisksFaceTheCamera) {
                     }
             const double scale =
                 (in_camera_space(placement, {1, 0, 0}) - in_camera_space(placement, {0, 0, 0})).length();
-            EXPECT_NEAR(area, 2 * kPi * width * width * scale * scale / 4, 2e-3 * area);
+            EXPECT_NEAR(area, 2 * M_PI * width * width * scale * scale / 4, 2e-3 * area);
             const double depths[] = {in_camera_space(placement, {0, 0, 0}).z,
                                      in_camera_space(placement, {2, 1, 0.5}).z};
             for (const DicedGrid& grid : diced.grids)

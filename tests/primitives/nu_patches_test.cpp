@@ -1,14 +1,13 @@
 /// NuPatch (RISpec 5.2) with any knots, orders, weights and ranges against Cox's and de Boor's recurrence as
 /// it stands in books; its trim curves by area; and blobbies of one ball.
 #include <algorithm>
+#include <cmath>
 
 #include "tests/primitives/blends_harness.h"
 #include "tests/primitives/dice_rib_harness.h"
 
 namespace trapeze::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Knots {
     int order;
@@ -153,7 +152,7 @@ TEST(NuPatchForms, TrimCurvesLeaveTheirArea) {
         "TrimCurve [1] [3] [0 0 0 1 1 2 2 3 3 4 4 4] [0] [4] [9] [" + u + "] [" + v + "] [" + w + "] ";
     const std::string patch =
         "NuPatch 2 2 [0 0 1 1] 0 1 2 2 [0 0 1 1] 0 1 \"P\" [-4 -4 0 4 -4 0 -4 4 1 4 4 0]";
-    const double area = kPi * 0.16;
+    const double area = M_PI * 0.16;
     for (const Placement& placement : placements()) {
         SCOPED_TRACE(placement.name);
         const std::string outside = "Attribute \"trimcurve\" \"sense\" \"outside\" ";

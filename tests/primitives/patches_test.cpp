@@ -208,17 +208,17 @@ TEST(PatchForms, ClosedMeshesHaveNoHoles) {
 /// A torus of Bezier patches, five by four, as the coefficients of its polynomials: what is made to meet
 /// does.
 TEST(PatchForms, ClosedMeshesOfCoefficientsHaveNoHoles) {
-    constexpr int kColumns = 5, kRows = 4;
+    constexpr int kMeshColumns = 5, kMeshRows = 4;
     const double bezier[4][4] = {{-1, 3, -3, 1}, {3, -6, 3, 0}, {-3, 3, 0, 0}, {1, 0, 0, 0}};
     const auto control = [](int i, int j) {
-        const double a = 2 * 3.14159265358979 * i / (3 * kColumns),
-                     b = 2 * 3.14159265358979 * j / (3 * kRows);
+        const double a = 2 * 3.14159265358979 * i / (3 * kMeshColumns),
+                     b = 2 * 3.14159265358979 * j / (3 * kMeshRows);
         const double r = 1 + 0.45 * std::cos(b);
         return V3d(r * std::cos(a), r * std::sin(a), 0.45 * std::sin(b));
     };
     std::string points = "\"P\" [";
-    for (int v = 0; v < 4 * kRows; ++v)
-        for (int u = 0; u < 4 * kColumns; ++u) {
+    for (int v = 0; v < 4 * kMeshRows; ++v)
+        for (int u = 0; u < 4 * kMeshColumns; ++u) {
             V3d coefficient(0, 0, 0);
             for (int j = 0; j < 4; ++j)
                 for (int i = 0; i < 4; ++i)
@@ -227,7 +227,7 @@ TEST(PatchForms, ClosedMeshesOfCoefficientsHaveNoHoles) {
             for (int k = 0; k < 3; ++k) points += decimal(coefficient[k]);
         }
     expect_no_leaks("Translate 0 0 1.4 Basis \"power\" \"power\" PatchMesh \"bicubic\" " +
-                        std::to_string(4 * kColumns) + " \"periodic\" " + std::to_string(4 * kRows) +
+                        std::to_string(4 * kMeshColumns) + " \"periodic\" " + std::to_string(4 * kMeshRows) +
                         " \"periodic\" " + points + "]",
                     [](uint32_t n) {
                         const float theta = 6.2831853f * unit_float(hash(n, 1));

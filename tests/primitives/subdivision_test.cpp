@@ -1,12 +1,12 @@
 /// Subdivision meshes where their limits are known: B-splines away from extraordinary vertices, at borders
 /// and at sharp creases; the limit point and normal of vertices of any valence.
+#include <cmath>
+
 #include "tests/primitives/blends_harness.h"
 #include "tests/primitives/dice_rib_harness.h"
 
 namespace trapeze::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// A sheet of so many vertices along each side, of which s and t are the numbers.
 struct Sheet {
@@ -126,7 +126,7 @@ TEST(SubdivisionForms, VerticesOfEveryValence) {
         std::string P = decimal(centre.x) + decimal(centre.y) + decimal(centre.z), counts, vertices;
         for (int i = 0; i < n; ++i) {
             const auto ring = [&](double turn, double radius, uint32_t what) {
-                const double a = 2 * kPi * (i + turn) / n;
+                const double a = 2 * M_PI * (i + turn) / n;
                 const auto eighths = [](double x) { return std::round(x * 64) / 64; };
                 return V3d(
                     eighths(radius * std::cos(a)), eighths(radius * std::sin(a)),
@@ -138,11 +138,11 @@ TEST(SubdivisionForms, VerticesOfEveryValence) {
                         std::to_string(1 + 2 * ((i + 1) % n)) + " ";
             for (const V3d& p : {e.back(), f.back()}) P += decimal(p.x) + decimal(p.y) + decimal(p.z);
         }
-        const double c = std::cos(2 * kPi / n);
-        const double edge = 1 + c + std::cos(kPi / n) * std::sqrt(2 * (9 + c));
+        const double c = std::cos(2 * M_PI / n);
+        const double edge = 1 + c + std::cos(M_PI / n) * std::sqrt(2 * (9 + c));
         for (int i = 0; i < n; ++i) {
             const size_t at = static_cast<size_t>(i);
-            const double a = 2 * kPi * i / n, b = 2 * kPi * (i + 1) / n;
+            const double a = 2 * M_PI * i / n, b = 2 * M_PI * (i + 1) / n;
             sum += e[at] * 4.0 + f[at];
             along += e[at] * (edge * std::cos(a)) + f[at] * (std::cos(a) + std::cos(b));
             across += e[at] * (edge * std::sin(a)) + f[at] * (std::sin(a) + std::sin(b));
