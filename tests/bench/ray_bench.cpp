@@ -1,11 +1,14 @@
-/// Rays as shaders send them, one at a time in any direction, on one thread: towards a light, mirrored, and
-/// over the hemispheres of points; still and moving. Through the wide tree, through its scalar twin, and
-/// through Embree where it is there. All answer the same rays; "hits/ray" tells that they agree.
+/// Rays as shaders send them, in any direction, on one thread: towards a light, mirrored, and over the
+/// hemispheres of points; still and moving. Through the wide tree, through its scalar twin, and through
+/// Embree where it is there, ray by ray and as streams. All answer the same rays; "hits/ray" tells that they
+/// agree.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,9 @@ struct Query {
     DepthRange range;
 };
 
+/// Rays that are asked for in one call, where a tracer takes many: about as many as shading has at a time.
+constexpr size_t kAtOnce = 1024;
+
 /// What rays are for. Occlusion asks whether they hit anything, indirect light and mirrors what.
 enum class Kind : int { Shadow, Mirror, Occlusion, Indirect };
 
@@ -51,7 +57,8 @@ constexpr int kRaysOfPoint = 64;  ///< over a hemisphere; other kinds send one r
 class RayScene {
   public:
     explicit RayScene(bool moves)
-        : scene_({.micropolygons = 1.5e6, .motion_pixels = moves ? 60.0f : 0.0f}), tree_(grids(), {}) {}
+        : scene_({.micropolygons = 1.5e6, .motion_pixels = moves ? 60.0f : 0.0f}),
+          tree_(grids(), {}) {}
 
     const Grids& grids() const { return scene_.maker.grids(); }
     const WideTree& tree() const { return tree_; }
@@ -111,13 +118,26 @@ RayScene& scene_of(bool moves) {
     return *scenes[moves];
 }
 
-/// Tracers under one signature: bytes(), any(), closest().
+/// How many of some rays a tracer says yes of, asked one by one.
+template <class Ask>
+size_t count_of(std::span<const Query> queries, const Ask& ask) {
+    size_t hits = 0;
+    for (const Query& query : queries) hits += ask(query);
+    return hits;
+}
+
+/// Tracers under one signature: bytes(), and how many rays hit, any() and closest().
 class Wide {
   public:
     explicit Wide(const RayScene& scene, bool) : tree_(scene.tree()) {}
     uint64_t bytes() const { return tree_.stats().tree_bytes; }
-    bool any(const Query& query) const { return tree_.any(query.ray, query.range); }
-    bool closest(const Query& query) const { return tree_.closest(query.ray, query.range).has_value(); }
+    size_t any(std::span<const Query> queries) const {
+        return count_of(queries, [&](const Query& query) { return tree_.any(query.ray, query.range); });
+    }
+    size_t closest(std::span<const Query> queries) const {
+        return count_of(
+            queries, [&](const Query& query) { return tree_.closest(query.ray, query.range).has_value(); });
+    }
 
   private:
     const WideTree& tree_;
@@ -127,11 +147,15 @@ class Scalar {
   public:
     explicit Scalar(const RayScene& scene, bool) : tree_(scene.tree()) {}
     uint64_t bytes() const { return tree_.stats().tree_bytes; }
-    bool any(const Query& query) const {
-        return ScalarRay<AnyHit>::traced(tree_, query.ray, query.range).found;
+    size_t any(std::span<const Query> queries) const {
+        return count_of(queries, [&](const Query& query) {
+            return ScalarRay<AnyHit>::traced(tree_, query.ray, query.range).found;
+        });
     }
-    bool closest(const Query& query) const {
-        return ScalarRay<ClosestHit>::traced(tree_, query.ray, query.range).found();
+    size_t closest(std::span<const Query> queries) const {
+        return count_of(queries, [&](const Query& query) {
+            return ScalarRay<ClosestHit>::traced(tree_, query.ray, query.range).found();
+        });
     }
 
   private:
@@ -139,28 +163,45 @@ class Scalar {
 };
 
 #ifdef TRAPEZE_HAVE_EMBREE
-/// Its own two geometries for micropolygons.
-template <bool kQuads>
+/// Its own two geometries for micropolygons. kStream: many rays in one call.
+template <bool kQuads, bool kStream>
 class Embree {
   public:
     explicit Embree(const RayScene& scene, bool moves) : scene_(scene_of(scene, moves)) {}
     uint64_t bytes() const { return scene_.stats().tree_bytes; }
-    bool any(const Query& query) const {
+    size_t any(std::span<const Query> queries) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        RTCRay ray;
-        set_ray(query, ray);
-        rtcOccluded1(scene_.scene(), &context, &ray);
-        return ray.tfar < 0;
+        RTCRay rays[kAtOnce];
+        size_t hits = 0;
+        for (size_t i = 0; i < queries.size(); ++i) {
+            set_ray(queries[i], rays[i]);
+            if (kStream) continue;
+            rtcOccluded1(scene_.scene(), &context, rays + i);
+        }
+        if (kStream)
+            rtcOccluded1M(scene_.scene(), &context, rays, static_cast<unsigned>(queries.size()),
+                          sizeof *rays);
+        for (size_t i = 0; i < queries.size(); ++i) hits += rays[i].tfar < 0;
+        return hits;
     }
-    bool closest(const Query& query) const {
+    size_t closest(std::span<const Query> queries) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        RTCRayHit ray;
-        set_ray(query, ray.ray);
-        ray.hit.geomID = ray.hit.primID = ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_.scene(), &context, &ray);
-        return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        RTCRayHit rays[kAtOnce];
+        size_t hits = 0;
+        for (size_t i = 0; i < queries.size(); ++i) {
+            set_ray(queries[i], rays[i].ray);
+            RTCHit& hit = rays[i].hit;
+            hit.geomID = hit.primID = hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+            if (kStream) continue;
+            rtcIntersect1(scene_.scene(), &context, rays + i);
+        }
+        if (kStream)
+            rtcIntersect1M(scene_.scene(), &context, rays, static_cast<unsigned>(queries.size()),
+                           sizeof *rays);
+        for (size_t i = 0; i < queries.size(); ++i) hits += rays[i].hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        return hits;
     }
 
   private:
@@ -199,10 +240,11 @@ void trace(benchmark::State& state, Kind kind, bool moves) {
     const Tracer tracer(scene, moves);
     size_t rays = 0, hits = 0;
     for (auto _ : state) {
-        if (asks_any(kind))
-            for (const Query& query : queries) hits += tracer.any(query);
-        else
-            for (const Query& query : queries) hits += tracer.closest(query);
+        for (auto left = std::span(queries); !left.empty();
+             left = left.subspan(std::min(left.size(), kAtOnce))) {
+            const auto some = left.first(std::min(left.size(), kAtOnce));
+            hits += asks_any(kind) ? tracer.any(some) : tracer.closest(some);
+        }
         rays += queries.size();
     }
     state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
@@ -245,8 +287,10 @@ void add(const char* tracer) {
     add<Scalar>("scalar");
     add<Wide>("wide");
 #ifdef TRAPEZE_HAVE_EMBREE
-    add<Embree<false>>("embree_grids");
-    add<Embree<true>>("embree_quads");
+    add<Embree<false, false>>("embree_grids");
+    add<Embree<true, false>>("embree_quads");
+    add<Embree<false, true>>("embree_grids_stream");
+    add<Embree<true, true>>("embree_quads_stream");
 #endif
     return true;
 }();
