@@ -7,6 +7,7 @@
 
 #include "core/files/module.h"
 #include "core/grid.h"
+#include "core/simd/simd_limit.h"
 #include "core/stats.h"
 #include "sample/visibility.h"
 
@@ -29,6 +30,15 @@ struct EmbreeChoices {
     std::string device;                 ///< the device's configuration, in Embree's words
     float near_clip = 0, far_clip = 0;  ///< hits are between, the far end included
 };
+
+/// The device's configuration: Embree is held to what our own vector code may use, so that both can be
+/// compared. Threads are those of the calling task arena.
+inline std::string embree_device() {
+    const std::string_view limit = simd_limit();
+    if (limit == "sse4") return "isa=sse4.2";
+    if (limit == "avx2") return "isa=avx2";
+    return "";
+}
 
 /// A tree of Embree's over grids, which outlive it.
 class EmbreeTracer {

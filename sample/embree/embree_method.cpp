@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "core/simd/simd_limit.h"
 #include "sample/embree/embree_library.h"
 #include "sample/hit_lists.h"
 #include "sample/raytrace/tile_order.h"
@@ -28,15 +27,6 @@ void drop_repeated(std::vector<LooseHits::Entry>& entries) {
     std::ranges::sort(entries, {}, [](const Entry& e) { return std::tuple(e.sample, e.id, e.depth); });
     const auto same = [](const Entry& a, const Entry& b) { return a.sample == b.sample && a.id == b.id; };
     entries.erase(std::unique(entries.begin(), entries.end(), same), entries.end());
-}
-
-/// The device's configuration: Embree is held to what our own vector code may use, so that both can be
-/// compared. Threads are those of the calling task arena.
-std::string device_config() {
-    const std::string_view limit = simd_limit();
-    if (limit == "sse4") return "isa=sse4.2";
-    if (limit == "avx2") return "isa=avx2";
-    return "";
 }
 
 /// Throws when the module cannot be opened; the method's check, which choose_sampler() asks, has said so
@@ -128,7 +118,7 @@ EmbreeChoices choices_of(const VisibilityInput& input) {
             quality_of(input.spec["quality"]),
             mode_of(input.spec["mode"]),
             input.grids.max_key_count() > 1,
-            device_config(),
+            embree_device(),
             camera.near_clip,
             camera.far_clip};
 }

@@ -1,7 +1,7 @@
 /// Rays as shaders send them, in any direction, on one thread: towards a light, mirrored, and over the
 /// hemispheres of points; still and moving. Through the wide tree, through its scalar twin, and through
 /// Embree where it is there, ray by ray and as streams. All answer the same rays; "hits/ray" tells that they
-/// agree.
+/// agree. `--simd NAME` limits the instruction set, Embree's, too.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include "accel/wide/single_ray.h"
 #include "accel/wide/wide_tree.h"
 #include "sampling_scenes.h"
+#include "tests/bench/run_benchmarks.h"
 #ifdef TRAPEZE_HAVE_EMBREE
 #include "sample/embree/embree_scene.h"
 #endif
@@ -57,8 +58,7 @@ constexpr int kRaysOfPoint = 64;  ///< over a hemisphere; other kinds send one r
 class RayScene {
   public:
     explicit RayScene(bool moves)
-        : scene_({.micropolygons = 1.5e6, .motion_pixels = moves ? 60.0f : 0.0f}),
-          tree_(grids(), {}) {}
+        : scene_({.micropolygons = 1.5e6, .motion_pixels = moves ? 60.0f : 0.0f}), tree_(grids(), {}) {}
 
     const Grids& grids() const { return scene_.maker.grids(); }
     const WideTree& tree() const { return tree_; }
@@ -210,7 +210,7 @@ class Embree {
         static std::unique_ptr<EmbreeScene> scenes[2];
         if (!scenes[moves]) {
             EmbreeChoices choices;
-            choices.quads = kQuads, choices.motion = moves;
+            choices.quads = kQuads, choices.motion = moves, choices.device = embree_device();
             scenes[moves] = std::make_unique<EmbreeScene>(scene.grids(), choices, nullptr);
         }
         return *scenes[moves];
@@ -297,3 +297,7 @@ void add(const char* tracer) {
 
 }  // namespace
 }  // namespace trapeze
+
+int main(int argc, char** argv) {
+    return trapeze::run_benchmarks(argc, argv);
+}

@@ -9,13 +9,11 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
 
-#include "core/simd/simd_limit.h"
 #include "shade/materials/shader_folder_harness.h"
 #include "shade/shading.h"
 #include "shade/vm/compile_shader.h"
+#include "tests/bench/run_benchmarks.h"
 
 namespace trapeze {
 namespace {
@@ -214,20 +212,5 @@ BENCHMARK(compile_500_lines)->Unit(benchmark::kMillisecond);
 }  // namespace trapeze
 
 int main(int argc, char** argv) {
-    for (int i = 1; i + 1 < argc; ++i) {
-        if (std::strcmp(argv[i], "--simd") != 0) continue;
-        std::string error;
-        if (!trapeze::limit_simd(argv[i + 1], &error)) {
-            std::fprintf(stderr, "shade_bench: %s\n", error.c_str());
-            return 2;
-        }
-        // Google Benchmark takes it for a mistake.
-        std::copy(argv + i + 2, argv + argc, argv + i);
-        argc -= 2;
-        break;
-    }
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
-    return 0;
+    return trapeze::run_benchmarks(argc, argv);
 }
