@@ -43,6 +43,7 @@ class GatheredSamples final : public SampleSink {
         return &rgba_[4 * slots_[index(pixel)].first[0]];
     }
     const float* first_times(const PixelPlace& pixel) const { return &times_[slots_[index(pixel)].first[0]]; }
+    size_t sample_count(const PixelPlace& pixel) const { return slots_[index(pixel)].count(); }
     /// Whether any sample shows anything.
     bool shows_something() const { return shows_something_; }
 

@@ -73,7 +73,8 @@ std::optional<Comparison> compare(const SharedFrame& frame, const CompareSetting
     comparison.reference = std::move(*reference);
     for (ComparedMethod& method : comparison.methods) {
         begin_stage("picture of " + method.result.method + " at " + rate_text(method.result.rate));
-        auto picture = make_picture(frame, method.result.sampler, method.result.rate, settings.on_progress);
+        auto picture = make_picture(frame, method.result.sampler, method.result.rate, settings.on_progress,
+                                    method.result.variance);
         if (!picture) return {};
         method.picture = std::move(*picture);
         method.rmse = rms_difference(method.picture.image, comparison.reference);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/compare/compare_harness.h"
+#include "pipeline/compare/report/html_report.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/table.h"
 #include "pipeline/compare/value_text.h"
@@ -59,6 +60,34 @@ TEST(Compare, HeatMapsAddUpToTheCounts) {
         EXPECT_EQ(shared.frame->pixels, heat.pixels);
         EXPECT_NEAR(tests, static_cast<double>(m.result.sample.predicate_tests), 0.5) << m.result.method;
     }
+}
+
+/// A row of its own where the rate has levels, which takes no part in the contest.
+TEST(Compare, AdaptiveSamplesAreARowOfTheirOwn) {
+    const SharedScene shared("filter_box.rib");
+    CompareSettings settings = settings_of({"interval", "raytrace"}, {{1, 1}, {8, 8}});
+    settings.measure.variance = 1e-3f;
+    const auto c = compare(*shared.frame, settings);
+    ASSERT_TRUE(c);
+    ASSERT_EQ(c->methods.size(), 5u);
+    const ComparedMethod &whole = c->methods[3], &adaptive = c->methods[4];
+    EXPECT_EQ(adaptive.result.method, "raytrace adaptive");
+    EXPECT_EQ(whole.result.samples_per_pixel(), 64);
+    EXPECT_GT(adaptive.result.samples_per_pixel(), 16);
+    EXPECT_LT(adaptive.result.samples_per_pixel(), 64);
+    EXPECT_GT(adaptive.rmse, whole.rmse);
+    EXPECT_LT(adaptive.rmse, 3 * whole.rmse);
+    double samples = 0;
+    for (const float count : adaptive.picture.heat.samples) {
+        ASSERT_TRUE(count == 16 || count == 64) << count;
+        samples += static_cast<double>(count);
+    }
+    EXPECT_EQ(samples, static_cast<double>(adaptive.result.sample.rays));
+    for (const float count : whole.picture.heat.samples) ASSERT_EQ(count, 64);
+    EXPECT_THAT(c->verdict, ::testing::Contains(HasSubstr("raytrace adaptive takes")));
+    EXPECT_THAT(c->verdict.back(), ::testing::Not(HasSubstr("adaptive")));
+    EXPECT_EQ(to_json(adaptive.result)["variance"].get<float>(), 1e-3f);
+    EXPECT_THAT(html_report(*c), HasSubstr("data-kind=\"samples\""));
 }
 
 TEST(Compare, TheBaselineIsTheDefaultRayTracerIfItIsThere) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "pipeline/compare/sample_groups.h"
+#include "pipeline/frame/resolve_tiles.h"
 #include "pipeline/frame/stopwatch.h"
 
 namespace trapeze {
@@ -28,24 +29,26 @@ std::string pattern_name(const MethodSpec& pattern) {
 class RateRun {
   public:
     RateRun(const SharedFrame& frame, const std::vector<Sampler>& samplers, SampleRate rate,
-            size_t sample_bytes)
+            const MeasureSettings& settings)
         : frame_(frame),
           context_(frame.context_at(rate)),
-          bytes_each_(sample_bytes / std::max<size_t>(1, samplers.size())) {
+          bytes_each_(settings.sample_bytes / std::max<size_t>(1, samplers.size())) {
         for (const Sampler& sampler : samplers) {
-            MethodResult& result = results_.emplace_back();
-            result.sampler = sampler;
-            result.method = sampler.name();
-            result.pattern = pattern_name(sampler.pattern);
-            result.rate = rate;
-            result.micropolygons = frame.grids.micropolygon_count();
+            const MethodResult& result = add(sampler, rate);
             auto& pattern = patterns_[result.pattern];
             if (!pattern) pattern = sampler.make_pattern(context_);
         }
+        if (frame.adaptive_context(rate, settings.variance).sample_levels <= 1) return;
+        const auto taker = std::ranges::find_if(samplers, &Sampler::takes_levels);
+        if (taker == samplers.end()) return;
+        MethodResult& adaptive = add(*taker, rate);
+        adaptive.method += " adaptive", adaptive.variance = settings.variance;
     }
 
+    size_t turns() const { return results_.size(); }
     void take_turn(size_t method) {
         MethodResult& result = results_[method];
+        if (result.variance > 0) return take_adaptive_turn(result);
         const SamplePattern& pattern = *patterns_[result.pattern];
         Stopwatch watch;
         const auto visibility = result.sampler.prepare(context_, frame_.grids);
@@ -81,6 +84,34 @@ class RateRun {
     std::vector<MethodResult>& results() { return results_; }
 
   private:
+    MethodResult& add(const Sampler& sampler, SampleRate rate) {
+        MethodResult& result = results_.emplace_back();
+        result.sampler = sampler;
+        result.method = sampler.name();
+        result.pattern = pattern_name(sampler.pattern);
+        result.rate = rate;
+        result.micropolygons = frame_.grids.micropolygon_count();
+        result.pixels = static_cast<uint64_t>(frame_.pixels.width()) * frame_.pixels.height();
+        return result;
+    }
+
+    /// As a render has it: where more samples are taken depends on what the film makes of the first ones.
+    void take_adaptive_turn(MethodResult& result) const {
+        const RenderContext context = frame_.adaptive_context(result.rate, result.variance);
+        const auto pattern = result.sampler.make_pattern(context);
+        Stopwatch watch;
+        const auto visibility = result.sampler.prepare(context, frame_.grids);
+        const double prepared = watch.lap();
+        result.build = visibility->build_stats();
+        result.build_seconds.push_back(prepared - result.build.setup_seconds);
+        Film film(context);
+        FrameStats stats;
+        resolve_tiles(context, frame_.pixels, frame_.grids, *visibility, *pattern, film, stats, [] {},
+                      {context.most_layers});
+        result.resolve_seconds.push_back(stats.seconds.trace);
+        result.sample = stats.sample;
+    }
+
     /// Methods of one pattern and tile size share their samples.
     SampleGroups& groups_of(const MethodResult& result) {
         const auto key = std::pair{result.pattern, result.tile_side};
@@ -128,17 +159,16 @@ MethodResult::Spread MethodResult::total_spread() const {
 std::vector<MethodResult> measure(const SharedFrame& frame, const std::vector<Sampler>& samplers,
                                   const std::vector<SampleRate>& rates, const MeasureSettings& settings) {
     std::vector<MethodResult> all;
-    const size_t turns = rates.size() * samplers.size() * static_cast<size_t>(settings.rounds);
-    size_t done = 0;
-    for (const SampleRate& rate : rates) {
-        RateRun run(frame, samplers, rate, settings.sample_bytes);
-        for (int round = 0; round < settings.rounds; ++round)
-            for (size_t method = 0; method < samplers.size(); ++method) {
-                run.take_turn(method);
-                if (frame.context.is_cancelled()) return {};
-                if (settings.on_progress)
-                    settings.on_progress(static_cast<double>(++done) / static_cast<double>(turns));
-            }
+    for (size_t r = 0; r < rates.size(); ++r) {
+        RateRun run(frame, samplers, rates[r], settings);
+        const size_t turns = run.turns() * static_cast<size_t>(settings.rounds);
+        for (size_t turn = 0; turn < turns; ++turn) {
+            run.take_turn(turn % run.turns());
+            if (frame.context.is_cancelled()) return {};
+            const double done = static_cast<double>(turn + 1) / static_cast<double>(turns);
+            if (settings.on_progress)
+                settings.on_progress((static_cast<double>(r) + done) / static_cast<double>(rates.size()));
+        }
         std::move(run.results().begin(), run.results().end(), std::back_inserter(all));
     }
     return all;

@@ -19,12 +19,14 @@ double median(std::vector<double> values);
 struct MethodResult {
     Sampler sampler;
     std::string method, pattern;  ///< as a user would name them
-    SampleRate rate;
+    SampleRate rate;              ///< of adaptive sampling: at most
+    float variance = 0;           ///< that adaptive sampling is to reach; 0: all pixels have all samples
     std::vector<double> build_seconds, resolve_seconds;  ///< wall clock, by round
     BuildStats build;
     SampleStats sample;  ///< counts of one round; every round's are the same
     uint64_t hits = 0;   ///< hits found and kept: up to the first opaque one of each sample
     uint64_t micropolygons = 0;
+    uint64_t pixels = 0;        ///< that samples are of
     int tile_side = kTileSide;  ///< pixels
 
     /// Medians, in seconds; the total is the median of the rounds' sums.
@@ -37,6 +39,7 @@ struct MethodResult {
     };
     Spread total_spread() const;
 
+    double samples_per_pixel() const { return ratio(sample.rays, pixels); }
     double samples_per_second() const { return ratio(static_cast<double>(sample.rays), resolve_median()); }
     double tests_per_sample() const { return ratio(sample.predicate_tests, sample.rays); }
     /// Predicate tests for each one that the predicate answers with yes.
@@ -58,11 +61,13 @@ struct MeasureSettings {
     int rounds = 3;
     size_t sample_bytes = size_t{2} << 30;         ///< samples made ahead may take this much
     std::function<void(double)> on_progress = {};  ///< part done in [0, 1], after every turn
+    /// Above 0: the first sampler that can takes adaptive samples, too, as a row of its own.
+    float variance = 0;
 };
 
 /// At each sample rate, `rounds` times: every sampler in turn prepares and resolves the whole picture, with
-/// the threads of the calling task arena. The results are in the order of the rates, then of the samplers.
-/// Empty when cancelled.
+/// the threads of the calling task arena. The results are in the order of the rates, then of the samplers;
+/// behind these, adaptive samples, whose time includes making them and deciding where. Empty when cancelled.
 std::vector<MethodResult> measure(const SharedFrame& frame, const std::vector<Sampler>& samplers,
                                   const std::vector<SampleRate>& rates, const MeasureSettings& settings);
 

@@ -22,7 +22,8 @@ std::optional<MethodPicture> resolve(const SharedFrame& frame, const RenderConte
     Film film(context);
     FrameStats stats;
     Progress progress(on_progress);
-    progress.begin_part(0, 1, tiles_of(frame.pixels, visibility->tile_side()).size());
+    progress.begin_part(
+        0, 1, tiles_of(frame.pixels, context.sample_levels > 1 ? kTileSide : visibility->tile_side()).size());
     resolve_tiles(
         context, frame.pixels, frame.grids, *visibility, *pattern, film, stats,
         [&progress] { progress.step(); }, {context.most_layers}, with_heat ? &heat : nullptr);
@@ -37,6 +38,7 @@ HeatMap cut(const HeatMap& heat, const PixelRect& pixels) {
         for (int x = pixels.x0; x < pixels.x1; ++x) {
             part.tests[part.index(x, y)] = heat.tests[heat.index(x, y)];
             part.nodes[part.index(x, y)] = heat.nodes[heat.index(x, y)];
+            part.samples[part.index(x, y)] = heat.samples[heat.index(x, y)];
         }
     return part;
 }
@@ -44,8 +46,10 @@ HeatMap cut(const HeatMap& heat, const PixelRect& pixels) {
 }  // namespace
 
 std::optional<MethodPicture> make_picture(const SharedFrame& frame, const Sampler& sampler, SampleRate rate,
-                                          const std::function<void(double)>& on_progress) {
-    auto picture = resolve(frame, frame.context_at(rate), sampler, on_progress, true);
+                                          const std::function<void(double)>& on_progress, float variance) {
+    const RenderContext context =
+        variance > 0 ? frame.adaptive_context(rate, variance) : frame.context_at(rate);
+    auto picture = resolve(frame, context, sampler, on_progress, true);
     if (picture) picture->heat = cut(picture->heat, picture->image.window);
     return picture;
 }

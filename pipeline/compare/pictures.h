@@ -19,10 +19,12 @@ struct MethodPicture {
     HeatMap heat;  ///< of the picture's pixels
 };
 
-/// Renders the frame as a method sees it at a sample rate, with the threads of the calling task arena. Empty
-/// when cancelled. `on_progress` gets the part done in [0, 1], from any thread, one call at a time.
+/// Renders the frame as a method sees it at a sample rate, or with adaptive samples for a `variance` above 0,
+/// with the threads of the calling task arena. Empty when cancelled. `on_progress` gets the part done in [0,
+/// 1], from any thread, one call at a time.
 std::optional<MethodPicture> make_picture(const SharedFrame& frame, const Sampler& sampler, SampleRate rate,
-                                          const std::function<void(double)>& on_progress = {});
+                                          const std::function<void(double)>& on_progress = {},
+                                          float variance = 0);
 
 /// Renders the frame with side x side stratified samples a pixel, which are other samples than any that
 /// make_picture() takes. Empty when cancelled.

@@ -7,6 +7,8 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
             {"pattern", r.pattern},
             {"samples_x", r.rate.x},
             {"samples_y", r.rate.y},
+            {"variance", r.variance},
+            {"samples_per_pixel", r.samples_per_pixel()},
             {"build_seconds", r.build_median()},
             {"resolve_seconds", r.resolve_median()},
             {"total_seconds", r.total_median()},

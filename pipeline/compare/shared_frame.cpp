@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "core/scene/adaptive_sampling.h"
 #include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/make_grids.h"
 #include "pipeline/rays/light_meshes.h"
@@ -32,6 +33,16 @@ std::optional<Region> whole_region(const SharedFrame& frame, const Tessellation&
 }
 
 }  // namespace
+
+RenderContext SharedFrame::adaptive_context(SampleRate most, float variance) const {
+    Options options = scene->options;
+    options.samples_x = static_cast<float>(most.x), options.samples_y = static_cast<float>(most.y);
+    options.adaptive = true, options.pixel_variance = variance;
+    const AdaptiveSampling sampling = adaptive_sampling(options);
+    RenderContext adaptive = context_at({sampling.samples_x, sampling.samples_y});
+    adaptive.sample_levels = sampling.levels, adaptive.pixel_variance = sampling.variance;
+    return adaptive;
+}
 
 std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& settings,
                                        Diagnostics& diagnostics) {

@@ -33,6 +33,9 @@ struct SharedFrame {
         at_rate.samples_x = rate.x, at_rate.samples_y = rate.y;
         return at_rate;
     }
+    /// The context at which pixels take as many samples as a variance asks for, the rate's at most (rounded
+    /// up to what has levels); with one level, where that is not possible at the rate.
+    RenderContext adaptive_context(SampleRate most, float variance) const;
 };
 
 /// The Diagnostic::kind of the error that a frame does not fit the memory.

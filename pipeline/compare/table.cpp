@@ -41,6 +41,8 @@ const std::vector<TableColumn>& table_columns() {
          seconds_text},
         {"ratio", "Total to the baseline's total at the same sample rate.",
          [](const M& m) { return m.ratio; }, number_text},
+        {"samples/pixel", "Samples a pixel, the mean: adaptive sampling takes as many as each needs.",
+         [](const M& m) { return m.result.samples_per_pixel(); }, number_text},
         {"samples/s", "Millions of samples a second of trace or raster time.",
          [](const M& m) { return m.result.samples_per_second(); }, rate_per_second},
         {"tests/sample", "Micropolygons tested exactly, a sample.",

@@ -23,6 +23,11 @@ bool counts_tests(const MethodResult& r) {
     return r.sample.predicate_tests > 0;
 }
 
+/// Other samples than those of the rest: it is no contest.
+bool is_adaptive(const MethodResult& r) {
+    return r.variance > 0;
+}
+
 /// Tests without a hit for each hit: what a method's culls let through.
 double misses_per_hit(const MethodResult& r) {
     return std::max(0.0, r.tests_per_hit() - 1);
@@ -51,7 +56,7 @@ constexpr double kEqualHits = 0.01;
 const MethodResult* opponent_of(const Comparison& c, const MethodResult& r) {
     const MethodResult* judge = nullptr;
     for (const ComparedMethod* m : c.at(r.rate)) {
-        if (m->result.pattern != r.pattern) continue;
+        if (m->result.pattern != r.pattern || is_adaptive(m->result)) continue;
         if (!judge || m->result.method == c.baseline) judge = &m->result;
     }
     const auto wanted = static_cast<double>(judge->hits), found = static_cast<double>(r.hits);
@@ -62,7 +67,7 @@ const MethodResult* opponent_of(const Comparison& c, const MethodResult& r) {
 std::string disagreement_sentences(const Comparison& c) {
     std::string text;
     for (const ComparedMethod& m : c.methods)
-        if (const MethodResult* opponent = opponent_of(c, m.result))
+        if (const MethodResult* opponent = is_adaptive(m.result) ? nullptr : opponent_of(c, m.result))
             text += fmt::format(
                 "{}At {} samples {} finds {} hits where {} finds {} with the same samples; it takes no part "
                 "in "
@@ -75,7 +80,7 @@ std::string disagreement_sentences(const Comparison& c) {
 /// Whether a method takes part in the contest: references do not, nor methods that find other hits than the
 /// rest on the same samples.
 bool takes_part(const Comparison& c, const MethodResult& r) {
-    return kind_of(r) != MethodKind::Reference && !opponent_of(c, r);
+    return kind_of(r) != MethodKind::Reference && !is_adaptive(r) && !opponent_of(c, r);
 }
 
 /// The contest at one sample rate; null where a kind is not there.
@@ -190,7 +195,9 @@ std::string growth_sentence(const Comparison& c) {
 std::string error_sentence(const Comparison& c) {
     if (c.rates.empty()) return {};
     auto methods = c.at(c.rates.back());
-    std::erase_if(methods, [&](const ComparedMethod* m) { return opponent_of(c, m->result) != nullptr; });
+    std::erase_if(methods, [&](const ComparedMethod* m) {
+        return is_adaptive(m->result) || opponent_of(c, m->result) != nullptr;
+    });
     if (methods.size() < 2) return {};
     const auto by_error = [](const ComparedMethod* a, const ComparedMethod* b) { return a->rmse < b->rmse; };
     const auto [least, most] = std::minmax_element(methods.begin(), methods.end(), by_error);
@@ -200,6 +207,24 @@ std::string error_sentence(const Comparison& c) {
            fmt::format("the error is least with {} (RMSE {}, pattern {}) and largest with {} ({}, {}).",
                        (*least)->result.method, number_text((*least)->rmse), (*least)->result.pattern,
                        (*most)->result.method, number_text((*most)->rmse), (*most)->result.pattern);
+}
+
+/// What adaptive sampling takes of the time of the same method's whole pattern, and for which error.
+std::string adaptive_sentence(const Comparison& c, SampleRate rate) {
+    const auto methods = c.at(rate);
+    const auto adaptive = std::ranges::find_if(methods, is_adaptive, &ComparedMethod::result);
+    if (adaptive == methods.end()) return {};
+    const auto whole = std::ranges::find_if(methods, [&](const ComparedMethod* m) {
+        return !is_adaptive(m->result) && m->result.sampler.name() == (*adaptive)->result.sampler.name();
+    });
+    const MethodResult &some = (*adaptive)->result, &all = (*whole)->result;
+    return fmt::format(
+        "Of {} samples a pixel {} takes {} in the mean for the variance {}, and {} of the time of {}; its RMSE "
+        "is {} instead of {}.",
+        rate.per_pixel(), some.method, number_text(some.samples_per_pixel()),
+        number_text(static_cast<double>(some.variance)),
+        number_text(some.total_median() / all.total_median()), all.method, number_text((*adaptive)->rmse),
+        number_text((*whole)->rmse));
 }
 
 /// The fastest method, or the baseline where its time cannot be told apart from that.
@@ -238,6 +263,7 @@ std::vector<std::string> judge(const Comparison& comparison) {
     for (const SampleRate& rate : comparison.rates) sentences.push_back(rate_sentence(comparison, rate));
     sentences.push_back(growth_sentence(comparison));
     sentences.push_back(error_sentence(comparison));
+    for (const SampleRate& rate : comparison.rates) sentences.push_back(adaptive_sentence(comparison, rate));
     sentences.push_back(conclusion(comparison));
     std::erase_if(sentences, [](const std::string& sentence) { return sentence.empty(); });
     return sentences;

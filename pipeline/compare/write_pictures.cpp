@@ -74,6 +74,7 @@ bool write_pictures(const Comparison& comparison, const SharedFrame& frame, cons
         writer.write(image, name, "rgba");
         writer.write(image, method.picture.heat.tests, name + "_tests");
         writer.write(image, method.picture.heat.nodes, name + "_nodes");
+        if (method.result.variance > 0) writer.write(image, method.picture.heat.samples, name + "_samples");
     }
     return writer.good();
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "pipeline/frame/resolve_tiles.h"
 #include "pipeline/frame/stopwatch.h"
 
 namespace trapeze {
@@ -58,6 +59,11 @@ uint64_t AdaptiveTile::add(const AdaptiveTask& task, const PixelRect& pixels, La
     task.film.add(gathered_);
     composite_seconds_ += watch.lap();
     return count;
+}
+
+void AdaptiveTile::count_samples(HeatMap& heat) const {
+    for (const PixelPlace& pixel : all_)
+        heat.samples[heat.index(pixel.x, pixel.y)] = static_cast<float>(gathered_.sample_count(pixel));
 }
 
 /// Finds what the samples of some pixels see that levels `from` to `to` add.

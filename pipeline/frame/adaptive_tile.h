@@ -14,6 +14,8 @@
 
 namespace trapeze {
 
+struct HeatMap;
+
 /// Where an adaptive tile's samples come from and go.
 struct AdaptiveTask {
     const RenderContext& context;
@@ -43,6 +45,9 @@ class AdaptiveTile {
     /// Samples a square and adds it to the film; returns how many samples that took.
     uint64_t add(const AdaptiveTask& task, const PixelRect& pixels, LayerPasses& passes,
                  SampleScratch& scratch, SampleStats& stats);
+
+    /// How many samples each pixel of the last square has taken.
+    void count_samples(HeatMap& heat) const;
 
     double pattern_seconds() const { return pattern_seconds_; }
     double composite_seconds() const { return composite_seconds_; }

@@ -45,6 +45,7 @@ void take_heat(const TileResolver& resolver, HeatMap& heat) {
             const size_t first = samples.first_of_pixel(x, y), at = heat.index(x, y);
             heat.tests[at] = mean(resolver.heat.tests, first);
             heat.nodes[at] = mean(resolver.heat.nodes, first);
+            heat.samples[at] = static_cast<float>(count);
         }
 }
 
@@ -65,6 +66,7 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
             resolver.sample_count +=
                 resolver.adaptive.add({context, pattern, visibility, grids, all_opaque, limits, film},
                                       tiles[i], resolver.passes, resolver.scratch, resolver.stats);
+            if (heat) resolver.adaptive.count_samples(*heat);
             on_step();
             return;
         }

@@ -12,15 +12,19 @@
 
 namespace trapeze {
 
-/// What the samples of each pixel cost a method, means over the pixel's samples. All zero for a method that
-/// does not say.
+/// What the samples of each pixel cost a method, means over the pixel's samples, all zero for a method that
+/// does not say, or has adaptive samples; and how many samples there were.
 struct HeatMap {
     PixelRect pixels;
     std::vector<float> tests, nodes;  ///< row by row; see SampleHeat
+    std::vector<float> samples;
 
     HeatMap() = default;
     explicit HeatMap(const PixelRect& of)
-        : pixels(of), tests(static_cast<size_t>(of.width()) * of.height()), nodes(tests.size()) {}
+        : pixels(of),
+          tests(static_cast<size_t>(of.width()) * of.height()),
+          nodes(tests.size()),
+          samples(tests.size()) {}
     size_t index(int x, int y) const {
         return static_cast<size_t>(y - pixels.y0) * pixels.width() + static_cast<size_t>(x - pixels.x0);
     }
@@ -28,7 +32,7 @@ struct HeatMap {
 
 /// Finds what every sample of some pixels sees and adds it to the film, with the threads of the calling task
 /// arena. Adds to the stats; calls `on_step` once for each rectangle of tiles_of(pixels, side of a tile).
-/// A pattern with levels is sampled adaptively, by a method that takes lists, without a heat map.
+/// A pattern with levels is sampled adaptively, by a method that takes lists.
 /// Layers are those that `limits` allow. Fills `heat` (of those pixels) when there is one.
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,

@@ -85,6 +85,7 @@ CompareSettings CompareJob::settings_for(const SharedFrame& frame) {
         settings.samplers = *parse_samplers(options_.samplers, arguments_.pattern, &error);
     }
     settings.measure.rounds = options_.rounds;
+    settings.measure.variance = arguments_.variance.value_or(0);
     settings.reference_side = options_.reference_side;
     settings.on_stage = [this](const std::string& what) {
         terminal_.begin_progress(what, {arguments_.inputs.front(), what, frame_number_});

@@ -150,6 +150,10 @@ void add_rounds_option(CLI::App& app, int& rounds) {
 
 }  // namespace
 
+void add_variance_option(CLI::App& app, Arguments& a, const char* what) {
+    app.add_option("--variance", a.variance, what)->check(in_range(1e-12f, 1e6f))->type_name("V");
+}
+
 void add_render_options(CLI::App& app, Arguments& a) {
     add_inputs(app, a);
     add_file(app, "-o,--output", a.output,
@@ -159,10 +163,8 @@ void add_render_options(CLI::App& app, Arguments& a) {
     add_parsed(app, "--samples", a.samples, parse_sample_rates,
                "samples per pixel; MIN..MAX: as many as --variance asks for", "N|NxM|MIN..MAX",
                ", each from 1 to 64; MAX is twice or four times MIN, as in 4x4..16x16");
-    app.add_option("--variance", a.variance,
-                   "adaptive sampling: the variance of linear values that pixels are to have, as 0.0001")
-        ->check(in_range(1e-12f, 1e6f))
-        ->type_name("V");
+    add_variance_option(
+        app, a, "adaptive sampling: the variance of linear values that pixels are to have, as 0.0001");
     add_number(app, "--max-layers", a.most_layers, 1, static_cast<int>(kMostLayers),
                "a sample sees the nearest M layers of surfaces, as by Hider \"maxvpdepth\"", "M");
     add_frame_options(app, a);
@@ -220,6 +222,8 @@ void add_compare_options(CLI::App& app, Arguments& a) {
     add_parsed(app, "--samples", c.samples, parse_samples_list,
                "samples per pixel to compare at (default: the scene's)", "LIST like 1x1,4x4,8x8",
                ", each from 1 to 64");
+    add_variance_option(app, a,
+                        "a row of adaptive sampling, too: the variance that pixels are to have, as 0.0001");
     add_number(app, "--reference", c.reference_side, 1, 64,
                "NxN samples per pixel of the picture that errors are to", "N")
         ->capture_default_str();

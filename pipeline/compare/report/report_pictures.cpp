@@ -22,7 +22,8 @@ constexpr double kPixelBudget = 16e6;
 struct Scales {
     int shrink = 1;
     std::vector<float> differences;  ///< by sample rate
-    HeatScale tests, nodes;
+    HeatScale tests, nodes, samples;
+    bool some_adaptive = false;
 };
 
 /// Scales that all pictures of a report share, so that they can be compared by eye. Pictures are shrunk by
@@ -33,12 +34,14 @@ Scales scales_of(const Comparison& c) {
         static_cast<double>(c.reference.z.size()) * (1 + 4.0 * static_cast<double>(c.methods.size()));
     while (pixels / (scales.shrink * scales.shrink) > kPixelBudget) ++scales.shrink;
     for (const SampleRate& rate : c.rates) scales.differences.push_back(difference_scale(c, rate));
-    std::vector<const std::vector<float>*> tests, nodes;
+    std::vector<const std::vector<float>*> tests, nodes, samples;
     for (const ComparedMethod& method : c.methods) {
         tests.push_back(&method.picture.heat.tests);
         nodes.push_back(&method.picture.heat.nodes);
+        samples.push_back(&method.picture.heat.samples);
+        scales.some_adaptive |= method.result.variance > 0;
     }
-    scales.tests = heat_scale(tests), scales.nodes = heat_scale(nodes);
+    scales.tests = heat_scale(tests), scales.nodes = heat_scale(nodes), scales.samples = heat_scale(samples);
     return scales;
 }
 
@@ -56,6 +59,15 @@ std::string heat_image(const std::vector<float>& map, const PixelRect& window, i
                  std::string(kind) + " of " + method);
 }
 
+/// How many samples pixels took, or a sentence where all took the same.
+std::string samples_image(const ComparedMethod& m, const Scales& scales) {
+    if (m.result.variance > 0)
+        return heat_image(m.picture.heat.samples, m.picture.image.window, scales.shrink, scales.samples,
+                          "samples", m.result.method);
+    return fmt::format("<p class=\"none\" data-kind=\"samples\">{} samples in all pixels</p>\n",
+                       m.result.rate.per_pixel());
+}
+
 /// A method's picture, its difference to the reference, and its heat maps at one sample rate; a script shows
 /// one of them at a time.
 std::string method_figure(const ComparedMethod& m, const Comparison& c, const Scales& scales) {
@@ -70,6 +82,7 @@ std::string method_figure(const ComparedMethod& m, const Comparison& c, const Sc
                  "difference", "difference of " + name + " to the reference") +
            heat_image(m.picture.heat.tests, picture.window, scales.shrink, scales.tests, "tests", name) +
            heat_image(m.picture.heat.nodes, picture.window, scales.shrink, scales.nodes, "nodes", name) +
+           (scales.some_adaptive ? samples_image(m, scales) : "") +
            fmt::format(
                "<figcaption><strong>{}</strong> at {}<span>RMSE {} &middot; "
                "{}</span></figcaption>\n</figure>\n",
@@ -81,12 +94,13 @@ std::string button(const char* group, const std::string& value, const std::strin
     return fmt::format("<button data-{}=\"{}\">{}</button>", group, escaped(value), escaped(text));
 }
 
-std::string toolbar(const Comparison& c) {
+std::string toolbar(const Comparison& c, bool some_adaptive) {
     std::string out = "<div class=\"toolbar\">\n<div class=\"choice\"><span>Samples</span>";
     for (const SampleRate& rate : c.rates) out += button("rate", rate_text(rate), rate_text(rate));
     out += "</div>\n<div class=\"choice\"><span>Show</span>" + button("kind", "picture", "Picture") +
            button("kind", "difference", "Difference") + button("kind", "tests", "Tests") +
-           button("kind", "nodes", "Nodes");
+           button("kind", "nodes", "Nodes") +
+           (some_adaptive ? button("kind", "samples", "Samples a pixel") : "");
     return out + "</div>\n</div>\n";
 }
 
@@ -103,7 +117,7 @@ std::string legend(const HeatScale& scale, const char* kind, const char* what) {
     for (float decade = 1; decade < 0.6f * scale.top; decade *= 10) tick(decade);
     tick(scale.top);
     return fmt::format(
-        "<div class=\"scale\" data-kind=\"{}\"><p>{} per sample, logarithmic, the same scale for all</p>"
+        "<div class=\"scale\" data-kind=\"{}\"><p>{}, logarithmic, the same scale for all</p>"
         "<div style=\"background:linear-gradient(to right, {})\"></div><div class=\"ticks\">{}</div></div>\n",
         kind, what, stops, ticks);
 }
@@ -116,8 +130,10 @@ std::string whole_pictures(const Comparison& c, const Scales& scales) {
         out += fmt::format("{} {} at {} samples", i ? "," : "", scales.differences[i], rate_text(c.rates[i]));
     out += ", then encoded the same way.";
     if (scales.shrink > 1) out += fmt::format(" Shown at 1/{} of their size.", scales.shrink);
-    out += " Click one to enlarge it.</p>\n" + toolbar(c) + legend(scales.tests, "tests", "Exact tests") +
-           legend(scales.nodes, "nodes", "Nodes visited (rasterizers: boxes met)") +
+    out += " Click one to enlarge it.</p>\n" + toolbar(c, scales.some_adaptive) +
+           legend(scales.tests, "tests", "Exact tests per sample") +
+           legend(scales.nodes, "nodes", "Nodes visited per sample (rasterizers: boxes met)") +
+           (scales.some_adaptive ? legend(scales.samples, "samples", "Samples a pixel") : "") +
            "<div class=\"pictures\">\n";
     const SampleRate reference{c.reference_side, c.reference_side};
     out +=
