@@ -76,10 +76,10 @@ StudyCheck check_of_total(const std::string& scene, const std::string& than, dou
 
 void study_table3(StudyBench& bench, StudyResult& result) {
     result.notes.push_back(
-        "Furball: 495,000 half transparent hairs on a mirror, at most five layers. Ladybug "
-        "has no glow and a round lens here, Fairy is one frame, and the Car is without "
-        "occlusion, mirrors and lights that glow: its shading is not comparable, and neither "
-        "are totals but to the paper's less its shading, 45.2 s.");
+        "Furball: 495,000 half transparent hairs on a mirror, at most five layers. Ladybug: a lens of six "
+        "blades, and a glow. Fairy is one frame, and the Car is without occlusion, mirrors and lights that "
+        "glow: its shading is not comparable, and neither are totals but to the paper's less its shading, "
+        "45.2 s.");
     if (bench.quick())
         result.notes.push_back(
             "A sixteenth of the micropolygons and pixels at 4x4 samples: totals say nothing "

@@ -17,7 +17,7 @@ constexpr double kFlowerShadingRate = 5;
 constexpr double kBackgroundRate = 64;
 const V3d kEye(0, 1.55, 0);
 
-enum Chances : uint32_t { kFlowerChance = 300, kTuftChance, kTreeChance, kCloudChance };
+enum Chances : uint32_t { kFlowerChance = 300, kTuftChance, kTreeChance, kCloudChance, kSeedChance };
 
 /// A plant of the group in focus.
 struct Chosen {
@@ -161,6 +161,21 @@ void write_clouds(RibWriter& rib) {
     }
 }
 
+/// Seeds that float in the sun: bright and small, so that the lens makes polygons of them.
+void write_seeds(RibWriter& rib) {
+    constexpr uint32_t kSeeds = 45;
+    rib.request("Surface", "constant");
+    for (uint32_t i = 0; i < kSeeds; ++i) {
+        Chance chance(kSeedChance, i);
+        const double z = chance.between(9, 26), x = .45 * z * chance.between(-1, 1);
+        const double light = chance.between(5, 13), size = .0025 * z;
+        const auto block = rib.block("Attribute");
+        rib.request("Color", Numbers{light, .8 * light, .45 * light});
+        rib.request("Translate", x, ground(x, z) + 1 + .09 * z * chance.unit(), z);
+        rib.request("Sphere", size, -size, size, 360);
+    }
+}
+
 void write_background(RibWriter& rib) {
     const auto background = rib.block("Attribute");
     rib.request("ShadingRate", kBackgroundRate);
@@ -168,6 +183,7 @@ void write_background(RibWriter& rib) {
     write_trees(rib);
     write_sky(rib);
     write_clouds(rib);
+    write_seeds(rib);
 }
 
 Shot flowers_shot() {
@@ -175,10 +191,12 @@ Shot flowers_shot() {
     shot.name = "flowers";
     shot.comments = {
         "A field of flowers and grass of bicubic patches, swayed by a mild wind.",
-        "Right: a few flowers and the ladybug on one are sharp; what stands before and behind is soft."};
+        "Right: a few flowers and the ladybug on one are sharp; what stands before and behind is soft,",
+        "seeds in hexagons of the lens' blades, with a glow."};
     shot.eye = kEye, shot.pitch = 6;
     shot.f_stop = 2, shot.focal_length = .32, shot.focal_distance = 4.9;
     shot.shading_rate = kFlowerShadingRate;
+    shot.blades = 6, shot.glow = .12;
     return shot;
 }
 

@@ -6,6 +6,8 @@ namespace trapeze::scenes {
 
 namespace {
 
+constexpr double kBladeAngle = 12;  ///< degrees
+
 void write_frame(RibWriter& rib, const Shot& shot, const SceneParameters& p) {
     for (const std::string& line : shot.comments) rib.comment(line);
     rib.comment(
@@ -18,6 +20,12 @@ void write_frame(RibWriter& rib, const Shot& shot, const SceneParameters& p) {
     rib.request("PixelSamples", 8, 8);
     rib.request("PixelFilter", "gaussian", 2, 2);
     if (shot.most_layers > 0) rib.request("Hider", "hidden", "int maxvpdepth", Integers{shot.most_layers});
+    if (shot.blades > 0)
+        rib.request("Hider", "hidden", "float[4] aperture",
+                    Numbers{static_cast<double>(shot.blades), kBladeAngle, 0, 0});
+    if (shot.glow > 0)
+        rib.request("Imager", "glow", "float amount", Numbers{shot.glow}, "float size", Numbers{.015},
+                    "float threshold", Numbers{1});
     rib.request("Projection", "perspective", "fov", Numbers{shot.fov});
     rib.request("Clipping", .05, 10000);
     if (p.defocus > 0)

@@ -44,6 +44,8 @@ struct Shot {
     double f_stop = 0, focal_length = 1, focal_distance = 1;  ///< f_stop at defocus 1
     double shading_rate = 1;
     int most_layers = 0;  ///< of a sample; 0: all
+    int blades = 0;       ///< of the aperture; 0: it is round
+    double glow = 0;      ///< the part of what is brighter than 1 that is spread around
 };
 
 /// A whole RIB file of one frame; `write_world` writes what is in the world.
