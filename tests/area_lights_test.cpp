@@ -345,22 +345,7 @@ TEST(AreaLightShadows, ThePenumbraOfWhatMovesIsItsMeanOverTheShutter) {
     c.things =
         "MotionBegin [0 1] Translate -.5 0 0 Translate .5 0 0 MotionEnd "
         "Patch \"bilinear\" \"P\" [-3 3 -10 0 3 -10 -3 -3 -10 0 -3 -10] ";
-    const Image image = c.render(
-        "float shown = 0, i; for (i = .5; i < 64; i += 1) {"
-        "  float t = clamp(((i / 64 - .5) - .85 * xcomp(P)) / .15 / 3, -1, 1);"
-        "  shown += (acos(t) - t * sqrt(1 - t * t)) / PI / 64; }"
-        "Ci = color(comp(diffuse(normal(0, 0, -1)), 0) * 10009 / 9, shown, 1);");
-    double error = 0, dark = 0, bright = 0;
-    for (const Pixel& p : pixels(image)) {
-        const double shown = static_cast<double>(p.green), off = static_cast<double>(p.red) - shown;
-        // Five deviations of independent rays.
-        ASSERT_LT(std::abs(off), 5 * std::sqrt(shown * (1 - shown) / 256) + 5e-3);
-        error += off / 4096;
-        dark += p.green<0.02f, bright += p.green> 0.98f;
-    }
-    EXPECT_NEAR(error, 0, 0.003);
-    EXPECT_GT(dark, 100);
-    EXPECT_GT(bright, 100);
+    expect_moving_penumbra(c);
 }
 
 TEST(AreaLightShadows, AreCastOnlyWhereTheyAreWanted) {

@@ -117,9 +117,7 @@ void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& gr
 }
 
 void Film::add(const SampleTile& samples, const LayerStack& stack) {
-    static const HitBuffer kNoHits;
-    static const Grids kNoGrids;
-    add_part({samples.pixels, samples, kNoHits, kNoGrids, &stack});
+    add_part(part_of_stack(samples, stack));
 }
 
 void Film::begin_stack(size_t sample_count, LayerStack& stack) const {

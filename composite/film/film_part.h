@@ -44,4 +44,11 @@ struct FilmPart {
     }
 };
 
+/// Samples whose hits have been made into layers.
+inline FilmPart part_of_stack(const SampleTile& samples, const LayerStack& stack) {
+    static const HitBuffer kNoHits;
+    static const Grids kNoGrids;
+    return {samples.pixels, samples, kNoHits, kNoGrids, &stack};
+}
+
 }  // namespace trapeze

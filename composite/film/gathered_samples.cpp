@@ -27,9 +27,7 @@ void GatheredSamples::add(const SampleTile& samples, const HitBuffer& hits, cons
 }
 
 void GatheredSamples::add(const SampleTile& samples, const LayerStack& stack) {
-    static const HitBuffer kNoHits;
-    static const Grids kNoGrids;
-    append({samples.pixels, samples, kNoHits, kNoGrids, &stack});
+    append(part_of_stack(samples, stack));
 }
 
 void GatheredSamples::append(const FilmPart& part) {

@@ -50,11 +50,8 @@ class RateRun {
         MethodResult& result = results_[method];
         if (result.variance > 0) return take_adaptive_turn(result);
         const SamplePattern& pattern = *patterns_[result.pattern];
+        const auto visibility = prepare(result, context_);
         Stopwatch watch;
-        const auto visibility = result.sampler.prepare(context_, frame_.grids);
-        const double prepared = watch.lap();
-        result.build = visibility->build_stats();
-        result.build_seconds.push_back(prepared - result.build.setup_seconds);
         result.tile_side = visibility->tile_side();
 
         SampleGroups& groups = groups_of(result);
@@ -95,15 +92,20 @@ class RateRun {
         return result;
     }
 
+    std::unique_ptr<Visibility> prepare(MethodResult& result, const RenderContext& context) const {
+        Stopwatch watch;
+        auto visibility = result.sampler.prepare(context, frame_.grids);
+        const double prepared = watch.lap();
+        result.build = visibility->build_stats();
+        result.build_seconds.push_back(prepared - result.build.setup_seconds);
+        return visibility;
+    }
+
     /// As a render has it: where more samples are taken depends on what the film makes of the first ones.
     void take_adaptive_turn(MethodResult& result) const {
         const RenderContext context = frame_.adaptive_context(result.rate, result.variance);
         const auto pattern = result.sampler.make_pattern(context);
-        Stopwatch watch;
-        const auto visibility = result.sampler.prepare(context, frame_.grids);
-        const double prepared = watch.lap();
-        result.build = visibility->build_stats();
-        result.build_seconds.push_back(prepared - result.build.setup_seconds);
+        const auto visibility = prepare(result, context);
         Film film(context);
         FrameStats stats;
         resolve_tiles(context, frame_.pixels, frame_.grids, *visibility, *pattern, film, stats, [] {},

@@ -1,9 +1,9 @@
 #include "pipeline/frame/adaptive_tile.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "core/z_order.h"
 #include "pipeline/frame/resolve_tiles.h"
 #include "pipeline/frame/stopwatch.h"
 
@@ -13,23 +13,12 @@ namespace {
 /// How far around a pixel its noise is looked for: what is sharp, and what is blurred.
 constexpr int kSharpReach = 1, kBlurredReach = 4;
 
-int even_bits(uint32_t code) {
-    uint32_t value = 0;
-    for (int bit = 0; bit < 16; ++bit) value |= (code >> (2 * bit) & 1) << bit;
-    return static_cast<int>(value);
-}
-
 }  // namespace
 
 /// Pixels near each other in the list are near each other in the picture, so that neighbouring rays are.
 void AdaptiveTile::list_pixels() {
-    const PixelRect& r = pixels_;
-    const uint32_t side = std::bit_ceil(static_cast<uint32_t>(std::max({r.width(), r.height(), 1})));
     all_.clear();
-    for (uint32_t code = 0; code < side * side; ++code) {
-        const PixelPlace pixel{r.x0 + even_bits(code), r.y0 + even_bits(code >> 1)};
-        if (pixel.x < r.x1 && pixel.y < r.y1) all_.push_back(pixel);
-    }
+    for_each_in_z_order(pixels_, [this](int x, int y) { all_.push_back({x, y}); });
 }
 
 uint64_t AdaptiveTile::add(const AdaptiveTask& task, const PixelRect& pixels, LayerPasses& passes,

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "sample/raytrace/pixel_order.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sample/raytrace/bundle_order.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once a target
@@ -82,36 +84,14 @@ HWY_EXPORT(add_keys);
 
 namespace {
 
-uint32_t even_bits(uint32_t code) {
-    uint32_t value = 0;
-    for (int bit = 0; bit < 16; ++bit) value |= (code >> (2 * bit) & 1) << bit;
-    return value;
-}
-
-/// First samples of pixels along the Z-order curve over a tile's rectangle, of whatever size; those of a list
-/// as it has them.
-void z_order_of_pixels(const SampleTile& samples, std::vector<uint32_t>& first) {
-    if (samples.is_list()) {
-        first.resize(samples.listed.size());
-        for (size_t i = 0; i < first.size(); ++i)
-            first[i] = static_cast<uint32_t>(i * static_cast<size_t>(samples.samples_per_pixel));
-        return;
-    }
-    const int width = samples.pixels.width(), height = samples.pixels.height();
+void list_first_samples(const SampleTile& samples, std::vector<uint32_t>& first) {
     first.clear();
-    const uint32_t side = std::bit_ceil(static_cast<uint32_t>(std::max({width, height, 1})));
-    for (uint64_t code = 0; code < uint64_t{side} * side; ++code) {
-        const auto x = static_cast<int>(even_bits(static_cast<uint32_t>(code)));
-        const auto y = static_cast<int>(even_bits(static_cast<uint32_t>(code >> 1)));
-        if (x < width && y < height)
-            first.push_back(
-                static_cast<uint32_t>(samples.first_of_pixel(samples.pixels.x0 + x, samples.pixels.y0 + y)));
-    }
+    for_each_first_sample(samples, [&](uint32_t sample) { first.push_back(sample); });
 }
 
 /// Pixel by pixel; a pixel's samples one after another.
 void order_by_pixels(const SampleTile& samples, BundleOrderScratch& scratch, std::vector<uint32_t>& result) {
-    z_order_of_pixels(samples, scratch.pixel_first);
+    list_first_samples(samples, scratch.pixel_first);
     result.resize(samples.size());
     uint32_t* next = result.data();
     for (const uint32_t first : scratch.pixel_first)
@@ -202,7 +182,7 @@ void order_bundles(const SampleTile& samples, RayBlur blur, const BundleOrder& o
     scratch.starts.assign((static_cast<size_t>(blocks_x) * blocks_y << bits) + 1, 0);
     for (const uint32_t key : scratch.keys) ++scratch.starts[key + 1];
     for (size_t i = 1; i < scratch.starts.size(); ++i) scratch.starts[i] += scratch.starts[i - 1];
-    z_order_of_pixels(samples, scratch.pixel_first);
+    list_first_samples(samples, scratch.pixel_first);
     result.resize(samples.size());
     for (const uint32_t first : scratch.pixel_first)
         for (uint32_t i = first; i < first + per_pixel; ++i) result[scratch.starts[scratch.keys[i]]++] = i;

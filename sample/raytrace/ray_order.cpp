@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <numeric>
+
+#include "sample/raytrace/pixel_order.h"
 
 namespace trapeze {
 namespace {
@@ -11,32 +11,13 @@ namespace {
 constexpr int kBits = 4;
 constexpr uint32_t kLevels = 1 << kBits;
 
-uint32_t even_bits(uint32_t code) {
-    uint32_t value = 0;
-    for (int bit = 0; bit < 16; ++bit) value |= (code >> (2 * bit) & 1) << bit;
-    return value;
-}
-
-/// Samples pixel by pixel along the Z-order curve over the tile's rectangle, of whatever size; those of a
-/// list as it has them.
+/// Samples pixel by pixel, a pixel's one after another.
 void z_order(const SampleTile& samples, std::vector<uint32_t>& order) {
-    if (samples.is_list()) {
-        order.resize(samples.size());
-        std::iota(order.begin(), order.end(), 0u);
-        return;
-    }
-    const int width = samples.pixels.width(), height = samples.pixels.height();
     order.clear();
     order.reserve(samples.size());
-    const uint32_t side = std::bit_ceil(static_cast<uint32_t>(std::max({width, height, 1})));
-    for (uint64_t code = 0; code < uint64_t{side} * side; ++code) {
-        const auto x = static_cast<int>(even_bits(static_cast<uint32_t>(code)));
-        const auto y = static_cast<int>(even_bits(static_cast<uint32_t>(code >> 1)));
-        if (x >= width || y >= height) continue;
-        const auto first =
-            static_cast<uint32_t>(samples.first_of_pixel(samples.pixels.x0 + x, samples.pixels.y0 + y));
+    for_each_first_sample(samples, [&](uint32_t first) {
         for (int i = 0; i < samples.samples_per_pixel; ++i) order.push_back(first + static_cast<uint32_t>(i));
-    }
+    });
 }
 
 /// Quantises a value across the range that a tile's samples take.
