@@ -6,6 +6,8 @@
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
 
+#include <cmath>
+
 namespace trapeze {
 
 using V2i = Imath::V2i;
@@ -17,5 +19,11 @@ using M44d = Imath::M44d;
 using Box2i = Imath::Box2i;  ///< inclusive on both ends, as OpenEXR's windows
 using Box2f = Imath::Box2f;
 using Box3f = Imath::Box3f;
+
+/// `v` with length 1, or 0 0 0 where it has no direction: its length is 0, infinite or no number.
+inline V3f unit_or_zero(const V3f& v) {
+    const float length = v.length();
+    return length > 0 && std::isfinite(length) ? v / length : V3f(0, 0, 0);
+}
 
 }  // namespace trapeze

@@ -12,12 +12,12 @@ constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 /// Samples lie this far outside the image at most (filters).
 constexpr double kBorderPixels = 1024;
 
-struct Interval {
+struct PlaneRange {
     double min, max;
 };
 
 /// Raster coordinates of a range of the image plane, which is first grown by `grow`.
-Interval raster_range(Interval plane, double grow, double scale, double offset) {
+PlaneRange raster_range(PlaneRange plane, double grow, double scale, double offset) {
     const double a = (plane.min - grow - offset) / scale, b = (plane.max + grow - offset) / scale;
     return {std::min(a, b), std::max(a, b)};
 }
@@ -57,7 +57,7 @@ RasterBox SweptBound::raster(const Camera& camera) const {
     if (!(absolute_max_ < kBoundable)) return RasterBox::everything();
     const double radius = camera.lens_radius * (1 + kRasterRounding), in_focus = 1.0 / camera.focal_distance;
     const double reach = ray_reach(camera);
-    Interval x{x_min_, x_max_}, y{y_min_, y_max_};
+    PlaneRange x{x_min_, x_max_}, y{y_min_, y_max_};
     double grow;
     if (camera.perspective) {
         if (!(z_min_ > camera.near_clip && z_min_ > 0)) return RasterBox::everything();
@@ -68,8 +68,8 @@ RasterBox SweptBound::raster(const Camera& camera) const {
         grow = radius * std::max(std::abs(z_min_ * in_focus - 1), std::abs(z_max_ * in_focus - 1)) +
                kRasterRounding * (absolute_max_ * (1 + radius * in_focus) + reach);
     }
-    const Interval rx = raster_range(x, grow, camera.plane_scale_x, camera.plane_offset_x);
-    const Interval ry = raster_range(y, grow, camera.plane_scale_y, camera.plane_offset_y);
+    const PlaneRange rx = raster_range(x, grow, camera.plane_scale_x, camera.plane_offset_x);
+    const PlaneRange ry = raster_range(y, grow, camera.plane_scale_y, camera.plane_offset_y);
     return {rx.min, ry.min, rx.max, ry.max};
 }
 

@@ -13,14 +13,14 @@ constexpr size_t kIntervalsLikeAPart = 8;
 constexpr int kCoarse = kCoarseLatticePieces, kFine = 4;
 
 /// A rectangle on its way; depth_u and depth_v: how often it was halved along each.
-struct Node {
+struct SplitNode {
     V2f lo{0, 0}, hi{1, 1};
     std::array<SurfaceSide, 4> sides;
     int depth_u = 0, depth_v = 0;
     bool inside = false;  ///< the picture holds it: no culling
 };
 
-using LatticeLine = std::array<V3f, (kFine + 1) * LineMeasure::kMostKeys>;
+using SplitLine = std::array<V3f, (kFine + 1) * LineMeasure::kMostKeys>;
 
 /// Positions of (pieces + 1)^2 points spread evenly over a rectangle, at one key or all, in camera space.
 struct Lattice {
@@ -30,7 +30,7 @@ struct Lattice {
     int row() const { return pieces + 1; }
     const V3f& at(int key, int i, int j) const { return P[(key * row() + j) * row() + i]; }
     /// The lattice's points along u (axis 0) or v on line `number`, key by key, copied to `points`.
-    std::span<const V3f> line(int axis, int number, LatticeLine& points) const {
+    std::span<const V3f> line(int axis, int number, SplitLine& points) const {
         size_t count = 0;
         for (int key = 0; key < keys; ++key)
             for (int k = 0; k <= pieces; ++k)
@@ -59,7 +59,7 @@ class FaceSplitter {
     void split_face(int face) {
         face_ = face;
         parts_ = 0;
-        Node node;
+        SplitNode node;
         node.sides = surface_.surface().sides(face);
         if (!emit_whole(node)) split(node);
     }
@@ -68,7 +68,7 @@ class FaceSplitter {
     /// Halves a rectangle again and again, along the direction that is longer in pixels, until sides lie
     /// within intervals and the interior is small enough; emits what is left. What no sample sees is dropped
     /// before it is split on.
-    void split(Node node) {
+    void split(SplitNode node) {
         const std::array<Want, 2> want = wanted(node);
         const bool must_u = !in_interval(node.sides[kBottom]) || !in_interval(node.sides[kTop]);
         const bool must_v = !in_interval(node.sides[kLeft]) || !in_interval(node.sides[kRight]);
@@ -88,11 +88,11 @@ class FaceSplitter {
         }
         ++parts_;
         const bool along_u = split_u && (!split_v || want[0].pixels >= want[1].pixels);
-        for (const Node& half : halves(node, along_u, room)) split(half);
+        for (const SplitNode& half : halves(node, along_u, room)) split(half);
     }
 
     /// Adds a face that is known to need no split, its sides neither.
-    bool emit_whole(const Node& node) {
+    bool emit_whole(const SplitNode& node) {
         if (context_.estimates.empty()) return false;
         const FaceEstimate& estimate = context_.estimates[face_];
         if (estimate.nu == 0) return false;
@@ -107,7 +107,7 @@ class FaceSplitter {
     }
 
     /// Evaluates a rectangle's lattice; it stays valid until the next call.
-    Lattice sample(const Node& node, int pieces, int keys) {
+    Lattice sample(const SplitNode& node, int pieces, int keys) {
         std::array<V2f, (kFine + 1) * (kFine + 1)> uv;
         const size_t n = static_cast<size_t>((pieces + 1) * (pieces + 1));
         for (int j = 0; j <= pieces; ++j)
@@ -123,7 +123,7 @@ class FaceSplitter {
 
     /// What a rectangle wants along u and v. The closer look, at all keys, costs more and is taken only where
     /// foreshortening may make micropolygons fewer.
-    std::array<Want, 2> wanted(const Node& node) {
+    std::array<Want, 2> wanted(const SplitNode& node) {
         Lattice lattice = sample(node, kCoarse, 1);
         std::array<Want, 2> want = wanted(lattice);
         if (std::max(want[0].segments, want[1].segments) > kCoarse || want[0].split || want[1].split) {
@@ -158,7 +158,7 @@ class FaceSplitter {
     /// By what is seen of the lengths at all keys that the measure looks at.
     std::array<Want, 2> foreshortened(const Lattice& lattice) const {
         std::array<Want, 2> want;
-        LatticeLine points, beside;
+        SplitLine points, beside;
         for (int d = 0; d < 2; ++d)
             for (int line = 0; line <= lattice.pieces; ++line)
                 take_in(
@@ -178,7 +178,7 @@ class FaceSplitter {
 
     /// The two halves of a rectangle, and the edge made between them, whose ends lie on the rectangle's
     /// sides.
-    std::array<Node, 2> halves(const Node& node, bool along_u, bool room) {
+    std::array<SplitNode, 2> halves(const SplitNode& node, bool along_u, bool room) {
         const int axis = along_u ? 0 : 1;
         const SideName low = along_u ? kBottom : kLeft, high = along_u ? kTop : kRight;
         const SideName before = along_u ? kLeft : kBottom, after = along_u ? kRight : kTop;
@@ -193,12 +193,12 @@ class FaceSplitter {
         line.finish = {true, node.sides[high].edge, at_high};
         const uint32_t edge = make_edge(line, room ? (along_u ? node.depth_v : node.depth_u) : -1);
 
-        std::array<Node, 2> half{node, node};
+        std::array<SplitNode, 2> half{node, node};
         half[0].hi[axis] = half[1].lo[axis] = middle;
         half[0].sides[low].end = half[1].sides[low].begin = at_low;
         half[0].sides[high].end = half[1].sides[high].begin = at_high;
         half[0].sides[after] = half[1].sides[before] = {edge, 0, 1};
-        for (Node& h : half) ++(along_u ? h.depth_u : h.depth_v);
+        for (SplitNode& h : half) ++(along_u ? h.depth_u : h.depth_v);
         return half;
     }
 
@@ -215,7 +215,7 @@ class FaceSplitter {
     }
 
     /// Adds a subpatch, unless it cannot be seen: as fine as its finest side and its interior want.
-    void emit(const Node& node, const std::array<Want, 2>& want) {
+    void emit(const SplitNode& node, const std::array<Want, 2>& want) {
         const RasterBound::Result seen = bound(node);
         if (seen.rect.empty()) {
             ++out_.culled;
@@ -233,7 +233,7 @@ class FaceSplitter {
     }
 
     /// The pixels that may see a rectangle: a box at each key, grown by displacement and rounding.
-    RasterBound::Result bound(const Node& node) {
+    RasterBound::Result bound(const SplitNode& node) {
         const int keys = surface_.key_count();
         boxes_.assign(keys, {});
         for (int key = 0; key < keys; ++key) boxes_[key] = surface_.bound(face_, node.lo, node.hi, key);
@@ -252,7 +252,7 @@ class FaceSplitter {
 
     /// Boxes of samples, for surfaces that know no bound, grown by half their second differences: four times
     /// what a curve with that second derivative departs from its chords.
-    void sampled_bound(const Node& node) {
+    void sampled_bound(const SplitNode& node) {
         const Lattice lattice = sample(node, kFine, surface_.key_count());
         for (int key = 0; key < lattice.keys; ++key) {
             Box3f& box = boxes_[key];
@@ -278,7 +278,7 @@ class FaceSplitter {
     }
 
     /// Corners that snap to a vertex of an edge may leave the rectangle, by up to half a segment.
-    void add_moved_corners(const Node& node) {
+    void add_moved_corners(const SplitNode& node) {
         std::array<BorderPoint, 8> corners;
         size_t count = 0;
         for (const SurfaceSide& side : node.sides)

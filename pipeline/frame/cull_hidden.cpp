@@ -13,7 +13,7 @@
 namespace trapeze {
 namespace {
 
-constexpr size_t kGrain = 16;  // subpatches
+constexpr size_t kSubpatchesATask = 16;  // subpatches
 
 /// A thread's memory for grids without shading.
 struct PlainGridMaker {
@@ -28,20 +28,22 @@ struct PlainGridMaker {
 Grids plain_grids(const RenderContext& context, const std::vector<uint32_t>& candidates,
                   const Tessellation& tessellation, const Shading& shading) {
     tbb::enumerable_thread_specific<PlainGridMaker> makers;
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, candidates.size(), kGrain), [&](const auto& range) {
-        PlainGridMaker& maker = makers.local();
-        for (size_t i = range.begin(); i != range.end() && !context.is_cancelled(); ++i) {
-            ShadingGrid& grid = maker.grid;
-            tessellation.dice(candidates[i], grid, maker.scratch, DiceFor::Hits);
-            grid.aovs.clear();
-            grid.Ci.fill(grid.vertex_count(), V3f(0));
-            grid.Oi.fill(grid.vertex_count(), V3f(1));
-            PackOptions options = pack_options(*context.scene, *grid.primitive);
-            if (!shading.hides_for_sure(grid.primitive_index)) options.keep_hits_behind = true;
-            int64_t not_finite = 0;
-            maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, options));
-        }
-    });
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, candidates.size(), kSubpatchesATask),
+                      [&](const auto& range) {
+                          PlainGridMaker& maker = makers.local();
+                          for (size_t i = range.begin(); i != range.end() && !context.is_cancelled(); ++i) {
+                              ShadingGrid& grid = maker.grid;
+                              tessellation.dice(candidates[i], grid, maker.scratch, DiceFor::Hits);
+                              grid.aovs.clear();
+                              grid.Ci.fill(grid.vertex_count(), V3f(0));
+                              grid.Oi.fill(grid.vertex_count(), V3f(1));
+                              PackOptions options = pack_options(*context.scene, *grid.primitive);
+                              if (!shading.hides_for_sure(grid.primitive_index))
+                                  options.keep_hits_behind = true;
+                              int64_t not_finite = 0;
+                              maker.grids.push_back(pack_grid(grid, maker.arena, &not_finite, options));
+                          }
+                      });
     return collect_grids(makers);
 }
 

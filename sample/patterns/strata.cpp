@@ -15,7 +15,7 @@ namespace {
 /// disk_from_square() rounds by less than this.
 constexpr double kDiskRounding = 2e-6;
 
-struct Range {
+struct StratumSide {
     double min, max;
 };
 
@@ -28,8 +28,8 @@ double disk_x(double a, double b) {
 
 /// The range of disk_x over a rectangle. It grows with a. For given a it is even in b; its magnitude is
 /// largest at b = 0, falls until |b| = |a|, and rises from there: extremes are at these and at the ends.
-Range disk_x_range(Range a, Range b) {
-    Range range{2, -2};
+StratumSide disk_x_range(StratumSide a, StratumSide b) {
+    StratumSide range{2, -2};
     const auto add = [&](double at_a, double at_b) {
         if (at_b < b.min || at_b > b.max) return;
         const double x = disk_x(at_a, at_b);
@@ -83,11 +83,11 @@ TimeSpan time_region(uint32_t index, int count) {
 
 LensBox lens_region(uint32_t index, int nx, int ny) {
     const auto axis = [](uint32_t at, int count) {
-        return Range{2.0 * at / count - 1, 2.0 * (at + 1) / count - 1};
+        return StratumSide{2.0 * at / count - 1, 2.0 * (at + 1) / count - 1};
     };
-    const Range a = axis(index % static_cast<uint32_t>(nx), nx),
-                b = axis(index / static_cast<uint32_t>(nx), ny);
-    const Range u = disk_x_range(a, b), v = disk_x_range(b, a);
+    const StratumSide a = axis(index % static_cast<uint32_t>(nx), nx),
+                      b = axis(index / static_cast<uint32_t>(nx), ny);
+    const StratumSide u = disk_x_range(a, b), v = disk_x_range(b, a);
     return {static_cast<float>(u.min), static_cast<float>(v.min), static_cast<float>(u.max),
             static_cast<float>(v.max)};
 }

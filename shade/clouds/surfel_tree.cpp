@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kUnitDisc = std::numbers::pi_v<float>;
 constexpr uint32_t kLeafSurfels = 8;
-constexpr int kMostDepth = 40;           ///< leaves there may hold any number: discs in one place
+constexpr int kMostDepthOfTree = 40;     ///< leaves there may hold any number: discs in one place
 constexpr size_t kMostWaiting = 8 * 41;  ///< nodes: seven of each level and eight of the last
 constexpr float kLeastPart = 0.3f;       ///< of the threshold, that clusters at the horizon are compared by
 /// Of a disc's radius, where no bias is given. Measured against rays (docs/results.md): with less curved
@@ -124,7 +124,7 @@ SurfelQuad SurfelTree::quad_from(const V3f& place, uint32_t surfel) const {
 /// Sorts a node's part of `order` by octants, and makes its children.
 void SurfelTree::build(uint32_t number, std::vector<uint32_t>& order, const Surfels& from, int depth) {
     const uint32_t first = nodes_[number].first, end = nodes_[number].end;
-    if (end - first <= kLeafSurfels || depth == kMostDepth) return;
+    if (end - first <= kLeafSurfels || depth == kMostDepthOfTree) return;
     Box3f box;
     for (uint32_t i = first; i < end; ++i) box.extendBy(from.positions[order[i]]);
     if (!is_within_numbers(box.size()) || box.min == box.max) return;

@@ -8,8 +8,8 @@
 namespace trapeze {
 namespace {
 
-constexpr float kPi = 3.14159265f;
-constexpr int kSamplesAcross = 2;  ///< samples of a pixel along each axis
+constexpr float kHalfTurnRadians = 3.14159265f;  ///< radians
+constexpr int kSamplesAcross = 2;                ///< samples of a pixel along each axis
 
 /// The axes of a view: what is in its middle, to its right and up.
 struct Face {
@@ -54,7 +54,8 @@ Raster lat_long_from_cube(const std::array<Raster, 6>& faces, float fov) {
     for (const Raster& face : faces) widest = std::max({widest, face.width, face.height});
     Raster out{4 * widest, 2 * widest, faces[0].channels, {}};
     out.pixels.assign(static_cast<size_t>(out.width) * out.height * out.channels, 0.0f);
-    const float widening = portable::tan((fov >= 90 ? std::min(fov, 170.0f) : 90.0f) * kPi / 360);
+    const float widening =
+        portable::tan((fov >= 90 ? std::min(fov, 170.0f) : 90.0f) * kHalfTurnRadians / 360);
     constexpr float kStep = 1.0f / kSamplesAcross;
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
@@ -64,8 +65,8 @@ Raster lat_long_from_cube(const std::array<Raster, 6>& faces, float fov) {
                     static_cast<float>(x) + (static_cast<float>(sample % kSamplesAcross) + 0.5f) * kStep;
                 const float py =
                     static_cast<float>(y) + (static_cast<float>(sample / kSamplesAcross) + 0.5f) * kStep;
-                const float longitude = px / static_cast<float>(out.width) * 2 * kPi;
-                const float polar = py / static_cast<float>(out.height) * kPi;
+                const float longitude = px / static_cast<float>(out.width) * 2 * kHalfTurnRadians;
+                const float polar = py / static_cast<float>(out.height) * kHalfTurnRadians;
                 const V3f d(portable::sin(polar) * portable::cos(longitude),
                             portable::sin(polar) * portable::sin(longitude), portable::cos(polar));
                 add_direction(faces, widening, d, sum);

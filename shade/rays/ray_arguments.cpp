@@ -17,7 +17,7 @@ using rsl::Op;
 constexpr float kMostSamples = 65536;
 /// Of "maxsolidangle", steradians.
 constexpr float kMaxSolidAngle = 0.1f;
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kStraightAngle = std::numbers::pi_v<float>;  ///< radians
 
 bool is_text(const vm::Registers& registers, const vm::Step& step, size_t operand) {
     return operand < step.count &&
@@ -100,7 +100,7 @@ RayArguments::RayArguments(vm::Run& run, const vm::Step& step, std::span<const v
     if (map_first) map_ = registers.text_input(step, 0);
     bias.otherwise = -1, samples_.otherwise = 1;
     max_solid_angle.otherwise = kMaxSolidAngle, clamp.otherwise = 1;
-    cone_angle_.otherwise = kPi / 2, max_distance_.otherwise = kInfinity;
+    cone_angle_.otherwise = kStraightAngle / 2, max_distance_.otherwise = kInfinity;
     from_ = &operands[first], towards_ = &operands[first + 1 < end ? first + 1 : first];
     if (const vm::LightOutput* const light = run.context().light_output; of_light && light) {
         from_light_ = light->L, lanes_ = run.lanes();
@@ -192,11 +192,11 @@ int RayArguments::samples_at(size_t lane) const {
 
 float RayArguments::sample_cone_at(size_t lane) const {
     const float angle = sample_cone_.at(lane);
-    return angle > 0 ? std::min(angle, kPi) : 0;
+    return angle > 0 ? std::min(angle, kStraightAngle) : 0;
 }
 float RayArguments::cone_angle_at(size_t lane) const {
     const float angle = cone_angle_.at(lane);
-    return angle > 0 ? std::min(angle, kPi) : 0;
+    return angle > 0 ? std::min(angle, kStraightAngle) : 0;
 }
 
 float RayArguments::max_distance_at(size_t lane) const {

@@ -10,9 +10,9 @@ namespace {
 /// through.
 constexpr size_t kShadedTogether = 256;
 constexpr size_t kRaysAtOnce = 4096;
-constexpr int kMostLayers = 64;
+constexpr int kMostLayersOfRay = 64;
 /// Less light than this is none: half of the smallest step of eight bits.
-constexpr float kNothing = 1.0f / 512;
+constexpr float kNothingLeft = 1.0f / 512;
 
 uint64_t& count_of(RayKind kind, RayStats& stats) {
     return kind == RayKind::Diffuse    ? stats.diffuse
@@ -89,7 +89,7 @@ Task<> RayWalk::walk(std::span<WalkedRay* const> rays, const RayAsk& ask, Wants 
     std::vector<const RaySegment*> segments;
     std::vector<std::optional<RaySurfaceHit>> hits;
     std::vector<Met> met;
-    const int layers = ask.first_alone ? 1 : kMostLayers;
+    const int layers = ask.first_alone ? 1 : kMostLayersOfRay;
     for (int layer = 0; layer < layers && !going.empty(); ++layer) {
         segments.clear(), met.clear();
         for (const WalkedRay* ray : going) segments.push_back(&ray->segment);
@@ -118,7 +118,7 @@ bool RayWalk::pass(const Met& met, const RayAsk& ask) const {
     const V3f color = own ? met.hit.color * opacity : met.grid->Ci.at(static_cast<size_t>(met.vertex));
     ray.seen += ray.through * color;
     for (int k = 0; k < 3; ++k) ray.through[k] *= 1 - std::clamp(opacity[k], 0.0f, 1.0f);
-    if (!(largest(ray.through) > kNothing)) {
+    if (!(largest(ray.through) > kNothingLeft)) {
         ray.through = V3f(0, 0, 0);
         return false;
     }

@@ -11,6 +11,11 @@ namespace trapeze {
 /// A control point: x y z w, or what components are used.
 using Control = std::array<float, 4>;
 
+/// Its first three components.
+inline V3f xyz(const Control& c) {
+    return {c[0], c[1], c[2]};
+}
+
 /// A patch over (u, v) in [0,1]^2, of degree 1 or 3 along both; point (i, j) is p[j * 4 + i], i along u.
 struct BezierPatch {
     int degree = 3;

@@ -6,15 +6,6 @@
 #include "tessellate/topology/placed_surface.h"
 
 namespace trapeze {
-namespace {
-
-V3f unit_or_zero(const V3f& v) {
-    const float length = v.length();
-    return length > 0 && std::isfinite(length) ? v / length : V3f(0, 0, 0);
-}
-
-}  // namespace
-
 CameraFacing::CameraFacing(const M44f& camera_from_object, const Camera* camera)
     : camera_from_object_(camera_from_object),
       object_from_camera_(M44f(M44d(camera_from_object).inverse())),

@@ -22,15 +22,6 @@ struct RibbonVariables {
     CurveVariable P, width, N;
 };
 
-V3f xyz(const Control& c) {
-    return {c[0], c[1], c[2]};
-}
-
-V3f unit_or_zero(const V3f& v) {
-    const float length = v.length();
-    return length > 0 ? v / length : V3f(0, 0, 0);
-}
-
 /// Ribbons, evaluated at motion keys because they face the camera at each by themselves. P = centre + (u -
 /// 1/2) * span, where span is as long as the width.
 class CurvesSurface : public TopologySurface<CurvesSurface> {

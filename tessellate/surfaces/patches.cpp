@@ -135,10 +135,6 @@ BezierPatch PatchSurface::positions(int face, int shape_key) const {
     return net(face, points_[shape_key].values, floats, floats);
 }
 
-V3f xyz(const Control& p) {
-    return {p[0], p[1], p[2]};
-}
-
 void PatchSurface::evaluate(int face, std::span<const V2f> uv, int shape_key, SurfaceScratch*,
                             std::span<V3f> P, std::span<V3f> dPdu, std::span<V3f> dPdv) const {
     const BezierPatch patch = positions(face, shape_key);

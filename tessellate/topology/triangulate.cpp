@@ -25,16 +25,16 @@ bool inside_triangle(const V2d& a, const V2d& b, const V2d& c, const V2d& p) {
 }
 
 /// A corner of the ring that is being clipped. Bridges visit points twice.
-struct Node {
+struct RingNode {
     int point = 0;
     int previous = 0, next = 0;
     bool clipped = false;
 };
 
 /// Nodes by place, to find those near an ear.
-class NodeGrid {
+class RingNodeGrid {
   public:
-    NodeGrid(const std::vector<Node>& nodes, std::span<const V2d> points);
+    RingNodeGrid(const std::vector<RingNode>& nodes, std::span<const V2d> points);
     /// Whether `f` holds for a node in the box or near it.
     template <class F>
     bool any(const V2d& lo, const V2d& hi, F&& f) const {
@@ -57,18 +57,18 @@ class NodeGrid {
     std::vector<int> first_, nodes_;
 };
 
-NodeGrid::NodeGrid(const std::vector<Node>& nodes, std::span<const V2d> points) {
+RingNodeGrid::RingNodeGrid(const std::vector<RingNode>& nodes, std::span<const V2d> points) {
     Imath::Box2d box;
-    for (const Node& node : nodes) box.extendBy(points[node.point]);
+    for (const RingNode& node : nodes) box.extendBy(points[node.point]);
     side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(nodes.size()) / 2)), 1, 1024);
     origin_ = box.min;
     const V2d size = box.size();
     for (int k = 0; k < 2; ++k) cells_per_unit_[k] = size[k] > 0 ? side_ / size[k] : 0;
     first_.assign(static_cast<size_t>(side_) * side_ + 1, 0);
-    const auto cell = [&](const Node& n) {
+    const auto cell = [&](const RingNode& n) {
         return row(points[n.point].y) * side_ + column(points[n.point].x);
     };
-    for (const Node& node : nodes) ++first_[cell(node) + 1];
+    for (const RingNode& node : nodes) ++first_[cell(node) + 1];
     for (size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     nodes_.resize(nodes.size());
     std::vector<int> at(first_.begin(), first_.end() - 1);
@@ -99,12 +99,12 @@ class Triangulator {
     bool goes_inside(int node, const V2d& to) const;
     void join(int ring_node, int hole_node);
     /// Whether a corner may be cut off, by what is asked of ears.
-    bool is_ear(int node, Ear want, const NodeGrid& grid) const;
+    bool is_ear(int node, Ear want, const RingNodeGrid& grid) const;
     /// The best ear from a node on; some node in any case.
-    int find_ear(int start, int size, const NodeGrid& grid) const;
+    int find_ear(int start, int size, const RingNodeGrid& grid) const;
 
     std::span<const V2d> points_;
-    std::vector<Node> nodes_;
+    std::vector<RingNode> nodes_;
     int ring_ = -1;  ///< a node of the ring
     int ring_size_ = 0;
     bool reversed_ = false;  ///< the outline was clockwise
@@ -227,7 +227,7 @@ void Triangulator::join(int ring_node, int hole_node) {
     nodes_[after].previous = ring_copy;
 }
 
-bool Triangulator::is_ear(int node, Ear want, const NodeGrid& grid) const {
+bool Triangulator::is_ear(int node, Ear want, const RingNodeGrid& grid) const {
     if (want == Ear::Any) return true;
     const double area = corner_area(node);
     if (want == Ear::WithoutArea) return area == 0;
@@ -245,7 +245,7 @@ bool Triangulator::is_ear(int node, Ear want, const NodeGrid& grid) const {
     });
 }
 
-int Triangulator::find_ear(int start, int size, const NodeGrid& grid) const {
+int Triangulator::find_ear(int start, int size, const RingNodeGrid& grid) const {
     for (const Ear want : {Ear::Clean, Ear::WithoutArea, Ear::Convex, Ear::Any}) {
         int node = start;
         for (int i = 0; i < size; ++i, node = nodes_[node].next)
@@ -257,7 +257,7 @@ int Triangulator::find_ear(int start, int size, const NodeGrid& grid) const {
 std::vector<std::array<int, 3>> Triangulator::run() {
     std::vector<std::array<int, 3>> triangles;
     if (ring_ < 0) return triangles;
-    const NodeGrid grid(nodes_, points_);
+    const RingNodeGrid grid(nodes_, points_);
     triangles.reserve(ring_size_ - 2);
     int start = ring_;
     for (int size = ring_size_; size >= 3; --size) {

@@ -9,9 +9,9 @@ namespace trapeze::scenes {
 namespace {
 
 /// Where the street begins and ends along z, in metres.
-constexpr double kNear = .5, kFar = 320;
+constexpr double kStreetNear = .5, kStreetFar = 320;
 
-const V3d kSodium(1, .46, .13), kWhite(1, .90, .74), kRed(1, .07, .03), kGreen(.08, 1, .55);
+const V3d kSodium(1, .46, .13), kWhite(1, .90, .74), kRedSignal(1, .07, .03), kGreenSignal(.08, 1, .55);
 
 V3d mixed(const V3d& a, const V3d& b, double t) {
     return a + t * (b - a);
@@ -20,7 +20,7 @@ V3d mixed(const V3d& a, const V3d& b, double t) {
 /// Asphalt in patches of many greys: what shows that a road moves.
 void add_asphalt(QuadMesh& mesh) {
     uint32_t row = 0;
-    for (double z = kNear; z < kFar; ++row) {
+    for (double z = kStreetNear; z < kStreetFar; ++row) {
         Chance chance(20, row);
         const double next = z + std::max(.3, .04 * z) * chance.between(.7, 1.5);
         for (double x = -7; x < kFarWall;) {
@@ -36,10 +36,10 @@ void add_asphalt(QuadMesh& mesh) {
 void add_marks(QuadMesh& mesh) {
     const V3d white(.80, .78, .72);
     for (const double edge : {kRoadEdge, kBarrier - .55, kBarrier + 1.2, kFarWall - 1.6})
-        for (double z = kNear; z < kFar; z += 12)
+        for (double z = kStreetNear; z < kStreetFar; z += 12)
             mesh.add_ground({edge - .07, .004, z}, {edge + .07, .004, z + 11.8}, white * .8);
     for (const double lane : {kLaneMark, kBarrier + 4.7})
-        for (double z = 1; z < kFar; z += 6)
+        for (double z = 1; z < kStreetFar; z += 6)
             mesh.add_ground({lane - .075, .004, z}, {lane + .075, .004, z + 2.6}, white);
 }
 
@@ -111,7 +111,7 @@ void add_traffic_lights(QuadMesh& posts, QuadMesh& lamps) {
         for (const double x : {-2.6, 0., 3.4}) {
             posts.add_box({x - .22, 4.7, z - .2}, {x + .22, 5.9, z}, dark);
             const bool go = z > 150 || (x > 0 && z < 100);
-            lamps.add_lamp({x, go ? 4.95 : 5.65, z - .25}, .15, .15, (go ? kGreen : kRed) * 70);
+            lamps.add_lamp({x, go ? 4.95 : 5.65, z - .25}, .15, .15, (go ? kGreenSignal : kRedSignal) * 70);
         }
     }
 }

@@ -8,7 +8,7 @@
 namespace trapeze::scenes {
 namespace {
 
-struct Kind {
+struct FlowerKind {
     int petals;
     double length;
     std::array<double, 4> widths;   ///< from the middle of the flower outwards
@@ -21,7 +21,7 @@ struct Kind {
     double leaf_width;
 };
 
-const std::array<Kind, kFlowerKinds> kKinds = {{
+const std::array<FlowerKind, kFlowerKinds> kKinds = {{
     {6,
      .27,
      {.10, .40, .46, .34},
@@ -96,7 +96,7 @@ const std::array<Kind, kFlowerKinds> kKinds = {{
 
 const V3d kStem(.10, .22, .045), kLeaf(.13, .34, .06);
 
-enum Chances : uint32_t { kPlantChance = 200, kTuftChance };
+enum FlowerChances : uint32_t { kPlantChance = 200, kTuftChance };
 
 V3d mix(const V3d& a, const V3d& b, double t) {
     return a + t * (b - a);
@@ -125,7 +125,7 @@ void write_strip(RibWriter& rib, const Strip& strip) {
 }
 
 /// The flower's plane is that of x and z here, its middle the origin.
-void write_petal(RibWriter& rib, const Kind& kind, double azimuth, const V3d& tip, Chance& chance) {
+void write_petal(RibWriter& rib, const FlowerKind& kind, double azimuth, const V3d& tip, Chance& chance) {
     const V3d out(std::sin(azimuth), 0, -std::cos(azimuth)), up(0, 1, 0);
     const double length = kind.length * chance.between(.88, 1.08);
     const double bent = chance.between(-9, 9), twist = chance.between(-.22, .22);
@@ -186,7 +186,7 @@ void write_ladybug(RibWriter& rib) {
     for (const double side : {-1., 1.}) write_ball(rib, {-.52, .2, .12 * side}, {.06, .05, .05});
 }
 
-void write_head(RibWriter& rib, const Kind& kind, const V3d& tip, bool ladybug, Chance& chance) {
+void write_head(RibWriter& rib, const FlowerKind& kind, const V3d& tip, bool ladybug, Chance& chance) {
     const double first = chance.between(0, 2 * kPi);
     for (int i = 0; i < kind.petals; ++i)
         write_petal(rib, kind, first + 2 * kPi * (i + chance.between(-.12, .12)) / kind.petals, tip, chance);
@@ -200,7 +200,7 @@ void write_head(RibWriter& rib, const Kind& kind, const V3d& tip, bool ladybug, 
     write_ladybug(rib);
 }
 
-void write_leaf(RibWriter& rib, const Kind& kind, const V3d& root, Chance& chance) {
+void write_leaf(RibWriter& rib, const FlowerKind& kind, const V3d& root, Chance& chance) {
     const double angle = chance.between(0, 2 * kPi), length = chance.between(.22, .42);
     const V3d out(std::cos(angle), 0, std::sin(angle)), up(0, 1, 0);
     const double width = kind.leaf_width * chance.between(.8, 1.3);
@@ -214,7 +214,7 @@ void write_leaf(RibWriter& rib, const Kind& kind, const V3d& root, Chance& chanc
     write_strip(rib, leaf);
 }
 
-void write_flower(RibWriter& rib, const Kind& kind, uint32_t number, bool ladybug) {
+void write_flower(RibWriter& rib, const FlowerKind& kind, uint32_t number, bool ladybug) {
     Chance chance(kPlantChance, number);
     const double bend = chance.between(-.14, .14), height = kind.height * chance.between(.86, 1.1);
     Strip stem;

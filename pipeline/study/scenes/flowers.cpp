@@ -11,13 +11,19 @@ namespace {
 
 /// Numbers of plants; where the field begins and ends along z.
 constexpr double kFlowers = 520, kTufts = 1100;  ///< at scale 1
-constexpr double kNear = 2.3, kFar = 34;
+constexpr double kMeadowNear = 2.3, kMeadowFar = 34;
 constexpr double kFlowerShadingRate = 5;
 /// Soft from edge to edge, and as many at any scale.
 constexpr double kBackgroundRate = 64;
 const V3d kEye(0, 1.55, 0);
 
-enum Chances : uint32_t { kFlowerChance = 300, kTuftChance, kTreeChance, kCloudChance, kSeedChance };
+enum MeadowChances : uint32_t {
+    kFlowerChance = 300,
+    kMeadowTuftChance,
+    kTreeChance,
+    kCloudChance,
+    kSeedChance
+};
 
 /// A plant of the group in focus.
 struct Chosen {
@@ -55,7 +61,7 @@ struct Place {
 
 /// Over what the camera sees of the field, in rows that thin out with the distance, as seen from above.
 Place scattered(Chance& chance) {
-    const double u = chance.unit(), z = kNear + (kFar - kNear) * u * (.6 + .4 * u);
+    const double u = chance.unit(), z = kMeadowNear + (kMeadowFar - kMeadowNear) * u * (.6 + .4 * u);
     return {(.5 * z + .5) * chance.between(-1, 1), z};
 }
 
@@ -96,7 +102,7 @@ void write_field(RibWriter& rib, const SceneParameters& p) {
     }
     const auto tufts = static_cast<uint32_t>(std::ceil(kTufts * p.scale));
     for (uint32_t i = 0; i < tufts; ++i) {
-        Chance chance(kTuftChance, i);
+        Chance chance(kMeadowTuftChance, i);
         const Place place = scattered(chance);
         const int object = tuft_object(static_cast<uint32_t>(kTuftVariants * chance.unit()));
         const double size = chance.between(.7, 1.25) * fitting(place);

@@ -8,20 +8,20 @@
 namespace trapeze::scenes {
 namespace {
 
-constexpr int kHairs = 99000;    ///< at scale 1; the paper's are 495,000
-constexpr double kWidth = .009;  ///< at the root, scale 1; balls have the radius 1
-constexpr int kMostLayers = 5;   ///< as the paper's
+constexpr int kHairsOfBoth = 99000;  ///< at scale 1; the paper's are 495,000
+constexpr double kFurWidth = .009;   ///< at the root, scale 1; balls have the radius 1
+constexpr int kMostLayers = 5;       ///< as the paper's
 
 struct FurBall {
     V3d place, hair, skin;
     double size;
 };
 
-const std::array<FurBall, 2> kBalls = {{{{-.95, 0, 7}, {.86, .50, .24}, {.14, .08, .05}, 1},
-                                        {{1.3, -.22, 8.2}, {.40, .56, .72}, {.06, .08, .12}, .85}}};
+const std::array<FurBall, 2> kFurBalls = {{{{-.95, 0, 7}, {.86, .50, .24}, {.14, .08, .05}, 1},
+                                           {{1.3, -.22, 8.2}, {.40, .56, .72}, {.06, .08, .12}, .85}}};
 constexpr double kFloor = -1.3;
 
-void write_room(RibWriter& rib) {
+void write_mirror_room(RibWriter& rib) {
     {
         const auto floor = rib.block("Attribute");
         rib.request("Surface", "mirror", "Kd", Numbers{.35}, "Kr", Numbers{.45}, "Ks", Numbers{.1});
@@ -41,11 +41,11 @@ void write_furballs_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("LightSource", "distantlight", 3, "intensity", Numbers{.35}, "lightcolor",
                 Numbers{.6, .75, 1}, "from", Numbers{1.5, .4, -.3}, "to", Numbers{0, 0, 0});
     rib.request("Attribute", "visibility", "int specular", Integers{1});
-    write_room(rib);
-    const int hairs = std::max(2, static_cast<int>(std::lround(kHairs * p.scale)));
+    write_mirror_room(rib);
+    const int hairs = std::max(2, static_cast<int>(std::lround(kHairsOfBoth * p.scale)));
     int first = 0;
-    for (size_t i = 0; i < kBalls.size(); ++i) {
-        const FurBall& ball = kBalls[i];
+    for (size_t i = 0; i < kFurBalls.size(); ++i) {
+        const FurBall& ball = kFurBalls[i];
         const auto attributes = rib.block("Attribute");
         write_moving(rib, "Translate", {ball.place.x, ball.place.y, ball.place.z}, {.06, .03, 0}, p);
         rib.request("Scale", ball.size, ball.size, ball.size);
@@ -59,7 +59,7 @@ void write_furballs_world(RibWriter& rib, const SceneParameters& p) {
         rib.request("Opacity", Numbers{.5, .5, .5});
         rib.request("Basis", "bezier", 3, "bezier", 3);
         const int end = i == 0 ? hairs / 2 : hairs;
-        write_fur(rib, first, end - first, kWidth / std::sqrt(p.scale), ball.hair);
+        write_fur(rib, first, end - first, kFurWidth / std::sqrt(p.scale), ball.hair);
         first = end;
     }
 }

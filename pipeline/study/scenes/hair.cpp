@@ -9,7 +9,7 @@
 namespace trapeze::scenes {
 namespace {
 
-constexpr int kHairs = 100000;  ///< at scale 1
+constexpr int kHairsOfAll = 100000;  ///< at scale 1
 constexpr int kHairsOfTuft = 200, kTuftsOfBall = 3;
 constexpr double kHairWidth = .0048;  ///< at scale 1, at the root: about a pixel
 
@@ -94,7 +94,7 @@ void write_ball(RibWriter& rib, uint32_t number, int tufts, const SceneParameter
 std::array<int, kBalls.size()> tufts_of_balls(double scale) {
     double surface = 0;
     for (const Ball& ball : kBalls) surface += ball.radius * ball.radius;
-    const double tufts = kHairs * scale / kHairsOfTuft;
+    const double tufts = kHairsOfAll * scale / kHairsOfTuft;
     std::array<int, kBalls.size()> count{};
     double sum = 0;
     int given = 0;
@@ -106,7 +106,7 @@ std::array<int, kBalls.size()> tufts_of_balls(double scale) {
     return count;
 }
 
-void write_room(RibWriter& rib) {
+void write_plain_room(RibWriter& rib) {
     const auto room = rib.block("Attribute");
     rib.request("Surface", "matte");
     rib.request("Color", Numbers{.36, .42, .50});
@@ -136,7 +136,7 @@ void write_hair_world(RibWriter& rib, const SceneParameters& p) {
                 "conedeltaangle", Numbers{.3}, "beamdistribution", Numbers{1});
     rib.request("LightSource", "distantlight", 3, "intensity", Numbers{.28}, "lightcolor",
                 Numbers{.55, .72, 1}, "from", Numbers{1, .5, -.6}, "to", Numbers{0, 0, 0});
-    write_room(rib);
+    write_plain_room(rib);
     rib.request("Surface", "plastic", "Kd", Numbers{.85}, "Ks", Numbers{.22}, "roughness", Numbers{1.44});
     write_tufts(rib, p.scale);
     const auto tufts = tufts_of_balls(p.scale);

@@ -29,7 +29,7 @@ void write_backdrop(RibWriter& rib) {
                 flattened(std::array{low, low, high, high}));
 }
 
-void write_lights(RibWriter& rib) {
+void write_stage_lights(RibWriter& rib) {
     rib.request("LightSource", "ambientlight", 1, "intensity", Numbers{.16}, "lightcolor",
                 Numbers{.75, .85, 1});
     rib.request("LightSource", "spotlight", 2, "intensity", Numbers{95}, "lightcolor", Numbers{1, .9, .76},
@@ -56,7 +56,7 @@ Shot halberd_shot() {
 }
 
 void write_halberd_world(RibWriter& rib, const SceneParameters& p) {
-    write_lights(rib);
+    write_stage_lights(rib);
     write_backdrop(rib);
     const auto weapon = rib.block("Attribute");
     write_moving(rib, "Translate", {kGrip.x, kGrip.y, kGrip.z}, {-.04, .05, 0}, p);

@@ -11,7 +11,7 @@ namespace trapeze::scenes {
 namespace {
 
 const V3d kSteel(.30, .325, .37), kDarkSteel(.06, .066, .082), kBrass(.62, .36, .09), kWood(.28, .115, .04),
-    kLeather(.08, .035, .02), kRed(.50, .015, .03);
+    kLeather(.08, .035, .02), kRedCloth(.50, .015, .03);
 
 constexpr double kShaftRadius = .125, kSocketLow = 3.95, kSocketHigh = 5.05;
 constexpr double kSocketRadius = .19;
@@ -19,7 +19,7 @@ constexpr double kSocketRadius = .19;
 /// Down in the picture, as seen by the weapon in its place.
 const V3d kDown(.80, -.55, .2);
 
-enum Kind : uint32_t { kWoodChance = 100, kBladeChance, kLeatherChance, kTasselChance };
+enum MaterialChances : uint32_t { kWoodChance = 100, kBladeChance, kLeatherChance, kTasselChance };
 
 void polish(RibWriter& rib, double diffuse, double specular, double roughness, const V3d& highlight) {
     rib.request("Surface", "plastic", "Kd", Numbers{diffuse}, "Ks", Numbers{specular}, "roughness",
@@ -198,7 +198,7 @@ void add_strand(Cage& cage, uint32_t number) {
     Chance chance(kTasselChance, number);
     const double angle = chance.between(0, 2 * kPi), length = chance.between(.75, 1.15);
     const V3d out(std::cos(angle), 0, std::sin(angle));
-    const V3d color = kRed * chance.between(.55, 1.5);
+    const V3d color = kRedCloth * chance.between(.55, 1.5);
     const double wave = chance.between(0, 2 * kPi), swing = chance.between(.02, .05);
     V3d place = V3d(0, 3.33, 0) + (kShaftRadius + chance.between(.0, .03)) * out;
     V3d direction = .9 * out - V3d(0, .35, 0) + .2 * chance.direction();

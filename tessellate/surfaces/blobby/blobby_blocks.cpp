@@ -8,13 +8,13 @@
 namespace trapeze {
 namespace {
 
-constexpr int kSide = BlobbyBlock::kSide, kCorners = (kSide + 1) * (kSide + 1) * (kSide + 1);
+constexpr int kSide = BlobbyBlock::kSide, kCornersOfBlock = (kSide + 1) * (kSide + 1) * (kSide + 1);
 /// Bounds on absurd input: a field that wants more is made coarser (see blobby_mesh()).
 constexpr size_t kMostBlocks = 200'000;
 constexpr float kLeastCell = 1e-5f;  ///< of the diagonal of all leaves
 constexpr int kMostLevels = 20;
 /// A block's cells may be larger than wanted by this much, so that sizes are met on an average.
-constexpr float kTolerance = 1.4f;
+constexpr float kCellTolerance = 1.4f;
 /// Cells beyond a leaf's end that count as near it: those round an edge that it reaches into, and some for
 /// rounding.
 constexpr float kMarginCells = 1.5f;
@@ -121,9 +121,9 @@ bool BlobbyBlocks::refine(int node, const GridIndex& at, const std::vector<int>&
         if (overlap(supports_[leaf], close)) near.push_back(leaf);
     }
     if (near.empty()) return true;
-    if (level == 0 || cell(level) <= kTolerance * wanted(around, feature)) {
+    if (level == 0 || cell(level) <= kCellTolerance * wanted(around, feature)) {
         BlobbyProgram of_block = reduced(program, near);
-        operations_ += static_cast<double>(of_block.instructions.size()) * kCorners;
+        operations_ += static_cast<double>(of_block.instructions.size()) * kCornersOfBlock;
         nodes_[node].block = static_cast<int>(blocks_.size());
         blocks_.push_back({at, level, std::move(near), std::move(of_block)});
         return blocks_.size() <= kMostBlocks && operations_ <= most_operations_;

@@ -12,7 +12,7 @@ using Imath::V2d;
 
 /// How far a curve's middle may be from the line's, as part of the patch's range. Judged only from
 /// kLeastDepth halvings on, for the middle of an S lies on its line.
-constexpr double kTolerance = 5e-5;
+constexpr double kLoopTolerance = 5e-5;
 constexpr int kLeastDepth = 2, kMostDepth = 8;
 
 /// Adds the points of one curve, in the order of its parameter.
@@ -57,7 +57,7 @@ class Flattener {
     void cut(int span, float a, const V2d& from, float b, const V2d& to, int depth) {
         const float middle = (a + b) / 2;
         const V2d half = at(span, middle);
-        const bool straight = depth >= kLeastDepth && (half - (from + to) * 0.5).length() <= kTolerance;
+        const bool straight = depth >= kLeastDepth && (half - (from + to) * 0.5).length() <= kLoopTolerance;
         if (depth >= kMostDepth || straight) return add(from);
         cut(span, a, from, middle, half, depth + 1);
         cut(span, middle, half, b, to, depth + 1);

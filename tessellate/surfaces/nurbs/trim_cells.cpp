@@ -261,9 +261,9 @@ void Cutter::emit_face(int i, int j, std::vector<int> polygon) {
 }
 
 void Cutter::emit(int i, int j, const std::vector<int>& outline, const std::vector<std::vector<int>>& holes) {
-    constexpr size_t kMostCorners = 8;
+    constexpr size_t kMostCellCorners = 8;
     if (outline.size() < 3) return;
-    if (holes.empty() && outline.size() <= kMostCorners && is_convex(outline))
+    if (holes.empty() && outline.size() <= kMostCellCorners && is_convex(outline))
         return emit_face(i, j, outline);
     std::vector<int> vertices = outline, sizes{static_cast<int>(outline.size())};
     for (const std::vector<int>& hole : holes) {
