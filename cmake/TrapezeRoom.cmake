@@ -1,14 +1,15 @@
-# trapeze_compile_together(TARGET SOURCE ...)
-# Several sources are one to the compiler, which then reads headers once for all of them: most of what it does.
+# trapeze_compile_together(TARGET AT_ONCE SOURCE ...)
+# AT_ONCE sources are one to the compiler, which then reads headers once for all of them: most of what it does.
 # Kernels stay alone, since each of their files is compiled again for every instruction set, and so do the
 # ALONE sources of a room: those that have names of their own that others have too.
-function(trapeze_compile_together target)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${TRAPEZE_COMPILE_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+function(trapeze_compile_together target at_once)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${TRAPEZE_COMPILE_TOGETHER} UNITY_BUILD_BATCH_SIZE ${at_once})
     foreach(source ${ARGN})
         if(NOT IS_ABSOLUTE ${source})
-            file(STRINGS ${source} kernel REGEX "foreach_target.h" LIMIT_COUNT 1)
+            file(STRINGS ${source} kernel REGEX "include <hwy/(foreach_target|targets).h>" LIMIT_COUNT 1)
             if(kernel)
-                set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+                set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+                                            COMPILE_OPTIONS "${TRAPEZE_KERNEL_OPTIONS}")
             endif()
         endif()
     endforeach()
@@ -17,27 +18,30 @@ endfunction()
 # trapeze_room_test(NAME PROGRAM TESTS LINKS): a program of tests of a room.
 function(trapeze_room_test name program tests links)
     add_executable(${program} ${tests})
-    trapeze_compile_together(${program} ${tests})
+    trapeze_compile_together(${program} 8 ${tests})
     target_compile_options(${program} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
     target_link_libraries(${program} PRIVATE trapeze_${name} ${links} GTest::gtest_main GTest::gmock)
     target_compile_definitions(${program} PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${TRAPEZE_TEST_TIMEOUT})
 endfunction()
 
-# trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... ALONE ... LINKS ... PRIVATE_LINKS ... RARELY_RUN)
+# trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... ALONE ... LINKS ... PRIVATE_LINKS ... RARELY_RUN NO_LOOPS)
 # A room is one static library and, when tests are built, one test program made of the tests beside its sources; those
 # that read or write pictures by OpenImageIO are a program of their own, for its 250 libraries take a fifth of a second
 # to load. Includes are written from the root of the repository: #include "core/grid.h". RARELY_RUN: what the room
-# does is little beside what it has done, and the compiler needs not look far.
+# does is little beside what it has done, and the compiler needs not look far. NO_LOOPS: it has none that -O3 makes
+# faster, as measured.
 function(trapeze_room name)
-    cmake_parse_arguments(ROOM "RARELY_RUN" "" "SOURCES;TESTS;PICTURE_TESTS;ALONE;LINKS;PRIVATE_LINKS" ${ARGN})
+    cmake_parse_arguments(ROOM "RARELY_RUN;NO_LOOPS" "" "SOURCES;TESTS;PICTURE_TESTS;ALONE;LINKS;PRIVATE_LINKS" ${ARGN})
     set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     add_library(trapeze_${name} STATIC ${ROOM_SOURCES})
-    trapeze_compile_together(trapeze_${name} ${ROOM_SOURCES})
+    trapeze_compile_together(trapeze_${name} 24 ${ROOM_SOURCES})
     target_include_directories(trapeze_${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(trapeze_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
     if(ROOM_RARELY_RUN)
         target_compile_options(trapeze_${name} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
+    elseif(ROOM_NO_LOOPS)
+        target_compile_options(trapeze_${name} PRIVATE $<$<CONFIG:Release>:-O2>)
     endif()
     if(TRAPEZE_BUILD_TESTS AND ROOM_TESTS)
         trapeze_room_test(${name} ${name}_test "${ROOM_TESTS}" "${ROOM_PRIVATE_LINKS}")

@@ -22,6 +22,11 @@ constexpr NamedTarget kTargets[] = {{"scalar", HWY_SCALAR}};
 
 constexpr std::string_view kBest = "best";
 
+bool is_compiled(const NamedTarget& known) {
+    return (HWY_TARGETS & known.target) !=
+           0;  // this file is compiled for the sets that kernels are compiled for
+}
+
 /// Asking Highway for these has it choose among all that the machine has, whatever was disabled; this chooses
 /// again, among what is allowed.
 int64_t allowed_targets() {
@@ -38,6 +43,13 @@ std::vector<std::string_view> simd_names() {
     return names;
 }
 
+std::vector<std::string_view> compiled_simd_names() {
+    std::vector<std::string_view> names;
+    for (const NamedTarget& known : kTargets)
+        if (is_compiled(known)) names.push_back(known.name);
+    return names;
+}
+
 bool limit_simd(std::string_view name, std::string* error) {
     if (name == kBest) {
         hwy::DisableTargets(0);
@@ -49,6 +61,10 @@ bool limit_simd(std::string_view name, std::string* error) {
     if (found == std::end(kTargets)) {
         *error = "no instruction set \"" + std::string(name) + "\"; there are:";
         for (const std::string_view known : simd_names()) *error += " " + std::string(known);
+        return false;
+    }
+    if (!is_compiled(*found)) {
+        *error = "this build has no " + std::string(name) + " (`trapeze --version` says what is in)";
         return false;
     }
     const int64_t before = allowed_targets(), best_before = before & -before;
@@ -67,7 +83,7 @@ bool limit_simd(std::string_view name, std::string* error) {
 std::string_view simd_limit() {
     const int64_t allowed = allowed_targets();
     for (auto known = std::rbegin(kTargets); known != std::rend(kTargets); ++known)
-        if (allowed & known->target) return known->name;
+        if (is_compiled(*known) && (allowed & known->target)) return known->name;
     return kBest;
 }
 

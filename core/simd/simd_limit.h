@@ -12,8 +12,14 @@ namespace trapeze {
 /// "best" and the instruction sets that limit_simd() knows on this kind of machine, narrowest first.
 std::vector<std::string_view> simd_names();
 
+/// Those of simd_names() that this build has vector code for, without "best": a build for the machine that
+/// makes it has one alone (cmake/InstructionSets.cmake). Where the machine has none of them, plain code runs
+/// instead.
+std::vector<std::string_view> compiled_simd_names();
+
 /// Vector code uses nothing better than the named instruction set from now on. False with *error set, and
-/// nothing changed, when there is no such name or the machine lacks it. Not while other threads work.
+/// nothing changed, when there is no such name, or the machine or this build lacks it. Not while other
+/// threads work.
 bool limit_simd(std::string_view name, std::string* error);
 
 /// The best instruction set that vector code may use now, as limit_simd() names it; "best" where it has no

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/simd/simd_limit.h"
 #include "pipeline/cli/pages/pages.h"
 #include "pipeline/cli/support/command_options.h"
 #include "pipeline/cli/support/exit_codes.h"
@@ -119,6 +120,16 @@ bool wants_json(const std::vector<std::string>& words) {
     return progress == "json";
 }
 
+/// What --version prints: the version, and which instruction sets this build has vector code for.
+std::string version_text() {
+    std::string text = std::string("Trapeze ") + kVersion + " (" + revision() + ")\ninstruction sets:";
+    const std::vector<std::string_view> compiled = compiled_simd_names();
+    for (const std::string_view name : compiled) text += " " + std::string(name);
+    if (compiled.size() + 1 < simd_names().size())
+        text += compiled.empty() ? " none" : " (of the machine that built it; others use plain code)";
+    return text;
+}
+
 /// Reports a usage error as the command line wants its messages, and returns the exit code.
 int usage_error(const std::string& text, const std::vector<std::string>& words) {
     const bool json = wants_json(words);
@@ -155,7 +166,7 @@ std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) 
         std::string(kExitCodeHelp) +
         "\n`trapeze help COMMAND` is `trapeze COMMAND --help`. RenderMan programs' spellings are accepted:\n"
         "-progress -Progress -t:N -res W H -crop X0 X1 Y0 Y1 -frames A B -d DRIVER.");
-    app.set_version_flag("--version", std::string("Trapeze ") + kVersion + " (" + revision() + ")");
+    app.set_version_flag("--version", version_text());
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     for (const CommandRow& row : kCommands) {
