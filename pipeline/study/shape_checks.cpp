@@ -15,6 +15,8 @@ constexpr size_t kRaytraceRow = 0, kIntervalRow = 1, kUvt2Row = 2, kUvt4Row = 3;
 
 /// How far from 1 the exponent of something linear may measure.
 constexpr double kLinear = .15;
+/// How far from 1 the ratio of what is alike may measure.
+constexpr double kAlike = .1;
 /// How many times more or less than the logarithm what is logarithmic may grow: some of a ray's cost is
 /// constant, and caches are outgrown.
 constexpr double kLogarithmic = 1.25;
@@ -232,6 +234,43 @@ std::vector<StudyCheck> checks_of_effects(const std::vector<std::vector<double>>
                        both_text(paper[kRaytraceRow]), both_text(here[kRaytraceRow])};
     tracing.held = both(here[kRaytraceRow]) < both(here[kIntervalRow]);
     return {uvt, interval, tracing};
+}
+
+std::vector<StudyCheck> checks_of_structure(const std::vector<std::vector<double>>& rmse,
+                                            const std::vector<std::vector<double>>& together) {
+    constexpr size_t kEffects = 3, kBoth = 2;
+    const auto to_tracing = [](const std::vector<std::vector<double>>& figures, size_t method) {
+        std::vector<double> ratios;
+        for (size_t e = 0; e < kEffects; ++e) ratios.push_back(figures[method][e] / figures[kRaytraceRow][e]);
+        return ratios;
+    };
+    const auto text = [](const std::vector<double>& ratios) {
+        return fmt::format("{} with defocus, {} with motion blur, {} with both", times(ratios[0]),
+                           times(ratios[1]), times(ratios[2]));
+    };
+    const std::vector<double> interval = to_tracing(together, kIntervalRow),
+                              uvt2 = to_tracing(together, kUvt2Row), uvt4 = to_tracing(together, kUvt4Row);
+    StudyCheck alone{"INTERVAL's pixels err as one no more than ray tracing's (10 %) with one effect",
+                     "alias-free", text(interval)};
+    alone.held = interval[0] <= 1 + kAlike && interval[1] <= 1 + kAlike;
+    StudyCheck both{"INTERVAL's pixels err as one more than ray tracing's (10 %) with both effects",
+                    "\"may result in aliasing\"", text(interval)};
+    both.held = interval[kBoth] > 1 + kAlike;
+    StudyCheck tiles{
+        "INTERLEAVEUVT's pixels err as one more than ray tracing's, and less with k = 4 than with k = 2",
+        "\"increasing k improves quality\"", "k = 2: " + text(uvt2) + "; k = 4: " + text(uvt4)};
+    tiles.held = true;
+    tiles.why =
+        "the k x k pixels of a tile share one stratification of lens and time: where a block has all of them, "
+        "their errors cancel";
+    for (size_t e = 0; e < kEffects; ++e) tiles.held = tiles.held && uvt2[e] > uvt4[e] && uvt4[e] > 1;
+    StudyCheck noise{
+        "ray tracing's error is less than INTERLEAVEUVT's with every effect", "\"less noise\"",
+        "k = 2: " + text(to_tracing(rmse, kUvt2Row)) + "; k = 4: " + text(to_tracing(rmse, kUvt4Row))};
+    noise.held = true;
+    for (const size_t method : {kUvt2Row, kUvt4Row})
+        for (const double ratio : to_tracing(rmse, method)) noise.held = noise.held && ratio > 1;
+    return {alone, both, tiles, noise};
 }
 
 std::vector<StudyCheck> checks_of_sweep(const std::string& what,

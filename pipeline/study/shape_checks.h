@@ -51,6 +51,11 @@ std::vector<StudyCheck> checks_of_effects(const std::vector<std::vector<double>>
 /// Checks that blur, which grows from none, costs little. Seconds are by amount of blur.
 StudyCheck check_of_blur(const std::string& method, const std::vector<double>& times);
 
+/// Checks how pictures err: root mean square errors, and pixels that err as one. Both are by method
+/// (paper::kMethods), then by defocus, motion, both.
+std::vector<StudyCheck> checks_of_structure(const std::vector<std::vector<double>>& rmse,
+                                            const std::vector<std::vector<double>>& together);
+
 /// Checks how costs grow with blur. Seconds are by method (ray tracing, INTERVAL, k = 4), then by amount of
 /// blur; `alone`: of a ray by itself.
 std::vector<StudyCheck> checks_of_sweep(const std::string& what,

@@ -121,6 +121,23 @@ TEST(ShapeChecks, EachOfEffectsMissesWhatIsPlanted) {
     expect_only_missed(checks_of_effects(planted, good), 2);
 }
 
+TEST(ShapeChecks, EachOfStructureMissesWhatIsPlanted) {
+    const std::vector<std::vector<double>> rmse = {{1, 1, 1}, {1, 1, 2}, {2, 2, 2}, {1.5, 1.5, 1.5}},
+                                           together = {{3, 3, 3}, {3.2, 3.1, 9}, {12, 14, 16}, {5, 5, 6}};
+    expect_held(checks_of_structure(rmse, together));
+    auto planted = together;
+    planted[1][1] = 3.4;  // INTERVAL aliases with motion blur alone
+    expect_only_missed(checks_of_structure(rmse, planted), 0);
+    planted = together, planted[1][2] = 3.3;  // nor with both
+    expect_only_missed(checks_of_structure(rmse, planted), 1);
+    planted = together, planted[3][0] = 12.1;  // k = 4 as k = 2 with one of the effects
+    expect_only_missed(checks_of_structure(rmse, planted), 2);
+    planted = together, planted[3][2] = 2.9;  // k = 4 less than ray tracing
+    expect_only_missed(checks_of_structure(rmse, planted), 2);
+    planted = rmse, planted[3][1] = 1;  // k = 4 with no more noise
+    expect_only_missed(checks_of_structure(planted, together), 3);
+}
+
 TEST(ShapeChecks, EachOfASweepMissesWhatIsPlanted) {
     const std::vector<std::vector<double>> good = {{4, 5, 6}, {4, 6, 8}, {20, 20, 20}};
     const std::vector<double> alone = {100, 120, 130};

@@ -10,6 +10,7 @@ void study_table2(StudyBench& bench, StudyResult& result);
 void study_table3(StudyBench& bench, StudyResult& result);
 void study_table4(StudyBench& bench, StudyResult& result);
 void study_table5(StudyBench& bench, StudyResult& result);
+void study_fig6(StudyBench& bench, StudyResult& result);
 void study_fig9(StudyBench& bench, StudyResult& result);
 void study_fig10(StudyBench& bench, StudyResult& result);
 void study_growth(StudyBench& bench, StudyResult& result);

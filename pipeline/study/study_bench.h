@@ -48,6 +48,8 @@ class StudyBench {
     std::vector<MethodResult> measure(const SharedFrame& frame, const StudyScene& scene,
                                       const std::string& methods, const std::vector<SampleRate>& rates);
 
+    /// Who watches the part of a stage that is done; may be empty.
+    const std::function<void(double)>& on_progress() const { return settings_.on_progress; }
     /// Ends the study when it was cancelled.
     void go_on() const;
     /// Tells who watches what is done now.

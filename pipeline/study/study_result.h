@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/compare/machine.h"
+#include "pipeline/compare/report/screen_pictures.h"
 
 namespace trapeze {
 
@@ -36,6 +37,12 @@ struct HistogramPlot {
     std::string title, x_title;
     double low = 0, bin = 1;
     std::vector<uint64_t> counts;
+};
+
+/// One place of several pictures, each with its name.
+struct StudyCloseUps {
+    std::string title;
+    std::vector<std::pair<std::string, LinearPicture>> pictures;
 };
 
 /// A shape that the paper's figures have, and whether those measured here have it too.
@@ -72,6 +79,7 @@ struct StudyResult {
     std::vector<StudyTable> tables;
     std::vector<LinePlot> plots;
     std::vector<HistogramPlot> histograms;
+    std::vector<StudyCloseUps> close_ups;
     std::vector<StudyCheck> checks;
     nlohmann::ordered_json figures = nlohmann::ordered_json::array();  ///< every single measurement
 };

@@ -14,6 +14,14 @@ StudyScene car_scene(const StudyBench& bench) {
     return bench.scene("Car", "car-study", 3);
 }
 
+StudyScene car_scene_with(const StudyBench& bench, bool defocus, bool motion) {
+    StudyScene scene = car_scene(bench);
+    if (!motion) scene.parameters.motion = 0;
+    if (!defocus) scene.parameters.defocus = 0;
+    scene.label += !motion ? ", defocus" : !defocus ? ", motion blur" : ", both";
+    return scene;
+}
+
 StudyScene halberd_scene(const StudyBench& bench) {
     return bench.scene("Halberd", "halberd", 1);
 }

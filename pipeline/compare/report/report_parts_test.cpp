@@ -88,17 +88,15 @@ TEST(ScreenPictures, HeatIsLogarithmic) {
 }
 
 TEST(WorstPlaces, AreWhereTheErrorIsAndDoNotOverlap) {
-    Comparison c;
-    c.rates = {{2, 2}};
-    c.reference = grey(200, 100, 0);
-    c.methods.resize(2);
-    for (ComparedMethod& m : c.methods) m.result.rate = {2, 2}, m.picture.image = c.reference;
+    const Image reference = grey(200, 100, 0);
+    Image pictures[2] = {reference, reference};
     const auto spoil = [&](size_t method, int x, int y, float value) {
-        c.methods[method].picture.image.rgba[4 * c.reference.index(x, y)] = value;
+        pictures[method].rgba[4 * reference.index(x, y)] = value;
     };
     spoil(0, 150, 60, 3);
     spoil(1, 20, 20, 2);
-    const auto places = worst_places(c, 32, 3);
+    const Image* const both[] = {&pictures[0], &pictures[1]};
+    const auto places = worst_places(reference, both, 32, 3);
     ASSERT_EQ(places.size(), 2u) << "nothing else differs";
     EXPECT_FALSE(intersection(places[0], {150, 60, 151, 61}).empty());
     EXPECT_FALSE(intersection(places[1], {20, 20, 21, 21}).empty());
@@ -107,12 +105,10 @@ TEST(WorstPlaces, AreWhereTheErrorIsAndDoNotOverlap) {
 }
 
 TEST(WorstPlaces, FitSmallPictures) {
-    Comparison c;
-    c.rates = {{1, 1}};
-    c.reference = grey(20, 10, 0);
-    c.methods.resize(1);
-    c.methods[0].picture.image = grey(20, 10, 1);
-    EXPECT_EQ(worst_places(c, 96, 3), (std::vector<PixelRect>{{0, 0, 20, 10}}));
+    const Image reference = grey(20, 10, 0), picture = grey(20, 10, 1);
+    const Image* const one[] = {&picture};
+    EXPECT_EQ(worst_places(reference, one, 96, 3), (std::vector<PixelRect>{{0, 0, 20, 10}}));
+    EXPECT_TRUE(worst_places(reference, {}, 96, 3).empty());
 }
 
 TEST(BarChart, IsLogarithmicOnlyWhereBarsWouldVanish) {

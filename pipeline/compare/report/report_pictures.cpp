@@ -159,13 +159,21 @@ std::string crop(const Image& picture, const PixelRect& place, const std::string
         escaped(name));
 }
 
+/// The pictures of all methods at the last sample rate.
+std::vector<const Image*> last_pictures(const Comparison& c) {
+    std::vector<const Image*> pictures;
+    if (c.rates.empty()) return pictures;
+    for (const ComparedMethod* method : c.at(c.rates.back())) pictures.push_back(&method->picture.image);
+    return pictures;
+}
+
 std::string close_ups(const Comparison& c) {
     std::string out = fmt::format(
         "<section id=\"places\">\n<h2>The worst places</h2>\n<p>Where the worst method is farthest from the "
         "reference "
         "at {} samples; every pixel {} times as large.</p>\n",
         c.rates.empty() ? "" : rate_text(c.rates.back()), kMagnification);
-    for (const PixelRect& place : worst_places(c, kPlaceSide, kPlaces)) {
+    for (const PixelRect& place : worst_places(c.reference, last_pictures(c), kPlaceSide, kPlaces)) {
         out += fmt::format("<h3>x {}\u2013{}, y {}\u2013{}</h3>\n<div class=\"crops\">\n", place.x0, place.x1,
                            place.y0, place.y1);
         out += crop(c.reference, place, "", "reference");

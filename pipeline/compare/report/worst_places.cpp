@@ -31,16 +31,14 @@ class SumTable {
     std::vector<double> sums_;
 };
 
-/// Pixel by pixel, the squared difference of the worst method.
-std::vector<float> worst_errors(const Comparison& comparison) {
-    const Image& reference = comparison.reference;
+/// Pixel by pixel, the squared difference of the worst picture.
+std::vector<float> worst_errors(const Image& reference, std::span<const Image* const> pictures) {
     std::vector<float> errors(reference.rgba.size() / 4);
-    if (comparison.rates.empty()) return errors;
-    for (const ComparedMethod* method : comparison.at(comparison.rates.back()))
+    for (const Image* const picture : pictures)
         for (size_t i = 0; i < errors.size(); ++i) {
             float error = 0;
             for (size_t c = 0; c < 3; ++c) {
-                const float d = method->picture.image.rgba[4 * i + c] - reference.rgba[4 * i + c];
+                const float d = picture->rgba[4 * i + c] - reference.rgba[4 * i + c];
                 error += d * d;
             }
             errors[i] = std::max(errors[i], error);
@@ -50,10 +48,11 @@ std::vector<float> worst_errors(const Comparison& comparison) {
 
 }  // namespace
 
-std::vector<PixelRect> worst_places(const Comparison& comparison, int side, size_t count) {
-    const PixelRect& window = comparison.reference.window;
+std::vector<PixelRect> worst_places(const Image& reference, std::span<const Image* const> pictures, int side,
+                                    size_t count) {
+    const PixelRect& window = reference.window;
     const int width = std::min(side, window.width()), height = std::min(side, window.height());
-    SumTable sums(worst_errors(comparison), window.width(), window.height());
+    SumTable sums(worst_errors(reference, pictures), window.width(), window.height());
     std::vector<PixelRect> places;
     while (places.size() < count && width > 0 && height > 0) {
         PixelRect worst;

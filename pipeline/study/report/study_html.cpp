@@ -61,6 +61,26 @@ std::string tables(const StudyResult& r) {
     return out + "</section>\n";
 }
 
+std::string close_ups(const StudyResult& r) {
+    if (r.close_ups.empty()) return {};
+    constexpr int kMagnified = 5;
+    std::string out = fmt::format(
+        "<section id=\"places\">\n<h2>Close-ups</h2>\n<p>Where means over some pixels of a picture are farthest from the "
+        "reference; every pixel {} times as large.</p>\n",
+        kMagnified);
+    for (const StudyCloseUps& row : r.close_ups) {
+        out += "<h3>" + escaped(row.title) + "</h3>\n<div class=\"crops\">\n";
+        for (const auto& [name, picture] : row.pictures)
+            out += fmt::format(
+                "<figure>\n<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">\n<figcaption>{}</figcaption>\n"
+                "</figure>\n",
+                picture.width * kMagnified, picture.height * kMagnified, escaped("close-up of " + name),
+                png_url(picture), escaped(name));
+        out += "</div>\n";
+    }
+    return out + "</section>\n";
+}
+
 std::string checks(const StudyResult& r) {
     std::string out =
         "<section id=\"checks\">\n<h2>Checks</h2>\n<p>Shapes that the paper&rsquo;s figures have, whatever "
@@ -101,8 +121,9 @@ std::string scenes(const StudyResult& r) {
 }  // namespace
 
 std::string study_html(const StudyResult& r) {
-    return html_head("Trapeze study: " + r.title) + title(r) + plots(r) + tables(r) + checks(r) + scenes(r) +
-           "<section id=\"machine\">\n<h2>Machine</h2>\n<dl class=\"machine\">\n" + html_machine(r.machine) +
+    return html_head("Trapeze study: " + r.title) + title(r) + plots(r) + tables(r) + close_ups(r) +
+           checks(r) + scenes(r) + "<section id=\"machine\">\n<h2>Machine</h2>\n<dl class=\"machine\">\n" +
+           html_machine(r.machine) +
            "</dl>\n</section>\n</main>\n<script type=\"application/json\" id=\"figures\">" +
            script_safe(json_text(study_json(r), -1)) + "</script>\n</body>\n</html>\n";
 }

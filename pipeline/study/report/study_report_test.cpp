@@ -20,6 +20,8 @@ StudyResult small_study() {
     result.tables.push_back({"Times", {"method", "Car"}, {{"raytrace", "1.00 s"}, {"a&b", "2.00 s"}}});
     result.plots.push_back({"Plot", "x", "y", {{"one", {{0, 1}, {10, 2}}}, {"two", {{0, 3}, {10, 4}}}}});
     result.histograms.push_back({"Histogram", "difference", -.1, .05, {1, 5, 2, 0, 1}});
+    result.close_ups.push_back(
+        {"x 1 to <3", {{"reference", {2, 1, {0, 0, 0, 1, 1, 1}}}, {"a&b", {1, 1, {1, 0, 0}}}}});
     result.checks.push_back({"holds", "2x", "3x", true});
     result.checks.push_back({"misses", "2x", "1x", false, "because"});
     return result;
@@ -71,6 +73,8 @@ TEST(StudyReport, HtmlIsOneFileAndEscapesText) {
     EXPECT_THAT(html, HasSubstr("A &lt;small&gt; study"));
     EXPECT_THAT(html, HasSubstr("a&amp;b"));
     EXPECT_THAT(html, HasSubstr("class=\"missed\""));
+    EXPECT_THAT(html, HasSubstr("x 1 to &lt;3"));
+    EXPECT_THAT(html, HasSubstr("alt=\"close-up of a&amp;b\" src=\"data:image/png;base64,"));
     EXPECT_THAT(html, Not(HasSubstr("http://")));
     EXPECT_THAT(html, Not(HasSubstr("https://")));
 }
