@@ -15,20 +15,37 @@ function(trapeze_compile_together target at_once)
     endforeach()
 endfunction()
 
-# trapeze_room_test(NAME PROGRAM TESTS LINKS): a program of tests of a room.
+# trapeze_tests_of(PROGRAM [SHARDS]): hands a program's tests to ctest, each as a process of its own; or, where the
+# program takes long to load, in so many processes, PROGRAM.0 and on, which share all tests.
+function(trapeze_tests_of program)
+    if(ARGC EQUAL 1)
+        gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${TRAPEZE_TEST_TIMEOUT})
+        return()
+    endif()
+    set(shards ${ARGV1})
+    math(EXPR last "${shards} - 1")
+    math(EXPR timeout "${TRAPEZE_TEST_TIMEOUT} * 3")
+    foreach(shard RANGE ${last})
+        add_test(NAME ${program}.${shard} COMMAND ${program} --gtest_brief=1)
+        set_tests_properties(${program}.${shard} PROPERTIES TIMEOUT ${timeout}
+                             ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+endfunction()
+
+# trapeze_room_test(NAME PROGRAM TESTS LINKS [SHARDS]): a program of tests of a room.
 function(trapeze_room_test name program tests links)
     add_executable(${program} ${tests})
     trapeze_compile_together(${program} 8 ${tests})
     target_compile_options(${program} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
     target_link_libraries(${program} PRIVATE trapeze_${name} ${links} GTest::gtest_main GTest::gmock)
     target_compile_definitions(${program} PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    gtest_discover_tests(${program} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${TRAPEZE_TEST_TIMEOUT})
+    trapeze_tests_of(${program} ${ARGN})
 endfunction()
 
 # trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... ALONE ... LINKS ... PRIVATE_LINKS ... RARELY_RUN NO_LOOPS)
 # A room is one static library and, when tests are built, one test program made of the tests beside its sources; those
-# that read or write pictures by OpenImageIO are a program of their own, for its 250 libraries take a fifth of a second
-# to load. Includes are written from the root of the repository: #include "core/grid.h". RARELY_RUN: what the room
+# that read or write pictures by OpenImageIO are a program of their own, for its 250 libraries take half a second to
+# load. Includes are written from the root of the repository: #include "core/grid.h". RARELY_RUN: what the room
 # does is little beside what it has done, and the compiler needs not look far. NO_LOOPS: it has none that -O3 makes
 # faster, as measured.
 function(trapeze_room name)
@@ -47,6 +64,6 @@ function(trapeze_room name)
         trapeze_room_test(${name} ${name}_test "${ROOM_TESTS}" "${ROOM_PRIVATE_LINKS}")
     endif()
     if(TRAPEZE_BUILD_TESTS AND ROOM_PICTURE_TESTS)
-        trapeze_room_test(${name} ${name}_pictures_test "${ROOM_PICTURE_TESTS}" "${ROOM_PRIVATE_LINKS};PkgConfig::OIIO")
+        trapeze_room_test(${name} ${name}_pictures_test "${ROOM_PICTURE_TESTS}" "${ROOM_PRIVATE_LINKS};PkgConfig::OIIO" 4)
     endif()
 endfunction()
