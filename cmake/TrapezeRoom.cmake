@@ -1,3 +1,7 @@
+# How many sources are compiled as one: of the program, and of tests, of which more have names in common.
+set(TRAPEZE_SOURCES_AT_ONCE 24)
+set(TRAPEZE_TESTS_AT_ONCE 8)
+
 # trapeze_compile_together(TARGET AT_ONCE SOURCE ...)
 # AT_ONCE sources are one to the compiler, which then reads headers once for all of them: most of what it does.
 # Kernels stay alone, since each of their files is compiled again for every instruction set, and so do the
@@ -35,7 +39,7 @@ endfunction()
 # trapeze_room_test(NAME PROGRAM TESTS LINKS [SHARDS]): a program of tests of a room.
 function(trapeze_room_test name program tests links)
     add_executable(${program} ${tests})
-    trapeze_compile_together(${program} 8 ${tests})
+    trapeze_compile_together(${program} ${TRAPEZE_TESTS_AT_ONCE} ${tests})
     target_compile_options(${program} PRIVATE ${TRAPEZE_TEST_OPTIMISATION})
     target_link_libraries(${program} PRIVATE trapeze_${name} ${links} GTest::gtest_main GTest::gmock)
     target_compile_definitions(${program} PRIVATE TRAPEZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
@@ -52,7 +56,7 @@ function(trapeze_room name)
     cmake_parse_arguments(ROOM "RARELY_RUN;NO_LOOPS" "" "SOURCES;TESTS;PICTURE_TESTS;ALONE;LINKS;PRIVATE_LINKS" ${ARGN})
     set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     add_library(trapeze_${name} STATIC ${ROOM_SOURCES})
-    trapeze_compile_together(trapeze_${name} 24 ${ROOM_SOURCES})
+    trapeze_compile_together(trapeze_${name} ${TRAPEZE_SOURCES_AT_ONCE} ${ROOM_SOURCES})
     target_include_directories(trapeze_${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(trapeze_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
     if(ROOM_RARELY_RUN)

@@ -22,9 +22,9 @@ constexpr NamedTarget kTargets[] = {{"scalar", HWY_SCALAR}};
 
 constexpr std::string_view kBest = "best";
 
+/// This file has the same options as kernels have.
 bool is_compiled(const NamedTarget& known) {
-    return (HWY_TARGETS & known.target) !=
-           0;  // this file is compiled for the sets that kernels are compiled for
+    return (HWY_TARGETS & known.target) != 0;
 }
 
 /// Asking Highway for these has it choose among all that the machine has, whatever was disabled; this chooses

@@ -7,54 +7,39 @@
 namespace trapeze {
 namespace {
 
-/// Sums over whole blocks, all three colours together.
-struct BlockSums {
-    double pixels = 0;  ///< of squares of the pixels' errors
-    double blocks = 0;  ///< of squares of the sums of the errors of a block
-};
-
-void add_block(const Image& image, const Image& reference, int x0, int y0, int block, BlockSums& sums) {
-    double together[3] = {};
-    for (int y = y0; y < y0 + block; ++y)
-        for (int x = x0; x < x0 + block; ++x)
-            for (size_t c = 0; c < 3; ++c) {
-                const size_t at = 4 * image.index(x, y) + c;
-                const double error =
-                    static_cast<double>(image.rgba[at]) - static_cast<double>(reference.rgba[at]);
-                sums.pixels += error * error;
-                together[c] += error;
-            }
-    for (const double sum : together) sums.blocks += sum * sum;
+/// Replaces one channel of a block by its mean.
+void take_mean(Image& image, const PixelRect& block, size_t channel) {
+    double sum = 0;
+    for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+            sum += static_cast<double>(image.rgba[4 * image.index(x, y) + channel]);
+    const auto mean = static_cast<float>(sum / (static_cast<double>(block.width()) * block.height()));
+    for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x) image.rgba[4 * image.index(x, y) + channel] = mean;
 }
 
 }  // namespace
 
 Image block_means(const Image& image, int block) {
     Image means = image;
-    std::fill(means.rgba.begin(), means.rgba.end(), 0.0f);
     const PixelRect& window = image.window;
-    for (int y0 = window.y0; y0 + block <= window.y1; y0 += block)
-        for (int x0 = window.x0; x0 + block <= window.x1; x0 += block)
-            for (size_t c = 0; c < 4; ++c) {
-                double sum = 0;
-                for (int y = y0; y < y0 + block; ++y)
-                    for (int x = x0; x < x0 + block; ++x)
-                        sum += static_cast<double>(image.rgba[4 * image.index(x, y) + c]);
-                for (int y = y0; y < y0 + block; ++y)
-                    for (int x = x0; x < x0 + block; ++x)
-                        means.rgba[4 * image.index(x, y) + c] = static_cast<float>(sum / (block * block));
-            }
+    for (int y = window.y0; y < window.y1; y += block)
+        for (int x = window.x0; x < window.x1; x += block)
+            for (size_t c = 0; c < 4; ++c)
+                take_mean(means, {x, y, std::min(x + block, window.x1), std::min(y + block, window.y1)}, c);
     return means;
 }
 
 PictureError picture_error(const Image& image, const Image& reference, int block) {
-    BlockSums sums;
-    const PixelRect& window = reference.window;
-    for (int y = window.y0; y + block <= window.y1; y += block)
-        for (int x = window.x0; x + block <= window.x1; x += block)
-            add_block(image, reference, x, y, block, sums);
-    // Errors of their own: the square of their sum is, on the mean, the sum of their squares.
-    return {rms_difference(image, reference), sums.pixels > 0 ? sums.blocks / sums.pixels : 0};
+    const double rmse = rms_difference(image, reference);
+    if (!(rmse > 0)) return {};
+    const double shared = rms_difference(block_means(image, block), block_means(reference, block)) / rmse;
+    // Of errors of their own, a mean's square is, on the mean, a pixel's by the pixels of a block.
+    const auto blocks = [block](int pixels) { return (pixels + block - 1) / block; };
+    const int width = reference.window.width(), height = reference.window.height();
+    const double pixels_of_block =
+        static_cast<double>(width) * height / (static_cast<double>(blocks(width)) * blocks(height));
+    return {rmse, shared * shared * pixels_of_block};
 }
 
 }  // namespace trapeze

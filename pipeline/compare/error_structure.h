@@ -16,12 +16,11 @@ struct PictureError {
 };
 
 /// The error of an image against a reference of the same window, and its structure in blocks of `block` x
-/// `block` pixels from the window's corner; what is left over at the right and lower borders has no part in
-/// it.
+/// `block` pixels from the window's corner, which are smaller at the right and lower borders.
 PictureError picture_error(const Image& image, const Image& reference, int block);
 
-/// The image with every whole block's pixels replaced by their mean: its differences are those that do not
-/// average out. What is left over at the right and lower borders is black.
+/// The image with every block's pixels replaced by their mean: its differences are those that do not average
+/// out.
 Image block_means(const Image& image, int block);
 
 }  // namespace trapeze

@@ -83,10 +83,16 @@ TEST(PictureError, OfTheReferenceIsNothing) {
     EXPECT_EQ(error.pixels_together, 0);
 }
 
-TEST(PictureError, OfLessThanABlockHasNoStructure) {
-    EXPECT_EQ(picture_error(image_of([](int, int, int) { return 0.f; }), grey_reference(), kSide + 1)
-                  .pixels_together,
-              0);
+TEST(PictureError, OfLessThanABlockIsOneBlock) {
+    const Image black = image_of([](int, int, int) { return 0.f; });
+    EXPECT_NEAR(picture_error(black, grey_reference(), kSide + 1).pixels_together, kSide * kSide, 1);
+}
+
+TEST(PictureError, OfSmallerBlocksAtTheBordersCountsToo) {
+    std::mt19937 random(8);
+    std::normal_distribution<float> normal(0, .1f);
+    const Image noisy = image_of([&](int, int, int) { return .5f + normal(random); });
+    EXPECT_NEAR(picture_error(noisy, grey_reference(), 7).pixels_together, 1, .1);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace trapeze {
 namespace {
 
-constexpr size_t kSubpatchesATask = 16;  // subpatches
+constexpr size_t kSubpatchesATask = 16;
 
 /// A thread's memory for grids without shading.
 struct PlainGridMaker {

@@ -5,7 +5,6 @@
 #include "pipeline/compare/comparison.h"
 #include "pipeline/compare/error_structure.h"
 #include "pipeline/compare/report/worst_places.h"
-#include "pipeline/compare/sampler_list.h"
 #include "pipeline/compare/value_text.h"
 #include "pipeline/study/paper_figures.h"
 #include "pipeline/study/shape_checks.h"
@@ -22,9 +21,13 @@ constexpr int kBlockSide = 8;
 constexpr size_t kCloseUps = 2;
 constexpr int kCloseUpSide = 64;
 
+SampleRate rate_of_references(const StudyBench& bench) {
+    return bench.quick() ? SampleRate{16, 16} : SampleRate{32, 32};
+}
+
 Image reference_of(const StudyBench& bench, const SharedFrame& frame, const std::string& label) {
     bench.stage("reference of " + label);
-    auto reference = make_reference(frame, bench.quick() ? 16 : 32, bench.on_progress());
+    auto reference = make_reference(frame, rate_of_references(bench).x, bench.on_progress());
     if (!reference) throw StudyStopped();
     return std::move(*reference);
 }
@@ -35,9 +38,8 @@ std::vector<Image> pictures_of(const StudyBench& bench, const SharedFrame& frame
     for (const std::string_view method : paper::kMethods) {
         bench.stage(fmt::format("{}: {}", label, method));
         std::string error;
-        const auto samplers = parse_samplers(method, "", &error);
-        auto picture =
-            make_picture(frame, samplers.value().front(), bench.reference_rate(), bench.on_progress());
+        const auto sampler = choose_sampler(method, "", &error);
+        auto picture = make_picture(frame, sampler.value(), bench.reference_rate(), bench.on_progress());
         if (!picture) throw StudyStopped();
         pictures.push_back(std::move(picture->image));
     }
@@ -80,7 +82,7 @@ void study_fig6(StudyBench& bench, StudyResult& result) {
     result.notes.push_back(fmt::format(
         "At {} samples a pixel; references have {} stratified ones, ray traced with other random numbers. "
         "Times are table 1's.",
-        rate_text(bench.reference_rate()), bench.quick() ? "16x16" : "32x32"));
+        rate_text(bench.reference_rate()), rate_text(rate_of_references(bench))));
     result.notes.push_back(fmt::format(
         "Pixels that err as one: how many times the mean squared error of means over {}x{} pixels is what it "
         "would be were every pixel's error its own. The filter, which is wider than a pixel, adds to all rows.",

@@ -260,10 +260,11 @@ std::vector<StudyCheck> checks_of_structure(const std::vector<std::vector<double
         "INTERLEAVEUVT's pixels err as one more than ray tracing's, and less with k = 4 than with k = 2",
         "\"increasing k improves quality\"", "k = 2: " + text(uvt2) + "; k = 4: " + text(uvt4)};
     tiles.held = true;
-    tiles.why =
-        "the k x k pixels of a tile share one stratification of lens and time: where a block has all of them, "
-        "their errors cancel";
     for (size_t e = 0; e < kEffects; ++e) tiles.held = tiles.held && uvt2[e] > uvt4[e] && uvt4[e] > 1;
+    if (!tiles.held)
+        tiles.why =
+            "the k x k pixels of a tile share one stratification of lens and time, so that their errors may cancel "
+            "where a block has all of them";
     StudyCheck noise{
         "ray tracing's error is less than INTERLEAVEUVT's with every effect", "\"less noise\"",
         "k = 2: " + text(to_tracing(rmse, kUvt2Row)) + "; k = 4: " + text(to_tracing(rmse, kUvt4Row))};

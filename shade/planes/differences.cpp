@@ -41,8 +41,7 @@ V3f normal_from_inside(const GridShape& shape, ConstPlane3 P, int i, int j) {
         if (ni < 0 || nj < 0 || ni > shape.nu || nj > shape.nv) continue;
         sum += normal_at(shape, P, ni, nj);
     }
-    const float length = sum.length();
-    return length > 0 ? sum / length : V3f(0);
+    return unit_or_zero(sum);
 }
 
 }  // namespace

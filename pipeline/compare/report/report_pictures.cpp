@@ -148,17 +148,6 @@ std::string whole_pictures(const Comparison& c, const Scales& scales) {
     return out + "</div>\n</section>\n";
 }
 
-/// A close-up of a picture, enlarged kMagnification times.
-std::string crop(const Image& picture, const PixelRect& place, const std::string& rate,
-                 const std::string& name) {
-    return fmt::format(
-        "<figure{}>\n<img width=\"{}\" height=\"{}\" alt=\"{}\" "
-        "src=\"{}\">\n<figcaption>{}</figcaption>\n</figure>\n",
-        rate.empty() ? "" : " data-rate=\"" + rate + "\"", place.width() * kMagnification,
-        place.height() * kMagnification, escaped("crop of " + name), png_url(part_of(picture, place)),
-        escaped(name));
-}
-
 /// The pictures of all methods at the last sample rate.
 std::vector<const Image*> last_pictures(const Comparison& c) {
     std::vector<const Image*> pictures;
@@ -176,15 +165,25 @@ std::string close_ups(const Comparison& c) {
     for (const PixelRect& place : worst_places(c.reference, last_pictures(c), kPlaceSide, kPlaces)) {
         out += fmt::format("<h3>x {}\u2013{}, y {}\u2013{}</h3>\n<div class=\"crops\">\n", place.x0, place.x1,
                            place.y0, place.y1);
-        out += crop(c.reference, place, "", "reference");
+        out += close_up_figure(part_of(c.reference, place), "reference", kMagnification);
         for (const ComparedMethod& method : c.methods)
-            out += crop(method.picture.image, place, rate_text(method.result.rate), method.result.method);
+            out += close_up_figure(part_of(method.picture.image, place), method.result.method, kMagnification,
+                                   " data-rate=\"" + rate_text(method.result.rate) + "\"");
         out += "</div>\n";
     }
     return out + "</section>\n";
 }
 
 }  // namespace
+
+std::string close_up_figure(const LinearPicture& picture, const std::string& name, int magnified,
+                            const std::string& attributes) {
+    return fmt::format(
+        "<figure{}>\n<img width=\"{}\" height=\"{}\" alt=\"{}\" "
+        "src=\"{}\">\n<figcaption>{}</figcaption>\n</figure>\n",
+        attributes, picture.width * magnified, picture.height * magnified, escaped("crop of " + name),
+        png_url(picture), escaped(name));
+}
 
 std::string report_pictures(const Comparison& comparison) {
     return whole_pictures(comparison, scales_of(comparison)) + close_ups(comparison);

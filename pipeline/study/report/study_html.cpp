@@ -4,6 +4,7 @@
 
 #include "pipeline/compare/report/encoded_text.h"
 #include "pipeline/compare/report/html_page.h"
+#include "pipeline/compare/report/report_pictures.h"
 #include "pipeline/compare/value_text.h"
 #include "pipeline/frame/json_text.h"
 #include "pipeline/study/report/plots.h"
@@ -65,17 +66,12 @@ std::string close_ups(const StudyResult& r) {
     if (r.close_ups.empty()) return {};
     constexpr int kMagnified = 5;
     std::string out = fmt::format(
-        "<section id=\"places\">\n<h2>Close-ups</h2>\n<p>Where means over some pixels of a picture are farthest from the "
-        "reference; every pixel {} times as large.</p>\n",
+        "<section id=\"places\">\n<h2>Close-ups</h2>\n<p>Where means over some pixels are farthest from the reference; "
+        "every pixel {} times as large.</p>\n",
         kMagnified);
     for (const StudyCloseUps& row : r.close_ups) {
         out += "<h3>" + escaped(row.title) + "</h3>\n<div class=\"crops\">\n";
-        for (const auto& [name, picture] : row.pictures)
-            out += fmt::format(
-                "<figure>\n<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">\n<figcaption>{}</figcaption>\n"
-                "</figure>\n",
-                picture.width * kMagnified, picture.height * kMagnified, escaped("close-up of " + name),
-                png_url(picture), escaped(name));
+        for (const auto& [name, picture] : row.pictures) out += close_up_figure(picture, name, kMagnified);
         out += "</div>\n";
     }
     return out + "</section>\n";

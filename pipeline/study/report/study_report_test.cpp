@@ -74,7 +74,7 @@ TEST(StudyReport, HtmlIsOneFileAndEscapesText) {
     EXPECT_THAT(html, HasSubstr("a&amp;b"));
     EXPECT_THAT(html, HasSubstr("class=\"missed\""));
     EXPECT_THAT(html, HasSubstr("x 1 to &lt;3"));
-    EXPECT_THAT(html, HasSubstr("alt=\"close-up of a&amp;b\" src=\"data:image/png;base64,"));
+    EXPECT_THAT(html, HasSubstr("alt=\"crop of a&amp;b\" src=\"data:image/png;base64,"));
     EXPECT_THAT(html, Not(HasSubstr("http://")));
     EXPECT_THAT(html, Not(HasSubstr("https://")));
 }

@@ -57,7 +57,7 @@ const Spot kSpots[] = {
     {{-.2, .62, 22}, {.2, 0, 12}, {1, .92, .80}, 16, .45},
 };
 
-void write_tunnel_lights(RibWriter& rib) {
+void write_street_lights(RibWriter& rib) {
     int handle = 0;
     const auto numbers = [](const V3d& v) { return Numbers{v.x, v.y, v.z}; };
     rib.request("LightSource", "ambientlight", ++handle, "intensity", Numbers{.14}, "lightcolor",
@@ -75,7 +75,7 @@ void write_tunnel_lights(RibWriter& rib) {
 
 void write_car_study_world(RibWriter& rib, const SceneParameters& p) {
     rib.request("Rotate", -18.5, 0, 1, 0);
-    write_tunnel_lights(rib);
+    write_street_lights(rib);
     write_horizon(rib);
     {
         const auto streaming = rib.block("Attribute");
