@@ -170,14 +170,13 @@ class CutVisibility : public Visibility {
             asked.window.room / 2 / std::max<size_t>(wanted.size(), 1), 1, asked.window.most));
         own.group = std::min(own.group, size_t{1} << 30) * 2;
         for (size_t first = 0; first < wanted.size();) {
-            own.group = std::min(own.group, wanted.size() - first);
-            const auto group = wanted.subspan(first, own.group);
+            const auto group = wanted.subspan(first, std::min(own.group, wanted.size() - first));
             own.look_at(group, asked.samples.size(), {});
             asked.scratch.window = {own.behind, kAllLayers, asked.window.room};
             method_->resolve(asked.samples, asked.hits, asked.scratch, asked.stats);
             const bool fits = !asked.scratch.found.is_cut();
-            if (!fits && own.group > 1) {
-                own.group /= 2;
+            if (!fits && group.size() > 1) {
+                own.group = group.size() / 2;
                 continue;
             }
             for (const uint32_t s : group)

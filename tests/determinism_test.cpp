@@ -68,6 +68,19 @@ TEST_P(TinyScene, IsTheSameForEveryMethod) {
     }
 }
 
+/// The picture's last tiles are small. The next tile's samples are then still looked at all together: each
+/// hit of what solids are made of is found once, or twice where lists had no room.
+TEST(Determinism, SmallTilesOfSolidsLeaveOthersWhole) {
+    const auto hits_by = [](const std::string& method) {
+        RenderSettings settings;
+        settings.sampler = method, settings.pattern = "interval";
+        return render_scene(tiny_scene_path("csg.rib"), settings, 1).at(0).stats.sample.predicate_hits;
+    };
+    const uint64_t once = hits_by("bruteforce");
+    EXPECT_GT(once, 100'000u);
+    EXPECT_LT(hits_by("interval"), 2 * once);
+}
+
 /// Scenes are more than forms of methods: each form has its turn.
 TEST(Determinism, EveryFormOfAMethodRendersSomeScene) {
     std::set<std::string> turns;
