@@ -2,22 +2,13 @@
 #pragma once
 
 #include <cmath>
-#include <random>
 
 #include "accel/hit_policies.h"
 #include "core/grids_harness.h"
+#include "core/noise_harness.h"
 #include "core/ray_query.h"
 
 namespace trapeze::testing {
-
-/// Pseudo-random numbers, the same in every run.
-struct Noise {
-    std::mt19937 engine{9};
-    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
-    V3f point(float reach) {
-        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
-    }
-};
 
 /// Adds bent sheets of up to 16 x 16 micropolygons that cut through each other, each on an accelerated way of
 /// its own, so that poses between keys differ from a straight line from open to close.

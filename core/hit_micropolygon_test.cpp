@@ -6,17 +6,16 @@
 #include <random>
 
 #include "core/grids_harness.h"
+#include "core/noise_harness.h"
 
 namespace trapeze {
 namespace {
 
-struct Noise {
-    std::mt19937 engine{3};
-    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
-    AxisRay ray() {
-        return {(*this)(-1, 1), (*this)(-1, 1), 0, (*this)(-1, 1), (*this)(-1, 1), (*this)(0, 1)};
-    }
-};
+using testing::Noise;
+
+AxisRay random_ray(Noise& noise) {
+    return {noise(-1, 1), noise(-1, 1), 0, noise(-1, 1), noise(-1, 1), noise(0, 1)};
+}
 
 Quad random_quad(Noise& noise) {
     Quad q;
@@ -46,7 +45,7 @@ TEST(HitMicropolygon, FacingIsTheSignOfTheTurn) {
 }
 
 TEST(HitMicropolygon, AnEdgeDecidesAlikeWhateverWayItIsWalked) {
-    Noise noise;
+    Noise noise{std::mt19937(3)};
     int crossings = 0;
     for (int round = 0; round < 100000; ++round) {
         // Many edges through the very origin or with an end on the axis.
@@ -66,11 +65,11 @@ TEST(HitMicropolygon, AnEdgeDecidesAlikeWhateverWayItIsWalked) {
 }
 
 TEST(HitMicropolygon, TheSameQuadFromAnyCornerInEitherTurn) {
-    Noise noise;
+    Noise noise{std::mt19937(3)};
     int hits = 0;
     for (int round = 0; round < 20000; ++round) {
         const Quad q = random_quad(noise);
-        const AxisRay ray = noise.ray();
+        const AxisRay ray = random_ray(noise);
         float depth, other_depth;
         const bool hit = hit_micropolygon(ray, q, Facing::Both, &depth);
         hits += hit;
@@ -90,13 +89,13 @@ TEST(HitMicropolygon, TheSameQuadFromAnyCornerInEitherTurn) {
 /// no double hit, on edges and vertices too.
 TEST(HitMicropolygon, ClosedMeshIsCrossedAnEvenNumberOfTimes) {
     constexpr int kAround = 16, kAlong = 12;
-    Noise noise;
+    Noise noise{std::mt19937(3)};
     V3f vertex[kAlong][kAround];
     for (auto& ring : vertex)
         for (V3f& p : ring) p = V3f(noise(-1, 1), noise(-1, 1), noise(-1, 1));  // folded in any way
     int hits = 0;
     for (int round = 0; round < 20000; ++round) {
-        AxisRay ray = noise.ray();
+        AxisRay ray = random_ray(noise);
         if (round % 4 == 0) {  // through a vertex
             const V3f& p = vertex[noise.engine() % kAlong][noise.engine() % kAround];
             ray.ux = ray.uy = 0, ray.ox = p.x, ray.oy = p.y;
@@ -120,11 +119,11 @@ TEST(HitMicropolygon, ClosedMeshIsCrossedAnEvenNumberOfTimes) {
 }
 
 TEST(HitMicropolygon, DepthIsWithinTheQuadAndWhereItsWeightsSay) {
-    Noise noise;
+    Noise noise{std::mt19937(3)};
     int hits = 0;
     for (int round = 0; round < 50000; ++round) {
         const Quad q = random_quad(noise);
-        const AxisRay ray = noise.ray();
+        const AxisRay ray = random_ray(noise);
         float depth;
         if (!hit_micropolygon(ray, q, Facing::Both, &depth)) continue;
         ++hits;
@@ -142,7 +141,7 @@ TEST(HitMicropolygon, DepthIsWithinTheQuadAndWhereItsWeightsSay) {
 }
 
 TEST(HitMicropolygon, DepthOfAPlaneIsTheRaysOwn) {
-    Noise noise;
+    Noise noise{std::mt19937(3)};
     int hits = 0;
     for (int round = 0; round < 20000; ++round) {
         const float a = noise(-0.3f, 0.3f), b = noise(-0.3f, 0.3f), c = noise(2, 4);
@@ -151,7 +150,7 @@ TEST(HitMicropolygon, DepthOfAPlaneIsTheRaysOwn) {
             q.x[i] += noise(-0.5f, 0.5f), q.y[i] += noise(-0.5f, 0.5f);
             q.z[i] = c + a * q.x[i] + b * q.y[i];
         }
-        AxisRay ray = noise.ray();
+        AxisRay ray = random_ray(noise);
         ray.ux *= 0.2f, ray.uy *= 0.2f;
         float depth;
         if (!hit_micropolygon(ray, q, Facing::Both, &depth)) continue;

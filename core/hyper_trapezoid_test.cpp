@@ -4,16 +4,12 @@
 
 #include <random>
 
+#include "core/noise_harness.h"
+
 namespace trapeze {
 namespace {
 
-struct Noise {
-    std::mt19937 engine{5};
-    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
-    V3f point(float reach) {
-        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
-    }
-};
+using testing::Noise;
 
 /// A point that moves linearly between keys, by the arithmetic of grids.
 struct MovingPoint {
@@ -50,7 +46,7 @@ Frame random_frame(Noise& noise) {
 }
 
 TEST(HyperTrapezoid, BoundsLinearMotionWhenItBoundsTheKeys) {
-    Noise noise;
+    Noise noise{std::mt19937(5)};
     for (const int keys : {1, 2, 5}) {
         for (int round = 0; round < 200; ++round) {
             const Swarm swarm(noise, keys, std::pow(10.0f, noise(-3, 4)));
@@ -71,7 +67,7 @@ TEST(HyperTrapezoid, TellsWhatIsOutside) {
 }
 
 TEST(HyperTrapezoid, MergingHoldsBothInAnyFramesAndKeyCounts) {
-    Noise noise;
+    Noise noise{std::mt19937(5)};
     for (int round = 0; round < 300; ++round) {
         const int counts[] = {1, 2, 3, 5};
         const Swarm a(noise, counts[noise.engine() % 4], 3), b(noise, counts[noise.engine() % 4], 50);
@@ -93,7 +89,7 @@ TEST(HyperTrapezoid, AreaIsTheMeanOverKeys) {
 }
 
 TEST(Frame, IsOrthonormalAndKeepsTheLongerDirection) {
-    Noise noise;
+    Noise noise{std::mt19937(5)};
     for (int round = 0; round < 300; ++round) {
         const V3d first(noise.point(std::pow(10.0f, noise(-12, 12)))), second(noise.point(1));
         const Frame frame = frame_of(first, second);

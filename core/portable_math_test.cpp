@@ -15,7 +15,7 @@ double number(uint32_t i) {
     return (hash(1, i) + hash(2, i) * 0x1p-32) * 0x1p-31 - 1;
 }
 
-constexpr uint32_t kCount = 200000;
+constexpr uint32_t kNumbers = 200000;
 
 /// How many units of the last place `value` is from what it should be.
 double units_off(double value, long double expected) {
@@ -28,7 +28,7 @@ double units_off(double value, long double expected) {
 template <class Function, class Reference>
 void expect_near(const char* name, double scale, double most, Function&& function, Reference&& reference) {
     double worst = 0, at = 0;
-    for (uint32_t i = 0; i < kCount / 10; ++i) {
+    for (uint32_t i = 0; i < kNumbers / 10; ++i) {
         const double x = scale * number(i),
                      off = units_off(function(x), reference(static_cast<long double>(x)));
         if (!(off <= worst)) worst = off, at = x;
@@ -69,7 +69,7 @@ TEST(PortableMath, RoundsToTheNearestFloat) {
     const auto expect_float = [](const char* name, float scale, double most, auto&& function,
                                  auto&& reference) {
         constexpr double kLeast = 1e-13;  // where sine and cosine are next to 0
-        for (uint32_t i = 0; i < kCount; ++i) {
+        for (uint32_t i = 0; i < kNumbers; ++i) {
             const float x = scale * static_cast<float>(number(i)), value = function(x);
             const double exact = reference(static_cast<double>(x));
             const float nearest = static_cast<float>(exact);
@@ -132,8 +132,8 @@ TEST(PortableMath, HasTheSameBitsEverywhere) {
         bits = (bits ^ std::bit_cast<uint64_t>(wide)) * 0x9e3779b97f4a7c15u;
         bits ^= bits >> 29;
     };
-    for (uint32_t i = 0; i < kCount; ++i) {
-        const double x = 30 * number(i), y = number(i + kCount);
+    for (uint32_t i = 0; i < kNumbers; ++i) {
+        const double x = 30 * number(i), y = number(i + kNumbers);
         const float fx = static_cast<float>(x), fy = static_cast<float>(y);
         mix(portable::sin(x)), mix(portable::cos(x)), mix(portable::tan(x));
         mix(portable::sin(fx)), mix(portable::cos(fx)), mix(portable::asin(fy));

@@ -10,6 +10,7 @@
 
 #include "accel/hit_policies.h"
 #include "accel/trace_ray.h"
+#include "core/noise_harness.h"
 #include "core/simd/targets_harness.h"
 #include "sample/every_method_harness.h"
 #include "sample/frame_harness.h"
@@ -22,6 +23,7 @@ namespace {
 
 using testing::every_method;
 using testing::GridMaker;
+using testing::Noise;
 using testing::TestFrame;
 using testing::tiles_of;
 
@@ -30,14 +32,6 @@ struct TestScene {
     TestFrame frame;
     GridMaker maker;
     bool must_hit = true;
-};
-
-struct Noise {
-    std::mt19937 engine;
-    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
-    V3f point(float xy, float z_from, float z_to) {
-        return {(*this)(-xy, xy), (*this)(-xy, xy), (*this)(z_from, z_to)};
-    }
 };
 
 V3f rotated(const V3f& p, float angle) {

@@ -39,7 +39,7 @@ void add_sheets(GridMaker& maker, int count, int side, float size, int keys) {
 
 /// What the samples of a rectangle of pixels see, by a method and the pattern that it was made for (or
 /// another).
-struct Resolved {
+struct ResolvedRectangle {
     SampleTile samples;
     HitBuffer hits;
     SampleStats stats;
@@ -54,7 +54,7 @@ class Prepared {
         pattern_ = sampler->make_pattern(frame.context);
         visibility_ = sampler->prepare(frame.context, grids);
     }
-    void resolve(const PixelRect& pixels, Resolved& result) {
+    void resolve(const PixelRect& pixels, ResolvedRectangle& result) {
         pattern_->make_tile(pixels, result.samples);
         result.stats = {};
         visibility_->resolve(result.samples, result.hits, scratch_, result.stats);
@@ -67,7 +67,7 @@ class Prepared {
 };
 
 /// How many samples see other things in `a` than in `b`.
-size_t differing(const Resolved& a, const Resolved& b) {
+size_t differing(const ResolvedRectangle& a, const ResolvedRectangle& b) {
     EXPECT_EQ(a.hits.size(), b.hits.size());
     size_t count = 0;
     for (size_t s = 0; s < a.hits.size(); ++s) count += !std::ranges::equal(a.hits.of(s), b.hits.of(s));
@@ -81,15 +81,15 @@ TEST(ManyThings, ThousandsOfGridsAreSeenAsByBruteForce) {
         add_sheets(maker, 5000, 4, 0.05f, keys);
         ASSERT_GT(maker.grids().grids.size(), 4096u);
         const PixelRect all{0, 0, 48, 40};
-        std::map<std::string, Resolved> truths;
+        std::map<std::string, ResolvedRectangle> truths;
         for (const auto& [method, pattern] : every_method()) {
-            Resolved& truth = truths[pattern];
+            ResolvedRectangle& truth = truths[pattern];
             if (truth.hits.size() == 0)
                 Prepared(frame, maker.grids(), "bruteforce", pattern).resolve(all, truth);
             uint32_t last = 0;
             for (const Hit& hit : truth.hits.hits) last = std::max(last, MicropolygonId::unpack(hit.id).grid);
             EXPECT_GT(last, 4096u);
-            Resolved found;
+            ResolvedRectangle found;
             Prepared(frame, maker.grids(), method, pattern).resolve(all, found);
             EXPECT_EQ(differing(found, truth), 0u) << method;
         }
@@ -106,7 +106,7 @@ TEST(ManyThings, TilesOfAnySideShowTheSame) {
     for (const auto& [method, pattern] : every_method()) {
         Prepared truth(frame, maker.grids(), "bruteforce", pattern),
             tested(frame, maker.grids(), method, pattern);
-        Resolved whole, tile;
+        ResolvedRectangle whole, tile;
         truth.resolve(all, whole);
         const auto spp = static_cast<size_t>(whole.samples.samples_per_pixel);
         ASSERT_GT(whole.hits.hits.size(), 5000u);
@@ -135,13 +135,13 @@ TEST(ManyThings, HundredsOfSlotsAndThousandsOfTuplesAreRight) {
     GridMaker maker;
     add_sheets(maker, 12, 12, 0.2f, 2);
     const PixelRect pixels{3, 2, 21, 18};
-    std::map<std::string, Resolved> truths;
+    std::map<std::string, ResolvedRectangle> truths;
     for (const auto& [method, pattern] : every_method()) {
-        Resolved& truth = truths[pattern];
+        ResolvedRectangle& truth = truths[pattern];
         if (truth.hits.size() == 0)
             Prepared(frame, maker.grids(), "bruteforce", pattern).resolve(pixels, truth);
         ASSERT_GT(truth.hits.hits.size(), 5000u);
-        Resolved found;
+        ResolvedRectangle found;
         Prepared(frame, maker.grids(), method, pattern).resolve(pixels, found);
         EXPECT_EQ(differing(found, truth), 0u) << method;
     }
@@ -152,7 +152,7 @@ TEST(ManyThings, TuplesAreAsManyAsTheirNumbersSay) {
     const TestFrame frame(24, 20, 13, true, true);
     GridMaker maker;
     maker.add(3, 5, 2, [](int i, int j, float t) { return V3f(0.1f * i + 0.1f * t, 0.1f * j, 4); });
-    Resolved found;
+    ResolvedRectangle found;
     Prepared(frame, maker.grids(), "interleaveuvt:k=4", "").resolve({0, 0, 24, 20}, found);
     EXPECT_EQ(found.samples.samples_per_pixel, 169);
     EXPECT_EQ(found.stats.nodes_visited, 15u * 2704);

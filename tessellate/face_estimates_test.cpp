@@ -13,14 +13,14 @@
 #include "tessellate/split.h"
 #include "tessellate/surfaces/camera_facing.h"
 #include "tessellate/surfaces/curve_values.h"
+#include "tessellate/surfaces/forms_harness.h"
 
 namespace trapeze {
 namespace {
 
+using testing::kBezier;
+using testing::kBSpline;
 using testing::TestScene;
-
-const M44f kBezier(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
-const M44f kBSpline = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1 / 6.0f);
 
 bool same_bits(const V3f& a, const V3f& b) {
     for (int k = 0; k < 3; ++k)

@@ -103,14 +103,14 @@ Pose moving(const M44f& from, const M44f& to) {
     return pose;
 }
 
-const M44f kNear = place({0.3f, 0.5f, 0.1f}, {0.3f, 0.2f, 0.95f});
+const M44f kNearMesh = place({0.3f, 0.5f, 0.1f}, {0.3f, 0.2f, 0.95f});
 const M44f kLater = place({0.5f, 0.3f, 0.2f}, {0.2f, 0.25f, 1.05f});
 
 TEST(MeshWatertight, Cube) {
     const Cage cage = testing::cube_cage();
-    expect_closed(cage, testing::subdivision_of(cage), still(kNear));
-    expect_closed(cage, testing::subdivision_of(cage), moving(kNear, kLater));
-    expect_closed(cage, testing::subdivision_of(cage), still(kNear), 500, kFewRays);
+    expect_closed(cage, testing::subdivision_of(cage), still(kNearMesh));
+    expect_closed(cage, testing::subdivision_of(cage), moving(kNearMesh, kLater));
+    expect_closed(cage, testing::subdivision_of(cage), still(kNearMesh), 500, kFewRays);
 }
 
 TEST(MeshWatertight, CreasesAndExtraordinaryVertices) {
@@ -118,17 +118,17 @@ TEST(MeshWatertight, CreasesAndExtraordinaryVertices) {
     const std::vector<Tag> tags = {{"crease", {7, 8, 9, 10, 11, 12, 13, 7}, {10, 2.5f, 1, 10, 10, 3, 1}, {}},
                                    {"crease", {0, 1, 2, 3}, {2}, {}},
                                    {"corner", {4, 14}, {10, 1.5f}, {}}};
-    expect_closed(cage, testing::subdivision_of(cage, tags), still(kNear));
-    expect_closed(cage, testing::subdivision_of(cage, tags), moving(kNear, kLater));
+    expect_closed(cage, testing::subdivision_of(cage, tags), still(kNearMesh));
+    expect_closed(cage, testing::subdivision_of(cage, tags), moving(kNearMesh, kLater));
 }
 
 TEST(MeshWatertight, PolygonsOfManySides) {
     const Cage cage = testing::prism_cage(5);
-    expect_closed(cage, testing::subdivision_of(cage), still(kNear), 1, kFewRays);
-    expect_closed(cage, testing::subdivision_of(cage, {}, Scheme::Bilinear), moving(kNear, kLater), 1,
+    expect_closed(cage, testing::subdivision_of(cage), still(kNearMesh), 1, kFewRays);
+    expect_closed(cage, testing::subdivision_of(cage, {}, Scheme::Bilinear), moving(kNearMesh, kLater), 1,
                   kFewRays);
-    expect_closed(cage, testing::polygons_of(cage), still(kNear), 1, kFewRays);
-    expect_closed(cage, testing::polygons_of(cage), moving(kNear, kLater), 1, kFewRays);
+    expect_closed(cage, testing::polygons_of(cage), still(kNearMesh), 1, kFewRays);
+    expect_closed(cage, testing::polygons_of(cage), moving(kNearMesh, kLater), 1, kFewRays);
 }
 
 TEST(MeshWatertight, Loop) {

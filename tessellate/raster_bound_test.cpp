@@ -72,15 +72,15 @@ M44f turned(float angle, float x, float y, float z) {
     return m * testing::translation(x, y, z);
 }
 
-std::shared_ptr<const Shape> sphere() {
+std::shared_ptr<const Shape> whole_sphere() {
     return testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}));
 }
 
 TEST(RasterBound, StaticPinhole) {
     expect_same_picture(
         [](TestScene& s) {
-            s.add(sphere(), turned(0.3f, 1.2f, 0.8f, 2));
-            s.add(sphere(), turned(0.3f, -4, 0, 3));
+            s.add(whole_sphere(), turned(0.3f, 1.2f, 0.8f, 2));
+            s.add(whole_sphere(), turned(0.3f, -4, 0, 3));
         },
         1);
 }
@@ -88,8 +88,8 @@ TEST(RasterBound, StaticPinhole) {
 TEST(RasterBound, MotionThroughTheFrame) {
     expect_same_picture(
         [](TestScene& s) {
-            s.add({sphere()}, {turned(0, -6, 1, 3), turned(0.8f, -1, 1, 2.5f), turned(1.5f, 8, -1, 3)});
-            s.add({sphere()}, {turned(0, -6, 6, 3), turned(0.8f, -4, 5, 2.5f), turned(1.5f, 4, 6, 3)});
+            s.add({whole_sphere()}, {turned(0, -6, 1, 3), turned(0.8f, -1, 1, 2.5f), turned(1.5f, 8, -1, 3)});
+            s.add({whole_sphere()}, {turned(0, -6, 6, 3), turned(0.8f, -4, 5, 2.5f), turned(1.5f, 4, 6, 3)});
         },
         2);
 }
@@ -99,8 +99,8 @@ TEST(RasterBound, LensAndMotion) {
         [](TestScene& s) {
             s.scene.options.f_stop = 1, s.scene.options.focal_length = 0.8f;
             s.scene.options.focal_distance = 4;
-            s.add({sphere()}, {turned(0, -2.5f, 0, 1.6f), turned(0.5f, -2.2f, 0.3f, 6)});
-            s.add(sphere(), turned(0, 3.5f, 0, 2.5f));
+            s.add({whole_sphere()}, {turned(0, -2.5f, 0, 1.6f), turned(0.5f, -2.2f, 0.3f, 6)});
+            s.add(whole_sphere(), turned(0, 3.5f, 0, 2.5f));
         },
         3);
 }
@@ -131,7 +131,7 @@ TEST(RasterBound, EyeInsideAMovingSphere) {
     expect_same_picture(
         [](TestScene& s) {
             s.scene.options.width = 40, s.scene.options.height = 30;
-            s.add({sphere()}, {turned(0, 0.2f, 0, 0.3f), turned(0.3f, 0, 0.3f, -0.2f)});
+            s.add({whole_sphere()}, {turned(0, 0.2f, 0, 0.3f), turned(0.3f, 0, 0.3f, -0.2f)});
         },
         5, 150);
 }
@@ -141,7 +141,7 @@ TEST(RasterBound, Orthographic) {
         [](TestScene& s) {
             s.scene.options.projection = "orthographic";
             s.scene.options.f_stop = 2, s.scene.options.focal_length = 1, s.scene.options.focal_distance = 3;
-            s.add({sphere()}, {turned(0, 1.5f, 0.6f, 2), turned(0.5f, 1.2f, 0.3f, 5)});
+            s.add({whole_sphere()}, {turned(0, 1.5f, 0.6f, 2), turned(0.5f, 1.2f, 0.3f, 5)});
         },
         6);
 }
@@ -151,7 +151,7 @@ TEST(RasterBound, CropWithFilterMargin) {
         [](TestScene& s) {
             s.scene.options.crop_window = {0.5f, 0.75f, 0.25f, 0.5f};
             s.scene.options.filter.width_x = s.scene.options.filter.width_y = 5;
-            s.add(sphere(), turned(0.3f, 0.4f, 0.3f, 2));
+            s.add(whole_sphere(), turned(0.3f, 0.4f, 0.3f, 2));
         },
         7);
 }
@@ -162,7 +162,7 @@ TEST(RasterBound, HoldsEveryVertexThoughCornersSnap) {
         TestScene scene;
         scene.scene.options.width = 320, scene.scene.options.height = 240;
         scene.attributes->shading_rate = rate;
-        scene.add({sphere()}, {turned(0.3f, 0.3f, 0.2f, 1.1f), turned(0.6f, 0.3f, 0.2f, 1.1f)});
+        scene.add({whole_sphere()}, {turned(0.3f, 0.3f, 0.2f, 1.1f), turned(0.6f, 0.3f, 0.2f, 1.1f)});
         PatchMesh mesh;  // a floor whose near edge has many times the far edge's segments
         ParameterList variables;
         variables.set(testing::parameter("P", StorageClass::Vertex, ValueType::Point,

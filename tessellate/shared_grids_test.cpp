@@ -44,14 +44,14 @@ std::vector<V2f> grid_of(int n, float shift = 0) {
     return uv;
 }
 
-struct Points {
+struct SharedPoints {
     std::vector<V3f> P, dPdu, dPdv;
-    bool operator==(const Points&) const = default;
+    bool operator==(const SharedPoints&) const = default;
 };
-Points points_of(const Surface& surface, int face, const std::vector<V2f>& uv, int key = 0,
-                 bool derivatives = true) {
+SharedPoints points_of(const Surface& surface, int face, const std::vector<V2f>& uv, int key = 0,
+                       bool derivatives = true) {
     const size_t d = derivatives ? uv.size() : 0;
-    Points points{std::vector<V3f>(uv.size()), std::vector<V3f>(d), std::vector<V3f>(d)};
+    SharedPoints points{std::vector<V3f>(uv.size()), std::vector<V3f>(d), std::vector<V3f>(d)};
     surface.evaluate(face, uv, key, nullptr, points.P, points.dPdu, points.dPdv);
     return points;
 }
@@ -69,7 +69,7 @@ struct Shared {
 
 TEST(SharedGrids, TheSecondInstanceTakesTheFirstOnes) {
     Shared shared;
-    const Points first = points_of(*shared.surface, 1, grid_of(8));
+    const SharedPoints first = points_of(*shared.surface, 1, grid_of(8));
     EXPECT_EQ(shared.inner->calls, 1);
     EXPECT_EQ(points_of(*shared.surface, 1, grid_of(8)), first);
     EXPECT_EQ(shared.inner->calls, 1);
@@ -95,8 +95,8 @@ TEST(SharedGrids, WhatDiffersInAnythingIsAnother) {
 
 TEST(SharedGrids, AFullBudgetKeepsNoMore) {
     Shared shared(3000);
-    const Points first = points_of(*shared.surface, 0, grid_of(4)),
-                 second = points_of(*shared.surface, 1, grid_of(4));
+    const SharedPoints first = points_of(*shared.surface, 0, grid_of(4)),
+                       second = points_of(*shared.surface, 1, grid_of(4));
     EXPECT_EQ(shared.inner->calls, 2);
     for (int n = 0; n < 3; ++n) {
         EXPECT_EQ(points_of(*shared.surface, 0, grid_of(4)), first);

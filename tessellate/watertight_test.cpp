@@ -5,19 +5,19 @@
 #include <numbers>
 
 #include "tessellate/leak_harness.h"
+#include "tessellate/surfaces/forms_harness.h"
 
 namespace trapeze {
 namespace {
 
 using testing::count_leaks;
+using testing::kPi;
 using testing::LeakCount;
 using testing::TestScene;
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 /// No ray leaves without crossing the surface an odd number of times, and no side of a micropolygon is
 /// without its neighbour.
-void expect_closed(const LeakCount& count) {
+void expect_closed_as_diced(const LeakCount& count) {
     EXPECT_GE(count.rays, 1'000'000);
     EXPECT_EQ(count.leaks, 0);
     EXPECT_EQ(count.wrong_sides, 0);
@@ -42,14 +42,16 @@ const M44f kNear = testing::translation(0.3f, 0.2f, 1.1f);
 TEST(Watertight, Sphere) {
     TestScene scene;
     scene.keep_all().add(testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360})), kNear);
-    expect_closed(count_leaks(scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.9f * kNear; }));
+    expect_closed_as_diced(
+        count_leaks(scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.9f * kNear; }));
 }
 
 TEST(Watertight, SphereCoarselyDiced) {
     TestScene scene;
     scene.attributes->shading_rate = 2000;
     scene.keep_all().add(testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, -360})), kNear);
-    expect_closed(count_leaks(scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.4f * kNear; }));
+    expect_closed_as_diced(
+        count_leaks(scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.4f * kNear; }));
 }
 
 TEST(Watertight, MovingSphere) {
@@ -60,7 +62,7 @@ TEST(Watertight, MovingSphere) {
                               testing::translation(0.1f * static_cast<float>(k), 0, 1.05f)));
     scene.keep_all().add({testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}))}, keys);
     // The chords between keys of a turning sphere go no deeper than cos(angle / 2).
-    expect_closed(count_leaks(
+    expect_closed_as_diced(count_leaks(
         scene, [](uint32_t n, float t) { return in_unit_ball(n) * 0.5f + V3f(0.4f * t, 0, 1.05f); }));
 }
 
@@ -78,7 +80,7 @@ TEST(Watertight, DisplacedMovingSphere) {
     scene.attributes->displacement = std::make_shared<ShaderInstance>();
     scene.keep_all().add({testing::shape_of(testing::quadric(Quadric::Kind::Sphere, {1, -1, 1, 360}))},
                          {kNear, turned(0.3f, kNear)});
-    expect_closed(count_leaks(
+    expect_closed_as_diced(count_leaks(
         scene, [](uint32_t n, float) { return in_unit_ball(n) * 0.8f * kNear; }, 1'000'000,
         displace_by_texture));
 }
@@ -95,7 +97,8 @@ TEST(Watertight, Torus) {
     const M44f place = turned(1.2f, testing::translation(0, 0, 1.3f));
     scene.keep_all().add(testing::shape_of(testing::quadric(Quadric::Kind::Torus, {1, 0.3f, 0, 360, 360})),
                          place);
-    expect_closed(count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.25f) * place; }));
+    expect_closed_as_diced(
+        count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.25f) * place; }));
 }
 
 TEST(Watertight, DeformingTorus) {
@@ -105,7 +108,8 @@ TEST(Watertight, DeformingTorus) {
     };
     const M44f place = turned(1.2f, testing::translation(0, 0, 1.3f));
     scene.keep_all().add({torus(0.3f), torus(0.2f), torus(0.4f)}, {place});
-    expect_closed(count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.15f) * place; }));
+    expect_closed_as_diced(
+        count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.15f) * place; }));
 }
 
 PatchMesh bspline_mesh(int nu, int nv) {
@@ -139,7 +143,7 @@ TEST(Watertight, ClosedBicubicMesh) {
     TestScene scene;
     const M44f place = turned(0.4f, testing::translation(0.9f, 0, 0.4f));
     scene.keep_all().add(lumpy_torus(0.05f), place);
-    expect_closed(
+    expect_closed_as_diced(
         count_leaks(scene, [&](uint32_t n, float) { return inside_torus(n, 0.05f) * 0.93f * place; }));
 }
 
@@ -148,7 +152,7 @@ TEST(Watertight, ClosedBicubicMeshThatMoves) {
     const M44f place = turned(0.4f, testing::translation(0.9f, 0, 0.4f));
     const M44f later = turned(0.5f, testing::translation(0.9f, 0.02f, 0.4f));
     scene.keep_all().add({lumpy_torus(0.02f), lumpy_torus(0.06f), lumpy_torus(0.1f)}, {place, later});
-    expect_closed(count_leaks(scene, [&](uint32_t n, float t) {
+    expect_closed_as_diced(count_leaks(scene, [&](uint32_t n, float t) {
         const V3f p = inside_torus(n, 0.03f) * 0.93f;
         return p * place * (1 - t) + p * later * t;
     }));

@@ -29,7 +29,7 @@ std::string glowing_scene(const std::string& options) {
 
 constexpr const char* kGlow = "Imager \"glow\" \"float amount\" [.4] \"float size\" [.05] ";
 
-Image render(const std::string& options, int threads = 2, int regions = 1) {
+Image render_glow(const std::string& options, int threads = 2, int regions = 1) {
     RenderSettings settings;
     settings.regions_at_least = regions;
     return render_scene(glowing_scene(options), settings, threads).at(0).image;
@@ -42,9 +42,9 @@ Image part_of(Image whole, const PixelRect& window) {
 
 TEST(Glow, CropsArePartsOfTheWholePictureBitForBit) {
     for (const std::string further : {"", "Exposure 2 2.2 ", "PixelFilter \"catmull-rom\" 4 4 "}) {
-        const Image whole = render(kGlow + further);
+        const Image whole = render_glow(kGlow + further);
         for (const char* crop : {"0 .5 0 .5", ".5 .6 .4 .5", ".25 1 .5 1", "0 1 .98 1"}) {
-            const Image part = render(kGlow + further + "CropWindow " + crop);
+            const Image part = render_glow(kGlow + further + "CropWindow " + crop);
             ASSERT_FALSE(part.rgba.empty());
             EXPECT_TRUE(part == part_of(whole, part.window)) << further << crop;
             EXPECT_LT(part.rgba.size(), whole.rgba.size()) << "the margin is not kept";
@@ -53,31 +53,31 @@ TEST(Glow, CropsArePartsOfTheWholePictureBitForBit) {
 }
 
 TEST(Glow, IsTheSameForAnyThreadsAndRegions) {
-    const Image image = render(kGlow);
-    EXPECT_TRUE(render(kGlow, 1) == image);
-    EXPECT_TRUE(render(kGlow, 7) == image);
-    for (const int regions : {3, 40}) EXPECT_TRUE(render(kGlow, 2, regions) == image) << regions;
+    const Image image = render_glow(kGlow);
+    EXPECT_TRUE(render_glow(kGlow, 1) == image);
+    EXPECT_TRUE(render_glow(kGlow, 7) == image);
+    for (const int regions : {3, 40}) EXPECT_TRUE(render_glow(kGlow, 2, regions) == image) << regions;
 }
 
 TEST(Glow, OfNothingLeavesThePictureAsItIs) {
-    const Image image = render("");
+    const Image image = render_glow("");
     for (const char* none : {"Imager \"glow\" \"float amount\" [0]", "Imager \"glow\" \"float size\" [0]",
                              "Imager \"glow\" Imager \"null\"", "Imager \"glow\" \"float threshold\" [1000]"})
-        EXPECT_TRUE(render(none) == image) << none;
-    EXPECT_FALSE(render(kGlow) == image);
+        EXPECT_TRUE(render_glow(none) == image) << none;
+    EXPECT_FALSE(render_glow(kGlow) == image);
 }
 
 /// Light adds up before gamma: with it the picture is the power of that without.
 TEST(Glow, ComesBeforeGamma) {
-    const Image linear = render(std::string(kGlow) + "Exposure 3 1"),
-                gamma = render(std::string(kGlow) + "Exposure 3 2");
+    const Image linear = render_glow(std::string(kGlow) + "Exposure 3 1"),
+                gamma = render_glow(std::string(kGlow) + "Exposure 3 2");
     for (size_t i = 0; i < linear.rgba.size(); ++i)
         ASSERT_NEAR(gamma.rgba[i], i % 4 == 3 ? linear.rgba[i] : std::sqrt(linear.rgba[i]),
                     1e-5f * gamma.rgba[i]);
 }
 
 TEST(Glow, LeavesDepthAndOpacity) {
-    const Image before = render(""), after = render(kGlow);
+    const Image before = render_glow(""), after = render_glow(kGlow);
     EXPECT_EQ(after.z, before.z);
     for (size_t i = 3; i < after.rgba.size(); i += 4) ASSERT_EQ(after.rgba[i], before.rgba[i]);
 }

@@ -11,7 +11,7 @@
 namespace trapeze::testing {
 namespace {
 
-const std::string kSphere = "Sphere 1 -1 1 360\n";
+const std::string kUnitSphere = "Sphere 1 -1 1 360\n";
 const std::string kHead =
     "Display \"a.exr\" \"file\" \"rgba\"\nFormat 64 48 1\nPixelSamples 1 1\n"
     "Projection \"perspective\"\nTranslate 0 0 5\nWorldBegin\n";
@@ -37,7 +37,7 @@ Measured measured(const WorkFolder& folder, const std::string& arguments) {
     }
     close(ends[1]);
     long values[2] = {0, -1};
-    const bool good = read(ends[0], values, sizeof values) == sizeof values;
+    const bool good = ::read(ends[0], values, sizeof values) == sizeof values;
     close(ends[0]);
     waitpid(child, nullptr, 0);
     Measured result;
@@ -52,15 +52,15 @@ Measured measured(const WorkFolder& folder, const std::string& arguments) {
 /// What the program takes for next to nothing; sanitizers take their own.
 double least_mebibytes() {
     WorkFolder folder;
-    folder.write("a.rib", kHead + kSphere + "WorldEnd\n");
+    folder.write("a.rib", kHead + kUnitSphere + "WorldEnd\n");
     return measured(folder, "render a.rib -t 2 --memory 64M").mebibytes;
 }
 
-constexpr double kMostSeconds = kSanitized ? 1200 : 120;  ///< on a slow and busy machine
+constexpr double kMostSecondsOfMuch = kSanitized ? 1200 : 120;  ///< on a slow and busy machine
 
 /// `times` the limit of 64 MiB may be taken.
 void expect_bounded(const Measured& run, double times) {
-    EXPECT_LT(run.seconds, kMostSeconds);
+    EXPECT_LT(run.seconds, kMostSecondsOfMuch);
     if (kSanitized) return;
     EXPECT_LT(run.mebibytes, least_mebibytes() + times * 64) << run.outcome.err;
 }
@@ -82,7 +82,7 @@ void write_bomb(const std::filesystem::path& path, const std::string& first, con
 
 TEST(MemoryLimit, GzipThatUnpacksToMoreIsCut) {
     WorkFolder folder;
-    write_bomb(folder / "a.rib.gz", kHead + kSphere, "        ", 512);
+    write_bomb(folder / "a.rib.gz", kHead + kUnitSphere, "        ", 512);
     const Measured run = measured(folder, "render a.rib.gz -t 2 --memory 64M");
     expect_said(run, "inflates to more than 64 MiB");
     EXPECT_EQ(run.outcome.exit_code, 1);
@@ -106,7 +106,7 @@ TEST(MemoryLimit, GridsOfMoreAreMadeInParts) {
     folder.write("a.rib",
                  "Display \"a.exr\" \"file\" \"rgba\"\nFormat 512 512 1\nPixelSamples 1 1\n"
                  "ShadingRate .02\nWorldBegin\n" +
-                     kSphere + "WorldEnd\n");
+                     kUnitSphere + "WorldEnd\n");
     const Measured whole = measured(folder, "render a.rib -t 2 --memory 4G");
     const Measured run = measured(folder, "render a.rib -t 2 --memory 64M");
     EXPECT_EQ(run.outcome.exit_code, 0) << run.outcome.err;
@@ -117,7 +117,7 @@ TEST(MemoryLimit, GridsOfMoreAreMadeInParts) {
 
 TEST(MemoryLimit, PicturesOfStrangersAreBounded) {
     WorkFolder folder;
-    folder.write("a.rib", "Format 6000 6000 1\nWorldBegin\n" + kSphere + "WorldEnd\n");
+    folder.write("a.rib", "Format 6000 6000 1\nWorldBegin\n" + kUnitSphere + "WorldEnd\n");
     const Measured run = measured(folder, "render a.rib -t 2 --memory 64M --safe");
     expect_said(run, "a picture of 6002x6002 pixels takes");
     EXPECT_EQ(run.outcome.exit_code, 7);
@@ -130,7 +130,7 @@ TEST(MemoryLimit, PrimitivesOfMoreSplitsAreLeftOut) {
     std::string text =
         "Display \"a.exr\" \"file\" \"rgba\"\nFormat 512 512 1\nPixelSamples 1 1\nShadingRate "
         "4\nWorldBegin\n";
-    for (int i = 0; i < 1000; ++i) text += kSphere;
+    for (int i = 0; i < 1000; ++i) text += kUnitSphere;
     folder.write("a.rib", text + "WorldEnd\n");
     const Measured run = measured(folder, "render a.rib -t 2 --memory 4M");
     expect_said(run, "the grids into which primitives are split take more than 4 MiB to list");
@@ -161,7 +161,7 @@ TEST(MemoryLimit, SolidsWithinSolidsAreRendered) {
     std::string text = kHead;
     constexpr int kDeep = 9000;
     for (int i = 0; i < kDeep; ++i) text += i % 2 ? "SolidBegin \"union\"\n" : "SolidBegin \"difference\"\n";
-    text += "SolidBegin \"primitive\"\n" + kSphere + "SolidEnd\n";
+    text += "SolidBegin \"primitive\"\n" + kUnitSphere + "SolidEnd\n";
     for (int i = 0; i < kDeep; ++i) text += "SolidEnd\n";
     folder.write("a.rib", text + "WorldEnd\n");
     const Measured run = measured(folder, "render a.rib -t 2 --memory 64M");

@@ -70,17 +70,17 @@ Estimate estimate(const std::vector<double>& values) {
 }
 
 /// A half of the sky is ten times as bright, and one of its pixels four thousand times.
-constexpr int kWidth = 64, kHeight = 32;
+constexpr int kAcross = 64, kDown = 32;
 
 double sky_at(int x, int y) {
-    return x == 23 && y == 9 ? 2000 : x < kWidth / 2 ? 5 : 0.5;
+    return x == 23 && y == 9 ? 2000 : x < kAcross / 2 ? 5 : 0.5;
 }
 
 void write_sky(const std::string& file) {
     std::vector<float> sky;
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) sky.insert(sky.end(), 3, static_cast<float>(sky_at(x, y)));
-    const OIIO::ImageSpec spec(kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT);
+    for (int y = 0; y < kDown; ++y)
+        for (int x = 0; x < kAcross; ++x) sky.insert(sky.end(), 3, static_cast<float>(sky_at(x, y)));
+    const OIIO::ImageSpec spec(kAcross, kDown, 3, OIIO::TypeDesc::FLOAT);
     const auto out = OIIO::ImageOutput::create(file);
     ASSERT_TRUE(out && out->open(file, spec) && out->write_image(OIIO::TypeDesc::FLOAT, sky.data()) &&
                 out->close());
@@ -90,17 +90,18 @@ void write_sky(const std::string& file) {
 /// face sees next to nothing of them.
 double expected_of_sky() {
     double expected = 0;
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = kWidth / 4; x < kWidth * 3 / 4; ++x) {
+    for (int y = 0; y < kDown; ++y)
+        for (int x = kAcross / 4; x < kAcross * 3 / 4; ++x) {
             const auto of_height = [](double down) { return down / 2 - std::sin(2 * down) / 4; };
-            const double turn = 2 * M_PI / kWidth, down = M_PI / kHeight;
+            const double turn = 2 * M_PI / kAcross, down = M_PI / kDown;
             expected += sky_at(x, y) * (of_height(down * (y + 1)) - of_height(down * y)) *
                         (std::sin(turn * x) - std::sin(turn * (x + 1))) / M_PI;
         }
     return expected;
 }
 
-std::string ris(const std::string& light, const std::string& place, const std::string& parameters = "") {
+std::string ris_light(const std::string& light, const std::string& place,
+                      const std::string& parameters = "") {
     return "AttributeBegin " + place + " Light \"" + light + "\" \"l\" \"int fixedSampleCount\" [COUNT] " +
            parameters + " AttributeEnd ";
 }
@@ -135,23 +136,24 @@ const std::string kSphere =
 
 std::vector<Asked> all() {
     return {
-        {"Rectangle", ris("PxrRectLight", "Translate 0 0 3"), kSide, kSquare + kFacing, ""},
-        {"Disk", ris("PxrDiskLight", "Translate 0 0 3 Scale 2 2 1"), "", kDisk + kFacing, ""},
-        {"Sphere", ris("PxrSphereLight", "Translate 0 0 2"), "",
+        {"Rectangle", ris_light("PxrRectLight", "Translate 0 0 3"), kSide, kSquare + kFacing, ""},
+        {"Disk", ris_light("PxrDiskLight", "Translate 0 0 3 Scale 2 2 1"), "", kDisk + kFacing, ""},
+        {"Sphere", ris_light("PxrSphereLight", "Translate 0 0 2"), "",
          "vector m = point(0, 0, 2) - P; float expected = .25 / (m . m) * 3 / length(m);" + kFacing, ""},
-        {"Cylinder", ris("PxrCylinderLight", "Translate 0 0 2"), kSide, kCylinder + kFacing, ""},
+        {"Cylinder", ris_light("PxrCylinderLight", "Translate 0 0 2"), kSide, kCylinder + kFacing, ""},
         {"Mesh",
          "AttributeBegin Attribute \"visibility\" \"int camera\" 0 Translate 0 0 3 "
          "Light \"PxrMeshLight\" \"m\" \"int fixedSampleCount\" [COUNT] "
          "Patch \"bilinear\" \"P\" [-.5 -.5 0 .5 -.5 0 -.5 .5 0 .5 .5 0] AttributeEnd ",
          kSide, kSquare + kFacing, ""},
         {"DistantDisk",
-         ris("PxrDistantLight", "Rotate 30 1 0 0", "\"float angleExtent\" [80] \"float intensity\" [1]"), "",
-         "float s = sin(radians(40)); float expected = s * s * cos(radians(30));" + kFacing, ""},
-        {"Dome", ris("PxrDomeLight", "", "\"string lightColorMap\" [\"SKY\"]"), "",
+         ris_light("PxrDistantLight", "Rotate 30 1 0 0",
+                   "\"float angleExtent\" [80] \"float intensity\" [1]"),
+         "", "float s = sin(radians(40)); float expected = s * s * cos(radians(30));" + kFacing, ""},
+        {"Dome", ris_light("PxrDomeLight", "", "\"string lightColorMap\" [\"SKY\"]"), "",
          "Ci = color(comp(diffuse(normal(-1, 0, 0)), 0), " + std::to_string(expected_of_sky()) + ", 1);", ""},
-        {"WhiteDome", ris("PxrDomeLight", ""), "", "float expected = 1;" + kFacing, ""},
-        {"Penumbra", ris("PxrDiskLight", "Translate 0 0 -95 Scale 6 6 1"), "",
+        {"WhiteDome", ris_light("PxrDomeLight", ""), "", "float expected = 1;" + kFacing, ""},
+        {"Penumbra", ris_light("PxrDiskLight", "Translate 0 0 -95 Scale 6 6 1"), "",
          "float t = clamp(-xcomp(P) * 85 / 15 / 3, -1, 1);"
          "float shown = (acos(t) - t * sqrt(1 - t * t)) / PI;"
          "Ci = color(comp(diffuse(normal(0, 0, -1)), 0) * 10009 / 9, shown, 1);",

@@ -9,7 +9,7 @@ namespace trapeze::testing {
 namespace {
 
 /// How a thing about the point (0, 0, 4) comes to be there, and where it goes while the shutter is open.
-struct Pose {
+struct FurnacePose {
     const char* name;
     const char* to = "0 0 4";
     double grows = 1;  ///< from this part of its size
@@ -17,14 +17,14 @@ struct Pose {
     double turns = 0;  ///< degrees
 };
 
-void PrintTo(const Pose& pose, std::ostream* out) {
+void PrintTo(const FurnacePose& pose, std::ostream* out) {
     *out << pose.name;
 }
 
 /// A thing in its own space, by its size.
 using Thing = std::function<std::string(double)>;
 
-std::string placed(const Pose& pose, const Thing& thing, const std::string& turned = "") {
+std::string placed(const FurnacePose& pose, const Thing& thing, const std::string& turned = "") {
     const double size = pose.displaced ? 0.5 : 1;
     std::string text = "MotionBegin [0 1] Translate 0 0 4 Translate " + std::string(pose.to) + " MotionEnd ";
     if (pose.turns != 0)
@@ -42,7 +42,7 @@ std::string round(const std::string& name, double radius, double from, double to
     return name + " " + std::to_string(radius) + " " + std::to_string(from * radius) + " " +
            std::to_string(to * radius) + " 360 ";
 }
-std::string ball(double size) {
+std::string furnace_ball(double size) {
     return round("Sphere", 0.7 * size, -1, 1);
 }
 /// Half of a sphere; the camera looks into it.
@@ -67,7 +67,7 @@ std::string corner(double size) {
 /// Turns a corner towards the camera.
 const std::string kTurned = "Rotate -35.26 1 0 0 Rotate 45 0 1 0 ";
 
-const std::string kOutwards = "normal away = normal(normalize(P - point(0, 0, 4))); ";
+const std::string kOutOfTheFurnaceBall = "normal away = normal(normalize(P - point(0, 0, 4))); ";
 const std::string kInwards = "normal away = normal(normalize(point(0, 0, 4) - P)); ";
 /// Of a corner, seen from wherever.
 const std::string kIntoCorner =
@@ -109,11 +109,11 @@ Sent white(const std::string& thing, const std::string& away, int depth) {
     return sent;
 }
 
-class RayFurnace : public ::testing::TestWithParam<Pose> {};
+class RayFurnace : public ::testing::TestWithParam<FurnacePose> {};
 
 /// All rays miss, so that there is no noise.
 TEST_P(RayFurnace, ConvexThingsAreNotToBeSeenAtOneBounce) {
-    const std::pair<Thing, std::string> things[] = {{ball, kOutwards}, {cube, kFacing}};
+    const std::pair<Thing, std::string> things[] = {{furnace_ball, kOutOfTheFurnaceBall}, {cube, kFacing}};
     for (const auto& [thing, away] : things) {
         int seen = 0;
         for (const Pixel& p : pixels(furnace(placed(GetParam(), thing, kTurned), 1).render(away + kWhite))) {
@@ -125,13 +125,13 @@ TEST_P(RayFurnace, ConvexThingsAreNotToBeSeenAtOneBounce) {
 }
 
 /// Lights shine on surfaces as these lie at shutter open: not on what turns.
-class RayFurnaceOfALight : public ::testing::TestWithParam<Pose> {};
+class RayFurnaceOfALight : public ::testing::TestWithParam<FurnacePose> {};
 
 /// A white dome as a light, whose samples cast shadows. Most of them follow the cosine: they count 1.23 at
 /// most, an eighth is behind the surface, and independent ones have a deviation of 0.45. So 64 have 0.06, and
 /// 800 points 2e-3; strata help.
 TEST_P(RayFurnaceOfALight, ConvexThingsAreNotToBeSeen) {
-    Case c = furnace(placed(GetParam(), ball), 1);
+    Case c = furnace(placed(GetParam(), furnace_ball), 1);
     c.may_say = "ris";
     c.asker += "AttributeBegin Light \"PxrDomeLight\" \"l\" \"int fixedSampleCount\" [64] AttributeEnd ";
     const Image image = c.render("Ci = diffuse(faceforward(normalize(N), point(0, 0, 4) - P));");
@@ -178,26 +178,28 @@ TEST_P(RayFurnace, ABallAndItsFloorLoseNoMoreThanTheyHide) {
     const double part = 0.7 * 0.7 / (1.5 * 1.5);
     for (const int depth : {1, 3}) {
         Case c = furnace("Polygon \"P\" [-1.2 1.2 5.5 1.2 1.2 5.5 1.2 -1.2 5.5 -1.2 -1.2 5.5] ", depth);
-        c.shaders["white"] = "surface white() { Oi = 1; " + kOutwards + kWhite + " }";
-        c.things = c.asker + "Surface \"white\" " + placed(GetParam(), ball);
+        c.shaders["white"] = "surface white() { Oi = 1; " + kOutOfTheFurnaceBall + kWhite + " }";
+        c.things = c.asker + "Surface \"white\" " + placed(GetParam(), furnace_ball);
         const Image image = c.render("normal away = normal(0, 0, -1); " + kWhite);
         EXPECT_GE(mean_red(image), 1 - std::pow(part / 2, (depth + 1) / 2)) << depth;
         for (const Pixel& p : pixels(image)) ASSERT_LE(p.red, 1 + 1e-5f);
     }
 }
 
-std::string name_of(const ::testing::TestParamInfo<Pose>& pose) {
+std::string name_of(const ::testing::TestParamInfo<FurnacePose>& pose) {
     return pose.param.name;
 }
 
-const Pose kMoving{"Moving", ".4 -.3 3.5"}, kGrowing{"Growing", "0 0 4", .7},
+const FurnacePose kMoving{"Moving", ".4 -.3 3.5"}, kGrowing{"Growing", "0 0 4", .7},
     kTurning{"Turning", "0 0 4", 1, false, 60}, kDisplaced{"Displaced", "0 0 4", 1, true},
     kBoth{"DisplacedAndMoving", ".4 -.3 3.5", 1, true};
 INSTANTIATE_TEST_SUITE_P(, RayFurnace,
-                         ::testing::Values(Pose{"AtRest"}, kMoving, kGrowing, kTurning, kDisplaced, kBoth),
+                         ::testing::Values(FurnacePose{"AtRest"}, kMoving, kGrowing, kTurning, kDisplaced,
+                                           kBoth),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(, RayFurnaceOfALight,
-                         ::testing::Values(Pose{"AtRest"}, kMoving, kGrowing, kDisplaced, kBoth), name_of);
+                         ::testing::Values(FurnacePose{"AtRest"}, kMoving, kGrowing, kDisplaced, kBoth),
+                         name_of);
 
 }  // namespace
 }  // namespace trapeze::testing

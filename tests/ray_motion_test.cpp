@@ -9,8 +9,8 @@ namespace {
 const std::string kInTime = "Attribute \"trace\" \"int samplemotion\" 1 ";
 /// A power of the sequence's base: of so many times exactly one is in each of as many parts of the shutter,
 /// so that the part of them within a stretch of time is off by less than two of them.
-constexpr int kTimes = 81;
-constexpr float kOfATime = 2.0f / kTimes;
+constexpr int kMoments = 81;
+constexpr float kOfATime = 2.0f / kMoments;
 
 Case in_time() {
     Case c;
@@ -30,7 +30,7 @@ TEST(RayMotion, AShadowIsAsDarkAsItIsLong) {
     c.things = moves("-1.5 0 2", ".5 0 2", "Patch \"bilinear\" \"P\" [0 6 0 1 6 0 0 -6 0 1 -6 0] ");
     const std::string expected =
         "float x = xcomp(P); float from = clamp((x + .5) / 2, 0, 1), to = clamp((x + 1.5) / 2, 0, 1); ";
-    const std::string times = std::to_string(kTimes);
+    const std::string times = std::to_string(kMoments);
     expect_near(c.render(expected + "Ci = color(comp(transmission(P, P - vector(0, 0, 9), \"samples\", " +
                          times + "), 0), 1 - (to - from), 1);"),
                 kOfATime);
@@ -53,15 +53,15 @@ TEST(RayMotion, ADistanceIsTheMeanOverTheShutter) {
     Case c = in_time();
     c.things = moves("0 0 1", "0 0 3", wall("0"));
     expect_near(c.render("Ci = color(float trace(P, vector(0, 0, -1), \"samples\", " +
-                         std::to_string(kTimes) + "), 3, 1);"),
-                1.0f / kTimes);
+                         std::to_string(kMoments) + "), 3, 1);"),
+                1.0f / kMoments);
     // On a bent path: keys of 0, 2, 0 have the mean 1.
     c.things =
         "AttributeBegin MotionBegin [0 .5 1] Translate 0 0 1 Translate 0 0 3 Translate 0 0 1 MotionEnd " +
         wall("0") + "AttributeEnd ";
     expect_near(c.render("Ci = color(float trace(P, vector(0, 0, -1), \"samples\", " +
-                         std::to_string(kTimes) + "), 3, 1);"),
-                2.0f / kTimes);
+                         std::to_string(kMoments) + "), 3, 1);"),
+                2.0f / kMoments);
 }
 
 /// Deforming geometry, too: a wall that turns into another one.
@@ -69,8 +69,8 @@ TEST(RayMotion, DeformingThingsAreMetAsTheyAreThen) {
     Case c = in_time();
     c.things = "MotionBegin [0 1] " + wall("1") + wall("3") + "MotionEnd ";
     expect_near(c.render("Ci = color(float trace(P, vector(0, 0, -1), \"samples\", " +
-                         std::to_string(kTimes) + "), 3, 1);"),
-                1.0f / kTimes);
+                         std::to_string(kMoments) + "), 3, 1);"),
+                1.0f / kMoments);
 }
 
 /// What moves with the point that asks hides it as if all stood still.
@@ -98,7 +98,7 @@ TEST(RayMotion, ShadowsOfLightsStartAtEitherEnd) {
     // The asker comes along z from 5 to 4, a sheet stands at z = 3, the light at the origin.
     c.things = "Patch \"bilinear\" \"P\" [0 6 3 9 6 3 0 -6 3 9 -6 3] ";
     c.asker = kInTime + "MotionBegin [0 1] Translate 0 0 0 Translate 0 0 -1 MotionEnd ";
-    const std::string samples = ", \"samples\", " + std::to_string(kTimes) + ")";
+    const std::string samples = ", \"samples\", " + std::to_string(kMoments) + ")";
     // On the way to (4, 0, 0) from (x, y, z) the ray is at x + (4 - x) (z - 3) / z as it passes the sheet:
     // dark where that is above 0. For x < 0 it is the whole shutter's part with z > 3 (x - 4) / ... solved
     // for z.
@@ -149,8 +149,8 @@ TEST(RayMotion, TheCamerasOwnMotionIsNotTheScenes) {
     // What moves in the world is met as it moves there.
     c.things = moves("0 0 1", "0 0 3", wall("0"));
     expect_near(c.render("Ci = color(float trace(P, vector(0, 0, -1), \"samples\", " +
-                         std::to_string(kTimes) + "), 3, 1);"),
-                1.0f / kTimes + 1e-4f);
+                         std::to_string(kMoments) + "), 3, 1);"),
+                1.0f / kMoments + 1e-4f);
 }
 
 /// The mean of what a sphere hides over its way: the form factor, over the shutter.

@@ -110,7 +110,7 @@ TEST(RayOcclusion, InAClosedBoxIsAll) {
 }
 
 /// Away from the middle of the thing.
-const std::string kOutwards = "normalize(N) * sign(N . (P - point \"middle\" (0, 0, 0)))";
+const std::string kOutOfTheMiddle = "normalize(N) * sign(N . (P - point \"middle\" (0, 0, 0)))";
 
 /// A thing that the camera sees asks for the occlusion of its own outside, all of which is empty.
 /// Micropolygons that are seen from the side, or from behind, do not count where the normal is not known to
@@ -131,14 +131,14 @@ void expect_open(const std::string& thing, const std::string& normal = "faceforw
                 c.render("normal n = " + normal +
                          "; float facing = abs(n . normalize(I));"
                          "Ci = told(" +
-                         body + ", 0, " + (normal == kOutwards ? "1" : "facing > .02 ? 1 : 0") + ");");
+                         body + ", 0, " + (normal == kOutOfTheMiddle ? "1" : "facing > .02 ? 1 : 0") + ");");
             SCOPED_TRACE(thing + rate + view + place);
             expect_told(image, 0, 300);
         }
 }
 
 TEST(RaySelfHits, ASphereHasNone) {
-    expect_open("Sphere 1 -1 1 360", kOutwards);
+    expect_open("Sphere 1 -1 1 360", kOutOfTheMiddle);
 }
 /// Where it faces the camera by half, a cone about its normal passes above the other side.
 TEST(RaySelfHits, ATorusHasNone) {
@@ -149,7 +149,7 @@ TEST(RaySelfHits, ASubdivisionMeshHasNone) {
     expect_open(
         "Rotate 30 1 1 0 SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4] [0 1 3 2 5 4 6 7 1 0 4 5 2 3 7 6 0 2 6 4 "
         "3 1 5 7] [] [] [] [] \"P\" [-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1]",
-        kOutwards);
+        kOutOfTheMiddle);
 }
 /// A dome towards the camera: its control points are those of a paraboloid.
 TEST(RaySelfHits, ABicubicPatchHasNone) {

@@ -15,11 +15,11 @@ std::string bounces(int count) {
 
 const char* const kMotion = "MotionBegin [0 1] Translate 0 0 0 Translate .6 -.4 .5 MotionEnd ";
 
-const char* const kTurning =
+const char* const kTurningCube =
     "Translate 0 0 4.5 MotionBegin [0 1] Rotate 0 1 2 3 Rotate 40 1 2 3 MotionEnd Translate 0 0 -4.5 ";
 
 /// How walls come to be where they are, and where they go while the shutter is open.
-struct Pose {
+struct CubePose {
     const char* name;
     const char* motion = "";
     bool displaced = false;
@@ -36,7 +36,7 @@ struct Pose {
     double size() const { return displaced ? 0.5 : 1; }
 };
 
-void PrintTo(const Pose& pose, std::ostream* out) {
+void PrintTo(const CubePose& pose, std::ostream* out) {
     *out << pose.name;
 }
 
@@ -50,7 +50,7 @@ Case closed(int depth) {
     return c;
 }
 
-class RayRadiosity : public ::testing::TestWithParam<Pose> {};
+class RayRadiosity : public ::testing::TestWithParam<CubePose> {};
 
 /// A box of 4 x 4 x 7 with the square that asks inside of it, in a larger one: a ray that begins at an edge
 /// may do so a rounding outside, and is as good in there.
@@ -169,13 +169,13 @@ TEST_P(RayRadiosity, OfAnIntegratingSphereIsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, RayRadiosity,
-                         ::testing::Values(Pose{"AtRest"}, Pose{"Moving", kMotion},
-                                           Pose{"MovingTogether", kMotion, false, true},
-                                           Pose{"TurningTogether", kTurning, false, true},
-                                           Pose{"DisplacedAndTurningTogether", kTurning, true, true},
-                                           Pose{"Displaced", "", true},
-                                           Pose{"DisplacedAndMoving", kMotion, true}),
-                         [](const ::testing::TestParamInfo<Pose>& pose) { return pose.param.name; });
+                         ::testing::Values(CubePose{"AtRest"}, CubePose{"Moving", kMotion},
+                                           CubePose{"MovingTogether", kMotion, false, true},
+                                           CubePose{"TurningTogether", kTurningCube, false, true},
+                                           CubePose{"DisplacedAndTurningTogether", kTurningCube, true, true},
+                                           CubePose{"Displaced", "", true},
+                                           CubePose{"DisplacedAndMoving", kMotion, true}),
+                         [](const ::testing::TestParamInfo<CubePose>& pose) { return pose.param.name; });
 
 }  // namespace
 }  // namespace trapeze::testing

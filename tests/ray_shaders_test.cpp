@@ -6,7 +6,7 @@
 namespace trapeze::testing {
 namespace {
 
-std::string depth(int bounces) {
+std::string depth_option(int bounces) {
     return "Attribute \"trace\" \"int maxspeculardepth\" [" + std::to_string(bounces) + "] ";
 }
 
@@ -14,8 +14,8 @@ std::string depth(int bounces) {
 /// which is the same from within.
 TEST(RayGlass, TheStandardGlassIsAsBrightAsFresnelSays) {
     Case c;
-    c.asker = depth(4);
-    c.things = depth(4) + "Surface \"glass\" \"Kr\" 0 \"Ks\" 0 \"Ka\" 0 " + sphere("0 0 3", ".5") +
+    c.asker = depth_option(4);
+    c.things = depth_option(4) + "Surface \"glass\" \"Kr\" 0 \"Ks\" 0 \"Ka\" 0 " + sphere("0 0 3", ".5") +
                "Surface \"constant\" " + wall("-20") + wall("2");
     expect_told(c.render("vector d = vector(0, 0, -1), R, T; float kr, kt;"
                          "float r2 = xcomp(P) * xcomp(P) + ycomp(P) * ycomp(P);"

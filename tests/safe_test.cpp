@@ -9,7 +9,7 @@
 namespace trapeze::testing {
 namespace {
 
-const std::string kHead =
+const std::string kSafeHead =
     "Format 16 12 1\nPixelSamples 1 1\nProjection \"perspective\" \"fov\" 40\nTranslate 0 0 3\n";
 const std::string kWorld = "WorldBegin\nSphere 1 -1 1 360\nWorldEnd\n";
 /// What is in a file that is closed; every reader repeats it in its message.
@@ -75,7 +75,7 @@ TEST_F(Safe, ArchivesLieInside) {
                                             "/proc/self/root" + out("leak.rib"),
                                             "./folder/leak.rib",
                                             "folder/../folder/leak.rib"};
-    std::string rib = kHead + "WorldBegin\n";
+    std::string rib = kSafeHead + "WorldBegin\n";
     for (const std::string& name : names) rib += "ReadArchive " + quoted(name) + "\n";
     rib += "Procedural \"DelayedReadArchive\" [" + quoted(names[0]) + "] [-1 1 -1 1 -1 1]\n";
     rib += "ArchiveBegin \"in\"\nReadArchive " + quoted(names[0]) + "\nArchiveEnd\nReadArchive \"in\"\n";
@@ -83,7 +83,7 @@ TEST_F(Safe, ArchivesLieInside) {
     EXPECT_GT(count_of(render(rib, "").err, "LeakedSecret"), 0u);
     expect_closed(rib, names);
     const Outcome devices =
-        render(kHead +
+        render(kSafeHead +
                "WorldBegin\nReadArchive \"/dev/stdin\"\nReadArchive \"/proc/self/environ\"\n"
                "ReadArchive \"pipe\"\nReadArchive \"/dev/zero\"\nSphere 1 -1 1 360\nWorldEnd\n");
     for (const char* name : {"/dev/stdin", "/proc/self/environ", "/dev/zero"})
@@ -105,7 +105,7 @@ TEST_F(Safe, SearchPathsOfScenesLeadNowhereElse) {
                                             "${LEAK}",
                                             "%LEAK%",
                                             "~"};
-    std::string rib = kHead;
+    std::string rib = kSafeHead;
     for (const std::string& path : paths) {
         rib += "FrameBegin 1\nOption \"searchpath\" \"string archive\" [\"&:" + path +
                ":@\"] \"string shader\" [\"" + path + "\"]\n";
@@ -123,7 +123,7 @@ TEST_F(Safe, SearchPathsOfScenesLeadNowhereElse) {
 TEST_F(Safe, FoldersAboveAndBesideAreNotLookedThrough) {
     fs::create_directories(work_ / "job/scenes");
     fs::create_directories(work_ / "job/archives");
-    work_.write("job/scenes/b.rib", kHead +
+    work_.write("job/scenes/b.rib", kSafeHead +
                                         "WorldBegin\nReadArchive \"archives/leak.rib\"\nSurface \"leak\"\n"
                                         "Sphere 1 -1 1 360\nWorldEnd\n");
     work_.write("job/archives/leak.rib", kSecret);
@@ -158,7 +158,7 @@ TEST_F(Safe, MembersOfZipArchivesOutsideAreClosed) {
                                    number(static_cast<uint32_t>(local.size()), 4) + number(0, 2));
     link(out("leak.zip"), "link.zip");
     const std::vector<std::string> names = {out("leak.zip") + "!leak.rib", "link.zip!leak.rib"};
-    std::string rib = kHead + "WorldBegin\n";
+    std::string rib = kSafeHead + "WorldBegin\n";
     for (const std::string& archive : names) rib += "ReadArchive " + quoted(archive) + "\n";
     rib += "Sphere 1 -1 1 360\nWorldEnd\n";
     const Outcome open = render(rib, "");
@@ -172,7 +172,7 @@ TEST_F(Safe, ShadersAndWhatTheyIncludeLieInside) {
     link(out("leak.sl"), "file.sl");
     link(outside_.path().string(), "folder");
     const std::vector<std::string> headers = {out("leak.h"), out_from_here("leak.h"), "folder/leak.h"};
-    std::string rib = kHead + "WorldBegin\n";
+    std::string rib = kSafeHead + "WorldBegin\n";
     for (size_t i = 0; i < headers.size(); ++i) {
         const std::string shader = "s" + std::to_string(i);
         work_.write(shader + ".sl",
@@ -191,7 +191,8 @@ TEST_F(Safe, ShadersAndWhatTheyIncludeLieInside) {
 TEST_F(Safe, MapsLieInsideWhateverComputesTheirNames) {
     // A picture to be found: the program's own.
     ASSERT_EQ(
-        render(kHead + "Display " + quoted(out("map.exr")) + " \"exr\" \"rgb\"\n" + kWorld, "").exit_code, 0);
+        render(kSafeHead + "Display " + quoted(out("map.exr")) + " \"exr\" \"rgb\"\n" + kWorld, "").exit_code,
+        0);
     ASSERT_TRUE(fs::exists(outside_ / "map.exr"));
     link(out("map.exr"), "link.exr");
     work_.write("maps.sl",
@@ -199,7 +200,7 @@ TEST_F(Safe, MapsLieInsideWhateverComputesTheirNames) {
                 "  string name = concat(folder, \"/\", \"map.exr\");\n"
                 "  Ci = texture(name) + environment(name, N) + shadow(name, P) + texture(\"link.exr\");\n"
                 "  float there = 0; textureinfo(name, \"exists\", there);\n}\n");
-    const std::string rib = kHead + "WorldBegin\nSurface \"maps\" \"string folder\" [\"" +
+    const std::string rib = kSafeHead + "WorldBegin\nSurface \"maps\" \"string folder\" [\"" +
                             outside_.path().string() + "\"]\nSphere 1 -1 1 360\nWorldEnd\n";
     EXPECT_FALSE(holds_text(render(rib, "").err, "lies outside"));
     const Outcome run = render(rib);
@@ -213,7 +214,7 @@ TEST_F(Safe, MapsAreOfFormatsThatPicturesAreMostlyIn) {
                 "\0\0\0\x18"
                 "ftypmp42 and so on, for longer than any header");
     const Outcome run =
-        render(kHead +
+        render(kSafeHead +
                "WorldBegin\nSurface \"paintedplastic\" \"string texturename\" [\"film.mp4\"]\n"
                "Sphere 1 -1 1 360\nWorldEnd\n");
     EXPECT_TRUE(holds_text(run.err, "texture \"film.mp4\": is of a format that is not open to scenes"))
@@ -230,7 +231,7 @@ TEST_F(Safe, PicturesAreWrittenInside) {
     const std::vector<std::string> names = {out("new.exr"),   out_from_here("new.exr"),
                                             "folder/new.exr", "link.exr",
                                             "dangling.exr",   "sub/../" + out_from_here("new.exr")};
-    std::string rib = kHead;
+    std::string rib = kSafeHead;
     for (size_t i = 0; i < names.size(); ++i)
         rib += "Display \"" + std::string(i ? "+" : "") + names[i] + "\" \"exr\" \"rgba\"\n";
     rib += "Display \"+" + out("depth.tif") + "\" \"zfile\" \"z\"\nDisplay \"+notes.txt\" \"exr\" \"rgba\"\n";
@@ -254,12 +255,12 @@ TEST_F(Safe, PicturesAreWrittenInside) {
 }
 
 TEST_F(Safe, MapsAreMadeInside) {
-    ASSERT_EQ(render(kHead + "Display \"in.exr\" \"exr\" \"rgb\"\n" + kWorld, "").exit_code, 0);
+    ASSERT_EQ(render(kSafeHead + "Display \"in.exr\" \"exr\" \"rgb\"\n" + kWorld, "").exit_code, 0);
     fs::copy(work_ / "in.exr", outside_ / "out.exr");
     link(outside_.path().string(), "folder");
     work_.write("notes.tex", "mine");
     const std::vector<std::string> maps = {out("a.tex"), out_from_here("a.tex"), "folder/a.tex", "notes.tex"};
-    std::string rib = kHead;
+    std::string rib = kSafeHead;
     for (const std::string& map : maps)
         rib += "MakeTexture \"in.exr\" " + quoted(map) + " \"periodic\" \"periodic\" \"box\" 1 1\n";
     rib += "MakeLatLongEnvironment \"in.exr\" " + quoted(out("b.env")) + " \"box\" 1 1\n";
@@ -284,7 +285,7 @@ TEST_F(Safe, MapsAreMadeInside) {
 TEST_F(Safe, NothingIsRun) {
     work_.write("run.sh", "touch ran; printf '\\377'");
     work_.write("lib.so", "no library");
-    const std::string rib = kHead +
+    const std::string rib = kSafeHead +
                             "WorldBegin\nProcedural \"RunProgram\" [\"sh run.sh\" \"\"] [-1 1 -1 1 -1 1]\n"
                             "Procedural \"DynamicLoad\" [\"./lib.so\" \"\"] [-1 1 -1 1 -1 1]\n"
                             "System \"touch ran\"\nSphere 1 -1 1 360\nWorldEnd\n";
@@ -300,7 +301,7 @@ TEST_F(Safe, NothingIsRun) {
 TEST_F(Safe, TheEnvironmentAsksForItToo) {
     outside_.write("leak.rib", kSecret);
     const std::string rib =
-        kHead + "WorldBegin\nReadArchive " + quoted(out("leak.rib")) +
+        kSafeHead + "WorldBegin\nReadArchive " + quoted(out("leak.rib")) +
         "\nIfBegin \"$LEAK == 'yes'\"\nLeakedSecret\nIfEnd\nSphere 1 -1 1 360\nWorldEnd\n";
     setenv("LEAK", "yes", 1);
     EXPECT_EQ(count_of(render(rib, "").err, "error: LeakedSecret"), 1u);
@@ -324,7 +325,7 @@ TEST_F(Safe, WhatTheUserSaysIsOpen) {
     fs::create_directories(work_ / ".config/trapeze");
     outside_.write("part.rib", "Surface \"own\"\nSphere 1 -1 1 360\n");
     outside_.write("own.sl", "surface own() { Ci = 1; }\n");
-    outside_.write("b.rib", kHead + "WorldBegin\nReadArchive \"part.rib\"\nWorldEnd\n");
+    outside_.write("b.rib", kSafeHead + "WorldBegin\nReadArchive \"part.rib\"\nWorldEnd\n");
     const auto expect_good = [&](const std::string& arguments, const std::string& picture) {
         const Outcome run = run_program(work_, arguments);
         EXPECT_EQ(run.exit_code, 0) << arguments << "\n" << run.err;
@@ -334,7 +335,7 @@ TEST_F(Safe, WhatTheUserSaysIsOpen) {
     // The scene's folder, -o, folders searched by --option and by the user's defaults.
     expect_good("render --safe -t 1 " + out("b.rib"), (work_ / "b.exr").string());
     expect_good("render --safe -t 1 " + out("b.rib") + " -o " + out("new.exr"), out("new.exr"));
-    work_.write("scene/c.rib", kHead + "WorldBegin\nReadArchive \"part.rib\"\nWorldEnd\n");
+    work_.write("scene/c.rib", kSafeHead + "WorldBegin\nReadArchive \"part.rib\"\nWorldEnd\n");
     const std::string path = "Option 'searchpath' 'string archive' ['" + outside_.path().string() +
                              "'] 'string shader' ['" + outside_.path().string() + "']\n";
     std::string rib = path;
@@ -351,7 +352,7 @@ TEST(Outside, FilesThatAreNoPicturesStay) {
     outside.write("notes.txt", "mine");
     const auto display = [&](const std::string& name) {
         work.write("a.rib",
-                   kHead + "Display \"" + (outside / name).string() + "\" \"exr\" \"rgba\"\n" + kWorld);
+                   kSafeHead + "Display \"" + (outside / name).string() + "\" \"exr\" \"rgba\"\n" + kWorld);
         return run_program(work, "render a.rib -t 1");
     };
     const Outcome refused = display("notes.txt");

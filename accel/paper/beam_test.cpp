@@ -8,13 +8,12 @@
 #include <numeric>
 #include <random>
 
+#include "core/noise_harness.h"
+
 namespace trapeze {
 namespace {
 
-struct Noise {
-    std::mt19937 engine{6};
-    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
-};
+using testing::Noise;
 
 /// Whether a ray passes a box of a frame, in doubles.
 bool passes(const AxisRay& ray, const FrameColumns& frame, const KeyBox& box, double near, double far) {
@@ -29,7 +28,7 @@ bool passes(const AxisRay& ray, const FrameColumns& frame, const KeyBox& box, do
 }
 
 TEST(Beam, NeverGivesUpWhatARayOfItPasses) {
-    Noise noise;
+    Noise noise{std::mt19937(6)};
     int passed = 0, given_up = 0;
     for (int round = 0; round < 20000; ++round) {
         const float width = std::pow(10.0f, noise(-4, 0)), lens = round % 2 ? 0.2f : 0.0f;

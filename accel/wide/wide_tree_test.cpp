@@ -11,19 +11,13 @@
 
 #include "accel/paper/paper_tree.h"
 #include "core/grids_harness.h"
+#include "core/noise_harness.h"
 
 namespace trapeze {
 namespace {
 
 using testing::GridMaker;
-
-struct Noise {
-    std::mt19937 engine{19};
-    float operator()(float from, float to) { return std::uniform_real_distribution<float>(from, to)(engine); }
-    V3f point(float reach) {
-        return {(*this)(-reach, reach), (*this)(-reach, reach), (*this)(-reach, reach)};
-    }
-};
+using testing::Noise;
 
 /// Adds waves on grids of every shape, ribbons among them, each on a way of its own.
 void add_waves(GridMaker& maker, int count, int keys, Noise& noise) {
@@ -43,7 +37,7 @@ void add_waves(GridMaker& maker, int count, int keys, Noise& noise) {
 
 TEST(WideTree, ClosestAndAnyInAllDirectionsEqualThePaperTrees) {
     for (const int keys : {1, 2, 5}) {
-        Noise noise;
+        Noise noise{std::mt19937(19)};
         GridMaker maker;
         add_waves(maker, 120, keys, noise);
         add_waves(maker, 20, 1, noise);
@@ -86,7 +80,7 @@ TEST(WideTree, OfNothingIsHitByNothing) {
 /// Every box, interpolated at any time, holds the vertices of its blocks.
 TEST(WideTree, BoxesHoldTheirVerticesAtAnyTime) {
     for (const int keys : {1, 2, 9}) {
-        Noise noise;
+        Noise noise{std::mt19937(19)};
         GridMaker maker;
         add_waves(maker, 60, keys, noise);
         const WideTree tree(maker.grids(), {});
@@ -144,7 +138,7 @@ void walk(const WideTree& tree, uint32_t node, Path& path, const Visit& visit) {
 /// Every box above grids, at any time, holds all that is below; every grid is below the root once.
 TEST(WideTree, BoxesHoldTheirSubtreesAtAnyTime) {
     for (const int keys : {1, 2, 9}) {
-        Noise noise;
+        Noise noise{std::mt19937(19)};
         GridMaker maker;
         add_waves(maker, 3000, keys, noise);
         const WideTree tree(maker.grids(), {});
@@ -199,7 +193,7 @@ TEST(WideTree, TakesFewBytesAMicropolygon) {
 }
 
 TEST(WideTree, IsTheSameFromAnyNumberOfThreads) {
-    Noise noise;
+    Noise noise{std::mt19937(19)};
     GridMaker maker;
     add_waves(maker, 3000, 2, noise);
     std::vector<std::vector<WideNode>> built;

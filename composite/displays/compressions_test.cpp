@@ -16,15 +16,15 @@ namespace {
 using testing::RasterScene;
 using testing::TemporaryFolder;
 
-struct Written {
+struct WrittenFiles {
     std::vector<std::string> messages;
     uint64_t warnings = 0;
 };
 
 /// An even picture of a Display that asks for a compression.
-Written write(const std::string& file, const std::string& name, const char* parameter = "compression") {
+WrittenFiles write(const std::string& file, const std::string& name, const char* parameter = "compression") {
     RasterScene scene(64, 64, 1);
-    Written result;
+    WrittenFiles result;
     Diagnostics diagnostics([&](const Diagnostic& d) { result.messages.push_back(d.text); });
     scene.context.diagnostics = &diagnostics;
     Display display{file, "file", "rgb", {}, {}};
@@ -76,7 +76,7 @@ TEST(Compressions, OfOtherFormatsAreHonoured) {
 
 TEST(Compressions, OthersAreRefusedByName) {
     const TemporaryFolder folder;
-    const Written exr = write(folder.file("a.exr"), "lzw");
+    const WrittenFiles exr = write(folder.file("a.exr"), "lzw");
     ASSERT_EQ(exr.warnings, 1u);
     EXPECT_EQ(exr.messages[0],
               "\"lzw\" is no compression of \"" + folder.file("a.exr") +

@@ -22,18 +22,18 @@ double encoded(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-struct Wished {
+struct WishedTransfer {
     std::string extension = "png", transfer = "", colorspace = "";
     float one = 255, gamma = 1;
 };
 
-struct Written {
+struct WrittenTransfer {
     int level = -1;
     std::string description, bytes;
 };
 
 /// An even grey of 1/4, without dither.
-Written write_quarter(const Wished& wished) {
+WrittenTransfer write_quarter(const WishedTransfer& wished) {
     const TemporaryFolder folder;
     RasterScene scene(4, 4, 1);
     scene.scene.options.exposure_gamma = wished.gamma;
@@ -51,7 +51,7 @@ Written write_quarter(const Wished& wished) {
     image.window = scene.context.camera.crop;
     image.rgba.assign(4 * 4 * 4, 0.25f), image.z.resize(4 * 4);
     EXPECT_TRUE(write_displays(image, scene.context, {"Trapeze test", {}}));
-    Written written;
+    WrittenTransfer written;
     const auto in = OIIO::ImageInput::open(display.name);
     EXPECT_TRUE(in) << OIIO::geterror();
     if (!in) return written;

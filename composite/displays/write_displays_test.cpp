@@ -43,13 +43,13 @@ Image numbered_image(const RasterScene& scene) {
     return image;
 }
 
-struct Written {
+struct WrittenDisplays {
     bool good;
     std::vector<std::string> paths;
 };
 
-Written write(const Image& image, const RasterScene& scene) {
-    Written result;
+WrittenDisplays write(const Image& image, const RasterScene& scene) {
+    WrittenDisplays result;
     std::vector<WrittenFile> files;
     result.good = write_displays(image, scene.context, kInfo, &files);
     for (const WrittenFile& file : files) result.paths.push_back(file.path);
@@ -71,7 +71,7 @@ TEST(WriteDisplays, OpenExrWindowsTypesAndMetadata) {
     scene.scene.camera_from_world = M44f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1);
     scene.scene.options.displays = {{folder.file("a.exr"), "openexr", "rgbaz", {}, {}}};
     const Image image = numbered_image(scene);
-    const Written result = write(image, scene);
+    const WrittenDisplays result = write(image, scene);
     EXPECT_TRUE(result.good);
     EXPECT_EQ(result.paths, std::vector<std::string>{folder.file("a.exr")});
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.exr"});
@@ -317,7 +317,7 @@ TEST(WriteDisplays, AFailureIsOneErrorAndTheOthersAreWritten) {
                                     {folder.file("a.png"), "file", "rgba", {}, place},
                                     {folder.file("b.exr"), "null", "rgba", {}, place},
                                     {folder.file("c.exr"), "file", "rgba", {}, place}};
-    const Written result = write(numbered_image(scene), scene);
+    const WrittenDisplays result = write(numbered_image(scene), scene);
     EXPECT_FALSE(result.good);
     EXPECT_EQ(result.paths, std::vector<std::string>{folder.file("c.exr")});
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.exr", "a.png", "c.exr"}));
@@ -336,7 +336,7 @@ TEST(WriteDisplays, FoldersBelowTheWorkingFolderAreMadeAndOthersLeftOut) {
     std::vector<std::string> shown;
     Diagnostics diagnostics([&](const Diagnostic& diagnostic) { shown.push_back(to_string(diagnostic)); });
     scene.context.diagnostics = &diagnostics;
-    const Written result = write(numbered_image(scene), scene);
+    const WrittenDisplays result = write(numbered_image(scene), scene);
     std::filesystem::current_path(before);
     EXPECT_EQ(result.paths,
               (std::vector<std::string>{"./renders/1/a.exr", "b.exr", "c.exr", "d.exr", "e.exr"}));

@@ -15,7 +15,7 @@ namespace {
 using testing::RasterScene;
 using testing::TemporaryFolder;
 
-bool write(const Image& image, const RasterScene& scene) {
+bool writes(const Image& image, const RasterScene& scene) {
     return write_displays(image, scene.context, {"Trapeze test", {}});
 }
 
@@ -52,7 +52,7 @@ TEST(WriteVariables, OutputVariablesHaveFilesOfTheirOwn) {
         testing::aov_display("N", ValueType::Normal, folder.file("N.exr")),
         testing::aov_display("N", ValueType::Color, folder.file("N_as_color.exr"))};
     const Image image = image_with_variables(scene);
-    EXPECT_TRUE(write(image, scene));
+    EXPECT_TRUE(writes(image, scene));
     const struct {
         const char *file, *channel;
         Imf::PixelType type;
@@ -90,7 +90,7 @@ TEST(WriteVariables, OutputVariablesInTiffs) {
     scene.scene.options.displays = {foo, bytes};
     scene.update();
     const Image image = image_with_variables(scene);
-    ASSERT_TRUE(write(image, scene));
+    ASSERT_TRUE(writes(image, scene));
     const OIIO::ImageBuf floats(folder.file("foo.tif")), words(folder.file("Ci.tif"));
     ASSERT_EQ(floats.nchannels(), 1);
     EXPECT_EQ(floats.spec().format, OIIO::TypeDesc::FLOAT);
@@ -107,7 +107,7 @@ TEST(WriteVariables, APictureWithoutTheVariableIsAnError) {
     scene.scene.options.displays = {testing::aov_display("foo", ValueType::Float, folder.file("foo.exr")),
                                     testing::aov_display("N", ValueType::Normal, folder.file("N.tif"))};
     scene.scene.options.displays[1].type = "tiff";
-    EXPECT_FALSE(write(black_image(scene), scene));
+    EXPECT_FALSE(writes(black_image(scene), scene));
     EXPECT_EQ(scene.diagnostics.count(Severity::Error), 2u);
     EXPECT_TRUE(folder.names().empty());
 }

@@ -5,7 +5,7 @@
 namespace trapeze {
 namespace {
 
-Parameter number(float value) {
+Parameter user_value(float value) {
     return {"a", {StorageClass::Uniform, ValueType::Float, 1}, {value}, {}};
 }
 
@@ -13,17 +13,17 @@ TEST(UserValues, CopiesDoNotSeeEachOthersChanges) {
     UserValues first;
     EXPECT_TRUE(first.empty());
     EXPECT_FALSE(first.contains("user"));
-    first.change("user").set(number(1));
+    first.change("user").set(user_value(1));
     UserValues second = first;
     EXPECT_EQ(&first.at("user"), &second.at("user")) << "shared until one changes";
-    second.change("user").set(number(2));
-    second.change("other").set(number(3));
+    second.change("user").set(user_value(2));
+    second.change("other").set(user_value(3));
     EXPECT_EQ(first.at("user").float_or("a", 0), 1);
     EXPECT_EQ(second.at("user").float_or("a", 0), 2);
     EXPECT_EQ(first.find("other"), first.end());
     EXPECT_NE(second.find("other"), second.end());
     const UserValues third = first;
-    first.change("user").set(number(4));
+    first.change("user").set(user_value(4));
     EXPECT_EQ(third.at("user").float_or("a", 0), 1);
 }
 

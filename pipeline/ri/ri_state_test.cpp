@@ -217,14 +217,14 @@ const Example kStructure[] = {
     {"MakeShadow", [] { RiMakeShadow("a.z", "a.sm", RI_NULL); }, "MakeShadow \"a.z\" \"a.sm\""},
 };
 
-std::string name_of(const ::testing::TestParamInfo<Example>& info) {
+std::string example_name(const ::testing::TestParamInfo<Example>& info) {
     return info.param.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Options, RiExamples, ::testing::ValuesIn(kOptions), name_of);
-INSTANTIATE_TEST_SUITE_P(Attributes, RiExamples, ::testing::ValuesIn(kAttributes), name_of);
-INSTANTIATE_TEST_SUITE_P(Transforms, RiExamples, ::testing::ValuesIn(kTransforms), name_of);
-INSTANTIATE_TEST_SUITE_P(Structure, RiExamples, ::testing::ValuesIn(kStructure), name_of);
+INSTANTIATE_TEST_SUITE_P(Options, RiExamples, ::testing::ValuesIn(kOptions), example_name);
+INSTANTIATE_TEST_SUITE_P(Attributes, RiExamples, ::testing::ValuesIn(kAttributes), example_name);
+INSTANTIATE_TEST_SUITE_P(Transforms, RiExamples, ::testing::ValuesIn(kTransforms), example_name);
+INSTANTIATE_TEST_SUITE_P(Structure, RiExamples, ::testing::ValuesIn(kStructure), example_name);
 
 TEST_F(Ri, ColorSamplesSayHowLongColoursAre) {
     const std::string rib = rib_of([] {

@@ -10,7 +10,7 @@ using ::testing::IsEmpty;
 
 const std::string kQuad = "\"P\" [0 0 0 1 0 0 1 1 0 0 1 0] ";
 
-std::string points(int count) {
+std::string some_points(int count) {
     std::string text = "\"P\" [";
     for (int i = 0; i < count; ++i) text += std::to_string(i) + " 0 0 ";
     return text + "] ";
@@ -31,12 +31,12 @@ TEST(ReadGeometry, QuadricsTakeTheirNumbers) {
 }
 
 TEST(ReadGeometry, PolygonsOfEveryKind) {
-    const Outcome r = read_world("Polygon " + kQuad + "GeneralPolygon [4 3] " + points(7) +
+    const Outcome r = read_world("Polygon " + kQuad + "GeneralPolygon [4 3] " + some_points(7) +
                                  "PointsPolygons [3 3] [0 1 2 0 2 3] " + kQuad +
                                  "\"uniform color c\" [1 0 0 0 1 0] "
                                  "\"facevarying float f\" [1 2 3 4 5 6] \"constant float k\" [1] "
                                  "PointsGeneralPolygons [2 1] [4 3 3] [0 1 2 3 4 5 6 0 1 2] " +
-                                 points(7));
+                                 some_points(7));
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 4u);
     const auto& general = std::get<PolygonMesh>(r.primitive(1).shape().topology);
@@ -57,7 +57,7 @@ TEST(ReadGeometry, SubdivisionMeshesAndTheFormsOfTags) {
         "SubdivisionMesh \"catmull-clark\" " + mesh +
         "[\"creasemethod\" \"interpolateboundary\"] [0 0 1 1 0 0] "
         "[2] [] [\"chaikin\"] " +
-        kQuad + "SubdivisionMesh \"loop\" [3] [0 1 2] [] [] [] [] " + points(3));
+        kQuad + "SubdivisionMesh \"loop\" [3] [0 1 2] [] [] [] [] " + some_points(3));
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 5u);
     const auto tags = [&](size_t i) {
@@ -79,15 +79,16 @@ TEST(ReadGeometry, PatchesOfEveryBasisStepAndWrap) {
         const std::string basis = std::string("Basis \"") + name + "\" " + std::to_string(step) + " \"" +
                                   name + "\" " + std::to_string(step) + " ";
         const int nu = 4 + 2 * step, nv = 4 * step;  // three patches along u, four round v
-        const Outcome r = read_world(basis + "Patch \"bicubic\" " + points(16) + "PatchMesh \"bicubic\" " +
-                                     std::to_string(nu) + " \"nonperiodic\" " + std::to_string(nv) +
-                                     " \"periodic\" " + points(nu * nv) + "\"varying float a\" [" +
-                                     [] {
-                                         std::string zeros;
-                                         for (int i = 0; i < 16; ++i) zeros += "0 ";
-                                         return zeros;
-                                     }() +
-                                     "] \"uniform float b\" [1 2 3 4 5 6 7 8 9 10 11 12]");
+        const Outcome r =
+            read_world(basis + "Patch \"bicubic\" " + some_points(16) + "PatchMesh \"bicubic\" " +
+                       std::to_string(nu) + " \"nonperiodic\" " + std::to_string(nv) + " \"periodic\" " +
+                       some_points(nu * nv) + "\"varying float a\" [" +
+                       [] {
+                           std::string zeros;
+                           for (int i = 0; i < 16; ++i) zeros += "0 ";
+                           return zeros;
+                       }() +
+                       "] \"uniform float b\" [1 2 3 4 5 6 7 8 9 10 11 12]");
         EXPECT_THAT(r.messages, IsEmpty()) << name;
         ASSERT_EQ(r.count(), 2u) << name;
         const auto& mesh = std::get<PatchMesh>(r.primitive(1).shape().topology);
@@ -105,9 +106,9 @@ TEST(ReadGeometry, PatchesOfEveryBasisStepAndWrap) {
 }
 
 TEST(ReadGeometry, BilinearMeshesAndBasesOfOnesOwn) {
-    const Outcome r = read_world("PatchMesh \"bilinear\" 3 \"periodic\" 2 \"nonperiodic\" " + points(6) +
+    const Outcome r = read_world("PatchMesh \"bilinear\" 3 \"periodic\" 2 \"nonperiodic\" " + some_points(6) +
                                  "Basis [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1] 2 \"bezier\" 3 Patch \"bicubic\" " +
-                                 points(16) + "Patch \"bilinear\" " + points(4));
+                                 some_points(16) + "Patch \"bilinear\" " + some_points(4));
     EXPECT_THAT(r.messages, IsEmpty());
     EXPECT_EQ(std::get<PatchMesh>(r.primitive(0).shape().topology).patches_u(), 3);
     const auto& patch = std::get<PatchMesh>(r.primitive(1).shape().topology);
@@ -117,7 +118,7 @@ TEST(ReadGeometry, BilinearMeshesAndBasesOfOnesOwn) {
 }
 
 TEST(ReadGeometry, MeshesOfUnknownWrapsAreOpen) {
-    const Outcome r = read_world("PatchMesh \"bilinear\" 3 \"nowrap\" 2 \"periodic\" " + points(6));
+    const Outcome r = read_world("PatchMesh \"bilinear\" 3 \"nowrap\" 2 \"periodic\" " + some_points(6));
     EXPECT_THAT(r.messages, ElementsAre(HasSubstr("a.rib:2:1: warning: PatchMesh: \"nowrap\" is neither "
                                                   "periodic nor nonperiodic; taken as nonperiodic")));
     ASSERT_EQ(r.count(), 1u);
@@ -174,7 +175,7 @@ TEST(ReadGeometry, InvalidPrimitivesAreSkipped) {
         "Paraboloid [1]",
         "Disk 1 360",
         "Torus 1 1 1 1",
-        "Polygon " + points(2),
+        "Polygon " + some_points(2),
         "Polygon",
         "Polygon \"Cs\" [1 1 1]",
         "Polygon \"vertex string P\" [\"a\" \"b\" \"c\"]",
@@ -199,16 +200,16 @@ TEST(ReadGeometry, InvalidPrimitivesAreSkipped) {
         "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\"] [2 1 1 1] [0 1] [2] " + kQuad,
         "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\"] [2 -1] [0 1] [2] " + kQuad,
         "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] [\"crease\"] [9 1] [0 1] [2] " + kQuad,
-        "Patch \"bilinear\" " + points(3),
-        "Patch \"bicubic\" " + points(15),
+        "Patch \"bilinear\" " + some_points(3),
+        "Patch \"bicubic\" " + some_points(15),
         "Patch \"quadratic\" " + kQuad,
         "Patch \"bilinear\"",
         "Patch \"bilinear\" \"Pw\" [0 0 0 1 2 0 0 0 0 1 0 1 1 1 0 1]",
         "PatchMesh \"bilinear\" 1 \"nonperiodic\" 4 \"nonperiodic\" " + kQuad,
         "PatchMesh \"bilinear\" -2 \"nonperiodic\" -2 \"nonperiodic\" " + kQuad,
         "PatchMesh \"bilinear\" 1000000 \"nonperiodic\" 1000000 \"nonperiodic\" " + kQuad,
-        "PatchMesh \"bicubic\" 5 \"nonperiodic\" 4 \"nonperiodic\" " + points(20),
-        "PatchMesh \"bicubic\" 4 \"periodic\" 4 \"nonperiodic\" " + points(16)};
+        "PatchMesh \"bicubic\" 5 \"nonperiodic\" 4 \"nonperiodic\" " + some_points(20),
+        "PatchMesh \"bicubic\" 4 \"periodic\" 4 \"nonperiodic\" " + some_points(16)};
     for (const std::string& text : invalid) {
         const Outcome r = read_world("AttributeBegin\n" + text + "\nAttributeEnd\n" + kSphere);
         ASSERT_FALSE(r.messages.empty()) << text;
@@ -251,7 +252,7 @@ TEST(ReadGeometry, VariablesOfAnotherNumberAreFitted) {
         {"\"st\" [0 0 1 0 1 1 0 1 0 0 1 0 1]", StorageClass::Varying, 6},  // of s
     };
     for (const auto& c : cases) {
-        const Outcome r = read_world("PointsPolygons [4 4] [0 1 4 3 1 2 5 4] " + points(6) + c.variable);
+        const Outcome r = read_world("PointsPolygons [4 4] [0 1 4 3 1 2 5 4] " + some_points(6) + c.variable);
         ASSERT_EQ(r.messages.size(), c.warnings) << c.variable;
         EXPECT_THAT(r.messages[0], HasSubstr("a.rib:2:")) << c.variable;
         EXPECT_THAT(r.messages[0], HasSubstr("warning: PointsPolygons: ")) << c.variable;
@@ -269,7 +270,7 @@ TEST(ReadGeometry, PointsOfPolygonsMayBeTooMany) {
     EXPECT_THAT(r.messages[0], HasSubstr("\"P\" has 11 values, no multiple of 3; the rest is left over"));
     ASSERT_EQ(r.count(), 1u);
     EXPECT_EQ(r.primitive().shape().variables.find("P")->floats.size(), 9u);
-    const Outcome patch = read_world("Patch \"bicubic\" " + points(16) + "\"Cs\" [" + [] {
+    const Outcome patch = read_world("Patch \"bicubic\" " + some_points(16) + "\"Cs\" [" + [] {
         std::string colors;
         for (int i = 0; i < 48; ++i) colors += "1 ";
         return colors;

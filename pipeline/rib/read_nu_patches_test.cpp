@@ -67,12 +67,12 @@ TEST(ReadNuPatches, RangesEndWithTheKnots) {
 }
 
 const std::string kPatch = "NuPatch " + kU + kV + kP;
-const std::string kSquare = "[1] [2] [0 0 1 2 3 4 4] [0] [4] [5] [0 1 1 0 0] [0 0 1 1 0] [1 1 1 1 1] ";
+const std::string kSquareTrim = "[1] [2] [0 0 1 2 3 4 4] [0] [4] [5] [0 1 1 0 0] [0 0 1 1 0] [1 1 1 1 1] ";
 
 TEST(ReadTrimCurves, LastUntilTheirBlockEnds) {
-    const Outcome r = read_world(kPatch + "AttributeBegin TrimCurve " + kSquare + kPatch +
+    const Outcome r = read_world(kPatch + "AttributeBegin TrimCurve " + kSquareTrim + kPatch +
                                  "Attribute \"trimcurve\" \"string sense\" [\"outside\"] TrimCurve 1 " +
-                                 kSquare + kPatch + "TrimCurve [] " + kPatch + "AttributeEnd " + kPatch);
+                                 kSquareTrim + kPatch + "TrimCurve [] " + kPatch + "AttributeEnd " + kPatch);
     EXPECT_THAT(r.messages, IsEmpty());
     ASSERT_EQ(r.count(), 5u);
     const auto patch = [&](size_t i) { return std::get<NuPatch>(r.primitive(i).shape().topology); };

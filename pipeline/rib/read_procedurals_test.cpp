@@ -10,17 +10,17 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::string kBound = "[-1 1 -1 1 -1 1] ";
+const std::string kUnitBound = "[-1 1 -1 1 -1 1] ";
 
 TEST(ReadProcedurals, ArchivesAreReadInABlock) {
     const Folder folder;
     folder.write("ball.rib", "Color 1 0 0 Translate 5 0 0 " + kSphere);
     const Outcome outcome = read_files(
         folder, {folder.write("a.rib", "WorldBegin Procedural \"DelayedReadArchive\" [\"ball.rib\"] " +
-                                           kBound + kSphere +
+                                           kUnitBound + kSphere +
                                            "Procedural2 \"DelayedReadArchive2\" \"SimpleBound\" "
                                            "\"string filename\" [\"ball.rib\"] \"float[6] __bound\" " +
-                                           kBound + "WorldEnd")});
+                                           kUnitBound + "WorldEnd")});
     EXPECT_THAT(outcome.messages, IsEmpty());
     ASSERT_EQ(outcome.count(), 3u);
     EXPECT_EQ(outcome.attributes(0).color, V3f(1, 0, 0));
@@ -34,7 +34,7 @@ TEST(ReadProcedurals, BlocksOfArchivesEndWithThem) {
         "ArchiveBegin \"open\" AttributeBegin TransformBegin ArchiveEnd\n"
         "ArchiveBegin \"close\" AttributeEnd Color 1 0 0 ArchiveEnd\n"
         "AttributeBegin Color 0 1 0 Procedural \"DelayedReadArchive\" [\"open\"] " +
-        kBound + kSphere + "Procedural \"DelayedReadArchive\" [\"close\"] " + kBound + kSphere +
+        kUnitBound + kSphere + "Procedural \"DelayedReadArchive\" [\"close\"] " + kUnitBound + kSphere +
         "AttributeEnd");
     ASSERT_EQ(outcome.count(), 2u);
     EXPECT_EQ(outcome.attributes(0).color, V3f(0, 1, 0));
@@ -44,13 +44,14 @@ TEST(ReadProcedurals, BlocksOfArchivesEndWithThem) {
 }
 
 TEST(ReadProcedurals, WhatCannotBeIsRefused) {
-    const Outcome outcome = read_world("Procedural \"DynamicLoad\" [\"a.so\" \"\"] " + kBound +
-                                       "\nProcedural \"Magic\" [\"a\"] " + kBound +
-                                       "\nProcedural \"DelayedReadArchive\" [\"none.rib\"] [0 1]\n"
-                                       "Procedural \"DelayedReadArchive\" [\"none.rib\"] " +
-                                       kBound + "\nProcedural2 \"DelayedReadArchive2\" \"SimpleBound\"\n" +
-                                       "MotionBegin [0 1] Procedural \"DelayedReadArchive\" [\"none.rib\"] " +
-                                       kBound + "MotionEnd " + kSphere);
+    const Outcome outcome =
+        read_world("Procedural \"DynamicLoad\" [\"a.so\" \"\"] " + kUnitBound +
+                   "\nProcedural \"Magic\" [\"a\"] " + kUnitBound +
+                   "\nProcedural \"DelayedReadArchive\" [\"none.rib\"] [0 1]\n"
+                   "Procedural \"DelayedReadArchive\" [\"none.rib\"] " +
+                   kUnitBound + "\nProcedural2 \"DelayedReadArchive2\" \"SimpleBound\"\n" +
+                   "MotionBegin [0 1] Procedural \"DelayedReadArchive\" [\"none.rib\"] " + kUnitBound +
+                   "MotionEnd " + kSphere);
     EXPECT_THAT(
         outcome.messages,
         ElementsAre(HasSubstr("\"DynamicLoad\" is not supported here"), HasSubstr("no procedural \"Magic\""),
@@ -62,8 +63,8 @@ TEST(ReadProcedurals, WhatCannotBeIsRefused) {
 TEST(ReadProcedurals, ProgramsRunOnlyWhereAllowed) {
     const Folder folder;
     const std::string scene = "WorldBegin Procedural \"RunProgram\" [\"touch " + folder.path() +
-                              "/made\" \"\"] " + kBound + "Procedural \"RunProgram\" [\"touch\" \"\"] " +
-                              kBound + kSphere + "WorldEnd";
+                              "/made\" \"\"] " + kUnitBound + "Procedural \"RunProgram\" [\"touch\" \"\"] " +
+                              kUnitBound + kSphere + "WorldEnd";
     const Outcome outcome = read_files(folder, {folder.write("a.rib", scene)});
     EXPECT_THAT(outcome.messages, ElementsAre(HasSubstr("programs are run only where that is allowed")));
     EXPECT_EQ(outcome.summary.unsupported.at("Procedural"), 2u);
@@ -75,9 +76,10 @@ TEST(ReadProcedurals, WhatIsNotThereIsAnErrorWhereItWouldNotRunEither) {
     ReadOptions options;
     options.procedural_host = {"host"};
     const Folder folder;
-    const std::string scene = "WorldBegin Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " + kBound +
-                              "Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " + kBound +
-                              "Procedural \"DynamicLoad\" [\"no-library\" \"\"] " + kBound + "WorldEnd";
+    const std::string scene = "WorldBegin Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " +
+                              kUnitBound + "Procedural \"RunProgram\" [\"no-such-program 1\" \"\"] " +
+                              kUnitBound + "Procedural \"DynamicLoad\" [\"no-library\" \"\"] " + kUnitBound +
+                              "WorldEnd";
     const Outcome outcome = read_files(folder, {folder.write("a.rib", scene)}, options);
     EXPECT_THAT(outcome.messages,
                 ElementsAre(HasSubstr("error: Procedural: the program \"no-such-program 1\" is not found"),
@@ -166,8 +168,8 @@ TEST_F(RunProgram, ThatHangsIsEnded) {
 
 TEST_F(RunProgram, ThatDiesIsSaid) {
     EXPECT_THAT(run("exit 3").messages, ElementsAre(HasSubstr("ended before its answer did")));
-    const Outcome missing = run("", "Procedural \"RunProgram\" [\"no/such/program\" \"\"] " + kBound +
-                                        "Procedural \"RunProgram\" [\"\" \"\"] " + kBound);
+    const Outcome missing = run("", "Procedural \"RunProgram\" [\"no/such/program\" \"\"] " + kUnitBound +
+                                        "Procedural \"RunProgram\" [\"\" \"\"] " + kUnitBound);
     EXPECT_THAT(missing.messages, ElementsAre(HasSubstr("cannot be started: No such file"),
                                               HasSubstr("cannot be started: there is no command")));
 }

@@ -30,13 +30,13 @@ const char* const kForms[] = {
     "embree:geometry=quad,quality=low",
 };
 
-struct Resolved {
+struct ResolvedByEmbree {
     HitBuffer hits;
     SampleStats stats;
     BuildStats build;
 };
 
-Resolved resolve(std::string_view name, const TestFrame& frame, const Grids& grids) {
+ResolvedByEmbree resolve(std::string_view name, const TestFrame& frame, const Grids& grids) {
     std::string error;
     const auto sampler = choose_sampler(name, "", &error);
     EXPECT_TRUE(sampler) << error;
@@ -44,7 +44,7 @@ Resolved resolve(std::string_view name, const TestFrame& frame, const Grids& gri
     const auto visibility = sampler->prepare(frame.context, grids);
     SampleTile samples;
     pattern->make_tile({0, 0, frame.options.width, frame.options.height}, samples);
-    Resolved resolved;
+    ResolvedByEmbree resolved;
     SampleScratch scratch;
     visibility->resolve(samples, resolved.hits, scratch, resolved.stats);
     resolved.build = visibility->build_stats();
@@ -53,7 +53,7 @@ Resolved resolve(std::string_view name, const TestFrame& frame, const Grids& gri
 }
 
 /// Wavy sheets at random places, of any number of rows and columns, ribbons among them.
-void add_sheets(GridMaker& maker, int count, int keys, uint32_t seed) {
+void add_wavy_sheets(GridMaker& maker, int count, int keys, uint32_t seed) {
     std::mt19937 engine(seed);
     const auto noise = [&](float from, float to) {
         return std::uniform_real_distribution<float>(from, to)(engine);
@@ -125,11 +125,11 @@ TEST(Embree, SeesWhatBruteForceSeesButForFewSamples) {
         const TestFrame frame(64, 48, 4, motion, scene.defocus);
         GridMaker maker;
         for (const int keys : scene.keys)
-            add_sheets(maker, 32 / static_cast<int>(scene.keys.size()), keys,
-                       100 + static_cast<uint32_t>(keys));
+            add_wavy_sheets(maker, 32 / static_cast<int>(scene.keys.size()), keys,
+                            100 + static_cast<uint32_t>(keys));
         const HitBuffer truth = resolve("bruteforce", frame, maker.grids()).hits;
         for (const char* form : kForms) {
-            const Resolved tested = resolve(form, frame, maker.grids());
+            const ResolvedByEmbree tested = resolve(form, frame, maker.grids());
             const Difference d = compare(truth, tested.hits);
             EXPECT_GT(d.hits, 0.3);
             EXPECT_LT(d.depth, 0.001) << scene.name << ", " << form;
@@ -141,7 +141,7 @@ TEST(Embree, SeesWhatBruteForceSeesButForFewSamples) {
 }
 
 /// A wall across the whole picture.
-void add_wall(GridMaker& maker, float z, int keys = 1) {
+void add_wide_wall(GridMaker& maker, float z, int keys = 1) {
     maker.add(4, 4, keys, [=](int i, int j, float) {
         return V3f(200 * (static_cast<float>(i) / 4 - 0.5f), 200 * (static_cast<float>(j) / 4 - 0.5f), z);
     });
@@ -164,11 +164,11 @@ TEST_P(EmbreeForm, SeesNothingInAnEmptyScene) {
 TEST_P(EmbreeForm, ListsLayersOnceFrontToBackAsFarAsTheOpaqueOne) {
     GridMaker maker;
     maker.opaque = false;
-    add_wall(maker, 7);
-    add_wall(maker, 3, 2);
-    add_wall(maker, 2);
+    add_wide_wall(maker, 7);
+    add_wide_wall(maker, 3, 2);
+    add_wide_wall(maker, 2);
     maker.opaque = true;
-    add_wall(maker, 5);
+    add_wide_wall(maker, 5);
     const HitBuffer hits = resolve(GetParam(), TestFrame(16, 16, 2, true, true), maker.grids()).hits;
     for (size_t s = 0; s < hits.size(); ++s)
         ASSERT_THAT(layers(hits, s), ::testing::ElementsAre(::testing::Pair(2, 2), ::testing::Pair(1, 3),
@@ -178,7 +178,7 @@ TEST_P(EmbreeForm, ListsLayersOnceFrontToBackAsFarAsTheOpaqueOne) {
 TEST_P(EmbreeForm, ListsLayersWhereNothingIsOpaque) {
     GridMaker maker;
     maker.opaque = false;
-    for (int n = 0; n < 20; ++n) add_wall(maker, 3 + 0.25f * static_cast<float>(n * 7 % 20));
+    for (int n = 0; n < 20; ++n) add_wide_wall(maker, 3 + 0.25f * static_cast<float>(n * 7 % 20));
     const HitBuffer hits = resolve(GetParam(), TestFrame(16, 16, 2, false, true), maker.grids()).hits;
     for (size_t s = 0; s < hits.size(); ++s) {
         const auto found = layers(hits, s);
@@ -192,9 +192,9 @@ TEST_P(EmbreeForm, OneSidedGridsShowOneSide) {
         GridMaker maker;
         maker.opaque = opaque;
         maker.facing = Facing::PositiveOnly;
-        add_wall(maker, 5);
+        add_wide_wall(maker, 5);
         maker.facing = Facing::NegativeOnly;
-        add_wall(maker, 4);
+        add_wide_wall(maker, 4);
         const HitBuffer hits = resolve(GetParam(), TestFrame(16, 16, 2, false, false), maker.grids()).hits;
         for (size_t s = 0; s < hits.size(); ++s)
             ASSERT_THAT(layers(hits, s), ::testing::ElementsAre(::testing::Pair(0, 5)));
@@ -203,8 +203,8 @@ TEST_P(EmbreeForm, OneSidedGridsShowOneSide) {
 
 TEST_P(EmbreeForm, ClipsByDepth) {
     GridMaker maker;
-    add_wall(maker, 2);
-    add_wall(maker, 50);
+    add_wide_wall(maker, 2);
+    add_wide_wall(maker, 50);
     TestFrame frame(16, 16, 2, false, false);
     frame.options.near_clip = 2.1f, frame.options.far_clip = 49;
     frame.update();
@@ -221,8 +221,8 @@ TEST_P(EmbreeForm, ClipsByDepth) {
 
 TEST_P(EmbreeForm, SaysWhatItsTreeTakesAndWhatWasCopied) {
     GridMaker few, many;
-    add_sheets(few, 10, 2, 1);
-    add_sheets(many, 1000, 2, 1);
+    add_wavy_sheets(few, 10, 2, 1);
+    add_wavy_sheets(many, 1000, 2, 1);
     const TestFrame frame(16, 16, 1, true, false);
     const BuildStats a = resolve(GetParam(), frame, few.grids()).build,
                      b = resolve(GetParam(), frame, many.grids()).build;
@@ -234,7 +234,7 @@ TEST_P(EmbreeForm, SaysWhatItsTreeTakesAndWhatWasCopied) {
 
 TEST_P(EmbreeForm, RunsOnAnyInstructionSet) {
     GridMaker maker;
-    add_sheets(maker, 40, 1, 5);
+    add_wavy_sheets(maker, 40, 1, 5);
     const TestFrame frame(64, 48, 2, false, true);
     const HitBuffer truth = resolve("bruteforce", frame, maker.grids()).hits;
     std::string error;

@@ -21,7 +21,7 @@ void add_sheet(GridMaker& maker, float shift, int side) {
         });
 }
 
-struct Resolved {
+struct ResolvedTile {
     SampleTile samples;
     HitBuffer hits;
     SampleStats stats;
@@ -29,7 +29,7 @@ struct Resolved {
 };
 
 void resolve(const TestFrame& frame, const Grids& grids, std::string_view method,
-             std::string_view pattern_name, const PixelRect& pixels, Resolved& result) {
+             std::string_view pattern_name, const PixelRect& pixels, ResolvedTile& result) {
     std::string error;
     const auto sampler = choose_sampler(method, pattern_name, &error);
     ASSERT_TRUE(sampler) << error;
@@ -49,7 +49,7 @@ TEST_P(InterleaveUvt, AnyRectangleIsRight) {
     const TestFrame frame(90, 70, 2, true, true);
     GridMaker maker;
     add_sheet(maker, 1, 12);
-    Resolved truth, found;
+    ResolvedTile truth, found;
     for (const PixelRect& pixels :
          {PixelRect{0, 0, 90, 70}, PixelRect{-5, -3, 62, 66}, PixelRect{13, 7, 14, 8},
           PixelRect{31, 30, 36, 67}, PixelRect{-200, -200, -190, -190}}) {
@@ -67,7 +67,7 @@ TEST_P(InterleaveUvt, SetUpsDoNotDependOnBlur) {
         GridMaker maker;
         add_sheet(maker, shift, 12);
         const TestFrame frame(90, 70, 2, true, true);
-        Resolved found;
+        ResolvedTile found;
         resolve(frame, maker.grids(), "interleaveuvt:" + k(), "", all, found);
         nodes.push_back(found.stats.nodes_visited);
     }
@@ -81,7 +81,7 @@ TEST_P(InterleaveUvt, MostTestsHit) {
     GridMaker maker;
     add_sheet(maker, 2, 16);
     const TestFrame frame(90, 70, 4, true, true);
-    Resolved found;
+    ResolvedTile found;
     resolve(frame, maker.grids(), "interleaveuvt:" + k(), "", {0, 0, 90, 70}, found);
     EXPECT_GT(found.stats.predicate_hits, 0u);
     EXPECT_LT(found.stats.predicate_tests, 2 * found.stats.predicate_hits);
@@ -97,7 +97,7 @@ TEST_P(InterleaveUvt, CullingSavesTestsBehindWalls) {
                            8.0f - static_cast<float>(layer));
             });
     const TestFrame frame(64, 64, 2, false, true);
-    Resolved all, culled;
+    ResolvedTile all, culled;
     resolve(frame, maker.grids(), "interleaveuvt:" + k(), "", {0, 0, 64, 64}, all);
     resolve(frame, maker.grids(), "interleaveuvt:cull=on," + k(), "", {0, 0, 64, 64}, culled);
     EXPECT_TRUE(culled.hits == all.hits);
@@ -113,7 +113,7 @@ TEST_P(InterleaveUvt, HeatAddsUpToTheCounts) {
     SampleHeat heat;
     heat.tests.assign(static_cast<size_t>(pixels.width()) * pixels.height() * 4, 0);
     heat.nodes = heat.tests;
-    Resolved found;
+    ResolvedTile found;
     found.scratch.heat = &heat;
     resolve(frame, maker.grids(), "interleaveuvt:" + k(), "", pixels, found);
     uint64_t sum = 0;

@@ -33,21 +33,21 @@ void add_squares(GridMaker& maker, int count, int keys) {
     }
 }
 
-struct Resolved {
+struct ResolvedWithHeat {
     HitBuffer hits;
     SampleStats stats;
     SampleHeat heat;
 };
 
-Resolved resolve(const TestFrame& frame, const Grids& grids, std::string_view method,
-                 std::string_view pattern_name, const PixelRect& pixels) {
+ResolvedWithHeat resolve(const TestFrame& frame, const Grids& grids, std::string_view method,
+                         std::string_view pattern_name, const PixelRect& pixels) {
     std::string error;
     const auto sampler = choose_sampler(method, pattern_name, &error);
     EXPECT_TRUE(sampler) << error;
     const auto pattern = sampler->make_pattern(frame.context);
     SampleTile samples;
     pattern->make_tile(pixels, samples);
-    Resolved resolved;
+    ResolvedWithHeat resolved;
     resolved.heat.tests.assign(samples.size(), 0);
     resolved.heat.nodes.assign(samples.size(), 0);
     SampleScratch scratch;
@@ -56,7 +56,7 @@ Resolved resolve(const TestFrame& frame, const Grids& grids, std::string_view me
     return resolved;
 }
 
-TestFrame frame_of_samples(int nx, int ny, bool motion, bool defocus) {
+TestFrame small_frame(int nx, int ny, bool motion, bool defocus) {
     TestFrame frame(150, 100, 1, motion, defocus);
     frame.context.samples_x = nx, frame.context.samples_y = ny;
     return frame;
@@ -65,10 +65,10 @@ TestFrame frame_of_samples(int nx, int ny, bool motion, bool defocus) {
 struct Form {
     const char *method, *pattern;
 };
-constexpr Form kForms[] = {{"interval", "interval"},
-                           {"interval:cull=on", "interval"},
-                           {"interval:pairing=shuffled", "stratified"},
-                           {"interval:pairing=shuffled,cull=on", "stratified"}};
+constexpr Form kIntervalForms[] = {{"interval", "interval"},
+                                   {"interval:cull=on", "interval"},
+                                   {"interval:pairing=shuffled", "stratified"},
+                                   {"interval:pairing=shuffled,cull=on", "stratified"}};
 
 TEST(Interval, RefusesPatternsThatItsSlotsDoNotFit) {
     std::string error;
@@ -85,10 +85,10 @@ TEST(Interval, IsRightForAnyRectangleRateAndEffect) {
     for (const auto& [nx, ny] : {std::pair{1, 1}, {2, 1}, {2, 2}, {5, 3}})
         for (const bool motion : {false, true})
             for (const bool defocus : {false, true}) {
-                const TestFrame frame = frame_of_samples(nx, ny, motion, defocus);
+                const TestFrame frame = small_frame(nx, ny, motion, defocus);
                 for (const PixelRect& pixels :
                      {PixelRect{0, 0, 64, 64}, {33, 17, 40, 22}, {70, 50, 71, 51}, {-9, -9, 70, 3}}) {
-                    for (const Form& form : kForms) {
+                    for (const Form& form : kIntervalForms) {
                         const auto truth = resolve(frame, maker.grids(), "bruteforce", form.pattern, pixels);
                         const auto found = resolve(frame, maker.grids(), form.method, form.pattern, pixels);
                         EXPECT_TRUE(found.hits == truth.hits)
@@ -102,9 +102,9 @@ TEST(Interval, IsRightForAnyRectangleRateAndEffect) {
 TEST(Interval, CountsEveryTestAtItsSample) {
     GridMaker maker;
     add_squares(maker, 40, 2);
-    for (const Form& form : kForms)
+    for (const Form& form : kIntervalForms)
         for (const bool blurred : {false, true}) {
-            const auto found = resolve(frame_of_samples(4, 4, blurred, blurred), maker.grids(), form.method,
+            const auto found = resolve(small_frame(4, 4, blurred, blurred), maker.grids(), form.method,
                                        form.pattern, {8, 8, 72, 72});
             const auto sum = std::accumulate(found.heat.tests.begin(), found.heat.tests.end(), uint64_t{0});
             EXPECT_EQ(sum, found.stats.predicate_tests) << form.method;
@@ -116,8 +116,8 @@ TEST(Interval, CountsEveryTestAtItsSample) {
 TEST(Interval, BoxesOfSlotsLeaveLittleToTest) {
     GridMaker maker;
     add_squares(maker, 40, 2);
-    const TestFrame frame = frame_of_samples(8, 8, true, true);
-    for (const Form& form : kForms) {
+    const TestFrame frame = small_frame(8, 8, true, true);
+    for (const Form& form : kIntervalForms) {
         const auto all = resolve(frame, maker.grids(), "bruteforce", form.pattern, {0, 0, 64, 64});
         const auto found = resolve(frame, maker.grids(), form.method, form.pattern, {0, 0, 64, 64});
         EXPECT_LT(found.stats.predicate_tests, all.stats.predicate_tests / 2) << form.method;
@@ -127,8 +127,8 @@ TEST(Interval, BoxesOfSlotsLeaveLittleToTest) {
 TEST(Interval, WhatIsStillHasOneBoxForAllSlots) {
     GridMaker maker;
     maker.add(16, 16, 1, [](int i, int j, float) { return V3f(0.1f * i - 0.8f, 0.1f * j - 0.8f, 4); });
-    const auto found = resolve(frame_of_samples(8, 8, true, false), maker.grids(), "interval", "interval",
-                               {50, 20, 114, 84});
+    const auto found =
+        resolve(small_frame(8, 8, true, false), maker.grids(), "interval", "interval", {50, 20, 114, 84});
     EXPECT_GT(found.stats.predicate_hits, 0u);
     EXPECT_EQ(found.stats.nodes_visited, 256u);
 }
@@ -137,7 +137,7 @@ TEST(Interval, CullingSkipsWhatLiesBehind) {
     GridMaker maker;
     for (const float z : {9.0f, 8.0f, 7.0f, 2.0f})
         maker.add(16, 16, 2, [=](int i, int j, float t) { return V3f(i - 8 + t, j - 8 + t, z); });
-    const TestFrame frame = frame_of_samples(4, 4, true, true);
+    const TestFrame frame = small_frame(4, 4, true, true);
     const auto plain = resolve(frame, maker.grids(), "interval", "interval", {30, 30, 94, 94});
     const auto culled = resolve(frame, maker.grids(), "interval:cull=on", "interval", {30, 30, 94, 94});
     EXPECT_TRUE(plain.hits == culled.hits);
@@ -152,7 +152,7 @@ TEST(Interval, CullingLeavesTiesToTheSmallerId) {
         return V3f(2.0f * i - 8, 2.0f * j - 8, i == 8 && j == 8 ? 3.5f : 4.0f);
     });
     for (const bool defocus : {false, true}) {
-        const TestFrame frame = frame_of_samples(4, 4, false, defocus);
+        const TestFrame frame = small_frame(4, 4, false, defocus);
         const auto found = resolve(frame, maker.grids(), "interval:cull=on", "interval", {30, 30, 94, 94});
         ASSERT_FALSE(found.hits.hits.empty());
         for (const Hit& hit : found.hits.hits) ASSERT_EQ(MicropolygonId::unpack(hit.id).grid, 0u);

@@ -14,7 +14,8 @@ namespace {
 using testing::frame_of_samples;
 using testing::TestFrame;
 
-constexpr std::pair<int, int> kRates[] = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {8, 8}, {4, 2}, {1, 5}, {13, 13}};
+constexpr std::pair<int, int> kIntervalRates[] = {{1, 1}, {2, 2}, {3, 3}, {4, 4},
+                                                  {8, 8}, {4, 2}, {1, 5}, {13, 13}};
 
 template <class Pattern = IntervalPattern>
 SampleTile tile_of(const TestFrame& frame, const PixelRect& pixels) {
@@ -33,7 +34,7 @@ void expect_within(const SampleTile& tile, size_t at, const TimeSpan& time, cons
 }
 
 TEST(IntervalPattern, BoundsHoldForSamplesOfEveryPixel) {
-    for (const auto& [nx, ny] : kRates) {
+    for (const auto& [nx, ny] : kIntervalRates) {
         const TestFrame frame = frame_of_samples(nx, ny);
         const IntervalPattern pattern(frame.context);
         const SampleTile tile = tile_of(frame, {-20, -20, 40, 40});
@@ -45,7 +46,7 @@ TEST(IntervalPattern, BoundsHoldForSamplesOfEveryPixel) {
 }
 
 TEST(StratifiedPattern, BoundsHoldForSamplesOfEveryPixel) {
-    for (const auto& [nx, ny] : kRates) {
+    for (const auto& [nx, ny] : kIntervalRates) {
         const TestFrame frame = frame_of_samples(nx, ny);
         const StratifiedPattern pattern(frame.context);
         const SampleTile tile = tile_of<StratifiedPattern>(frame, {-20, -20, 40, 40});
@@ -60,7 +61,7 @@ TEST(StratifiedPattern, BoundsHoldForSamplesOfEveryPixel) {
 
 /// The box of each region against a fine net over it, edges included: it holds all of it and no more.
 TEST(LensRegion, IsBoundedTightly) {
-    for (const auto& [nx, ny] : kRates)
+    for (const auto& [nx, ny] : kIntervalRates)
         for (int cell = 0; cell < nx * ny; ++cell) {
             const LensBox box = lens_region(static_cast<uint32_t>(cell), nx, ny);
             LensBox seen{2, 2, -2, -2};
@@ -88,7 +89,7 @@ TEST(LensRegion, IsBoundedTightly) {
 }
 
 TEST(IntervalPattern, TimesAndPlacesAreStratifiedInEveryPixel) {
-    for (const auto& [nx, ny] : kRates) {
+    for (const auto& [nx, ny] : kIntervalRates) {
         const SampleTile tile = tile_of(frame_of_samples(nx, ny), {-1, -2, 3, 2});
         const int count = nx * ny;
         ASSERT_EQ(tile.samples_per_pixel, count);

@@ -37,7 +37,7 @@ struct RandomStrata {
 struct Shape {
     int nx, ny, levels;
 };
-constexpr Shape kShapes[] = {{4, 4, 2}, {8, 8, 2}, {8, 8, 3}, {16, 16, 3}, {8, 4, 2}, {12, 6, 2}};
+constexpr Shape kTileShapes[] = {{4, 4, 2}, {8, 8, 2}, {8, 8, 3}, {16, 16, 3}, {8, 4, 2}, {12, 6, 2}};
 
 std::vector<uint32_t> samples_of(const SampleLevels& levels, size_t variant, int level) {
     std::vector<uint32_t> samples;
@@ -49,7 +49,7 @@ std::vector<uint32_t> samples_of(const SampleLevels& levels, size_t variant, int
 }
 
 TEST(SampleLevels, HaveOneSampleInEachCellOfThePixelAndAllAtTheTop) {
-    for (const auto& [nx, ny, count] : kShapes) {
+    for (const auto& [nx, ny, count] : kTileShapes) {
         const RandomStrata random(nx, ny, 7);
         const SampleLevels levels(random.strata, count, 3);
         for (size_t variant = 0; variant < levels.variants(); ++variant)
@@ -70,7 +70,7 @@ TEST(SampleLevels, HaveOneSampleInEachCellOfThePixelAndAllAtTheTop) {
 
 /// Else some regions would never be looked at where pixels stop early.
 TEST(SampleLevels, HaveEachRegionInEquallyManyVariants) {
-    for (const auto& [nx, ny, count] : kShapes) {
+    for (const auto& [nx, ny, count] : kTileShapes) {
         const RandomStrata random(nx, ny, 11);
         const SampleLevels levels(random.strata, count, 5);
         for (int level = 0; level < count; ++level) {
@@ -130,7 +130,7 @@ TEST(SampleLevels, KnowNeighbours) {
 
 /// Listed pixels have samples of the whole pattern, to the bit, each once over all levels.
 TEST(SampleLevels, AreSamplesOfTheWholePattern) {
-    for (const auto& [nx, ny, count] : kShapes) {
+    for (const auto& [nx, ny, count] : kTileShapes) {
         const TestFrame frame = frame_of_levels(nx, ny, count);
         const StratifiedPattern pattern(frame.context);
         const PixelRect pixels{-3, 5, 13, 21};

@@ -13,7 +13,7 @@ namespace {
 
 using testing::TestFrame;
 
-SampleTile tile_of(const TestFrame& frame, const PixelRect& pixels) {
+SampleTile tile_in_order(const TestFrame& frame, const PixelRect& pixels) {
     SampleTile tile;
     StratifiedPattern(frame.context).make_tile(pixels, tile);
     return tile;
@@ -32,7 +32,7 @@ TEST(RayOrder, IsAPermutationForAnyTileAndEffects) {
             for (const PixelRect& pixels : {PixelRect{0, 0, 16, 16}, PixelRect{-2, 3, 5, 4},
                                             PixelRect{0, 0, 1, 1}, PixelRect{5, 5, 22, 7}}) {
                 const TestFrame frame(64, 64, 3, motion, defocus);
-                const SampleTile tile = tile_of(frame, pixels);
+                const SampleTile tile = tile_in_order(frame, pixels);
                 RayOrder result;
                 order_rays(tile, {motion, defocus}, result);
                 EXPECT_TRUE(is_permutation_of_all(result.order, tile.size()));
@@ -48,7 +48,7 @@ TEST(RayOrder, OfNoPixelsIsEmpty) {
 
 TEST(RayOrder, PixelsFollowTheZCurve) {
     const TestFrame frame(64, 64, 1, false, false);
-    const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
+    const SampleTile tile = tile_in_order(frame, {0, 0, 16, 16});
     RayOrder result;
     order_rays(tile, {false, false}, result);
     const std::vector<uint32_t> first(result.order.begin(), result.order.begin() + 8);
@@ -57,7 +57,7 @@ TEST(RayOrder, PixelsFollowTheZCurve) {
 
 TEST(RayOrder, TimeComesBeforeThePixelAndIsStable) {
     const TestFrame frame(64, 64, 3, true, false);
-    const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
+    const SampleTile tile = tile_in_order(frame, {0, 0, 16, 16});
     RayOrder still, moving;
     order_rays(tile, {false, false}, still);
     order_rays(tile, {true, false}, moving);
@@ -70,7 +70,7 @@ TEST(RayOrder, TimeComesBeforeThePixelAndIsStable) {
 
 TEST(RayOrder, DirectionComesBeforeTime) {
     const TestFrame frame(64, 64, 4, true, true);
-    const SampleTile tile = tile_of(frame, {0, 0, 16, 16});
+    const SampleTile tile = tile_in_order(frame, {0, 0, 16, 16});
     RayOrder by_time, by_both;
     order_rays(tile, {true, false}, by_time);
     order_rays(tile, {true, true}, by_both);

@@ -12,7 +12,7 @@
 namespace trapeze {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kHalfTurn = std::numbers::pi_v<float>;
 
 TEST(RaySequence, LiesInTheUnitSquare) {
     for (uint32_t seed = 0; seed < 2000; ++seed)
@@ -98,9 +98,9 @@ std::vector<V3f> directions(const V3f& axis, float angle, bool by_cosine) {
 
 TEST(Cone, DirectionsAreOfUnitLengthWithinTheAngle) {
     for (const V3f& axis : kAxes)
-        for (const float angle : {0.0f, 0.01f, 0.5f, kPi / 2, 2.5f, kPi})
+        for (const float angle : {0.0f, 0.01f, 0.5f, kHalfTurn / 2, 2.5f, kHalfTurn})
             for (const bool by_cosine : {false, true}) {
-                const float rim = by_cosine ? std::min(angle, kPi / 2) : angle;
+                const float rim = by_cosine ? std::min(angle, kHalfTurn / 2) : angle;
                 float least = 1;
                 for (const V3f& direction : directions(axis, angle, by_cosine)) {
                     ASSERT_NEAR(direction.length(), 1, 2e-6f) << axis << angle;
@@ -115,7 +115,7 @@ TEST(Cone, DirectionsAreOfUnitLengthWithinTheAngle) {
 /// Means over a cone of the cosine to its axis and of the square of that, and the mean direction.
 TEST(Cone, MeansAreThoseOfTheDensities) {
     for (const V3f& axis : kAxes)
-        for (const float angle : {0.3f, 1.0f, kPi / 2, 2.5f, kPi})
+        for (const float angle : {0.3f, 1.0f, kHalfTurn / 2, 2.5f, kHalfTurn})
             for (const bool by_cosine : {false, true}) {
                 const std::vector<V3f> all = directions(axis, angle, by_cosine);
                 const double n = static_cast<double>(all.size());
@@ -126,7 +126,8 @@ TEST(Cone, MeansAreThoseOfTheDensities) {
                     cosine += c / n, square += c * c / n;
                     mean += V3d(direction) / n;
                 }
-                const double r = std::cos(static_cast<double>(by_cosine ? std::min(angle, kPi / 2) : angle));
+                const double r =
+                    std::cos(static_cast<double>(by_cosine ? std::min(angle, kHalfTurn / 2) : angle));
                 // Uniform: the cosine is uniform in [r, 1]. By the cosine: its square is uniform in [r^2, 1].
                 const double mean_cosine = by_cosine ? 2.0 / 3 * (1 - r * r * r) / (1 - r * r) : (1 + r) / 2;
                 const double mean_square = by_cosine ? (1 + r * r) / 2 : (1 + r + r * r) / 3;

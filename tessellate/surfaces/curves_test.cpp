@@ -8,15 +8,16 @@
 
 #include "core/random.h"
 #include "tessellate/dicing_harness.h"
+#include "tessellate/surfaces/forms_harness.h"
 
 namespace trapeze {
 namespace {
 
+using testing::expect_near;
+using testing::kBezier;
+using testing::kBSpline;
+using testing::kCatmullRom;
 using testing::parameter;
-
-const M44f kBezier(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
-const M44f kBSpline = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1 / 6.0f);
-const M44f kCatmullRom = M44f(-1, 3, -3, 1, 2, -5, 4, -1, -1, 0, 1, 0, 0, 2, 0, 0) * 0.5f;
 
 /// Curves of so many control points each; linear(): lines.
 Curves cubic(std::vector<int> counts, const M44f& basis, int step, bool periodic = false) {
@@ -92,10 +93,6 @@ V3f on_curve(const M44f& basis, const std::vector<float>& p, int first, float t)
     for (int i = 0; i < 4; ++i)
         for (int r = 0; r < 4; ++r) sum += control(p, first + i) * (powers[r] * basis[r][i]);
     return sum;
-}
-
-void expect_near(const V3f& a, const V3f& b, float tolerance) {
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance);
 }
 
 TEST(Curves, CentreLinesAreThoseOfTheirBasis) {

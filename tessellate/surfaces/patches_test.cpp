@@ -8,13 +8,16 @@
 #include "core/random.h"
 #include "tessellate/dicing_harness.h"
 #include "tessellate/surfaces/bezier.h"
+#include "tessellate/surfaces/forms_harness.h"
 
 namespace trapeze {
 namespace {
 
-const M44f kBezier(-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0);
-const M44f kBSpline = M44f(-1, 3, -3, 1, 3, -6, 3, 0, -3, 0, 3, 0, 1, 4, 1, 0) * (1 / 6.0f);
-const M44f kCatmullRom = M44f(-1, 3, -3, 1, 2, -5, 4, -1, -1, 0, 1, 0, 0, 2, 0, 0) * 0.5f;
+using testing::expect_near;
+using testing::kBezier;
+using testing::kBSpline;
+using testing::kCatmullRom;
+
 const M44f kPower(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
 
 PatchMesh bicubic(int nu, int nv, const M44f& u_basis, int u_step, const M44f& v_basis, int v_step) {
@@ -82,12 +85,6 @@ V3f direct(const Primitive& primitive, int face, V2f uv) {
             sum += V3d(p[0], p[1], p[2]) * (u[i] * v[j]);
         }
     return V3f(sum);
-}
-
-void expect_near(const V3f& a, const V3f& b, float tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
 /// Meshes of several bases and steps, open and closed.

@@ -11,7 +11,7 @@ namespace trapeze {
 namespace {
 
 using testing::parameter;
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurnOfDiscs = std::numbers::pi;
 
 Parameter places(std::vector<float> floats) {
     return parameter("P", StorageClass::Vertex, ValueType::Point, std::move(floats));
@@ -61,7 +61,7 @@ TEST(Points, AreDisksParallelToThePicture) {
                     // The map keeps areas: pi r^2 for the unit square; the viewer's side is outside.
                     const float area = by_u.cross(by_v).z;
                     const float sign = M44d(m).determinant() < 0 ? -1.0f : 1.0f;
-                    EXPECT_NEAR(-sign * area, static_cast<float>(kPi) * radius * radius, 1e-5f);
+                    EXPECT_NEAR(-sign * area, static_cast<float>(kHalfTurnOfDiscs) * radius * radius, 1e-5f);
                 }
         }
     }
@@ -110,7 +110,7 @@ TEST(Points, EverySizeCoversTheAreaOfItsCircle) {
                          {});
         scene.keep_all().add(primitive.shape_keys[0]);
         size_t micropolygons = 0;
-        const double wanted = kPi / 4 * diameter * diameter;
+        const double wanted = kHalfTurnOfDiscs / 4 * diameter * diameter;
         EXPECT_NEAR(diced_area(scene, &micropolygons), wanted, 0.03 * wanted) << diameter;
         if (diameter < 1.12) {
             EXPECT_EQ(micropolygons, 1u) << diameter;

@@ -5,12 +5,15 @@
 #include <numbers>
 
 #include "tessellate/dicing_harness.h"
+#include "tessellate/surfaces/forms_harness.h"
 
 namespace trapeze {
 namespace {
 
+using testing::expect_near;
+using testing::kPi;
+
 using Kind = Quadric::Kind;
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// A primitive that lives as long as its surface.
 struct MadeQuadric {
@@ -43,12 +46,6 @@ struct MadeQuadric {
         return p;
     }
 };
-
-void expect_near(const V3f& a, const V3f& b, float tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-}
 
 /// RISpec's formulas against the surface, over the whole parameter range.
 template <class F>

@@ -37,7 +37,7 @@ std::string grouped(const Expression& e) {
     }
 }
 
-std::string tree(const std::string& expression) {
+std::string tree_of_expression(const std::string& expression) {
     Heard heard;
     const auto unit = parse({"t.sl", "surface t() { x = " + expression + "; }"}, {}, heard.diagnostics);
     if (!unit) return heard.all();
@@ -52,30 +52,30 @@ std::string errors(const std::string& text) {
 }
 
 TEST(Parser, PrecedenceIsThatOfTheLanguage) {
-    EXPECT_EQ(tree("a + b * c"), "(a+(b*c))");
-    EXPECT_EQ(tree("a * b . c"), "(a*(b.c))");  // the dot product binds tightest
-    EXPECT_EQ(tree("a ^ b * c"), "(a^(b*c))");
-    EXPECT_EQ(tree("a + b ^ c"), "(a+(b^c))");
-    EXPECT_EQ(tree("-a . b"), "((-a).b)");
-    EXPECT_EQ(tree("a - b - c"), "((a-b)-c)");
-    EXPECT_EQ(tree("a / b / c * d"), "(((a/b)/c)*d)");
-    EXPECT_EQ(tree("a < b && c == d || !e"), "(((a<b)&&(c==d))||(!e))");
-    EXPECT_EQ(tree("a ? b : c ? d : e"), "(a?b:(c?d:e))");
-    EXPECT_EQ(tree("a > b ? c + 1 : d"), "((a>b)?(c+1):d)");
-    EXPECT_EQ(tree("y = z += 2"), "(y=(z+=2))");
-    EXPECT_EQ(tree("a--b"), "(a-(-b))");
+    EXPECT_EQ(tree_of_expression("a + b * c"), "(a+(b*c))");
+    EXPECT_EQ(tree_of_expression("a * b . c"), "(a*(b.c))");  // the dot product binds tightest
+    EXPECT_EQ(tree_of_expression("a ^ b * c"), "(a^(b*c))");
+    EXPECT_EQ(tree_of_expression("a + b ^ c"), "(a+(b^c))");
+    EXPECT_EQ(tree_of_expression("-a . b"), "((-a).b)");
+    EXPECT_EQ(tree_of_expression("a - b - c"), "((a-b)-c)");
+    EXPECT_EQ(tree_of_expression("a / b / c * d"), "(((a/b)/c)*d)");
+    EXPECT_EQ(tree_of_expression("a < b && c == d || !e"), "(((a<b)&&(c==d))||(!e))");
+    EXPECT_EQ(tree_of_expression("a ? b : c ? d : e"), "(a?b:(c?d:e))");
+    EXPECT_EQ(tree_of_expression("a > b ? c + 1 : d"), "((a>b)?(c+1):d)");
+    EXPECT_EQ(tree_of_expression("y = z += 2"), "(y=(z+=2))");
+    EXPECT_EQ(tree_of_expression("a--b"), "(a-(-b))");
 }
 
 TEST(Parser, CastsBindLikeSigns) {
-    EXPECT_EQ(tree("float noise(P) * 2"), "(<float>noise(P)*2)");
-    EXPECT_EQ(tree("point \"world\" (1, 2, 3) - Q"), "(<point world>(1, 2, 3)-Q)");
-    EXPECT_EQ(tree("vector a . b"), "(<vector>a.b)");
-    EXPECT_EQ(tree("color \"hsv\" (0, .5, 1)"), "<color hsv>(0, 0.5, 1)");
-    EXPECT_EQ(tree("matrix \"shader\" 1"), "<matrix shader>1");
-    EXPECT_EQ(tree("vector(0) + normal -N"), "(<vector>0+<normal>(-N))");
+    EXPECT_EQ(tree_of_expression("float noise(P) * 2"), "(<float>noise(P)*2)");
+    EXPECT_EQ(tree_of_expression("point \"world\" (1, 2, 3) - Q"), "(<point world>(1, 2, 3)-Q)");
+    EXPECT_EQ(tree_of_expression("vector a . b"), "(<vector>a.b)");
+    EXPECT_EQ(tree_of_expression("color \"hsv\" (0, .5, 1)"), "<color hsv>(0, 0.5, 1)");
+    EXPECT_EQ(tree_of_expression("matrix \"shader\" 1"), "<matrix shader>1");
+    EXPECT_EQ(tree_of_expression("vector(0) + normal -N"), "(<vector>0+<normal>(-N))");
     // As in C.
-    EXPECT_EQ(tree("(float) noise(P) * 2"), "(<float>noise(P)*2)");
-    EXPECT_EQ(tree("((color) a)"), "<color>a");
+    EXPECT_EQ(tree_of_expression("(float) noise(P) * 2"), "(<float>noise(P)*2)");
+    EXPECT_EQ(tree_of_expression("((color) a)"), "<color>a");
 }
 
 TEST(Parser, PrinterKeepsTheTree) {
@@ -85,7 +85,7 @@ TEST(Parser, PrinterKeepsTheTree) {
           "point \"world\" (a[1])", "f((x = 1), 2)", "texture(\"a\\\"b\\n\"[2], s, t)"}) {
         const std::string once = printed(text);
         EXPECT_EQ(printed(once), once);
-        EXPECT_EQ(tree(once), tree(text)) << once;
+        EXPECT_EQ(tree_of_expression(once), tree_of_expression(text)) << once;
     }
     EXPECT_EQ(printed("((a)) + (b * c)"), "a + b * c");
     // A statement that begins with a cast is no declaration.
@@ -112,16 +112,16 @@ TEST(Parser, CommasJoinStatementsAndSteps) {
 }
 
 TEST(Parser, Numbers) {
-    EXPECT_EQ(tree(".5 + 1. + 1e3 + 2.5E-1 + 1e+2 + 3"), "(((((0.5+1)+1000)+0.25)+100)+3)");
-    EXPECT_EQ(tree("1.5f"), "1.5");
-    EXPECT_EQ(tree("1e-60"), "0");
+    EXPECT_EQ(tree_of_expression(".5 + 1. + 1e3 + 2.5E-1 + 1e+2 + 3"), "(((((0.5+1)+1000)+0.25)+100)+3)");
+    EXPECT_EQ(tree_of_expression("1.5f"), "1.5");
+    EXPECT_EQ(tree_of_expression("1e-60"), "0");
     EXPECT_EQ(errors("surface t() { x = 2k; }"), "error 1:19: \"2k\" is no number\n");
 }
 
 TEST(Parser, Strings) {
-    EXPECT_EQ(tree("\"a\" \"b\"\n\"c\""), "\"abc\"");
-    EXPECT_EQ(tree("\"a\\\nb\""), "\"ab\"");
-    EXPECT_EQ(tree("\"\\101\\t\\q\""), "\"A\\011q\"");
+    EXPECT_EQ(tree_of_expression("\"a\" \"b\"\n\"c\""), "\"abc\"");
+    EXPECT_EQ(tree_of_expression("\"a\\\nb\""), "\"ab\"");
+    EXPECT_EQ(tree_of_expression("\"\\101\\t\\q\""), "\"A\\011q\"");
     EXPECT_EQ(errors("surface t() { printf(\"oh); }\n"), "error 1:22: this string has no end on its line\n");
 }
 

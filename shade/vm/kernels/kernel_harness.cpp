@@ -86,10 +86,10 @@ double ulps(float value, double exact) {
 
 namespace {
 
-using Registers = std::vector<Register>;
+using KernelRegisters = std::vector<Register>;
 
-Registers make_inputs(const KernelCheck& check, unsigned varying, Numbers& numbers) {
-    Registers inputs;
+KernelRegisters make_inputs(const KernelCheck& check, unsigned varying, Numbers& numbers) {
+    KernelRegisters inputs;
     for (size_t j = check.outputs; j < check.widths.size(); ++j) {
         const size_t input = j - check.outputs;
         inputs.emplace_back(check.widths[j], !(varying >> input & 1), check.lanes);
@@ -101,8 +101,8 @@ Registers make_inputs(const KernelCheck& check, unsigned varying, Numbers& numbe
     return inputs;
 }
 
-Registers run(const KernelCheck& check, bool uniform, Registers& inputs) {
-    Registers outputs;
+KernelRegisters run(const KernelCheck& check, bool uniform, KernelRegisters& inputs) {
+    KernelRegisters outputs;
     std::vector<Operand> operands;
     for (size_t j = 0; j < check.outputs; ++j) outputs.emplace_back(check.widths[j], uniform, check.lanes);
     for (Register& output : outputs) operands.push_back(output.operand());
@@ -113,7 +113,8 @@ Registers run(const KernelCheck& check, bool uniform, Registers& inputs) {
     return outputs;
 }
 
-void expect_near(const KernelCheck& check, const Registers& inputs, const Registers& outputs, size_t lane) {
+void expect_near_scalar(const KernelCheck& check, const KernelRegisters& inputs,
+                        const KernelRegisters& outputs, size_t lane) {
     std::vector<std::vector<float>> in;
     std::string text;
     for (const Register& input : inputs) {
@@ -143,14 +144,14 @@ void check_kernel(const KernelCheck& check) {
     Numbers numbers;
     for (unsigned varying = 0; varying < 1u << input_count; ++varying) {
         SCOPED_TRACE(::testing::Message() << "varying inputs: " << varying);
-        Registers inputs = make_inputs(check, varying, numbers);
-        const Registers first = run(check, varying == 0, inputs);
+        KernelRegisters inputs = make_inputs(check, varying, numbers);
+        const KernelRegisters first = run(check, varying == 0, inputs);
         for (size_t lane = 0; lane < (varying == 0 ? kLanes : check.lanes); ++lane) {
-            expect_near(check, inputs, first, lane);
+            expect_near_scalar(check, inputs, first, lane);
             if (::testing::Test::HasFatalFailure()) return;
         }
         for_each_target([&] {
-            const Registers again = run(check, varying == 0, inputs);
+            const KernelRegisters again = run(check, varying == 0, inputs);
             for (size_t j = 0; j < again.size(); ++j)
                 for (size_t i = 0; i < first[j].planes().size(); ++i)
                     ASSERT_TRUE(same_float(again[j].planes()[i], first[j].planes()[i])) << i;

@@ -11,7 +11,7 @@
 namespace trapeze::vm {
 namespace {
 
-constexpr size_t kCount = 128;
+constexpr size_t kLit = 128;
 
 V3d at(const Register& r, size_t i) {
     return {r.at(i, 0), r.at(i, 1), r.at(i, 2)};
@@ -24,10 +24,10 @@ class LightKernels : public ::testing::TestWithParam<bool> {
         : N(vectors(1)),
           V(vectors(1)),
           L(vectors(1)),
-          Cl(3, GetParam(), kCount),
-          roughness(1, GetParam(), kCount),
-          size(1, GetParam(), kCount),
-          before(3, false, kCount) {
+          Cl(3, GetParam(), kLit),
+          roughness(1, GetParam(), kLit),
+          size(1, GetParam(), kLit),
+          before(3, false, kLit) {
         Cl.fill([this] { return numbers_.between(0, 2); });
         roughness.fill([this] { return numbers_.between(0.02f, 1); });
         size.fill([this] { return numbers_.between(1, 50); });
@@ -35,8 +35,8 @@ class LightKernels : public ::testing::TestWithParam<bool> {
     }
 
     Register vectors(float length) {
-        Register r(3, GetParam(), kCount);
-        for (size_t i = 0; i < kCount; ++i) {
+        Register r(3, GetParam(), kLit);
+        for (size_t i = 0; i < kLit; ++i) {
             const V3f v(numbers_.between(-1, 1), numbers_.between(-1, 1), numbers_.between(-1, 1));
             for (int k = 0; k < 3; ++k)
                 r.set(i, k, i % 32 == 5 && !GetParam() ? 0 : v.normalized()[k] * length);
@@ -49,7 +49,7 @@ class LightKernels : public ::testing::TestWithParam<bool> {
         for_each_target([&] {
             Register out = before;
             add(out.operand());
-            for (size_t i = 0; i < kCount; ++i)
+            for (size_t i = 0; i < kLit; ++i)
                 for (int k = 0; k < 3; ++k)
                     EXPECT_NEAR(out.at(i, k), before.at(i, k) + lobe(i) * Cl.at(i, k) * 0.5, 2e-5)
                         << i << ' ' << k;
@@ -65,8 +65,8 @@ class LightKernels : public ::testing::TestWithParam<bool> {
 };
 
 TEST_P(LightKernels, AddUp) {
-    check([&](const Operand& out) { add_light(kCount, Cl.operand(), 0.5f, out); }, [](size_t) { return 1; });
-    check([&](const Operand& out) { add_diffuse(kCount, N.operand(), L.operand(), Cl.operand(), 0.5f, out); },
+    check([&](const Operand& out) { add_light(kLit, Cl.operand(), 0.5f, out); }, [](size_t) { return 1; });
+    check([&](const Operand& out) { add_diffuse(kLit, N.operand(), L.operand(), Cl.operand(), 0.5f, out); },
           [&](size_t i) { return std::max(0.0, at(N, i).dot(at(L, i))); });
 }
 
@@ -78,13 +78,13 @@ double specular(const V3d& N, const V3d& V, const V3d& L, double roughness) {
 TEST_P(LightKernels, AddHighlights) {
     check(
         [&](const Operand& out) {
-            add_specular(kCount, N.operand(), V.operand(), roughness.operand(), L.operand(), Cl.operand(),
-                         0.5f, out);
+            add_specular(kLit, N.operand(), V.operand(), roughness.operand(), L.operand(), Cl.operand(), 0.5f,
+                         out);
         },
         [&](size_t i) { return specular(at(N, i), at(V, i), at(L, i), roughness.at(i, 0)); });
     check(
         [&](const Operand& out) {
-            add_phong(kCount, N.operand(), V.operand(), size.operand(), L.operand(), Cl.operand(), 0.5f, out);
+            add_phong(kLit, N.operand(), V.operand(), size.operand(), L.operand(), Cl.operand(), 0.5f, out);
         },
         [&](size_t i) {
             const V3d n = at(N, i), v = at(V, i), mirrored = (n * (2 * n.dot(v)) - v).normalized();
@@ -94,14 +94,14 @@ TEST_P(LightKernels, AddHighlights) {
 }
 
 TEST_P(LightKernels, GiveTheShareOfOneDirection) {
-    Register far = vectors(7), out(3, false, kCount), single(1, false, kCount);
+    Register far = vectors(7), out(3, false, kLit), single(1, false, kLit);
     for_each_target([&] {
         const Operand inputs[] = {far.operand(), N.operand(), V.operand(), roughness.operand()};
         find_kernel(rsl::Op::SpecularBrdf, std::vector{3, 3, 3, 3, 1})(
-            kCount, std::vector{out.operand(), inputs[0], inputs[1], inputs[2], inputs[3]});
+            kLit, std::vector{out.operand(), inputs[0], inputs[1], inputs[2], inputs[3]});
         find_kernel(rsl::Op::SpecularBrdf, std::vector{1, 3, 3, 3, 1})(
-            kCount, std::vector{single.operand(), inputs[0], inputs[1], inputs[2], inputs[3]});
-        for (size_t i = 0; i < kCount; ++i) {
+            kLit, std::vector{single.operand(), inputs[0], inputs[1], inputs[2], inputs[3]});
+        for (size_t i = 0; i < kLit; ++i) {
             const double lobe = specular(at(N, i), at(V, i), at(far, i).normalized(), roughness.at(i, 0));
             EXPECT_NEAR(single.at(i, 0), lobe, 2e-5);
             for (int k = 0; k < 3; ++k) EXPECT_EQ(out.at(i, k), single.at(i, 0));
@@ -110,11 +110,11 @@ TEST_P(LightKernels, GiveTheShareOfOneDirection) {
 }
 
 TEST_P(LightKernels, ConesHoldWhatIsNearTheirAxis) {
-    Register v = vectors(3), axis = vectors(0.2f), angle(1, GetParam(), kCount), mask(1, false, kCount);
+    Register v = vectors(3), axis = vectors(0.2f), angle(1, GetParam(), kLit), mask(1, false, kLit);
     angle.fill([this] { return numbers_.below(8) ? numbers_.between(0, 3.1f) : 3.2f; });
     for_each_target([&] {
-        cone_mask(kCount, v.operand(), axis.operand(), angle.operand(), mask.operand());
-        for (size_t i = 0; i < kCount; ++i) {
+        cone_mask(kLit, v.operand(), axis.operand(), angle.operand(), mask.operand());
+        for (size_t i = 0; i < kLit; ++i) {
             const V3d a = at(axis, i), b = at(v, i);
             const bool nothing = a.length() == 0 || b.length() == 0;
             const double between =
@@ -128,16 +128,16 @@ TEST_P(LightKernels, ConesHoldWhatIsNearTheirAxis) {
 }
 
 TEST_P(LightKernels, SurfacesSeeTheWayToTheLight) {
-    Register lit(1, false, kCount), sent = before, arriving(3, false, kCount), direction(3, false, kCount);
+    Register lit(1, false, kLit), sent = before, arriving(3, false, kLit), direction(3, false, kLit);
     lit.fill([this] { return std::bit_cast<float>(numbers_.below(3) ? ~0u : 0u); });
-    Register way(3, false, kCount);
-    for (size_t i = 0; i < kCount; ++i)
+    Register way(3, false, kLit);
+    for (size_t i = 0; i < kLit; ++i)
         for (int k = 0; k < 3; ++k) way.set(i, k, i % 32 == 5 ? 0 : numbers_.between(-9, 9));
     for_each_target([&] {
         Register to_light = way;
-        receive_light(kCount, lit.operand(), GetParam() ? Cl.operand() : sent.operand(), to_light.operand(),
+        receive_light(kLit, lit.operand(), GetParam() ? Cl.operand() : sent.operand(), to_light.operand(),
                       direction.operand(), arriving.operand());
-        for (size_t i = 0; i < kCount; ++i) {
+        for (size_t i = 0; i < kLit; ++i) {
             const V3d from = at(way, i);
             const bool shines = std::bit_cast<uint32_t>(lit.at(i, 0)) && from.length() > 0;
             for (int k = 0; k < 3; ++k) {

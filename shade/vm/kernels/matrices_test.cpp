@@ -18,7 +18,7 @@ M44d matrix(const std::vector<float>& x) {
     for (int k = 0; k < 16; ++k) m[k / 4][k % 4] = x[static_cast<size_t>(k)];
     return m;
 }
-V3d triple(const std::vector<float>& x) {
+V3d triple_of(const std::vector<float>& x) {
     return {x[0], x[1], x[2]};
 }
 void put(const M44d& m, double* out) {
@@ -54,16 +54,17 @@ double largest(const M44d& m) {
 TEST_F(Matrices, Products) {
     check(Op::MatrixMultiply, {16, 16, 16},
           [](const Inputs& in, double* out) { put(matrix(in[0]) * matrix(in[1]), out); }, {number()});
-    check(
-        Op::TranslateMatrix, {16, 16, 3},
-        [](const Inputs& in, double* out) { put(M44d().setTranslation(triple(in[1])) * matrix(in[0]), out); },
-        {number()});
+    check(Op::TranslateMatrix, {16, 16, 3},
+          [](const Inputs& in, double* out) {
+              put(M44d().setTranslation(triple_of(in[1])) * matrix(in[0]), out);
+          },
+          {number()});
     check(Op::ScaleMatrix, {16, 16, 3},
-          [](const Inputs& in, double* out) { put(M44d().setScale(triple(in[1])) * matrix(in[0]), out); },
+          [](const Inputs& in, double* out) { put(M44d().setScale(triple_of(in[1])) * matrix(in[0]), out); },
           {number()});
     check(Op::RotateMatrix, {16, 16, 1, 3},
           [](const Inputs& in, double* out) {
-              put(M44d().setAxisAngle(triple(in[2]).normalized(), double{in[1][0]}) * matrix(in[0]), out);
+              put(M44d().setAxisAngle(triple_of(in[2]).normalized(), double{in[1][0]}) * matrix(in[0]), out);
           },
           {number()});
     check(Op::Determinant, {1, 16}, [](const Inputs& in, double* out) { *out = matrix(in[0]).determinant(); },

@@ -11,9 +11,9 @@ namespace trapeze::vm {
 namespace {
 
 /// Several grids side by side, whose lanes are u and v at their vertices.
-class Batch {
+class SmallBatch {
   public:
-    Batch() {
+    SmallBatch() {
         for (const auto& [nu, nv] : {std::pair{16, 16}, {1, 1}, {5, 3}, {1, 16}, {16, 2}}) {
             GridSpan span;
             span.first = vertices;
@@ -49,7 +49,7 @@ class Batch {
     size_t vertices = 0, lanes = 0;
 };
 
-void expect_last_repeated(const Batch& batch, const Register& r) {
+void expect_last_repeated(const SmallBatch& batch, const Register& r) {
     for (size_t lane = batch.vertices; lane < batch.lanes; ++lane)
         for (int k = 0; k < r.width(); ++k)
             EXPECT_TRUE(same_float(r.at(lane, k), r.at(batch.vertices - 1, k)));
@@ -62,7 +62,7 @@ double difference(const std::function<double(int)>& value, int i, int last) {
 }
 
 TEST(Neighbours, DerivativesAreDifferencesOverTheParameters) {
-    const Batch batch;
+    const SmallBatch batch;
     Numbers numbers;
     Register u = batch.make(1, [](float x, float, int) { return x * 0.25f + 3; });
     Register v = batch.make(1, [](float, float y, int) { return 1 - y * 2; });
@@ -98,7 +98,7 @@ TEST(Neighbours, DerivativesAreDifferencesOverTheParameters) {
 /// A border row whose vertices lie at every third one's place, and a border column at every second one's: all
 /// derivatives of a linear value are as they are elsewhere.
 TEST(Neighbours, DerivativesAtSnappedBordersAreThoseOfTheSurface) {
-    const Batch batch;
+    const SmallBatch batch;
     Register u(1, false, batch.lanes), v(1, false, batch.lanes), value(1, false, batch.lanes),
         du(1, false, batch.lanes), dv(1, false, batch.lanes);
     batch.for_vertices([&](const GridSpan& span, int i, int j, size_t lane) {
@@ -118,7 +118,7 @@ TEST(Neighbours, DerivativesAtSnappedBordersAreThoseOfTheSurface) {
 }
 
 TEST(Neighbours, SpansWithStepsAreDifferentiatedAlongTheirAxes) {
-    Batch batch;
+    SmallBatch batch;
     for (GridSpan& span : batch.spans) span.steps = {0.25f, 0.5f};
     Register place = batch.make(1, [](float, float, int) { return 3.0f; });
     Register value = batch.make(2, [](float u, float v, int k) { return k == 0 ? 5 * u : 5 * u - 3 * v; });
@@ -137,7 +137,7 @@ TEST(Neighbours, SpansWithStepsAreDifferentiatedAlongTheirAxes) {
 }
 
 TEST(Neighbours, DerivativesAddBothDirections) {
-    const Batch batch;
+    const SmallBatch batch;
     Register num = batch.make(1, [](float x, float y, int) { return 6 * x + 4 * y; });
     Register den = batch.make(1, [](float x, float y, int) { return 2 * x - y; }), out(1, false, batch.lanes);
     Register u = batch.make(1, [](float x, float, int) { return x; });
@@ -149,7 +149,7 @@ TEST(Neighbours, DerivativesAddBothDirections) {
 
 /// A denominator that goes along one parameter alone but for its last places, on grids with snapped borders.
 TEST(Neighbours, DerivativesDoNotDivideByRounding) {
-    const Batch batch;
+    const SmallBatch batch;
     for (const bool along_u : {true, false}) {
         Register u(1, false, batch.lanes), v(1, false, batch.lanes), num(1, false, batch.lanes),
             den(1, false, batch.lanes), out(1, false, batch.lanes);
@@ -173,7 +173,7 @@ TEST(Neighbours, DerivativesDoNotDivideByRounding) {
 }
 
 TEST(Neighbours, UniformValuesDoNotChange) {
-    const Batch batch;
+    const SmallBatch batch;
     Register value(3, true, kLanes), u = batch.make(1, [](float x, float, int) { return x; });
     Register still = batch.make(1, [](float, float, int) { return 2.0f; }), out(3, false, batch.lanes);
     value.fill([] { return 5.0f; });
@@ -184,7 +184,7 @@ TEST(Neighbours, UniformValuesDoNotChange) {
 }
 
 TEST(Neighbours, AreasAreThoseOfMicropolygons) {
-    const Batch batch;
+    const SmallBatch batch;
     Register P = batch.make(3, [](float x, float y, int k) {
         return k == 0 ? 4 * x + 100 : k == 1 ? 3 * y : 0;
     });
@@ -199,7 +199,7 @@ TEST(Neighbours, AreasAreThoseOfMicropolygons) {
 }
 
 TEST(Neighbours, NormalsOfASphereWithPoles) {
-    const Batch batch;
+    const SmallBatch batch;
     const auto sphere = [](float x, float y, int k) {
         const double a = x * 2.0, b = y * M_PI_2;
         // The last row is one point.
@@ -226,7 +226,7 @@ TEST(Neighbours, NormalsOfASphereWithPoles) {
 }
 
 TEST(Neighbours, PointsInOnePlaceHaveNoNormal) {
-    const Batch batch;
+    const SmallBatch batch;
     Register P = batch.make(3, [](float, float, int) { return 7.0f; }), N(3, false, batch.lanes);
     N.fill([] { return 9.0f; });
     calculate_normals(batch.spans, batch.lanes, P.operand(), N.operand());
@@ -234,7 +234,7 @@ TEST(Neighbours, PointsInOnePlaceHaveNoNormal) {
 }
 
 TEST(Neighbours, BorderSnappedToOneCornerTakesNormalsFromInside) {
-    const Batch batch;
+    const SmallBatch batch;
     // The first column's vertices lie on two points.
     Register P = batch.make(3, [](float x, float y, int k) {
         return k == 0 ? x : k == 1 ? (x == 0 ? (y < 0.7f ? 0.0f : 1.0f) : y) : 0.0f;
@@ -248,7 +248,7 @@ TEST(Neighbours, BorderSnappedToOneCornerTakesNormalsFromInside) {
 }
 
 TEST(Neighbours, FilteredStepsAreSharesOfIntervals) {
-    const Batch batch;
+    const SmallBatch batch;
     Register x = batch.make(1, [](float u, float v, int) { return u - 2 * v; }), width(1, false, batch.lanes);
     Register edge(1, true, kLanes), out(1, false, batch.lanes), x2(1, false, batch.lanes);
     edge.set(0, 0, 0.1f);
@@ -276,7 +276,7 @@ TEST(Neighbours, FilteredStepsAreSharesOfIntervals) {
 }
 
 TEST(Neighbours, GiveTheSameBitsOnAllTargets) {
-    const Batch batch;
+    const SmallBatch batch;
     Numbers numbers;
     Register P = batch.make(3, [&](float, float, int) { return numbers.moderate(); });
     Register u = batch.make(1, [&](float, float, int) { return numbers.moderate(); });

@@ -12,7 +12,7 @@
 namespace trapeze {
 namespace {
 
-CellSizes cells_of(float size) {
+CellSizes ground_cells(float size) {
     return [size](const Box3f&) { return size; };
 }
 
@@ -97,7 +97,7 @@ TEST(RepellingGround, KeepsTheSurfaceAboveItself) {
     EXPECT_GT(lowest, 0.01f);
     EXPECT_LT(lowest, 0.05f);
     for (const float cell : {0.05f, 0.02f}) {
-        const BlobbyMesh mesh = blobby_mesh(field, cells_of(cell));
+        const BlobbyMesh mesh = blobby_mesh(field, ground_cells(cell));
         ASSERT_GT(mesh.points.size(), 200u);
         float low = 1, high = 0;
         for (size_t i = 0; i < mesh.points.size(); ++i) {
@@ -119,7 +119,7 @@ TEST(RepellingGround, MayLieOnASlope) {
         return [](const V3f& p) { return p.z - p.x; };
     };
     const BlobbyMesh mesh =
-        blobby_mesh(blobby_field(ball_over_plane(0.2f, kExample), slope), cells_of(0.03f));
+        blobby_mesh(blobby_field(ball_over_plane(0.2f, kExample), slope), ground_cells(0.03f));
     ASSERT_GT(mesh.points.size(), 200u);
     for (size_t i = 0; i < mesh.points.size(); ++i) {
         const V3f& p = mesh.points[i];
@@ -134,14 +134,14 @@ TEST(RepellingGround, MayLieOnASlope) {
 TEST(RepellingGround, WithoutItsFileTheBallIsWhole) {
     const BlobbyField field = blobby_field(ball_over_plane(0.3f, kExample));
     EXPECT_TRUE(field.grounds.empty());
-    for (const V3f& p : blobby_mesh(field, cells_of(0.05f)).points)
+    for (const V3f& p : blobby_mesh(field, ground_cells(0.05f)).points)
         EXPECT_NEAR((p - V3f(0, 0, 0.3f)).length(), 0.5f, 1e-4f);
 }
 
 /// A bulge that is above the threshold by itself would be an endless sheet: it ends where the ball does.
 TEST(RepellingGround, EndsWhereTheBumpsEnd) {
     const BlobbyField field = blobby_field(ball_over_plane(0.3f, {2, 0.001f, 0.3f, 1}), at_z_zero());
-    const BlobbyMesh mesh = blobby_mesh(field, cells_of(0.05f));
+    const BlobbyMesh mesh = blobby_mesh(field, ground_cells(0.05f));
     ASSERT_GT(mesh.points.size(), 200u);
     for (const V3f& p : mesh.points) EXPECT_LT((p - V3f(0, 0, 0.3f)).length(), 1.1f);
     for (const int v : mesh.vertices) EXPECT_GE(v, 0) << "an open side";

@@ -8,12 +8,13 @@
 #include "core/random.h"
 #include "tessellate/dicing_harness.h"
 #include "tessellate/leak_harness.h"
+#include "tessellate/surfaces/forms_harness.h"
 
 namespace trapeze {
 namespace {
 
+using testing::kPi;
 using testing::parameter;
-constexpr float kPi = std::numbers::pi_v<float>;
 
 struct Direction {
     int points, order;
@@ -65,7 +66,7 @@ struct MadePatch {
     }
 };
 
-Parameter points(std::vector<float> floats) {
+Parameter points_of_net(std::vector<float> floats) {
     return parameter("P", StorageClass::Vertex, ValueType::Point, std::move(floats));
 }
 Parameter weighted(std::vector<float> floats) {
@@ -108,7 +109,7 @@ TEST(NuPatches, EveryKnotVectorReproducesThePlane) {
                     p.push_back(static_cast<float>(y[j]));
                     p.push_back(static_cast<float>(2 * x[i] - 3 * y[j]));
                 }
-            const MadePatch made(patch_of(u, v), {points(std::move(p))});
+            const MadePatch made(patch_of(u, v), {points_of_net(std::move(p))});
             for (int face = 0; face < made.surface->face_count(); ++face)
                 for (const V2f& uv : {V2f(0, 0), V2f(0.3f, 0.7f), V2f(1, 1)}) {
                     const MadePatch::Point at = made.at(face, uv);
@@ -191,7 +192,7 @@ TEST(NuPatches, RangesWithinTheKnotsAreParts) {
     part.u_begin = 0.5f, part.u_end = 2.25f, part.v_begin = 0.25f, part.v_end = 0.75f;
     std::vector<float> p;
     for (uint32_t i = 0; i < 54; ++i) p.push_back(unit_float(hash(i, 4)));
-    const MadePatch a(whole, {points(p)}), b(part, {points(p)});
+    const MadePatch a(whole, {points_of_net(p)}), b(part, {points_of_net(p)});
     ASSERT_EQ(a.surface->face_count(), 3);
     ASSERT_EQ(b.surface->face_count(), 3);
     EXPECT_LT((a.at(0, {0.5f, 0.25f}).P - b.at(0, {0, 0}).P).length(), 1e-6f);
@@ -206,7 +207,8 @@ TEST(NuPatches, VariablesOfEveryClass) {
     const NuPatch patch = patch_of({4, 2, {0, 0, 1, 1, 2, 2}, 0, 2}, {2, 2, {0, 0, 1, 1}, 0, 1});
     const MadePatch made(
         patch,
-        {points(std::vector<float>(24, 1)), parameter("c", StorageClass::Constant, ValueType::Float, {9}),
+        {points_of_net(std::vector<float>(24, 1)),
+         parameter("c", StorageClass::Constant, ValueType::Float, {9}),
          parameter("m", StorageClass::Uniform, ValueType::Float, {4, 5, 6}),
          parameter("y", StorageClass::Varying, ValueType::Float, {0, 10, 20, 30, 1, 11, 21, 31}),
          parameter("x", StorageClass::Vertex, ValueType::Float, {0, 1, 2, 3, 4, 5, 6, 7}),
@@ -290,7 +292,7 @@ TEST(NuPatches, PeriodicKnotsClose) {
         }
     const Direction u{8, 4, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, 3, 8};
     const Direction v{7, 4, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, 3, 7};
-    const MadePatch made(patch_of(u, v), {points(std::move(p))});
+    const MadePatch made(patch_of(u, v), {points_of_net(std::move(p))});
     ASSERT_EQ(made.surface->face_count(), 20);
     ASSERT_EQ(made.surface->vertex_count(), 20u);
     testing::TestScene scene;

@@ -14,14 +14,14 @@
 namespace trapeze {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 using Loop = std::vector<V2d>;
 
 /// A regular polygon about a centre.
 Loop ring(const V2d& centre, double radius, int points) {
     Loop loop;
     for (int i = 0; i < points; ++i) {
-        const double a = 2 * kPi * i / points;
+        const double a = 2 * kHalfTurn * i / points;
         loop.push_back(centre + V2d(std::cos(a), std::sin(a)) * radius);
     }
     return loop;
@@ -80,7 +80,8 @@ TEST(TrimCells, LoopsOfEveryShapeKeepTheirArea) {
         Loop loop;
         const int n = 5 + static_cast<int>(hash(seed, 1) % 60);
         for (int i = 0; i < n; ++i) {
-            const double a = 2 * kPi * i / n, r = 0.5 + 6 * static_cast<double>(unit_float(hash(seed, i, 2)));
+            const double a = 2 * kHalfTurn * i / n,
+                         r = 0.5 + 6 * static_cast<double>(unit_float(hash(seed, i, 2)));
             loop.push_back(V2d(7.5, 7.5) + V2d(std::cos(a), std::sin(a)) * r);
         }
         const TrimmedCells cells = trim_cells({loop}, 15, 15, false);
@@ -137,7 +138,7 @@ TEST(TrimmedPatch, LoopsAreFlattenedFinely) {
     EXPECT_GT(loops[0].size(), 40u);
     EXPECT_LT(loops[0].size(), 2000u);
     for (const V2d& p : loops[0]) EXPECT_NEAR(V2d(2 * p.x - 1, 3 * p.y - 1.5).length(), 0.6, 1e-6);
-    EXPECT_NEAR(area(loops[0]) * 6, kPi * 0.36, 1e-3);
+    EXPECT_NEAR(area(loops[0]) * 6, kHalfTurn * 0.36, 1e-3);
 }
 
 std::shared_ptr<const Shape> trimmed_plane(bool outside) {
@@ -171,7 +172,7 @@ TEST(TrimmedPatch, TheBorderIsTheLoop) {
                     }
                     sum += 0.5 * static_cast<double>((p[3] - p[0]).cross(p[2] - p[1]).z);
                 }
-        EXPECT_NEAR(std::abs(sum), outside ? 6 - kPi * 0.36 : kPi * 0.36, 2e-3);
+        EXPECT_NEAR(std::abs(sum), outside ? 6 - kHalfTurn * 0.36 : kHalfTurn * 0.36, 2e-3);
     }
 }
 

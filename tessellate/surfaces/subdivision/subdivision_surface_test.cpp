@@ -28,15 +28,15 @@ const Tag kInterpolate{"interpolateboundary", {1}, {}, {}};
 constexpr float kNormalRounding = 1e-4f;
 
 /// A mesh and its surface; the primitive outlives it.
-struct Made {
+struct MadeLimit {
     Diagnostics diagnostics;
     Primitive primitive;
     std::unique_ptr<Surface> surface;
 
-    explicit Made(const Cage& cage, std::vector<Tag> tags = {}, Scheme scheme = Scheme::CatmullClark)
-        : Made(cage, {cage.P}, std::move(tags), scheme) {}
-    Made(const Cage& cage, const std::vector<std::vector<float>>& keys, std::vector<Tag> tags = {},
-         Scheme scheme = Scheme::CatmullClark) {
+    explicit MadeLimit(const Cage& cage, std::vector<Tag> tags = {}, Scheme scheme = Scheme::CatmullClark)
+        : MadeLimit(cage, {cage.P}, std::move(tags), scheme) {}
+    MadeLimit(const Cage& cage, const std::vector<std::vector<float>>& keys, std::vector<Tag> tags = {},
+              Scheme scheme = Scheme::CatmullClark) {
         primitive =
             testing::primitive_of(testing::subdivision_of(cage, tags, scheme), {{testing::points(keys[0])}});
         for (size_t k = 1; k < keys.size(); ++k)
@@ -49,7 +49,7 @@ struct Made {
     uint64_t errors() const { return diagnostics.count(Severity::Error); }
 };
 
-std::vector<V2f> random_points(int count, unsigned seed) {
+std::vector<V2f> random_places(int count, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<V2f> uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5f, 0}};
@@ -59,7 +59,7 @@ std::vector<V2f> random_points(int count, unsigned seed) {
 
 /// Catmull-Clark's limit at a vertex of valence 3 is (9 v + 4 edge neighbours + face neighbours) / 24.
 TEST(SubdivisionSurface, CornerOfACube) {
-    const Made made(testing::cube_cage());
+    const MadeLimit made(testing::cube_cage());
     for (uint32_t v = 0; v < 8; ++v) {
         const SurfacePoint at = (*made).vertex(v);
         const Evaluated e = evaluate(*made, at.face, {at.uv});
@@ -74,7 +74,7 @@ TEST(SubdivisionSurface, CornerOfACube) {
 /// Loop's limit: v (1 - n g) + g (neighbours), g = 1 / (n + 3 / (8 b)), which is 31/220 for n = 4.
 TEST(SubdivisionSurface, VerticesOfALoopOctahedron) {
     const Cage cage = testing::octahedron_cage();
-    const Made made(cage, {}, Scheme::Loop);
+    const MadeLimit made(cage, {}, Scheme::Loop);
     EXPECT_EQ((*made).face_count(), 24);
     for (uint32_t v = 0; v < 6; ++v) {
         const V3f corner(cage.P[3 * v], cage.P[3 * v + 1], cage.P[3 * v + 2]);
@@ -114,7 +114,7 @@ struct Reference {
         ASSERT_TRUE(factory->InitVertexSurface(mesh_face, &limit));
         std::vector<double> patch(static_cast<size_t>(limit.GetNumPatchPoints()) * 3);
         limit.PreparePatchPoints(P.data(), 3, patch.data(), 3);
-        const std::vector<V2f> uv = random_points(64, 5);
+        const std::vector<V2f> uv = random_places(64, 5);
         const Evaluated e = evaluate(surface, face, uv);
         for (size_t i = 0; i < uv.size(); ++i) {
             const double at[2] = {uv[i].x, uv[i].y};
@@ -135,7 +135,7 @@ struct Reference {
 TEST(SubdivisionSurface, RegularFacesAreExact) {
     const Cage cage = testing::sheet_cage(5, 1);
     for (const int rule : {1, 2}) {
-        const Made made(cage, {{"interpolateboundary", {rule}, {}, {}}});
+        const MadeLimit made(cage, {{"interpolateboundary", {rule}, {}, {}}});
         Options options;
         options.SetVtxBoundaryInterpolation(rule == 1 ? Options::VTX_BOUNDARY_EDGE_AND_CORNER
                                                       : Options::VTX_BOUNDARY_EDGE_ONLY);
@@ -151,7 +151,7 @@ TEST(SubdivisionSurface, RegularFacesAreExact) {
 TEST(SubdivisionSurface, SharpInteriorEdgesOnRegularFaces) {
     const Cage cage = testing::sheet_cage(4, 1);
     const std::vector<int> chain = {10, 11, 12, 13, 14};
-    const Made made(cage, {kInterpolate, {"crease", chain, {10}, {}}});
+    const MadeLimit made(cage, {kInterpolate, {"crease", chain, {10}, {}}});
     Options options;
     options.SetVtxBoundaryInterpolation(Options::VTX_BOUNDARY_EDGE_AND_CORNER);
     const Reference reference(cage, options, {10, 11, 11, 12, 12, 13, 13, 14}, {10, 10, 10, 10});
@@ -161,7 +161,7 @@ TEST(SubdivisionSurface, SharpInteriorEdgesOnRegularFaces) {
 TEST(SubdivisionSurface, SemiSharpCreases) {
     const Cage cage = testing::cube_cage();
     // One sharpness for each edge, round the top.
-    const Made made(cage, {{"crease", {4, 5, 7, 6, 4}, {2, 1.5f, 2, 3}, {}}});
+    const MadeLimit made(cage, {{"crease", {4, 5, 7, 6, 4}, {2, 1.5f, 2, 3}, {}}});
     const Reference reference(cage, Options(), {4, 5, 5, 7, 7, 6, 6, 4}, {2, 1.5f, 2, 3});
     for (int face = 0; face < 6; ++face) reference.expect_same(*made, face, face, 1e-3f);
     EXPECT_EQ(made.warnings(), 0u);
@@ -173,22 +173,22 @@ TEST(SubdivisionSurface, SharpCubeIsACube) {
                                    {"crease", {2, 6}, {10}, {}},
                                    {"crease", {3, 7}, {10}, {}},
                                    {"corner", {0, 1, 2, 3, 4, 5, 6, 7}, {10}, {}}};
-    const Made made(testing::cube_cage(), tags);
+    const MadeLimit made(testing::cube_cage(), tags);
     for (int face = 0; face < 6; ++face)
-        for (const V3f& p : evaluate(*made, face, random_points(50, 2)).P)
+        for (const V3f& p : evaluate(*made, face, random_places(50, 2)).P)
             EXPECT_NEAR(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1, 1e-6);
     testing::expect_near(testing::position(*made, (*made).vertex(7)), V3f(1, 1, 1), 1e-6f, "corner");
 }
 
 TEST(SubdivisionSurface, CornerKeepsItsVertex) {
-    const Made made(testing::cube_cage(), {{"corner", {0, 7}, {10, 0}, {}}});
+    const MadeLimit made(testing::cube_cage(), {{"corner", {0, 7}, {10, 0}, {}}});
     testing::expect_near(testing::position(*made, (*made).vertex(0)), V3f(-1, -1, -1), 1e-6f, "sharp");
     testing::expect_near(testing::position(*made, (*made).vertex(7)), V3f(0.5f, 0.5f, 0.5f), 1e-6f, "smooth");
 }
 
 TEST(SubdivisionSurface, BilinearIsTheCage) {
     const Cage cage = testing::prism_cage(5);
-    const Made made(cage, {}, Scheme::Bilinear);
+    const MadeLimit made(cage, {}, Scheme::Bilinear);
     EXPECT_EQ((*made).face_count(), 5 + 5 * (1 + 3));
     for (uint32_t v = 0; v < static_cast<uint32_t>(cage.vertex_count()); ++v)
         testing::expect_near(testing::position(*made, (*made).vertex(v)),
@@ -200,28 +200,28 @@ TEST(SubdivisionSurface, BilinearIsTheCage) {
 TEST(SubdivisionSurface, FacesShareEdges) {
     const Tag crease{"crease", {0, 1, 2}, {1.5f}, {}};
     for (int n : {3, 5, 8}) {
-        const Made made(testing::prism_cage(n), {crease});
+        const MadeLimit made(testing::prism_cage(n), {crease});
         EXPECT_EQ((*made).face_count(), (n == 4 ? 1 : n) + n * (1 + 3));
         testing::expect_joined(*made, 2e-5f);
         testing::expect_bounded_and_differentiated(*made, 2e-2f);
     }
-    const Made loop(testing::octahedron_cage(), {{"crease", {0, 1, 2, 3, 0}, {2}, {}}}, Scheme::Loop);
+    const MadeLimit loop(testing::octahedron_cage(), {{"crease", {0, 1, 2, 3, 0}, {2}, {}}}, Scheme::Loop);
     testing::expect_joined(*loop, 2e-5f);
     testing::expect_bounded_and_differentiated(*loop, 2e-2f);
-    const Made sheet(testing::sheet_cage(4, 0.7f), {kInterpolate});
+    const MadeLimit sheet(testing::sheet_cage(4, 0.7f), {kInterpolate});
     testing::expect_joined(*sheet, 1e-5f);
     testing::expect_bounded_and_differentiated(*sheet, 1e-2f);
 }
 
 /// One point at a time, in blocks, with and without derivatives, by any scratch.
 TEST(SubdivisionSurface, BitsDoNotDependOnTheBatch) {
-    const Made regular(testing::sheet_cage(4, 0.7f), {kInterpolate}), mixed(testing::prism_cage(5)),
+    const MadeLimit regular(testing::sheet_cage(4, 0.7f), {kInterpolate}), mixed(testing::prism_cage(5)),
         loop(testing::octahedron_cage(), {}, Scheme::Loop),
         linear(testing::prism_cage(5), {}, Scheme::Bilinear);
-    for (const Made* made : {&regular, &mixed, &loop, &linear}) {
+    for (const MadeLimit* made : {&regular, &mixed, &loop, &linear}) {
         const Surface& surface = **made;
         const auto scratch = surface.make_scratch();
-        const std::vector<V2f> uv = random_points(77, 9);
+        const std::vector<V2f> uv = random_places(77, 9);
         for (int face = 0; face < surface.face_count(); ++face) {
             const Evaluated all = evaluate(surface, face, uv);
             for (size_t i = 0; i < uv.size(); ++i) {
@@ -241,9 +241,9 @@ TEST(SubdivisionSurface, BitsDoNotDependOnTheBatch) {
 TEST(SubdivisionSurface, ThreadsGetTheSameBits) {
     const Cage cage = testing::prism_cage(9);
     const std::vector<Tag> tags = {{"crease", {9, 10, 11, 12, 13, 14}, {1, 2, 3, 2.5f, 1.5f}, {}}};
-    const std::vector<V2f> uv = random_points(9, 2);
+    const std::vector<V2f> uv = random_places(9, 2);
     for (int round = 0; round < 10; ++round) {
-        const Made together(cage, tags);
+        const MadeLimit together(cage, tags);
         const int faces = (*together).face_count();
         std::vector<std::vector<Evaluated>> results(4, std::vector<Evaluated>(faces));
         std::vector<std::thread> threads;
@@ -255,7 +255,7 @@ TEST(SubdivisionSurface, ThreadsGetTheSameBits) {
                 }
             });
         for (std::thread& thread : threads) thread.join();
-        const Made alone(cage, tags);
+        const MadeLimit alone(cage, tags);
         for (int face = 0; face < faces; ++face) {
             const Evaluated expected = evaluate(*alone, face, uv);
             for (const auto& result : results)
@@ -273,15 +273,15 @@ TEST(SubdivisionSurface, BoundaryRules) {
         for (int face = 0; face < surface.face_count(); ++face) count += !surface.is_hole(face);
         return count;
     };
-    const Made none(cage);
+    const MadeLimit none(cage);
     EXPECT_EQ(drawn(*none), 1);
     EXPECT_FALSE((*none).is_hole(4));
     testing::expect_joined(*none, 1e-6f);
-    const Made corners(cage, {{"interpolateboundary", {}, {}, {}}});  // no number means 1
+    const MadeLimit corners(cage, {{"interpolateboundary", {}, {}, {}}});  // no number means 1
     EXPECT_EQ(drawn(*corners), 9);
     testing::expect_near(testing::position(*corners, (*corners).vertex(0)), V3f(0, 0, 0), 1e-6f,
                          "sharp corner");
-    const Made edges(cage, {{"interpolateboundary", {2}, {}, {}}});
+    const MadeLimit edges(cage, {{"interpolateboundary", {2}, {}, {}}});
     EXPECT_EQ(drawn(*edges), 9);
     // The boundary curve's limit: (neighbours + 4 v) / 6.
     testing::expect_near(testing::position(*edges, (*edges).vertex(0)), V3f(1 / 6.0f, 1 / 6.0f, 0), 1e-6f,
@@ -290,8 +290,8 @@ TEST(SubdivisionSurface, BoundaryRules) {
 
 TEST(SubdivisionSurface, HolesLeaveTheRestAsItIs) {
     const Cage cage = testing::cube_cage();
-    const Made whole(cage), open(cage, {{"hole", {0, 1}, {}, {}}});
-    const std::vector<V2f> uv = random_points(20, 4);
+    const MadeLimit whole(cage), open(cage, {{"hole", {0, 1}, {}, {}}});
+    const std::vector<V2f> uv = random_places(20, 4);
     for (int face = 0; face < 6; ++face) {
         EXPECT_EQ((*open).is_hole(face), face < 2);
         if ((*open).is_hole(face)) continue;
@@ -308,8 +308,8 @@ TEST(SubdivisionSurface, ShapeKeys) {
     for (size_t i = 0; i < later.size(); ++i) later[i] = 2 * later[i] + static_cast<float>(i % 7);
     Cage moved = cage;
     moved.P = later;
-    const Made moving(cage, std::vector{cage.P, later}), fixed(moved);
-    const std::vector<V2f> uv = random_points(20, 4);
+    const MadeLimit moving(cage, std::vector{cage.P, later}), fixed(moved);
+    const std::vector<V2f> uv = random_places(20, 4);
     for (int face = 0; face < (*moving).face_count(); ++face) {
         const Evaluated a = evaluate(*moving, face, uv, 1), b = evaluate(*fixed, face, uv);
         EXPECT_EQ(std::memcmp(a.P.data(), b.P.data(), a.P.size() * sizeof(V3f)), 0);
@@ -322,7 +322,7 @@ TEST(SubdivisionSurface, OptionsChangeTheSurface) {
     const Cage cage = testing::prism_cage(5);
     // On the last face, a triangle at the top: at its centre, or at a corner of the ring below.
     const auto at = [&](int pieces_back, V2f uv, std::vector<Tag> tags) {
-        const Made made(cage, std::move(tags));
+        const MadeLimit made(cage, std::move(tags));
         EXPECT_EQ(made.warnings(), 0u);
         return evaluate(*made, (*made).face_count() - pieces_back, {uv}).P[0];
     };
@@ -346,9 +346,9 @@ TEST(SubdivisionSurface, WrongTagsAreReportedAndLeftOut) {
                                     {"interpolateboundary", {7}, {}, {}},
                                     {"facevaryinginterpolateboundary", {-1}, {}, {}},
                                     {"creasemethod", {}, {}, {"bent"}}};
-    const Made plain(testing::cube_cage());
+    const MadeLimit plain(testing::cube_cage());
     for (const Tag& tag : wrong) {
-        const Made made(testing::cube_cage(), {tag});
+        const MadeLimit made(testing::cube_cage(), {tag});
         ASSERT_TRUE(made.surface) << tag.name;
         EXPECT_EQ(made.warnings(), 1u) << tag.name;
         EXPECT_EQ(evaluate(*made, 3, {{0.3f, 0.6f}}).P[0], evaluate(*plain, 3, {{0.3f, 0.6f}}).P[0]);
@@ -361,14 +361,14 @@ TEST(SubdivisionSurface, RefusesWhatHasNoSurface) {
     Cage missing = testing::cube_cage();
     missing.vertices.pop_back();
     for (const Cage& cage : {outside, missing}) {
-        const Made made(cage);
+        const MadeLimit made(cage);
         EXPECT_FALSE(made.surface);
         EXPECT_EQ(made.errors(), 1u);
     }
-    const Made loop(testing::cube_cage(), {}, Scheme::Loop);  // of quads
+    const MadeLimit loop(testing::cube_cage(), {}, Scheme::Loop);  // of quads
     EXPECT_FALSE(loop.surface);
     EXPECT_EQ(loop.errors(), 1u);
-    const Made fan(testing::prism_cage(300));
+    const MadeLimit fan(testing::prism_cage(300));
     EXPECT_FALSE(fan.surface);
     EXPECT_EQ(fan.errors(), 1u);
 }
@@ -395,7 +395,7 @@ TEST(SubdivisionSurface, NonManifoldMeshes) {
         pole.vertices.insert(pole.vertices.begin() + 4 * face + 3, pole.vertices[4 * face + 2]);
     for (const Cage& cage : {fins, against, cones, doubled, pole})
         for (const std::vector<Tag>& tags : {std::vector<Tag>{kInterpolate}, std::vector<Tag>{}}) {
-            const Made made(cage, tags);
+            const MadeLimit made(cage, tags);
             ASSERT_TRUE(made.surface);
             testing::expect_joined(*made, 2e-5f);
             for (uint32_t v = 0; v < (*made).vertex_count(); ++v) {
@@ -410,15 +410,15 @@ TEST(SubdivisionSurface, RandomConnectivity) {
     int surfaces = 0;
     for (int round = 0; round < 600; ++round) {
         const bool loop = round % 3 == 0;
-        const Made made(testing::random_cage(random, loop),
-                        {{"interpolateboundary", {round % 2 + 1}, {}, {}}},
-                        loop ? Scheme::Loop : Scheme::CatmullClark);
+        const MadeLimit made(testing::random_cage(random, loop),
+                             {{"interpolateboundary", {round % 2 + 1}, {}, {}}},
+                             loop ? Scheme::Loop : Scheme::CatmullClark);
         EXPECT_EQ(made.errors(), made.surface ? 0u : 1u);
         if (!made.surface) continue;
         ++surfaces;
         for (int face = 0; face < (*made).face_count(); ++face) {
             (*made).bound(face, {0, 0}, {1, 1}, 0);
-            for (const V3f& p : evaluate(*made, face, random_points(6, 1)).P)
+            for (const V3f& p : evaluate(*made, face, random_places(6, 1)).P)
                 ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << "round " << round;
         }
     }

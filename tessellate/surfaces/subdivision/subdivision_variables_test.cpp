@@ -16,18 +16,18 @@ using testing::Cage;
 using testing::evaluate;
 using testing::variables_at;
 
-const Tag kInterpolate{"interpolateboundary", {1}, {}, {}};
+const Tag kInterpolateBorders{"interpolateboundary", {1}, {}, {}};
 Tag face_varying_rule(int rule) {
     return {"facevaryinginterpolateboundary", {rule}, {}, {}};
 }
 
-struct Made {
+struct MadeVariables {
     Diagnostics diagnostics;
     Primitive primitive;
     std::unique_ptr<Surface> surface;
 
-    Made(const Cage& cage, ParameterList variables, std::vector<Tag> tags,
-         Scheme scheme = Scheme::CatmullClark) {
+    MadeVariables(const Cage& cage, ParameterList variables, std::vector<Tag> tags,
+                  Scheme scheme = Scheme::CatmullClark) {
         variables.values.push_back(testing::points(cage.P));
         primitive = testing::primitive_of(testing::subdivision_of(cage, std::move(tags), scheme), variables);
         surface = make_subdivision_surface(primitive, diagnostics);
@@ -53,7 +53,7 @@ std::vector<float> at_corners(const Cage& cage, int coordinate) {
 const std::vector<V2f> kPoints = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5f, 0.5f}, {0.3f, 0.9f}};
 
 TEST(SubdivisionVariables, DefaultsAreTheFacesOwn) {
-    const Made made(testing::cube_cage(), {}, {});
+    const MadeVariables made(testing::cube_cage(), {}, {});
     const ShadingGrid grid = made.at(2, kPoints);
     for (size_t i = 0; i < kPoints.size(); ++i) {
         EXPECT_EQ(V2f(grid.u[i], grid.v[i]), kPoints[i]);
@@ -66,7 +66,8 @@ TEST(SubdivisionVariables, DefaultsAreTheFacesOwn) {
 TEST(SubdivisionVariables, VertexVariablesAreLimits) {
     for (const Scheme scheme : {Scheme::CatmullClark, Scheme::Bilinear}) {
         const Cage cage = testing::prism_cage(5);
-        const Made made(cage, {{floats("Pref", StorageClass::Vertex, cage.P, ValueType::Point)}}, {}, scheme);
+        const MadeVariables made(cage, {{floats("Pref", StorageClass::Vertex, cage.P, ValueType::Point)}}, {},
+                                 scheme);
         for (int face = 0; face < made.surface->face_count(); ++face) {
             const ShadingGrid grid = made.at(face, kPoints);
             const auto e = evaluate(*made.surface, face, kPoints);
@@ -82,7 +83,7 @@ TEST(SubdivisionVariables, ArraysOfManyFloats) {
     for (int v = 0; v < cage.vertex_count(); ++v)
         for (int k = 0; k < 21; ++k)
             many.floats.push_back(cage.P[3 * v + k % 3] * static_cast<float>(1 << (k / 3)));
-    const Made made(cage, {{many}}, {});
+    const MadeVariables made(cage, {{many}}, {});
     for (int face = 0; face < made.surface->face_count(); ++face) {
         const ShadingGrid grid = made.at(face, kPoints);
         const auto e = evaluate(*made.surface, face, kPoints);
@@ -96,13 +97,14 @@ TEST(SubdivisionVariables, VaryingIsLinearOverTheFace) {
     const Cage cage = testing::sheet_cage(3, 0);
     std::vector<float> w;
     for (int v = 0; v < cage.vertex_count(); ++v) w.push_back(cage.P[3 * v] + 10 * cage.P[3 * v + 1]);
-    const Made made(cage, {{floats("w", StorageClass::Varying, w)}}, {kInterpolate});
+    const MadeVariables made(cage, {{floats("w", StorageClass::Varying, w)}}, {kInterpolateBorders});
     const ShadingGrid grid = made.at(5, kPoints);  // [2, 3] x [1, 2]
     for (size_t i = 0; i < kPoints.size(); ++i)
         EXPECT_FLOAT_EQ(grid.find("w")->planes[0][i], 2 + kPoints[i].x + 10 * (1 + kPoints[i].y));
     // On pieces of a pentagon: the centre is the mean of the corners.
     const Cage prism = testing::prism_cage(5);
-    const Made cut(prism, {{floats("w", StorageClass::Varying, {1, 2, 3, 4, 5, 0, 0, 0, 0, 0, 0})}}, {});
+    const MadeVariables cut(prism, {{floats("w", StorageClass::Varying, {1, 2, 3, 4, 5, 0, 0, 0, 0, 0, 0})}},
+                            {});
     EXPECT_FLOAT_EQ(cut.at(0, {{1, 1}, {0, 0}, {1, 0}}).find("w")->planes[0][0], 3);
     EXPECT_FLOAT_EQ(cut.at(0, {{1, 1}, {0, 0}, {1, 0}}).find("w")->planes[0][1], 5);
     EXPECT_FLOAT_EQ(cut.at(0, {{1, 1}, {0, 0}, {1, 0}}).find("w")->planes[0][2], 4.5f);
@@ -114,10 +116,11 @@ TEST(SubdivisionVariables, UniformAndConstant) {
     for (size_t i = 0; i < cage.sizes.size(); ++i) number.push_back(static_cast<float>(i));
     Parameter label{"label", {StorageClass::Uniform, ValueType::String, 1}, {}, {}};
     for (float n : number) label.strings.push_back("face " + std::to_string(static_cast<int>(n)));
-    const Made made(cage,
-                    {{floats("number", StorageClass::Uniform, number),
-                      floats("Os", StorageClass::Constant, {0.1f, 0.2f, 0.3f}, ValueType::Color), label}},
-                    {});
+    const MadeVariables made(
+        cage,
+        {{floats("number", StorageClass::Uniform, number),
+          floats("Os", StorageClass::Constant, {0.1f, 0.2f, 0.3f}, ValueType::Color), label}},
+        {});
     // The pentagon's five pieces, then a quad and a triangle in turn.
     for (const auto& [face, mesh_face] : {std::pair(0, 0), {4, 0}, {5, 1}, {6, 2}, {8, 2}, {9, 3}}) {
         const ShadingGrid grid = made.at(face, kPoints);
@@ -137,7 +140,7 @@ TEST(SubdivisionVariables, FaceVaryingIsBilinearWithoutTag) {
         t.insert(t.end(), {0, 0, 1, 1});
     }
     for (const auto& tags : {std::vector<Tag>{}, std::vector<Tag>{face_varying_rule(0)}}) {
-        const Made made(
+        const MadeVariables made(
             cage, {{floats("s", StorageClass::FaceVarying, s), floats("t", StorageClass::FaceVarying, t)}},
             tags);
         for (int face = 0; face < 6; ++face) {
@@ -155,7 +158,7 @@ TEST(SubdivisionVariables, SmoothFaceVaryingFollowsTheSurface) {
     const Cage cage = testing::prism_cage(5);
     for (const StorageClass storage : {StorageClass::FaceVarying, StorageClass::FaceVertex})
         for (const int rule : {1, 2}) {
-            const Made made(
+            const MadeVariables made(
                 cage,
                 {{floats("s", storage, at_corners(cage, 0)), floats("t", storage, at_corners(cage, 1)),
                   floats("z", storage, at_corners(cage, 2))}},
@@ -183,7 +186,7 @@ TEST(SubdivisionVariables, Seams) {
     const ParameterList st{
         {floats("s", StorageClass::FaceVarying, s), floats("t", StorageClass::FaceVarying, t)}};
     for (const int rule : {1, 2, 3}) {
-        const Made made(cage, st, {kInterpolate, face_varying_rule(rule)});
+        const MadeVariables made(cage, st, {kInterpolateBorders, face_varying_rule(rule)});
         const int left = 5, right = 6;  // on either side of the seam, away from the border
         const ShadingGrid a = made.at(left, {{1, 0.25f}, {0, 0.25f}}), b = made.at(right, {{0, 0.25f}});
         EXPECT_NEAR(a.s[0], 4, 1e-5);
@@ -207,7 +210,7 @@ TEST(SubdivisionVariables, IslandsOnRegularAndIrregularFaces) {
         s.insert(s.end(), {first, first + 1, first + 1, first});
         t.insert(t.end(), {0, 0, 1, 1});
     }
-    const Made made(
+    const MadeVariables made(
         cage, {{floats("s", StorageClass::FaceVertex, s), floats("t", StorageClass::FaceVertex, t)}}, {});
     for (int face = 0; face < 6; ++face) {
         const ShadingGrid grid = made.at(face, kPoints);
@@ -227,9 +230,9 @@ TEST(SubdivisionVariables, AnythingHasFiniteValues) {
         const Cage cage = testing::random_cage(random, loop);
         std::vector<float> values;
         for (size_t i = 0; i < cage.vertices.size(); ++i) values.push_back(static_cast<float>(random() % 2));
-        const Made made(cage, {{floats("seamed", StorageClass::FaceVertex, values)}},
-                        {kInterpolate, face_varying_rule(round % 4)},
-                        loop ? Scheme::Loop : Scheme::CatmullClark);
+        const MadeVariables made(cage, {{floats("seamed", StorageClass::FaceVertex, values)}},
+                                 {kInterpolateBorders, face_varying_rule(round % 4)},
+                                 loop ? Scheme::Loop : Scheme::CatmullClark);
         if (!made.surface) continue;
         for (int face = 0; face < made.surface->face_count(); ++face) {
             const ShadingGrid grid = made.at(face, kPoints);
@@ -241,7 +244,7 @@ TEST(SubdivisionVariables, AnythingHasFiniteValues) {
 
 TEST(SubdivisionVariables, NormalsOfTheUser) {
     const Cage cage = testing::cube_cage();
-    const Made made(cage, {{floats("N", StorageClass::Vertex, cage.P, ValueType::Normal)}}, {});
+    const MadeVariables made(cage, {{floats("N", StorageClass::Vertex, cage.P, ValueType::Normal)}}, {});
     bool has_normals = false;
     const ShadingGrid grid = variables_at(*made.surface, 0, kPoints, &has_normals);
     EXPECT_TRUE(has_normals);
