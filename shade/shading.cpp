@@ -33,6 +33,18 @@ bool any_leaves_traces(const Material& material) {
                                [](const Lamp* lamp) { return leaves_traces(lamp->shader->program()); });
 }
 
+/// Whether what rays tell a vertex stays with it.
+bool tells_vertices_apart(const Material& material) {
+    const auto keeps = [](const LayeredShader* shader) {
+        return !shader ||
+               (shader->layers.size() == 1 && keeps_answers_apart(shader->layers.front()->program()));
+    };
+    return keeps(material.surface) && keeps(material.atmosphere) && keeps(material.interior) &&
+           keeps(material.exterior) && std::ranges::all_of(material.lights, [](const Lamp* lamp) {
+               return keeps_answers_apart(lamp->shader->program());
+           });
+}
+
 /// Displacement beyond the bound by this factor is not reported: it is rounding.
 constexpr float kBoundTolerance = 1.0001f;
 
@@ -254,6 +266,10 @@ bool Shading::may_stay_unshaded(uint32_t primitive) const {
     // A surface that says P may move it; one that only says so is warned about, which takes that it runs.
     return material.attributes->cull_hidden && !material.displacement && !material.surface_moves &&
            !material.surface_only_sets_P && !any_leaves_traces(material);
+}
+
+bool Shading::may_ask_for_some(uint32_t primitive) const {
+    return tells_vertices_apart(impl_->materials.of(primitive));
 }
 
 bool Shading::hides_for_sure(uint32_t primitive) const {

@@ -71,6 +71,9 @@ class Shading {
     /// Whether a primitive's grids need not be shaded where no sample sees them: shaders neither move them
     /// nor write anything, and the attributes allow it.
     bool may_stay_unshaded(uint32_t primitive) const;
+    /// Whether the colours of some of a grid's vertices (ShadingGrid::wanted) can be had without those of
+    /// others having what rays would tell them.
+    bool may_ask_for_some(uint32_t primitive) const;
     /// Whether a primitive's grids are opaque whatever its shaders do.
     bool hides_for_sure(uint32_t primitive) const;
 

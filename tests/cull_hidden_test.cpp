@@ -125,6 +125,39 @@ TEST(CullHidden, SomeAreShadedInAnyCase) {
               of_wall);
 }
 
+/// Of a grid that is seen in part, vertices that no sample sees send no rays; unless what rays tell a vertex
+/// goes on to others, or decides what the shader does, or how much lies behind.
+TEST(CullHidden, VerticesThatAreSeenAlone) {
+    const std::string half = "Surface \"constant\" Patch \"bilinear\" \"P\" [-9 9 3 .1 9 3 -9 -9 3 .1 -9 3] ";
+    const auto rays = [&](const std::string& body) {
+        const FrameStats stats =
+            culled("WorldBegin Attribute \"visibility\" \"int diffuse\" 1 " + half +
+                       "LightSource \"sky\" 1 Surface \"ask\" ShadingRate .3 " + kBall + "WorldEnd\n",
+                   {{"ask", "surface ask() { Oi = Os; " + body + " }"},
+                    {"sky",
+                     "light sky() { solar(vector \"camera\" (0, 1, 1), 0) "
+                     "Cl = 1 - occlusion(Ps, normalize(N), 4); }"}});
+        return stats.shade.rays.diffuse;
+    };
+    const std::string open = "float o = occlusion(P, normalize(N), 4); ";
+    const std::string sky = "color c = diffuse(normalize(N)); ";
+    const uint64_t all = rays(open + "Ci = abs(Du(o));");
+    EXPECT_GT(all, 1000u);
+    for (const std::string& spread :
+         {open + "varying float a = o; a = a * 2; Ci = area(point(a, a, a));",
+          open + "if (o > .3) Ci = Du(s); else Ci = 0;",
+          open + "varying float a = 0; while (a < o) a += .3; Ci = a;", sky + "Ci = abs(Du(comp(c, 0)));"})
+        EXPECT_EQ(rays(spread), all) << spread;
+    // More is seen then.
+    EXPECT_EQ(rays(open + "Oi = 1 - o; Ci = o;"), rays(open + "Oi = 1 - o; Ci = abs(Du(o));"));
+    for (const std::string& apart : {open + "Ci = o;", open + "Ci = o * length(Du(P));",
+                                     open + "varying float a = o; a += 1; Ci = a + area(P);", sky + "Ci = c;",
+                                     sky + "Ci = c + abs(Du(s));"}) {
+        EXPECT_LT(rays(apart), all * 9 / 10) << apart;
+        EXPECT_GT(rays(apart), all / 4) << apart;
+    }
+}
+
 /// It is on where shaders trace rays, and only there, unless it is asked for.
 TEST(CullHidden, IsOnWhereShadersTrace) {
     const WorkFolder folder;

@@ -12,6 +12,7 @@
 
 #include "core/grid.h"
 #include "core/scene/parameters.h"
+#include "core/scene/vertex_set.h"
 
 namespace trapeze {
 
@@ -66,6 +67,9 @@ struct ShadingGrid {
     uint64_t ordinal = 0;  ///< place in the order of the frame's grids
     uint64_t seed = 0;     ///< of random numbers: of its place on its primitive, or of the ray that hit
     bool reverse_orientation = false;  ///< dPdu x dPdv points inside
+    /// The vertices whose colours are wanted; null: all. Others need no rays: see
+    /// Shading::may_ask_for_some().
+    const VertexSet* wanted = nullptr;
 
     std::vector<Triples>
         P;       ///< position at each key; shaders see and displace P[0], which is moved into all keys

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <optional>
 
 #include "pipeline/frame/collect_grids.h"
@@ -47,6 +48,13 @@ Grids plain_grids(const RenderContext& context, const std::vector<uint32_t>& can
     return collect_grids(makers);
 }
 
+/// By primitive, Shading::may_ask_for_some().
+std::vector<bool> asked_in_part(const Scene& scene, const Shading& shading) {
+    std::vector<bool> in_part;
+    for (uint32_t i = 0; i < scene.primitives.size(); ++i) in_part.push_back(shading.may_ask_for_some(i));
+    return in_part;
+}
+
 /// What a thread needs to look at tiles.
 struct TileLooker {
     SampleTile samples;
@@ -55,14 +63,50 @@ struct TileLooker {
     SampleStats stats;
 };
 
-/// For each grid, whether a sample of some pixels has a hit on it; nothing where there is no room for all
-/// hits.
-std::optional<std::vector<std::atomic<bool>>> seen_grids(const RenderContext& context,
-                                                         const PixelRect& pixels, const Grids& grids,
-                                                         const Visibility& visibility,
-                                                         const SamplePattern& pattern,
-                                                         const LayerLimits& limits) {
-    std::vector<std::atomic<bool>> seen(grids.grids.size());
+/// Which micropolygons samples have hits on.
+class SeenMicropolygons {
+  public:
+    explicit SeenMicropolygons(const Grids& grids) : grids_(grids), first_(grids.grids.size() + 1) {
+        for (size_t g = 0; g < grids.grids.size(); ++g)
+            first_[g + 1] = first_[g] + static_cast<size_t>(grids.grids[g].shape.micropolygon_count());
+        seen_ = std::vector<std::atomic<uint8_t>>(first_.back());
+    }
+    /// By many threads at once.
+    void see(const Hit& hit) {
+        const MicropolygonId id = MicropolygonId::unpack(hit.id);
+        std::atomic<uint8_t>& seen = seen_[at(id.grid, id.u, id.v)];
+        if (!seen.load(std::memory_order_relaxed)) seen.store(1, std::memory_order_relaxed);
+    }
+    /// The corners of those of a grid that are seen.
+    VertexSet corners(size_t grid) const {
+        const GridShape shape = grids_.grids[grid].shape;
+        VertexSet corners;
+        for (int v = 0; v < shape.nv; ++v)
+            for (int u = 0; u < shape.nu; ++u) {
+                if (!seen_[at(grid, u, v)].load(std::memory_order_relaxed)) continue;
+                const size_t corner =
+                    static_cast<size_t>(v) * static_cast<size_t>(shape.nu + 1) + static_cast<size_t>(u);
+                const size_t above = corner + static_cast<size_t>(shape.nu + 1);
+                corners.set(corner).set(corner + 1).set(above).set(above + 1);
+            }
+        return corners;
+    }
+
+  private:
+    size_t at(size_t grid, int u, int v) const {
+        return first_[grid] + static_cast<size_t>(v * grids_.grids[grid].shape.nu + u);
+    }
+
+    const Grids& grids_;
+    std::vector<size_t> first_;  ///< micropolygon of each grid
+    std::vector<std::atomic<uint8_t>> seen_;
+};
+
+/// What samples of some pixels have hits on; nothing where there is no room for all hits.
+std::optional<SeenMicropolygons> seen_micropolygons(const RenderContext& context, const PixelRect& pixels,
+                                                    const Grids& grids, const Visibility& visibility,
+                                                    const SamplePattern& pattern, const LayerLimits& limits) {
+    std::optional<SeenMicropolygons> seen(grids);
     std::atomic<bool> has_room{true};
     const bool bounded = !every_grid_is_opaque(grids);
     const std::vector<PixelRect> tiles = tiles_of(pixels, visibility.tile_side());
@@ -76,8 +120,7 @@ std::optional<std::vector<std::atomic<bool>>> seen_grids(const RenderContext& co
         if (fits) visibility.resolve(looker.samples, looker.hits, looker.scratch, looker.stats);
         if (!fits || !holds_all(looker.scratch, looker.hits, limits.most))
             return has_room.store(false, std::memory_order_relaxed);
-        for (const Hit& hit : looker.hits.hits)
-            seen[MicropolygonId::unpack(hit.id).grid].store(true, std::memory_order_relaxed);
+        for (const Hit& hit : looker.hits.hits) seen->see(hit);
     };
     tbb::parallel_for(size_t{0}, tiles.size(), look, tbb::simple_partitioner());
     if (!has_room.load()) return {};
@@ -86,30 +129,37 @@ std::optional<std::vector<std::atomic<bool>>> seen_grids(const RenderContext& co
 
 }  // namespace
 
-std::vector<uint32_t> seen_subpatches(const RenderContext& context, const Region& region,
-                                      const Tessellation& tessellation, const Shading& shading,
-                                      const Sampler& sampler, const SamplePattern& pattern,
-                                      const LayerLimits& limits, FrameStats& stats) {
-    std::vector<uint32_t> candidates, shaded;
-    for (const uint32_t subpatch : region.subpatches) {
-        const bool may_stay = shading.may_stay_unshaded(tessellation.subpatches()[subpatch].primitive);
-        (may_stay ? candidates : shaded).push_back(subpatch);
-    }
+void leave_out_hidden(const RenderContext& context, Region& region, const Tessellation& tessellation,
+                      const Shading& shading, const Sampler& sampler, const SamplePattern& pattern,
+                      const LayerLimits& limits, FrameStats& stats) {
+    std::vector<uint32_t> candidates;
+    std::map<uint32_t, VertexSet> wanted;  // by subpatch
+    for (const uint32_t subpatch : region.subpatches)
+        if (shading.may_stay_unshaded(tessellation.subpatches()[subpatch].primitive))
+            candidates.push_back(subpatch);
+        else
+            wanted[subpatch].set();
     const Grids grids = plain_grids(context, candidates, tessellation, shading);
-    if (context.is_cancelled() || grids.grids.empty()) return region.subpatches;
+    if (context.is_cancelled() || grids.grids.empty()) return;
     const std::unique_ptr<Visibility> visibility = sampler.prepare(context, grids);
-    const auto seen = seen_grids(context, region.pixels, grids, *visibility, pattern, limits);
-    if (!seen) return region.subpatches;
-    for (size_t g = 0; g < seen->size(); ++g) {
-        if ((*seen)[g].load(std::memory_order_relaxed)) {
-            shaded.push_back(static_cast<uint32_t>(grids.grids[g].ordinal));
+    const auto seen = seen_micropolygons(context, region.pixels, grids, *visibility, pattern, limits);
+    if (!seen) return;
+    const std::vector<bool> in_part = asked_in_part(*context.scene, shading);
+    for (size_t g = 0; g < grids.grids.size(); ++g) {
+        const Grid& grid = grids.grids[g];
+        const VertexSet corners = seen->corners(g);
+        if (corners.none()) {
+            ++stats.unshaded_grids;
+            stats.unshaded_vertices += static_cast<uint64_t>(grid.shape.vertex_count());
             continue;
         }
-        ++stats.unshaded_grids;
-        stats.unshaded_vertices += static_cast<uint64_t>(grids.grids[g].shape.vertex_count());
+        wanted[static_cast<uint32_t>(grid.ordinal)] = in_part[grid.primitive] ? corners : ~VertexSet();
     }
-    std::ranges::sort(shaded);
-    return shaded;
+    region.subpatches.clear();
+    for (const auto& [subpatch, vertices] : wanted) {
+        region.subpatches.push_back(subpatch);
+        region.wanted.push_back(vertices);
+    }
 }
 
 }  // namespace trapeze

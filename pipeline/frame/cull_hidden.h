@@ -22,13 +22,14 @@ enum class CullHidden : uint8_t {
     Off,
 };
 
-/// The subpatches of a region whose grids are to be shaded, in order: those that any of its samples sees, and
-/// those that must be shaded in any case (Shading::may_stay_unshaded()). Takes the samples through the region
-/// once more, but composites nothing; where their layers take more than the limits allow, nothing is left
-/// out. The picture is the same bits. Adds to the stats' counts of what is left out.
-std::vector<uint32_t> seen_subpatches(const RenderContext& context, const Region& region,
-                                      const Tessellation& tessellation, const Shading& shading,
-                                      const Sampler& sampler, const SamplePattern& pattern,
-                                      const LayerLimits& limits, FrameStats& stats);
+/// Leaves in a region the subpatches whose grids are to be shaded, in order: those that any of its samples
+/// sees, and those that must be shaded in any case (Shading::may_stay_unshaded()). Of those that are seen in
+/// part, vertices that no sample sees are not wanted, where shaders allow it (Shading::may_ask_for_some()).
+/// Takes the samples through the region once more, but composites nothing; where their layers take more than
+/// the limits allow, nothing is left out. The picture is the same bits. Adds to the stats' counts of what is
+/// left out.
+void leave_out_hidden(const RenderContext& context, Region& region, const Tessellation& tessellation,
+                      const Shading& shading, const Sampler& sampler, const SamplePattern& pattern,
+                      const LayerLimits& limits, FrameStats& stats);
 
 }  // namespace trapeze

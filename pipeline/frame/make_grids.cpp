@@ -41,6 +41,13 @@ void pack(const RenderContext& context, const ShadingGrid& grid, GridMaker& make
     maker.shade_stats.not_finite_values += static_cast<uint64_t>(not_finite);
 }
 
+/// Dices a region's i-th subpatch.
+void dice(const Region& region, size_t i, const Tessellation& tessellation, ShadingGrid& grid,
+          DiceScratch& scratch) {
+    tessellation.dice(region.subpatches[i], grid, scratch);
+    grid.wanted = region.wanted.empty() ? nullptr : &region.wanted[i];
+}
+
 /// Dices, shades and packs subpatches from `first` on, one batch; returns the first that is left.
 size_t make_batch(const RenderContext& context, const Region& region, size_t first, size_t end,
                   const Tessellation& tessellation, const Shading& shading, GridMaker& maker) {
@@ -51,7 +58,7 @@ size_t make_batch(const RenderContext& context, const Region& region, size_t fir
     for (; next < end && vertices < most; ++next) {
         if (maker.shading_grids.size() <= batch.size()) maker.shading_grids.emplace_back();
         batch.push_back(&maker.shading_grids[batch.size()]);
-        tessellation.dice(region.subpatches[next], *batch.back(), maker.dice_scratch);
+        dice(region, next, tessellation, *batch.back(), maker.dice_scratch);
         vertices += batch.back()->vertex_count();
     }
     maker.dice_seconds += watch.lap();
@@ -117,7 +124,7 @@ void make_few(const RenderContext& context, const Region& region, const Tessella
     std::vector<ShadingGrid> grids(region.subpatches.size());
     for_each_alone(context, grids.size(), makers, [&](size_t i, GridMaker& maker) {
         Stopwatch watch;
-        tessellation.dice(region.subpatches[i], grids[i], maker.dice_scratch);
+        dice(region, i, tessellation, grids[i], maker.dice_scratch);
         maker.dice_seconds += watch.lap();
     });
     if (context.is_cancelled()) return;

@@ -8,6 +8,7 @@
 
 #include "core/samples.h"
 #include "core/scene/camera.h"
+#include "core/scene/vertex_set.h"
 #include "tessellate/tessellate.h"
 
 namespace trapeze {
@@ -18,6 +19,8 @@ struct Region {
     PixelRect pixels;
     std::vector<uint32_t> subpatches;
     size_t estimated_bytes = 0;  ///< of grids and tree
+    /// Of each subpatch, the vertices whose colours are wanted; empty: all of all.
+    std::vector<VertexSet> wanted{};
 };
 
 /// What regions must keep to.

@@ -104,9 +104,10 @@ bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRe
         Region region = regions[r];
         if (frame.culls_hidden) {
             recorder.begin_cull();
-            region.subpatches = recorder.timed(&StageSeconds::cull, [&] {
-                return seen_subpatches(frame.context, region, frame.tessellation, frame.shading,
-                                       frame.sampler, frame.pattern, layer_limits(frame), recorder.stats());
+            recorder.timed(&StageSeconds::cull, [&] {
+                leave_out_hidden(frame.context, region, frame.tessellation, frame.shading, frame.sampler,
+                                 frame.pattern, layer_limits(frame), recorder.stats());
+                return true;
             });
         }
         recorder.begin_grids(r, regions.size(), region.subpatches.size());

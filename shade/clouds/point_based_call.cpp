@@ -98,11 +98,12 @@ bool PointBasedCall::set_space() {
 void PointBasedCall::run(PointBasedScratch& scratch) const {
     const bool uniform = std::ranges::none_of(operands_.first(step_.outputs),
                                               [](const Operand& out) { return out.lane_mask != 0; });
-    for_each_asking_lane(run_, [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
-        look(asking.lane, aside_of(span, vertex), scratch);
-        put(asking, scratch.raster, sky_over(asking.lane, scratch));
-        return !uniform;
-    });
+    set_unwanted_lanes(run_, operands_.first(step_.outputs));
+    for_each_asking_lane(run_, uniform,
+                         [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
+                             look(asking.lane, aside_of(span, vertex), scratch);
+                             put(asking, scratch.raster, sky_over(asking.lane, scratch));
+                         });
 }
 
 /// Lanes mostly ask for the same part of the sky.

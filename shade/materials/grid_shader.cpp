@@ -175,7 +175,7 @@ vm::Batch batch_of(std::span<const ShadingGrid* const> grids, bool shared) {
             span.reverse_orientation = grid->reverse_orientation;
             span.hit_vertex = grid->hit_vertex;
             span.steps = steps_of_face(*grid, first / in_piece);
-            if (!shared) span.grid = grid;
+            if (!shared) span.grid = grid, span.wanted = grid->wanted;
             batch.vertices += in_piece;
         }
     }

@@ -135,14 +135,14 @@ std::vector<RayLane> RayCalls::lanes_of(Run& run, const Step& step, bool uniform
     std::vector<uint32_t>& calls = calls_[&step];
     calls.resize(std::max(calls.size(), run.lanes()));
     std::vector<RayLane> lanes;
-    for_each_asking_lane(run, [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
-        const uint32_t grid = hash(static_cast<uint32_t>(span.seed), static_cast<uint32_t>(span.seed >> 32),
-                                   asker_.service().seed);
-        const size_t lane = asking.lane;
-        lanes.push_back({lane, hash(grid, static_cast<uint32_t>(vertex), step.first, calls[lane]++),
-                         asking.first, asking.count, span.grid, span.first, bend_of(span.grid)});
-        return !uniform;
-    });
+    for_each_asking_lane(
+        run, uniform, [&](const vm::GridSpan& span, size_t vertex, const AskingLane& asking) {
+            const uint32_t grid = hash(static_cast<uint32_t>(span.seed),
+                                       static_cast<uint32_t>(span.seed >> 32), asker_.service().seed);
+            const size_t lane = asking.lane;
+            lanes.push_back({lane, hash(grid, static_cast<uint32_t>(vertex), step.first, calls[lane]++),
+                             asking.first, asking.count, span.grid, span.first, bend_of(span.grid)});
+        });
     return lanes;
 }
 
@@ -161,6 +161,7 @@ Task<> RayCalls::trace(Run& run, const Step& step, std::span<const Operand> oper
     const V3f nothing(result_of_nothing(step.op, call.colors));
     if (!run.context().batch) co_return put(out, {}, nothing);
     const std::vector<RayLane> lanes = lanes_of(run, step, !out.lane_mask);
+    set_unwanted_lanes(run, operands.first(step.outputs));
     if (step.op == Op::IndirectDiffuse && !arguments.map().empty()) co_return look_at_sky(call, out, lanes);
     const size_t most = rays_at_once(*asker_.service().scene);
     for (size_t first = 0; first < lanes.size();) {

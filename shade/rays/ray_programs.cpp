@@ -72,7 +72,60 @@ bool sets_opacity(const rsl::Program& program, const Allowed& allowed) {
     });
 }
 
+/// Whether an operation may tell what rays have found.
+bool tells_of_rays(Op op) {
+    using rsl::ContextFamily;
+    const ContextFamily context = rsl::row_of(op).context;
+    return rsl::sends_rays(op) || context == ContextFamily::Lights || context == ContextFamily::Messages ||
+           op == Op::Environment || op == Op::Shadow;
+}
+
+/// The registers of a program that may follow from what rays have told.
+class ToldRegisters {
+  public:
+    explicit ToldRegisters(const rsl::Program& program) : told_(program.registers.size()) {
+        for (const char* name : {"Cl", "Ol", "Ci"})
+            if (const rsl::RegisterId* const id = program.find_global(name)) told_[*id] = true;
+    }
+    bool told(rsl::RegisterId id) const { return told_[id]; }
+    bool any_input(const rsl::Instruction& i) const {
+        return std::any_of(i.operands.begin() + i.outputs, i.operands.end(),
+                           [this](rsl::RegisterId id) { return told_[id]; });
+    }
+    /// False when nothing is new.
+    bool follow(const rsl::Code& code) {
+        bool is_new = false;
+        for (const rsl::Instruction& i : code)
+            for (size_t k = 0; (tells_of_rays(i.op) || any_input(i)) && k < i.outputs; ++k) {
+                is_new = is_new || !told_[i.operands[k]];
+                told_[i.operands[k]] = true;
+            }
+        return is_new;
+    }
+
+  private:
+    std::vector<bool> told_;
+};
+
 }  // namespace
+
+bool keeps_answers_apart(const rsl::Program& program) {
+    std::vector<const rsl::Code*> codes{&program.code};
+    for (const rsl::ProgramParameter& parameter : program.parameters) codes.push_back(&parameter.initial);
+    ToldRegisters registers(program);
+    for (bool is_new = true; is_new;) {
+        is_new = false;
+        for (const rsl::Code* code : codes) is_new = registers.follow(*code) || is_new;
+    }
+    const auto spreads = [&](const rsl::Instruction& i) {
+        return i.op == Op::Gather ||
+               ((rsl::is_control(i.op) || rsl::reads_neighbours(i.op)) && registers.any_input(i));
+    };
+    const rsl::RegisterId* const Oi = program.find_global("Oi");
+    return !(Oi && registers.told(*Oi)) && std::ranges::none_of(codes, [&](const rsl::Code* code) {
+        return std::ranges::any_of(*code, spreads);
+    });
+}
 
 bool asks_for_rays(const BoundShader& shader, const std::set<std::string>* varied) {
     if (!asks(shader.program(), shader)) return false;

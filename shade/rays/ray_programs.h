@@ -20,6 +20,10 @@ bool changes_opacity(const rsl::Program& program);
 /// Whether a surface that is opaque when a program begins is so when it ends: it sets Oi to nothing but Os
 /// or 1.
 bool keeps_opaque(const rsl::Program& program);
+/// Whether what a vertex is told, by rays or by lights that ask for them, stays with the vertex: nothing that
+/// looks at neighbours follows from it, nor which way the program goes, nor the opacity. Then the vertices
+/// whose colour nobody wants need not be told.
+bool keeps_answers_apart(const rsl::Program& program);
 /// Whether a program says or writes anything besides its outputs.
 bool leaves_traces(const rsl::Program& program);
 

@@ -5,6 +5,7 @@
 
 #include "core/grid.h"
 #include "core/math.h"
+#include "core/scene/vertex_set.h"
 
 namespace trapeze {
 struct ShadingGrid;
@@ -20,7 +21,10 @@ struct GridSpan {
     uint64_t seed = 0;                  ///< of random numbers: the grid's own
     int hit_vertex = -1;                ///< the one that asks for rays, for all of the grid; -1: each does
     V2f steps{0, 0};                    ///< where not 0, Du and Dv are differences along the axes over these
+    const VertexSet* wanted = nullptr;  ///< the vertices that ask for rays; null: all
     const ShadingGrid* grid = nullptr;  ///< null where it is a piece, or there is none
+
+    bool wants(size_t vertex) const { return !wanted || wanted->test(vertex); }
 };
 
 }  // namespace trapeze::vm
