@@ -75,6 +75,8 @@ struct Shading::Impl {
             report_missing_aovs(aovs, materials, render.scene->options, *render.diagnostics);
         for (uint32_t i = 0; i < render.scene->primitives.size(); ++i)
             volumes.add(i, materials.of(i).interior, materials.of(i).exterior);
+        for (const Material& material : materials.all())
+            if (tells_vertices_apart(material)) apart.insert(&material);
     }
 
     Task<> shade(std::span<ShadingGrid* const> grids, ShadeScratch& scratch, ShadeStats& stats, int depth,
@@ -95,6 +97,7 @@ struct Shading::Impl {
     Materials materials;
     AovLayout aovs;
     VolumeTable volumes;
+    std::set<const Material*> apart;  ///< tells_vertices_apart()
     size_t batch_vertices() const {
         constexpr size_t kFew = 256, kMany = 4096, kRaysOfVertex = 16;
         return rays ? std::clamp(rays->rays_at_once() / kRaysOfVertex, kFew, kMany) : kFew;
@@ -269,7 +272,7 @@ bool Shading::may_stay_unshaded(uint32_t primitive) const {
 }
 
 bool Shading::may_ask_for_some(uint32_t primitive) const {
-    return tells_vertices_apart(impl_->materials.of(primitive));
+    return impl_->apart.contains(&impl_->materials.of(primitive));
 }
 
 bool Shading::hides_for_sure(uint32_t primitive) const {

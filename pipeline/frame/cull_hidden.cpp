@@ -48,13 +48,6 @@ Grids plain_grids(const RenderContext& context, const std::vector<uint32_t>& can
     return collect_grids(makers);
 }
 
-/// By primitive, Shading::may_ask_for_some().
-std::vector<bool> asked_in_part(const Scene& scene, const Shading& shading) {
-    std::vector<bool> in_part;
-    for (uint32_t i = 0; i < scene.primitives.size(); ++i) in_part.push_back(shading.may_ask_for_some(i));
-    return in_part;
-}
-
 /// What a thread needs to look at tiles.
 struct TileLooker {
     SampleTile samples;
@@ -144,7 +137,6 @@ void leave_out_hidden(const RenderContext& context, Region& region, const Tessel
     const std::unique_ptr<Visibility> visibility = sampler.prepare(context, grids);
     const auto seen = seen_micropolygons(context, region.pixels, grids, *visibility, pattern, limits);
     if (!seen) return;
-    const std::vector<bool> in_part = asked_in_part(*context.scene, shading);
     for (size_t g = 0; g < grids.grids.size(); ++g) {
         const Grid& grid = grids.grids[g];
         const VertexSet corners = seen->corners(g);
@@ -153,7 +145,8 @@ void leave_out_hidden(const RenderContext& context, Region& region, const Tessel
             stats.unshaded_vertices += static_cast<uint64_t>(grid.shape.vertex_count());
             continue;
         }
-        wanted[static_cast<uint32_t>(grid.ordinal)] = in_part[grid.primitive] ? corners : ~VertexSet();
+        wanted[static_cast<uint32_t>(grid.ordinal)] =
+            shading.may_ask_for_some(grid.primitive) ? corners : ~VertexSet();
     }
     region.subpatches.clear();
     for (const auto& [subpatch, vertices] : wanted) {
