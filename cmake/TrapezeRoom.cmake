@@ -44,12 +44,13 @@ function(trapeze_room_test name program tests links processes)
     trapeze_tests_of(${program} ${processes})
 endfunction()
 
-# trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... LINKS ... PRIVATE_LINKS ... PROCESSES N RARELY_RUN NO_LOOPS)
+# trapeze_room(NAME SOURCES ... TESTS ... PICTURE_TESTS ... LINKS ... PRIVATE_LINKS ... PROCESSES N
+#              RARELY_RUN NO_LOOPS)
 # A room is one static library and, when tests are built, one test program made of the tests beside its sources; those
 # that read or write pictures by OpenImageIO are a program of their own, for its 250 libraries take half a second to
-# load. PROCESSES: how many share the room's tests. Includes are written from the root of the repository: #include "core/grid.h". RARELY_RUN: what the room
-# does is little beside what it has done, and the compiler needs not look far. NO_LOOPS: it has none that -O3 makes
-# faster, as measured.
+# load. PROCESSES: how many share the room's tests. Includes are written from the root of the repository:
+# #include "core/grid.h". RARELY_RUN: what the room does is little beside what it has done, and the compiler needs not
+# look far. NO_LOOPS: it has none that -O3 makes faster, as measured.
 function(trapeze_room name)
     cmake_parse_arguments(ROOM "RARELY_RUN;NO_LOOPS" "PROCESSES"
                           "SOURCES;TESTS;PICTURE_TESTS;LINKS;PRIVATE_LINKS" ${ARGN})

@@ -107,7 +107,6 @@ bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRe
             recorder.timed(&StageSeconds::cull, [&] {
                 leave_out_hidden(frame.context, region, frame.tessellation, frame.shading, frame.sampler,
                                  frame.pattern, layer_limits(frame), recorder.stats());
-                return true;
             });
         }
         recorder.begin_grids(r, regions.size(), region.subpatches.size());
