@@ -58,11 +58,13 @@ struct HitsUntilOpaque {
     std::vector<Hit>& hits;  ///< empty at first; in no order, and some lie behind `last`
     Hit behind{-std::numeric_limits<float>::infinity(), 0};
     size_t most = std::numeric_limits<size_t>::max();
-    Hit last = kNoHit;    ///< nothing behind this counts
-    bool is_cut = false;  ///< as there are `most` hits up to it; else it is opaque, or there is none
+    Hit last = kNoHit;        ///< nothing behind this counts
+    bool may_repeat = false;  ///< a tree may show a hit several times; it counts once
+    bool is_cut = false;      ///< as there are `most` hits up to it; else it is opaque, or there is none
 
     void consider(const Hit& hit, bool opaque, TraceRay& ray) {
         if (!in_front(hit, last) || !in_front(behind, hit)) return;
+        if (may_repeat && std::find(hits.begin(), hits.end(), hit) != hits.end()) return;
         hits.push_back(hit);
         if (opaque) last = hit, is_cut = false, ray.t_max = hit.depth;
         // Twice as many, so that dropping takes the same time for each hit however many they are.

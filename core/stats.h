@@ -43,11 +43,17 @@ struct ShadeStats {
 /// What was built for finding hits: bytes held, nodes and leaves.
 struct BuildStats {
     uint64_t tree_bytes = 0, tree_nodes = 0, tree_leaves = 0;
+    /// Where micropolygons may be in several leaves: how often they are in all, how often more than once, and
+    /// how many nodes were cut for it.
+    uint64_t tree_references = 0, tree_duplicates = 0, tree_splits = 0;
+    bool lacked_budget = false;  ///< some node was not cut because there were references enough
     double setup_seconds =
         0;  ///< of the build: spent on copying to another library's buffers, not on the tree
 
     BuildStats& operator+=(const BuildStats& o) {
         tree_bytes += o.tree_bytes, tree_nodes += o.tree_nodes, tree_leaves += o.tree_leaves;
+        tree_references += o.tree_references, tree_duplicates += o.tree_duplicates;
+        tree_splits += o.tree_splits, lacked_budget |= o.lacked_budget;
         setup_seconds += o.setup_seconds;
         return *this;
     }

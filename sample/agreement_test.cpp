@@ -343,6 +343,15 @@ TEST_P(Agreement, EveryChoiceOfThePapersTreeFindsWhatBruteForceFinds) {
             << options;
 }
 
+TEST_P(Agreement, EveryChoiceOfInterpolatedBoxesFindsWhatBruteForceFinds) {
+    const auto truth = resolve(scene(), "bruteforce");
+    for (const std::string tree :
+         {"interpolated,bundle=off", "interpolated,keys=2,leaf=4", "interpolated,keys=1,bundle=off",
+          "msbvh,bundle=off", "msbvh,clip=box,keys=3", "msbvh,budget=8,leaf=4,ray_sort=off",
+          "msbvh,clip=box,budget=8,bundle=off,keys=2"})
+        EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=" + tree), truth), 0u) << tree;
+}
+
 TEST_P(Agreement, IntervalFindsWhatTestingEverythingFinds) {
     const auto truth = resolve_naively(scene(), IntervalPattern(scene().frame.context));
     EXPECT_EQ(differing_samples(resolve(scene(), "bruteforce", "interval"), truth), 0u);

@@ -29,6 +29,9 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
             {"tree_bytes", r.build.tree_bytes},
             {"tree_nodes", r.build.tree_nodes},
             {"tree_leaves", r.build.tree_leaves},
+            {"tree_references", r.build.tree_references},
+            {"tree_duplicates", r.build.tree_duplicates},
+            {"tree_splits", r.build.tree_splits},
             {"bytes_per_micropolygon", r.bytes_per_micropolygon()},
             {"micropolygons", r.micropolygons},
             {"tile_side", r.tile_side}};

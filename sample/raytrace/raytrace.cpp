@@ -1,6 +1,6 @@
 /// The row "raytrace": rays through a tree of grids, the fast one or the paper's.
 #include "accel/wide/wide_tree.h"
-#include "sample/raytrace/paper_raytrace.h"
+#include "sample/raytrace/binary_raytrace.h"
 #include "sample/raytrace/wide_raytrace.h"
 
 namespace trapeze {
@@ -8,20 +8,36 @@ namespace {
 
 const std::vector<SpecOption>& raytrace_options() {
     static const std::vector<SpecOption> options = {
-        {"tree", {"wide", "paper"}},           {"bundle", {"on", "off"}},
-        {"bounds", {"obb", "aabb", "aabb4d"}}, {"split", {"parametric", "sah"}},
-        {"orient_split", {"on", "off"}},       {"orient_propagation", {"on", "off"}},
-        {"ray_sort", {"on", "off"}},           {"leaf", {"8", "4", "16", "32"}},
+        {"tree", {"wide", "paper", "interpolated", "msbvh"}},
+        {"bundle", {"on", "off"}},
+        {"bounds", {"obb", "aabb", "aabb4d"}},
+        {"split", {"parametric", "sah"}},
+        {"orient_split", {"on", "off"}},
+        {"orient_propagation", {"on", "off"}},
+        {"ray_sort", {"on", "off"}},
+        {"leaf", {"8", "4", "16", "32"}},
+        {"keys", {"grids", "1", "2", "3", "5"}},
+        {"clip", {"polygon", "box"}},
+        {"budget", {"2", "1", "4", "8"}},
     };
     return options;
 }
 
-/// All options but "tree" choose what the paper's tree is like.
+/// The trees that an option but "tree" is for: names in the order of its values, separated by |.
+std::string_view trees_with(std::string_view option) {
+    if (option == "bundle" || option == "ray_sort" || option == "leaf") return "paper|interpolated|msbvh";
+    if (option == "keys") return "interpolated|msbvh";
+    if (option == "clip" || option == "budget") return "msbvh";
+    return "paper";
+}
+
 std::string check_raytrace(const MethodSpec& spec) {
-    if (spec["tree"] == "paper") return {};
-    for (const SpecOption& option : raytrace_options())
-        if (option.name != "tree" && spec[option.name] != option.values.front())
-            return "option \"" + std::string(option.name) + "\" is for tree=paper";
+    for (const SpecOption& option : raytrace_options()) {
+        if (option.name == "tree" || spec[option.name] == option.values.front()) continue;
+        const std::string trees(trees_with(option.name));
+        if (("|" + trees + "|").find("|" + std::string(spec["tree"]) + "|") == std::string::npos)
+            return "option \"" + std::string(option.name) + "\" is for tree=" + trees;
+    }
     return {};
 }
 
@@ -37,7 +53,7 @@ VisibilityMethod raytrace_method() {
                 // The wide tree's ids are of 32 bits; the hits are the same.
                 const bool fits = input.grids.grids.size() <= WideTree::kMaxGrids;
                 return input.spec["tree"] == "wide" && fits ? prepare_wide_raytrace(input)
-                                                            : prepare_paper_raytrace(input);
+                                                            : prepare_binary_raytrace(input);
             },
             check_raytrace,
             true,

@@ -1,7 +1,8 @@
-#include "sample/raytrace/paper_raytrace.h"
+#include "sample/raytrace/binary_raytrace.h"
 
 #include <algorithm>
 
+#include "accel/moving/moving_tree.h"
 #include "accel/paper/micropolygon_tree.h"
 #include "accel/paper/paper_tree.h"
 #include "accel/paper/top_level.h"
@@ -14,7 +15,8 @@ namespace {
 /// Rays of a beam. 64 to 512 are within 10 % of each other in tests/bench/trace_bench.cpp.
 constexpr size_t kGroupSize = 128;
 
-PaperTreeOptions tree_options(const MethodSpec& spec) {
+template <class Tree>
+auto tree_options(const MethodSpec& spec) {
     using Bounds = PaperTreeOptions::Bounds;
     PaperTreeOptions options;
     if (spec["bounds"] == "aabb") options.bounds = Bounds::AxisAligned;
@@ -25,28 +27,50 @@ PaperTreeOptions tree_options(const MethodSpec& spec) {
     return options;
 }
 
-/// What a thread needs for rays through the paper's tree.
-struct PaperScratch {
+template <>
+auto tree_options<MovingTree>(const MethodSpec& spec) {
+    MovingTreeOptions options;
+    options.leaf = spec.number("leaf");
+    options.keys = spec["keys"] == "grids" ? 0 : spec.number("keys");
+    if (spec["tree"] != "msbvh") return options;
+    options.budget = spec.number("budget");
+    if (spec["clip"] == "box") options.clipping = MovingTreeOptions::Clipping::Box;
+    return options;
+}
+
+/// Says where a tree had no budget left for cuts that it would have made.
+void tell_of_budget(const VisibilityInput& input, const BuildStats& stats) {
+    if (stats.lacked_budget && input.context.diagnostics)
+        input.context.diagnostics->note({},
+                                        "spatial splits ended with " + std::to_string(stats.tree_duplicates) +
+                                            " more references, as \"budget\" allows for",
+                                        "budget");
+}
+
+/// What a thread needs for rays through a binary tree.
+struct BinaryScratch {
     RayOrder rays;
     TopLevel tile_top, group_top;  ///< what of the tree the tile, and a group of its rays, may meet
     std::vector<Hit> hits;         ///< of one ray
 };
 
-/// `Tree` is PaperTree or MicropolygonTree.
+/// `Tree` is PaperTree, MicropolygonTree or MovingTree.
 template <class Tree>
-class PaperRayTraced final : public Visibility {
+class BinaryRayTraced final : public Visibility {
   public:
-    explicit PaperRayTraced(const VisibilityInput& input)
+    explicit BinaryRayTraced(const VisibilityInput& input)
         : bundles_(input.spec.is_on("bundle")),
           range_{input.context.camera.near_clip, input.context.camera.far_clip},
           sort_by_time_(input.context.motion && input.spec.is_on("ray_sort")),
           sort_by_direction_(input.context.camera.has_lens() && input.spec.is_on("ray_sort")),
           all_opaque_(every_grid_is_opaque(input.grids)),
-          tree_(input.grids, tree_options(input.spec)) {}
+          tree_(input.grids, tree_options<Tree>(input.spec)) {
+        tell_of_budget(input, tree_.stats());
+    }
 
     void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                  SampleStats& stats) const override {
-        order_rays(samples, {sort_by_time_, sort_by_direction_}, scratch.own.of<PaperScratch>().rays);
+        order_rays(samples, {sort_by_time_, sort_by_direction_}, scratch.own.of<BinaryScratch>().rays);
         SampleStats counted;  // on the stack, so that counting stays in registers
         if (all_opaque_)
             resolve_closest(samples, hits, scratch, counted);
@@ -63,7 +87,7 @@ class PaperRayTraced final : public Visibility {
     template <class TraceOne>
     void trace_in_order(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats,
                         TraceOne&& trace_one) const {
-        PaperScratch& own = scratch.own.of<PaperScratch>();
+        BinaryScratch& own = scratch.own.of<BinaryScratch>();
         const std::span<const uint32_t> order = own.rays.order;
         if (order.empty()) return;
         const auto trace_group = [&](std::span<const uint32_t> group, const TopLevel& part) {
@@ -106,12 +130,13 @@ class PaperRayTraced final : public Visibility {
         const LayerWindow& window = scratch.window;
         scratch.nearest.assign(samples.size(), kBehindAll);
         scratch.found.begin(samples.size(), window);
-        std::vector<Hit>& of_ray = scratch.own.of<PaperScratch>().hits;
+        std::vector<Hit>& of_ray = scratch.own.of<BinaryScratch>().hits;
         trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
             if (!window.wants(sample)) return;
             TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
             of_ray.clear();
             HitsUntilOpaque policy{of_ray};
+            policy.may_repeat = tree_.stats().tree_duplicates > 0;
             policy.most = std::min<size_t>(window.most, std::max<size_t>(1, window.room / 4));
             if (!window.behind.empty()) {
                 policy.behind = window.behind[sample];
@@ -135,9 +160,11 @@ class PaperRayTraced final : public Visibility {
 
 }  // namespace
 
-std::unique_ptr<Visibility> prepare_paper_raytrace(const VisibilityInput& input) {
-    if (input.spec["split"] == "sah") return std::make_unique<PaperRayTraced<MicropolygonTree>>(input);
-    return std::make_unique<PaperRayTraced<PaperTree>>(input);
+std::unique_ptr<Visibility> prepare_binary_raytrace(const VisibilityInput& input) {
+    if (input.spec["tree"] == "interpolated" || input.spec["tree"] == "msbvh")
+        return std::make_unique<BinaryRayTraced<MovingTree>>(input);
+    if (input.spec["split"] == "sah") return std::make_unique<BinaryRayTraced<MicropolygonTree>>(input);
+    return std::make_unique<BinaryRayTraced<PaperTree>>(input);
 }
 
 }  // namespace trapeze

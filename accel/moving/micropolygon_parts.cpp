@@ -1,0 +1,116 @@
+#include "accel/moving/micropolygon_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/hyper_trapezoid.h"
+
+namespace trapeze {
+namespace {
+
+using CornerWeights = std::array<double, 4>;
+
+/// A convex polygon while it is clipped: a triangle, and a vertex more for each of six planes.
+struct PartPolygon {
+    std::array<CornerWeights, 9> vertex;
+    size_t count = 0;
+
+    void add(const CornerWeights& weights) { vertex[count++] = weights; }
+};
+
+double coordinate_of(const CornerWeights& weights, const QuadPose& pose, int axis) {
+    double sum = 0;
+    for (size_t c = 0; c < 4; ++c) sum += weights[c] * static_cast<double>(pose[c][axis]);
+    return sum;
+}
+
+/// Keeps what is on one side of a plane: of coordinates times `sign` that are `at` times `sign` or more.
+PartPolygon clipped(const PartPolygon& from, const QuadPose& pose, int axis, double at, double sign) {
+    PartPolygon to;
+    for (size_t i = 0; i < from.count; ++i) {
+        const CornerWeights &a = from.vertex[i], &b = from.vertex[(i + 1) % from.count];
+        const double inside_a = sign * (coordinate_of(a, pose, axis) - at);
+        const double inside_b = sign * (coordinate_of(b, pose, axis) - at);
+        if (inside_a >= 0) to.add(a);
+        if ((inside_a >= 0) == (inside_b >= 0)) continue;
+        const double way = inside_a / (inside_a - inside_b);
+        CornerWeights crossing;
+        for (size_t c = 0; c < 4; ++c) crossing[c] = a[c] + way * (b[c] - a[c]);
+        to.add(crossing);
+    }
+    return to;
+}
+
+}  // namespace
+
+QuadPose pose_of(const Grid& grid, const MicropolygonId& id, float time01) {
+    QuadPose pose;
+    for (int c = 0; c < 4; ++c)
+        pose[static_cast<size_t>(c)] = grid.vertex(id.u + (c & 1), id.v + (c >> 1), time01);
+    return pose;
+}
+
+Box3f box_of(const QuadPose& pose) {
+    Box3f box;
+    for (const V3f& corner : pose) box.extendBy(corner);
+    return box;
+}
+
+Chopped chop(const QuadPose& pose, const Box3f& box, int axis, float at) {
+    Chopped parts;
+    for (const V3f& corner : pose) {
+        if (corner[axis] <= at) parts.low.extendBy(corner);
+        if (corner[axis] >= at) parts.high.extendBy(corner);
+    }
+    // The four sides, and the diagonal that both triangles have.
+    constexpr std::array<std::array<size_t, 2>, 5> kEdges{{{0, 1}, {1, 3}, {3, 2}, {2, 0}, {0, 3}}};
+    for (const auto& [i, j] : kEdges) {
+        const V3f &a = pose[i], &b = pose[j];
+        if ((a[axis] < at) == (b[axis] < at) || a[axis] == at || b[axis] == at) continue;
+        V3f crossing = a + (b - a) * ((at - a[axis]) / (b[axis] - a[axis]));
+        crossing[axis] = at;
+        parts.low.extendBy(crossing), parts.high.extendBy(crossing);
+    }
+    for (Box3f* part : {&parts.low, &parts.high})
+        for (int k = 0; k < 3; ++k)
+            part->min[k] = std::max(part->min[k], box.min[k]),
+            part->max[k] = std::min(part->max[k], box.max[k]);
+    return parts;
+}
+
+float part_slack(const QuadPose& pose) {
+    float largest = 0;
+    for (const V3f& corner : pose)
+        for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(corner[k]));
+    // A crossing is a difference, a quotient, a product and a sum: a few half-ulps of the largest coordinate.
+    return kBoundRounding * largest + 0x1p-80f;
+}
+
+MicropolygonPart::MicropolygonPart(const QuadPose& pose, const Box3f& box) {
+    const auto slack = static_cast<double>(part_slack(pose));
+    for (const auto& triangle : {std::array<size_t, 3>{0, 1, 3}, std::array<size_t, 3>{0, 3, 2}}) {
+        PartPolygon polygon;
+        for (const size_t corner : triangle) {
+            CornerWeights weights{};
+            weights[corner] = 1;
+            polygon.add(weights);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            polygon = clipped(polygon, pose, axis, static_cast<double>(box.min[axis]) - slack, 1);
+            polygon = clipped(polygon, pose, axis, static_cast<double>(box.max[axis]) + slack, -1);
+        }
+        for (size_t i = 0; i < polygon.count; ++i) weights_[count_++] = polygon.vertex[i];
+    }
+}
+
+Box3f MicropolygonPart::box_when(const QuadPose& pose) const {
+    Box3f box;
+    for (size_t i = 0; i < count_; ++i) {
+        V3f at;
+        for (int k = 0; k < 3; ++k) at[k] = static_cast<float>(coordinate_of(weights_[i], pose, k));
+        box.extendBy(at);
+    }
+    return box;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,243 @@
+/// Trees of boxes that are interpolated between keys, with spatial splits and without: they find what testing
+/// everything finds, and the wrong form of clipping does not.
+#include "accel/moving/moving_tree.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "accel/builders/grid_summary.h"
+#include "accel/builders/micropolygon_boxes.h"
+#include "accel/rays_harness.h"
+
+namespace trapeze {
+namespace {
+
+using testing::add_sheets;
+using testing::closest_naively;
+using testing::GridMaker;
+using testing::Noise;
+using Clipping = MovingTreeOptions::Clipping;
+
+/// Strips in all directions whose ends fly about, every eighth of them long: what spatial splits are for.
+void add_strips(GridMaker& maker, int count, int keys, Noise& noise) {
+    for (int n = 0; n < count; ++n) {
+        std::array<V3f, 3> from, along;
+        for (size_t pose = 0; pose < 3; ++pose)
+            from[pose] = noise.point(.4f), along[pose] = noise.point(n % 8 == 0 ? 4 : .3f);
+        const V3f middle = noise.point(3), across = noise.point(.15f);
+        maker.add(1, 1, keys, [&](int i, int j, float t) {
+            const auto between = [t](const std::array<V3f, 3>& p) {
+                return t < .5f ? p[0] + (p[1] - p[0]) * (2 * t) : p[1] + (p[2] - p[1]) * (2 * t - 1);
+            };
+            return middle + between(from) + between(along) * static_cast<float>(j) +
+                   across * static_cast<float>(i);
+        });
+    }
+}
+
+/// A ray towards some micropolygon, or along an axis.
+SpaceRay noisy_ray(const GridMaker& maker, Noise& noise, int round) {
+    SpaceRay ray{noise.point(4), V3f(0), noise(0, 1)};
+    if (round % 8 == 0) {
+        ray.direction[round / 8 % 3] = 1;
+        return ray;
+    }
+    const auto& grids = maker.grids().grids;
+    const Grid& grid = grids[noise.engine() % grids.size()];
+    const float u = noise(0, 1), v = noise(0, 1);
+    const V3f a = grid.vertex(0, 0, ray.time), b = grid.vertex(1, 0, ray.time),
+              c = grid.vertex(0, 1, ray.time);
+    const V3f at = a + (b - a) * u + (c - a) * v;
+    ray.direction = at.length2() < 1e3f ? at - ray.origin : noise.point(1);
+    return ray;
+}
+
+/// All kinds of motion, what cannot be bounded, twins in the same place, and points.
+void add_all_kinds(GridMaker& maker, Noise& noise) {
+    for (const int keys : {1, 2, 3, 5, 17}) add_strips(maker, 60, keys, noise);
+    add_sheets(maker, 6, 5, noise);
+    maker.add(2, 2, 1, [](int i, int j, float) { return V3f(3e38f * (i - 1), 3e38f * (j - 1), 3e38f); });
+    for (int twin = 0; twin < 40; ++twin) {
+        maker.add(1, 1, 2, [](int i, int j, float t) {
+            return V3f(4 * static_cast<float>(i) - 2, 3 * static_cast<float>(j) - 2,
+                       t + static_cast<float>(i + j));
+        });
+        maker.add(1, 1, 2, [](int, int, float t) { return V3f(t, 1, 2); });
+    }
+}
+
+/// How many of some rays in all directions see something else than by testing everything.
+int differing_rays(const GridMaker& maker, const MovingTree& tree, int rays) {
+    Noise noise;
+    SampleStats stats;
+    int differing = 0, hits = 0;
+    for (int round = 0; round < rays; ++round) {
+        const SpaceRay ray = noisy_ray(maker, noise, round);
+        const DepthRange range{noise(-1, 1), noise(2, 12)};
+        TraceRay trace_ray = TraceRay::turned(axis_ray(ray), range);
+        ClosestHit policy;
+        tree.trace(trace_ray, policy, stats);
+        differing += !(policy.best == closest_naively(maker.grids(), ray, range));
+        hits += policy.found();
+    }
+    EXPECT_GT(hits, rays / 2);
+    return differing;
+}
+
+TEST(MovingTree, FindsWhatTestingEverythingFinds) {
+    Noise noise;
+    GridMaker maker;
+    add_all_kinds(maker, noise);
+    for (const Clipping clipping : {Clipping::Polygon, Clipping::Box})
+        for (const double budget : {0., .5, 8.})
+            for (const int keys : {0, 1, 2, 3, 65})
+                for (const int leaf : {2, 8}) {
+                    if (budget == 0 && clipping == Clipping::Box) continue;
+                    const MovingTree tree(maker.grids(), {budget, clipping, keys, leaf});
+                    EXPECT_EQ(tree.top().key_count, keys == 0 ? 17 : keys);
+                    EXPECT_EQ(tree.repeats_hits(), budget > 0);
+                    EXPECT_EQ(differing_rays(maker, tree, 400), 0)
+                        << static_cast<int>(clipping) << ' ' << budget << ' ' << keys << ' ' << leaf;
+                }
+}
+
+/// The negative control: boxes of clipped polygons that move as whole boxes do lose hits [Gruenschloss11 fig.
+/// 3].
+TEST(MovingTree, LosesHitsWhenClippedNaively) {
+    Noise noise;
+    GridMaker maker;
+    add_strips(maker, 1000, 2, noise);
+    const MovingTree right(maker.grids(), {4, Clipping::Polygon}), wrong(maker.grids(), {4, Clipping::Naive});
+    EXPECT_GT(right.stats().tree_splits, 20u);
+    EXPECT_EQ(differing_rays(maker, right, 2000), 0);
+    EXPECT_GT(differing_rays(maker, wrong, 2000), 10);
+}
+
+TEST(MovingTree, LooksAtLessOfStillStripsWithSpatialSplits) {
+    Noise noise;
+    GridMaker maker;
+    add_strips(maker, 2000, 1, noise);
+    std::array<SampleStats, 2> stats;
+    for (const size_t splits : {0, 1}) {
+        const MovingTree tree(maker.grids(), {splits ? 4. : 0.});
+        Noise rays;
+        for (int round = 0; round < 2000; ++round) {
+            TraceRay ray = TraceRay::turned(axis_ray(noisy_ray(maker, rays, round)), {});
+            ClosestHit policy;
+            tree.trace(ray, policy, stats[splits]);
+        }
+    }
+    EXPECT_LT(stats[1].predicate_tests, stats[0].predicate_tests * 4 / 5);
+    EXPECT_LT(stats[1].nodes_visited, stats[0].nodes_visited * 4 / 5);
+}
+
+TEST(MovingTree, ShowsTransparentHitsOnce) {
+    Noise noise;
+    GridMaker maker;
+    add_strips(maker, 400, 2, noise);
+    const MovingTree plain(maker.grids()), cut(maker.grids(), {4});
+    SampleStats stats;
+    size_t layers = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const TraceRay ray = TraceRay::turned(axis_ray(noisy_ray(maker, noise, round)), {});
+        std::vector<Hit> all[2];
+        for (const size_t side : {0, 1}) {
+            HitsUntilOpaque policy{all[side]};
+            policy.may_repeat = side == 1;
+            TraceRay copy = ray;
+            // As if all were transparent.
+            struct Transparent {
+                HitsUntilOpaque& to;
+                void consider(const Hit& hit, bool, TraceRay& r) { to.consider(hit, false, r); }
+            } transparent{policy};
+            (side == 0 ? plain : cut).trace(copy, transparent, stats);
+            std::sort(all[side].begin(), all[side].end(), in_front);
+        }
+        ASSERT_EQ(all[0], all[1]);
+        layers += all[0].size();
+    }
+    EXPECT_GT(layers, 1000u);
+}
+
+TEST(MovingTree, KeepsToItsBudget) {
+    Noise noise;
+    GridMaker maker;
+    add_strips(maker, 1000, 2, noise);
+    for (const double budget : {0., .1, 1., 8.}) {
+        const BuildStats stats = MovingTree(maker.grids(), {budget}).stats();
+        EXPECT_LE(stats.tree_duplicates, static_cast<uint64_t>(1000 * budget));
+        EXPECT_EQ(stats.tree_references, 1000 + stats.tree_duplicates);
+        EXPECT_EQ(stats.tree_splits > 0, budget > 0);
+        if (budget != 1) {
+            EXPECT_EQ(stats.lacked_budget, budget == .1) << budget;
+        }
+    }
+}
+
+TEST(MovingTree, IsTheSameFromAnyNumberOfThreads) {
+    Noise noise;
+    GridMaker maker;
+    add_strips(maker, 3000, 2, noise);
+    std::vector<TopLevel> tops;
+    for (const int threads : {1, 2, 7}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<size_t>(threads));
+        tbb::task_arena arena(threads);
+        arena.execute([&] { tops.push_back(MovingTree(maker.grids(), {2}).top()); });
+    }
+    for (const size_t other : {1, 2}) {
+        ASSERT_EQ(tops[0].nodes.size(), tops[other].nodes.size());
+        for (size_t i = 0; i < tops[0].nodes.size(); ++i)
+            ASSERT_EQ(tops[0].nodes[i].link.value, tops[other].nodes[i].link.value);
+        for (size_t i = 0; i < tops[0].boxes.size(); ++i)
+            for (int k = 0; k < 3; ++k) {
+                ASSERT_EQ(tops[0].boxes[i].low[k], tops[other].boxes[i].low[k]);
+                ASSERT_EQ(tops[0].boxes[i].high[k], tops[other].boxes[i].high[k]);
+            }
+    }
+}
+
+TEST(MovingTree, OfNothingHasNothing) {
+    const Grids none;
+    const MovingTree tree(none, {2});
+    EXPECT_EQ(tree.stats().tree_nodes, 0u);
+    TraceRay ray = TraceRay::turned(axis_ray({V3f(0), V3f(0, 0, 1), 0}), {});
+    ClosestHit policy;
+    SampleStats stats;
+    tree.trace(ray, policy, stats);
+    EXPECT_FALSE(policy.found());
+}
+
+/// Every reference's box holds what its micropolygon has there: together they hold all of it.
+TEST(SpatialTopology, ReferencesHoldAllOfTheirMicropolygons) {
+    Noise noise;
+    GridMaker maker;
+    add_strips(maker, 2000, 3, noise);
+    std::vector<MicropolygonId> ids;
+    std::vector<SahItem> items;
+    micropolygon_items(maker.grids(), framed_summaries(maker.grids(), {}), ids, items);
+    for (const bool tight : {true, false}) {
+        const SpatialTopology topology = build_spatial_topology(
+            items, maker.grids(), ids, {.leaf_below = 4, .budget = 8000, .tight = tight});
+        EXPECT_GT(topology.splits, 20u);
+        std::vector<std::vector<Box3f>> boxes(ids.size());
+        for (const SahItem& reference : topology.references)
+            boxes[PartId::index(reference.id)].push_back(reference.box);
+        for (size_t id = 0; id < ids.size(); ++id) {
+            const QuadPose pose = pose_of(maker.grids().grids[ids[id].grid], ids[id], .5f);
+            for (int n = 0; n < 20; ++n) {
+                const float v = noise(0, 1), u = noise(0, 1);
+                const V3f a = pose[0] + (pose[3] - pose[0]) * v;
+                const V3f b = n % 2 ? pose[1] : pose[2], point = a + (b - a) * u;
+                const V3f slack(2 * part_slack(pose));
+                EXPECT_TRUE(std::any_of(boxes[id].begin(), boxes[id].end(), [&](const Box3f& box) {
+                    return Box3f(box.min - slack, box.max + slack).intersects(point);
+                })) << id;
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace trapeze
