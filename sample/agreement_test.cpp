@@ -348,7 +348,7 @@ TEST_P(Agreement, EveryChoiceOfInterpolatedBoxesFindsWhatBruteForceFinds) {
     for (const std::string tree :
          {"interpolated,bundle=off", "interpolated,keys=2,leaf=4", "interpolated,keys=1,bundle=off",
           "msbvh,bundle=off", "msbvh,clip=box,keys=3", "msbvh,budget=8,leaf=4,ray_sort=off",
-          "msbvh,clip=box,budget=8,bundle=off,keys=2"})
+          "msbvh,clip=box,budget=8,bundle=off,keys=2", "lbvh,bundle=off", "lbvh,leaf=4,keys=2"})
         EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=" + tree), truth), 0u) << tree;
 }
 

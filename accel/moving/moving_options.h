@@ -14,6 +14,12 @@ struct MovingTreeOptions {
         Naive     ///< the box of its polygon moves so: hits are lost [Gruenschloss11 fig. 3]
     };
 
+    /// What divides micropolygons at mid-shutter.
+    enum class Topology {
+        Sah,    ///< the surface area heuristic, with spatial splits where there is a budget for them
+        Morton  ///< the order of Morton codes [Lauterbach09]
+    };
+
     /// Spatial splits: parts that may be added, for each micropolygon; 0: none are made.
     double budget = 0;
     Clipping clipping = Clipping::Polygon;
@@ -21,6 +27,7 @@ struct MovingTreeOptions {
     int keys = 0;
     /// Leaves have fewer micropolygons, or parts.
     int leaf = 8;
+    Topology topology = Topology::Sah;
 };
 
 }  // namespace trapeze

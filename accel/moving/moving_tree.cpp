@@ -1,6 +1,7 @@
 #include "accel/moving/moving_tree.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -9,9 +10,12 @@
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
 #include "accel/moving/key_boxes.h"
+#include "accel/moving/linear_topology.h"
 
 namespace trapeze {
 namespace {
+
+constexpr int kParallelLevels = 7;  ///< levels whose subtrees are bounded in parallel
 
 /// Boxes of one micropolygon at the keys of its grid.
 struct GridKeyBoxes {
@@ -78,7 +82,9 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : g
     spatial.budget = static_cast<size_t>(options.budget * static_cast<double>(items.size()));
     // The boxes of the second form have to hold all of the whole box together.
     spatial.tight = options.clipping != MovingTreeOptions::Clipping::Box;
-    SpatialTopology topology = build_spatial_topology(items, grids, ids, spatial);
+    SpatialTopology topology = options.topology == MovingTreeOptions::Topology::Morton
+                                   ? build_linear_topology(items, spatial.leaf_below)
+                                   : build_spatial_topology(items, grids, ids, spatial);
 
     items = {};
     leaf_first_ = std::move(topology.leaf_first);
@@ -91,38 +97,47 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : g
         std::sort(topology.references.begin() + leaf_first_[i],
                   topology.references.begin() + leaf_first_[i + 1], by_id);
     });
-    std::vector<Box3f> boxes((leaf_first_.size() - 1) * static_cast<size_t>(top_.key_count));
-    std::vector<TopLevel::Node> leaves(leaf_first_.size() - 1);
-    bound_leaves({summaries, ids, options}, topology, boxes, leaves);
-    bound_nodes(topology.tree, boxes, leaves);
+    const size_t leaf_count = leaf_first_.size() - 1;
+    if (leaf_count > 0) {
+        top_.nodes.resize(2 * leaf_count - 1);
+        top_.boxes.resize(top_.nodes.size() * static_cast<size_t>(top_.key_count));
+        bound_leaves({summaries, ids, options}, topology);
+        bound_below(topology.tree, topology.tree.root, top_.nodes.size() - 1, 0);
+    }
 
     micropolygons_.resize(topology.references.size());
-    for (size_t i = 0; i < micropolygons_.size(); ++i)
-        micropolygons_[i] = ids[PartId::index(topology.references[i].id)];
+    tbb::parallel_for(size_t{0}, micropolygons_.size(),
+                      [&](size_t i) { micropolygons_[i] = ids[PartId::index(topology.references[i].id)]; });
     stats_.tree_bytes = sizeof(*this) + top_.bytes() + micropolygons_.capacity() * sizeof(MicropolygonId) +
                         leaf_first_.capacity() * sizeof(uint32_t);
     stats_.tree_nodes = top_.nodes.size();
-    stats_.tree_leaves = leaves.size();
+    stats_.tree_leaves = leaf_count;
     stats_.tree_references = micropolygons_.size();
     stats_.tree_duplicates = micropolygons_.size() - ids.size();
     stats_.tree_splits = topology.splits;
     stats_.lacked_budget = topology.lacked_budget;
 }
 
-void MovingTree::bound_leaves(const Sources& sources, const SpatialTopology& topology,
-                              std::vector<Box3f>& boxes, std::vector<TopLevel::Node>& leaves) const {
+void MovingTree::bound_leaves(const Sources& sources, const SpatialTopology& topology) {
     const auto keys = static_cast<size_t>(top_.key_count);
-    tbb::parallel_for(size_t{0}, leaves.size(), [&](size_t i) {
-        const std::span<Box3f> of_leaf = std::span(boxes).subspan(i * keys, keys);
-        std::array<Box3f, kMaxKeyCount> at_keys;
+    std::vector<size_t> node_of_leaf(leaf_first_.size() - 1, top_.nodes.size() - 1);
+    for (size_t i = 0; i < topology.tree.inner.size(); ++i)
+        for (const size_t side : {0, 1}) {
+            const TopLink link = topology.tree.inner[i][side];
+            if (link.is_leaf()) node_of_leaf[link.index()] = 2 * i + side;
+        }
+    tbb::parallel_for(size_t{0}, node_of_leaf.size(), [&](size_t i) {
+        std::array<Box3f, kMaxKeyCount> of_leaf, at_keys;
+        std::fill_n(of_leaf.begin(), keys, Box3f());
         GridKeyBoxes of_grid;
-        leaves[i].link = TopLink::leaf(static_cast<uint32_t>(i));
+        TopLevel::Node& node = top_.nodes[node_of_leaf[i]];
+        node.link = TopLink::leaf(static_cast<uint32_t>(i));
         for (size_t r = leaf_first_[i]; r < leaf_first_[i + 1]; ++r) {
             const SahItem& reference = topology.references[r];
             const MicropolygonId& id = sources.ids[PartId::index(reference.id)];
             const GridSummary& summary = sources.summaries[id.grid];
-            leaves[i].absolute_max = std::max(leaves[i].absolute_max, summary.absolute_max);
-            leaves[i].quad_extent = std::max(leaves[i].quad_extent, summary.quad_extent);
+            node.absolute_max = std::max(node.absolute_max, summary.absolute_max);
+            node.quad_extent = std::max(node.quad_extent, summary.quad_extent);
             if (std::isfinite(summary.absolute_max)) {
                 boxes_at_keys(grids_.grids[id.grid], id, reference, sources.options.clipping, of_grid);
             } else {  // its rounding makes any box infinite
@@ -131,42 +146,34 @@ void MovingTree::bound_leaves(const Sources& sources, const SpatialTopology& top
             keyed_boxes(of_grid.all(), std::span(at_keys).first(keys));
             for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(at_keys[key]);
         }
+        KeyBox* const to = top_.boxes.data() + node_of_leaf[i] * keys;
+        for (size_t key = 0; key < keys; ++key)
+            for (int k = 0; k < 3; ++k)
+                to[key].low[k] = of_leaf[key].min[k], to[key].high[k] = of_leaf[key].max[k];
     });
 }
 
-void MovingTree::bound_nodes(const TopTopology& topology, const std::vector<Box3f>& boxes,
-                             const std::vector<TopLevel::Node>& leaves) {
-    if (leaves.empty()) return;
+void MovingTree::bound_below(const TopTopology& topology, TopLink link, size_t node, int depth) {
+    if (link.is_leaf()) return;
     const auto keys = static_cast<size_t>(top_.key_count);
-    const auto set_box = [&](size_t node, size_t key, const Box3f& box) {
+    const size_t low = 2 * size_t{link.index()}, high = low + 1;
+    const auto& [low_link, high_link] = topology.inner[link.index()];
+    if (depth < kParallelLevels)
+        tbb::parallel_invoke([&, l = low_link] { bound_below(topology, l, low, depth + 1); },
+                             [&, l = high_link] { bound_below(topology, l, high, depth + 1); });
+    else
+        bound_below(topology, low_link, low, depth + 1), bound_below(topology, high_link, high, depth + 1);
+    const TopLevel::Node &a = top_.nodes[low], &b = top_.nodes[high];
+    top_.nodes[node] = {std::max(a.absolute_max, b.absolute_max), std::max(a.quad_extent, b.quad_extent),
+                        link};
+    for (size_t key = 0; key < keys; ++key) {
+        const KeyBox &of_a = top_.boxes[low * keys + key], &of_b = top_.boxes[high * keys + key];
         KeyBox& to = top_.boxes[node * keys + key];
-        for (int k = 0; k < 3; ++k) to.low[k] = box.min[k], to.high[k] = box.max[k];
-    };
-    top_.nodes.resize(2 * leaves.size() - 1);
-    top_.boxes.resize(top_.nodes.size() * keys);
-    const auto set_node = [&](size_t node, TopLink link) {
-        if (link.is_leaf()) {
-            top_.nodes[node] = leaves[link.index()];
-            for (size_t key = 0; key < keys; ++key) set_box(node, key, boxes[link.index() * keys + key]);
-            return;
+        for (int k = 0; k < 3; ++k) {
+            to.low[k] = std::min(of_a.low[k], of_b.low[k]);
+            to.high[k] = std::max(of_a.high[k], of_b.high[k]);
         }
-        const size_t low = 2 * size_t{link.index()}, high = low + 1;
-        const TopLevel::Node &a = top_.nodes[low], &b = top_.nodes[high];
-        top_.nodes[node] = {std::max(a.absolute_max, b.absolute_max), std::max(a.quad_extent, b.quad_extent),
-                            link};
-        for (size_t key = 0; key < keys; ++key) {
-            const KeyBox &of_a = top_.boxes[low * keys + key], &of_b = top_.boxes[high * keys + key];
-            KeyBox& to = top_.boxes[node * keys + key];
-            for (int k = 0; k < 3; ++k) {
-                to.low[k] = std::min(of_a.low[k], of_b.low[k]);
-                to.high[k] = std::max(of_a.high[k], of_b.high[k]);
-            }
-        }
-    };
-    // Inner nodes are in preorder: what is below one comes after it.
-    for (size_t i = topology.inner.size(); i-- > 0;)
-        for (const size_t side : {0, 1}) set_node(2 * i + side, topology.inner[i][side]);
-    set_node(top_.nodes.size() - 1, topology.root);
+    }
 }
 
 }  // namespace trapeze

@@ -2,7 +2,7 @@
 /// time of a ray [Christensen06]: what all papers on moving boxes compare with. With a budget for spatial
 /// splits it is the MSBVH [Gruenschloss11]: its topology is that of micropolygons at mid-shutter where planes
 /// may cut them [Stich09], and a leaf's boxes are those of the parts that it refers to, wherever they are at
-/// the keys.
+/// the keys. Or it is a linear tree [Lauterbach09], which is built fastest.
 ///
 /// Departs from the papers: micropolygons instead of triangles; the one predicate, which also decides in
 /// which order hits are; boxes are grown for rounding, and the depth at which they are entered is taken less
@@ -48,10 +48,10 @@ class MovingTree {
   private:
     struct Sources;
 
-    void bound_leaves(const Sources& sources, const SpatialTopology& topology, std::vector<Box3f>& boxes,
-                      std::vector<TopLevel::Node>& leaves) const;
-    void bound_nodes(const TopTopology& topology, const std::vector<Box3f>& boxes,
-                     const std::vector<TopLevel::Node>& leaves);
+    /// Bounds nodes that are leaves.
+    void bound_leaves(const Sources& sources, const SpatialTopology& topology);
+    /// Bounds the node of an inner link, and all inner ones below it, by their children.
+    void bound_below(const TopTopology& topology, TopLink link, size_t node, int depth);
     /// By id, so that neighbours are tested together.
     std::span<const MicropolygonId> leaf(uint32_t index) const {
         return std::span(micropolygons_)

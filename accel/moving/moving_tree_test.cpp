@@ -8,6 +8,7 @@
 
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
+#include "accel/moving/linear_topology.h"
 #include "accel/rays_harness.h"
 
 namespace trapeze {
@@ -102,6 +103,35 @@ TEST(MovingTree, FindsWhatTestingEverythingFinds) {
                 }
 }
 
+TEST(MovingTree, InTheOrderOfMortonCodesFindsWhatTestingEverythingFinds) {
+    Noise noise;
+    GridMaker maker;
+    add_all_kinds(maker, noise);
+    for (const int keys : {0, 2})
+        for (const int leaf : {2, 8}) {
+            const MovingTree tree(
+                maker.grids(), {.keys = keys, .leaf = leaf, .topology = MovingTreeOptions::Topology::Morton});
+            EXPECT_FALSE(tree.repeats_hits());
+            EXPECT_EQ(differing_rays(maker, tree, 400), 0) << keys << ' ' << leaf;
+        }
+}
+
+/// Codes divide space by halves: what is left of a plane's middle is below what is right of it.
+TEST(LinearTopology, DividesByTheHighestBit) {
+    std::vector<SahItem> items;
+    for (const float x : {.9f, .1f, .6f, .2f, .4f, .0f, 1.f})
+        items.push_back({Box3f(V3f(x, 0, 0)), 1, static_cast<uint32_t>(items.size())});
+    const SpatialTopology topology = build_linear_topology(items, 2);
+    std::vector<float> xs;
+    for (const SahItem& reference : topology.references) xs.push_back(reference.box.min.x);
+    EXPECT_EQ(xs, (std::vector<float>{0, .1f, .2f, .4f, .6f, .9f, 1}));
+    EXPECT_EQ(topology.tree.inner.size(), 6u);
+    // The root's lower side is what lies below a half.
+    const TopLink high = topology.tree.inner[0][1];
+    ASSERT_FALSE(high.is_leaf());
+    EXPECT_EQ(high.index(), 4u);
+}
+
 /// The negative control: boxes of clipped polygons that move as whole boxes do lose hits [Gruenschloss11 fig.
 /// 3].
 TEST(MovingTree, LosesHitsWhenClippedNaively) {
@@ -179,22 +209,26 @@ TEST(MovingTree, IsTheSameFromAnyNumberOfThreads) {
     Noise noise;
     GridMaker maker;
     add_strips(maker, 3000, 2, noise);
-    std::vector<TopLevel> tops;
-    for (const int threads : {1, 2, 7}) {
-        const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                          static_cast<size_t>(threads));
-        tbb::task_arena arena(threads);
-        arena.execute([&] { tops.push_back(MovingTree(maker.grids(), {2}).top()); });
-    }
-    for (const size_t other : {1, 2}) {
-        ASSERT_EQ(tops[0].nodes.size(), tops[other].nodes.size());
-        for (size_t i = 0; i < tops[0].nodes.size(); ++i)
-            ASSERT_EQ(tops[0].nodes[i].link.value, tops[other].nodes[i].link.value);
-        for (size_t i = 0; i < tops[0].boxes.size(); ++i)
-            for (int k = 0; k < 3; ++k) {
-                ASSERT_EQ(tops[0].boxes[i].low[k], tops[other].boxes[i].low[k]);
-                ASSERT_EQ(tops[0].boxes[i].high[k], tops[other].boxes[i].high[k]);
-            }
+    for (const auto topology : {MovingTreeOptions::Topology::Sah, MovingTreeOptions::Topology::Morton}) {
+        std::vector<TopLevel> tops;
+        for (const int threads : {1, 2, 7}) {
+            const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                              static_cast<size_t>(threads));
+            tbb::task_arena arena(threads);
+            arena.execute([&] {
+                tops.push_back(MovingTree(maker.grids(), {.budget = 2, .topology = topology}).top());
+            });
+        }
+        for (const size_t other : {1, 2}) {
+            ASSERT_EQ(tops[0].nodes.size(), tops[other].nodes.size());
+            for (size_t i = 0; i < tops[0].nodes.size(); ++i)
+                ASSERT_EQ(tops[0].nodes[i].link.value, tops[other].nodes[i].link.value);
+            for (size_t i = 0; i < tops[0].boxes.size(); ++i)
+                for (int k = 0; k < 3; ++k) {
+                    ASSERT_EQ(tops[0].boxes[i].low[k], tops[other].boxes[i].low[k]);
+                    ASSERT_EQ(tops[0].boxes[i].high[k], tops[other].boxes[i].high[k]);
+                }
+        }
     }
 }
 

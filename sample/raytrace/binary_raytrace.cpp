@@ -32,6 +32,7 @@ auto tree_options<MovingTree>(const MethodSpec& spec) {
     MovingTreeOptions options;
     options.leaf = spec.number("leaf");
     options.keys = spec["keys"] == "grids" ? 0 : spec.number("keys");
+    if (spec["tree"] == "lbvh") options.topology = MovingTreeOptions::Topology::Morton;
     if (spec["tree"] != "msbvh") return options;
     options.budget = spec.number("budget");
     if (spec["clip"] == "box") options.clipping = MovingTreeOptions::Clipping::Box;
@@ -161,7 +162,7 @@ class BinaryRayTraced final : public Visibility {
 }  // namespace
 
 std::unique_ptr<Visibility> prepare_binary_raytrace(const VisibilityInput& input) {
-    if (input.spec["tree"] == "interpolated" || input.spec["tree"] == "msbvh")
+    if (input.spec["tree"] != "paper" && input.spec["tree"] != "wide")
         return std::make_unique<BinaryRayTraced<MovingTree>>(input);
     if (input.spec["split"] == "sah") return std::make_unique<BinaryRayTraced<MicropolygonTree>>(input);
     return std::make_unique<BinaryRayTraced<PaperTree>>(input);

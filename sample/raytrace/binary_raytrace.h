@@ -11,7 +11,8 @@
 
 namespace trapeze {
 
-/// Builds the trees of the method "raytrace" with tree=paper, interpolated and msbvh.
+/// Builds the tree of the method "raytrace" that its option "tree" names: any but the wide one, for which it
+/// is the paper's.
 std::unique_ptr<Visibility> prepare_binary_raytrace(const VisibilityInput& input);
 
 }  // namespace trapeze

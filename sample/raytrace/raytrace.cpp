@@ -8,7 +8,7 @@ namespace {
 
 const std::vector<SpecOption>& raytrace_options() {
     static const std::vector<SpecOption> options = {
-        {"tree", {"wide", "paper", "interpolated", "msbvh"}},
+        {"tree", {"wide", "paper", "interpolated", "msbvh", "lbvh"}},
         {"bundle", {"on", "off"}},
         {"bounds", {"obb", "aabb", "aabb4d"}},
         {"split", {"parametric", "sah"}},
@@ -25,8 +25,9 @@ const std::vector<SpecOption>& raytrace_options() {
 
 /// The trees that an option but "tree" is for: names in the order of its values, separated by |.
 std::string_view trees_with(std::string_view option) {
-    if (option == "bundle" || option == "ray_sort" || option == "leaf") return "paper|interpolated|msbvh";
-    if (option == "keys") return "interpolated|msbvh";
+    if (option == "bundle" || option == "ray_sort" || option == "leaf")
+        return "paper|interpolated|msbvh|lbvh";
+    if (option == "keys") return "interpolated|msbvh|lbvh";
     if (option == "clip" || option == "budget") return "msbvh";
     return "paper";
 }
