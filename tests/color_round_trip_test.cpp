@@ -79,28 +79,34 @@ INSTANTIATE_TEST_SUITE_P(
 /// half 45887.
 TEST(Transfer, FilesHoldAllBitsOfColours) {
     const struct {
-        const char* display;
+        const char *type, *options;
         int one;
-    } files[] = {{"Display \"a.tif\" \"tiff\" \"rgba\" \"quantize\" [0 65535 0 65535] \"dither\" [0]", 65535},
-                 {"Display \"a.png\" \"png\" \"rgba\" \"quantize\" [0 255 0 255] \"dither\" [0]", 255}};
-    for (const auto& [display, one] : files)
-        for (const int tenths : {1, 3, 5, 7, 9}) {
-            const std::string text = "." + std::to_string(tenths),
-                              colors = ' ' + text + ' ' + text + ' ' + text;
-            WorkFolder folder;
-            folder.write("a.rib",
-                         std::string(display) +
-                             "\nFormat 16 16 1\nPixelSamples 1 1\nPixelFilter \"box\" 1 1\nProjection "
-                             "\"orthographic\"\nWorldBegin\nColor [" +
-                             colors + "]\nOpacity [" + colors +
-                             "]\nSurface \"constant\"\nPolygon \"P\" [-2 -2 1  2 -2 1  2 2 1  -2 2 1]\n"
-                             "WorldEnd\n");
-            ASSERT_EQ(run_program(folder, "render a.rib").exit_code, 0);
-            const fs::path file = folder / (one == 255 ? "a.png" : "a.tif");
-            OIIO::ImageBuf image(file.string());
-            ASSERT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT));
+    } files[] = {{"tiff", "\"quantize\" [0 65535 0 65535]", 65535},
+                 {"png", "\"quantize\" [0 255 0 255]", 255}};
+    constexpr int kTenths[] = {1, 3, 5, 7, 9};
+    const auto name_of = [](const std::string& type, int tenths) {
+        return "a" + std::to_string(tenths) + (type == "png" ? ".png" : ".tif");
+    };
+    // All pictures are frames of one scene: most of the time is the program's start.
+    WorkFolder folder;
+    std::string scene =
+        "Format 16 16 1\nPixelSamples 1 1\nPixelFilter \"box\" 1 1\nProjection \"orthographic\"\n";
+    for (const auto& [type, options, one] : files)
+        for (const int tenths : kTenths) {
+            const std::string text = "." + std::to_string(tenths), colors = text + ' ' + text + ' ' + text;
+            scene +=
+                "FrameBegin 1\nDisplay \"" + name_of(type, tenths) + "\" \"" + type + "\" \"rgba\" " +
+                options + " \"dither\" [0]\nWorldBegin\nColor [" + colors + "]\nOpacity [" + colors +
+                "]\nSurface \"constant\"\nPolygon \"P\" [-2 -2 1  2 -2 1  2 2 1  -2 2 1]\nWorldEnd\nFrameEnd\n";
+        }
+    folder.write("a.rib", scene);
+    ASSERT_EQ(run_program(folder, "render a.rib").exit_code, 0);
+    for (const auto& [type, options, one] : files)
+        for (const int tenths : kTenths) {
+            OIIO::ImageBuf image((folder / name_of(type, tenths)).string());
+            ASSERT_TRUE(image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << name_of(type, tenths);
             const double alpha = image.getchannel(8, 8, 0, 3) * one;
-            EXPECT_EQ(std::lround(alpha), (tenths * one + 5) / 10) << display << text;  // halves go up
+            EXPECT_EQ(std::lround(alpha), (tenths * one + 5) / 10) << name_of(type, tenths);  // halves go up
         }
 }
 

@@ -271,7 +271,7 @@ TEST(HostileRib, DeepConditionsAndArchivesEnd) {
 
 TEST(HostileRib, ArchivesThatReadEachOtherEnd) {
     // Each reads the next twice: 2^40 without a limit.
-    std::string text = "WorldBegin\n";
+    std::string text = "WorldBegin\nArchiveBegin \"a40\" ArchiveEnd\n";
     for (int i = 0; i < 40; ++i) {
         const std::string next = "ReadArchive \"a" + std::to_string(i + 1) + "\" ";
         text += "ArchiveBegin \"a" + std::to_string(i) + "\" " + next + next + "ArchiveEnd\n";
