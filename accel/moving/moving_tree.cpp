@@ -25,10 +25,6 @@ struct GridKeyBoxes {
     std::span<const Box3f> all() const { return std::span(box).first(count); }
 };
 
-float time_of_key(size_t key, size_t count) {
-    return count == 1 ? 0.0f : static_cast<float>(key) / static_cast<float>(count - 1);
-}
-
 /// A box that lies in `whole` of mid-shutter, where the same place of `then` is [Gruenschloss11 eq. 1]: along
 /// an axis without extent the whole of it.
 Box3f moved_with(const Box3f& box, const Box3f& whole, const Box3f& then) {
@@ -47,7 +43,13 @@ void boxes_at_keys(const Grid& grid, const MicropolygonId& id, const SahItem& re
                    MovingTreeOptions::Clipping clipping, GridKeyBoxes& result) {
     using Clipping = MovingTreeOptions::Clipping;
     result.count = grid.key_count;
-    const auto pose_at = [&](size_t key) { return pose_of(grid, id, time_of_key(key, result.count)); };
+    const auto pose_at = [&](size_t key) {
+        QuadPose pose;
+        for (int c = 0; c < 4; ++c)
+            pose[static_cast<size_t>(c)] =
+                vertex_of_key(grid, static_cast<int>(key), id.u + (c & 1), id.v + (c >> 1));
+        return pose;
+    };
     for (size_t key = 0; key < result.count; ++key) result.box[key] = box_of(pose_at(key));
     if (!PartId::is_part(reference.id)) return;
     const QuadPose middle = pose_of(grid, id, 0.5f);
@@ -71,7 +73,7 @@ struct MovingTree::Sources {
     const MovingTreeOptions& options;
 };
 
-MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : grids_(grids) {
+MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : ListTree(grids) {
     const std::vector<GridSummary> summaries =
         framed_summaries(grids, {PaperTreeOptions::Bounds::AxisAligned});
     std::vector<MicropolygonId> ids;
@@ -93,13 +95,12 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : g
     const auto by_id = [](const SahItem& a, const SahItem& b) {
         return PartId::index(a.id) < PartId::index(b.id);
     };
-    tbb::parallel_for(size_t{0}, leaf_first_.size() - 1, [&](size_t i) {
+    tbb::parallel_for(size_t{0}, leaf_count(), [&](size_t i) {
         std::sort(topology.references.begin() + leaf_first_[i],
                   topology.references.begin() + leaf_first_[i + 1], by_id);
     });
-    const size_t leaf_count = leaf_first_.size() - 1;
-    if (leaf_count > 0) {
-        top_.nodes.resize(2 * leaf_count - 1);
+    if (leaf_count() > 0) {
+        top_.nodes.resize(2 * leaf_count() - 1);
         top_.boxes.resize(top_.nodes.size() * static_cast<size_t>(top_.key_count));
         bound_leaves({summaries, ids, options}, topology);
         bound_below(topology.tree, topology.tree.root, top_.nodes.size() - 1, 0);
@@ -108,10 +109,7 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : g
     micropolygons_.resize(topology.references.size());
     tbb::parallel_for(size_t{0}, micropolygons_.size(),
                       [&](size_t i) { micropolygons_[i] = ids[PartId::index(topology.references[i].id)]; });
-    stats_.tree_bytes = sizeof(*this) + top_.bytes() + micropolygons_.capacity() * sizeof(MicropolygonId) +
-                        leaf_first_.capacity() * sizeof(uint32_t);
-    stats_.tree_nodes = top_.nodes.size();
-    stats_.tree_leaves = leaf_count;
+    count_built(sizeof(*this));
     stats_.tree_references = micropolygons_.size();
     stats_.tree_duplicates = micropolygons_.size() - ids.size();
     stats_.tree_splits = topology.splits;
@@ -120,7 +118,7 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : g
 
 void MovingTree::bound_leaves(const Sources& sources, const SpatialTopology& topology) {
     const auto keys = static_cast<size_t>(top_.key_count);
-    std::vector<size_t> node_of_leaf(leaf_first_.size() - 1, top_.nodes.size() - 1);
+    std::vector<size_t> node_of_leaf(leaf_count(), top_.nodes.size() - 1);
     for (size_t i = 0; i < topology.tree.inner.size(); ++i)
         for (const size_t side : {0, 1}) {
             const TopLink link = topology.tree.inner[i][side];

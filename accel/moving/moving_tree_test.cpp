@@ -3,12 +3,11 @@
 #include "accel/moving/moving_tree.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
 #include "accel/moving/linear_topology.h"
+#include "accel/paper/top_level_harness.h"
 #include "accel/rays_harness.h"
 
 namespace trapeze {
@@ -97,7 +96,7 @@ TEST(MovingTree, FindsWhatTestingEverythingFinds) {
                     if (budget == 0 && clipping == Clipping::Box) continue;
                     const MovingTree tree(maker.grids(), {budget, clipping, keys, leaf});
                     EXPECT_EQ(tree.top().key_count, keys == 0 ? 17 : keys);
-                    EXPECT_EQ(tree.repeats_hits(), budget > 0);
+                    EXPECT_EQ(tree.stats().tree_duplicates > 0, budget > 0);
                     EXPECT_EQ(differing_rays(maker, tree, 400), 0)
                         << static_cast<int>(clipping) << ' ' << budget << ' ' << keys << ' ' << leaf;
                 }
@@ -111,7 +110,7 @@ TEST(MovingTree, InTheOrderOfMortonCodesFindsWhatTestingEverythingFinds) {
         for (const int leaf : {2, 8}) {
             const MovingTree tree(
                 maker.grids(), {.keys = keys, .leaf = leaf, .topology = MovingTreeOptions::Topology::Morton});
-            EXPECT_FALSE(tree.repeats_hits());
+            EXPECT_EQ(tree.stats().tree_duplicates, 0u);
             EXPECT_EQ(differing_rays(maker, tree, 400), 0) << keys << ' ' << leaf;
         }
 }
@@ -209,27 +208,9 @@ TEST(MovingTree, IsTheSameFromAnyNumberOfThreads) {
     Noise noise;
     GridMaker maker;
     add_strips(maker, 3000, 2, noise);
-    for (const auto topology : {MovingTreeOptions::Topology::Sah, MovingTreeOptions::Topology::Morton}) {
-        std::vector<TopLevel> tops;
-        for (const int threads : {1, 2, 7}) {
-            const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                              static_cast<size_t>(threads));
-            tbb::task_arena arena(threads);
-            arena.execute([&] {
-                tops.push_back(MovingTree(maker.grids(), {.budget = 2, .topology = topology}).top());
-            });
-        }
-        for (const size_t other : {1, 2}) {
-            ASSERT_EQ(tops[0].nodes.size(), tops[other].nodes.size());
-            for (size_t i = 0; i < tops[0].nodes.size(); ++i)
-                ASSERT_EQ(tops[0].nodes[i].link.value, tops[other].nodes[i].link.value);
-            for (size_t i = 0; i < tops[0].boxes.size(); ++i)
-                for (int k = 0; k < 3; ++k) {
-                    ASSERT_EQ(tops[0].boxes[i].low[k], tops[other].boxes[i].low[k]);
-                    ASSERT_EQ(tops[0].boxes[i].high[k], tops[other].boxes[i].high[k]);
-                }
-        }
-    }
+    for (const auto topology : {MovingTreeOptions::Topology::Sah, MovingTreeOptions::Topology::Morton})
+        testing::expect_same_from_any_threads(
+            [&] { return MovingTree(maker.grids(), {.budget = 2, .topology = topology}).top(); });
 }
 
 TEST(MovingTree, OfNothingHasNothing) {

@@ -69,7 +69,7 @@ Frame frame_of_micropolygons(const Grids& grids, std::span<const MicropolygonId>
 
 }  // namespace
 
-MicropolygonTree::MicropolygonTree(const Grids& grids, const PaperTreeOptions& options) : grids_(grids) {
+MicropolygonTree::MicropolygonTree(const Grids& grids, const PaperTreeOptions& options) : ListTree(grids) {
     const std::vector<GridSummary> summaries = framed_summaries(grids, options);
     build_topology(summaries, options);
 }
@@ -94,9 +94,8 @@ void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
     leaf_first_ = std::move(topology.leaf_first);
     micropolygons_.resize(items.size());
     tbb::parallel_for(size_t{0}, items.size(), [&](size_t i) { micropolygons_[i] = ids[items[i].id]; });
-    const size_t leaf_count = leaf_first_.size() - 1;
     // In a leaf by id: those of one grid come together, as bounding them wants.
-    tbb::parallel_for(size_t{0}, leaf_count, [&](size_t i) {
+    tbb::parallel_for(size_t{0}, leaf_count(), [&](size_t i) {
         std::sort(micropolygons_.begin() + leaf_first_[i], micropolygons_.begin() + leaf_first_[i + 1],
                   [](const MicropolygonId& a, const MicropolygonId& b) { return a.packed() < b.packed(); });
     });
@@ -105,11 +104,8 @@ void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
         [&](uint32_t index) { return leaf_bound(index, summaries, options); },
         [&](uint32_t index, const Frame& frame) { return leaf_bound_in(frame, index, summaries, options); },
         kBoundFromVerticesUpTo};
-    top_ = bound_top_level(topology.tree, leaf_count, grids_.max_key_count(), options, bounds);
-    stats_.tree_bytes = sizeof(*this) + top_.bytes() + micropolygons_.capacity() * sizeof(MicropolygonId) +
-                        leaf_first_.capacity() * sizeof(uint32_t);
-    stats_.tree_nodes = top_.nodes.size();
-    stats_.tree_leaves = leaf_count;
+    top_ = bound_top_level(topology.tree, leaf_count(), grids_.max_key_count(), options, bounds);
+    count_built(sizeof(*this));
 }
 
 HyperTrapezoid MicropolygonTree::leaf_bound_in(const Frame& frame, uint32_t index,

@@ -43,8 +43,8 @@ auto tree_options<MovingTree>(const MethodSpec& spec) {
 void tell_of_budget(const VisibilityInput& input, const BuildStats& stats) {
     if (stats.lacked_budget && input.context.diagnostics)
         input.context.diagnostics->note({},
-                                        "spatial splits ended with " + std::to_string(stats.tree_duplicates) +
-                                            " more references, as \"budget\" allows for",
+                                        "spatial splits added " + std::to_string(stats.tree_duplicates) +
+                                            " references; \"budget\" left none for some nodes",
                                         "budget");
 }
 
