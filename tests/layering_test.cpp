@@ -30,7 +30,8 @@ const std::map<std::string, Names> kMayInclude = {
 /// Which other folders of its room a folder may include. Those that are not here include none of them. It has
 /// no cycles, and docs/architecture.md draws it.
 const std::map<std::string, Names> kWings = {
-    {"accel/moving", {"accel/builders", "accel/paper"}},
+    {"accel/dynamic", {"accel", "accel/builders"}},
+    {"accel/moving", {"accel", "accel/builders", "accel/paper"}},
     {"accel/paper", {"accel", "accel/builders"}},
     {"accel/wide", {"accel", "accel/builders"}},
     {"composite/displays", {"composite"}},

@@ -4,8 +4,10 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
+#include "accel/builders/interleaved_bits.h"
 #include "accel/builders/sah_bins.h"
 
 namespace trapeze {
@@ -23,25 +25,15 @@ struct CodedItem {
     bool operator<(const CodedItem& o) const { return code != o.code ? code < o.code : item < o.item; }
 };
 
-/// The lower kMortonBits bits of a number, each three places from the next.
-uint64_t spread_by_three(uint64_t x) {
-    x = (x | x << 32) & 0x001f00000000ffffu;
-    x = (x | x << 16) & 0x001f0000ff0000ffu;
-    x = (x | x << 8) & 0x100f00f00f00f00fu;
-    x = (x | x << 4) & 0x10c30c30c30c30c3u;
-    return (x | x << 2) & 0x1249249249249249u;
-}
-
 uint64_t morton_code(const V3f& at, const Box3f& box) {
     constexpr float kSteps = 1 << kMortonBits;
-    uint64_t code = 0;
+    std::array<uint64_t, 3> step;
     for (int k = 0; k < 3; ++k) {
         const float scaled = (at[k] - box.min[k]) / (box.max[k] - box.min[k]) * kSteps;
         // What is no number goes to the lower end.
-        const auto step = scaled > 0 ? static_cast<uint64_t>(std::min(scaled, kSteps - 1)) : 0u;
-        code |= spread_by_three(step) << (2 - k);
+        step[static_cast<size_t>(k)] = scaled > 0 ? static_cast<uint64_t>(std::min(scaled, kSteps - 1)) : 0u;
     }
-    return code;
+    return interleaved(step[0], step[1], step[2]);
 }
 
 class LinearBuilder {

@@ -1,0 +1,134 @@
+#include "accel/dynamic/frame_boxes.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "accel/builders/grid_summary.h"
+#include "core/hyper_trapezoid.h"
+
+namespace trapeze {
+namespace {
+
+/// What a frame's grids have in common, and one grid's part of it.
+struct ShutterExtent {
+    float absolute_max = 0, quad_extent = 0;
+};
+
+/// Sets the boxes of a grid's micropolygons.
+ShutterExtent boxes_of_shutter(const Grid& grid, KeyBox* boxes) {
+    const int count = grid.shape.micropolygon_count(), row = grid.shape.vertices_u();
+    ShutterExtent extent;
+    std::fill_n(boxes, count, empty_box());
+    V3f vertices[kMaxGridVertices];
+    for (int key = 0; key < grid.key_count; ++key) {
+        for (int j = 0; j <= grid.shape.nv; ++j)
+            for (int i = 0; i <= grid.shape.nu; ++i) {
+                const V3f p = vertex_of_key(grid, key, i, j);
+                vertices[grid.shape.row_index(i, j)] = p;
+                for (int k = 0; k < 3; ++k) {
+                    // A NaN is as little to be bounded as what is too large.
+                    if (!(std::abs(p[k]) <= kBoundableCoordinate))
+                        extent.absolute_max = std::numeric_limits<float>::infinity();
+                    extent.absolute_max = std::max(extent.absolute_max, std::abs(p[k]));
+                }
+            }
+        for (int i = 0; i < count; ++i) {
+            const V3f* const q = vertices + i / grid.shape.nu * row + i % grid.shape.nu;
+            Box3f pose;
+            for (const V3f& p : {q[0], q[1], q[row], q[row + 1]}) pose.extendBy(p);
+            const V3f size = pose.max - pose.min;
+            extent.quad_extent = std::max({extent.quad_extent, size.x, size.y, size.z});
+            pose = grown_for_rounding(pose);
+            for (int k = 0; k < 3; ++k) {
+                boxes[i].low[k] = std::min(boxes[i].low[k], pose.min[k]);
+                boxes[i].high[k] = std::max(boxes[i].high[k], pose.max[k]);
+            }
+        }
+    }
+    return extent;
+}
+
+}  // namespace
+
+void FrameBoxes::read(const Grids& frame) {
+    grids = &frame;
+    const size_t count = frame.grids.size();
+    std::vector<uint32_t> first(count + 1, 0);
+    for (size_t g = 0; g < count; ++g)
+        first[g + 1] = first[g] + static_cast<uint32_t>(frame.grids[g].shape.micropolygon_count());
+    boxes.resize(first[count]);
+    ids.resize(first[count]);
+    std::vector<ShutterExtent> extents(count);
+    tbb::parallel_for(size_t{0}, count, [&](size_t g) {
+        const Grid& grid = frame.grids[g];
+        for (int i = 0; i < grid.shape.micropolygon_count(); ++i)
+            ids[first[g] + static_cast<uint32_t>(i)] = {static_cast<uint32_t>(g),
+                                                        static_cast<uint8_t>(i % grid.shape.nu),
+                                                        static_cast<uint8_t>(i / grid.shape.nu)};
+        extents[g] = boxes_of_shutter(grid, boxes.data() + first[g]);
+    });
+    unbounded.clear();
+    absolute_max = quad_extent = 0;
+    size_t kept = 0;
+    for (size_t g = 0; g < count; ++g) {
+        const auto from = static_cast<std::ptrdiff_t>(first[g]),
+                   to = static_cast<std::ptrdiff_t>(first[g + 1]);
+        if (!std::isfinite(extents[g].absolute_max)) {
+            unbounded.insert(unbounded.end(), ids.begin() + from, ids.begin() + to);
+            continue;
+        }
+        absolute_max = std::max(absolute_max, extents[g].absolute_max);
+        quad_extent = std::max(quad_extent, extents[g].quad_extent);
+        if (kept < first[g]) {
+            std::copy(ids.begin() + from, ids.begin() + to, ids.begin() + static_cast<std::ptrdiff_t>(kept));
+            std::copy(boxes.begin() + from, boxes.begin() + to,
+                      boxes.begin() + static_cast<std::ptrdiff_t>(kept));
+        }
+        kept += first[g + 1] - first[g];
+    }
+    ids.resize(kept);
+    boxes.resize(kept);
+}
+
+KeyBox empty_box() {
+    KeyBox box;
+    for (int k = 0; k < 3; ++k)
+        box.low[k] = std::numeric_limits<float>::infinity(), box.high[k] = -box.low[k];
+    return box;
+}
+
+bool is_empty(const KeyBox& box) {
+    return box.low[0] > box.high[0];
+}
+
+KeyBox joined(const KeyBox& a, const KeyBox& b) {
+    KeyBox box;
+    for (int k = 0; k < 4; ++k) {
+        box.low[k] = b.low[k] < a.low[k] ? b.low[k] : a.low[k];
+        box.high[k] = b.high[k] > a.high[k] ? b.high[k] : a.high[k];
+    }
+    return box;
+}
+
+bool holds(const KeyBox& outer, const KeyBox& inner) {
+    bool all = true;
+    for (int k = 0; k < 3; ++k) all &= (outer.low[k] <= inner.low[k]) & (inner.high[k] <= outer.high[k]);
+    return all;
+}
+
+bool same_box(const KeyBox& a, const KeyBox& b) {
+    bool all = true;
+    for (int k = 0; k < 3; ++k) all &= (a.low[k] == b.low[k]) & (a.high[k] == b.high[k]);
+    return all;
+}
+
+float half_area_of(const KeyBox& box) {
+    if (is_empty(box)) return 0;
+    const float x = box.high[0] - box.low[0], y = box.high[1] - box.low[1], z = box.high[2] - box.low[2];
+    return x * y + y * z + z * x;
+}
+
+}  // namespace trapeze

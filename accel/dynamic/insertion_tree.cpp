@@ -1,0 +1,238 @@
+#include "accel/dynamic/insertion_tree.h"
+
+#include <algorithm>
+
+namespace trapeze {
+
+void InsertionTree::build(const Grids& grids) {
+    objects_.read(grids);
+    reset();
+    const auto count = static_cast<uint32_t>(objects_.boxes.size());
+    for (uint32_t object = 0; object < count; ++object)
+        if (root_ == kNone)
+            root_ = object;
+        else
+            insert(object, root_);
+    for (int pass = 0; pass < options_.passes && count > 1; ++pass)
+        for (uint32_t object = 0; object < count; ++object) {
+            climb(detach(object), empty_box(), 1);  // to the root, for nothing but the empty box fits in all
+            insert(object, root_);
+        }
+    touched_.clear();
+    moved_ = dissolved_ = 0;
+    for (size_t node = count; node < nodes_.size(); ++node)
+        nodes_[node].first_quality = quality(nodes_[node]);
+}
+
+void InsertionTree::reset() {
+    const size_t count = objects_.boxes.size();
+    nodes_.assign(count < 2 ? count : 2 * count - 1, {});
+    for (size_t i = 0; i < count; ++i) nodes_[i].box = objects_.boxes[i];
+    free_.clear();
+    for (size_t i = nodes_.size(); i-- > count;) free_.push_back(static_cast<uint32_t>(i));
+    root_ = kNone;
+}
+
+void InsertionTree::update(const Grids& grids) {
+    const size_t count = objects_.boxes.size();
+    objects_.read(grids);
+    if (objects_.boxes.size() != count) {
+        build(grids);
+        return;
+    }
+    moved_ = dissolved_ = 0;
+    for (uint32_t object = 0; object < count; ++object)
+        if (!same_box(nodes_[object].box, objects_.boxes[object])) move(object, objects_.boxes[object]);
+    dissolve_thinned();
+}
+
+void InsertionTree::move(uint32_t object, const KeyBox& box) {
+    ++moved_;
+    if (object == root_) {
+        nodes_[object].box = box;
+        return;
+    }
+    const uint32_t above = detach(object);
+    nodes_[object].box = box;
+    if (above == kNone) {  // there were two
+        insert(object, root_);
+        return;
+    }
+    const uint32_t from = climb(above, box, 1);
+    const uint32_t above_that = nodes_[from].parent;
+    insert(object, from);
+    tighten_above(above_that);
+}
+
+/// Takes a node, with what is below it, out of the tree: its sibling takes the place of their parent, which
+/// is free. Returns the node above, whose box and number are as they were.
+uint32_t InsertionTree::detach(uint32_t node) {
+    const uint32_t parent = nodes_[node].parent;
+    const uint32_t sibling = nodes_[parent].child[nodes_[parent].child[0] == node];
+    const uint32_t above = nodes_[parent].parent;
+    nodes_[sibling].parent = above;
+    replace_child(above, parent, sibling);
+    nodes_[node].parent = kNone;
+    nodes_[parent] = {};
+    free_.push_back(parent);
+    return above;
+}
+
+void InsertionTree::replace_child(uint32_t parent, uint32_t old_child, uint32_t new_child) {
+    if (parent == kNone)
+        root_ = new_child;
+    else
+        nodes_[parent].child[nodes_[parent].child[1] == old_child] = new_child;
+}
+
+/// Up from a node below which some objects were taken away, to the first ancestor that held `box` before; the
+/// root if none did. Makes boxes and numbers on the way those of what is left.
+uint32_t InsertionTree::climb(uint32_t from, const KeyBox& box, uint32_t objects) {
+    if (from == kNone) return root_;
+    for (uint32_t at = from;; at = nodes_[at].parent) {
+        Node& node = nodes_[at];
+        const bool held = !is_empty(box) && holds(node.box, box);
+        node.box = box_of_children(node);
+        node.objects -= objects;
+        touch(at);
+        if (held || node.parent == kNone) return at;
+    }
+}
+
+/// The node to pair an inserted box with: on the way down from `from`, always to the child that grows least,
+/// the one where the tree's surface grows least [Goldsmith87].
+uint32_t InsertionTree::best_sibling(const KeyBox& box, uint32_t from) const {
+    const auto with = [&](uint32_t node) { return half_area_of(joined(nodes_[node].box, box)); };
+    uint32_t best = from;
+    float least = with(from), inherited = 0;  // what nodes above have grown by
+    for (uint32_t at = from; !is_leaf(at);) {
+        inherited += with(at) - half_area_of(nodes_[at].box);
+        const auto& [first, second] = nodes_[at].child;
+        const float first_with = with(first), second_with = with(second);
+        const bool to_second =
+            second_with - half_area_of(nodes_[second].box) < first_with - half_area_of(nodes_[first].box);
+        at = to_second ? second : first;
+        const float cost = inherited + (to_second ? second_with : first_with);
+        if (cost < least) least = cost, best = at;
+    }
+    return best;
+}
+
+/// Inserts a node, and what is below it, at or below `from`.
+void InsertionTree::insert(uint32_t inserted, uint32_t from) {
+    const KeyBox box = nodes_[inserted].box;
+    const uint32_t objects = nodes_[inserted].objects;
+    const uint32_t at = best_sibling(box, from);
+    if (at != from)
+        for (uint32_t above = nodes_[at].parent;; above = nodes_[above].parent) {
+            Node& node = nodes_[above];
+            node.box = joined(node.box, box);
+            node.objects += objects;
+            touch(above);
+            if (above == from) break;
+        }
+    const uint32_t pair = free_.back();
+    free_.pop_back();
+    Node& node = nodes_[pair];
+    node.box = joined(nodes_[at].box, box);
+    node.objects = nodes_[at].objects + objects;
+    node.first_quality = quality(node);
+    node.parent = nodes_[at].parent;
+    node.child = {at, inserted};
+    replace_child(node.parent, at, pair);
+    nodes_[at].parent = nodes_[inserted].parent = pair;
+}
+
+/// Makes the boxes of ancestors smaller, as far as anything changes.
+void InsertionTree::tighten_above(uint32_t node) {
+    for (; node != kNone; node = nodes_[node].parent) {
+        const KeyBox box = box_of_children(nodes_[node]);
+        if (same_box(box, nodes_[node].box)) return;
+        nodes_[node].box = box;
+        touch(node);
+    }
+}
+
+void InsertionTree::dissolve_thinned() {
+    if (!(options_.thinning > 0)) return;
+    // What dissolving one changes is looked at in the next update.
+    std::vector<uint32_t> touched = std::move(touched_);
+    touched_.clear();
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (const uint32_t at : touched) {
+        const Node& node = nodes_[at];
+        if (node.child[0] == kNone || node.parent == kNone) continue;  // free, or the root
+        if (quality(node) > options_.thinning * node.first_quality) dissolve(at);
+    }
+}
+
+/// Takes a node away; its children climb and are inserted again.
+void InsertionTree::dissolve(uint32_t dissolved) {
+    ++dissolved_;
+    const std::array<uint32_t, 2> children = nodes_[dissolved].child;
+    const uint32_t objects = nodes_[dissolved].objects;
+    const uint32_t above = detach(dissolved);
+    nodes_[dissolved] = {};
+    free_.push_back(dissolved);
+    for (const uint32_t child : children) nodes_[child].parent = kNone;
+    // Both have left the ancestors as far as `to`; those above still count them.
+    const uint32_t to = climb(above, nodes_[children[0]].box, objects);
+    const uint32_t above_that = nodes_[to].parent;
+    insert(children[0], to);
+    uint32_t top = nodes_[to].parent == above_that ? to : nodes_[to].parent;
+    const Node& second = nodes_[children[1]];
+    if (!holds(nodes_[top].box, second.box)) top = climb(above_that, second.box, second.objects);
+    const uint32_t above_top = nodes_[top].parent;
+    insert(children[1], top);
+    tighten_above(above_that);
+    tighten_above(above_top);
+}
+
+double InsertionTree::expected_visits() const {
+    if (root_ == kNone) return 0;
+    double sum = 0;
+    for (size_t node = objects_.boxes.size(); node < nodes_.size(); ++node)
+        sum += static_cast<double>(half_area_of(nodes_[node].box));
+    const auto root = static_cast<double>(half_area_of(nodes_[root_].box));
+    return root > 0 ? sum / root : 0;
+}
+
+BuildStats InsertionTree::stats() const {
+    BuildStats stats;
+    stats.tree_bytes = sizeof(*this) + objects_.bytes() + nodes_.capacity() * sizeof(Node) +
+                       (free_.capacity() + touched_.capacity()) * sizeof(uint32_t);
+    stats.tree_nodes = nodes_.size();
+    stats.tree_leaves = objects_.boxes.size();
+    return stats;
+}
+
+std::string InsertionTree::contradiction() const {
+    if (root_ == kNone) return nodes_.empty() ? "" : "there are nodes without a root";
+    if (nodes_[root_].parent != kNone) return "the root has a parent";
+    if (!free_.empty()) return "inner nodes are free";
+    size_t reached = 0;
+    std::vector<uint32_t> todo{root_};
+    while (!todo.empty()) {
+        const uint32_t at = todo.back();
+        todo.pop_back();
+        ++reached;
+        const Node& node = nodes_[at];
+        if (is_leaf(at)) {
+            if (node.objects != 1 || !same_box(node.box, objects_.boxes[at]))
+                return "a leaf is not its object";
+            continue;
+        }
+        uint32_t below = 0;
+        for (const uint32_t child : node.child) {
+            if (nodes_[child].parent != at) return "a child has another parent";
+            below += nodes_[child].objects;
+            todo.push_back(child);
+        }
+        if (below != node.objects) return "a node counts other objects than it has";
+        if (!same_box(node.box, box_of_children(node))) return "a node's box is not that of its children";
+    }
+    return reached == nodes_.size() ? "" : "not all nodes are in the tree";
+}
+
+}  // namespace trapeze

@@ -1,0 +1,139 @@
+/// The binary tree that objects are inserted into one by one, where the surfaces of the nodes on their way
+/// grow least [Goldsmith87], and which is updated from frame to frame instead of rebuilt: "Dynamic
+/// Goldsmith-Salmon" [DynBvh06 sec. 3.1].
+///
+/// Departs from the papers: nodes have two children; leaves are micropolygons, of which each is an object, in
+/// boxes of the whole shutter.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "accel/dynamic/frame_boxes.h"
+#include "accel/dynamic/growing_stack.h"
+
+namespace trapeze {
+
+/// How an InsertionTree is kept.
+struct InsertionOptions {
+    /// How often all objects are inserted again when the tree is built: the first ones were inserted when
+    /// there was little to choose from.
+    int passes = 0;
+    /// A node whose surface for each object below it has become more than this times what it was when the
+    /// node was made is dissolved, and its children are inserted again; 0: none is.
+    float thinning = 0;
+};
+
+class InsertionTree {
+  public:
+    explicit InsertionTree(const InsertionOptions& options = {}) : options_(options) {}
+
+    /// Forgets what there was, and inserts all objects of a frame in their order. Keeps a reference to the
+    /// grids, as update() does.
+    void build(const Grids& grids);
+
+    /// Moves the objects whose boxes have changed: each climbs to the nearest ancestor that holds its new
+    /// box, and is inserted again from there (algorithm 1). A frame with another number of objects is built.
+    void update(const Grids& grids);
+
+    /// Shows the policy the hits of a ray, near ones first as far as boxes tell.
+    template <class Policy>
+    void trace(TraceRay& ray, Policy& policy, SampleStats& stats) const;
+
+    BuildStats stats() const;
+    /// What the surface area heuristic says of the tree: nodes that a ray through the root's box visits.
+    double expected_visits() const;
+
+    /// Objects that were inserted again, and nodes that were dissolved, by the last update.
+    uint64_t moved() const { return moved_; }
+    uint64_t dissolved() const { return dissolved_; }
+
+    /// What must always hold; for tests. Empty: it does.
+    std::string contradiction() const;
+
+  private:
+    static constexpr uint32_t kNone = ~uint32_t{0};
+
+    /// The first nodes are the leaves: leaf i is object i.
+    struct alignas(16) Node {
+        KeyBox box;
+        uint32_t parent = kNone;
+        std::array<uint32_t, 2> child{kNone, kNone};
+        uint32_t objects = 1;  ///< below it
+        float first_quality = 0;
+    };
+
+    bool is_leaf(uint32_t node) const { return node < objects_.boxes.size(); }
+    /// [DynBvh06 eq. 1]
+    float quality(const Node& node) const {
+        return half_area_of(node.box) / static_cast<float>(node.objects);
+    }
+    void reset();
+    void move(uint32_t object, const KeyBox& box);
+    void dissolve_thinned();
+    void dissolve(uint32_t node);
+    uint32_t detach(uint32_t node);
+    uint32_t climb(uint32_t from, const KeyBox& box, uint32_t objects);
+    uint32_t best_sibling(const KeyBox& box, uint32_t from) const;
+    void insert(uint32_t node, uint32_t from);
+    void tighten_above(uint32_t node);
+    void replace_child(uint32_t parent, uint32_t old_child, uint32_t new_child);
+    KeyBox box_of_children(const Node& node) const {
+        return joined(nodes_[node.child[0]].box, nodes_[node.child[1]].box);
+    }
+    void touch(uint32_t node) {
+        if (options_.thinning > 0) touched_.push_back(node);
+    }
+
+    InsertionOptions options_;
+    FrameBoxes objects_;
+    std::vector<Node> nodes_;
+    std::vector<uint32_t> free_;     ///< inner nodes that are in no tree
+    std::vector<uint32_t> touched_;  ///< inner nodes whose quality has changed, some of them several times
+    uint32_t root_ = kNone;
+    uint64_t moved_ = 0, dissolved_ = 0;
+};
+
+template <class Policy>
+void InsertionTree::trace(TraceRay& ray, Policy& policy, SampleStats& stats) const {
+    ++stats.rays;
+    objects_.test_unbounded(ray, policy, stats);
+    if (root_ == kNone) return;
+    const FrameRay along_axes(ray);
+    const float rounding = ray.rounding(objects_.absolute_max);
+    struct Waiting {
+        float depth;
+        uint32_t node;
+    };
+    const auto met = [&](uint32_t node, Waiting& visit) {
+        visit.node = node;
+        const KeyBox& box = nodes_[node].box;
+        return clip(along_axes, box, box, 0, rounding).meets(ray, objects_.quad_extent, visit.depth);
+    };
+    GrowingStack<Waiting> todo;  // the tree may be as deep as it has objects
+    Waiting first, second;
+    if (met(root_, first)) todo.push(first);
+    while (!todo.empty()) {
+        const Waiting at = todo.pop();
+        if (at.depth > ray.t_max) continue;
+        if (is_leaf(at.node)) {
+            ++stats.leaves_visited;
+            objects_.test_object(at.node, ray, policy, stats);
+            continue;
+        }
+        ++stats.nodes_visited;
+        const bool meets_first = met(nodes_[at.node].child[0], first);
+        const bool meets_second = met(nodes_[at.node].child[1], second);
+        if (meets_first && meets_second) {
+            const bool first_is_near = !(second.depth < first.depth);
+            todo.push(first_is_near ? second : first);
+            todo.push(first_is_near ? first : second);
+        } else if (meets_first || meets_second) {
+            todo.push(meets_first ? first : second);
+        }
+    }
+}
+
+}  // namespace trapeze

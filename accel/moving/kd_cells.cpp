@@ -1,0 +1,78 @@
+#include "accel/moving/kd_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "accel/builders/grid_summary.h"
+#include "accel/moving/micropolygon_parts.h"
+#include "core/hyper_trapezoid.h"
+
+namespace trapeze {
+namespace {
+
+/// The axes that may separate a quad from a box, but for those of space, which boxes have looked at.
+std::array<V3f, 7> separating_axes(const QuadPose& pose) {
+    const V3f along_u = pose[1] - pose[0], along_v = pose[2] - pose[0];
+    return {along_u.cross(along_v),        V3f(0, along_u.z, -along_u.y), V3f(-along_u.z, 0, along_u.x),
+            V3f(along_u.y, -along_u.x, 0), V3f(0, along_v.z, -along_v.y), V3f(-along_v.z, 0, along_v.x),
+            V3f(along_v.y, -along_v.x, 0)};
+}
+
+/// The least and largest of a box along an axis.
+struct AxisRange {
+    float low = 0, high = 0;
+};
+
+AxisRange range_of_box(const Box3f& box, const V3f& axis) {
+    AxisRange range;
+    for (int k = 0; k < 3; ++k) {
+        range.low += axis[k] * (axis[k] > 0 ? box.min[k] : box.max[k]);
+        range.high += axis[k] * (axis[k] > 0 ? box.max[k] : box.min[k]);
+    }
+    return range;
+}
+
+float largest_coordinate(const Box3f& box) {
+    float largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
+    return largest;
+}
+
+}  // namespace
+
+ShutterSpan when_in_cell(const Grid& grid, const MicropolygonId& id, float pose_time, const Box3f& cell,
+                         ShutterSpan within) {
+    const size_t keys = grid.key_count;
+    std::array<QuadPose, kMaxKeyCount> poses;
+    float largest = largest_coordinate(cell);
+    for (size_t key = 0; key < keys; ++key)
+        for (size_t c = 0; c < 4; ++c) {
+            const V3f& p = poses[key][c] = vertex_of_key(
+                grid, static_cast<int>(key), id.u + static_cast<int>(c & 1), id.v + static_cast<int>(c >> 1));
+            for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(p[k]));
+        }
+    for (const V3f& axis : separating_axes(pose_of(grid, id, pose_time))) {
+        // Lengths do not matter, but a product that overflows or vanishes tells nothing.
+        const float length = std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z);
+        if (!(length > 1e-15f && length < 1e15f)) continue;
+        const V3f unit = axis / length;
+        // Three products and two sums on both sides, of vertices that moved: half-ulps of the largest.
+        const float rounding = 4 * kBoundRounding * largest;
+        const AxisRange of_cell = range_of_box(cell, unit);
+        std::array<float, kMaxKeyCount> low, high;
+        for (size_t key = 0; key < keys; ++key) {
+            const QuadPose& pose = poses[key];
+            const std::array<float, 4> at{unit.dot(pose[0]), unit.dot(pose[1]), unit.dot(pose[2]),
+                                          unit.dot(pose[3])};
+            low[key] = std::min({at[0], at[1], at[2], at[3]}) - rounding;
+            high[key] = std::max({at[0], at[1], at[2], at[3]}) + rounding;
+        }
+        within = when_at_or_below(std::span(low).first(keys), of_cell.high, within);
+        within = when_at_or_above(std::span(high).first(keys), of_cell.low, within);
+        if (within.is_empty()) break;
+    }
+    return within;
+}
+
+}  // namespace trapeze

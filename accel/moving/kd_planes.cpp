@@ -1,0 +1,220 @@
+#include "accel/moving/kd_planes.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "accel/builders/sah_topology.h"
+
+namespace trapeze {
+namespace {
+
+/// Planes are tried at the ends of so many slabs along an axis; of small nodes of fewer.
+constexpr size_t kMostKdSlabs = 32, kLeastKdSlabs = 8;
+
+/// References from which one node's sums are made in parallel, in parts that do not depend on threads.
+constexpr size_t kParallelSumsFrom = 1 << 15;
+
+/// A step through a node of the tree, a plane and two depths, takes as long as so many tests.
+constexpr double kStepCost = 2;
+
+/// The planes of one node along one axis, and the weights of what begins and ends between them.
+struct AxisPlanes {
+    float first = 0, step = 0;
+    size_t count = 0;  ///< 0: none can be tried
+    /// Weights that are at or below planes from this one on, or at or above planes down to this one.
+    std::array<double, kMostKdSlabs + 2> low_from{}, high_to{};
+    /// Weights of what crosses a plane while it moves.
+    std::array<double, kMostKdSlabs + 1> low_part{}, high_part{};
+
+    AxisPlanes() = default;
+    AxisPlanes(float from, float to, size_t slabs)
+        : first(from), step((to - from) / static_cast<float>(slabs)) {
+        if (step > 0 && at(1) > from && at(slabs - 1) < at(slabs)) count = slabs + 1;
+    }
+    float at(size_t plane) const { return first + step * static_cast<float>(plane); }
+    /// The first plane at or above a coordinate; `count`: none.
+    size_t first_above(float x) const {
+        const float place = std::ceil((x - first) / step);
+        return place > 0 ? static_cast<size_t>(std::min(place, static_cast<float>(count))) : 0;
+    }
+    /// One more than the last plane at or below a coordinate; 0: none.
+    size_t end_below(float x) const {
+        const float place = std::floor((x - first) / step) + 1;
+        return place > 0 ? static_cast<size_t>(std::min(place, static_cast<float>(count))) : 0;
+    }
+
+    void add(const AxisPlanes& o) {
+        for (size_t i = 0; i < low_from.size(); ++i) low_from[i] += o.low_from[i], high_to[i] += o.high_to[i];
+        for (size_t i = 0; i < low_part.size(); ++i)
+            low_part[i] += o.low_part[i], high_part[i] += o.high_part[i];
+    }
+};
+
+/// Where one side of a reference's box is along an axis: at the pose time where its pose in the cell is, and
+/// at other times moved by as much as the micropolygon's whole box. That is a guess, which decides costs
+/// alone.
+template <class ValueAt>
+class MovingSide {
+  public:
+    MovingSide(size_t keys, const ValueAt& value_at, float pose_time, float in_pose)
+        : keys_(keys), value_at_(value_at), shift_(in_pose - at(pose_time)) {}
+
+    float shift() const { return shift_; }
+    /// The least and the largest value in a span.
+    std::pair<float, float> range(const ShutterSpan& when) const {
+        const float from = at(when.from), to = at(when.to);
+        std::pair<float, float> range{std::min(from, to), std::max(from, to)};
+        const auto segments = static_cast<float>(keys_ - 1);
+        for (size_t key = 1; key + 1 < keys_; ++key) {
+            const float time = static_cast<float>(key) / segments;
+            if (time <= when.from || time >= when.to) continue;
+            range.first = std::min(range.first, value_at_(key));
+            range.second = std::max(range.second, value_at_(key));
+        }
+        return {range.first + shift_, range.second + shift_};
+    }
+
+  private:
+    float at(float time) const {
+        if (keys_ == 1) return value_at_(0);
+        const MotionSegment s = segment_at(time, static_cast<int>(keys_));
+        const auto i = static_cast<size_t>(s.index);
+        return value_at_(i) + (value_at_(i + 1) - value_at_(i)) * s.local;
+    }
+
+    size_t keys_;
+    const ValueAt& value_at_;
+    float shift_;
+};
+
+/// Sums of a node's references over the planes of all axes.
+struct PlaneSums {
+    std::array<AxisPlanes, 3> axis;
+
+    void add(const KdReference& reference, std::span<const Box3f> keys, float pose_time,
+             KdTreeOptions::Weight weight) {
+        const bool by_time = weight == KdTreeOptions::Weight::Time;
+        const ShutterSpan& when = reference.when;
+        const double whole = by_time ? static_cast<double>(when.length()) : 1;
+        const auto counts = [by_time](const ShutterSpan& there) {
+            return by_time ? static_cast<double>(there.length()) : there.is_empty() ? 0. : 1.;
+        };
+        for (int k = 0; k < 3; ++k) {
+            AxisPlanes& planes = axis[static_cast<size_t>(k)];
+            if (planes.count == 0) continue;
+            const auto min_at = [&](size_t key) { return keys[key].min[k]; };
+            const auto max_at = [&](size_t key) { return keys[key].max[k]; };
+            const MovingSide low(keys.size(), min_at, pose_time, reference.box.min[k]);
+            const auto [low_least, low_most] = low.range(when);
+            const size_t whole_from = planes.first_above(low_most);
+            for (size_t p = planes.first_above(low_least); p < whole_from; ++p)
+                planes.low_part[p] += counts(when_at_or_below(keys, k, planes.at(p) - low.shift(), when));
+            planes.low_from[whole_from] += whole;
+            const MovingSide high(keys.size(), max_at, pose_time, reference.box.max[k]);
+            const auto [high_least, high_most] = high.range(when);
+            const size_t whole_to = planes.end_below(high_least), any_to = planes.end_below(high_most);
+            for (size_t p = whole_to; p < any_to; ++p)
+                planes.high_part[p] += counts(when_at_or_above(keys, k, planes.at(p) - high.shift(), when));
+            planes.high_to[whole_to] += whole;
+        }
+    }
+    void add(const PlaneSums& o) {
+        for (size_t k = 0; k < 3; ++k) axis[k].add(o.axis[k]);
+    }
+};
+
+/// The sum of all references, in parts of the same size whatever the number of threads: floating-point sums
+/// depend on their order.
+template <class Sum, class Add>
+Sum sum_in_parts(std::span<const KdReference> references, const Sum& zero, const Add& add) {
+    const auto of_part = [&](size_t first, size_t last, Sum sum) {
+        for (size_t i = first; i < last; ++i) add(references[i], sum);
+        return sum;
+    };
+    if (references.size() < kParallelSumsFrom) return of_part(0, references.size(), zero);
+    return tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<size_t>(0, references.size(), kParallelSumsFrom / 4), zero,
+        [&](const auto& range, const Sum& sum) { return of_part(range.begin(), range.end(), sum); },
+        [](Sum a, const Sum& b) {
+            a.add(b);
+            return a;
+        });
+}
+
+/// What of references takes part in the choice.
+struct Voters {
+    size_t residents = 0, guests = 0;
+    Box3f of_residents, of_guests;  ///< poses, within the cell
+
+    void add(const Voters& o) {
+        residents += o.residents, guests += o.guests;
+        of_residents.extendBy(o.of_residents), of_guests.extendBy(o.of_guests);
+    }
+};
+
+/// The cheapest plane of an axis, if it is cheaper than `best`.
+void consider_planes_of(const AxisPlanes& planes, int axis, const Box3f& cell, KdPlane& best) {
+    if (planes.count == 0) return;
+    std::array<double, kMostKdSlabs + 2> high_to_or_above{};
+    for (size_t p = planes.count + 1; p-- > 0;)
+        high_to_or_above[p] =
+            planes.high_to[p] + (p + 1 < high_to_or_above.size() ? high_to_or_above[p + 1] : 0);
+    const double cell_area = half_area(cell);
+    double low = 0;
+    for (size_t p = 0; p < planes.count; ++p) {
+        low += planes.low_from[p];
+        const float at = planes.at(p);
+        if (!(at > cell.min[axis] && at < cell.max[axis])) continue;
+        const double below = low + planes.low_part[p];
+        const double above = high_to_or_above[p + 1] + planes.high_part[p];
+        Box3f low_cell = cell, high_cell = cell;
+        low_cell.max[axis] = high_cell.min[axis] = at;
+        const double cost =
+            kStepCost + (half_area(low_cell) * below + half_area(high_cell) * above) / cell_area;
+        if (cost < best.cost) best = {cost, axis, at};
+    }
+}
+
+}  // namespace
+
+double KdPlanes::leaf_cost(std::span<const KdReference> references) const {
+    double cost = 0;
+    for (const KdReference& reference : references)
+        if (!reference.guest)
+            cost += options_.weight == KdTreeOptions::Weight::Time
+                        ? static_cast<double>(reference.when.length())
+                        : 1;
+    return cost;
+}
+
+float KdPlanes::pose_time(const ShutterSpan& when) const {
+    return std::clamp(options_.plane_time, when.from, when.to);
+}
+
+KdPlane KdPlanes::best(std::span<const KdReference> references, const Box3f& cell) const {
+    const Voters voters = sum_in_parts(references, Voters{}, [&](const KdReference& r, Voters& sum) {
+        ++(r.guest ? sum.guests : sum.residents);
+        (r.guest ? sum.of_guests : sum.of_residents).extendBy(r.box);
+    });
+    const bool guests_too = voters.guests > voters.residents;
+    Box3f extent = voters.of_residents;
+    if (guests_too) extent.extendBy(voters.of_guests);
+
+    PlaneSums zero;
+    const size_t slabs = std::clamp(references.size(), kLeastKdSlabs, kMostKdSlabs);
+    for (int k = 0; k < 3; ++k)
+        zero.axis[static_cast<size_t>(k)] = AxisPlanes(extent.min[k], extent.max[k], slabs);
+    const PlaneSums sums = sum_in_parts(references, zero, [&](const KdReference& r, PlaneSums& sum) {
+        if (!r.guest || guests_too) sum.add(r, boxes_.keys(r.item), pose_time(r.when), options_.weight);
+    });
+    KdPlane best;
+    for (int k = 0; k < 3; ++k) consider_planes_of(sums.axis[static_cast<size_t>(k)], k, cell, best);
+    return best;
+}
+
+}  // namespace trapeze

@@ -1,0 +1,52 @@
+/// Which plane divides a node of the k-d tree for motion blur: the surface area heuristic over micropolygons
+/// at one time of the shutter, each of which counts on a side as long as it is there [Yang17 sec. 3.1.1].
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "accel/moving/kd_options.h"
+#include "accel/moving/shutter_span.h"
+#include "accel/moving/swept_boxes.h"
+
+namespace trapeze {
+
+/// A micropolygon in a cell, and when it is there.
+struct KdReference {
+    Box3f box;          ///< of what is in the cell of its pose, at pose_time(when)
+    uint32_t item = 0;  ///< of SweptBoxes
+    ShutterSpan when;
+    /// It is not in the cell at the time for which planes are chosen, and came across the plane that bounds
+    /// the cell: of the BP_node, not of the Normal_node, in the paper's words.
+    bool guest = false;
+};
+
+/// A plane, and what a node costs that it divides; the cost is infinite if there is none.
+struct KdPlane {
+    double cost = std::numeric_limits<double>::infinity();
+    int axis = 0;
+    float at = 0;
+};
+
+/// Chooses planes for nodes. Costs are tests of a micropolygon.
+class KdPlanes {
+  public:
+    KdPlanes(const SweptBoxes& boxes, const KdTreeOptions& options) : boxes_(boxes), options_(options) {}
+
+    /// What a node costs as a leaf: the references that a ray at any time tests. Guests do not count.
+    double leaf_cost(std::span<const KdReference> references) const;
+
+    /// The best of some planes along each axis, all strictly within the cell. The same whatever the number of
+    /// threads. Guests are not looked at, but where they are more than the others.
+    KdPlane best(std::span<const KdReference> references, const Box3f& cell) const;
+
+    /// When in its span a micropolygon's pose decides where it belongs: the plane time, or what is nearest.
+    float pose_time(const ShutterSpan& when) const;
+
+  private:
+    const SweptBoxes& boxes_;
+    const KdTreeOptions& options_;
+};
+
+}  // namespace trapeze

@@ -1,0 +1,52 @@
+#include "accel/moving/kd_tree.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "accel/builders/grid_summary.h"
+
+namespace trapeze {
+
+KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids), mailbox_(options.mailbox) {
+    const std::vector<GridSummary> summaries =
+        framed_summaries(grids, {PaperTreeOptions::Bounds::AxisAligned});
+    for (size_t g = 0; g < summaries.size(); ++g) {
+        const GridSummary& summary = summaries[g];
+        if (std::isfinite(summary.absolute_max)) {
+            absolute_max_ = std::max(absolute_max_, summary.absolute_max);
+            quad_extent_ = std::max(quad_extent_, summary.quad_extent);
+            continue;
+        }
+        const GridShape& shape = grids.grids[g].shape;
+        for (int v = 0; v < shape.nv; ++v)
+            for (int u = 0; u < shape.nu; ++u)
+                unbounded_.push_back(
+                    {static_cast<uint32_t>(g), static_cast<uint8_t>(u), static_cast<uint8_t>(v)});
+    }
+    const SweptBoxes boxes(grids, summaries);
+    KdTopology topology = build_kd_topology(grids, boxes, options);
+    nodes_ = std::move(topology.nodes);
+    leaf_first_ = std::move(topology.leaf_first);
+    for (int k = 0; k < 3; ++k) box_.low[k] = topology.box.min[k], box_.high[k] = topology.box.max[k];
+    references_.resize(topology.references.size());
+    tbb::parallel_for(size_t{0}, references_.size(), [&](size_t i) {
+        const KdReference& from = topology.references[i];
+        // The same product as of a ray's time, so that both round alike.
+        references_[i] = {boxes.id(from.item), static_cast<uint16_t>(from.when.from * kTimeSteps),
+                          static_cast<uint16_t>(std::min(std::ceil(from.when.to * kTimeSteps), kTimeSteps))};
+    });
+
+    stats_.tree_bytes =
+        sizeof(*this) + nodes_.capacity() * sizeof(KdNode) + leaf_first_.capacity() * sizeof(uint32_t) +
+        references_.capacity() * sizeof(Reference) + unbounded_.capacity() * sizeof(MicropolygonId);
+    stats_.tree_nodes = nodes_.size();
+    stats_.tree_leaves = leaf_first_.size() - 1;
+    stats_.tree_references = references_.size() + unbounded_.size();
+    stats_.tree_duplicates = references_.size() - std::min(references_.size(), boxes.size());
+    stats_.tree_splits = (nodes_.size() - stats_.tree_leaves);
+    stats_.lacked_budget = topology.lacked_budget;
+}
+
+}  // namespace trapeze

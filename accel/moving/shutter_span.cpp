@@ -1,0 +1,62 @@
+#include "accel/moving/shutter_span.h"
+
+#include <algorithm>
+
+#include "core/motion_keys.h"
+
+namespace trapeze {
+namespace {
+
+/// A crossing is a quotient of two differences, scaled and moved by whole numbers: a few half-ulps of 1.
+constexpr float kTimeRounding = 0x1p-20f;
+
+/// The span of `within` at which values, one a key, are at or below `at`.
+template <class ValueAt>
+ShutterSpan when_not_above(size_t keys, const ValueAt& value_at, float at, ShutterSpan within) {
+    if (within.is_empty()) return ShutterSpan::none();
+    if (keys == 1) return value_at(0) <= at ? within : ShutterSpan::none();
+    const int count = static_cast<int>(keys);
+    const float segments = static_cast<float>(count - 1);  // a power of two: quotients by it are exact
+    ShutterSpan span = ShutterSpan::none();
+    for (int s = segment_at(within.from, count).index; s < count - 1; ++s) {
+        const float begin = static_cast<float>(s) / segments, end = static_cast<float>(s + 1) / segments;
+        if (begin > within.to) break;
+        const float a = value_at(static_cast<size_t>(s)), b = value_at(static_cast<size_t>(s) + 1);
+        if (a > at && b > at) continue;
+        ShutterSpan part{std::max(begin, within.from), std::min(end, within.to)};
+        if (a > at || b > at) {
+            const float crossing = begin + (at - a) / (b - a) / segments;
+            if (a > at)
+                part.from = std::max(part.from, crossing - kTimeRounding);
+            else
+                part.to = std::min(part.to, crossing + kTimeRounding);
+            if (part.is_empty()) continue;
+        }
+        span = span.is_empty() ? part : ShutterSpan{span.from, part.to};
+    }
+    return span;
+}
+
+}  // namespace
+
+ShutterSpan when_at_or_below(std::span<const float> keys, float at, ShutterSpan within) {
+    return when_not_above(
+        keys.size(), [&](size_t key) { return keys[key]; }, at, within);
+}
+
+ShutterSpan when_at_or_above(std::span<const float> keys, float at, ShutterSpan within) {
+    return when_not_above(
+        keys.size(), [&](size_t key) { return -keys[key]; }, -at, within);
+}
+
+ShutterSpan when_at_or_below(std::span<const Box3f> keys, int axis, float at, ShutterSpan within) {
+    return when_not_above(
+        keys.size(), [&](size_t key) { return keys[key].min[axis]; }, at, within);
+}
+
+ShutterSpan when_at_or_above(std::span<const Box3f> keys, int axis, float at, ShutterSpan within) {
+    return when_not_above(
+        keys.size(), [&](size_t key) { return -keys[key].max[axis]; }, -at, within);
+}
+
+}  // namespace trapeze
