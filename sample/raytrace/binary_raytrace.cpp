@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "accel/dynamic/insertion_tree.h"
+#include "accel/dynamic/loose_tree.h"
+#include "accel/moving/kd_tree.h"
 #include "accel/moving/moving_tree.h"
 #include "accel/paper/micropolygon_tree.h"
 #include "accel/paper/paper_tree.h"
@@ -15,8 +18,7 @@ namespace {
 /// Rays of a beam. 64 to 512 are within 10 % of each other in tests/bench/trace_bench.cpp.
 constexpr size_t kGroupSize = 128;
 
-template <class Tree>
-auto tree_options(const MethodSpec& spec) {
+PaperTreeOptions paper_options(const MethodSpec& spec) {
     using Bounds = PaperTreeOptions::Bounds;
     PaperTreeOptions options;
     if (spec["bounds"] == "aabb") options.bounds = Bounds::AxisAligned;
@@ -27,8 +29,7 @@ auto tree_options(const MethodSpec& spec) {
     return options;
 }
 
-template <>
-auto tree_options<MovingTree>(const MethodSpec& spec) {
+MovingTreeOptions moving_options(const MethodSpec& spec) {
     MovingTreeOptions options;
     options.leaf = spec.number("leaf");
     options.keys = spec["keys"] == "grids" ? 0 : spec.number("keys");
@@ -39,12 +40,58 @@ auto tree_options<MovingTree>(const MethodSpec& spec) {
     return options;
 }
 
+KdTreeOptions kd_options(const MethodSpec& spec) {
+    KdTreeOptions options;
+    options.plane_time = spec["plane"] == "0" ? 0.0f : spec["plane"] == "1" ? 1.0f : 0.5f;
+    if (spec["weight"] == "whole") options.weight = KdTreeOptions::Weight::Whole;
+    options.budget = spec.number("duplicates");
+    options.leaf = spec.number("leaf");
+    options.mailbox = spec.is_on("mailbox");
+    return options;
+}
+
+/// Of one frame the tree that is updated is the one that is inserted into again.
+InsertionOptions insertion_options(const MethodSpec& spec) {
+    return {.passes = spec["tree"] == "dynamic" ? 2 : 0};
+}
+
+LooseOptions loose_options(const MethodSpec& spec) {
+    return {spec.number("levels"), spec["place"] == "size", spec.is_on("skip")};
+}
+
+/// Builds a tree of grids with the options that a spec has for it.
+template <class Tree>
+Tree built(const VisibilityInput& input) {
+    const MethodSpec& spec = input.spec;
+    if constexpr (std::is_same_v<Tree, MovingTree>) {
+        return Tree(input.grids, moving_options(spec));
+    } else if constexpr (std::is_same_v<Tree, KdTree>) {
+        return Tree(input.grids, kd_options(spec));
+    } else if constexpr (std::is_same_v<Tree, InsertionTree>) {
+        Tree tree(insertion_options(spec));
+        tree.build(input.grids);
+        return tree;
+    } else if constexpr (std::is_same_v<Tree, LooseTree>) {
+        Tree tree(loose_options(spec));
+        tree.build(input.grids);
+        return tree;
+    } else {
+        return Tree(input.grids, paper_options(spec));
+    }
+}
+
+/// Whether beams can look for the part of a tree that their rays may meet.
+template <class Tree>
+inline constexpr bool kHasParts = requires(const Tree& tree) {
+    tree.top();
+};
+
 /// Says where a tree had no budget left for cuts that it would have made.
 void tell_of_budget(const VisibilityInput& input, const BuildStats& stats) {
     if (stats.lacked_budget && input.context.diagnostics)
         input.context.diagnostics->note({},
-                                        "spatial splits added " + std::to_string(stats.tree_duplicates) +
-                                            " references; \"budget\" left none for some nodes",
+                                        "splits added " + std::to_string(stats.tree_duplicates) +
+                                            " references; some nodes were not divided, for want of more",
                                         "budget");
 }
 
@@ -55,17 +102,17 @@ struct BinaryScratch {
     std::vector<Hit> hits;         ///< of one ray
 };
 
-/// `Tree` is PaperTree, MicropolygonTree or MovingTree.
+/// `Tree` is one with parts, or KdTree, InsertionTree or LooseTree.
 template <class Tree>
 class BinaryRayTraced final : public Visibility {
   public:
     explicit BinaryRayTraced(const VisibilityInput& input)
-        : bundles_(input.spec.is_on("bundle")),
+        : bundles_(kHasParts<Tree> && input.spec.is_on("bundle")),
           range_{input.context.camera.near_clip, input.context.camera.far_clip},
           sort_by_time_(input.context.motion && input.spec.is_on("ray_sort")),
           sort_by_direction_(input.context.camera.has_lens() && input.spec.is_on("ray_sort")),
           all_opaque_(every_grid_is_opaque(input.grids)),
-          tree_(input.grids, tree_options<Tree>(input.spec)) {
+          tree_(built<Tree>(input)) {
         tell_of_budget(input, tree_.stats());
     }
 
@@ -83,15 +130,15 @@ class BinaryRayTraced final : public Visibility {
     BuildStats build_stats() const override { return tree_.stats(); }
 
   private:
-    /// Calls trace_one(sample, part of the tree) for all samples in order. What a beam looks at counts in the
-    /// stats, but for no one sample.
+    /// Calls trace_one(sample, part of the tree, or null: all of it) for all samples in order. What a beam
+    /// looks at counts in the stats, but for no one sample.
     template <class TraceOne>
     void trace_in_order(const SampleTile& samples, SampleScratch& scratch, SampleStats& stats,
                         TraceOne&& trace_one) const {
         BinaryScratch& own = scratch.own.of<BinaryScratch>();
         const std::span<const uint32_t> order = own.rays.order;
         if (order.empty()) return;
-        const auto trace_group = [&](std::span<const uint32_t> group, const TopLevel& part) {
+        const auto trace_group = [&](std::span<const uint32_t> group, const TopLevel* part) {
             for (const uint32_t sample : group) {
                 const SampleStats before = stats;
                 trace_one(sample, part);
@@ -103,24 +150,35 @@ class BinaryRayTraced final : public Visibility {
             }
         };
         if (!bundles_) {
-            trace_group(order, tree_.top());
+            trace_group(order, nullptr);
             return;
         }
-        tree_.top().within(Beam(samples.rays, order, range_), own.tile_top, &stats.nodes_visited);
-        for (size_t first = 0; first < order.size(); first += kGroupSize) {
-            const auto group = order.subspan(first, std::min(kGroupSize, order.size() - first));
-            own.tile_top.within(Beam(samples.rays, group, range_), own.group_top, &stats.nodes_visited);
-            trace_group(group, own.group_top);
+        if constexpr (kHasParts<Tree>) {
+            tree_.top().within(Beam(samples.rays, order, range_), own.tile_top, &stats.nodes_visited);
+            for (size_t first = 0; first < order.size(); first += kGroupSize) {
+                const auto group = order.subspan(first, std::min(kGroupSize, order.size() - first));
+                own.tile_top.within(Beam(samples.rays, group, range_), own.group_top, &stats.nodes_visited);
+                trace_group(group, &own.group_top);
+            }
+        }
+    }
+
+    template <class Policy>
+    void trace(const TopLevel* part, TraceRay& ray, Policy& policy, SampleStats& stats) const {
+        if constexpr (kHasParts<Tree>) {
+            tree_.trace(part ? *part : tree_.top(), ray, policy, stats);
+        } else {
+            tree_.trace(ray, policy, stats);
         }
     }
 
     void resolve_closest(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const {
         scratch.nearest.resize(samples.size());
-        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
+        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel* part) {
             TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
             ClosestHit policy;
-            tree_.trace(part, ray, policy, stats);
+            trace(part, ray, policy, stats);
             scratch.nearest[sample] = policy.best;
         });
         buffer_of_nearest(scratch, samples.size(), hits);
@@ -132,7 +190,7 @@ class BinaryRayTraced final : public Visibility {
         scratch.nearest.assign(samples.size(), kBehindAll);
         scratch.found.begin(samples.size(), window);
         std::vector<Hit>& of_ray = scratch.own.of<BinaryScratch>().hits;
-        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel& part) {
+        trace_in_order(samples, scratch, stats, [&](uint32_t sample, const TopLevel* part) {
             if (!window.wants(sample)) return;
             TraceRay ray = TraceRay::camera(samples.rays[sample], range_);
             of_ray.clear();
@@ -143,7 +201,7 @@ class BinaryRayTraced final : public Visibility {
                 policy.behind = window.behind[sample];
                 ray.t_min = std::max(ray.t_min, policy.behind.depth);
             }
-            tree_.trace(part, ray, policy, stats);
+            trace(part, ray, policy, stats);
             if (policy.is_cut)
                 scratch.found.cut(sample, policy.last);
             else
@@ -162,8 +220,11 @@ class BinaryRayTraced final : public Visibility {
 }  // namespace
 
 std::unique_ptr<Visibility> prepare_binary_raytrace(const VisibilityInput& input) {
-    if (input.spec["tree"] != "paper" && input.spec["tree"] != "wide")
-        return std::make_unique<BinaryRayTraced<MovingTree>>(input);
+    const std::string_view tree = input.spec["tree"];
+    if (tree == "mbkd") return std::make_unique<BinaryRayTraced<KdTree>>(input);
+    if (tree == "gs" || tree == "dynamic") return std::make_unique<BinaryRayTraced<InsertionTree>>(input);
+    if (tree == "loose") return std::make_unique<BinaryRayTraced<LooseTree>>(input);
+    if (tree != "paper" && tree != "wide") return std::make_unique<BinaryRayTraced<MovingTree>>(input);
     if (input.spec["split"] == "sah") return std::make_unique<BinaryRayTraced<MicropolygonTree>>(input);
     return std::make_unique<BinaryRayTraced<PaperTree>>(input);
 }

@@ -1,4 +1,6 @@
 /// The row "raytrace": rays through a tree of grids, the fast one or the paper's.
+#include <array>
+
 #include "accel/wide/wide_tree.h"
 #include "sample/raytrace/binary_raytrace.h"
 #include "sample/raytrace/wide_raytrace.h"
@@ -8,7 +10,7 @@ namespace {
 
 const std::vector<SpecOption>& raytrace_options() {
     static const std::vector<SpecOption> options = {
-        {"tree", {"wide", "paper", "interpolated", "msbvh", "lbvh"}},
+        {"tree", {"wide", "paper", "interpolated", "msbvh", "lbvh", "mbkd", "gs", "dynamic", "loose"}},
         {"bundle", {"on", "off"}},
         {"bounds", {"obb", "aabb", "aabb4d"}},
         {"split", {"parametric", "sah"}},
@@ -19,16 +21,39 @@ const std::vector<SpecOption>& raytrace_options() {
         {"keys", {"grids", "1", "2", "3", "5"}},
         {"clip", {"polygon", "box"}},
         {"budget", {"2", "1", "4", "8"}},
+        {"duplicates", {"16", "2", "4", "8", "64"}},
+        {"plane", {".5", "0", "1"}},
+        {"weight", {"time", "whole"}},
+        {"mailbox", {"on", "off"}},
+        {"levels", {"18", "9", "12", "15", "21"}},
+        {"place", {"size", "lowest"}},
+        {"skip", {"on", "off"}},
     };
     return options;
 }
 
 /// The trees that an option but "tree" is for: names in the order of its values, separated by |.
 std::string_view trees_with(std::string_view option) {
-    if (option == "bundle" || option == "ray_sort" || option == "leaf")
-        return "paper|interpolated|msbvh|lbvh";
-    if (option == "keys") return "interpolated|msbvh|lbvh";
-    if (option == "clip" || option == "budget") return "msbvh";
+    struct Row {
+        std::string_view option, trees;
+    };
+    static constexpr std::array<Row, 13> kRows{{
+        {"bundle", "paper|interpolated|msbvh|lbvh"},
+        {"ray_sort", "paper|interpolated|msbvh|lbvh|mbkd|gs|dynamic|loose"},
+        {"leaf", "paper|interpolated|msbvh|lbvh|mbkd"},
+        {"keys", "interpolated|msbvh|lbvh"},
+        {"clip", "msbvh"},
+        {"budget", "msbvh"},
+        {"duplicates", "mbkd"},
+        {"plane", "mbkd"},
+        {"weight", "mbkd"},
+        {"mailbox", "mbkd"},
+        {"levels", "loose"},
+        {"place", "loose"},
+        {"skip", "loose"},
+    }};
+    for (const Row& row : kRows)
+        if (row.option == option) return row.trees;
     return "paper";
 }
 
