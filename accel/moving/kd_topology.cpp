@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -68,8 +69,8 @@ class KdBuilder {
             root.cell = with_sides(result.box);
             root.budget = static_cast<size_t>(options_.budget * static_cast<double>(boxes_.size()));
             // As in [Pharr10 sec. 4.4.1].
-            const double levels = 8 + 1.3 * std::log2(static_cast<double>(boxes_.size()));
-            depth_limit_ = std::min(kKdDepthLimit, static_cast<int>(levels));
+            depth_limit_ =
+                std::min(kKdDepthLimit, 8 + 13 * (static_cast<int>(std::bit_width(boxes_.size())) - 1) / 10);
             const std::unique_ptr<BuiltNode> built = build_node(std::move(root));
             result.nodes.emplace_back();
             number(*built, 0, result);

@@ -118,7 +118,8 @@ std::string roff_text(std::string_view text) {
                 roff += c;
         }
         // Long words, as lists of a method's options, may be broken there.
-        if (c == ',' && i + 1 < text.size() && text[i + 1] != ' ' && text[i + 1] != '\n') roff += "\\:";
+        if ((c == ',' || c == '|') && i + 1 < text.size() && text[i + 1] != ' ' && text[i + 1] != '\n')
+            roff += "\\:";
     }
     return roff;
 }

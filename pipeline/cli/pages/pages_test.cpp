@@ -56,6 +56,7 @@ TEST(Pages, LettersThatRoffTakesForItsOwnAreMarked) {
     EXPECT_EQ(roff_text("a\n'b\\c`"), "a\n\\&\\(aqb\\ec\\(ga");
     EXPECT_EQ(roff_text("plain."), "plain.");
     EXPECT_EQ(roff_text("a,b, c"), "a,\\:b, c") << "may be broken";
+    EXPECT_EQ(roff_text("a|b"), "a|\\:b");
 }
 
 TEST(Pages, WordsThatShellsTakeForTheirOwnAreMarked) {
