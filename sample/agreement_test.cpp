@@ -241,24 +241,41 @@ std::vector<TestScene> make_scenes() {
 }
 
 /// Samples of a frame with a border of filter pixels around, tile by tile in parallel.
-std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_name,
-                               std::string_view pattern_name = "") {
-    std::string error;
-    const auto sampler = choose_sampler(method_name, pattern_name, &error);
-    EXPECT_TRUE(sampler) << error;
-    const auto pattern = sampler->make_pattern(scene.frame.context);
-    const auto visibility = sampler->prepare(scene.frame.context, scene.maker.grids());
+std::vector<HitBuffer> resolve(const TestScene& scene, const SamplePattern& pattern,
+                               const Visibility& visibility) {
     const auto tiles = tiles_of({-2, -2, scene.frame.options.width + 2, scene.frame.options.height + 2});
     std::vector<HitBuffer> buffers(tiles.size());
     tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
         SampleTile samples;
         SampleScratch scratch;
         SampleStats stats;
-        pattern->make_tile(tiles[i], samples);
-        visibility->resolve(samples, buffers[i], scratch, stats);
+        pattern.make_tile(tiles[i], samples);
+        visibility.resolve(samples, buffers[i], scratch, stats);
         EXPECT_EQ(stats.rays, samples.size());
     });
     return buffers;
+}
+
+std::vector<HitBuffer> resolve(const TestScene& scene, std::string_view method_name,
+                               std::string_view pattern_name = "") {
+    std::string error;
+    const auto sampler = choose_sampler(method_name, pattern_name, &error);
+    EXPECT_TRUE(sampler) << error;
+    return resolve(scene, *sampler->make_pattern(scene.frame.context),
+                   *sampler->prepare(scene.frame.context, scene.maker.grids()));
+}
+
+/// The frame before a scene's: everything is elsewhere, each grid by a way of its own; what is opaque is not.
+GridMaker frame_before(const GridMaker& maker) {
+    GridMaker before;
+    Noise noise;
+    for (const Grid& grid : maker.grids().grids) {
+        const V3f shift = noise.point(1, -1, 1);
+        before.opaque = !grid.opaque, before.facing = grid.facing;
+        before.add(grid.shape.nu, grid.shape.nv, 1,
+                   [&](int i, int j, float) { return grid.vertex(i, j, 0) + shift; });
+    }
+    return before;
 }
 
 /// What no bound has a say in: every sample against every micropolygon, one by one.
@@ -359,6 +376,30 @@ TEST_P(Agreement, TheTreesOfOtherPapersFindWhatBruteForceFinds) {
           "mbkd,plane=1,weight=whole", "gs", "dynamic", "loose", "loose,place=lowest,levels=9",
           "loose,skip=off,levels=12"})
         EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=" + tree), truth), 0u) << tree;
+}
+
+TEST_P(Agreement, UpdatedTreesFindWhatBruteForceFinds) {
+    const auto truth = resolve(scene(), "bruteforce");
+    const GridMaker before = frame_before(scene().maker);
+    for (const std::string tree :
+         {"refit", "dynamic", "dynamic,thinning=1.1", "loose", "loose,place=lowest"}) {
+        std::string error;
+        const auto sampler = choose_sampler("raytrace:tree=" + tree, "", &error);
+        ASSERT_TRUE(sampler) << error;
+        const auto visibility = sampler->prepare(scene().frame.context, before.grids());
+        ASSERT_TRUE(visibility->update(scene().maker.grids())) << tree;
+        const auto pattern = sampler->make_pattern(scene().frame.context);
+        EXPECT_EQ(differing_samples(resolve(scene(), *pattern, *visibility), truth), 0u) << tree;
+    }
+}
+
+TEST(UpdatedTrees, OthersArePreparedAnew) {
+    const TestScene& scene = scenes().front();
+    for (const std::string_view method : {"raytrace", "raytrace:tree=gs", "raytrace:tree=lbvh", "interval"}) {
+        std::string error;
+        const auto sampler = choose_sampler(method, "", &error);
+        EXPECT_FALSE(sampler->prepare(scene.frame.context, scene.maker.grids())->update(scene.maker.grids()));
+    }
 }
 
 TEST_P(Agreement, IntervalFindsWhatTestingEverythingFinds) {

@@ -29,6 +29,12 @@ class Visibility {
     virtual void resolve(const SampleTile& samples, HitBuffer& hits, SampleScratch& scratch,
                          SampleStats& stats) const = 0;
     virtual BuildStats build_stats() const { return {}; }
+
+    /// Takes the grids of the next frame of a sequence in place of those that it was prepared for, and
+    /// changes what it has prepared to fit them. False, with nothing changed, where that is not its way:
+    /// prepare anew.
+    virtual bool update(const Grids& /*grids*/) { return false; }
+
     /// Whether resolve() takes as long for a part of the samples' lists as for the whole: then few samples at
     /// a time are to be looked at, of which nothing is left for another pass.
     virtual bool walks_whole_lists() const { return false; }

@@ -66,31 +66,35 @@ void boxes_at_keys(const Grid& grid, const MicropolygonId& id, const SahItem& re
 
 }  // namespace
 
-/// What leaves are made of.
+/// What leaves are made of: lists of references, each an index of an id.
 struct MovingTree::Sources {
-    const std::vector<GridSummary>& summaries;
-    const std::vector<MicropolygonId>& ids;
-    const MovingTreeOptions& options;
+    std::span<const GridSummary> summaries;
+    std::span<const MicropolygonId> ids;
+    std::span<const SahItem> references;
 };
 
-MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : ListTree(grids) {
+MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options)
+    : ListTree(grids), options_(options) {
+    build();
+}
+
+void MovingTree::build() {
     const std::vector<GridSummary> summaries =
-        framed_summaries(grids, {PaperTreeOptions::Bounds::AxisAligned});
+        framed_summaries(*grids_, {PaperTreeOptions::Bounds::AxisAligned});
     std::vector<MicropolygonId> ids;
     std::vector<SahItem> items;
-    micropolygon_items(grids, summaries, ids, items);
+    micropolygon_items(*grids_, summaries, ids, items);
     SpatialOptions spatial;
-    spatial.leaf_below = static_cast<size_t>(options.leaf);
-    spatial.budget = static_cast<size_t>(options.budget * static_cast<double>(items.size()));
+    spatial.leaf_below = static_cast<size_t>(options_.leaf);
+    spatial.budget = static_cast<size_t>(options_.budget * static_cast<double>(items.size()));
     // The boxes of the second form have to hold all of the whole box together.
-    spatial.tight = options.clipping != MovingTreeOptions::Clipping::Box;
-    SpatialTopology topology = options.topology == MovingTreeOptions::Topology::Morton
+    spatial.tight = options_.clipping != MovingTreeOptions::Clipping::Box;
+    SpatialTopology topology = options_.topology == MovingTreeOptions::Topology::Morton
                                    ? build_linear_topology(items, spatial.leaf_below)
-                                   : build_spatial_topology(items, grids, ids, spatial);
+                                   : build_spatial_topology(items, *grids_, ids, spatial);
 
     items = {};
     leaf_first_ = std::move(topology.leaf_first);
-    top_.key_count = options.keys > 0 ? options.keys : grids.max_key_count();
     top_.oriented = false;
     const auto by_id = [](const SahItem& a, const SahItem& b) {
         return PartId::index(a.id) < PartId::index(b.id);
@@ -99,12 +103,8 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : L
         std::sort(topology.references.begin() + leaf_first_[i],
                   topology.references.begin() + leaf_first_[i + 1], by_id);
     });
-    if (leaf_count() > 0) {
-        top_.nodes.resize(2 * leaf_count() - 1);
-        top_.boxes.resize(top_.nodes.size() * static_cast<size_t>(top_.key_count));
-        bound_leaves({summaries, ids, options}, topology);
-        bound_below(topology.tree, topology.tree.root, top_.nodes.size() - 1, 0);
-    }
+    link_nodes(topology.tree);
+    bound({summaries, ids, topology.references});
 
     micropolygons_.resize(topology.references.size());
     tbb::parallel_for(size_t{0}, micropolygons_.size(),
@@ -116,57 +116,88 @@ MovingTree::MovingTree(const Grids& grids, const MovingTreeOptions& options) : L
     stats_.lacked_budget = topology.lacked_budget;
 }
 
-void MovingTree::bound_leaves(const Sources& sources, const SpatialTopology& topology) {
-    const auto keys = static_cast<size_t>(top_.key_count);
-    std::vector<size_t> node_of_leaf(leaf_count(), top_.nodes.size() - 1);
-    for (size_t i = 0; i < topology.tree.inner.size(); ++i)
-        for (const size_t side : {0, 1}) {
-            const TopLink link = topology.tree.inner[i][side];
-            if (link.is_leaf()) node_of_leaf[link.index()] = 2 * i + side;
-        }
-    tbb::parallel_for(size_t{0}, node_of_leaf.size(), [&](size_t i) {
-        std::array<Box3f, kMaxKeyCount> of_leaf, at_keys;
-        std::fill_n(of_leaf.begin(), keys, Box3f());
-        GridKeyBoxes of_grid;
-        TopLevel::Node& node = top_.nodes[node_of_leaf[i]];
-        node.link = TopLink::leaf(static_cast<uint32_t>(i));
-        for (size_t r = leaf_first_[i]; r < leaf_first_[i + 1]; ++r) {
-            const SahItem& reference = topology.references[r];
-            const MicropolygonId& id = sources.ids[PartId::index(reference.id)];
-            const GridSummary& summary = sources.summaries[id.grid];
-            node.absolute_max = std::max(node.absolute_max, summary.absolute_max);
-            node.quad_extent = std::max(node.quad_extent, summary.quad_extent);
-            if (std::isfinite(summary.absolute_max)) {
-                boxes_at_keys(grids_.grids[id.grid], id, reference, sources.options.clipping, of_grid);
-            } else {  // its rounding makes any box infinite
-                of_grid.count = 1, of_grid.box[0] = Box3f(V3f(0), V3f(0));
-            }
-            keyed_boxes(of_grid.all(), std::span(at_keys).first(keys));
-            for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(at_keys[key]);
-        }
-        KeyBox* const to = top_.boxes.data() + node_of_leaf[i] * keys;
-        for (size_t key = 0; key < keys; ++key)
-            for (int k = 0; k < 3; ++k)
-                to[key].low[k] = of_leaf[key].min[k], to[key].high[k] = of_leaf[key].max[k];
+void MovingTree::link_nodes(const TopTopology& topology) {
+    top_.nodes.clear();
+    if (leaf_count() == 0) return;
+    top_.nodes.resize(2 * leaf_count() - 1);
+    for (size_t i = 0; i < topology.inner.size(); ++i)
+        for (const size_t side : {0, 1}) top_.nodes[2 * i + side].link = topology.inner[i][side];
+    top_.nodes.back().link = topology.root;
+}
+
+bool MovingTree::lists_hold(const Grids& grids) const {
+    if (micropolygons_.size() - stats_.tree_duplicates != grids.micropolygon_count()) return false;
+    return std::ranges::all_of(micropolygons_, [&](const MicropolygonId& id) {
+        return id.grid < grids.grids.size() && id.u < grids.grids[id.grid].shape.nu &&
+               id.v < grids.grids[id.grid].shape.nv;
     });
 }
 
-void MovingTree::bound_below(const TopTopology& topology, TopLink link, size_t node, int depth) {
-    if (link.is_leaf()) return;
+void MovingTree::refit(const Grids& grids) {
+    grids_ = &grids;
+    if (!lists_hold(grids)) {
+        build();
+        return;
+    }
+    const std::vector<GridSummary> summaries =
+        framed_summaries(grids, {PaperTreeOptions::Bounds::AxisAligned});
+    std::vector<SahItem> whole(micropolygons_.size());
+    for (size_t i = 0; i < whole.size(); ++i) whole[i].id = static_cast<uint32_t>(i);
+    bound({summaries, micropolygons_, whole});
+}
+
+void MovingTree::bound(const Sources& sources) {
+    top_.key_count = options_.keys > 0 ? options_.keys : grids_->max_key_count();
+    top_.boxes.resize(top_.nodes.size() * static_cast<size_t>(top_.key_count));
+    tbb::parallel_for(size_t{0}, top_.nodes.size(), [&](size_t node) {
+        if (top_.nodes[node].link.is_leaf()) bound_leaf(sources, node);
+    });
+    if (!top_.nodes.empty()) bound_below(top_.nodes.size() - 1, 0);
+}
+
+void MovingTree::bound_leaf(const Sources& sources, size_t at) {
     const auto keys = static_cast<size_t>(top_.key_count);
-    const size_t low = 2 * size_t{link.index()}, high = low + 1;
-    const auto& [low_link, high_link] = topology.inner[link.index()];
+    std::array<Box3f, kMaxKeyCount> of_leaf, at_keys;
+    std::fill_n(of_leaf.begin(), keys, Box3f());
+    GridKeyBoxes of_grid;
+    TopLevel::Node& node = top_.nodes[at];
+    node.absolute_max = node.quad_extent = 0;
+    const uint32_t list = node.link.index();
+    for (size_t r = leaf_first_[list]; r < leaf_first_[list + 1]; ++r) {
+        const SahItem& reference = sources.references[r];
+        const MicropolygonId& id = sources.ids[PartId::index(reference.id)];
+        const GridSummary& summary = sources.summaries[id.grid];
+        node.absolute_max = std::max(node.absolute_max, summary.absolute_max);
+        node.quad_extent = std::max(node.quad_extent, summary.quad_extent);
+        if (std::isfinite(summary.absolute_max)) {
+            boxes_at_keys(grids_->grids[id.grid], id, reference, options_.clipping, of_grid);
+        } else {  // its rounding makes any box infinite
+            of_grid.count = 1, of_grid.box[0] = Box3f(V3f(0), V3f(0));
+        }
+        keyed_boxes(of_grid.all(), std::span(at_keys).first(keys));
+        for (size_t key = 0; key < keys; ++key) of_leaf[key].extendBy(at_keys[key]);
+    }
+    KeyBox* const to = top_.boxes.data() + at * keys;
+    for (size_t key = 0; key < keys; ++key)
+        for (int k = 0; k < 3; ++k)
+            to[key].low[k] = of_leaf[key].min[k], to[key].high[k] = of_leaf[key].max[k];
+}
+
+void MovingTree::bound_below(size_t at, int depth) {
+    TopLevel::Node& node = top_.nodes[at];
+    if (node.link.is_leaf()) return;
+    const auto keys = static_cast<size_t>(top_.key_count);
+    const size_t low = 2 * size_t{node.link.index()}, high = low + 1;
     if (depth < kParallelLevels)
-        tbb::parallel_invoke([&, l = low_link] { bound_below(topology, l, low, depth + 1); },
-                             [&, l = high_link] { bound_below(topology, l, high, depth + 1); });
+        tbb::parallel_invoke([&] { bound_below(low, depth + 1); }, [&] { bound_below(high, depth + 1); });
     else
-        bound_below(topology, low_link, low, depth + 1), bound_below(topology, high_link, high, depth + 1);
+        bound_below(low, depth + 1), bound_below(high, depth + 1);
     const TopLevel::Node &a = top_.nodes[low], &b = top_.nodes[high];
-    top_.nodes[node] = {std::max(a.absolute_max, b.absolute_max), std::max(a.quad_extent, b.quad_extent),
-                        link};
+    node.absolute_max = std::max(a.absolute_max, b.absolute_max);
+    node.quad_extent = std::max(a.quad_extent, b.quad_extent);
     for (size_t key = 0; key < keys; ++key) {
         const KeyBox &of_a = top_.boxes[low * keys + key], &of_b = top_.boxes[high * keys + key];
-        KeyBox& to = top_.boxes[node * keys + key];
+        KeyBox& to = top_.boxes[at * keys + key];
         for (int k = 0; k < 3; ++k) {
             to.low[k] = std::min(of_a.low[k], of_b.low[k]);
             to.high[k] = std::max(of_a.high[k], of_b.high[k]);

@@ -23,13 +23,26 @@ class MovingTree final : public ListTree {
     /// Builds in parallel. Keeps a reference to the grids. At most 2^30 micropolygons and parts.
     explicit MovingTree(const Grids& grids, const MovingTreeOptions& options = {});
 
+    /// Takes the grids of another frame of the same sequence, in place of those that the tree was built for:
+    /// nodes and lists stay, and boxes are made anew, in parallel, for whole micropolygons. Grids of other
+    /// shapes are built. Keeps a reference to the grids.
+    void refit(const Grids& grids);
+
   private:
     struct Sources;
 
-    /// Bounds nodes that are leaves.
-    void bound_leaves(const Sources& sources, const SpatialTopology& topology);
-    /// Bounds the node of an inner link, and all inner ones below it, by their children.
-    void bound_below(const TopTopology& topology, TopLink link, size_t node, int depth);
+    void build();
+    /// Says which node is which leaf, and which ones are below which.
+    void link_nodes(const TopTopology& topology);
+    /// Whether the lists have all micropolygons of grids, and no others.
+    bool lists_hold(const Grids& grids) const;
+    /// Bounds all nodes.
+    void bound(const Sources& sources);
+    void bound_leaf(const Sources& sources, size_t node);
+    /// Bounds a node that is inner, and all inner ones below it, by their children.
+    void bound_below(size_t node, int depth);
+
+    MovingTreeOptions options_;
 };
 
 }  // namespace trapeze

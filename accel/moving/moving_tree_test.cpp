@@ -129,6 +129,39 @@ TEST(MovingTree, IsTheSameFromAnyNumberOfThreads) {
             [&] { return MovingTree(maker.grids(), {.budget = 2, .topology = topology}).top(); });
 }
 
+TEST(MovingTree, RefittedSeesEveryFrameAsItIs) {
+    const auto frame_of = [](float shift, int strips = 300) {
+        Noise noise;
+        GridMaker parts, maker;
+        add_strips(parts, strips, 3, noise);
+        for (const Grid& grid : parts.grids().grids)
+            maker.add(grid.shape.nu, grid.shape.nv, 3, [&](int i, int j, float t) {
+                const V3f at = grid.vertex(i, j, t);
+                return at + V3f(std::sin(at.y), std::sin(at.z), std::sin(at.x)) * shift;
+            });
+        return maker;
+    };
+    const GridMaker first = frame_of(0), second = frame_of(2), other = frame_of(0, 200), fewer_keys = [] {
+        Noise noise;
+        GridMaker maker;
+        add_strips(maker, 300, 1, noise);
+        return maker;
+    }();
+    for (const MovingTreeOptions options :
+         {MovingTreeOptions{}, {.budget = 2}, {.topology = MovingTreeOptions::Topology::Morton}}) {
+        MovingTree tree(first.grids(), options);
+        const uint64_t nodes = tree.stats().tree_nodes;
+        for (const GridMaker* frame : {&second, &fewer_keys, &first}) {
+            tree.refit(frame->grids());
+            EXPECT_EQ(testing::differing_rays(*frame, tree, 300, 30), 0);
+            EXPECT_EQ(tree.stats().tree_nodes, nodes);
+        }
+        tree.refit(other.grids());
+        EXPECT_EQ(testing::differing_rays(other, tree, 300, 30), 0);
+        EXPECT_LT(tree.stats().tree_nodes, nodes);
+    }
+}
+
 TEST(MovingTree, OfNothingHasNothing) {
     const Grids none;
     const MovingTree tree(none, {2});

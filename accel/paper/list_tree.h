@@ -30,7 +30,7 @@ class ListTree {
 
   protected:
     /// Keeps a reference to the grids.
-    explicit ListTree(const Grids& grids) : grids_(grids) {}
+    explicit ListTree(const Grids& grids) : grids_(&grids) {}
 
     size_t leaf_count() const { return leaf_first_.size() - 1; }
     /// The micropolygons of a leaf, by id.
@@ -47,7 +47,7 @@ class ListTree {
         stats_.tree_leaves = leaf_count();
     }
 
-    const Grids& grids_;
+    const Grids* grids_;
     TopLevel top_;                               ///< leaf links are indices of lists
     std::vector<MicropolygonId> micropolygons_;  ///< list after list
     std::vector<uint32_t> leaf_first_;           ///< list -> its first micropolygon; one more than lists
@@ -59,7 +59,7 @@ void ListTree::trace(const TopLevel& part, TraceRay& ray, Policy& policy, Sample
     TraversalStats traversal;
     traverse(TopLevelView(part, ray), ray, traversal, [&](uint32_t index, TraceRay&) {
         for (const MicropolygonId& id : leaf(index))
-            test_micropolygon(grids_.grids[id.grid], id, ray, policy, stats);
+            test_micropolygon(grids_->grids[id.grid], id, ray, policy, stats);
     });
     ++stats.rays;
     stats.nodes_visited += traversal.nodes;

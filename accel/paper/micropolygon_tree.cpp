@@ -78,7 +78,7 @@ void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
                                       const PaperTreeOptions& options) {
     std::vector<MicropolygonId> ids;
     std::vector<SahItem> items;
-    micropolygon_items(grids_, summaries, ids, items);
+    micropolygon_items(*grids_, summaries, ids, items);
 
     SahOptions sah;
     sah.leaf_below = static_cast<size_t>(options.leaf);
@@ -104,7 +104,7 @@ void MicropolygonTree::build_topology(const std::vector<GridSummary>& summaries,
         [&](uint32_t index) { return leaf_bound(index, summaries, options); },
         [&](uint32_t index, const Frame& frame) { return leaf_bound_in(frame, index, summaries, options); },
         kBoundFromVerticesUpTo};
-    top_ = bound_top_level(topology.tree, leaf_count(), grids_.max_key_count(), options, bounds);
+    top_ = bound_top_level(topology.tree, leaf_count(), grids_->max_key_count(), options, bounds);
     count_built(sizeof(*this));
 }
 
@@ -116,7 +116,7 @@ HyperTrapezoid MicropolygonTree::leaf_bound_in(const Frame& frame, uint32_t inde
     for_each_grid(leaf(index), [&](std::span<const MicropolygonId> part) {
         const uint32_t grid = part[0].grid;
         const HyperTrapezoid bound =
-            bound_in(frame, grids_.grids[grid], part, summaries[grid].absolute_max, whole_motion);
+            bound_in(frame, grids_->grids[grid], part, summaries[grid].absolute_max, whole_motion);
         if (all.keys.empty())
             all = bound;
         else
@@ -144,7 +144,7 @@ NodeBound MicropolygonTree::leaf_bound(uint32_t index, const std::vector<GridSum
         smallest.quad_extent = std::max(smallest.quad_extent, grid.quad_extent);
     });
     if (options.oriented() && std::isfinite(smallest.absolute_max))
-        consider(frame_of_micropolygons(grids_, list));
+        consider(frame_of_micropolygons(*grids_, list));
     return smallest;
 }
 

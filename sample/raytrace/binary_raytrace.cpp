@@ -50,9 +50,11 @@ KdTreeOptions kd_options(const MethodSpec& spec) {
     return options;
 }
 
-/// Of one frame the tree that is updated is the one that is inserted into again.
 InsertionOptions insertion_options(const MethodSpec& spec) {
-    return {.passes = spec["tree"] == "dynamic" ? 2 : 0};
+    InsertionOptions options;
+    options.passes = spec["tree"] == "dynamic" ? 2 : 0;
+    if (spec["thinning"] != "off") options.thinning = std::stof(std::string(spec["thinning"]));
+    return options;
 }
 
 LooseOptions loose_options(const MethodSpec& spec) {
@@ -111,6 +113,7 @@ class BinaryRayTraced final : public Visibility {
           range_{input.context.camera.near_clip, input.context.camera.far_clip},
           sort_by_time_(input.context.motion && input.spec.is_on("ray_sort")),
           sort_by_direction_(input.context.camera.has_lens() && input.spec.is_on("ray_sort")),
+          updates_(updates(input.spec["tree"])),
           all_opaque_(every_grid_is_opaque(input.grids)),
           tree_(built<Tree>(input)) {
         tell_of_budget(input, tree_.stats());
@@ -129,7 +132,21 @@ class BinaryRayTraced final : public Visibility {
 
     BuildStats build_stats() const override { return tree_.stats(); }
 
+    bool update(const Grids& grids) override {
+        if (!updates_) return false;
+        if constexpr (std::is_same_v<Tree, MovingTree>)
+            tree_.refit(grids);
+        else if constexpr (requires { tree_.update(grids); })
+            tree_.update(grids);
+        all_opaque_ = every_grid_is_opaque(grids);
+        return true;
+    }
+
   private:
+    static bool updates(std::string_view tree) {
+        return tree == "refit" || tree == "dynamic" || tree == "loose";
+    }
+
     /// Calls trace_one(sample, part of the tree, or null: all of it) for all samples in order. What a beam
     /// looks at counts in the stats, but for no one sample.
     template <class TraceOne>
@@ -213,7 +230,7 @@ class BinaryRayTraced final : public Visibility {
 
     bool bundles_;
     DepthRange range_;
-    bool sort_by_time_, sort_by_direction_, all_opaque_;
+    bool sort_by_time_, sort_by_direction_, updates_, all_opaque_;
     Tree tree_;
 };
 

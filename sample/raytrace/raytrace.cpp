@@ -10,7 +10,8 @@ namespace {
 
 const std::vector<SpecOption>& raytrace_options() {
     static const std::vector<SpecOption> options = {
-        {"tree", {"wide", "paper", "interpolated", "msbvh", "lbvh", "mbkd", "gs", "dynamic", "loose"}},
+        {"tree",
+         {"wide", "paper", "interpolated", "msbvh", "lbvh", "refit", "mbkd", "gs", "dynamic", "loose"}},
         {"bundle", {"on", "off"}},
         {"bounds", {"obb", "aabb", "aabb4d"}},
         {"split", {"parametric", "sah"}},
@@ -25,6 +26,7 @@ const std::vector<SpecOption>& raytrace_options() {
         {"plane", {".5", "0", "1"}},
         {"weight", {"time", "whole"}},
         {"mailbox", {"on", "off"}},
+        {"thinning", {"off", "1.1", "1.2", "1.5", "2"}},
         {"levels", {"18", "9", "12", "15", "21"}},
         {"place", {"size", "lowest"}},
         {"skip", {"on", "off"}},
@@ -37,17 +39,18 @@ std::string_view trees_with(std::string_view option) {
     struct Row {
         std::string_view option, trees;
     };
-    static constexpr std::array<Row, 13> kRows{{
-        {"bundle", "paper|interpolated|msbvh|lbvh"},
-        {"ray_sort", "paper|interpolated|msbvh|lbvh|mbkd|gs|dynamic|loose"},
-        {"leaf", "paper|interpolated|msbvh|lbvh|mbkd"},
-        {"keys", "interpolated|msbvh|lbvh"},
+    static constexpr std::array<Row, 14> kRows{{
+        {"bundle", "paper|interpolated|msbvh|lbvh|refit"},
+        {"ray_sort", "paper|interpolated|msbvh|lbvh|refit|mbkd|gs|dynamic|loose"},
+        {"leaf", "paper|interpolated|msbvh|lbvh|refit|mbkd"},
+        {"keys", "interpolated|msbvh|lbvh|refit"},
         {"clip", "msbvh"},
         {"budget", "msbvh"},
         {"duplicates", "mbkd"},
         {"plane", "mbkd"},
         {"weight", "mbkd"},
         {"mailbox", "mbkd"},
+        {"thinning", "dynamic"},
         {"levels", "loose"},
         {"place", "loose"},
         {"skip", "loose"},
