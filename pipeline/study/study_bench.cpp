@@ -22,6 +22,7 @@ std::string scene_command_line(const StudyScene& scene) {
     if (p.motion != 1) text += fmt::format(" --motion {:.4g}", p.motion);
     if (p.defocus != 1) text += fmt::format(" --defocus {:.4g}", p.defocus);
     if (p.shading_rate != 1) text += fmt::format(" --shading-factor {:.4g}", p.shading_rate);
+    if (p.time > 0) text += fmt::format(" --time {:.4g}", p.time);
     return text;
 }
 

@@ -10,10 +10,11 @@ constexpr double kBladeAngle = 12;  ///< degrees
 
 void write_frame(RibWriter& rib, const Shot& shot, const SceneParameters& p) {
     for (const std::string& line : shot.comments) rib.comment(line);
-    rib.comment(
-        fmt::format("Written by: trapeze scene {} --scale {:g} --motion {:g} --defocus {:g} --shading-factor "
-                    "{:g} -r {}x{}",
-                    shot.name, p.scale, p.motion, p.defocus, p.shading_rate, p.width, p.height));
+    std::string command = fmt::format(
+        "Written by: trapeze scene {} --scale {:g} --motion {:g} --defocus {:g} --shading-factor {:g} -r {}x{}",
+        shot.name, p.scale, p.motion, p.defocus, p.shading_rate, p.width, p.height);
+    if (p.time > 0) command += fmt::format(" --time {:g}", p.time);
+    rib.comment(command);
     rib.blank_line();
     rib.request("Display", shot.name + ".exr", "openexr", "rgba");
     rib.request("Format", p.width, p.height, 1);

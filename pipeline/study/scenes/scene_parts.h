@@ -67,5 +67,7 @@ std::string furballs_scene(const SceneParameters& parameters);
 std::string halberd_scene(const SceneParameters& parameters);
 std::string flowers_scene(const SceneParameters& parameters);
 std::string car_study_scene(const SceneParameters& parameters);
+std::string arcade_scene(const SceneParameters& parameters);
+std::string falling_scene(const SceneParameters& parameters);
 
 }  // namespace trapeze::scenes

@@ -14,6 +14,7 @@ constexpr SceneRow kScenes[] = {
     {"hair", scenes::hair_scene},         {"furball", scenes::furball_scene},
     {"furballs", scenes::furballs_scene}, {"halberd", scenes::halberd_scene},
     {"flowers", scenes::flowers_scene},   {"car-study", scenes::car_study_scene},
+    {"arcade", scenes::arcade_scene},     {"falling", scenes::falling_scene},
 };
 
 }  // namespace
