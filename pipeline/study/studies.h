@@ -14,5 +14,8 @@ void study_fig6(StudyBench& bench, StudyResult& result);
 void study_fig9(StudyBench& bench, StudyResult& result);
 void study_fig10(StudyBench& bench, StudyResult& result);
 void study_growth(StudyBench& bench, StudyResult& result);
+void study_msbvh(StudyBench& bench, StudyResult& result);
+void study_mbkd(StudyBench& bench, StudyResult& result);
+void study_dynamic(StudyBench& bench, StudyResult& result);
 
 }  // namespace trapeze

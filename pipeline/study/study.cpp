@@ -10,6 +10,8 @@ namespace {
 struct StudyRow {
     std::string_view name, title, about;
     void (*run)(StudyBench& bench, StudyResult& result);
+    std::string_view paper =
+        "Hou, Qin, Li, Guo, Zhou: Micropolygon Ray Tracing with Defocus and Motion Blur, 2010";
 };
 
 constexpr StudyRow kStudies[] = {
@@ -30,6 +32,16 @@ constexpr StudyRow kStudies[] = {
     {"fig10", "Figure 10: time against blur",
      "the halberd at motions of 0 to 190 pixels, defocus of 0 to 9.5 times", study_fig10},
     {"growth", "Cost against micropolygons", "the halberd diced ever finer, ray tracing only", study_growth},
+    {"msbvh", "Spatial splits for motion blur",
+     "interpolated boxes, the MSBVH and others, on hair, a building and falling flakes", study_msbvh,
+     "Gruenschloss, Stich, Nawaz, Keller: MSBVH, an efficient acceleration data structure for ray traced motion "
+     "blur, 2011"},
+    {"mbkd", "A k-d tree for motion blur",
+     "the MBKD and its choices beside interpolated boxes and the MSBVH, on the same", study_mbkd,
+     "Yang, Liu, Yin, Zhang, Zhou, Wei: k-d tree construction designed for motion blur, 2017"},
+    {"dynamic", "Trees updated from frame to frame",
+     "a sequence of falling flakes: trees that are updated, refitted, and built anew", study_dynamic,
+     "a report on dynamic updates of bounding volume hierarchies, 2006 or later"},
 };
 
 }  // namespace
@@ -45,7 +57,7 @@ std::optional<StudyResult> run_study(std::string_view name, const StudySettings&
     for (const StudyRow& row : kStudies) {
         if (row.name != name) continue;
         StudyResult result;
-        result.name = row.name, result.title = row.title;
+        result.name = row.name, result.title = row.title, result.paper = row.paper;
         result.machine = this_machine();
         result.quick = settings.quick, result.rounds = settings.rounds;
         const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,5 @@
-/// The studies of Hou et al. 2010, repeated on this machine with scenes of our own.
+/// The studies of Hou et al. 2010 and of the papers on trees for what moves, repeated on this machine with
+/// scenes of our own.
 #pragma once
 
 #include <atomic>

@@ -54,6 +54,10 @@ class StudyBench {
     void go_on() const;
     /// Tells who watches what is done now.
     void stage(const std::string& what) const;
+    /// Tells who watches a figure that measure() has no part in.
+    void figure(const std::string& line) const {
+        if (settings_.on_figure) settings_.on_figure(line);
+    }
 
   private:
     RenderSettings render_settings() const;

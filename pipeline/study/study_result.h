@@ -45,6 +45,13 @@ struct StudyCloseUps {
     std::vector<std::pair<std::string, LinearPicture>> pictures;
 };
 
+/// What pixels cost several methods, on one scale of colours; row by row.
+struct StudyHeatMaps {
+    std::string title;
+    int width = 0, height = 0;
+    std::vector<std::pair<std::string, std::vector<float>>> maps;
+};
+
 /// A shape that the paper's figures have, and whether those measured here have it too.
 struct StudyCheck {
     std::string claim;
@@ -69,6 +76,7 @@ struct StudySceneFacts {
 
 struct StudyResult {
     std::string name, title;
+    std::string paper;                 ///< whose figures stand beside ours: authors, title, year
     std::vector<std::string> command;  ///< the command line's words, without the program's name
     std::vector<std::string> notes;    ///< sentences on how it was measured
     Machine machine;
@@ -80,6 +88,7 @@ struct StudyResult {
     std::vector<LinePlot> plots;
     std::vector<HistogramPlot> histograms;
     std::vector<StudyCloseUps> close_ups;
+    std::vector<StudyHeatMaps> heat_maps;
     std::vector<StudyCheck> checks;
     nlohmann::ordered_json figures = nlohmann::ordered_json::array();  ///< every single measurement
 };

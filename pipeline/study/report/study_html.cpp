@@ -21,10 +21,9 @@ long held_of(const StudyResult& r) {
 std::string title(const StudyResult& r) {
     std::string out = fmt::format(
         "<header>\n<p class=\"kicker\">Trapeze {} &middot; study {}</p>\n<h1>{}</h1>\n<p "
-        "class=\"lead\">After Hou, "
-        "Qin, Li, Guo, Zhou: Micropolygon Ray Tracing with Defocus and Motion Blur, 2010. The scenes are "
-        "ours; the paper&rsquo;s figures are of its own, on one GTX 285.</p>\n<div class=\"facts\">\n",
-        escaped(r.machine.trapeze), escaped(r.name), escaped(r.title));
+        "class=\"lead\">After {}. The scenes are ours; the paper&rsquo;s figures are of its own.</p>\n<div "
+        "class=\"facts\">\n",
+        escaped(r.machine.trapeze), escaped(r.name), escaped(r.title), escaped(r.paper));
     out += html_fact(fmt::format("{} of {}", held_of(r), r.checks.size()), "checks held");
     out += html_fact(r.quick ? "quick" : "full size", "size");
     out += html_fact(std::to_string(r.rounds), r.rounds == 1 ? "round" : "interleaved rounds, medians");
@@ -77,6 +76,27 @@ std::string close_ups(const StudyResult& r) {
     return out + "</section>\n";
 }
 
+/// Maps of one kind are shown on one scale.
+std::string heat_maps(const StudyResult& r) {
+    if (r.heat_maps.empty()) return {};
+    std::string out =
+        "<section id=\"heat\">\n<h2>Heat maps</h2>\n<p>Means of a pixel, logarithmic from 1 (dark) to what "
+        "all but a thousandth of the pixels stay below (yellow); the same scale in a row.</p>\n";
+    for (const StudyHeatMaps& row : r.heat_maps) {
+        std::vector<const std::vector<float>*> maps;
+        for (const auto& [name, map] : row.maps) maps.push_back(&map);
+        const HeatScale scale = heat_scale(maps);
+        out += fmt::format("<h3>{}; yellow: {}</h3>\n<div class=\"crops\">\n", escaped(row.title),
+                           number_text(static_cast<double>(scale.top)));
+        for (const auto& [name, map] : row.maps)
+            out += fmt::format(
+                "<figure><img alt=\"{0}, {1}\" src=\"{2}\"><figcaption>{1}</figcaption></figure>\n",
+                escaped(row.title), escaped(name), png_url(map, row.width, row.height, 1, scale));
+        out += "</div>\n";
+    }
+    return out + "</section>\n";
+}
+
 std::string checks(const StudyResult& r) {
     std::string out =
         "<section id=\"checks\">\n<h2>Checks</h2>\n<p>Shapes that the paper&rsquo;s figures have, whatever "
@@ -118,8 +138,8 @@ std::string scenes(const StudyResult& r) {
 
 std::string study_html(const StudyResult& r) {
     return html_head("Trapeze study: " + r.title) + title(r) + plots(r) + tables(r) + close_ups(r) +
-           checks(r) + scenes(r) + "<section id=\"machine\">\n<h2>Machine</h2>\n<dl class=\"machine\">\n" +
-           html_machine(r.machine) +
+           heat_maps(r) + checks(r) + scenes(r) +
+           "<section id=\"machine\">\n<h2>Machine</h2>\n<dl class=\"machine\">\n" + html_machine(r.machine) +
            "</dl>\n</section>\n</main>\n<script type=\"application/json\" id=\"figures\">" +
            script_safe(json_text(study_json(r), -1)) + "</script>\n</body>\n</html>\n";
 }

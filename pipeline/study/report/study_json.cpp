@@ -20,10 +20,10 @@ nlohmann::ordered_json study_json(const StudyResult& r) {
                           {"grids", s.grids},
                           {"largest_circle_of_confusion_pixels", s.largest_defocus},
                           {"largest_motion_pixels", s.largest_motion}});
-    return {{"study", r.name},      {"title", r.title}, {"machine", to_json(r.machine)},
-            {"command", r.command}, {"quick", r.quick}, {"rounds", r.rounds},
-            {"seconds", r.seconds}, {"notes", r.notes}, {"scenes", scenes},
-            {"tables", tables},     {"checks", checks}, {"figures", r.figures}};
+    return {{"study", r.name},      {"title", r.title}, {"after", r.paper},   {"machine", to_json(r.machine)},
+            {"command", r.command}, {"quick", r.quick}, {"rounds", r.rounds}, {"seconds", r.seconds},
+            {"notes", r.notes},     {"scenes", scenes}, {"tables", tables},   {"checks", checks},
+            {"figures", r.figures}};
 }
 
 }  // namespace trapeze

@@ -15,13 +15,14 @@ using ::testing::Not;
 
 StudyResult small_study() {
     StudyResult result;
-    result.name = "table0", result.title = "A <small> study";
+    result.name = "table0", result.title = "A <small> study", result.paper = "Hu & al., 2010";
     result.scenes.push_back({"Car", "trapeze scene car-study", 100, 50, 10000, 3, 12.5f, 60.0f});
     result.tables.push_back({"Times", {"method", "Car"}, {{"raytrace", "1.00 s"}, {"a&b", "2.00 s"}}});
     result.plots.push_back({"Plot", "x", "y", {{"one", {{0, 1}, {10, 2}}}, {"two", {{0, 3}, {10, 4}}}}});
     result.histograms.push_back({"Histogram", "difference", -.1, .05, {1, 5, 2, 0, 1}});
     result.close_ups.push_back(
         {"x 1 to <3", {{"reference", {2, 1, {0, 0, 0, 1, 1, 1}}}, {"a&b", {1, 1, {1, 0, 0}}}}});
+    result.heat_maps.push_back({"tests <a ray", 2, 1, {{"p&q", {100, 100}}, {"other", {1, 10}}}});
     result.checks.push_back({"holds", "2x", "3x", true});
     result.checks.push_back({"misses", "2x", "1x", false, "because"});
     return result;
@@ -75,6 +76,9 @@ TEST(StudyReport, HtmlIsOneFileAndEscapesText) {
     EXPECT_THAT(html, HasSubstr("class=\"missed\""));
     EXPECT_THAT(html, HasSubstr("x 1 to &lt;3"));
     EXPECT_THAT(html, HasSubstr("alt=\"crop of a&amp;b\" src=\"data:image/png;base64,"));
+    EXPECT_THAT(html, HasSubstr("After Hu &amp; al., 2010"));
+    EXPECT_THAT(html, HasSubstr("alt=\"tests &lt;a ray, p&amp;q\" src=\"data:image/png;base64,"));
+    EXPECT_THAT(html, HasSubstr("yellow: 100"));
     EXPECT_THAT(html, Not(HasSubstr("http://")));
     EXPECT_THAT(html, Not(HasSubstr("https://")));
 }

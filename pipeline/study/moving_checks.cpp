@@ -1,0 +1,80 @@
+#include "pipeline/study/moving_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "pipeline/compare/value_text.h"
+
+namespace trapeze {
+namespace {
+
+using paper::TreeRatios;
+
+/// Ratios that a claim holds up to: about halfway from what its paper measured to no gain, or no loss.
+constexpr double kFewerTests = .75, kLessTime = .92, kMuchLessTime = .8, kBuildTwice = 2, kFewBytes = 1.5;
+/// Half of what the paper says that a choice is worth.
+constexpr double kHalf = .5;
+
+/// That a ratio is at most a limit; figures as "what: .85x".
+StudyCheck at_most(const std::string& claim, double here, double paper, double limit) {
+    const auto text = [](double ratio) { return std::isnan(ratio) ? "-" : number_text(ratio) + "x"; };
+    return {fmt::format("{} (at most {}x)", claim, number_text(limit)), text(paper), text(here),
+            here <= limit};
+}
+
+double total(const paper::SequenceCosts& costs) {
+    return costs.update + costs.trace;
+}
+
+}  // namespace
+
+std::vector<StudyCheck> checks_of_spatial_splits(const std::string& scene, const TreeRatios& here,
+                                                 const TreeRatios& paper) {
+    return {at_most(scene + ": spatial splits test fewer primitives a ray than interpolated boxes",
+                    here.tests, paper.tests, kFewerTests),
+            at_most(scene + ": they render faster", here.time, paper.time, kLessTime),
+            at_most(scene + ": they are built in less than twice the time", here.build, paper.build,
+                    kBuildTwice)};
+}
+
+std::vector<StudyCheck> checks_of_kd_tree(const std::string& scene, const TreeRatios& here,
+                                          const TreeRatios& msbvh_here, const TreeRatios& paper,
+                                          const TreeRatios& msbvh_of_paper) {
+    return {
+        at_most(scene + ": the k-d tree renders much faster than interpolated boxes", here.time, paper.time,
+                kMuchLessTime),
+        at_most(scene + ": it renders faster than the MSBVH", here.time / msbvh_here.time,
+                paper.time / msbvh_of_paper.time, 1),
+        at_most(scene + ": it is built in less than twice the time", here.build, paper.build, kBuildTwice),
+        at_most(scene + ": it needs little more memory", here.bytes, paper.bytes, kFewBytes)};
+}
+
+std::vector<StudyCheck> checks_of_kd_variants(const std::string& scene, const KdVariants& here) {
+    const double fewer = 1 - here.tests / std::min(here.tests_at_opening, here.tests_at_closing);
+    const double saved = 1 - here.duplicates / here.duplicates_unweighted;
+    const auto text = [](double part) { return fmt::format("{:.1f} % fewer", 100 * part); };
+    return {{scene + ": planes for the middle of the shutter save tests (at least 6 %)",
+             text(paper::kMiddlePlanesSave), text(fewer), fewer >= kHalf * paper::kMiddlePlanesSave},
+            {scene + ": the weight by time saves duplicates (at least 3.5 %)", text(paper::kTimeWeightSaves),
+             text(saved), saved >= kHalf * paper::kTimeWeightSaves}};
+}
+
+std::vector<StudyCheck> checks_of_updates(const std::string& scene, const paper::SequenceCosts (&here)[3],
+                                          const paper::SequenceCosts (&paper)[3]) {
+    enum { kAnew, kDynamic, kLoose };
+    const auto update = [](const paper::SequenceCosts& costs) { return costs.update; };
+    const auto check = [&](const std::string& claim, double (*cost)(const paper::SequenceCosts&), size_t row,
+                           double least) {
+        const double of_here = cost(here[kAnew]) / cost(here[row]),
+                     of_paper = cost(paper[kAnew]) / cost(paper[row]);
+        return StudyCheck{fmt::format("{}: {} (at least {}x)", scene, claim, number_text(least)),
+                          number_text(of_paper) + "x", number_text(of_here) + "x", of_here >= least};
+    };
+    return {check("updating is faster than inserting all anew", update, kDynamic, 4),
+            check("the loose tree is made faster than that", update, kLoose, 9),
+            check("updated, a frame's total is less", total, kDynamic, 1.5),
+            check("loose, a frame's total is less", total, kLoose, 5)};
+}
+
+}  // namespace trapeze

@@ -1,0 +1,42 @@
+#include "pipeline/study/moving_checks.h"
+
+#include <gtest/gtest.h>
+
+namespace trapeze {
+namespace {
+
+void expect_all(const std::vector<StudyCheck>& checks, bool held) {
+    for (const StudyCheck& check : checks) EXPECT_EQ(check.held, held) << check.claim << ": " << check.here;
+}
+
+TEST(MovingChecks, ThePapersOwnFiguresHoldThem) {
+    for (int scene = 0; scene < paper::kMovingScenes; ++scene) {
+        expect_all(checks_of_spatial_splits("", paper::kMsbvh[scene], paper::kMsbvh[scene]), true);
+        expect_all(checks_of_kd_tree("", paper::kMbkd[scene], paper::kMsbvh[scene], paper::kMbkd[scene],
+                                     paper::kMsbvh[scene]),
+                   true);
+    }
+    expect_all(checks_of_updates("", paper::kFalling, paper::kFalling), true);
+    expect_all(checks_of_kd_variants("", {88, 100, 101, 93, 100}), true);
+}
+
+TEST(MovingChecks, CanMiss) {
+    const paper::TreeRatios bad{3, 3, .9, 1, 1, 3, 3}, msbvh{2, 2, .5, 1, .9, 2, 1};
+    expect_all(checks_of_spatial_splits("", bad, paper::kMsbvh[0]), false);
+    expect_all(checks_of_kd_tree("", bad, msbvh, paper::kMbkd[0], paper::kMsbvh[0]), false);
+    expect_all(checks_of_kd_variants("", {98, 100, 99, 98, 100}), false);
+    const paper::SequenceCosts slow[3] = {{1, 1}, {.5, 1}, {.5, 1}};
+    expect_all(checks_of_updates("", slow, paper::kFalling), false);
+}
+
+/// What was not measured holds nothing.
+TEST(MovingChecks, NumbersThatAreNoneHoldNothing) {
+    const double nan = paper::kNoFigure;
+    const paper::TreeRatios none{nan, nan, nan, nan, nan, nan, nan};
+    expect_all(checks_of_spatial_splits("", none, paper::kMsbvh[0]), false);
+    expect_all(checks_of_kd_tree("", none, none, paper::kMbkd[0], paper::kMsbvh[0]), false);
+    expect_all(checks_of_kd_variants("", {nan, nan, nan, nan, nan}), false);
+}
+
+}  // namespace
+}  // namespace trapeze

@@ -1,0 +1,227 @@
+/// What the papers on trees for what moves measured: interpolated boxes, spatial splits, the k-d tree, beside
+/// the trees of Hou et al., on the same rays [Gruenschloss11 table 1 and figure 1; Yang17 tables 1 to 3 and
+/// figures 4 and 5].
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "pipeline/compare/pictures.h"
+#include "pipeline/compare/value_text.h"
+#include "pipeline/study/moving_checks.h"
+#include "pipeline/study/studies.h"
+
+namespace trapeze {
+namespace {
+
+/// A row of the tables; rays go one by one where a tree lets them.
+struct TreeRow {
+    const char *name, *method;
+};
+
+constexpr TreeRow kBaseline{"interpolated boxes", "raytrace:tree=interpolated,bundle=off"},
+    kSplits{"MSBVH", "raytrace:tree=msbvh,bundle=off"}, kKdTree{"MBKD", "raytrace:tree=mbkd"},
+    kPaperTree{"hyper-trapezoids", "raytrace:tree=paper,bundle=off"},
+    kWideTree{"Trapeze's wide tree", "raytrace"};
+
+/// Rows, of which the first is interpolated boxes.
+using TreeRows = std::vector<TreeRow>;
+
+/// One of a paper's scenes; not one of them, where `of_paper` is kMovingScenes.
+struct MovingStudyScene {
+    StudyScene scene;
+    paper::MovingScene of_paper;
+};
+
+/// A micropolygon is a primitive of the papers' where ShadingRate is this large.
+std::vector<MovingStudyScene> moving_scenes(const StudyBench& bench) {
+    std::vector<MovingStudyScene> scenes = {
+        {bench.scene("Hairball", "hair", 2.2), paper::kHairball},
+        {bench.scene("Hairball that swings far", "hair", 2.2), paper::kMovingScenes},
+        {bench.scene("Rotated Sponza", "arcade", 1), paper::kRotatedSponza},
+        {bench.scene("Falling triangles", "falling", 1), paper::kMovingScenes}};
+    for (MovingStudyScene& s : scenes) {
+        SceneParameters& p = s.scene.parameters;
+        p.defocus = 0;
+        if (s.scene.name == "hair") p.shading_rate = 44;
+        p.width = bench.quick() ? 256 : 512, p.height = p.width;
+    }
+    scenes[0].scene.parameters.motion = .1;
+    scenes[3].scene.parameters.time = 1;
+    return scenes;
+}
+
+/// What was measured on one scene, by row.
+struct MovingRun {
+    MovingStudyScene scene;
+    std::vector<MethodResult> results;
+    std::vector<HeatMap> heat;
+
+    const std::string& label() const { return scene.scene.label; }
+};
+
+MovingRun run_moving_scene(StudyBench& bench, const MovingStudyScene& scene, const TreeRows& rows) {
+    const SampleRate rate = bench.quick() ? SampleRate{2, 2} : SampleRate{4, 4};
+    MovingRun run{scene, {}, {}};
+    std::string methods;
+    for (const TreeRow& row : rows) methods += std::string(row.method) + " ";
+    const SharedFrame frame = bench.frame(scene.scene);
+    run.results = bench.measure(frame, scene.scene, methods, {rate});
+    bench.stage("heat maps of " + run.label());
+    for (const MethodResult& result : run.results) {
+        bench.go_on();
+        auto picture = make_picture(frame, result.sampler, rate, bench.on_progress());
+        if (!picture) throw StudyStopped();
+        run.heat.push_back(std::move(picture->heat));
+    }
+    return run;
+}
+
+/// Sums of a pixel's rays, as the papers have them.
+std::string maximum_and_average(const std::vector<float>& map, const std::vector<float>& samples) {
+    double sum = 0;
+    float most = 0;
+    for (size_t i = 0; i < map.size(); ++i) {
+        const float of_pixel = map[i] * samples[i];
+        sum += static_cast<double>(of_pixel), most = std::max(most, of_pixel);
+    }
+    return fmt::format("{} / {}", number_text(static_cast<double>(most)),
+                       number_text(sum / static_cast<double>(std::max<size_t>(1, map.size()))));
+}
+
+StudyTable tree_table(const MovingRun& run, const TreeRows& rows) {
+    StudyTable table{run.label(),
+                     {"", "references", "duplicates", "nodes", "MB", "build", "trace", "tests a ray",
+                      "nodes a ray", "tests a pixel, max / mean", "nodes a pixel, max / mean"},
+                     {}};
+    for (size_t r = 0; r < rows.size(); ++r) {
+        const MethodResult& m = run.results[r];
+        const auto count = [](uint64_t n) {
+            return n == 0 ? std::string("-") : count_text(static_cast<double>(n));
+        };
+        table.rows.push_back({rows[r].name, count(m.build.tree_references), count(m.build.tree_duplicates),
+                              count(m.build.tree_nodes),
+                              number_text(static_cast<double>(m.build.tree_bytes) / 1e6),
+                              seconds_text(m.build_median()), seconds_text(m.resolve_median()),
+                              number_text(m.tests_per_sample()), number_text(m.nodes_per_sample()),
+                              maximum_and_average(run.heat[r].tests, run.heat[r].samples),
+                              maximum_and_average(run.heat[r].nodes, run.heat[r].samples)});
+    }
+    return table;
+}
+
+/// A row's figures by those of interpolated boxes.
+paper::TreeRatios ratios_of(const MovingRun& run, size_t row) {
+    const MethodResult &one = run.results[row], &base = run.results[0];
+    const auto of = [](uint64_t a, uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
+    return {of(one.build.tree_references, base.build.tree_references),
+            of(one.build.tree_nodes, base.build.tree_nodes),
+            one.tests_per_sample() / base.tests_per_sample(),
+            one.nodes_per_sample() / base.nodes_per_sample(),
+            one.resolve_median() / base.resolve_median(),
+            one.build_median() / base.build_median(),
+            of(one.build.tree_bytes, base.build.tree_bytes)};
+}
+
+std::vector<std::string> ratio_cells(const std::string& name, const paper::TreeRatios& r) {
+    std::vector<std::string> cells{name};
+    for (const double ratio : {r.references, r.nodes, r.tests, r.steps, r.time, r.build, r.bytes})
+        cells.push_back(std::isnan(ratio) ? "-" : number_text(ratio) + "x");
+    return cells;
+}
+
+/// Ratios to interpolated boxes, ours and the paper's in turn.
+void add_ratios(StudyResult& result, const std::vector<MovingRun>& runs, size_t row, const char* name,
+                const paper::TreeRatios* of_paper) {
+    StudyTable table{fmt::format("{} beside interpolated boxes", name),
+                     {"", "references", "nodes", "tests", "steps", "render time", "build time", "bytes"},
+                     {}};
+    for (const MovingRun& run : runs) {
+        table.rows.push_back(ratio_cells(run.label(), ratios_of(run, row)));
+        if (run.scene.of_paper != paper::kMovingScenes)
+            table.rows.push_back(ratio_cells(run.label() + ", the paper's", of_paper[run.scene.of_paper]));
+    }
+    result.tables.push_back(table);
+}
+
+/// Heat maps of some rows on one scale for tests, and on one for nodes.
+void add_heat(StudyResult& result, MovingRun& run, const TreeRows& rows, const std::vector<size_t>& shown) {
+    for (const bool of_tests : {true, false}) {
+        StudyHeatMaps& maps = result.heat_maps.emplace_back();
+        maps.title = fmt::format("{}: {} a ray", run.label(), of_tests ? "tests" : "nodes visited");
+        maps.width = run.heat[0].pixels.width(), maps.height = run.heat[0].pixels.height();
+        for (const size_t row : shown)
+            maps.maps.emplace_back(
+                rows[row].name, of_tests ? std::move(run.heat[row].tests) : std::move(run.heat[row].nodes));
+    }
+}
+
+void add_moving_notes(const StudyBench& bench, StudyResult& result) {
+    result.notes.push_back(fmt::format(
+        "{} camera rays a pixel and no occlusion rays; a primitive is a micropolygon, of which a large "
+        "ShadingRate makes one of each piece of geometry.",
+        bench.quick() ? 4 : 16));
+    result.notes.push_back(
+        "All but the wide tree take rays one by one; the scenes are made, in the kind of the papers'.");
+}
+
+}  // namespace
+
+void study_msbvh(StudyBench& bench, StudyResult& result) {
+    const TreeRows rows = {kBaseline,
+                           kSplits,
+                           {"MSBVH, equation 1", "raytrace:tree=msbvh,clip=box,bundle=off"},
+                           {"linear, by Morton codes", "raytrace:tree=lbvh,bundle=off"},
+                           kPaperTree,
+                           kWideTree};
+    add_moving_notes(bench, result);
+    std::vector<MovingRun> runs;
+    for (const MovingStudyScene& scene : moving_scenes(bench))
+        runs.push_back(run_moving_scene(bench, scene, rows));
+    for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
+    add_ratios(result, runs, 1, "MSBVH", paper::kMsbvh);
+    for (MovingRun& run : runs) add_heat(result, run, rows, {0, 1});
+    for (const MovingRun& run : runs) {
+        if (run.scene.of_paper == paper::kMovingScenes) continue;
+        for (StudyCheck& check :
+             checks_of_spatial_splits(run.label(), ratios_of(run, 1), paper::kMsbvh[run.scene.of_paper]))
+            result.checks.push_back(std::move(check));
+    }
+}
+
+void study_mbkd(StudyBench& bench, StudyResult& result) {
+    enum { kBase, kMsbvhRow, kMbkdRow, kOpening, kClosing, kUnweighted };
+    const TreeRows rows = {kBaseline,
+                           kSplits,
+                           kKdTree,
+                           {"MBKD, planes for the opening", "raytrace:tree=mbkd,plane=0"},
+                           {"MBKD, planes for the closing", "raytrace:tree=mbkd,plane=1"},
+                           {"MBKD, no weight by time", "raytrace:tree=mbkd,weight=whole"},
+                           {"MBKD, no mail-box", "raytrace:tree=mbkd,mailbox=off"},
+                           kPaperTree,
+                           kWideTree};
+    add_moving_notes(bench, result);
+    std::vector<MovingRun> runs;
+    for (const MovingStudyScene& scene : moving_scenes(bench))
+        runs.push_back(run_moving_scene(bench, scene, rows));
+    for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
+    add_ratios(result, runs, kMbkdRow, "MBKD", paper::kMbkd);
+    for (MovingRun& run : runs) add_heat(result, run, rows, {kBase, kMbkdRow});
+    for (const MovingRun& run : runs) {
+        std::vector<StudyCheck> checks;
+        if (run.scene.of_paper != paper::kMovingScenes)
+            checks = checks_of_kd_tree(run.label(), ratios_of(run, kMbkdRow), ratios_of(run, kMsbvhRow),
+                                       paper::kMbkd[run.scene.of_paper], paper::kMsbvh[run.scene.of_paper]);
+        const auto tests = [&](size_t row) { return run.results[row].tests_per_sample(); };
+        const auto duplicates = [&](size_t row) {
+            return static_cast<double>(run.results[row].build.tree_duplicates);
+        };
+        for (StudyCheck& check :
+             checks_of_kd_variants(run.label(), {tests(kMbkdRow), tests(kOpening), tests(kClosing),
+                                                 duplicates(kMbkdRow), duplicates(kUnweighted)}))
+            checks.push_back(std::move(check));
+        std::ranges::move(checks, std::back_inserter(result.checks));
+    }
+}
+
+}  // namespace trapeze
