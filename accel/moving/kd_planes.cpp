@@ -20,7 +20,7 @@ constexpr size_t kMostKdSlabs = 32, kLeastKdSlabs = 8;
 constexpr size_t kParallelSumsFrom = 1 << 15;
 
 /// A step through a node of the tree, a plane and two depths, takes as long as so many tests.
-constexpr double kStepCost = 2;
+constexpr double kStepCost = .5;
 
 /// The planes of one node along one axis, and the weights of what begins and ends between them.
 struct AxisPlanes {

@@ -46,7 +46,7 @@ std::vector<MovingStudyScene> moving_scenes(const StudyBench& bench) {
         if (s.scene.name == "hair") p.shading_rate = 44;
         p.width = bench.quick() ? 256 : 512, p.height = p.width;
     }
-    scenes[0].scene.parameters.motion = .1;
+    scenes[0].scene.parameters.motion = scenes[2].scene.parameters.motion = .1;
     scenes[3].scene.parameters.time = 1;
     return scenes;
 }
