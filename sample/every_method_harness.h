@@ -16,8 +16,10 @@ struct MethodForm {
 
 /// The forms of all methods of the table: each row as it is by default, and with each of its options at each
 /// other value; two options in all combinations, more of them one at a time, but with what they are for
-/// (raytrace's with tree=paper). exact_only: without those whose hits are not brute force's.
-inline std::vector<MethodForm> every_method(bool exact_only = true) {
+/// (raytrace's with tree=paper). exact_only: without those whose hits are not brute force's. few_numbers: of
+/// options of raytrace that are numbers, as levels=9|12|15, one other value alone: for what depends on no
+/// number, and where each form costs several builds.
+inline std::vector<MethodForm> every_method(bool exact_only = true, bool few_numbers = false) {
     std::vector<MethodForm> forms;
     const auto add = [&](const std::string& name) {
         std::string error;
@@ -34,7 +36,13 @@ inline std::vector<MethodForm> every_method(bool exact_only = true) {
         std::vector<std::string> bases{name + ":"};
         for (const SpecOption& option : method.options) {
             const std::vector<std::string> before = bases;
-            for (size_t i = 1; i < option.values.size(); ++i) {
+            const auto is_number = [](std::string_view value) {
+                return value.find_first_not_of("0123456789.") == std::string_view::npos;
+            };
+            const bool one_of_many =
+                few_numbers && method.options.size() > 2 && is_number(option.values.back());
+            const size_t values = one_of_many ? 2 : option.values.size();
+            for (size_t i = 1; i < values; ++i) {
                 const std::string choice = std::string(option.name) + "=" + std::string(option.values[i]);
                 // Where it does not go with the defaults, it does with one of the forms before.
                 for (const std::string& base : before) {
