@@ -85,6 +85,19 @@ int differing_rays(const GridMaker& maker, const Tree& tree, int rays) {
     return differing_rays(maker, tree, rays, rays / 2);
 }
 
+/// What the closest hits of some rays in all directions cost.
+template <class Tree>
+SampleStats stats_of_rays(const GridMaker& maker, const Tree& tree, int rays) {
+    Noise noise;
+    SampleStats stats;
+    for (int round = 0; round < rays; ++round) {
+        TraceRay ray = TraceRay::turned(axis_ray(noisy_ray(maker, noise, round)), {});
+        ClosestHit policy;
+        tree.trace(ray, policy, stats);
+    }
+    return stats;
+}
+
 /// Whether the layers that rays see are those of a tree where each micropolygon is in one leaf.
 template <class PlainTree, class Tree>
 void expect_same_layers(const GridMaker& maker, const PlainTree& plain, const Tree& cut, Noise& noise) {

@@ -74,4 +74,14 @@ inline Hit closest_naively(const Grids& grids, const SpaceRay& ray, DepthRange r
     return best;
 }
 
+/// That a ray along z hits nothing, as in a tree of no grids.
+template <class Tree>
+void expect_no_hit_in(const Tree& tree) {
+    TraceRay ray = TraceRay::turned(axis_ray({V3f(0), V3f(0, 0, 1), 0}), {});
+    ClosestHit policy;
+    SampleStats stats;
+    tree.trace(ray, policy, stats);
+    EXPECT_FALSE(policy.found());
+}
+
 }  // namespace trapeze::testing

@@ -458,7 +458,7 @@ TEST_P(Agreement, EveryMethodOfTheTableFindsWhatBruteForceFinds) {
 
 TEST_P(Agreement, OfAnyNumberOfThreads) {
     Truths truths(scene());
-    for (const auto& [method, pattern] : every_method(true, true))
+    for (const auto& [method, pattern] : every_method({.few_numbers = true}))
         for (const size_t threads : {1, 2, 7}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
             tbb::task_arena arena(static_cast<int>(threads));
@@ -471,7 +471,7 @@ TEST_P(Agreement, OfAnyNumberOfThreads) {
 TEST_P(Agreement, OfAllInstructionSets) {
     Truths truths(scene());
     for_each_target([&] {
-        for (const auto& [method, pattern] : every_method(true, true))
+        for (const auto& [method, pattern] : every_method({.few_numbers = true}))
             EXPECT_TRUE(resolve(scene(), method) == truths.of(pattern)) << method;
     });
 }

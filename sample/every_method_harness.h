@@ -14,12 +14,17 @@ struct MethodForm {
     std::string name, pattern;
 };
 
+struct WhichForms {
+    bool exact_only = true;  ///< without those whose hits are not brute force's
+    /// Of raytrace's options that are numbers, as levels=9|12|15, one other value alone: for what depends on
+    /// no number, and where each form costs several builds.
+    bool few_numbers = false;
+};
+
 /// The forms of all methods of the table: each row as it is by default, and with each of its options at each
 /// other value; two options in all combinations, more of them one at a time, but with what they are for
-/// (raytrace's with tree=paper). exact_only: without those whose hits are not brute force's. few_numbers: of
-/// options of raytrace that are numbers, as levels=9|12|15, one other value alone: for what depends on no
-/// number, and where each form costs several builds.
-inline std::vector<MethodForm> every_method(bool exact_only = true, bool few_numbers = false) {
+/// (raytrace's with tree=paper).
+inline std::vector<MethodForm> every_method(WhichForms which = {}) {
     std::vector<MethodForm> forms;
     const auto add = [&](const std::string& name) {
         std::string error;
@@ -30,7 +35,7 @@ inline std::vector<MethodForm> every_method(bool exact_only = true, bool few_num
         return true;
     };
     for (const VisibilityMethod& method : visibility_methods()) {
-        if (exact_only && !method.is_exact) continue;
+        if (which.exact_only && !method.is_exact) continue;
         const std::string name(method.name);
         add(name);
         std::vector<std::string> bases{name + ":"};
@@ -40,7 +45,7 @@ inline std::vector<MethodForm> every_method(bool exact_only = true, bool few_num
                 return value.find_first_not_of("0123456789.") == std::string_view::npos;
             };
             const bool one_of_many =
-                few_numbers && method.options.size() > 2 && is_number(option.values.back());
+                which.few_numbers && method.options.size() > 2 && is_number(option.values.back());
             const size_t values = one_of_many ? 2 : option.values.size();
             for (size_t i = 1; i < values; ++i) {
                 const std::string choice = std::string(option.name) + "=" + std::string(option.values[i]);

@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::ValuesIn(methods_to_test
 /// What tests call every method is every row of the table, and every value of every option.
 TEST(VisibilityMethods, AreAllInEveryMethod) {
     std::set<std::string> named;
-    for (const auto& [name, pattern] : testing::every_method(false)) {
+    for (const auto& [name, pattern] : testing::every_method({.exact_only = false})) {
         EXPECT_TRUE(named.insert(name).second) << name << " twice";
         EXPECT_FALSE(pattern.empty());
     }

@@ -11,14 +11,9 @@ void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t 
     for (int j = 0; j <= grid.shape.nv; ++j)
         for (int i = 0; i <= grid.shape.nu; ++i)
             vertices[grid.shape.row_index(i, j)] = frame.from_space(grid.vertex(i, j, time01));
-    const int row = grid.shape.vertices_u();
-    for (int v = 0; v < grid.shape.nv; ++v)
-        for (int u = 0; u < grid.shape.nu; ++u, ++items) {
-            const V3f* q = vertices + v * row + u;
-            Box3f box;
-            for (const V3f& p : {q[0], q[1], q[row], q[row + 1]}) box.extendBy(p);
-            *items = {box, 1, first_id++};
-        }
+    for_each_box(grid.shape, vertices, [&](int i, const Box3f& box) {
+        items[i] = {box, 1, first_id + static_cast<uint32_t>(i)};
+    });
 }
 
 void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summaries,
@@ -36,8 +31,7 @@ void micropolygon_items(const Grids& grids, const std::vector<GridSummary>& summ
         boxes_of_grid(grid, Frame{}, 0.5f, first[g], items.data() + first[g]);
         for (int i = 0; i < grid.shape.micropolygon_count(); ++i) {
             const uint32_t id = first[g] + static_cast<uint32_t>(i);
-            ids[id] = {static_cast<uint32_t>(g), static_cast<uint8_t>(i % grid.shape.nu),
-                       static_cast<uint8_t>(i / grid.shape.nu)};
+            ids[id] = micropolygon_of_grid(g, grid.shape, i);
             // A huge box would make all costs of the SAH infinite; such grids are bounded by their rounding
             // anyhow.
             if (!std::isfinite(summaries[g].absolute_max)) items[id].box = Box3f(V3f(0), V3f(0));

@@ -10,6 +10,26 @@
 
 namespace trapeze {
 
+/// Calls use(i, box) for each micropolygon of a grid in the order of rows (u fastest), with the box of its
+/// corners; `vertices` are those of the grid, row by row.
+template <class Use>
+void for_each_box(const GridShape& shape, const V3f* vertices, const Use& use) {
+    const int row = shape.vertices_u();
+    for (int v = 0; v < shape.nv; ++v)
+        for (int u = 0; u < shape.nu; ++u) {
+            const V3f* const q = vertices + v * row + u;
+            Box3f box;
+            for (const V3f& p : {q[0], q[1], q[row], q[row + 1]}) box.extendBy(p);
+            use(v * shape.nu + u, box);
+        }
+}
+
+/// The micropolygon that comes as number i of a grid's in the order of rows.
+inline MicropolygonId micropolygon_of_grid(size_t grid, const GridShape& shape, int i) {
+    return {static_cast<uint32_t>(grid), static_cast<uint8_t>(i % shape.nu),
+            static_cast<uint8_t>(i / shape.nu)};
+}
+
 /// Writes the boxes of a grid's micropolygons in a frame, at a time of [0, 1], row by row (u fastest) into nu
 /// * nv items of weight 1, whose ids count from `first_id`.
 void boxes_of_grid(const Grid& grid, const Frame& frame, float time01, uint32_t first_id, SahItem* items);

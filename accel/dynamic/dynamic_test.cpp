@@ -59,11 +59,7 @@ void expect_every_frame_right(Tree tree) {
     EXPECT_EQ(testing::differing_rays(points, tree, 100, 0), 0);
     const Grids none;
     tree.update(none);
-    TraceRay ray = TraceRay::turned(axis_ray({V3f(0), V3f(0, 0, 1), 0}), {});
-    ClosestHit policy;
-    SampleStats stats;
-    tree.trace(ray, policy, stats);
-    EXPECT_FALSE(policy.found());
+    testing::expect_no_hit_in(tree);
 }
 
 TEST(InsertionTree, SeesEveryFrameAsItIs) {
@@ -188,12 +184,7 @@ TEST(LooseTree, VisitsLessWhenItSkips) {
     for (const size_t skips : {0, 1}) {
         LooseTree tree({.skip = skips == 1});
         tree.build(maker.grids());
-        Noise rays;
-        for (int round = 0; round < 1000; ++round) {
-            TraceRay ray = TraceRay::turned(axis_ray(testing::noisy_ray(maker, rays, round)), {});
-            ClosestHit policy;
-            tree.trace(ray, policy, stats[skips]);
-        }
+        stats[skips] = testing::stats_of_rays(maker, tree, 1000);
     }
     EXPECT_LT(stats[1].nodes_visited, stats[0].nodes_visited * 9 / 10);
     EXPECT_EQ(stats[1].predicate_tests, stats[0].predicate_tests);

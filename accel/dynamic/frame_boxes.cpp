@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "accel/builders/grid_summary.h"
+#include "accel/builders/micropolygon_boxes.h"
 #include "core/hyper_trapezoid.h"
 
 namespace trapeze {
@@ -19,9 +20,8 @@ struct ShutterExtent {
 
 /// Sets the boxes of a grid's micropolygons.
 ShutterExtent boxes_of_shutter(const Grid& grid, KeyBox* boxes) {
-    const int count = grid.shape.micropolygon_count(), row = grid.shape.vertices_u();
     ShutterExtent extent;
-    std::fill_n(boxes, count, empty_box());
+    std::fill_n(boxes, grid.shape.micropolygon_count(), empty_box());
     V3f vertices[kMaxGridVertices];
     for (int key = 0; key < grid.key_count; ++key) {
         for (int j = 0; j <= grid.shape.nv; ++j)
@@ -35,18 +35,15 @@ ShutterExtent boxes_of_shutter(const Grid& grid, KeyBox* boxes) {
                     extent.absolute_max = std::max(extent.absolute_max, std::abs(p[k]));
                 }
             }
-        for (int i = 0; i < count; ++i) {
-            const V3f* const q = vertices + i / grid.shape.nu * row + i % grid.shape.nu;
-            Box3f pose;
-            for (const V3f& p : {q[0], q[1], q[row], q[row + 1]}) pose.extendBy(p);
+        for_each_box(grid.shape, vertices, [&](int i, const Box3f& pose) {
             const V3f size = pose.max - pose.min;
             extent.quad_extent = std::max({extent.quad_extent, size.x, size.y, size.z});
-            pose = grown_for_rounding(pose);
+            const Box3f grown = grown_for_rounding(pose);
             for (int k = 0; k < 3; ++k) {
-                boxes[i].low[k] = std::min(boxes[i].low[k], pose.min[k]);
-                boxes[i].high[k] = std::max(boxes[i].high[k], pose.max[k]);
+                boxes[i].low[k] = std::min(boxes[i].low[k], grown.min[k]);
+                boxes[i].high[k] = std::max(boxes[i].high[k], grown.max[k]);
             }
-        }
+        });
     }
     return extent;
 }
@@ -65,9 +62,7 @@ void FrameBoxes::read(const Grids& frame) {
     tbb::parallel_for(size_t{0}, count, [&](size_t g) {
         const Grid& grid = frame.grids[g];
         for (int i = 0; i < grid.shape.micropolygon_count(); ++i)
-            ids[first[g] + static_cast<uint32_t>(i)] = {static_cast<uint32_t>(g),
-                                                        static_cast<uint8_t>(i % grid.shape.nu),
-                                                        static_cast<uint8_t>(i / grid.shape.nu)};
+            ids[first[g] + static_cast<uint32_t>(i)] = micropolygon_of_grid(g, grid.shape, i);
         extents[g] = boxes_of_shutter(grid, boxes.data() + first[g]);
     });
     unbounded.clear();

@@ -6,6 +6,10 @@ namespace trapeze {
 
 void InsertionTree::build(const Grids& grids) {
     objects_.read(grids);
+    insert_all();
+}
+
+void InsertionTree::insert_all() {
     reset();
     const auto count = static_cast<uint32_t>(objects_.boxes.size());
     for (uint32_t object = 0; object < count; ++object)
@@ -37,7 +41,7 @@ void InsertionTree::update(const Grids& grids) {
     const size_t count = objects_.boxes.size();
     objects_.read(grids);
     if (objects_.boxes.size() != count) {
-        build(grids);
+        insert_all();
         return;
     }
     moved_ = dissolved_ = 0;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "accel/dynamic/frame_boxes.h"
-#include "accel/dynamic/growing_stack.h"
+#include "accel/dynamic/pending_visits.h"
 
 namespace trapeze {
 
@@ -70,6 +70,8 @@ class InsertionTree {
     float quality(const Node& node) const {
         return half_area_of(node.box) / static_cast<float>(node.objects);
     }
+    /// Of the objects as they have been read.
+    void insert_all();
     void reset();
     void move(uint32_t object, const KeyBox& box);
     void dissolve_thinned();
@@ -101,38 +103,17 @@ void InsertionTree::trace(TraceRay& ray, Policy& policy, SampleStats& stats) con
     ++stats.rays;
     objects_.test_unbounded(ray, policy, stats);
     if (root_ == kNone) return;
-    const FrameRay along_axes(ray);
-    const float rounding = ray.rounding(objects_.absolute_max);
-    struct Waiting {
-        float depth;
-        uint32_t node;
-    };
-    const auto met = [&](uint32_t node, Waiting& visit) {
-        visit.node = node;
-        const KeyBox& box = nodes_[node].box;
-        return clip(along_axes, box, box, 0, rounding).meets(ray, objects_.quad_extent, visit.depth);
-    };
-    GrowingStack<Waiting> todo;  // the tree may be as deep as it has objects
-    Waiting first, second;
-    if (met(root_, first)) todo.push(first);
-    while (!todo.empty()) {
-        const Waiting at = todo.pop();
-        if (at.depth > ray.t_max) continue;
-        if (is_leaf(at.node)) {
+    PendingVisits visits(ray, objects_);
+    visits.push(root_, nodes_[root_].box);
+    for (uint32_t at; visits.pop(at);) {
+        if (is_leaf(at)) {
             ++stats.leaves_visited;
-            objects_.test_object(at.node, ray, policy, stats);
+            objects_.test_object(at, ray, policy, stats);
             continue;
         }
         ++stats.nodes_visited;
-        const bool meets_first = met(nodes_[at.node].child[0], first);
-        const bool meets_second = met(nodes_[at.node].child[1], second);
-        if (meets_first && meets_second) {
-            const bool first_is_near = !(second.depth < first.depth);
-            todo.push(first_is_near ? second : first);
-            todo.push(first_is_near ? first : second);
-        } else if (meets_first || meets_second) {
-            todo.push(meets_first ? first : second);
-        }
+        const auto& [first, second] = nodes_[at].child;
+        visits.push(first, nodes_[first].box, second, nodes_[second].box);
     }
 }
 

@@ -4,24 +4,21 @@
 /// objects and nodes; nothing is compared with anything.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "accel/dynamic/frame_boxes.h"
+#include "accel/dynamic/pending_visits.h"
 
 namespace trapeze {
 
 struct LooseOptions {
-    /// A multiple of three, at most 3 * kMostTriples: the lowest level is a grid of 2^(levels / 3) voxels a
-    /// side.
+    /// A multiple of three, at most 24: the lowest level is a grid of 2^(levels / 3) voxels a side.
     int levels = 18;
     /// Large objects stay at higher levels (the report's advanced form); else all are at the lowest.
     bool by_size = true;
     /// A node with one child and no objects gives way to it.
     bool skip = true;
-
-    static constexpr int kMostTriples = 8;
 };
 
 class LooseTree {
@@ -64,27 +61,10 @@ void LooseTree::trace(TraceRay& ray, Policy& policy, SampleStats& stats) const {
     ++stats.rays;
     objects_.test_unbounded(ray, policy, stats);
     if (boxes_.empty()) return;
-    const FrameRay along_axes(ray);
-    const float rounding = ray.rounding(objects_.absolute_max);
-    struct Waiting {
-        float depth;
-        uint32_t node;
-    };
-    const auto met = [&](uint32_t child, Waiting& visit) {
-        visit.node = child;
-        const KeyBox& box = boxes_[child];
-        // An empty box is met by rays that a NaN is part of.
-        return !is_empty(box) &&
-               clip(along_axes, box, box, 0, rounding).meets(ray, objects_.quad_extent, visit.depth);
-    };
-    std::array<Waiting, 3 * LooseOptions::kMostTriples + 2> todo;
-    size_t waiting = 0;
-    Waiting first, second;
-    if (met(0, first)) todo[waiting++] = first;
-    while (waiting > 0) {
-        const Waiting at = todo[--waiting];
-        if (at.depth > ray.t_max) continue;
-        const uint32_t node = skip_to_[at.node];
+    PendingVisits visits(ray, objects_);
+    visits.push(0, boxes_[0]);
+    for (uint32_t at; visits.pop(at);) {
+        const uint32_t node = skip_to_[at];
         ++stats.nodes_visited;
         for (uint32_t i = first_in_node_[node]; i < first_in_node_[node + 1]; ++i)
             objects_.test_object(in_order_[i], ray, policy, stats);
@@ -92,14 +72,8 @@ void LooseTree::trace(TraceRay& ray, Policy& policy, SampleStats& stats) const {
             ++stats.leaves_visited;
             continue;
         }
-        const bool meets_first = met(2 * node + 1, first), meets_second = met(2 * node + 2, second);
-        if (meets_first && meets_second) {
-            const bool first_is_near = !(second.depth < first.depth);
-            todo[waiting++] = first_is_near ? second : first;
-            todo[waiting++] = first_is_near ? first : second;
-        } else if (meets_first || meets_second) {
-            todo[waiting++] = meets_first ? first : second;
-        }
+        const uint32_t low = 2 * node + 1, high = low + 1;
+        visits.push(low, boxes_[low], high, boxes_[high]);
     }
 }
 

@@ -14,7 +14,7 @@ struct KdTreeOptions {
     float plane_time = 0.5f;  ///< planes are chosen for the pose at this time of [0, 1]
     Weight weight = Weight::Time;
     /// References that may be added for each micropolygon; nodes that would need more are leaves.
-    double budget = 8;
+    double budget = 16;
     /// Nodes of as many references are divided while the depth limit and planes allow, whatever it costs.
     int leaf = 8;
     bool mailbox = true;  ///< rays remember the last micropolygons that they tested

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "accel/builders/grid_summary.h"
+#include "accel/builders/micropolygon_boxes.h"
 
 namespace trapeze {
 
@@ -20,10 +21,8 @@ KdTree::KdTree(const Grids& grids, const KdTreeOptions& options) : grids_(grids)
             continue;
         }
         const GridShape& shape = grids.grids[g].shape;
-        for (int v = 0; v < shape.nv; ++v)
-            for (int u = 0; u < shape.nu; ++u)
-                unbounded_.push_back(
-                    {static_cast<uint32_t>(g), static_cast<uint8_t>(u), static_cast<uint8_t>(v)});
+        for (int i = 0; i < shape.micropolygon_count(); ++i)
+            unbounded_.push_back(micropolygon_of_grid(g, shape, i));
     }
     const SweptBoxes boxes(grids, summaries);
     KdTopology topology = build_kd_topology(grids, boxes, options);

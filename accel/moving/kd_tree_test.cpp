@@ -125,12 +125,7 @@ TEST(KdTree, TestsLessWithAMailbox) {
     std::array<SampleStats, 2> stats;
     for (const size_t mailbox : {0, 1}) {
         const KdTree tree(maker.grids(), {.mailbox = mailbox == 1});
-        Noise rays;
-        for (int round = 0; round < 2000; ++round) {
-            TraceRay ray = TraceRay::turned(axis_ray(testing::noisy_ray(maker, rays, round)), {});
-            ClosestHit policy;
-            tree.trace(ray, policy, stats[mailbox]);
-        }
+        stats[mailbox] = testing::stats_of_rays(maker, tree, 2000);
     }
     EXPECT_LT(stats[1].predicate_tests, stats[0].predicate_tests * 9 / 10);
     EXPECT_EQ(stats[1].nodes_visited, stats[0].nodes_visited);
@@ -178,11 +173,7 @@ TEST(KdTree, OfNothingHasNothing) {
     const Grids none;
     const KdTree tree(none);
     EXPECT_EQ(tree.stats().tree_nodes, 0u);
-    TraceRay ray = TraceRay::turned(axis_ray({V3f(0), V3f(0, 0, 1), 0}), {});
-    ClosestHit policy;
-    SampleStats stats;
-    tree.trace(ray, policy, stats);
-    EXPECT_FALSE(policy.found());
+    testing::expect_no_hit_in(tree);
 }
 
 }  // namespace

@@ -166,11 +166,7 @@ TEST(MovingTree, OfNothingHasNothing) {
     const Grids none;
     const MovingTree tree(none, {2});
     EXPECT_EQ(tree.stats().tree_nodes, 0u);
-    TraceRay ray = TraceRay::turned(axis_ray({V3f(0), V3f(0, 0, 1), 0}), {});
-    ClosestHit policy;
-    SampleStats stats;
-    tree.trace(ray, policy, stats);
-    EXPECT_FALSE(policy.found());
+    testing::expect_no_hit_in(tree);
 }
 
 /// Every reference's box holds what its micropolygon has there: together they hold all of it.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "accel/builders/micropolygon_boxes.h"
 #include "core/motion_keys.h"
 
 namespace trapeze {
@@ -17,14 +18,9 @@ void boxes_at_keys_of_grid(const Grid& grid, Box3f* boxes) {
         for (int j = 0; j <= grid.shape.nv; ++j)
             for (int i = 0; i <= grid.shape.nu; ++i)
                 vertices[static_cast<size_t>(grid.shape.row_index(i, j))] = vertex_of_key(grid, key, i, j);
-        const auto row = static_cast<size_t>(grid.shape.vertices_u());
-        for (int v = 0; v < grid.shape.nv; ++v)
-            for (int u = 0; u < grid.shape.nu; ++u) {
-                const V3f* const q = vertices.data() + static_cast<size_t>(grid.shape.row_index(u, v));
-                Box3f box;
-                for (const V3f& p : {q[0], q[1], q[row], q[row + 1]}) box.extendBy(p);
-                boxes[(v * grid.shape.nu + u) * grid.key_count + key] = grown_for_rounding(box);
-            }
+        for_each_box(grid.shape, vertices.data(), [&](int i, const Box3f& box) {
+            boxes[i * grid.key_count + key] = grown_for_rounding(box);
+        });
     }
 }
 
@@ -39,8 +35,7 @@ SweptBoxes::SweptBoxes(const Grids& grids, const std::vector<GridSummary>& summa
         if (!std::isfinite(summaries[g].absolute_max)) continue;
         for (int i = 0; i < grid.shape.micropolygon_count(); ++i) {
             first_.push_back(static_cast<uint32_t>(boxes));
-            ids_.push_back({static_cast<uint32_t>(g), static_cast<uint8_t>(i % grid.shape.nu),
-                            static_cast<uint8_t>(i / grid.shape.nu)});
+            ids_.push_back(micropolygon_of_grid(g, grid.shape, i));
             boxes += grid.key_count;
         }
     }

@@ -145,11 +145,7 @@ TEST(MicropolygonTree, LeavesAreSmallAndThereIsNothingInNone) {
     const Grids none;
     const MicropolygonTree empty(none);
     EXPECT_EQ(empty.stats().tree_nodes, 0u);
-    TraceRay ray = TraceRay::turned(axis_ray({V3f(0), V3f(0, 0, 1), 0}), {});
-    ClosestHit policy;
-    SampleStats stats;
-    empty.trace(ray, policy, stats);
-    EXPECT_FALSE(policy.found());
+    testing::expect_no_hit_in(empty);
 }
 
 TEST(MicropolygonTree, IsTheSameFromAnyNumberOfThreads) {
