@@ -137,7 +137,7 @@ void write_arcade_world(RibWriter& rib, const SceneParameters& p) {
         const auto sky = rib.block("Attribute");
         rib.request("Surface", "constant");
         rib.request("Color", Numbers{.42, .56, .74});
-        write_bilinear(rib, {{-60, -30, 45}, {60, -30, 45}, {-60, 60, 45}, {60, 60, 45}});
+        write_bilinear(rib, {{-200, -120, 45}, {200, -120, 45}, {-200, 120, 45}, {200, 120, 45}});
     }
     rib.request("Surface", "matte");
     Building(p.scale).write(rib);
