@@ -165,6 +165,23 @@ void add_moving_notes(const StudyBench& bench, StudyResult& result) {
         "All but the wide tree take rays one by one; the scenes are made, in the kind of the papers'.");
 }
 
+/// Measures the rows on all scenes, and adds what is told of any structure, here that of one row.
+std::vector<MovingRun> run_all(StudyBench& bench, StudyResult& result, const TreeRows& rows, size_t row,
+                               const paper::TreeRatios* of_paper) {
+    add_moving_notes(bench, result);
+    std::vector<MovingRun> runs;
+    for (const MovingStudyScene& scene : moving_scenes(bench))
+        runs.push_back(run_moving_scene(bench, scene, rows));
+    for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
+    add_ratios(result, runs, row, rows[row].name, of_paper);
+    for (MovingRun& run : runs) add_heat(result, run, rows, {0, row});
+    return runs;
+}
+
+void add_checks(StudyResult& result, std::vector<StudyCheck> checks) {
+    std::ranges::move(checks, std::back_inserter(result.checks));
+}
+
 }  // namespace
 
 void study_msbvh(StudyBench& bench, StudyResult& result) {
@@ -174,23 +191,14 @@ void study_msbvh(StudyBench& bench, StudyResult& result) {
                            {"linear, by Morton codes", "raytrace:tree=lbvh,bundle=off"},
                            kPaperTree,
                            kWideTree};
-    add_moving_notes(bench, result);
-    std::vector<MovingRun> runs;
-    for (const MovingStudyScene& scene : moving_scenes(bench))
-        runs.push_back(run_moving_scene(bench, scene, rows));
-    for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
-    add_ratios(result, runs, 1, "MSBVH", paper::kMsbvh);
-    for (MovingRun& run : runs) add_heat(result, run, rows, {0, 1});
-    for (const MovingRun& run : runs) {
-        if (run.scene.of_paper == paper::kMovingScenes) continue;
-        for (StudyCheck& check :
-             checks_of_spatial_splits(run.label(), ratios_of(run, 1), paper::kMsbvh[run.scene.of_paper]))
-            result.checks.push_back(std::move(check));
-    }
+    for (const MovingRun& run : run_all(bench, result, rows, 1, paper::kMsbvh))
+        if (run.scene.of_paper != paper::kMovingScenes)
+            add_checks(result, checks_of_spatial_splits(run.label(), ratios_of(run, 1),
+                                                        paper::kMsbvh[run.scene.of_paper]));
 }
 
 void study_mbkd(StudyBench& bench, StudyResult& result) {
-    enum { kBase, kMsbvhRow, kMbkdRow, kOpening, kClosing, kUnweighted };
+    enum { kMsbvhRow = 1, kMbkdRow, kOpening, kClosing, kUnweighted };
     const TreeRows rows = {kBaseline,
                            kSplits,
                            kKdTree,
@@ -200,27 +208,18 @@ void study_mbkd(StudyBench& bench, StudyResult& result) {
                            {"MBKD, no mail-box", "raytrace:tree=mbkd,mailbox=off"},
                            kPaperTree,
                            kWideTree};
-    add_moving_notes(bench, result);
-    std::vector<MovingRun> runs;
-    for (const MovingStudyScene& scene : moving_scenes(bench))
-        runs.push_back(run_moving_scene(bench, scene, rows));
-    for (const MovingRun& run : runs) result.tables.push_back(tree_table(run, rows));
-    add_ratios(result, runs, kMbkdRow, "MBKD", paper::kMbkd);
-    for (MovingRun& run : runs) add_heat(result, run, rows, {kBase, kMbkdRow});
-    for (const MovingRun& run : runs) {
-        std::vector<StudyCheck> checks;
+    for (const MovingRun& run : run_all(bench, result, rows, kMbkdRow, paper::kMbkd)) {
         if (run.scene.of_paper != paper::kMovingScenes)
-            checks = checks_of_kd_tree(run.label(), ratios_of(run, kMbkdRow), ratios_of(run, kMsbvhRow),
-                                       paper::kMbkd[run.scene.of_paper], paper::kMsbvh[run.scene.of_paper]);
+            add_checks(result, checks_of_kd_tree(run.label(), ratios_of(run, kMbkdRow),
+                                                 ratios_of(run, kMsbvhRow), paper::kMbkd[run.scene.of_paper],
+                                                 paper::kMsbvh[run.scene.of_paper]));
         const auto tests = [&](size_t row) { return run.results[row].tests_per_sample(); };
         const auto duplicates = [&](size_t row) {
             return static_cast<double>(run.results[row].build.tree_duplicates);
         };
-        for (StudyCheck& check :
-             checks_of_kd_variants(run.label(), {tests(kMbkdRow), tests(kOpening), tests(kClosing),
-                                                 duplicates(kMbkdRow), duplicates(kUnweighted)}))
-            checks.push_back(std::move(check));
-        std::ranges::move(checks, std::back_inserter(result.checks));
+        add_checks(result,
+                   checks_of_kd_variants(run.label(), {tests(kMbkdRow), tests(kOpening), tests(kClosing),
+                                                       duplicates(kMbkdRow), duplicates(kUnweighted)}));
     }
 }
 

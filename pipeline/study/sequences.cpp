@@ -1,8 +1,10 @@
 /// Trees over the frames of a sequence: updated, refitted, or built anew [DynBvh06 table 1 and figure 7].
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "pipeline/compare/value_text.h"
 #include "pipeline/frame/regions.h"
@@ -82,28 +84,29 @@ std::vector<SampleTile> samples_of(const RenderContext& context, const PixelRect
     return tiles;
 }
 
-/// What tracing saw: a hash of all hits, and counts.
-struct Seen {
-    uint64_t hash = 0;
-    SampleStats stats;
-};
-
-Seen trace_tiles(const std::vector<SampleTile>& tiles, const Visibility& visibility) {
-    std::vector<HitBuffer> hits(tiles.size());
-    std::vector<SampleStats> stats(tiles.size());
+/// Finds the hits of all tiles; what that cost.
+SampleStats trace_tiles(const std::vector<SampleTile>& tiles, const Visibility& visibility,
+                        std::vector<HitBuffer>& hits) {
+    hits.resize(tiles.size());
+    tbb::enumerable_thread_specific<SampleScratch> scratch;
+    tbb::enumerable_thread_specific<SampleStats> stats;
     tbb::parallel_for(
         size_t{0}, tiles.size(),
-        [&](size_t i) {
-            SampleScratch scratch;
-            visibility.resolve(tiles[i], hits[i], scratch, stats[i]);
-        },
+        [&](size_t i) { visibility.resolve(tiles[i], hits[i], scratch.local(), stats.local()); },
         tbb::simple_partitioner());
-    Seen seen;
-    for (size_t i = 0; i < tiles.size(); ++i) {
-        seen.stats += stats[i];
-        for (const Hit& hit : hits[i].hits) seen.hash = (seen.hash ^ hit.id) * 0x9E3779B97F4A7C15u + hit.id;
-    }
-    return seen;
+    return stats.combine([](SampleStats a, const SampleStats& b) { return a += b; });
+}
+
+/// A sum over what samples see, bits of depths too, whatever the order of the tiles.
+uint64_t hash_of(const std::vector<HitBuffer>& tiles) {
+    uint64_t sum = 0;
+    for (const HitBuffer& tile : tiles)
+        for (const Hit& hit : tile.hits) {
+            const uint64_t depth = std::bit_cast<uint32_t>(hit.depth);
+            const uint64_t mixed = (hit.id ^ depth << 32) * 0x9E3779B97F4A7C15u;
+            sum += mixed ^ mixed >> 29;
+        }
+    return sum;
 }
 
 /// Follows the sequence once with one row's tree.
@@ -113,6 +116,7 @@ void follow(const StudyBench& bench, const std::vector<SharedFrame>& frames, siz
     const Sampler sampler = choose_sampler(kSequenceRows[row].method, "", &error).value();
     std::unique_ptr<Visibility> tree;
     std::vector<SampleTile> tiles;
+    std::vector<HitBuffer> hits;
     SampleStats all;
     const RenderContext context = frames[0].context_at({1, 1});  // camera and shutter are those of all
     for (size_t f = 0; f < frames.size(); ++f) {
@@ -122,15 +126,14 @@ void follow(const StudyBench& bench, const std::vector<SharedFrame>& frames, siz
         times.update[row][f].push_back(watch.lap());
         if (tiles.empty()) tiles = samples_of(context, frames[0].pixels, sampler, tree->tile_side());
         watch.lap();
-        const Seen seen = trace_tiles(tiles, *tree);
+        const SampleStats stats = trace_tiles(tiles, *tree, hits);
         times.trace[row][f].push_back(watch.lap());
-        times.seen[row][f] = seen.hash;
-        bench.figure(fmt::format("frame {}, {}: update {}, trace {}, {} nodes a ray", f,
-                                 kSequenceRows[row].name, seconds_text(times.update[row][f].back()),
-                                 seconds_text(times.trace[row][f].back()),
-                                 number_text(static_cast<double>(seen.stats.nodes_visited) /
-                                             static_cast<double>(seen.stats.rays))));
-        all += seen.stats;
+        times.seen[row][f] = hash_of(hits);
+        bench.figure(fmt::format(
+            "frame {}, {}: update {}, trace {}, {} nodes a ray", f, kSequenceRows[row].name,
+            seconds_text(times.update[row][f].back()), seconds_text(times.trace[row][f].back()),
+            number_text(static_cast<double>(stats.nodes_visited) / static_cast<double>(stats.rays))));
+        all += stats;
     }
     const auto a_ray = [&](uint64_t count) {
         return static_cast<double>(count) / static_cast<double>(all.rays);
