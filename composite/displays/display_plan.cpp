@@ -123,6 +123,7 @@ bool choose_variable(const Display& display, const AovLayout& layout, Diagnostic
     if (const Aov* aov = layout.find(*display.variable)) {
         plan.aov = *aov;
         plan.aov_is_color = display.variable->type == ValueType::Color;
+        plan.layer = display.layer.empty() ? aov->name : display.layer;
         return true;
     }
     diagnostics.warning(
@@ -241,6 +242,25 @@ void choose_compression(const Display& display, Diagnostics& diagnostics, Displa
         "display-compression " + name + ' ' + plan.path);
 }
 
+/// "string storage" "tiled", with "int tilesize" [64].
+void choose_storage(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    constexpr int kUsualTileSide = 64, kMostTileSide = 4096;
+    const std::string storage = lower(display.parameters.string_or("storage", "scanline"));
+    const bool is_tiled = storage == "tiled";
+    if (!is_tiled && storage == "scanline") return;
+    if (!is_tiled || plan.format != FileFormat::OpenExr) {
+        diagnostics.warning(
+            display.location,
+            is_tiled ? fmt::format("only OpenEXR files are written in tiles; \"{}\" is in rows", plan.path)
+                     : fmt::format("storage \"{}\" is neither tiled nor scanline; \"{}\" is in rows", storage,
+                                   plan.path),
+            "display-storage " + plan.path);
+        return;
+    }
+    const float side = display.parameters.float_or("tilesize", kUsualTileSide);
+    plan.tile_side = static_cast<int>(std::clamp(side, 1.0f, static_cast<float>(kMostTileSide)));
+}
+
 /// Attributes that the scene asks for; each that cannot be written is left out with a warning.
 void take_attributes(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
     for (const Parameter& parameter : display.parameters.values) {
@@ -308,11 +328,18 @@ bool holds_more_than_halves(const Options& options) {
     });
 }
 
-std::vector<std::string> aov_channel_names(const DisplayPlan& plan) {
-    if (!plan.aov) return {};
-    if (plan.aov->channels == 1) return {"Y"};
-    if (plan.aov_is_color) return {"R", "G", "B"};
-    return {plan.aov->name + ".X", plan.aov->name + ".Y", plan.aov->name + ".Z"};
+std::vector<std::string> channel_names(const DisplayPlan& plan, bool is_layer) {
+    std::vector<std::string> names;
+    if (plan.rgb) names = {"R", "G", "B"};
+    if (plan.alpha) names.emplace_back("A");
+    if (plan.depth) names.emplace_back("Z");
+    if (plan.id) names.emplace_back(is_layer ? "id.Y" : "id");
+    if (!plan.aov) return names;
+    const bool is_vector = plan.aov->channels == 3 && !plan.aov_is_color;
+    const std::string prefix = is_layer || is_vector ? (is_layer ? plan.layer : plan.aov->name) + '.' : "";
+    for (const char letter : std::string_view(plan.aov->channels == 1 ? "Y" : is_vector ? "XYZ" : "RGB"))
+        names.push_back(prefix + letter);
+    return names;
 }
 
 std::optional<DisplayPlan> plan_display(const Display& display, const Options& options,
@@ -333,6 +360,7 @@ std::optional<DisplayPlan> plan_display(const Display& display, const Options& o
         return {};
     choose_pixel_type(display, options, plan);
     choose_compression(display, diagnostics, plan);
+    choose_storage(display, diagnostics, plan);
     take_attributes(display, diagnostics, plan);
     return plan;
 }

@@ -30,13 +30,12 @@ struct DisplayPlan {
     FileFormat format = FileFormat::OpenExr;
     bool depth_map = false;  ///< depths for shadow maps, by a driver that is for these
     bool rgb = true, alpha = true, depth = false, id = false;
-    /// An output variable, alone in its file: none of the above. Colours are named R G B and a float Y, as
-    /// in any picture of one; points, vectors and normals of a variable N are N.X N.Y N.Z, as a Z alone would
-    /// be a depth.
-    std::optional<Aov> aov;
+    std::optional<Aov> aov;  ///< an output variable: none of the above
     bool aov_is_color = false;
+    std::string layer;          ///< of the variable, where it is not alone in the file
     bool float_pixels = false;  ///< OpenEXR: colours in floats, not halves; other variables always are
     std::string compression;    ///< as the format's library calls it; empty: its default
+    int tile_side = 0;          ///< OpenEXR: pixels of the tiles that the file lies in; 0: in rows
     Quantization quantization;  ///< of the other formats, as they can hold it
     std::vector<Parameter> attributes;  ///< of an OpenEXR header: "exrheader_NAME" without the prefix
     bool srgb = false;                  ///< colours of whole numbers are encoded by the sRGB curve
@@ -49,8 +48,12 @@ bool makes_depth_map(const Display& display);
 /// this name.
 bool holds_depth(const std::string& file);
 
-/// Names of the channels of the plan's output variable.
-std::vector<std::string> aov_channel_names(const DisplayPlan& plan);
+/// Names of the channels that a display makes of its file. Colour is R G B, alpha A, depth Z and the id of a
+/// primitive id, whatever else is in the file. A variable's channels are named R G B and Y, as in any picture
+/// of a colour or of one number, where it is alone; as a layer among others in the file, which several
+/// displays name, they are foo.R foo.G foo.B and foo.Y. Points, vectors and normals are always foo.X foo.Y
+/// foo.Z, since a Z alone would be a depth. An id is id.Y as a layer.
+std::vector<std::string> channel_names(const DisplayPlan& plan, bool is_layer);
 
 /// The format that the display's driver and its file's extension choose; nothing for driver "null".
 std::optional<FileFormat> file_format(const Display& display);

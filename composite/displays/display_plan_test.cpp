@@ -156,10 +156,9 @@ TEST(DisplayPlan, VariablesStandAloneAndAreNamedByTheirType) {
         EXPECT_EQ(result.warnings, 0u);
         EXPECT_FALSE(result.plan->rgb || result.plan->alpha || result.plan->depth || result.plan->id);
         EXPECT_EQ(result.plan->aov->offset, 1);  // after the other
-        EXPECT_EQ(aov_channel_names(*result.plan), c.names);
+        EXPECT_EQ(channel_names(*result.plan, false), c.names);
         EXPECT_EQ(result.plan->float_pixels, c.floats);
     }
-    EXPECT_TRUE(aov_channel_names(*planned({"a.exr", "exr", "rgba", {}, {}}).plan).empty());
 }
 
 TEST(DisplayPlan, TheVariableZIsTheDepth) {

@@ -144,7 +144,7 @@ ImageForm make_form(const PictureToWrite& picture, const Encoding& e) {
     form.channels = e.channels;
     form.type = e.type;
     if (picture.plan.aov) {
-        form.channel_names = aov_channel_names(picture.plan);
+        form.channel_names = channel_names(picture.plan, false);
     } else if (!picture.plan.rgb) {
         form.channel_names = {e.depth ? "Z" : "A"};
         form.alpha_channel = e.depth ? -1 : 0;
@@ -188,7 +188,7 @@ ImageBytes encode(const ImageLibrary& library, const Image& image, const Encodin
 }  // namespace
 
 std::string write_image(const PictureToWrite& picture, OutputFile& file) {
-    if (lacks_variable(picture)) return kNoVariables;
+    if (lacks_variable(picture.image, picture.plan)) return kNoVariables;
     const PixelRect& window = picture.image.window;
     if (picture.plan.format == FileFormat::Jpeg &&
         std::max(window.width(), window.height()) > kMostJpegPixels)

@@ -9,11 +9,14 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "composite/displays/exr_attributes.h"
+#include "composite/displays/exr_channels.h"
 
 namespace trapeze {
 namespace {
@@ -58,7 +61,12 @@ M44f ndc_from_camera(const Camera& camera) {
     return screen_from_camera(camera) * ndc_from_screen;
 }
 
-Imf::Header make_header(const PictureToWrite& picture) {
+Imf::PixelType pixel_type(ExrChannel::Type type) {
+    using Type = ExrChannel::Type;
+    return type == Type::Half ? Imf::HALF : type == Type::Float ? Imf::FLOAT : Imf::UINT;
+}
+
+Imf::Header make_header(const PictureToWrite& picture, const std::vector<ExrChannel>& channels) {
     const Camera& camera = picture.context.camera;
     const Scene& scene = *picture.context.scene;
     const PixelRect& window = picture.image.window;
@@ -70,14 +78,11 @@ Imf::Header make_header(const PictureToWrite& picture) {
     Imf::Header header(display, data, scene.options.pixel_aspect, center, width, Imf::INCREASING_Y,
                        compression_of(picture.plan.compression));
 
-    const Imf::PixelType color = picture.plan.float_pixels ? Imf::FLOAT : Imf::HALF;
-    if (picture.plan.rgb)
-        for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(color));
-    if (picture.plan.alpha) header.channels().insert("A", Imf::Channel(color));
-    if (picture.plan.depth) header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
-    for (const std::string& name : aov_channel_names(picture.plan))
-        header.channels().insert(name, Imf::Channel(color));
-    if (picture.plan.id) header.channels().insert("id", Imf::Channel(Imf::UINT));
+    for (const ExrChannel& channel : channels)
+        header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
+    if (const int side = picture.plan.tile_side; side > 0)
+        header.setTileDescription(
+            Imf::TileDescription(static_cast<unsigned>(side), static_cast<unsigned>(side)));
 
     Imf::addWorldToCamera(header, scene.camera_from_world);
     Imf::addWorldToNDC(header, scene.camera_from_world * ndc_from_camera(camera));
@@ -95,95 +100,105 @@ Imf::Header make_header(const PictureToWrite& picture) {
     return header;
 }
 
-/// Converts to halves. What is larger becomes the largest finite half: no infinities in files.
-void to_halves(const float* from, size_t count, Imath::half* to) {
-    for (size_t i = 0; i < count; ++i) to[i] = Imath::half(std::clamp(from[i], -65504.0f, 65504.0f));
+/// What is larger becomes the largest finite half: no infinities in files.
+Imath::half to_half(float value) {
+    return Imath::half(std::clamp(value, -65504.0f, 65504.0f));
 }
 
-/// Writes some rows at a time, so that only those rows are ever there as halves.
-class RowWriter {
+/// Rows of the picture's window as OpenEXR takes them: floats and ids from where they are, halves from a copy
+/// of some rows at a time.
+class RowBuffer {
   public:
-    RowWriter(const PictureToWrite& picture, Imf::OutputFile& out) : picture_(picture), out_(out) {}
+    RowBuffer(const PictureToWrite& picture, const std::vector<ExrChannel>& channels)
+        : window_(picture.image.window), channels_(channels) {}
 
-    void write(int y0, int y1) {
-        const Image& image = picture_.image;
-        const DisplayPlan& plan = picture_.plan;
-        const size_t first = image.index(image.window.x0, y0),
-                     count = image.index(image.window.x0, y1) - first;
+    Imf::FrameBuffer rows(int y0, int y1) {
+        const auto width = static_cast<size_t>(window_.width());
+        const size_t first = width * static_cast<size_t>(y0 - window_.y0),
+                     count = width * static_cast<size_t>(y1 - y0);
+        const auto half_channels = std::count_if(channels_.begin(), channels_.end(), [](const ExrChannel& c) {
+            return c.type == ExrChannel::Type::Half;
+        });
+        halves_.resize(static_cast<size_t>(half_channels) * count);
+        Imath::half* copy = halves_.data();
         Imf::FrameBuffer buffer;
-        if (plan.aov) {
-            insert_aov(buffer, first, count, y0, y1);
-        } else if (plan.float_pixels) {
-            insert_colors(buffer, Imf::FLOAT, image.rgba.data() + 4 * first, y0, y1);
-        } else if (plan.rgb || plan.alpha) {
-            halves_.resize(4 * count);
-            to_halves(image.rgba.data() + 4 * first, 4 * count, halves_.data());
-            insert_colors(buffer, Imf::HALF, halves_.data(), y0, y1);
+        for (const ExrChannel& channel : channels_) {
+            if (channel.type == ExrChannel::Type::Uint) {
+                buffer.insert(channel.name, slice(Imf::UINT, channel.ids + first, 1, y0, y1));
+                continue;
+            }
+            const float* const values = channel.floats + channel.stride * first;
+            if (channel.type == ExrChannel::Type::Float) {
+                buffer.insert(channel.name, slice(Imf::FLOAT, values, channel.stride, y0, y1));
+                continue;
+            }
+            for (size_t i = 0; i < count; ++i) copy[i] = to_half(values[channel.stride * i]);
+            buffer.insert(channel.name, slice(Imf::HALF, copy, 1, y0, y1));
+            copy += count;
         }
-        if (plan.depth) buffer.insert("Z", slice(Imf::FLOAT, image.z.data() + first, 1, y0, y1));
-        if (plan.id) buffer.insert("id", slice(Imf::UINT, image.id.data() + first, 1, y0, y1));
-        out_.setFrameBuffer(buffer);
-        out_.writePixels(y1 - y0);
+        return buffer;
     }
 
   private:
     template <class Value>
-    Imf::Slice slice(Imf::PixelType type, const Value* values, int values_per_pixel, int y0, int y1) const {
-        const PixelRect& window = picture_.image.window;
-        const size_t stride = sizeof(Value) * static_cast<size_t>(values_per_pixel);
-        return Imf::Slice::Make(type, values, V2i(window.x0, y0), window.width(), y1 - y0, stride,
-                                stride * static_cast<size_t>(window.width()));
-    }
-    template <class Value>
-    void insert_colors(Imf::FrameBuffer& buffer, Imf::PixelType type, const Value* rgba, int y0,
-                       int y1) const {
-        const char* const names[] = {"R", "G", "B", "A"};
-        for (int c = 0; c < 4; ++c)
-            if (c < 3 ? picture_.plan.rgb : picture_.plan.alpha)
-                buffer.insert(names[c], slice(type, rgba + c, 4, y0, y1));
+    Imf::Slice slice(Imf::PixelType type, const Value* values, size_t stride, int y0, int y1) const {
+        const size_t bytes = sizeof(Value) * stride;
+        return Imf::Slice::Make(type, values, V2i(window_.x0, y0), window_.width(), y1 - y0, bytes,
+                                bytes * static_cast<size_t>(window_.width()));
     }
 
-    void insert_aov(Imf::FrameBuffer& buffer, size_t first, size_t count, int y0, int y1) {
-        const Image& image = picture_.image;
-        const auto stride = static_cast<size_t>(image.aov_channels);
-        const float* values = image.aovs.data() + stride * first;
-        if (!picture_.plan.float_pixels) {
-            halves_.resize(stride * count);
-            to_halves(values, stride * count, halves_.data());
-        }
-        int channel = picture_.plan.aov->offset;
-        for (const std::string& name : aov_channel_names(picture_.plan)) {
-            buffer.insert(name, picture_.plan.float_pixels
-                                    ? slice(Imf::FLOAT, values + channel, image.aov_channels, y0, y1)
-                                    : slice(Imf::HALF, halves_.data() + channel, image.aov_channels, y0, y1));
-            ++channel;
-        }
-    }
-
-    const PictureToWrite& picture_;
-    Imf::OutputFile& out_;
+    PixelRect window_;
+    const std::vector<ExrChannel>& channels_;
     std::vector<Imath::half> halves_;
 };
 
-void write_rows(const PictureToWrite& picture, OutputFile& file) {
-    Stream stream(file, picture.plan.path);
-    Imf::OutputFile out(stream, make_header(picture));
-    RowWriter rows(picture, out);
+/// Calls write(y0, y1) for a number of rows at a time; throws when the render is cancelled.
+template <class Write>
+void for_rows(const PictureToWrite& picture, int rows_at_once, const Write& write) {
     const PixelRect& window = picture.image.window;
-    for (int y = window.y0; y < window.y1; y += kRowsAtOnce) {
+    for (int y = window.y0; y < window.y1; y += rows_at_once) {
         if (picture.context.is_cancelled()) throw std::runtime_error("cancelled");
-        rows.write(y, std::min(y + kRowsAtOnce, window.y1));
+        write(y, std::min(y + rows_at_once, window.y1));
     }
+}
+
+void write_pixels(const PictureToWrite& picture, OutputFile& file) {
+    const std::vector<ExrChannel> channels = exr_channels(picture);
+    const Imf::Header header = make_header(picture, channels);
+    RowBuffer buffer(picture, channels);
+    Stream stream(file, picture.plan.path);
+    if (picture.plan.tile_side > 0) {
+        Imf::TiledOutputFile out(stream, header);
+        for_rows(picture, picture.plan.tile_side, [&](int y0, int y1) {
+            out.setFrameBuffer(buffer.rows(y0, y1));
+            const int row = (y0 - picture.image.window.y0) / picture.plan.tile_side;
+            out.writeTiles(0, out.numXTiles() - 1, row, row);
+        });
+        return;
+    }
+    Imf::OutputFile out(stream, header);
+    for_rows(picture, kRowsAtOnce, [&](int y0, int y1) {
+        out.setFrameBuffer(buffer.rows(y0, y1));
+        out.writePixels(y1 - y0);
+    });
+}
+
+/// What the picture lacks of what a display shows; empty: nothing.
+std::string missing(const Image& image, const DisplayPlan& plan) {
+    if (plan.id && image.id.empty()) return "no ids were recorded";
+    return lacks_variable(image, plan) ? kNoVariables : "";
 }
 
 }  // namespace
 
 std::string write_open_exr(const PictureToWrite& picture, OutputFile& file) {
-    if (picture.plan.id && picture.image.id.empty()) return "no ids were recorded";
-    if (lacks_variable(picture)) return kNoVariables;
+    std::string problem = missing(picture.image, picture.plan);
+    for (const DisplayPlan& plan : picture.further)
+        if (problem.empty()) problem = missing(picture.image, plan);
+    if (!problem.empty()) return problem;
     if (!file.open()) return file.error();
     try {
-        write_rows(picture, file);
+        write_pixels(picture, file);
     } catch (const std::exception& failure) {
         return file.error().empty() ? failure.what() : file.error();
     }

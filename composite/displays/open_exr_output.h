@@ -8,9 +8,9 @@
 
 namespace trapeze {
 
-/// Opens, writes and commits `file`. Returns what went wrong, or nothing. Channels are R G B A in halves (or
-/// floats), Z in floats, id in whole numbers; the data window is the crop, the display window the whole
-/// picture.
+/// Opens, writes and commits `file`, of one part, with the channels of all displays of the file
+/// (exr_channels.h). Returns what went wrong, or nothing. The data window is the crop, the display window the
+/// whole picture.
 std::string write_open_exr(const PictureToWrite& picture, OutputFile& file);
 
 }  // namespace trapeze

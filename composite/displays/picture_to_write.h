@@ -1,6 +1,8 @@
 /// What the writers of file formats are given.
 #pragma once
 
+#include <span>
+
 #include "composite/displays/display_plan.h"
 #include "composite/displays/write_displays.h"
 
@@ -10,14 +12,14 @@ namespace trapeze {
 struct PictureToWrite {
     const Image& image;  ///< its window is not empty
     const RenderContext& context;
-    const DisplayPlan& plan;
+    const DisplayPlan& plan;  ///< of the file's first display, which says how the file is made
     const OutputInfo& info;
+    std::span<const DisplayPlan> further = {};  ///< of other displays of the file: layers of an OpenEXR
 };
 
-/// Whether the plan is for an output variable that the picture does not have; the error is kNoVariables.
-inline bool lacks_variable(const PictureToWrite& picture) {
-    return picture.plan.aov &&
-           picture.image.aov_channels < picture.plan.aov->offset + picture.plan.aov->channels;
+/// Whether a plan is for an output variable that the picture does not have; the error is kNoVariables.
+inline bool lacks_variable(const Image& image, const DisplayPlan& plan) {
+    return plan.aov && image.aov_channels < plan.aov->offset + plan.aov->channels;
 }
 inline constexpr const char* kNoVariables = "no output variables were recorded";
 

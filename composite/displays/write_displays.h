@@ -35,7 +35,7 @@ struct WrittenFile {
 /// Writes every Display of the context's scene, each file whole or not at all. What goes wrong is reported as
 /// one error at the Display, and the others are still written; then it returns false. Stops early, without an
 /// error and with false, when the context is cancelled. `written`, if not null, gets the files that are
-/// there. Of two displays of one file the second is written beside it, which is said.
+/// there. Which displays share a file: shared_files.h.
 bool write_displays(const Image& image, const RenderContext& context, const OutputInfo& info,
                     std::vector<WrittenFile>* written = nullptr);
 

@@ -37,6 +37,7 @@ struct Display {
     SourceLocation location;
     std::optional<DisplayVariable> variable =
         {};  ///< what the mode names, unless it is colour, alpha or depth
+    std::string layer = {};  ///< of the variable in a file of several displays; empty: the variable's name
 };
 
 /// A PixelFilter request: the filter's name, and how wide it is.

@@ -72,6 +72,30 @@ TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
     EXPECT_FALSE(displays[1].variable) << "a frame's channels end with it";
 }
 
+TEST(ReadDisplays, ListsOfChannelsAreDisplaysOfOneFile) {
+    const Outcome r = read_text(
+        "DisplayChannel \"color even\" \"string source\" [\"Ci\"] \"float dither\" [.25]\n"
+        "Display \"a.exr\" \"openexr\" \"a, even,Ci,varying normal N,z\" \"string compression\" [\"piz\"]\n"
+        "Display \"+b.exr\" \"openexr\" \"even,N\" WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages, IsEmpty());
+    const std::vector<Display>& displays = r.scene().options.displays;
+    ASSERT_EQ(displays.size(), 5u);
+    for (size_t i = 0; i < 5; ++i) EXPECT_EQ(displays[i].name, i < 3 ? "a.exr" : "b.exr");
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(displays[i].parameters.string_or("compression", ""), "piz");
+    EXPECT_EQ(displays[0].mode, "rgbaz");
+    EXPECT_FALSE(displays[0].variable);
+    expect_variable(displays[1].variable, "Ci", ValueType::Color);
+    EXPECT_EQ(displays[1].layer, "even");
+    EXPECT_EQ(displays[1].parameters.float_or("dither", 0), .25f);
+    expect_variable(displays[2].variable, "N", ValueType::Normal);
+    expect_variable(displays[3].variable, "Ci", ValueType::Color);
+    EXPECT_FALSE(displays[0].parameters.find("dither"));
+    const Outcome replaced =
+        read_text("Display \"a.exr\" \"exr\" \"rgb,N\" Display \"b.exr\" \"exr\" \",\" WorldBegin WorldEnd");
+    ASSERT_EQ(replaced.scene().options.displays.size(), 1u);
+    EXPECT_EQ(replaced.scene().options.displays[0].mode, "");
+}
+
 TEST(ReadDisplays, ChannelsMayBeOtherNamesOfVariables) {
     const Outcome r = read_text(
         "DisplayChannel \"color even\" \"string source\" [\"Ci\"] \"string statistics\" [\"even\"]\n"

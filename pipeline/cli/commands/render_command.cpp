@@ -140,12 +140,21 @@ bool RenderJob::encode_for_viewing(Display& display, const Options& options) con
     return true;
 }
 
+/// Displays that share an OpenEXR file with the first stay with it, where it is still one.
+void rename_layers(const Display& before, const Display& now, std::vector<Display>& displays) {
+    if (file_format(before) != FileFormat::OpenExr || file_format(now) != FileFormat::OpenExr) return;
+    for (Display& other : displays)
+        if (&other != &now && other.name == before.name && file_format(other) == FileFormat::OpenExr)
+            rename(other, now.name);
+}
+
 /// The first display's file, as `-o` has it.
 void RenderJob::name_output(Scene& scene) {
     Display& first = scene.options.displays.front();
     const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, scene.options);
     renamed_ = first;
     rename(first, names_.take(first.name, scene.options.frame));
+    rename_layers(*renamed_, first, scene.options.displays);
     if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
     access_.allow_writing(first.name);
     kept_.forget(first.name);

@@ -59,57 +59,75 @@ std::optional<DisplayVariable> variable_named(OptionContext& r, const std::strin
     return {};
 }
 
-/// PRMan's "Ci,a" and the like: of a list of channels the picture's own, as RISpec writes them.
-std::string picture_mode(OptionContext& r, const std::string& mode) {
-    if (mode.find(',') == std::string::npos) return mode;
-    std::string picture, rest;
+/// The modes of a Display's mode: one, or PRMan's "Ci,a,albedo", a list of channels. The picture's own among
+/// these are one mode, the first, as RISpec writes it.
+std::vector<std::string> modes_of(const std::string& mode) {
+    if (mode.find(',') == std::string::npos) return {mode};
+    std::string picture;
+    std::vector<std::string> modes;
     for (size_t begin = 0; begin <= mode.size();) {
         const size_t end = std::min(mode.find(',', begin), mode.size());
         std::string channel = mode.substr(begin, end - begin);
         begin = end + 1;
-        std::erase(channel, ' ');
-        if (channel == "Ci" || channel == "rgb" || channel == "rgba") channel = "rgb";
-        const bool is_picture = channel == "rgb" || channel == "a" || channel == "z";
+        channel.erase(0, channel.find_first_not_of(' '));
+        channel.erase(channel.find_last_not_of(' ') + 1);
+        if (channel == "rgba") picture += "rgba";
+        if (channel == "Ci" || channel == "rgb") channel = "rgb";
+        const bool is_picture = channel == "rgba" || channel == "rgb" || channel == "a" || channel == "z";
         if (is_picture && picture.find(channel) == std::string::npos) picture += channel;
-        if (!is_picture) rest += (rest.empty() ? "" : ",") + channel;
+        if (!is_picture && !channel.empty()) modes.push_back(channel);
     }
-    if (!rest.empty() && !picture.empty())
-        r.report.warn_once(
-            "a file holds colour, alpha and depth, or one variable; " + in_quotes(rest) + " is left out",
-            "display-channels " + rest);
-    return picture.empty() ? mode : picture;
+    // Channels stand in this order, whatever the list's.
+    std::string in_order;
+    for (const char* channel : {"rgb", "a", "z"})
+        if (picture.find(channel) != std::string::npos) in_order += channel;
+    if (!in_order.empty() || modes.empty()) modes.insert(modes.begin(), in_order);
+    return modes;
 }
 
-/// "+name" adds a display to those there are; another replaces them (RISpec 4.1.2).
+/// A display of one mode, whose variable and whose channel's parameters it gets.
+Display with_mode(OptionContext& r, Display display, const std::string& mode) {
+    display.mode = mode;
+    display.variable = variable_named(r, mode);
+    const auto& channels = r.state.scope().display_channels;
+    if (const auto channel = channels.find(mode); channel != channels.end()) {
+        display.layer = mode;
+        for (const Parameter& parameter : channel->second.parameters.values)
+            if (!display.parameters.find(parameter.name)) display.parameters.set(parameter);
+    }
+    return display;
+}
+
+/// Whether the display shows some of the paths that light takes, which are not told apart here.
+bool shows_paths(OptionContext& r, const Display& display) {
+    if (display.parameters.string_or("source", "").find("lpe:") == std::string::npos) return false;
+    r.report.warn_once(
+        "there are no paths of light to choose from; " + in_quotes(display.name) + " is not written",
+        "lpe " + display.name);
+    return true;
+}
+
+/// "+name" adds a display to those there are; another replaces them (RISpec 4.1.2). A list of channels makes
+/// a display of each that is not of the picture itself, all of one file.
 void display(OptionContext& r, ArgumentCursor& c) {
-    Display d;
-    d.location = r.report.at();
-    d.name = c.string("the name"), d.type = c.string("the type"), d.mode = c.string("the mode");
-    d.mode = picture_mode(r, d.mode);
-    d.parameters = r.parameters(c, Undeclared::Guess);
-    for (const Parameter& value : d.parameters.values)
+    Display common;
+    common.location = r.report.at();
+    common.name = c.string("the name"), common.type = c.string("the type");
+    const std::vector<std::string> modes = modes_of(c.string("the mode"));
+    common.parameters = r.parameters(c, Undeclared::Guess);
+    for (const Parameter& value : common.parameters.values)
         if (!recognises_display_parameter(value.name))
             r.report.count_without_effect(' ' + in_quotes(value.name));
-    colorspace_of(r.report, d.parameters);
-    d.variable = variable_named(r, d.mode);
-    if (const auto channel = r.state.scope().display_channels.find(d.mode);
-        channel != r.state.scope().display_channels.end())
-        for (const Parameter& parameter : channel->second.parameters.values)
-            if (!d.parameters.find(parameter.name)) d.parameters.set(parameter);
+    colorspace_of(r.report, common.parameters);
+    bool is_further = !common.name.empty() && common.name[0] == '+';
+    if (is_further) common.name.erase(0, 1);
     Options& o = changeable_options(r);
-    const bool is_further = !d.name.empty() && d.name[0] == '+';
-    if (is_further && d.parameters.string_or("source", "").find("lpe:") != std::string::npos) {
-        r.report.warn_once(
-            "there are no paths of light to choose from; " + in_quotes(d.name.substr(1)) + " is not written",
-            "lpe " + d.name);
-        return;
-    }
-    if (is_further) {
-        d.name.erase(0, 1);
-        o.displays.push_back(std::move(d));
-    } else {
-        o.displays.clear();
-        o.displays.push_back(std::move(d));
+    for (const std::string& mode : modes) {
+        Display one = with_mode(r, common, mode);
+        if (is_further && shows_paths(r, one)) continue;
+        if (!is_further) o.displays.clear();
+        o.displays.push_back(std::move(one));
+        is_further = true;
     }
 }
 
