@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "composite/film/deep_pixel.h"
 #include "core/scene/camera.h"
 
 namespace trapeze {
@@ -24,6 +25,14 @@ struct Image {
     std::vector<float> aovs;  ///< aov_channels a pixel, row by row: what Displays ask for besides, by
                               ///< aov_layout(); not exposed
     int aov_channels = 0;
+
+    /// Ids and coverages of Cryptomatte's layers, matte_floats a pixel, row by row: of each of
+    /// matte_layers() the ranks as rank_mattes() writes them.
+    std::vector<float> mattes;
+    int matte_floats = 0;
+    float matte_loss = 0;  ///< the greatest coverage of a pixel that a layer has left out
+    /// Samples of a deep picture by pixel, row by row; colours after Exposure's gain. May be empty.
+    std::vector<std::vector<DeepSample>> deep;
 
     /// Place of a pixel of the window in z and id; times 4 in rgba, times aov_channels in aovs.
     size_t index(int x, int y) const {

@@ -122,7 +122,7 @@ Task<> GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
     if (const LayeredShader* shader = volume())
         atmosphere = co_await color(*shader, true, messages_.atmosphere);
     if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
-    if (!aovs.empty()) take_aovs(aovs, surface, displaced, grids_);
+    if (!aovs.empty()) take_aovs(aovs, surface, displaced, context_.camera, grids_);
     clouds_.finish();
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "shade/made_variables.h"
 #include "shade/materials/material.h"
 #include "shade/shader_variables.h"
 
@@ -19,7 +20,8 @@ bool provides(const Material& material, const Aov& aov) {
     return has_variable(material.surface->last().program(), aov);
 }
 
-/// Takes one channel of one grid, whose lanes begin at `first`. `from` null: the grid's own, or 0.
+/// Takes one channel of one grid, whose lanes begin at `first`. `from` null: the grid's own; 0 where that has
+/// none either.
 void take_channel(const Aov& aov, int channel, const vm::Operand* from, size_t first, ShadingGrid& grid) {
     const size_t count = grid.vertex_count();
     std::vector<float>& to = grid.aovs[static_cast<size_t>(aov.offset + channel)];
@@ -40,19 +42,24 @@ void take_channel(const Aov& aov, int channel, const vm::Operand* from, size_t f
 
 /// Whether any grid will have a variable.
 bool exists(const Aov& aov, const Materials& materials) {
-    return grids_have(aov) || std::any_of(materials.all().begin(), materials.all().end(),
-                                          [&](const Material& material) { return provides(material, aov); });
+    return grids_have(aov) || is_made_variable(aov) ||
+           std::any_of(materials.all().begin(), materials.all().end(),
+                       [&](const Material& material) { return provides(material, aov); });
 }
 
 }  // namespace
 
 void take_aovs(const AovLayout& layout, LayerRegisters surface, LayerRegisters displacement,
-               std::span<ShadingGrid* const> grids) {
+               const Camera& camera, std::span<ShadingGrid* const> grids) {
     for (ShadingGrid* grid : grids) grid->aovs.resize(static_cast<size_t>(layout.channel_count));
     for (const Aov& aov : layout.aovs) {
         const vm::Operand* from = find_shader_variable(aov, surface, displacement);
         size_t first = 0;
         for (ShadingGrid* grid : grids) {
+            if (!from && is_made_variable(aov)) {
+                make_variable(aov, camera, *grid);
+                continue;
+            }
             for (int channel = 0; channel < aov.channels; ++channel)
                 take_channel(aov, channel, from, first, *grid);
             first += grid->vertex_count();

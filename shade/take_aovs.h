@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/scene/aov.h"
+#include "core/scene/camera.h"
 #include "core/scene/shading_grid.h"
 #include "shade/vm/registers.h"
 
@@ -19,11 +20,13 @@ class Diagnostics;
 /// - else an output parameter, of as many numbers, of the surface shader or, where that has none, of its
 ///   earlier layers, the displacement shader, and the layers of that;
 /// - else another parameter of the surface shader, or one of its predefined variables;
-/// - else what the grid itself has: P, N, Ng, dPdu, dPdv, Cs, Os, u, v, s and t;
+/// - else what the grid itself has: P, N, Ng, dPdu, dPdv, Cs, Os, u, v, s and t; albedo, which is Cs Os, and
+///   motion (made_variables.h);
 /// - else 0.
 /// Points, vectors and normals are in camera space.
 void take_aovs(const AovLayout& layout, std::span<vm::Registers* const> surface,
-               std::span<vm::Registers* const> displacement, std::span<ShadingGrid* const> grids);
+               std::span<vm::Registers* const> displacement, const Camera& camera,
+               std::span<ShadingGrid* const> grids);
 
 /// Warns, once for each, of variables that no grid has and no shader of the scene's surfaces provides.
 void report_missing_aovs(const AovLayout& layout, const Materials& materials, const Options& options,

@@ -82,7 +82,7 @@ inline bool same_bits(const Image& a, const Image& b) {
                (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) == 0);
     };
     return a.window == b.window && same(a.rgba, b.rgba) && same(a.z, b.z) && same(a.aovs, b.aovs) &&
-           a.id == b.id;
+           a.id == b.id && same(a.mattes, b.mattes) && a.deep == b.deep;
 }
 
 }  // namespace trapeze::testing

@@ -47,6 +47,10 @@ std::optional<std::string> compression_named(FileFormat format, std::string_view
     return {};
 }
 
+bool holds_deep(std::string_view compression) {
+    return compression == "none" || compression == "rle" || compression == "zips";
+}
+
 std::string compression_names(FileFormat format) {
     std::string names;
     for (const Named& row : table(format)) names += (names.empty() ? "" : ", ") + std::string(row.asked);

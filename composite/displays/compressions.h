@@ -13,6 +13,9 @@ namespace trapeze {
 /// such compression.
 std::optional<std::string> compression_named(FileFormat format, std::string_view name);
 
+/// Whether OpenEXR compresses deep pictures so.
+bool holds_deep(std::string_view compression);
+
 /// The compressions that a format has, as Displays ask for them: "none, lzw, zip".
 std::string compression_names(FileFormat format);
 

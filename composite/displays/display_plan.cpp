@@ -8,6 +8,7 @@
 
 #include "composite/displays/compressions.h"
 #include "composite/displays/exr_attributes.h"
+#include "core/scene/deep_pictures.h"
 #include "core/scene/transfer.h"
 
 namespace trapeze {
@@ -30,9 +31,9 @@ constexpr NamedFormat kExtensions[] = {{".exr", FileFormat::OpenExr}, {".tif", F
                                        {".jpg", FileFormat::Jpeg},    {".jpeg", FileFormat::Jpeg},
                                        {".tga", FileFormat::Targa},   {".bmp", FileFormat::Bmp}};
 constexpr NamedFormat kDrivers[] = {{"openexr", FileFormat::OpenExr}, {"exr", FileFormat::OpenExr},
-                                    {"tiff", FileFormat::Tiff},       {"png", FileFormat::Png},
-                                    {"jpeg", FileFormat::Jpeg},       {"targa", FileFormat::Targa},
-                                    {"bmp", FileFormat::Bmp}};
+                                    {"deepexr", FileFormat::OpenExr}, {"tiff", FileFormat::Tiff},
+                                    {"png", FileFormat::Png},         {"jpeg", FileFormat::Jpeg},
+                                    {"targa", FileFormat::Targa},     {"bmp", FileFormat::Bmp}};
 // "exrheader_NAME" of a Display becomes the attribute NAME of its OpenEXR file.
 constexpr std::string_view kAttributePrefix = "exrheader_";
 // Drivers of other renderers that open a window, which this program does not.
@@ -91,6 +92,7 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
     if (driver == "null") return false;
     plan.path = display.name;
     plan.depth_map = makes_depth_map(display);
+    plan.deep = is_deep(display);
     const auto by_driver = plan.depth_map ? std::optional(FileFormat::Tiff) : look_up(kDrivers, driver);
     const auto by_extension = format_by_extension(display.name);
     plan.format = by_driver.value_or(by_extension.value_or(FileFormat::OpenExr));
@@ -134,8 +136,38 @@ bool choose_variable(const Display& display, const AovLayout& layout, Diagnostic
     return false;
 }
 
-/// rgb, a and z in this order, each or not; or "id".
+/// What only OpenEXR files hold.
+bool needs_open_exr(const Display& display, Diagnostics& diagnostics, const DisplayPlan& plan) {
+    if (plan.format == FileFormat::OpenExr) return true;
+    diagnostics.warning(
+        display.location,
+        fmt::format("mode \"{}\" needs OpenEXR; \"{}\" is not written", display.mode, plan.path),
+        "display-mode-format " + plan.path);
+    return false;
+}
+
+/// A deep picture has colour, alpha and the depths of its samples, whatever the mode says of z.
+bool choose_deep_channels(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    const std::string_view mode = display.mode;
+    plan.rgb = plan.alpha = plan.depth = true;
+    if (mode.empty() || mode == "rgb" || mode == "rgba" || mode == "rgbaz" || mode == "rgbz") return true;
+    plan.rgb = false;
+    if (mode == "a" || mode == "az") return true;
+    diagnostics.warning(
+        display.location,
+        fmt::format("deep pictures are of colour and alpha; \"{}\" is not written", plan.path),
+        "display-deep " + plan.path);
+    return false;
+}
+
+/// rgb, a and z in this order, each or not; or "id"; or a layer of Cryptomatte.
 bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPlan& plan) {
+    if (plan.deep) return choose_deep_channels(display, diagnostics, plan);
+    plan.matte = matte_layer_named(display.mode);
+    if (plan.matte) {
+        plan.rgb = plan.alpha = false;
+        return needs_open_exr(display, diagnostics, plan);
+    }
     const bool depth = plan.depth_map || (display.variable && is_depth(*display.variable));
     std::string_view mode = depth ? "z" : std::string_view(display.mode);
     const auto take = [&](std::string_view channels) {
@@ -157,13 +189,8 @@ bool choose_channels(const Display& display, Diagnostics& diagnostics, DisplayPl
     }
     if (plan.format == FileFormat::OpenExr) return true;
     const bool depth_fits = !plan.depth || (plan.format == FileFormat::Tiff && !plan.rgb && !plan.alpha);
-    if (plan.id || (!depth_fits && !plan.rgb && !plan.alpha)) {
-        diagnostics.warning(
-            display.location,
-            fmt::format("mode \"{}\" needs OpenEXR; \"{}\" is not written", display.mode, plan.path),
-            "display-mode-format " + plan.path);
-        return false;
-    }
+    if (plan.id || (!depth_fits && !plan.rgb && !plan.alpha))
+        return needs_open_exr(display, diagnostics, plan);
     if (!depth_fits) {
         plan.depth = false;
         diagnostics.warning(display.location, fmt::format("\"{}\" cannot hold z; it is left out", plan.path),
@@ -219,7 +246,7 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
         lower(display.parameters.string_or("exrpixeltype", display.parameters.string_or("type", "")));
     if (type == "float") plan.float_pixels = true, plan.quantization.make_float();
     if (type == "half") plan.float_pixels = false;
-    if (plan.aov && !plan.aov_is_color) plan.float_pixels = true;
+    if ((plan.aov && !plan.aov_is_color) || (plan.deep && type != "half")) plan.float_pixels = true;
     fit_to_format(plan.quantization, plan.format);
     plan.srgb = is_encoded(display, options, plan);
 }
@@ -231,7 +258,17 @@ void choose_compression(const Display& display, Diagnostics& diagnostics, Displa
         asked = display.parameters.find("compression");
     if (!asked || asked->strings.empty()) return;
     const std::string& name = asked->strings.front();
-    if (const auto compression = compression_named(plan.format, lower(name))) {
+    const auto compression = compression_named(plan.format, lower(name));
+    if (compression && plan.deep && !holds_deep(*compression)) {
+        diagnostics.warning(
+            display.location,
+            fmt::format("\"{}\" is deep, which \"{}\" does not compress: none, rle and zips do; zips is "
+                        "used",
+                        plan.path, name),
+            "display-compression " + name + ' ' + plan.path);
+        return;
+    }
+    if (compression) {
         plan.compression = *compression;
         return;
     }
@@ -334,6 +371,9 @@ std::vector<std::string> channel_names(const DisplayPlan& plan, bool is_layer) {
     if (plan.alpha) names.emplace_back("A");
     if (plan.depth) names.emplace_back("Z");
     if (plan.id) names.emplace_back(is_layer ? "id.Y" : "id");
+    if (plan.matte)
+        for (int i = 0; i < kMatteFloats; ++i)
+            names.push_back(fmt::format("{}{:02}.{}", matte_layer_name(*plan.matte), i / 4, "RGBA"[i % 4]));
     if (!plan.aov) return names;
     const bool is_vector = plan.aov->channels == 3 && !plan.aov_is_color;
     const std::string prefix = is_layer || is_vector ? (is_layer ? plan.layer : plan.aov->name) + '.' : "";
@@ -354,7 +394,7 @@ std::optional<DisplayPlan> plan_display(const Display& display, const Options& o
         return {};
     }
     if (!choose_format(display, diagnostics, plan)) return {};
-    const bool variable = display.variable && !is_depth(*display.variable) && !plan.depth_map;
+    const bool variable = display.variable && !is_depth(*display.variable) && !plan.depth_map && !plan.deep;
     if (!(variable ? choose_variable(display, layout, diagnostics, plan)
                    : choose_channels(display, diagnostics, plan)))
         return {};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "composite/mattes/matte_layers.h"
 #include "core/diagnostics.h"
 #include "core/scene/aov.h"
 #include "core/scene/scene.h"
@@ -32,11 +33,13 @@ struct DisplayPlan {
     bool rgb = true, alpha = true, depth = false, id = false;
     std::optional<Aov> aov;  ///< an output variable: none of the above
     bool aov_is_color = false;
-    std::string layer;          ///< of the variable, where it is not alone in the file
-    bool float_pixels = false;  ///< OpenEXR: colours in floats, not halves; other variables always are
-    std::string compression;    ///< as the format's library calls it; empty: its default
-    int tile_side = 0;          ///< OpenEXR: pixels of the tiles that the file lies in; 0: in rows
-    Quantization quantization;  ///< of the other formats, as they can hold it
+    std::string layer;                ///< of the variable, where it is not alone in the file
+    std::optional<MatteLayer> matte;  ///< a layer of Cryptomatte, alone in the plan
+    bool deep = false;                ///< samples of each pixel by their depths; OpenEXR
+    bool float_pixels = false;        ///< OpenEXR: colours in floats, not halves; other variables always are
+    std::string compression;          ///< as the format's library calls it; empty: its default
+    int tile_side = 0;                ///< OpenEXR: pixels of the tiles that the file lies in; 0: in rows
+    Quantization quantization;        ///< of the other formats, as they can hold it
     std::vector<Parameter> attributes;  ///< of an OpenEXR header: "exrheader_NAME" without the prefix
     bool srgb = false;                  ///< colours of whole numbers are encoded by the sRGB curve
 };
@@ -53,6 +56,7 @@ bool holds_depth(const std::string& file);
 /// of a colour or of one number, where it is alone; as a layer among others in the file, which several
 /// displays name, they are foo.R foo.G foo.B and foo.Y. Points, vectors and normals are always foo.X foo.Y
 /// foo.Z, since a Z alone would be a depth. An id is id.Y as a layer.
+/// A layer of Cryptomatte has crypto_object00.R and so on: ids and coverages by turns.
 std::vector<std::string> channel_names(const DisplayPlan& plan, bool is_layer);
 
 /// The format that the display's driver and its file's extension choose; nothing for driver "null".

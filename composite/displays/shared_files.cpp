@@ -25,7 +25,9 @@ SharedFile* find_file(std::vector<SharedFile>& files, const std::string& path) {
 
 /// Whether the display's channels can be layers of the file.
 bool can_share(const SharedFile& file, const DisplayPlan& plan) {
-    if (plan.format != FileFormat::OpenExr || file.plans.front().format != FileFormat::OpenExr) return false;
+    if (plan.deep || file.plans.front().deep || plan.format != FileFormat::OpenExr ||
+        file.plans.front().format != FileFormat::OpenExr)
+        return false;
     const std::vector<std::string> wanted = channel_names(plan, true);
     return std::none_of(file.plans.begin(), file.plans.end(), [&](const DisplayPlan& other) {
         const std::vector<std::string> names = channel_names(other, true);
@@ -95,8 +97,8 @@ void add_display(const Display& display, DisplayPlan plan, const Access& access,
 void refuse_lossy_compression(SharedFile& file, Diagnostics& diagnostics) {
     DisplayPlan& first = file.plans.front();
     const bool loses = std::find(std::begin(kLossy), std::end(kLossy), first.compression) != std::end(kLossy);
-    if (!loses ||
-        std::none_of(file.plans.begin(), file.plans.end(), [](const DisplayPlan& p) { return p.id; }))
+    if (!loses || std::none_of(file.plans.begin(), file.plans.end(),
+                               [](const DisplayPlan& p) { return p.id || p.matte; }))
         return;
     diagnostics.warning(file.location,
                         fmt::format("\"{}\" has ids, which the compression \"{}\" would lose; the usual one, "

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "composite/displays/deep_exr_output.h"
 #include "composite/displays/image_output.h"
 #include "composite/displays/open_exr_output.h"
 #include "composite/displays/shared_files.h"
@@ -16,6 +17,7 @@ namespace {
 std::string write_picture(const PictureToWrite& picture, const OutputPlace& place) {
     if (!place.problem.empty()) return place.problem;
     OutputFile file(place.path);
+    if (picture.plan.deep) return write_deep_exr(picture, file);
     return picture.plan.format == FileFormat::OpenExr ? write_open_exr(picture, file)
                                                       : write_image(picture, file);
 }

@@ -23,6 +23,7 @@ struct OutputInfo {
     const Access* access = &kEverything;                        ///< where displays may be written
     /// Called before a file is written, unless that is a depth map; may be empty.
     std::function<void(const std::string& path, SourceLocation location)> before_picture = {};
+    std::string stats = {};  ///< of the render, as JSON; OpenEXR alone
 };
 
 /// A file that has been written.

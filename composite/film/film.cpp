@@ -8,7 +8,9 @@
 #include "composite/film/gathered_samples.h"
 #include "composite/film/pixel_depth.h"
 #include "composite/film/pixel_sums.h"
+#include "composite/film/pixel_variables.h"
 #include "composite/film/tile_sums.h"
+#include "core/scene/deep_pictures.h"
 
 namespace trapeze {
 namespace {
@@ -31,6 +33,10 @@ DepthFilter depth_filter_of(const RenderContext& context) {
         context.diagnostics->warning(
             {}, "Hider \"depthfilter\" \"" + name + "\" is not supported; min is used", "depthfilter");
     return filter;
+}
+
+bool has_pixel(const PixelRect& r, int x, int y) {
+    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
 }
 
 bool wants_ids(const Options& options) {
@@ -58,6 +64,13 @@ Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     gain_ = options.exposure_gain;
     inverse_gamma_ = leave_gamma ? 1.0f : inverse_of_gamma(options.exposure_gamma);
 
+    if (const std::vector<MatteLayer> layers = matte_layers(options); !layers.empty()) {
+        matte_keys_ = MatteKeys(*context.scene, layers, *context.diagnostics);
+        matte_kernel_.emplace(matte_filter(options.filter));
+        layer_rules_.keys = &matte_keys_, layer_rules_.kernel = &*matte_kernel_;
+    }
+    layer_rules_.deep_tolerance = deep_tolerance(options);
+
     image_.width = context.camera.width, image_.height = context.camera.height;
     image_.window = context.camera.crop;
     if (image_.window.empty()) return;
@@ -66,6 +79,9 @@ Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     image_.z.assign(count, kInfinity);
     image_.aov_channels = aovs_.channel_count;
     image_.aovs.resize(static_cast<size_t>(aovs_.channel_count) * count);
+    image_.matte_floats = kMatteFloats * static_cast<int>(matte_keys_.layer_count());
+    image_.mattes.resize(static_cast<size_t>(image_.matte_floats) * count);
+    if (layer_rules_.deep_tolerance) image_.deep.resize(count);
     if (record_ids || wants_ids(options)) image_.id.assign(count, kNoPrimitive);
 
     sampled_ = intersection(sampled_pixels(context.camera, options),
@@ -121,32 +137,42 @@ void Film::add(const SampleTile& samples, const LayerStack& stack) {
 }
 
 void Film::begin_stack(size_t sample_count, LayerStack& stack) const {
-    stack.begin(sample_count, aovs_, depth_filter_ == DepthFilter::Midpoint);
+    stack.begin(sample_count, aovs_, depth_filter_ == DepthFilter::Midpoint, layer_rules_.want_layers());
 }
 
 void Film::add(const GatheredSamples& gathered) {
     add_tiles(gathered.pixels(), [&](const PixelRect& pixels) {
-        auto sums =
-            std::make_unique<TileSums>(pixels, kernel_, gathered.shows_something(), aovs_.channel_count);
-        gathered.sum(pixels, kernel_, *sums, [this](int px, int py, float depth, uint32_t primitive) {
-            record_pixel(px, py, depth, primitive);
-        });
+        auto sums = make_sums(pixels, gathered.shows_something());
+        gathered.sum(pixels, kernel_, *sums,
+                     [this](int px, int py, const GatheredSamples::PixelRecord& record) {
+                         record_pixel(px, py, record.depth, record.primitive);
+                         if (record.variables) record_variables(px, py, *record.variables);
+                         if (record.layers && layer_rules_.deep_tolerance)
+                             record_deep(px, py, record.layers->deep_samples());
+                     });
         return sums;
     });
 }
 
 GatherRules Film::gather_rules() const {
-    return {&aovs_, depth_filter_};
+    return {&aovs_, depth_filter_, layer_rules_};
 }
 
 void Film::add_part(const FilmPart& whole) {
     add_tiles(whole.pixels, [&](const PixelRect& pixels) {
         const FilmPart part{pixels, whole.samples, whole.hits, whole.grids, whole.stack};
-        auto sums = std::make_unique<TileSums>(pixels, kernel_, part.hits_anything(), aovs_.channel_count);
+        auto sums = make_sums(pixels, part.hits_anything());
         accumulate(part, *sums);
         if (sums->channels(Sum::Aov) > 0) accumulate_aovs(part, *sums);
+        if (layer_rules_.want_layers()) accumulate_layers(part, *sums);
         return sums;
     });
+}
+
+std::unique_ptr<TileSums> Film::make_sums(const PixelRect& tile, bool colored) const {
+    auto sums = std::make_unique<TileSums>(tile, kernel_, colored, aovs_.channel_count);
+    if (matte_kernel_) sums->mattes.emplace(matte_kernel_->footprint(tile));
+    return sums;
 }
 
 template <class SumsOf>
@@ -256,31 +282,66 @@ void Film::accumulate_taps(const FilmPart& part, TileSums& sums) {
 }
 
 /// Adds output variables, in a pass of their own, so that pictures without them pay nothing.
-void Film::accumulate_aovs(const FilmPart& part, TileSums& sums) const {
+void Film::accumulate_aovs(const FilmPart& part, TileSums& sums) {
     const SampleTile& samples = part.samples;
     std::vector<float> weights(kernel_.tap_count()), values(sums.channels(Sum::Aov));
+    const bool all_summed = aovs_.all_summed();
+    PixelVariables kept(aovs_);
     for (int py = part.pixels.y0; py < part.pixels.y1; ++py)
-        for (int px = part.pixels.x0; px < part.pixels.x1; ++px)
+        for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
+            kept.begin();
             for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
                 if (!part.has_hits(sample)) continue;
-                const float* of_sample = part.stack ? part.stack->aovs(sample) : values.data();
-                if (!part.stack)
-                    resolve_aovs(samples.rays[sample], part.hits.of(sample), part.grids, aovs_,
-                                 values.data());
+                const float depth = part.variables(sample, aovs_, values.data());
+                if (!all_summed) kept.take(values.data(), depth);
                 const FilterTaps taps =
                     kernel_.weigh(samples.x[sample], samples.y[sample], px, py, weights.data());
-                sums.add<0, 0>(Sum::Aov, taps, weights.data(), of_sample);
+                sums.add<0, 0>(Sum::Aov, taps, weights.data(), values.data());
             }
+            if (!all_summed) record_variables(px, py, kept);
+        }
+}
+
+void Film::accumulate_layers(const FilmPart& part, TileSums& sums) {
+    const SampleTile& samples = part.samples;
+    LayerSums pixel(layer_rules_);
+    std::vector<SeenLayer> layers;
+    for (int py = part.pixels.y0; py < part.pixels.y1; ++py)
+        for (int px = part.pixels.x0; px < part.pixels.x1; ++px) {
+            pixel.begin(px, py);
+            for (size_t sample = part.first_of(px, py); sample < part.first_of(px + 1, py); ++sample) {
+                layers.clear();
+                if (sums.channels(Sum::Color) > 0 && part.has_hits(sample)) part.see(sample, layers);
+                pixel.add(layers, samples.x[sample], samples.y[sample], 1,
+                          sums.mattes ? &*sums.mattes : nullptr);
+            }
+            if (layer_rules_.deep_tolerance) record_deep(px, py, pixel.deep_samples());
+        }
+}
+
+/// Exposure's gain is a picture's, too, but not its gamma: deep samples add up.
+void Film::record_deep(int px, int py, std::vector<DeepSample> samples) {
+    if (!has_pixel(image_.window, px, py)) return;
+    for (DeepSample& sample : samples)
+        for (int c = 0; c < 3; ++c) sample.rgba[c] *= gain_;
+    image_.deep[image_.index(px, py)] = std::move(samples);
 }
 
 /// Records a pixel's depth and id, which are of the samples within the pixel alone; these all lie in one
 /// tile.
 void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
-    const PixelRect& window = image_.window;
-    if (px < window.x0 || px >= window.x1 || py < window.y0 || py >= window.y1) return;
+    if (!has_pixel(image_.window, px, py)) return;
     const size_t at = image_.index(px, py);
     image_.z[at] = depth;
     if (!image_.id.empty()) image_.id[at] = primitive;
+}
+
+/// Records what a pixel keeps of variables. To these channels nothing is added but 0.
+void Film::record_variables(int px, int py, const PixelVariables& variables) {
+    if (!has_pixel(image_.window, px, py)) return;
+    std::copy(
+        variables.values().begin(), variables.values().end(),
+        image_.aovs.begin() + static_cast<std::ptrdiff_t>(variables.values().size() * image_.index(px, py)));
 }
 
 /// Finishes a tile once all that its pixels wait for is there.
@@ -316,6 +377,31 @@ void Film::gather(int tile, Sum sum, const PixelRect& pixels, const FirstOf& fir
     });
 }
 
+/// Adds up the coverages of the tiles around, in the order of tiles, and keeps the greatest of each pixel.
+void Film::rank_mattes(int tile, const PixelRect& pixels) {
+    const auto width = static_cast<size_t>(pixels.width());
+    std::vector<MattePixel> sums(width * static_cast<size_t>(pixels.height()));
+    const auto sum = [&](int x, int y) -> MattePixel& {
+        return sums[static_cast<size_t>(y - pixels.y0) * width + static_cast<size_t>(x - pixels.x0)];
+    };
+    for_each_neighbour(tile, [&](int from) {
+        const TileSums* of_tile = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
+        if (!of_tile || !of_tile->mattes) return;
+        const PixelRect shared = intersection(of_tile->mattes->pixels(), pixels);
+        for (int y = shared.y0; y < shared.y1; ++y)
+            for (int x = shared.x0; x < shared.x1; ++x) sum(x, y).add(of_tile->mattes->at(x, y));
+    });
+    float lost = 0;
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+        for (int x = pixels.x0; x < pixels.x1; ++x)
+            lost = std::max(
+                lost, trapeze::rank_mattes(sum(x, y), matte_keys_,
+                                           image_.mattes.data() + static_cast<size_t>(image_.matte_floats) *
+                                                                      image_.index(x, y)));
+    float known = matte_loss_.load(std::memory_order_relaxed);
+    while (lost > known && !matte_loss_.compare_exchange_weak(known, lost, std::memory_order_relaxed)) {}
+}
+
 /// Makes pixels of sums: divides each by the sum of the weights; 0 where that is 0.
 void Film::develop(int tile) {
     const PixelRect pixels = intersection(tile_pixels(tile), image_.window);
@@ -327,6 +413,7 @@ void Film::develop(int tile) {
     const auto channels = static_cast<size_t>(aovs_.channel_count);
     const auto color = [&](int x, int y) { return &image_.rgba[4 * image_.index(x, y)]; };
     const auto aov = [&](int x, int y) { return image_.aovs.data() + channels * image_.index(x, y); };
+    if (matte_kernel_) rank_mattes(tile, pixels);
     gather(tile, Sum::Weight, pixels, weight);
     gather(tile, Sum::Color, pixels, color);
     gather(tile, Sum::Aov, pixels, aov);
@@ -338,7 +425,9 @@ void Film::develop(int tile) {
             };
             divide(color(x, y), 4);
             if (sum != 0) expose(color(x, y));
-            divide(aov(x, y), channels);
+            for (const Aov& variable : aovs_.aovs)
+                if (variable.is_summed())
+                    divide(aov(x, y) + variable.offset, static_cast<size_t>(variable.channels));
         }
 }
 
@@ -354,6 +443,7 @@ Image Film::finish() {
     tiles_.reset();
     tiles_x_ = tiles_y_ = 0;
     waiting_bytes_ = 0;
+    image_.matte_loss = matte_loss_;
     return std::move(image_);
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "composite/film/filters.h"
+#include "composite/film/layer_sums.h"
 #include "composite/film/sample_sink.h"
 #include "composite/image.h"
 #include "core/scene/aov.h"
@@ -24,6 +25,7 @@ namespace trapeze {
 
 struct FilmPart;
 class GatheredSamples;
+class PixelVariables;
 struct GatherRules;
 class TileSums;
 enum class Sum : uint8_t;
@@ -80,8 +82,14 @@ class Film final : public SampleSink {
     template <int kTaps>
     void accumulate_taps(const FilmPart& part, TileSums& sums);
     void accumulate_pixels(const FilmPart& part, TileSums& sums);
-    void accumulate_aovs(const FilmPart& part, TileSums& sums) const;
+    void accumulate_aovs(const FilmPart& part, TileSums& sums);
     void record_pixel(int px, int py, float depth, uint32_t primitive);
+    void record_variables(int px, int py, const PixelVariables& variables);
+    void record_deep(int px, int py, std::vector<DeepSample> samples);
+    std::unique_ptr<TileSums> make_sums(const PixelRect& tile, bool colored) const;
+    /// Adds what the layers of samples make: mattes and deep pixels.
+    void accumulate_layers(const FilmPart& part, TileSums& sums);
+    void rank_mattes(int tile, const PixelRect& pixels);
     void settle(int tile);
     void develop(int tile);
     template <class FirstOf>
@@ -91,6 +99,10 @@ class Film final : public SampleSink {
 
     AovLayout aovs_;
     FilterKernel kernel_;
+    MatteKeys matte_keys_;
+    std::optional<FilterKernel> matte_kernel_;  ///< where mattes are asked for
+    LayerRules layer_rules_;
+    std::atomic<float> matte_loss_{0};
     DepthFilter depth_filter_ = DepthFilter::Min;
     float gain_ = 1, inverse_gamma_ = 1;
     PixelRect sampled_;  ///< the pixels whose samples count

@@ -4,6 +4,7 @@
 #include "composite/film/hit_layers.h"
 #include "composite/film/layer_stack.h"
 #include "composite/film/resolve_layers.h"
+#include "composite/film/seen_layers.h"
 #include "core/hit_buffer.h"
 #include "core/samples.h"
 
@@ -34,6 +35,19 @@ struct FilmPart {
             if (const Grid* grid = covering_grid(hits.hits[first], grids))
                 return covered(hits.hits[first], *grid, layers.color(first));
         return resolve_layers(hits.of(sample), layers, first, grids, midpoint);
+    }
+    /// Output variables of a sample that has hits; returns the depth of the first layer that shows something.
+    float variables(size_t sample, const AovLayout& layout, float* values) const {
+        if (!stack) return resolve_aovs(samples.rays[sample], hits.of(sample), grids, layout, values);
+        std::copy_n(stack->aovs(sample), layout.channel_count, values);
+        return stack->aov_depth(sample);
+    }
+    /// Appends the layers of a sample that has hits.
+    void see(size_t sample, std::vector<SeenLayer>& layers) const {
+        V3f transmission(1);
+        if (!stack) return see_layers(samples.rays[sample], hits.of(sample), grids, transmission, layers);
+        const std::vector<SeenLayer>& seen = stack->layers(sample);
+        layers.insert(layers.end(), seen.begin(), seen.end());
     }
     bool hits_anything() const {
         if (stack) return true;

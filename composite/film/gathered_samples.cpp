@@ -6,6 +6,7 @@
 #include "composite/film/film_part.h"
 #include "composite/film/pixel_depth.h"
 #include "composite/film/pixel_sums.h"
+#include "composite/film/pixel_variables.h"
 #include "composite/film/tile_sums.h"
 
 namespace trapeze {
@@ -16,10 +17,12 @@ void GatheredSamples::begin(const PixelRect& pixels, size_t most, const GatherRu
     slots_.assign(static_cast<size_t>(pixels.width()) * static_cast<size_t>(pixels.height()), {});
     for (auto* values : {&rgba_, &x_, &y_, &times_, &aovs_}) values->clear();
     seen_.clear(), numbers_.clear();
+    layers_.clear(), first_layer_.assign(1, 0);
 }
 
 void GatheredSamples::begin_stack(size_t sample_count, LayerStack& stack) const {
-    stack.begin(sample_count, *rules_.aovs, rules_.depth_filter == DepthFilter::Midpoint);
+    stack.begin(sample_count, *rules_.aovs, rules_.depth_filter == DepthFilter::Midpoint,
+                rules_.layers.want_layers());
 }
 
 void GatheredSamples::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) {
@@ -44,7 +47,11 @@ void GatheredSamples::append(const FilmPart& part) {
         for (size_t s = first; s < first + per_pixel; ++s) {
             Seen& seen = seen_[before + s];
             float* const rgba = &rgba_[4 * (before + s)];
-            seen = {kInfinity, kNoPrimitive, part.has_hits(s)};
+            seen = {kInfinity, kNoPrimitive, part.has_hits(s), kInfinity};
+            if (rules_.layers.want_layers()) {
+                if (seen.has_hits) part.see(s, layers_);
+                first_layer_.push_back(layers_.size());
+            }
             if (!seen.has_hits) {
                 std::fill_n(rgba, 4, 0.0f);
                 continue;
@@ -54,11 +61,7 @@ void GatheredSamples::append(const FilmPart& part) {
             std::copy_n(color.rgba, 4, rgba);
             seen.depth = color.depth, seen.primitive = color.primitive;
             if (channels == 0) continue;
-            float* const values = &aovs_[channels * (before + s)];
-            if (part.stack)
-                std::copy_n(part.stack->aovs(s), channels, values);
-            else
-                resolve_aovs(samples.rays[s], part.hits.of(s), part.grids, *rules_.aovs, values);
+            seen.variables_depth = part.variables(s, *rules_.aovs, &aovs_[channels * (before + s)]);
         }
         Slot& slot = slots_[index(samples.listed[pixel])];
         const size_t row = slot.counts[0] > 0 ? 1 : 0;
@@ -80,7 +83,11 @@ class GatheredSamples::PixelSummer {
           weights_(static_cast<size_t>(kernel.tap_count())),
           order_(count),
           x_(count),
-          y_(count) {
+          y_(count),
+          values_(static_cast<size_t>(gathered.rules_.aovs->channel_count)),
+          all_summed_(gathered.rules_.aovs->all_summed()),
+          kept_(*gathered.rules_.aovs),
+          layers_(gathered.rules_.layers) {
         if (PixelSums::suits(kernel, static_cast<int>(count)))
             planes_ = std::make_unique<PixelSums>(kernel, static_cast<int>(count));
     }
@@ -104,7 +111,11 @@ class GatheredSamples::PixelSummer {
             sums.add(px - kernel_.reach_x(), py - kernel_.reach_y(), *planes_, shows_something, share_);
         }
         if (!planes_ || sums.channels(Sum::Aov) > 0) add_one_by_one(px, py, sums);
-        if (sums.channels(Sum::Color) > 0) record(px, py, depth.value(), primitive.value());
+        if (from_.rules_.layers.want_layers()) add_layers(px, py, sums);
+        if (sums.channels(Sum::Color) > 0)
+            record(px, py,
+                   {depth.value(), primitive.value(), all_summed_ ? nullptr : &kept_,
+                    from_.rules_.layers.want_layers() ? &layers_ : nullptr});
     }
 
   private:
@@ -118,10 +129,18 @@ class GatheredSamples::PixelSummer {
                 order_[whole ? from_.numbers_[s] : place] = s;
     }
 
+    void add_layers(int px, int py, TileSums& sums) {
+        layers_.begin(px, py);
+        for (size_t place = 0; place < count(); ++place)
+            layers_.add(from_.layers_of(order_[place]), x_[place], y_[place], share_,
+                        sums.mattes ? &*sums.mattes : nullptr);
+    }
+
     /// What is not summed in planes.
     void add_one_by_one(int px, int py, TileSums& sums) {
         constexpr float kOne = 1;
         const size_t channels = sums.channels(Sum::Aov);
+        kept_.begin();
         for (size_t place = 0; place < count(); ++place) {
             const size_t sample = order_[place];
             const FilterTaps taps = kernel_.weigh(x_[place], y_[place], px, py, weights_.data());
@@ -129,8 +148,10 @@ class GatheredSamples::PixelSummer {
             if (!planes_) sums.add<0, 1>(Sum::Weight, taps, weights_.data(), &kOne);
             if (!from_.seen_[sample].has_hits) continue;
             if (!planes_) sums.add<0, 4>(Sum::Color, taps, weights_.data(), &from_.rgba_[4 * sample]);
-            if (channels > 0)
-                sums.add<0, 0>(Sum::Aov, taps, weights_.data(), &from_.aovs_[channels * sample]);
+            if (channels == 0) continue;
+            std::copy_n(&from_.aovs_[channels * sample], channels, values_.data());
+            if (!all_summed_) kept_.take(values_.data(), from_.seen_[sample].variables_depth);
+            sums.add<0, 0>(Sum::Aov, taps, weights_.data(), values_.data());
         }
     }
 
@@ -140,6 +161,10 @@ class GatheredSamples::PixelSummer {
     std::vector<float> weights_;
     std::vector<size_t> order_;
     std::vector<float> x_, y_;
+    std::vector<float> values_;  ///< of output variables, of one sample
+    const bool all_summed_;
+    PixelVariables kept_;
+    LayerSums layers_;
     std::unique_ptr<PixelSums> planes_;
 };
 

@@ -12,18 +12,21 @@
 #include <vector>
 
 #include "composite/film/filters.h"
+#include "composite/film/layer_sums.h"
 #include "composite/film/sample_sink.h"
 #include "core/scene/aov.h"
 #include "core/scene/depth_filter.h"
 
 namespace trapeze {
 
+class PixelVariables;
 class TileSums;
 
 /// How the film wants samples to be made into colours.
 struct GatherRules {
     const AovLayout* aovs = nullptr;
     DepthFilter depth_filter = DepthFilter::Min;
+    LayerRules layers = {};
 };
 
 /// One a thread, used again from rectangle to rectangle.
@@ -47,8 +50,15 @@ class GatheredSamples final : public SampleSink {
     /// Whether any sample shows anything.
     bool shows_something() const { return shows_something_; }
 
-    /// What a film keeps of a pixel beside sums: its depth, and the primitive at its centre.
-    using RecordPixel = std::function<void(int x, int y, float depth, uint32_t primitive)>;
+    /// What a film keeps of a pixel beside sums: its depth, the primitive at its centre, and variables that
+    /// are no sums, and what its layers make; null: there are none.
+    struct PixelRecord {
+        float depth;
+        uint32_t primitive;
+        const PixelVariables* variables;
+        LayerSums* layers;
+    };
+    using RecordPixel = std::function<void(int x, int y, const PixelRecord& record)>;
     /// Adds weights, colours and variables of a part of the pixels.
     void sum(const PixelRect& part, const FilterKernel& kernel, TileSums& sums,
              const RecordPixel& record) const;
@@ -59,6 +69,7 @@ class GatheredSamples final : public SampleSink {
         float depth;
         uint32_t primitive;
         bool has_hits;
+        float variables_depth;  ///< FilmPart::variables(); undefined where there are none
     };
     /// Where a pixel's samples are: those with which it began, and those that came later.
     struct Slot {
@@ -67,6 +78,11 @@ class GatheredSamples final : public SampleSink {
         size_t count() const { return size_t{counts[0]} + counts[1]; }
     };
     class PixelSummer;
+
+    std::span<const SeenLayer> layers_of(size_t sample) const {
+        return std::span(layers_).subspan(first_layer_[sample],
+                                          first_layer_[sample + 1] - first_layer_[sample]);
+    }
 
     size_t index(const PixelPlace& pixel) const {
         return static_cast<size_t>(pixel.y - pixels_.y0) * pixels_.width() +
@@ -82,6 +98,8 @@ class GatheredSamples final : public SampleSink {
     std::vector<Seen> seen_;
     std::vector<float> rgba_, x_, y_, times_, aovs_;  ///< colours, and variables, of one sample after another
     std::vector<uint16_t> numbers_;                   ///< of samples in their pixels
+    std::vector<SeenLayer> layers_;                   ///< of one sample after another, where they are wanted
+    std::vector<size_t> first_layer_;                 ///< of each sample, and the end
 };
 
 }  // namespace trapeze

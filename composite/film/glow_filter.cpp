@@ -134,6 +134,8 @@ void trim(const PixelRect& window, Image& image) {
     image.z = trimmed(image.z, 1, image.window, window);
     image.id = trimmed(image.id, 1, image.window, window);
     image.aovs = trimmed(image.aovs, static_cast<size_t>(image.aov_channels), image.window, window);
+    image.mattes = trimmed(image.mattes, static_cast<size_t>(image.matte_floats), image.window, window);
+    image.deep = trimmed(image.deep, 1, image.window, window);
     image.window = window;
 }
 

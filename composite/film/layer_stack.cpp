@@ -8,14 +8,16 @@ constexpr size_t kHitsAtOnce = 1024;
 
 }  // namespace
 
-void LayerStack::begin(size_t sample_count, const AovLayout& aovs, bool midpoint) {
+void LayerStack::begin(size_t sample_count, const AovLayout& aovs, bool midpoint, bool keeps_layers) {
     aovs_ = &aovs;
     midpoint_ = midpoint;
     sums_.assign(sample_count, {});
     has_hits_.assign(sample_count, 0);
     const auto channels = static_cast<size_t>(aovs.channel_count);
-    transmissions_.assign(channels == 0 ? 0 : sample_count, V3f(1));
+    progress_.assign(channels == 0 ? 0 : sample_count, {});
     values_.assign(channels * sample_count, 0.0f);
+    layers_of_.assign(keeps_layers ? sample_count : 0, {});
+    transmissions_.assign(layers_of_.size(), V3f(1));
 }
 
 void LayerStack::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
@@ -33,8 +35,10 @@ void LayerStack::add(const SampleTile& samples, const HitBuffer& hits, const Gri
         }
         has_hits_[sample] = 1;
         add_layers(of_sample, layers_, hits.first[sample], grids, midpoint_, sums_[sample]);
-        if (!transmissions_.empty())
-            add_aovs(samples.rays[sample], of_sample, grids, *aovs_, transmissions_[sample],
+        if (!layers_of_.empty())
+            see_layers(samples.rays[sample], of_sample, grids, transmissions_[sample], layers_of_[sample]);
+        if (!progress_.empty())
+            add_aovs(samples.rays[sample], of_sample, grids, *aovs_, progress_[sample],
                      values_.data() + sample * static_cast<size_t>(aovs_->channel_count));
     }
 }

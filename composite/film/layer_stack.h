@@ -7,6 +7,7 @@
 
 #include "composite/film/hit_layers.h"
 #include "composite/film/resolve_layers.h"
+#include "composite/film/seen_layers.h"
 #include "core/scene/aov.h"
 
 namespace trapeze {
@@ -14,8 +15,9 @@ namespace trapeze {
 /// One a thread, used again from tile to tile.
 class LayerStack {
   public:
-    /// All samples have gathered nothing. The layout outlives the stack.
-    void begin(size_t sample_count, const AovLayout& aovs, bool midpoint);
+    /// All samples have gathered nothing. The layout outlives the stack. `keeps_layers`: layers() will be
+    /// asked.
+    void begin(size_t sample_count, const AovLayout& aovs, bool midpoint, bool keeps_layers = false);
 
     /// Adds the next hits of some samples, which are in ascending order.
     void add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids,
@@ -29,15 +31,20 @@ class LayerStack {
     const float* aovs(size_t sample) const {
         return values_.data() + sample * static_cast<size_t>(aovs_->channel_count);
     }
+    const std::vector<SeenLayer>& layers(size_t sample) const { return layers_of_[sample]; }
+    /// Of the first layer that shows something, where there are output variables.
+    float aov_depth(size_t sample) const { return progress_[sample].depth; }
 
   private:
     const AovLayout* aovs_ = nullptr;
     bool midpoint_ = false;
     std::vector<LayerSum> sums_;
     std::vector<uint8_t> has_hits_;
-    std::vector<V3f> transmissions_;  ///< of output variables; where there are some
-    std::vector<float> values_;       ///< of output variables, sample after sample
+    std::vector<AovProgress> progress_;  ///< of output variables; where there are some
+    std::vector<float> values_;          ///< of output variables, sample after sample
     HitLayers layers_;
+    std::vector<std::vector<SeenLayer>> layers_of_;  ///< by sample, where they are kept
+    std::vector<V3f> transmissions_;                 ///< behind these
 };
 
 }  // namespace trapeze

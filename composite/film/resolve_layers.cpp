@@ -12,22 +12,27 @@ bool shows(const Grid& grid, const Layer& layer) {
 
 /// Adds a layer's values, weighed by what reaches it.
 void add_aovs_of_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId& id, const AovLayout& layout,
-                     const V3f& transmission, float* values) {
+                     const AovProgress& progress, float* values) {
     // A grid that is not smooth shows the values of each micropolygon's first corner.
     QuadWeights weights{{1, 0, 0, 0}};
     if (grid.smooth) weights = hit_weights(ray, grid.quad(id.u, id.v, ray.time));
     const int corners = grid.smooth ? 4 : 1;
+    const V3f& transmission = progress.transmission;
+    const bool is_first = progress.depth >= kInfinity;
     const bool gray = transmission.x == transmission.y && transmission.y == transmission.z;
     const float mean = gray ? transmission.x : (transmission.x + transmission.y + transmission.z) / 3;
-    for (const Aov& aov : layout.aovs)
+    for (const Aov& aov : layout.aovs) {
+        if (aov.is_of_one_surface() && !is_first) continue;
         for (int c = 0; c < aov.channels; ++c) {
             const float* plane = grid.aov_plane(aov.offset + c);
             float value = 0;
             for (int corner = 0; corner < corners; ++corner)
                 value += weights.w[corner] *
                          plane[grid.shape.row_index(id.u + (corner & 1), id.v + (corner >> 1))];
-            values[aov.offset + c] += (aov.channels == 3 ? transmission[c] : mean) * value;
+            const float reaching = aov.is_of_one_surface() ? 1 : aov.channels == 3 ? transmission[c] : mean;
+            values[aov.offset + c] += reaching * value;
         }
+    }
 }
 
 /// Adds hits to a sum. `layer_of(i, grid, id)`: hit i's layer.
@@ -101,23 +106,28 @@ void add_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first
     add(hits, grids, midpoint, layers_from(layers, first_hit), sum);
 }
 
-void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
-                  float* values) {
+float resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+                   float* values) {
     std::fill_n(values, layout.channel_count, 0.0f);
-    V3f transmission(1);
-    add_aovs(ray, hits, grids, layout, transmission, values);
+    AovProgress progress;
+    add_aovs(ray, hits, grids, layout, progress, values);
+    return progress.depth;
 }
 
 void add_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
-              V3f& transmission, float* values) {
+              AovProgress& progress, float* values) {
+    V3f& transmission = progress.transmission;
     for (const Hit& hit : hits) {
         if (transmission == V3f(0)) return;
         const MicropolygonId id = MicropolygonId::unpack(hit.id);
         if (id.grid >= grids.grids.size()) continue;
         const Grid& grid = grids.grids[id.grid];
         const Layer layer = layer_at(ray, grid, id);
-        if (grid.aov_channels == layout.channel_count && shows(grid, layer))
-            add_aovs_of_hit(ray, grid, id, layout, transmission, values);
+        if (shows(grid, layer)) {
+            if (grid.aov_channels == layout.channel_count)
+                add_aovs_of_hit(ray, grid, id, layout, progress, values);
+            progress.depth = std::min(progress.depth, hit.depth);
+        }
         for (int c = 0; c < 3; ++c) transmission[c] *= 1 - std::clamp(layer.opacity[c], 0.0f, 1.0f);
     }
 }

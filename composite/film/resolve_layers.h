@@ -62,12 +62,19 @@ struct LayerSum {
 void add_layers(std::span<const Hit> hits, const HitLayers& layers, size_t first_hit, const Grids& grids,
                 bool midpoint, LayerSum& sum);
 
+/// How far output variables of a sample have been composited.
+struct AovProgress {
+    V3f transmission{1};      ///< what reaches the next hits
+    float depth = kInfinity;  ///< of the first layer that shows something; infinite before there is one
+};
+
 /// Composites output variables in the same way, as aov.h says: `values` gets layout.channel_count numbers.
-/// Grids that carry other channels than the layout's count as having 0 everywhere.
-void resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
-                  float* values);
-/// Adds the next hits of a sample; `transmission` is what reaches them, 1 at first.
+/// Grids that carry other channels than the layout's count as having 0 everywhere. Returns
+/// AovProgress::depth.
+float resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
+                   float* values);
+/// Adds the next hits of a sample.
 void add_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
-              V3f& transmission, float* values);
+              AovProgress& progress, float* values);
 
 }  // namespace trapeze

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "composite/film/filters.h"
 #include "composite/film/pixel_sums.h"
+#include "composite/mattes/matte_sums.h"
 #include "core/scene/camera.h"
 
 namespace trapeze {
@@ -63,8 +65,10 @@ class TileSums {
     size_t bytes() const {
         size_t floats = 0;
         for (const auto& values : values_) floats += values.size();
-        return floats * sizeof(float);
+        return floats * sizeof(float) + (mattes ? mattes->bytes() : 0);
     }
+
+    std::optional<MatteSums> mattes;  ///< where they are asked for
 
   private:
     static size_t at(Sum sum) { return static_cast<size_t>(sum); }

@@ -5,7 +5,8 @@ namespace trapeze {
 const Aov* AovLayout::find(const DisplayVariable& variable) const& {
     const int channels = component_count(variable.type);
     for (const Aov& aov : aovs)
-        if (aov.name == variable.name && aov.channels == channels) return &aov;
+        if (aov.name == variable.name && aov.channels == channels && aov.filter == variable.filter)
+            return &aov;
     return nullptr;
 }
 
@@ -16,7 +17,8 @@ AovLayout aov_layout(const Options& options) {
         if (display.type == "null") continue;  // nobody sees it
         const int channels = component_count(display.variable->type);
         if (layout.channel_count + channels > kMostAovChannels) continue;
-        layout.aovs.push_back({display.variable->name, channels, layout.channel_count});
+        layout.aovs.push_back(
+            {display.variable->name, channels, layout.channel_count, display.variable->filter});
         layout.channel_count += channels;
     }
     return layout;

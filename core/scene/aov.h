@@ -9,8 +9,13 @@
 /// (Matte) layer adds nothing and hides what is behind it; neither does a layer add anything that shows
 /// nothing at all, its Ci and Oi both 0. Pixels where nothing is have 0. Exposure and imager shaders leave
 /// them alone. The variable z is no such channel but the depth of the picture, by the hider's depth filter.
+///
+/// A Display's "filter" may keep of a pixel's samples one (VariableFilter), which suits positions, names in
+/// numbers and whatever else has no mean: nearest and farthest take the first layer that shows something, as
+/// it is.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -27,14 +32,25 @@ struct Aov {
     std::string name;
     int channels = 3;  ///< 1: a float; 3: a colour, point, vector or normal
     int offset = 0;    ///< of the first among the layout's channels
+    VariableFilter filter = VariableFilter::Picture;
+
+    bool is_summed() const { return filter == VariableFilter::Picture; }
+    /// Whether a sample has the value of one surface, else that of all that it sees.
+    bool is_of_one_surface() const {
+        return filter == VariableFilter::Nearest || filter == VariableFilter::Farthest;
+    }
 };
 
-/// Places of the variables asked for, each once for a number of channels, in the order of the Displays.
+/// Places of the variables asked for, each once for a number of channels and a filter, in the order of the
+/// Displays.
 struct AovLayout {
     std::vector<Aov> aovs;
     int channel_count = 0;
 
     bool empty() const { return aovs.empty(); }
+    bool all_summed() const {
+        return std::ranges::all_of(aovs, [](const Aov& aov) { return aov.is_summed(); });
+    }
     /// The place of a variable; null when it is not there, since too many were asked for.
     const Aov* find(const DisplayVariable& variable) const&;
     const Aov* find(const DisplayVariable& variable) && = delete;

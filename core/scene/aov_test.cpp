@@ -29,6 +29,18 @@ TEST(AovLayout, EachVariableStandsOnceInTheOrderOfTheDisplays) {
     EXPECT_EQ(layout.find({"t", ValueType::Float}), nullptr);
 }
 
+TEST(AovLayout, FiltersTellVariablesApart) {
+    Options options;
+    options.displays = {display_of("N", ValueType::Normal), display_of("N", ValueType::Normal),
+                        display_of("N", ValueType::Normal)};
+    options.displays[1].variable->filter = options.displays[2].variable->filter = VariableFilter::Nearest;
+    const AovLayout layout = aov_layout(options);
+    ASSERT_EQ(layout.aovs.size(), 2u);
+    EXPECT_EQ(layout.find({"N", ValueType::Normal, VariableFilter::Nearest}), &layout.aovs[1]);
+    EXPECT_EQ(layout.find({"N", ValueType::Normal}), &layout.aovs[0]);
+    EXPECT_FALSE(layout.all_summed());
+}
+
 TEST(AovLayout, NothingIsAskedForByColourAndDepth) {
     Options options;
     options.displays = {Display{}, display_of("z", ValueType::Float)};

@@ -22,10 +22,16 @@ namespace trapeze {
 inline constexpr float kInfinity = 1e30f;
 inline constexpr float kEpsilon = 1e-10f;  ///< RISpec's RI_EPSILON: the default near clipping plane
 
+/// What a pixel has of a variable: its samples filtered as the picture's colours are; of the samples in the
+/// pixel that see a surface the least or greatest value, by channel; or of the surface in front of one
+/// sample, that which sees the nearest or the farthest one.
+enum class VariableFilter : uint8_t { Picture, Min, Max, Nearest, Farthest };
+
 /// A variable of the surfaces that a Display shows: a float, colour, point, vector or normal.
 struct DisplayVariable {
     std::string name;
     ValueType type = ValueType::Color;
+    VariableFilter filter = VariableFilter::Picture;
 };
 
 /// A picture to be written, as a Display request asks for it.
@@ -36,7 +42,7 @@ struct Display {
     ParameterList parameters;
     SourceLocation location;
     std::optional<DisplayVariable> variable =
-        {};  ///< what the mode names, unless it is colour, alpha or depth
+        {};                  ///< what the mode names, unless it is colour, alpha or depth
     std::string layer = {};  ///< of the variable in a file of several displays; empty: the variable's name
 };
 
@@ -145,6 +151,7 @@ struct Attributes {
     std::vector<std::shared_ptr<const LightInstance>> lights;              ///< lights that are switched on
     float displacement_bound = 0;                                          ///< camera-space length
     std::string name;                                                      ///< Attribute "identifier" "name"
+    std::string asset;  ///< the name of the outermost block that has one
     bool visible_to_camera = true;
     bool cull_hidden = true;  ///< Attribute "cull" "hidden": may stay unshaded where no sample sees it
     RayAttributes rays;

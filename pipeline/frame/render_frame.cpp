@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "composite/displays/display_plan.h"
+#include "composite/mattes/matte_layers.h"
 #include "core/scene/adaptive_sampling.h"
 #include "core/scene/glow.h"
 #include "pipeline/frame/frame_recorder.h"
@@ -139,6 +140,7 @@ bool picture_fits(const RenderContext& context, const RenderSettings& settings) 
     const PixelRect pixels = sampled_pixels(context.camera, context.scene->options);
     if (pixels.empty()) return true;
     const int channels = kPictureChannels + aov_layout(context.scene->options).channel_count +
+                         kMatteFloats * static_cast<int>(matte_layers(context.scene->options).size()) +
                          (find_glow(context.scene->options, nullptr) ? kGlowChannels : 0);
     const double bytes = 4.0 * channels * pixels.width() * pixels.height();
     // A stranger's has what there is for all.
@@ -234,6 +236,13 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
         if (glow) glow_picture(*glow, context, asked.camera.crop, result.image);
     });
     if (glow && context.is_cancelled()) return {};
+    if (result.image.matte_loss > 0)
+        context.diagnostics->note(
+            {},
+            fmt::format("pixels meet more than {} names: mattes have left out up to {:.2g} "
+                        "of a pixel",
+                        kMatteRanks, result.image.matte_loss),
+            "matte-loss");
     result.stats = recorder.finish(context);
     result.stats.regions = static_cast<int>(regions.size());
     result.stats.sampler = sampler->name();

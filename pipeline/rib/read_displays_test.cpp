@@ -72,6 +72,22 @@ TEST(ReadDisplays, ChannelsHandTheirParametersToDisplays) {
     EXPECT_FALSE(displays[1].variable) << "a frame's channels end with it";
 }
 
+TEST(ReadDisplays, FiltersOfVariables) {
+    const Outcome r = read_text(
+        "DisplayChannel \"point P\" \"string filter\" [\"zmin\"]\n"
+        "Display \"a.exr\" \"openexr\" \"Ci,P,N\"\n"
+        "Display \"+b.exr\" \"openexr\" \"color foo\" \"string filter\" [\"max\"]\n"
+        "Display \"+c.exr\" \"openexr\" \"color foo\" \"string filter\" [\"median\"] WorldBegin WorldEnd");
+    EXPECT_THAT(r.messages,
+                ElementsAre(HasSubstr("\"median\" of a display is none of min, max, zmin and zmax")));
+    const std::vector<Display>& displays = r.scene().options.displays;
+    ASSERT_EQ(displays.size(), 5u);
+    EXPECT_EQ(displays[1].variable->filter, VariableFilter::Nearest);
+    EXPECT_EQ(displays[2].variable->filter, VariableFilter::Picture);
+    EXPECT_EQ(displays[3].variable->filter, VariableFilter::Max);
+    EXPECT_EQ(displays[4].variable->filter, VariableFilter::Picture);
+}
+
 TEST(ReadDisplays, ListsOfChannelsAreDisplaysOfOneFile) {
     const Outcome r = read_text(
         "DisplayChannel \"color even\" \"string source\" [\"Ci\"] \"float dither\" [.25]\n"

@@ -81,7 +81,7 @@ ShadingGrid part_of(const ShadingGrid& grid, size_t first, size_t count) {
     part.primitive_index = grid.primitive_index;
     part.ordinal = grid.ordinal, part.seed = grid.seed;
     part.reverse_orientation = grid.reverse_orientation;
-    part.P = {part_of(grid.P.front(), first, count)};
+    for (const Triples& places : grid.P) part.P.push_back(part_of(places, first, count));
     for (const auto member : {&ShadingGrid::N, &ShadingGrid::Ng, &ShadingGrid::dPdu, &ShadingGrid::dPdv,
                               &ShadingGrid::Cs, &ShadingGrid::Os})
         part.*member = part_of(grid.*member, first, count);

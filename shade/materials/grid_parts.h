@@ -21,8 +21,8 @@ inline constexpr size_t kFewestInPart = 48, kMostInPart = 256;
 /// kLanes.
 size_t part_size(size_t vertices, size_t parts);
 
-/// Vertices first .. first + count - 1 as a grid of one row, with what shaders read of them: variables, and
-/// positions at the first key alone.
+/// Vertices first .. first + count - 1 as a grid of one row, with what shaders read of them, and
+/// positions at all keys.
 ShadingGrid part_of(const ShadingGrid& grid, size_t first, size_t count);
 
 /// Copies the colours and output variables of a shaded part to where its vertices are in the whole grid.

@@ -45,6 +45,7 @@ std::shared_ptr<AttributeState> instance_attributes(const AttributeState& instan
          &Attributes::shading_rate, &Attributes::smooth_shading, &Attributes::matte, &Attributes::sides,
          &Attributes::lights, &Attributes::name, &Attributes::visible_to_camera, &Attributes::cull_hidden,
          &Attributes::dice, &Attributes::motion_factor, &Attributes::focus_factor, &Attributes::rays);
+    if (result->attributes.asset.empty()) result->attributes.asset = now.asset;
     const auto take_shader = [&](auto... members) {
         const auto placed = [&](const std::shared_ptr<const ShaderInstance>& shader) {
             return placed_in(camera_from_object, shader);

@@ -123,6 +123,14 @@ void set_dice(Attributes::Dice& dice, const std::string& name, float value) {
     if (name == "minlength") dice.min_length = std::max(value, 0.0f);
 }
 
+/// Attribute "identifier" "name". The asset is what the outermost block with a name has named.
+void name_primitives(const GraphicsStateStack& stack, const std::string& name, AttributeState& state) {
+    state.attributes.name = name;
+    const uint64_t block = stack.blocks().empty() ? 0 : stack.blocks().back().id;
+    if (!state.attributes.asset.empty() && state.asset_block != block) return;
+    state.attributes.asset = name, state.asset_block = block;
+}
+
 /// All values are kept for shaders (RISpec: attribute()); those that mean something here are taken too.
 void attribute(OptionContext& r, ArgumentCursor& c) {
     const std::string category = c.string("the category");
@@ -150,7 +158,7 @@ void attribute(OptionContext& r, ArgumentCursor& c) {
                 r.report.error("the sense " + in_quotes(text) + " is neither inside nor outside");
             state.trim_outside = text == "outside";
         }
-        if (category == "identifier" && value.name == "name") state.attributes.name = text;
+        if (category == "identifier" && value.name == "name") name_primitives(r.state, text, state);
         if (category == "visibility" && value.name == "camera")
             state.attributes.visible_to_camera = value.is_string() ? is_on(text) : number != 0;
         // BMRT's: a bit for the camera, one for reflections, one for shadows.

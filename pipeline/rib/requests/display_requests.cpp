@@ -43,7 +43,7 @@ std::optional<DisplayVariable> variable_of(const std::string& name, const Declar
 bool is_of_the_picture(std::string_view mode) {
     for (const std::string_view channels : {"rgb", "a", "z"})
         if (mode.starts_with(channels)) mode.remove_prefix(channels.size());
-    return mode.empty() || mode == "id";
+    return mode.empty() || mode == "id" || mode.starts_with("crypto_");
 }
 
 /// What a mode names: "varying color foo", a DisplayChannel, or a variable whose type is known.
@@ -85,6 +85,23 @@ std::vector<std::string> modes_of(const std::string& mode) {
     return modes;
 }
 
+/// DisplayChannel "filter" of later RenderMans, as Displays may have it too: one sample of a pixel stands for
+/// it.
+VariableFilter variable_filter(OptionContext& r, const ParameterList& parameters) {
+    constexpr std::pair<std::string_view, VariableFilter> kFilters[] = {{"min", VariableFilter::Min},
+                                                                        {"max", VariableFilter::Max},
+                                                                        {"zmin", VariableFilter::Nearest},
+                                                                        {"zmax", VariableFilter::Farthest}};
+    const std::string name = parameters.string_or("filter", "");
+    for (const auto& [known, filter] : kFilters)
+        if (name == known) return filter;
+    if (!name.empty() && name != "default" && name != "importance")
+        r.report.warn_once("filter " + in_quotes(name) +
+                               " of a display is none of min, max, zmin and zmax; the picture's is used",
+                           "display-filter " + name);
+    return VariableFilter::Picture;
+}
+
 /// A display of one mode, whose variable and whose channel's parameters it gets.
 Display with_mode(OptionContext& r, Display display, const std::string& mode) {
     display.mode = mode;
@@ -95,6 +112,7 @@ Display with_mode(OptionContext& r, Display display, const std::string& mode) {
         for (const Parameter& parameter : channel->second.parameters.values)
             if (!display.parameters.find(parameter.name)) display.parameters.set(parameter);
     }
+    if (display.variable) display.variable->filter = variable_filter(r, display.parameters);
     return display;
 }
 

@@ -57,6 +57,7 @@ struct AttributeState {
     std::shared_ptr<const std::vector<std::vector<TrimCurve>>> trim_loops;  ///< null: none
     bool trim_outside = false;
     std::shared_ptr<Emitter> emitter;  ///< null: none
+    uint64_t asset_block = 0;          ///< the block that has named Attributes::asset
 };
 
 using NamedSpaces = std::map<std::string, MovingTransform>;  ///< camera_from_space

@@ -71,9 +71,9 @@ constexpr std::string_view kHider[] = {"aperture",   "depthfilter", "jitter",   
 
 /// Display "exrheader_NAME" writes an attribute of that name into the file: any name.
 constexpr std::string_view kHeaderPrefix = "exrheader_", kHeaderAttributes = "exrheader_NAME";
-constexpr std::string_view kDisplay[] = {"quantize",       "dither",      "type",       "exrpixeltype",
-                                         "exrcompression", "compression", "colorspace", "storage",
-                                         "tilesize", kHeaderAttributes};
+constexpr std::string_view kDisplay[] = {"quantize",       "dither",      "type",          "exrpixeltype",
+                                         "exrcompression", "compression", "colorspace",    "storage",
+                                         "tilesize",       "filter",      "deeptolerance", kHeaderAttributes};
 
 template <size_t kCount>
 bool has(const Value (&values)[kCount], std::string_view category, std::string_view name) {

@@ -61,7 +61,8 @@ size_t bytes_of(const Shape& shape) {
 }
 
 size_t bytes_of(const Attributes& attributes) {
-    size_t bytes = sizeof attributes + bytes_of(attributes.lights) + attributes.name.capacity();
+    size_t bytes = sizeof attributes + bytes_of(attributes.lights) + attributes.name.capacity() +
+                   attributes.asset.capacity();
     for (const auto& [category, values] : attributes.user)
         bytes += sizeof category + sizeof values + bytes_of(values);
     return bytes;

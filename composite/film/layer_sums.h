@@ -1,0 +1,48 @@
+/// From the layers that samples see to mattes and deep pixels.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "composite/film/deep_pixel.h"
+#include "composite/film/filters.h"
+#include "composite/film/seen_layers.h"
+#include "composite/mattes/matte_layers.h"
+#include "composite/mattes/matte_sums.h"
+
+namespace trapeze {
+
+/// What of samples' layers is wanted.
+struct LayerRules {
+    const MatteKeys* keys = nullptr;       ///< null: no mattes
+    const FilterKernel* kernel = nullptr;  ///< of mattes
+    std::optional<float> deep_tolerance;   ///< nothing: no deep pixels
+
+    bool want_layers() const { return keys || deep_tolerance; }
+};
+
+/// The filter of mattes: the picture's where none of its weights is negative, else a box of its width, since
+/// no coverage is negative.
+PixelFilter matte_filter(const PixelFilter& picture);
+
+/// Serves for one pixel after another, whose samples come in their order.
+class LayerSums {
+  public:
+    explicit LayerSums(const LayerRules& rules);
+
+    void begin(int px, int py);
+    /// Adds a sample at raster position x, y. `share`: how many times over it counts in mattes.
+    void add(std::span<const SeenLayer> layers, float x, float y, float share, MatteSums* mattes);
+    /// The pixel's deep samples, where they are wanted.
+    std::vector<DeepSample> deep_samples();
+
+  private:
+    const LayerRules& rules_;
+    int px_ = 0, py_ = 0;
+    std::vector<float> weights_;
+    std::vector<MatteCoverage> coverages_;
+    DeepPixel deep_;
+};
+
+}  // namespace trapeze
