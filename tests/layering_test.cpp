@@ -37,6 +37,7 @@ const std::map<std::string, Names> kWings = {
     {"composite/displays", {"composite"}},
     {"composite/displays/openimageio", {"composite/displays"}},
     {"composite/film", {"composite"}},
+    {"composite/merge", {"composite", "composite/displays"}},
     {"core/files", {"core"}},
     {"core/scene", {"core"}},
     {"pipeline/cli", {"pipeline/cli/commands", "pipeline/cli/support", "pipeline/ri"}},
