@@ -310,6 +310,10 @@ void Shading::write_bakes() {
                        impl_->access, *impl_->context.diagnostics);
 }
 
+void Shading::leave_out_bakes() {
+    if (impl_->context.diagnostics) impl_->bakes.leave_out(*impl_->context.diagnostics);
+}
+
 FindDepthHeight Shading::depth_heights() const {
     return [impl = impl_.get()](const std::string& name, SourceLocation location) {
         return impl->textures.height_over(name, location, impl->context.scene->camera_from_world);

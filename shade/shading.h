@@ -97,6 +97,8 @@ class Shading {
     /// Writes the point clouds that shaders have baked since the start, or since loops turned out to be
     /// endless. To be called after the last grid.
     void write_bakes();
+    /// Instead of writing them, warns of each that it is not written, as the picture is a tile alone.
+    void leave_out_bakes();
 
     /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond
     /// the displacement bound, with the bound that was needed.

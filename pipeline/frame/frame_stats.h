@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/picture_tile.h"
 #include "core/stats.h"
 
 namespace trapeze {
@@ -42,6 +44,7 @@ struct FrameStats {
     int regions = 0, threads = 0, width = 0, height = 0, frame = 0;
     bool shows_something = false;  ///< whether any sample has hit anything
     std::string sampler, simd_target;
+    std::optional<PictureTile> tile;  ///< what was made, if that is not the whole crop
     struct Output {
         std::string path;
         uint64_t bytes = 0;

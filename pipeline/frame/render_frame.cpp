@@ -163,6 +163,7 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
     RenderContext context;
     context.scene = &scene;
     context.camera = make_camera(scene.options);
+    if (settings.tile) context.camera.crop = part_of(context.camera.crop, *settings.tile);
     const AdaptiveSampling sampling = adaptive_sampling(scene.options);
     context.samples_x = sampling.samples_x, context.samples_y = sampling.samples_y;
     context.sample_levels = sampling.levels, context.pixel_variance = sampling.variance;
@@ -226,7 +227,11 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
         regions, recorder);
     if (!film) return {};
     shading.report_displacement_bounds();
-    shading.write_bakes();
+    // A point cloud is of all that the picture sees, of which a tile has a part.
+    if (settings.tile)
+        shading.leave_out_bakes();
+    else
+        shading.write_bakes();
 
     FrameResult result;
     recorder.begin_composite();
@@ -246,6 +251,7 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
     result.stats = recorder.finish(context);
     result.stats.regions = static_cast<int>(regions.size());
     result.stats.sampler = sampler->name();
+    result.stats.tile = settings.tile;
     if (rays) {
         result.stats.ray_micropolygons = rays->micropolygon_count();
         result.stats.ray_micropolygons_made = rays->micropolygons_made();

@@ -8,6 +8,7 @@
 
 #include "composite/film/film.h"
 #include "core/files/access.h"
+#include "core/picture_tile.h"
 #include "core/scene/render_context.h"
 #include "pipeline/frame/cull_hidden.h"
 #include "pipeline/frame/frame_stats.h"
@@ -22,6 +23,7 @@ struct RenderSettings {
     int regions_at_least = 1;          ///< tests force a split that memory would not ask for
     CullHidden cull_hidden = CullHidden::Auto;
     uint32_t seed = 0;
+    std::optional<PictureTile> tile;  ///< the part of the scene's crop to make; nothing: all of it
     /// Called now and then from any thread, one at a time, with the part done in [0, 1].
     std::function<void(double)> on_progress;
     /// Called at the beginning of each stage, by its name in the statistics; grids are diced while they
@@ -48,8 +50,8 @@ inline constexpr const char* kPictureTooLarge = "picture-too-large";
 /// would help.
 bool picture_fits(const RenderContext& context, const RenderSettings& settings);
 
-/// The context of a scene's render: camera, sample counts (rounded to at least 1), whether anything moves. It
-/// refers to the scene and to diagnostics.
+/// The context of a scene's render: camera, with the tile as its crop, sample counts (rounded to at least 1),
+/// whether anything moves. It refers to the scene and to diagnostics.
 RenderContext make_context(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
 
 /// Renders with the threads of the calling task arena. Empty when cancelled, or (reported) when the picture

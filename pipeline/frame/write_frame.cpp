@@ -47,6 +47,7 @@ OutputInfo info_of(const FrameStats& stats, const RenderContext& context,
     info.metadata = {
         {"sampler", stats.sampler},
         {"samples", std::to_string(context.samples_x) + "x" + std::to_string(context.samples_y)}};
+    if (stats.tile) info.metadata.emplace_back("tile", name_of(*stats.tile));
     const auto date = date_of_environment();
     if (!date) info.metadata.emplace_back("renderTime", std::to_string(stats.seconds.total));
     info.date = date_text(date.value_or(std::time(nullptr)));

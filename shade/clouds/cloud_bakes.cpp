@@ -153,4 +153,14 @@ void CloudBakes::write(const CloudView& view, const Access& access, Diagnostics&
     clear();
 }
 
+void CloudBakes::leave_out(Diagnostics& diagnostics) {
+    for (const auto& [name, calls] : files_)
+        diagnostics.warning(calls.front().call.at,
+                            fmt::format("bake3d: \"{}\" is not written, for it would have the points of a "
+                                        "tile alone; a run without --tiles writes it",
+                                        name),
+                            "bake-in-tile " + name);
+    clear();
+}
+
 }  // namespace trapeze

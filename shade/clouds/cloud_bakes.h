@@ -58,6 +58,8 @@ class CloudBakes {
 
     /// Writes all files, each of which appears whole or not at all, and says what was wrong.
     void write(const CloudView& view, const Access& access, Diagnostics& diagnostics);
+    /// Forgets all, and warns of each file that it is not written: what was shaded is a tile of the picture.
+    void leave_out(Diagnostics& diagnostics);
 
   private:
     struct Kept {

@@ -9,6 +9,7 @@
 #include "core/scene/adaptive_sampling.h"
 #include "core/scene/transfer.h"
 #include "pipeline/cli/commands/commands.h"
+#include "pipeline/cli/commands/pictures_of_maps.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/on_threads.h"
@@ -67,8 +68,12 @@ class RenderJob {
   private:
     void render_world(Scene&& scene);
     void override_options(Options& options) const;
-    void override_displays(Scene& scene);
+    void override_displays(Scene& scene, bool is_tile);
+    RenderSettings settings_of_world(bool is_tile);
     void name_output(Scene& scene);
+    bool makes_tile(const Options& options) const;
+    void name_tile(std::vector<Display>& displays);
+    bool has_tile(const Scene& scene);
     bool has_another_form(const Display& display) const;
     void say_what_is_written(const FrameStats& stats);
     bool encode_for_viewing(Display& display, const Options& options) const;
@@ -78,6 +83,7 @@ class RenderJob {
     int exit_code() const;
 
     const Arguments& arguments_;
+    const std::optional<PictureTile> tile_ = arguments_.tile();
     Terminal& terminal_;
     Diagnostics& diagnostics_;
     Access access_;
@@ -92,6 +98,8 @@ class RenderJob {
     PassPictures passes_;
     std::optional<Display> renamed_;  ///< the world's first display, as the scene has it, if `-o` renames it
     std::set<std::string> encoded_;   ///< by the sRGB curve for viewing: files that `-o` names
+    std::set<std::string> map_pictures_;  ///< of which the input makes maps, if a tile is to be made
+    std::set<std::string> tiles_made_;  ///< pictures, as the scene calls them, of which only a tile is there
     bool output_failed_ = false;
 };
 
@@ -153,7 +161,8 @@ void RenderJob::name_output(Scene& scene) {
     Display& first = scene.options.displays.front();
     const bool for_viewing = arguments_.driver.empty() && !asks_for_whole_numbers(first, scene.options);
     renamed_ = first;
-    rename(first, names_.take(first.name, scene.options.frame));
+    const std::string name = names_.take(first.name, scene.options.frame);
+    rename(first, tile_ ? with_tile_number(name, *tile_) : name);
     rename_layers(*renamed_, first, scene.options.displays);
     if (first.mode == "z" && !holds_depth(first.name)) first.mode = "rgba";
     access_.allow_writing(first.name);
@@ -169,8 +178,45 @@ bool RenderJob::has_another_form(const Display& display) const {
            (own != file_format(display) || renamed_->mode != display.mode || encoded_.contains(display.name));
 }
 
+/// Whether a tile alone is made of a world, with options as the scene has them: those that maps are made of
+/// are rendered whole.
+bool RenderJob::makes_tile(const Options& options) const {
+    if (!tile_ || options.displays.empty()) return tile_.has_value();
+    return !is_shadow_pass(options) && !map_pictures_.contains(options.displays.front().name);
+}
+
+/// Gives the tile's files their names. Depth maps are whole or of no use.
+void RenderJob::name_tile(std::vector<Display>& displays) {
+    for (Display& display : displays) {
+        // -o has named the first display's file, which others may share.
+        const bool is_named = !names_.empty() && display.name == displays.front().name;
+        tiles_made_.insert(is_named && renamed_ ? renamed_->name : display.name);
+        if (makes_depth_map(display)) {
+            diagnostics_.warning(display.location,
+                                 "depth map \"" + display.name +
+                                     "\" is not written, for it would be of a tile alone; a run without "
+                                     "--tiles writes it",
+                                 "depth-map-in-tile " + display.name);
+            display.type = "null";
+        } else if (!is_named) {
+            display.name = with_tile_number(display.name, *tile_);
+        }
+    }
+}
+
+/// Whether the picture has the tile that is to be made; if not, an error says so.
+bool RenderJob::has_tile(const Scene& scene) {
+    const PixelRect crop = make_camera(scene.options).crop;
+    if (crop.empty() || can_divide(crop, *tile_)) return true;
+    diagnostics_.error({}, fmt::format("--tiles: {}x{} pixels can be divided into {}x{} tiles at most, not "
+                                       "into {}x{}",
+                                       crop.width(), crop.height(), crop.width(), crop.height(),
+                                       tile_->columns, tile_->rows));
+    return false;
+}
+
 /// Puts -o, --driver and the default display in place of the scene's displays.
-void RenderJob::override_displays(Scene& scene) {
+void RenderJob::override_displays(Scene& scene, bool is_tile) {
     std::vector<Display>& displays = scene.options.displays;
     if (displays.empty()) {
         // RISpec's default display is one picture of a fixed name; ours has the scene's. What shows nothing,
@@ -181,15 +227,22 @@ void RenderJob::override_displays(Scene& scene) {
         displays.push_back({stem + ".exr", is_none ? "null" : "file", "rgba", {}, {}});
         if (is_none) return;
     }
-    if (!names_.empty()) name_output(scene);
+    if (!names_.empty() && is_tile == tile_.has_value()) name_output(scene);
     if (!arguments_.driver.empty())
         for (Display& display : displays) display.type = arguments_.driver;
+    if (is_tile) name_tile(displays);
 }
 
 /// A picture that a map is made of was a pass, whatever `-o` has made of it: it is read as its own Display
 /// has it, or else under the name that `-o` gave it, which the next picture takes.
 void RenderJob::make_map_of_pictures(MapRequest request) {
     for (std::string& picture : request.pictures) {
+        if (tiles_made_.contains(picture)) {
+            diagnostics_.error(
+                request.location,
+                fmt::format("cannot make \"{}\": of \"{}\" there is only a tile", request.map, picture));
+            return;
+        }
         const auto own = passes_.file_of(picture);
         picture = names_.take_back(picture).value_or(picture);
         kept_.forget(picture);
@@ -217,29 +270,9 @@ void RenderJob::say_what_is_written(const FrameStats& stats) {
                                               stats.height, stats.seconds.total));
 }
 
-/// Renders one world and writes its pictures. Shadow passes keep the scene's own options and displays.
-void RenderJob::render_world(Scene&& scene) {
-    if (interrupt_.requested()) return;
-    Stopwatch watch;
-    const double read_seconds = total_.elapsed() - render_seconds_;
-    ++worlds_;
-    renamed_.reset();
-    passes_.settle();
-    const int frame = scene.options.frame;
-    if (!arguments_.transfer.empty()) set_transfer(scene.options, arguments_.transfer);
-    if (!is_shadow_pass(scene.options)) {
-        override_options(scene.options);
-        override_displays(scene);
-    } else if (!names_.empty() && !names_.is_taken(frame) && arguments_.driver.empty()) {
-        // The next picture takes its place; where none comes, what the light sees is what there is to see.
-        Display picture{with_frame_number(arguments_.output, frame), "file", "rgba", {}, {}};
-        encode_for_viewing(picture, scene.options);
-        access_.allow_writing(picture.name);
-        kept_.forget(picture.name);
-        scene.options.displays.push_back(std::move(picture));
-    }
-
+RenderSettings RenderJob::settings_of_world(bool is_tile) {
     RenderSettings settings;
+    if (is_tile) settings.tile = tile_;
     settings.sampler = arguments_.sampler;
     settings.pattern = arguments_.pattern;
     settings.memory_bytes = arguments_.memory_bytes;
@@ -250,9 +283,36 @@ void RenderJob::render_world(Scene&& scene) {
                                                              : CullHidden::Auto;
     settings.cancelled = &interrupt_.requested();
     settings.access = &access_;
-    settings.on_progress = [&](double fraction) { terminal_.progress(fraction); };
+    settings.on_progress = [this](double fraction) { terminal_.progress(fraction); };
+    settings.on_stage = [this](std::string_view name) { terminal_.stage(name); };
+    return settings;
+}
 
-    settings.on_stage = [&](std::string_view name) { terminal_.stage(name); };
+/// Renders one world and writes its pictures. Shadow passes keep the scene's own options and displays.
+void RenderJob::render_world(Scene&& scene) {
+    if (interrupt_.requested()) return;
+    Stopwatch watch;
+    const double read_seconds = total_.elapsed() - render_seconds_;
+    ++worlds_;
+    renamed_.reset();
+    passes_.settle();
+    const int frame = scene.options.frame;
+    const bool is_tile = makes_tile(scene.options);
+    if (!arguments_.transfer.empty()) set_transfer(scene.options, arguments_.transfer);
+    if (!is_shadow_pass(scene.options)) {
+        override_options(scene.options);
+        override_displays(scene, is_tile);
+    } else if (!names_.empty() && !names_.is_taken(frame) && arguments_.driver.empty() && !tile_) {
+        // The next picture takes its place; where none comes, what the light sees is what there is to see.
+        Display picture{with_frame_number(arguments_.output, frame), "file", "rgba", {}, {}};
+        encode_for_viewing(picture, scene.options);
+        access_.allow_writing(picture.name);
+        kept_.forget(picture.name);
+        scene.options.displays.push_back(std::move(picture));
+    }
+
+    if (is_tile && !has_tile(scene)) return;
+    const RenderSettings settings = settings_of_world(is_tile);
 
     const std::string& picture = scene.options.displays.front().name;
     terminal_.begin_progress(picture, {picture, "tessellate", scene.options.frame});
@@ -265,7 +325,7 @@ void RenderJob::render_world(Scene&& scene) {
         stats.seconds.read = read_seconds - last_read_seconds_;
         stats.seconds.total += stats.seconds.read;
         last_read_seconds_ = read_seconds;
-        if (renamed_ && !stats.shows_something) names_.take_back(renamed_->name);
+        if (renamed_ && !stats.shows_something && !tile_) names_.take_back(renamed_->name);
         for (const FrameStats::Output& file : stats.outputs)
             if (!renamed_ || file.path != renamed_->name) passes_.forget(file.path), names_.forget(file.path);
         if (renamed_ && has_another_form(scene.options.displays.front()))
@@ -297,9 +357,10 @@ int RenderJob::exit_code() const {
 /// Folders that scenes name are made where the pictures are written; one on the command line may be a
 /// mistake, which is said before anything is rendered.
 bool RenderJob::outputs_are_possible() const {
-    const std::string& output = arguments_.output;
-    const bool is_of_a_frame =
-        with_frame_number(output, 0) != output;  // its folder, too, may have the number
+    const std::string& named = arguments_.output;
+    const std::string output = tile_ && !named.empty() ? with_tile_number(named, *tile_) : named;
+    // Its folder, too, may have the number.
+    const bool is_of_a_frame = with_frame_number(named, 0) != named || named.find("<tile>") != named.npos;
     if (!may_write_report(arguments_.stats_file, access_, diagnostics_)) return false;
     const bool writes_output = arguments_.driver != "null" && !is_of_a_frame;
     return can_write({arguments_.stats_file, writes_output ? output : ""}, diagnostics_);
@@ -313,15 +374,11 @@ int RenderJob::run() {
         terminal_.wait("waiting for " + what + ", " + std::to_string(seconds) + " s");
     };
     options.shading_rate = arguments_.shading_rate;
-    if (arguments_.frames)
-        options.wants_frame = [this](int frame) {
-            return std::any_of(arguments_.frames->begin(), arguments_.frames->end(),
-                               [&](const FrameRange& range) { return range.has(frame); });
-        };
     options.on_map = [this](const MapRequest& request) {
         if (!interrupt_.requested()) make_map_of_pictures(request);
     };
     terminal_.begin_progress(arguments_.inputs.front(), {arguments_.inputs.front(), "read", 0});
+    if (tile_) map_pictures_ = pictures_of_maps(arguments_, interrupt_.requested());
     int worlds_read = 0;
     on_threads(arguments_.threads, [&] {
         worlds_read = read_rib(arguments_.inputs, options, diagnostics_, [&](Scene&& scene) {

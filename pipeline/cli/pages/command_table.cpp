@@ -57,7 +57,7 @@ OptionText text_of(const CLI::Option& option) {
 }  // namespace
 
 bool OptionText::takes_file() const {
-    return std::ranges::any_of(std::initializer_list<const char*>{"FILE", "SCENE", "DIR"},
+    return std::ranges::any_of(std::initializer_list<const char*>{"FILE", "SCENE", "TILE", "DIR"},
                                [&](const char* form) { return value.starts_with(form); });
 }
 

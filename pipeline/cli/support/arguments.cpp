@@ -30,6 +30,7 @@ struct CommandRow {
 
 constexpr CommandRow kCommands[] = {
     {"render", Command::Render, add_render_options, "renders scenes"},
+    {"merge", Command::Merge, add_merge_options, "joins the tiles of a picture that --tiles has divided"},
     {"check", Command::Check, add_check_options,
      "reads scenes and reports all that is wrong, missing or not supported; renders nothing"},
     {"info", Command::Info, add_info_options, "says what is in scenes"},
@@ -64,11 +65,13 @@ bool outputs_are_apart(const Arguments& a, std::string* error) {
     if (a.command == Command::Render) outputs = {{"-o", a.output}, {"--stats", a.stats_file}};
     if (a.command == Command::Compare) outputs = {{"--report", a.compare.report}, {"--json", a.compare.json}};
     if (a.command == Command::Study) outputs = {{"--report", a.study.report}, {"--json", a.study.json}};
+    if (a.command == Command::Merge) outputs = {{"-o", a.output}};
     if (outputs.empty()) return true;
-    if (is_one_file(outputs[0].second, outputs[1].second) && !outputs[0].second.starts_with("/dev/"))
+    if (outputs.size() > 1 && is_one_file(outputs[0].second, outputs[1].second) &&
+        !outputs[0].second.starts_with("/dev/"))
         *error = std::string(outputs[0].first) + " and " + outputs[1].first + " name the same file";
     for (const auto& [option, file] : outputs)
-        for (const std::string& input : a.inputs)
+        for (const std::string& input : a.command == Command::Merge ? a.merge.tiles : a.inputs)
             if (is_one_file(file, input) && !file.starts_with("/dev/"))
                 *error = std::string(option) + ": \"" + file + "\" is an input, which would be written over";
     return error->empty();
@@ -78,6 +81,17 @@ bool crop_is_right(const Arguments& a, std::string* error) {
     if (!a.crop || ((*a.crop)[0] < (*a.crop)[1] && (*a.crop)[2] < (*a.crop)[3])) return true;
     *error = "--crop: X0 must be less than X1, and Y0 less than Y1";
     return false;
+}
+
+/// Whether both options that choose a tile are there, and the grid has the tile.
+bool tile_is_right(const Arguments& a, std::string* error) {
+    if (a.tiles && a.tile_number == 0) *error = "--tiles needs --tile, the number of the tile to render";
+    if (!a.tiles && a.tile_number > 0) *error = "--tile needs --tiles, the grid of tiles that it is one of";
+    if (const auto tile = a.tile(); tile && tile->number > tile->count())
+        *error = "--tile: " + std::to_string(tile->number) + " is not a tile of " +
+                 std::to_string(tile->columns) + "x" + std::to_string(tile->rows) + ", which are " +
+                 std::to_string(tile->count());
+    return error->empty();
 }
 
 /// The environment's word counts as the command line's. False, and why, when it cannot.
@@ -95,7 +109,7 @@ bool settle_safety(Arguments& a, std::string* error) {
 
 /// Whether -o is a file's name: pictures cannot go to standard output. All of these functions say why not.
 bool output_is_a_file(const Arguments& a, std::string* error) {
-    if (a.command != Command::Render || a.output != "-") return true;
+    if ((a.command != Command::Render && a.command != Command::Merge) || a.output != "-") return true;
     *error =
         "-o -: pictures are not written to standard output, for they are whole or not at all; name a file";
     return false;
@@ -105,7 +119,7 @@ bool output_is_a_file(const Arguments& a, std::string* error) {
 std::string contradiction(Arguments& a) {
     std::string error;
     static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) &&
-                      samplers_are_right(a, &error) && crop_is_right(a, &error) &&
+                      samplers_are_right(a, &error) && crop_is_right(a, &error) && tile_is_right(a, &error) &&
                       outputs_are_apart(a, &error));
     return error;
 }

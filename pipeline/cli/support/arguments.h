@@ -7,12 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "core/picture_tile.h"
 #include "pipeline/cli/support/parse_values.h"
 #include "pipeline/study/scenes/scenes.h"
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader, Compliance };
+enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader, Compliance, Merge };
 
 /// What `trapeze compare` alone has.
 struct CompareArguments {
@@ -45,6 +46,12 @@ struct CatArguments {
     bool keep_archives = false;  ///< ReadArchive stays as it is
 };
 
+/// What `trapeze merge` alone has; the file to write is Arguments::output.
+struct MergeArguments {
+    std::vector<std::string> tiles;  ///< files
+    bool allow_missing = false;
+};
+
 /// What `trapeze shader` alone has.
 struct ShaderArguments {
     std::string file;  ///< - is standard input
@@ -65,6 +72,8 @@ struct Arguments {
     std::optional<SampleRates> samples;
     std::optional<float> variance;             ///< of pixels, that adaptive sampling is to reach
     std::optional<std::array<float, 4>> crop;  ///< x0 x1 y0 y1, as parts of the picture
+    std::optional<std::pair<int, int>> tiles;  ///< columns and rows that the crop is divided into
+    int tile_number = 0;                       ///< of them, the one to make, from 1; 0: not said
     std::optional<float> shading_rate;
     int most_layers = 0;  ///< of each sample; 0: as the scene says
     std::optional<std::vector<FrameRange>> frames;
@@ -84,6 +93,7 @@ struct Arguments {
     SceneArguments scene;
     StudyArguments study;
     ShaderArguments shader;
+    MergeArguments merge;
     std::string scenes_folder = "scenes";  ///< of `trapeze compliance`: tiny and gallery are in it
     std::vector<std::string> first_rib;    ///< lines of RIB that are executed before the inputs
     bool allow_programs = false;           ///< whether programs that scenes name are run
@@ -91,6 +101,11 @@ struct Arguments {
     bool safe = false;                     ///< scenes are confined (core/files/access.h)
     std::optional<double> time_limit;      ///< seconds
     bool strict = false, quiet = false, color = true;
+
+    /// The tile to make; nothing: the whole crop.
+    std::optional<PictureTile> tile() const {
+        return tiles ? std::optional(PictureTile{tiles->first, tiles->second, tile_number}) : std::nullopt;
+    }
 };
 
 bool is_command(std::string_view name);

@@ -157,7 +157,9 @@ void add_variance_option(CLI::App& app, Arguments& a, const char* what) {
 void add_render_options(CLI::App& app, Arguments& a) {
     add_inputs(app, a);
     add_file(app, "-o,--output", a.output,
-             "replaces the first Display's name; ####, %04d and <frame> are the frame's number", "FILE");
+             "replaces the first Display's name; ####, %04d and <frame> are the frame's number, <tile> the "
+             "tile's",
+             "FILE");
     add_file(app, "-d,--driver", a.driver, "replaces every Display's driver; null writes nothing", "DRIVER");
     add_sampler_option(app, a);
     add_parsed(app, "--samples", a.samples, parse_sample_rates,
@@ -168,6 +170,14 @@ void add_render_options(CLI::App& app, Arguments& a) {
     add_number(app, "--max-layers", a.most_layers, 1, static_cast<int>(kMostLayers),
                "a sample sees the nearest M layers of surfaces, as by Hider \"maxvpdepth\"", "M");
     add_frame_options(app, a);
+    add_parsed(app, "--tiles", a.tiles, parse_tiles,
+               "divides the picture, or its crop, into N columns and M rows, of which --tile is made",
+               "NxM like 4x3", ", each from 1 to " + std::to_string(kMostTilesOfSide));
+    add_number(
+        app, "--tile", a.tile_number, 1, kMostTilesOfSide * kMostTilesOfSide,
+        "the tile to make, from 1, row by row; its files have its number before their endings, or where "
+        "names say <tile>",
+        "K");
     app.add_option("--transfer", a.transfer,
                    "how 8- and 16-bit files stand for light, written and read (default: linear, or the "
                    "scene's Option \"color\" \"transfer\")")
@@ -184,6 +194,19 @@ void add_render_options(CLI::App& app, Arguments& a) {
         ->capture_default_str();
     // PRMan's -recover: there is nothing to resume yet; accepted so that farm scripts run.
     static_cast<void>(app.add_option("--recover")->group(""));
+}
+
+void add_merge_options(CLI::App& app, Arguments& a) {
+    app.add_option("tiles", a.merge.tiles, "OpenEXR files, each with a part of the picture, in any order")
+        ->required()
+        ->check(a_name())
+        ->type_name("TILE.exr");
+    add_file(app, "-o,--output", a.output, "the file to write", "FILE.exr")->required();
+    app.add_flag(
+        "--allow-missing", a.merge.allow_missing,
+        "leaves what is in no tile empty, with a warning; else it is an error, and nothing is written");
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+    add_color_option(app, a);
 }
 
 void add_check_options(CLI::App& app, Arguments& a) {

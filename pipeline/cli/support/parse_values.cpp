@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "core/picture_tile.h"
+
 namespace trapeze {
 namespace {
 
@@ -66,6 +68,10 @@ std::optional<double> parse_duration(std::string_view text) {
 
 std::optional<std::pair<int, int>> parse_resolution(std::string_view text) {
     return pair_of(text, 1, kMostPixelsOfSide);
+}
+
+std::optional<std::pair<int, int>> parse_tiles(std::string_view text) {
+    return pair_of(text, 1, kMostTilesOfSide);
 }
 
 std::optional<std::pair<int, int>> parse_samples(std::string_view text) {

@@ -23,6 +23,9 @@ inline constexpr int kMostPixelsOfSide = 65536;
 /// "640x480": width and height, each from 1 to kMostPixelsOfSide.
 std::optional<std::pair<int, int>> parse_resolution(std::string_view text);
 
+/// "4x3": columns and rows of tiles, each from 1 to kMostTilesOfSide.
+std::optional<std::pair<int, int>> parse_tiles(std::string_view text);
+
 /// "8" or "8x4": samples along x and y, 1 to 64.
 std::optional<std::pair<int, int>> parse_samples(std::string_view text);
 

@@ -29,6 +29,13 @@ TEST(ParseResolution, WantsTwoPositiveNumbers) {
         EXPECT_FALSE(parse_resolution(bad)) << bad;
 }
 
+TEST(ParseTiles, WantsTwoPositiveNumbers) {
+    EXPECT_EQ(parse_tiles("4x3"), (std::pair{4, 3}));
+    EXPECT_EQ(parse_tiles("4096x1"), (std::pair{4096, 1}));
+    for (const char* bad : {"", "4", "4x", "0x3", "4x3x2", "4097x1", "-1x1"})
+        EXPECT_FALSE(parse_tiles(bad)) << bad;
+}
+
 TEST(ParseSamples, OneNumberIsForBothAxes) {
     EXPECT_EQ(parse_samples("8"), (std::pair{8, 8}));
     EXPECT_EQ(parse_samples("8x4"), (std::pair{8, 4}));

@@ -28,6 +28,10 @@ ReadOptions read_options(const Arguments& arguments, Access& access) {
     const size_t memory = arguments.memory_bytes ? arguments.memory_bytes : default_memory_budget();
     options.max_source_bytes = std::min(options.max_source_bytes, memory);
     options.most_scene_bytes = memory;
+    if (arguments.frames)
+        options.wants_frame = [&frames = *arguments.frames](int frame) {
+            return std::ranges::any_of(frames, [&](const FrameRange& range) { return range.has(frame); });
+        };
     options.allow_programs = arguments.allow_programs;
     options.program_seconds = arguments.program_seconds;
     options.procedural_host = {"/proc/self/exe", kServeProcedural};

@@ -13,8 +13,8 @@ inline constexpr const char* kServeProcedural = "serve-procedural";
 /// The files that the scenes of a command line may reach: all, or with --safe some folders.
 Access scene_access(const Arguments& arguments);
 
-/// ReadOptions from the defaults file, --option, --allow-programs and the bounds on memory. `access` is
-/// scene_access() and must outlive them.
+/// ReadOptions from the defaults file, --option, --frames, --allow-programs and the bounds on memory.
+/// `access` is scene_access() and must outlive them.
 ReadOptions read_options(const Arguments& arguments, Access& access);
 
 }  // namespace trapeze
