@@ -72,7 +72,7 @@ class RenderJob {
     RenderSettings settings_of_world(bool is_tile);
     void name_output(Scene& scene);
     bool makes_tile(const Options& options) const;
-    void name_tile(std::vector<Display>& displays);
+    void name_tile(Options& options);
     bool has_tile(const Scene& scene);
     bool has_another_form(const Display& display) const;
     void say_what_is_written(const FrameStats& stats);
@@ -186,10 +186,10 @@ bool RenderJob::makes_tile(const Options& options) const {
 }
 
 /// Gives the tile's files their names. Depth maps are whole or of no use.
-void RenderJob::name_tile(std::vector<Display>& displays) {
-    for (Display& display : displays) {
+void RenderJob::name_tile(Options& options) {
+    for (Display& display : options.displays) {
         // -o has named the first display's file, which others may share.
-        const bool is_named = !names_.empty() && display.name == displays.front().name;
+        const bool is_named = !names_.empty() && display.name == options.displays.front().name;
         tiles_made_.insert(is_named && renamed_ ? renamed_->name : display.name);
         if (makes_depth_map(display)) {
             diagnostics_.warning(display.location,
@@ -199,7 +199,11 @@ void RenderJob::name_tile(std::vector<Display>& displays) {
                                  "depth-map-in-tile " + display.name);
             display.type = "null";
         } else if (!is_named) {
-            display.name = with_tile_number(display.name, *tile_);
+            Diagnostics unheard;
+            const auto plan = plan_display(display, options, aov_layout(options), unheard);
+            // A display without a name has one in its plan.
+            const std::string& name = display.name.empty() && plan ? plan->path : display.name;
+            display.name = with_tile_number(name, *tile_);
         }
     }
 }
@@ -230,7 +234,7 @@ void RenderJob::override_displays(Scene& scene, bool is_tile) {
     if (!names_.empty() && is_tile == tile_.has_value()) name_output(scene);
     if (!arguments_.driver.empty())
         for (Display& display : displays) display.type = arguments_.driver;
-    if (is_tile) name_tile(displays);
+    if (is_tile) name_tile(scene.options);
 }
 
 /// A picture that a map is made of was a pass, whatever `-o` has made of it: it is read as its own Display

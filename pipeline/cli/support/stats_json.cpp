@@ -64,6 +64,7 @@ json to_json(const FrameStats& s) {
                 {"simd_target", s.simd_target},
                 {"sampler", s.sampler},
                 {"outputs", json::array()}};
+    if (s.tile) out["tile"] = name_of(*s.tile);
     for (const FrameStats::Output& output : s.outputs) out["outputs"].push_back(to_json(output));
     return out;
 }
