@@ -60,13 +60,19 @@ TEST_F(Tiles, OfBlurWideFiltersAndDisplacementAreTheSame) {
     folder_.write("all.rib", R"(Format 61 47 1 PixelSamples 3 3 PixelFilter "gaussian" 5 5 Shutter 0 1
 Projection "perspective" "fov" 40 DepthOfField 4 .5 5 Translate 0 0 5 CropWindow .1 .93 .05 1
 Display "all.exr" "openexr" "rgbaz" "exrcompression" "piz"
-Display "+all_id.exr" "openexr" "id"
-Display "+all_p.exr" "openexr" "point P"
+Display "+all_id.exr" "openexr" "id" "string storage" "tiled" "int tilesize" [16]
+Display "+all.exr" "openexr" "id"
+Display "+all.exr" "openexr" "point P"
+Display "+all_id.exr" "openexr" "normal N"
 WorldBegin LightSource "distantlight" 1 Surface "plastic"
 Attribute "displacementbound" "sphere" [.3] Displacement "dented" "Km" [.3]
 MotionBegin [0 1] Rotate 0 0 1 0 Rotate 40 1 1 0 MotionEnd Sphere 1.3 -1 1.3 360 WorldEnd
 )");
-    expect_same("all.rib", {"all", "all_id", "all_p"});
+    expect_same("all.rib", {"all", "all_id"});
+    const std::string whole = file_text(folder_ / "all.exr");
+    render_tiles("-q all.rib -o x.exr", 2, 2);
+    expect_ok("merge x.tile?.exr -o x.exr");
+    EXPECT_TRUE(file_text(folder_ / "x.exr") == whole) << "-o names the file of all layers";
 }
 
 TEST_F(Tiles, HaveTheirNumberInTheNamesOfFiles) {

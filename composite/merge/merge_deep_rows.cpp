@@ -134,7 +134,7 @@ class DeepBand {
 void merge_deep_rows(const TileHeaders& tiles, const Imf::Header& header, const MergeOptions& options,
                      OutputFile& file, const std::string& name) {
     const std::vector<DeepChannel> channels = deep_channels_of(header.channels());
-    const Box2i window = header.dataWindow();
+    const Box2i& window = header.dataWindow();
     ExrStream stream(file, name);
     Imf::DeepScanLineOutputFile out(stream, header, 0);
     OpenTiles<Imf::DeepScanLineInputFile> open(tiles.files());

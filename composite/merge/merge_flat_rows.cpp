@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <fmt/format.h>
 
 #include <cstring>
@@ -11,6 +12,7 @@
 #include "composite/image.h"
 #include "composite/merge/merge_rows.h"
 #include "composite/merge/open_tiles.h"
+#include "core/scene/scene.h"
 
 namespace trapeze {
 namespace {
@@ -40,14 +42,14 @@ void fill_with(std::vector<char>& plane, Value value) {
     for (size_t at = 0; at < plane.size(); at += sizeof value) std::memcpy(&plane[at], &value, sizeof value);
 }
 
-/// The values of pixels that show nothing, as the renderer writes them: no colour, an infinite depth, no
+/// The values of pixels that show nothing, as the renderer writes them: no colour, the largest depth, no
 /// primitive.
 void fill_empty(const FlatChannel& channel, std::vector<char>& plane) {
     const bool is_id = channel.name == "id" || channel.name.starts_with("id.");
     if (channel.name == "Z" && channel.type == Imf::FLOAT)
         fill_with(plane, kInfinity);
     else if (channel.name == "Z" && channel.type == Imf::HALF)
-        fill_with(plane, Imath::half(kInfinity));
+        fill_with(plane, Imath::half(65504.0f));  // the largest that is finite
     else if (is_id && channel.type == Imf::UINT)
         fill_with(plane, kNoPrimitive);
     else
@@ -148,18 +150,14 @@ int rows_of_band(const std::vector<FlatChannel>& channels, const Box2i& window) 
     return static_cast<int>(std::clamp<size_t>(kBytesOfBand / row, 1, kMostRowsOfBand));
 }
 
-}  // namespace
-
-void merge_flat_rows(const TileHeaders& tiles, const Imf::Header& header, const MergeOptions& options,
-                     OutputFile& file, const std::string& name) {
-    const std::vector<FlatChannel> channels = channels_of(header.channels());
-    const Box2i window = header.dataWindow();
-    ExrStream stream(file, name);
-    Imf::OutputFile out(stream, header, 0);
+/// Calls write(pixels, rows) for each band of the picture, of `step` rows, from the top.
+template <class Write>
+void for_each_band(const TileHeaders& tiles, const std::vector<FlatChannel>& channels, int step,
+                   const MergeOptions& options, const Write& write) {
+    const Box2i window = tiles.window();
     OpenTiles<Imf::InputFile> open(tiles.files());
     FlatBand band(channels, tiles.files());
     FlatRows tile(channels);
-    const int step = rows_of_band(channels, window);
     for (int64_t y = window.min.y; y <= window.max.y; y += step) {
         if (options.is_cancelled()) throw MergeError(MergeOutcome::Cancelled, "cancelled");
         const RowBand rows{static_cast<int>(y),
@@ -172,9 +170,35 @@ void merge_flat_rows(const TileHeaders& tiles, const Imf::Header& header, const 
             input.readPixels(part.from, part.to);
             band.add(i, tile);
         });
-        out.setFrameBuffer(band.rows().frame_buffer());
-        out.writePixels(rows.to - rows.from + 1);
+        write(band.rows().frame_buffer(), rows);
     }
+}
+
+}  // namespace
+
+void merge_flat_rows(const TileHeaders& tiles, const Imf::Header& header, const MergeOptions& options,
+                     OutputFile& file, const std::string& name) {
+    const std::vector<FlatChannel> channels = channels_of(header.channels());
+    const int step = rows_of_band(channels, tiles.window());
+    ExrStream stream(file, name);
+    if (tiles.is_stored_in_tiles()) {
+        Imf::TiledOutputFile out(stream, header, 0);
+        const auto side = static_cast<int>(out.tileYSize());
+        const int sides = std::max(step / side, 1);
+        int next = 0;  // row of OpenEXR's tiles
+        for_each_band(tiles, channels, sides * side, options, [&](const auto& pixels, const RowBand&) {
+            const int last = std::min(next + sides, out.numYTiles()) - 1;
+            out.setFrameBuffer(pixels);
+            out.writeTiles(0, out.numXTiles() - 1, next, last);
+            next = last + 1;
+        });
+        return;
+    }
+    Imf::OutputFile out(stream, header, 0);
+    for_each_band(tiles, channels, step, options, [&](const auto& pixels, const RowBand& rows) {
+        out.setFrameBuffer(pixels);
+        out.writePixels(rows.to - rows.from + 1);
+    });
 }
 
 }  // namespace trapeze

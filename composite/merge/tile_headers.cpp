@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfVersion.h>
 #include <fmt/format.h>
 
@@ -132,6 +133,10 @@ Box2i TileHeaders::window() const {
     return all;
 }
 
+bool TileHeaders::is_stored_in_tiles() const {
+    return !is_deep_ && first_.hasTileDescription() && first_.tileDescription().mode == Imf::ONE_LEVEL;
+}
+
 Imf::Header TileHeaders::merged(Diagnostics& diagnostics) const {
     Imf::Header header;
     for (auto attribute = first_.begin(); attribute != first_.end(); ++attribute) {
@@ -144,9 +149,9 @@ Imf::Header TileHeaders::merged(Diagnostics& diagnostics) const {
                                     files_.front().path, other->second));
             continue;
         }
-        // The type is one of scanlines; files of one flat part do not have it.
-        const bool is_dropped = name == kTileAttribute || name == "tiles" || name == "chunkCount" ||
-                                (name == "type" && !is_deep_);
+        // Files of one flat part have no type.
+        const bool is_dropped = name == kTileAttribute || name == "chunkCount" ||
+                                (name == "tiles" && !is_stored_in_tiles()) || (name == "type" && !is_deep_);
         if (!is_dropped) header.insert(name, attribute.attribute());
     }
     header.lineOrder() = Imf::INCREASING_Y;

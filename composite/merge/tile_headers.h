@@ -31,10 +31,13 @@ class TileHeaders {
 
     const std::vector<TileFile>& files() const { return files_; }
     bool is_deep() const { return is_deep_; }
+    /// Whether the first file is stored in tiles of OpenEXR's, of one resolution; the merged one is then,
+    /// too.
+    bool is_stored_in_tiles() const;
     const Imf::ChannelList& channels() const { return first_.channels(); }
     /// The smallest window around all tiles.
     Box2i window() const;
-    /// Of a file of scanlines with all tiles in it. Attributes that tiles have with different values are left
+    /// Of the file with all tiles in it. Attributes that tiles have with different values are left
     /// out, which is said of those that do not differ from run to run.
     Imf::Header merged(Diagnostics& diagnostics) const;
 

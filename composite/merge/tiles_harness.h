@@ -20,6 +20,7 @@
 #include "core/math.h"
 #include "core/picture_tile.h"
 #include "core/random.h"
+#include "core/scene/scene.h"
 
 namespace trapeze::testing {
 
@@ -99,7 +100,7 @@ inline void write_zeros(const std::string& path, const Imf::Header& header) {
 /// The same pixels, stored in tiles of OpenEXR's.
 inline void write_tiled(const std::string& path, Imf::Header header) {
     FlatPart part(header);
-    header.setTileDescription(Imf::TileDescription(8, 8));
+    header.setTileDescription(Imf::TileDescription(8, 9));
     Imf::TiledOutputFile file(path.c_str(), header, 0);
     file.setFrameBuffer(part.buffer());
     file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
