@@ -1,0 +1,21 @@
+#include "core/scene/color_request.h"
+
+namespace trapeze {
+
+ColorRequest color_request_of(const Options& options) {
+    const auto given = options.user.find("ocio");
+    if (given == options.user.end()) return {};
+    const auto named = [&](const char* name) { return given->second.string_or(name, ""); };
+    return {named("config"), named("display"), named("view"), named("look"), named("workingspace")};
+}
+
+ColorRequest replaced(ColorRequest request, const ColorRequest& stronger) {
+    if (!stronger.config.empty()) request = {.config = stronger.config};
+    if (!stronger.display.empty()) request.display = stronger.display, request.view = request.look = "";
+    if (!stronger.view.empty()) request.view = stronger.view, request.look = "";
+    if (!stronger.look.empty()) request.look = stronger.look;
+    if (!stronger.working_space.empty()) request.working_space = stronger.working_space;
+    return request;
+}
+
+}  // namespace trapeze
