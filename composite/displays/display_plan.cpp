@@ -213,14 +213,16 @@ void fit_to_format(Quantization& quantization, FileFormat format) {
         quantization = Quantization{};
 }
 
-/// Whether colours are encoded by the sRGB curve. What a display itself says comes before the options.
-bool is_encoded(const Display& display, const Options& options, const DisplayPlan& plan) {
-    if (plan.format == FileFormat::OpenExr || plan.quantization.to_float()) return false;
-    if (!plan.rgb && !plan.aov_is_color) return false;
-    const Transfer transfer =
-        transfer_named(display.parameters.string_or("colorspace", "")).value_or(transfer_of(options));
-    return transfer == Transfer::Srgb ||
-           (transfer == Transfer::Auto && options.exposure_gamma == 1 && !plan.quantization.has_16_bits());
+/// Chooses whether colours are encoded by the sRGB curve, and whether a view comes in its place. What a
+/// display itself says comes before both.
+void choose_encoding(const Display& display, const Options& options, DisplayPlan& plan) {
+    if (plan.format == FileFormat::OpenExr || plan.quantization.to_float()) return;
+    if (!plan.rgb && !plan.aov_is_color) return;
+    const auto own = transfer_named(display.parameters.string_or("colorspace", ""));
+    const Transfer transfer = own.value_or(transfer_of(options));
+    plan.srgb = transfer == Transfer::Srgb || (transfer == Transfer::Auto && options.exposure_gamma == 1 &&
+                                               !plan.quantization.has_16_bits());
+    plan.viewed = !own;
 }
 
 /// How numbers become the file's. What the display says ("quantize", "dither", "type") comes before the
@@ -248,7 +250,7 @@ void choose_pixel_type(const Display& display, const Options& options, DisplayPl
     if (type == "half") plan.float_pixels = false;
     if ((plan.aov && !plan.aov_is_color) || (plan.deep && type != "half")) plan.float_pixels = true;
     fit_to_format(plan.quantization, plan.format);
-    plan.srgb = is_encoded(display, options, plan);
+    choose_encoding(display, options, plan);
 }
 
 /// "exrcompression" is OpenEXR's alone and comes before "compression". Empty: what the format usually has.

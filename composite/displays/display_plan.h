@@ -42,6 +42,7 @@ struct DisplayPlan {
     Quantization quantization;        ///< of the other formats, as they can hold it
     std::vector<Parameter> attributes;  ///< of an OpenEXR header: "exrheader_NAME" without the prefix
     bool srgb = false;                  ///< colours of whole numbers are encoded by the sRGB curve
+    bool viewed = false;                ///< where colours are managed, they are as the view has them instead
 };
 
 /// Whether the display's driver writes depths for shadow maps: "zfile" and "shadow".

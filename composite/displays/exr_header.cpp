@@ -11,6 +11,7 @@
 
 #include "composite/displays/cryptomatte_header.h"
 #include "composite/displays/exr_attributes.h"
+#include "core/color_management.h"
 
 namespace trapeze {
 namespace {
@@ -47,10 +48,21 @@ void add_camera(const PictureToWrite& picture, Imf::Header& header) {
     header.insert("focalDistance", Imf::FloatAttribute(options.focal_distance));
 }
 
-/// Of pictures of light: whose numbers Exposure's gamma has not bent. What the scene's colours mean nobody
-/// says; they are taken for ITU-R BT.709's, as most are.
+/// Whether some channels are colours, which are in the working space.
+bool has_colors(const PictureToWrite& picture) {
+    const auto is_of_colors = [](const DisplayPlan& plan) { return plan.rgb || plan.aov_is_color; };
+    return is_of_colors(picture.plan) || std::ranges::any_of(picture.further, is_of_colors);
+}
+
+/// Of pictures of light, whose numbers Exposure's gamma has not bent. Where no config is asked for nobody says what
+/// the scene's colours mean: they are taken for ITU-R BT.709's, as most are. A config's working space has a name.
 void add_color_space(const PictureToWrite& picture, Imf::Header& header) {
-    if (!picture.plan.rgb || picture.context.scene->options.exposure_gamma != 1) return;
+    if (!has_colors(picture)) return;
+    if (picture.context.colors) {
+        header.insert("workingSpace", Imf::StringAttribute(picture.context.colors->names().working_space));
+        return;
+    }
+    if (picture.context.scene->options.exposure_gamma != 1) return;
     Imf::addChromaticities(header, Imf::Chromaticities());
     header.insert("colorInteropID", Imf::StringAttribute("lin_rec709_scene"));
 }

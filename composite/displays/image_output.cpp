@@ -7,6 +7,7 @@
 
 #include "composite/displays/image_library.h"
 #include "composite/displays/srgb.h"
+#include "core/color_management.h"
 #include "core/random.h"
 
 namespace trapeze {
@@ -38,6 +39,7 @@ struct Encoding {
     Quantization quantization;
     NumberType type = NumberType::Uint8;
     bool srgb = false, unassociated = false;
+    const ColorManagement* colors = nullptr;  ///< whose view colours are brought to, instead; null: none
     int channels = 3;
     int first_channel = 0;          ///< 3 when alpha is alone
     const float* values = nullptr;  ///< of the window's first pixel
@@ -56,7 +58,8 @@ Encoding encoding_of(const PictureToWrite& picture) {
     e.type = e.quantization.to_float()      ? NumberType::Float
              : e.quantization.has_16_bits() ? NumberType::Uint16
                                             : NumberType::Uint8;
-    e.srgb = plan.srgb;
+    e.colors = plan.viewed ? picture.context.colors.get() : nullptr;
+    e.srgb = plan.srgb && !e.colors;
     const bool takes_alpha = plan.format != FileFormat::Jpeg;
     e.channels = plan.rgb ? (plan.alpha && takes_alpha ? 4 : 3) : 1;
     e.first_channel = plan.rgb ? 0 : 3;
@@ -90,32 +93,62 @@ int quantized(const Quantization& q, float value, int x, int y, int channel) {
     return static_cast<int>(std::clamp(std::floor(level + 0.5f), low, high));
 }
 
+/// A row of the window as the view shows it, R G B and a number without meaning each; empty: none is asked
+/// for.
+std::vector<float> viewed_row(const Image& image, const Encoding& e, int y) {
+    std::vector<float> row;
+    if (!e.colors) return row;
+    row.reserve(4 * static_cast<size_t>(image.window.width()));
+    for (int x = image.window.x0; x < image.window.x1; ++x) {
+        const float* pixel = e.values + static_cast<size_t>(e.values_per_pixel) * image.index(x, y);
+        for (int c = 0; c < 3; ++c) row.push_back(encoded(e, pixel, c));
+        row.push_back(1);
+    }
+    e.colors->view().apply(row.data(), row.size() / 4);
+    return row;
+}
+
 /// The window's pixels, row by row, channels side by side, in the file's numbers.
 template <class Value>
 std::vector<Value> encode_pixels(const Image& image, const Encoding& e) {
     std::vector<Value> out;
     out.reserve(image.z.size() * static_cast<size_t>(e.channels));
-    for (int y = image.window.y0; y < image.window.y1; ++y)
+    for (int y = image.window.y0; y < image.window.y1; ++y) {
+        const std::vector<float> viewed = viewed_row(image, e, y);
         for (int x = image.window.x0; x < image.window.x1; ++x) {
             const float* pixel = e.values + static_cast<size_t>(e.values_per_pixel) * image.index(x, y);
+            const float* shown = viewed.empty() ? nullptr : viewed.data() + 4 * (x - image.window.x0);
             for (int c = e.first_channel; c < e.first_channel + e.channels; ++c) {
-                const float value = encoded(e, pixel, c);
+                const float value = shown && c < 3 ? shown[c] : encoded(e, pixel, c);
                 if constexpr (std::is_same_v<Value, float>)
                     out.push_back(value);
                 else
                     out.push_back(static_cast<Value>(quantized(e.quantization, value, x, y, c)));
             }
         }
+    }
     return out;
 }
 
 /// How numbers of colours stand for light, for the file's metadata; empty for other pictures.
-std::string transfer_text(const PictureToWrite& picture, const Encoding& e) {
+std::vector<std::pair<std::string, std::string>> transfer_texts(const PictureToWrite& picture,
+                                                                const Encoding& e) {
     const bool is_aov = picture.plan.aov.has_value();
     if (!(is_aov ? picture.plan.aov_is_color : picture.plan.rgb)) return {};
-    if (e.srgb) return "srgb";
+    std::vector<std::pair<std::string, std::string>> texts;
+    if (const ColorManagement* colors = picture.context.colors.get())
+        texts.emplace_back("workingSpace", colors->names().working_space);
+    if (e.colors) {
+        const ColorNames& names = e.colors->names();
+        texts.insert(texts.end(), {{"display", names.display}, {"view", names.view}});
+        if (!names.look.empty()) texts.emplace_back("look", names.look);
+        return texts;
+    }
     const float gamma = picture.context.scene->options.exposure_gamma;
-    return gamma == 1 || is_aov ? "linear" : fmt::format("gamma {:g}", gamma);
+    texts.emplace_back("transfer", e.srgb                 ? "srgb"
+                                   : gamma == 1 || is_aov ? "linear"
+                                                          : fmt::format("gamma {:g}", gamma));
+    return texts;
 }
 
 /// The metadata in one text: "name: value; name: value".
@@ -123,8 +156,7 @@ std::string description(const PictureToWrite& picture, const Encoding& e) {
     auto metadata = picture.info.metadata;
     if (picture.info.frame) metadata.emplace_back("frame", std::to_string(*picture.info.frame));
     if (!picture.info.scene.empty()) metadata.emplace_back("scene", picture.info.scene);
-    if (std::string transfer = transfer_text(picture, e); !transfer.empty())
-        metadata.emplace_back("transfer", std::move(transfer));
+    for (auto& text : transfer_texts(picture, e)) metadata.push_back(std::move(text));
     std::string text;
     for (const auto& [name, value] : metadata)
         text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name, value);
@@ -170,7 +202,8 @@ ImageForm make_form(const PictureToWrite& picture, const Encoding& e) {
     } else {
         // In a TIFF this would be Exif data, which OpenImageIO 2.4 cannot write to memory; readers take whole
         // numbers there for sRGB anyway.
-        add("oiio:ColorSpace", std::string(e.srgb ? "sRGB" : ""));
+        const bool is_srgb = e.colors ? e.colors->view_is_srgb() : e.srgb;
+        add("oiio:ColorSpace", std::string(is_srgb ? "sRGB" : ""));
     }
     return form;
 }

@@ -53,7 +53,7 @@ std::optional<SharedFrame> share_frame(Scene&& scene, const RenderSettings& sett
     frame.scene = std::make_unique<const Scene>(std::move(scene));
     frame.context = make_context(*frame.scene, settings, diagnostics);
     frame.pixels = sampled_pixels(frame.context.camera, frame.scene->options);
-    if (!picture_fits(frame.context, settings)) return {};
+    if (frame.context.lacks_colors || !picture_fits(frame.context, settings)) return {};
 
     FrameRecorder recorder(settings.on_progress, settings.on_stage);
     Shading shading(frame.context, *settings.access);

@@ -17,6 +17,7 @@
 #include "pipeline/frame/frame_recorder.h"
 #include "pipeline/frame/glow_picture.h"
 #include "pipeline/frame/make_grids.h"
+#include "pipeline/frame/open_colors.h"
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/resolve_tiles.h"
 #include "pipeline/rays/light_meshes.h"
@@ -172,12 +173,15 @@ RenderContext make_context(const Scene& scene, const RenderSettings& settings, D
     context.motion = std::any_of(scene.primitives.begin(), scene.primitives.end(),
                                  [](const Primitive& primitive) { return primitive.key_count() > 1; });
     context.float_colors = holds_more_than_halves(scene.options);
+    OpenedColors opened = open_colors(scene.options, settings.colors, *settings.access, diagnostics);
+    context.colors = std::move(opened.colors), context.lacks_colors = opened.failed;
     context.diagnostics = &diagnostics;
     context.cancelled = settings.cancelled;
     return context;
 }
 
 std::optional<FrameResult> render_frame(const RenderContext& asked, const RenderSettings& settings) {
+    if (asked.lacks_colors) return {};
     std::string wrong;
     const std::optional<Sampler> sampler = choose_sampler(settings.sampler, settings.pattern, &wrong);
     if (!sampler) {

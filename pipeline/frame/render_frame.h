@@ -9,6 +9,7 @@
 #include "composite/film/film.h"
 #include "core/files/access.h"
 #include "core/picture_tile.h"
+#include "core/scene/color_request.h"
 #include "core/scene/render_context.h"
 #include "pipeline/frame/cull_hidden.h"
 #include "pipeline/frame/frame_stats.h"
@@ -24,6 +25,7 @@ struct RenderSettings {
     CullHidden cull_hidden = CullHidden::Auto;
     uint32_t seed = 0;
     std::optional<PictureTile> tile;  ///< the part of the scene's crop to make; nothing: all of it
+    ColorRequest colors;  ///< what the user asks for in place of Option "ocio"
     /// Called now and then from any thread, one at a time, with the part done in [0, 1].
     std::function<void(double)> on_progress;
     /// Called at the beginning of each stage, by its name in the statistics; grids are diced while they
@@ -51,11 +53,11 @@ inline constexpr const char* kPictureTooLarge = "picture-too-large";
 bool picture_fits(const RenderContext& context, const RenderSettings& settings);
 
 /// The context of a scene's render: camera, with the tile as its crop, sample counts (rounded to at least 1),
-/// whether anything moves. It refers to the scene and to diagnostics.
+/// whether anything moves, colour management. It refers to the scene and to diagnostics.
 RenderContext make_context(const Scene& scene, const RenderSettings& settings, Diagnostics& diagnostics);
 
 /// Renders with the threads of the calling task arena. Empty when cancelled, or (reported) when the picture
-/// is too large. `context` is make_context's.
+/// is too large or the context lacks its colours. `context` is make_context's.
 std::optional<FrameResult> render_frame(const RenderContext& context, const RenderSettings& settings);
 
 }  // namespace trapeze

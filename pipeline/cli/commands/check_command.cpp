@@ -56,6 +56,7 @@ void CheckJob::take_world(const Scene& scene) {
     if (interrupt_.requested()) return;
     RenderSettings settings;
     settings.cancelled = &interrupt_.requested();
+    settings.access = &access_;
     const RenderContext context = make_context(scene, settings, diagnostics_);
     const auto texture_folders = scene.options.search_paths.find("texture");
     const std::vector<std::string> none;

@@ -19,6 +19,7 @@
 #include "pipeline/cli/support/stats_json.h"
 #include "pipeline/cli/support/text_files.h"
 #include "pipeline/frame/make_map.h"
+#include "pipeline/frame/open_colors.h"
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/write_frame.h"
@@ -79,6 +80,7 @@ class RenderJob {
     bool encode_for_viewing(Display& display, const Options& options) const;
     void make_map_of_pictures(MapRequest request);
     bool outputs_are_possible() const;
+    bool colors_are_possible() const;
     bool write_stats() const;
     int exit_code() const;
 
@@ -135,7 +137,8 @@ void RenderJob::override_options(Options& options) const {
 bool RenderJob::encode_for_viewing(Display& display, const Options& options) const {
     const auto color = options.user.find("color");
     const bool is_said = color != options.user.end() && color->second.find("transfer");
-    if (is_said || display.parameters.find("colorspace")) return false;
+    const bool is_managed = replaced(color_request_of(options), arguments_.colors).asks();
+    if (is_said || is_managed || display.parameters.find("colorspace")) return false;
     display.parameters.set({"colorspace", {StorageClass::Uniform, ValueType::String, 1}, {}, {"auto"}});
     Diagnostics unheard;
     const auto plan = plan_display(display, options, aov_layout(options), unheard);
@@ -282,6 +285,7 @@ RenderSettings RenderJob::settings_of_world(bool is_tile) {
     settings.memory_bytes = arguments_.memory_bytes;
     settings.regions_at_least = arguments_.regions_at_least;
     settings.seed = arguments_.seed;
+    settings.colors = arguments_.colors;
     settings.cull_hidden = arguments_.cull_hidden == "on"    ? CullHidden::On
                            : arguments_.cull_hidden == "off" ? CullHidden::Off
                                                              : CullHidden::Auto;
@@ -352,6 +356,7 @@ int RenderJob::exit_code() const {
     if (interrupt_.requested()) return interrupt_.exit_code();
     if (output_failed_) return kExitNoOutput;
     if (diagnostics_.kinds().contains(kPictureTooLarge)) return kExitNoMemory;
+    if (diagnostics_.kinds().contains(kNoColors)) return kExitNoInput;
     if (frames_.empty() && maps_.empty()) return kExitNothingRendered;
     if (arguments_.strict && has_missing_shader(diagnostics_)) return kExitShaderMissing;
     const bool warned = diagnostics_.count(Severity::Warning) > 0;
@@ -370,8 +375,18 @@ bool RenderJob::outputs_are_possible() const {
     return can_write({arguments_.stats_file, writes_output ? output : ""}, diagnostics_);
 }
 
+/// A config that the user names need not wait for the scene to be found wrong. Names in it may belong to what
+/// the scene says: a view to its display.
+bool RenderJob::colors_are_possible() const {
+    ColorRequest request = arguments_.colors;
+    if (request.config.empty()) return true;
+    if (request.display.empty()) request.view.clear();
+    return !open_colors({}, request, access_, diagnostics_).failed;
+}
+
 int RenderJob::run() {
     if (!outputs_are_possible()) return kExitNoOutput;
+    if (!colors_are_possible()) return kExitNoInput;
     ReadOptions options = read_options(arguments_, access_);
     options.cancelled = &interrupt_.requested();
     options.on_wait = [this](const std::string& what, int seconds) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/picture_tile.h"
+#include "core/scene/color_request.h"
 #include "pipeline/cli/support/parse_values.h"
 #include "pipeline/study/scenes/scenes.h"
 
@@ -80,6 +81,7 @@ struct Arguments {
     std::string sampler = "raytrace";
     std::string pattern;        ///< empty: the sampler's natural one
     std::string transfer;       ///< as transfer_named() reads it; empty: as the scene says
+    ColorRequest colors;        ///< in place of the scene's
     std::string simd = "best";  ///< as limit_simd() reads it
     int threads = 0;            ///< 0: all; negative: all but so many
     uint32_t seed = 0;

@@ -148,6 +148,21 @@ void add_rounds_option(CLI::App& app, int& rounds) {
         ->capture_default_str();
 }
 
+/// How colours become those of a screen. What is not given is as the scene's Option "ocio" says.
+void add_color_options(CLI::App& app, ColorRequest& colors) {
+    add_file(app, "--ocio", colors.config,
+             "manages colours by a config of OpenColorIO (default: that of the scene's Option \"ocio\" "
+             "\"config\", or of $OCIO where a view is asked for, or one with plain sRGB)",
+             "FILE.ocio");
+    const auto add_name = [&](const char* option, std::string& name, const char* help) {
+        app.add_option(option, name, help)->check(a_name())->type_name("NAME");
+    };
+    add_name("--display", colors.display,
+             "the config's display that 8- and 16-bit files are for (default: its first)");
+    add_name("--view", colors.view, "the display's view that they show (default: its first)");
+    add_name("--look", colors.look, "a look in place of the view's own");
+}
+
 }  // namespace
 
 void add_variance_option(CLI::App& app, Arguments& a, const char* what) {
@@ -182,6 +197,7 @@ void add_render_options(CLI::App& app, Arguments& a) {
                    "how 8- and 16-bit files stand for light, written and read (default: linear, or the "
                    "scene's Option \"color\" \"transfer\")")
         ->check(CLI::IsMember({"linear", "srgb", "auto"}));
+    add_color_options(app, a.colors);
     add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20",
                " (ranges upwards, with a step as in 1-9x2)");
     add_file(app, "--stats", a.stats_file, "writes statistics as JSON", "FILE.json");

@@ -259,6 +259,13 @@ void hider(OptionContext& r, ArgumentCursor& c) {
     set_samples_of_hider(r);
 }
 
+/// Whether a value is a string, which is said where it is not.
+bool is_text(RequestReport& report, const Parameter& value) {
+    if (!value.strings.empty()) return true;
+    report.error(in_quotes(value.name) + " of \"ocio\" is a string; left out");
+    return false;
+}
+
 /// Option category parameters: kept for shaders too, like attributes; a colour transfer that is not known is
 /// not kept.
 void option(OptionContext& r, ArgumentCursor& c) {
@@ -269,6 +276,7 @@ void option(OptionContext& r, ArgumentCursor& c) {
         if (category == "searchpath" && !value.strings.empty())
             r.search.set_search_path(value.name, value.strings[0]);
         if (category == "color" && value.name == "transfer" && !names_transfer(r.report, value)) continue;
+        if (category == "ocio" && !is_text(r.report, value)) continue;
         const bool is_executed = category == "Ri" && execute_ri_value(r, value);
         if (!is_executed && !recognises_option(category, value.name))
             r.report.count_without_effect(' ' + in_quotes(category) + ' ' + in_quotes(value.name));

@@ -16,6 +16,11 @@ struct Value {
 /// Options by category and name.
 constexpr Value kOptions[] = {{"user", ""},
                               {"color", "transfer"},
+                              {"ocio", "config"},
+                              {"ocio", "display"},
+                              {"ocio", "look"},
+                              {"ocio", "view"},
+                              {"ocio", "workingspace"},
                               {"searchpath", "archive"},
                               {"searchpath", "procedural"},
                               {"searchpath", "shader"},
