@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace trapeze {
 
@@ -31,6 +32,18 @@ class ColorManagement {
     virtual const ColorTransform& view() const = 0;
     /// Whether the view is the plain sRGB curve on Rec.709, which files have a mark for.
     virtual bool view_is_srgb() const = 0;
+
+    /// The name of the config's colour space that goes by this name, alias or role; empty: none does.
+    virtual std::string space_named(std::string_view name) const = 0;
+    /// All names of colour spaces, in quotes, for messages.
+    virtual std::string spaces_listed() const = 0;
+    /// The colour space of a file by the config's rules for names of files; empty where none is for this one,
+    /// but the rule for all others.
+    virtual std::string space_of_file(const std::string& path) const = 0;
+    /// From a colour space of the config to the working space. Null where nothing is to be done, or, with
+    /// *problem set, where that is not possible.
+    virtual std::shared_ptr<const ColorTransform> from_space(const std::string& space,
+                                                             std::string* problem) const = 0;
 };
 
 }  // namespace trapeze

@@ -40,7 +40,7 @@ struct DomeDirections {
 DomeMap read_dome_map(Textures& textures, const std::string& name, const SourceLocation& location) {
     DomeMap map;
     const Textures::Picture* picture =
-        textures.find(name, location, textures.transfer_of_lookup("", true, location));
+        textures.find(name, location, textures.reading_of_lookup("", true, location));
     const auto info = textures.info(name);
     if (!picture || !info || info->width < 1 || info->height < 1) return map;
     map.width = std::min(info->width, kMostColumns), map.height = std::min(info->height, kMostRows);

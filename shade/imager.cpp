@@ -99,7 +99,7 @@ Imager::Imager(const RenderContext& context, const Access& access) : impl_(std::
         executable = library.find(instance.name, rsl::ShaderKind::Imager, {}, instance.location);
         if (!executable) return;
     }
-    impl_->textures = std::make_unique<Textures>(scene.options, context.diagnostics, access);
+    impl_->textures = std::make_unique<Textures>(scene.options, context.diagnostics, access, context.colors);
     impl_->spaces = std::make_unique<SceneSpaces>(scene, context.camera, &instance, nullptr);
     impl_->shader =
         std::make_unique<BoundShader>(std::move(executable), instance, *impl_->spaces, context.diagnostics);

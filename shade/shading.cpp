@@ -66,7 +66,7 @@ struct Shading::Impl {
     explicit Impl(const RenderContext& render, const Access& may)
         : context(render),
           access(may),
-          textures(render.scene->options, render.diagnostics, may),
+          textures(render.scene->options, render.diagnostics, may, render.colors),
           clouds(render.scene->options, render.diagnostics, may),
           materials(render, may),
           aovs(aov_layout(render.scene->options)) {

@@ -180,6 +180,33 @@ TEST_F(ColorsAsked, InVainByTheSceneAreErrorsBeforeAnythingIsRendered) {
         << run_program(folder_, "render flat.rib").err;
 }
 
+TEST_F(ColorsAsked, AreThoseOfTextures) {
+    // The config's "paint" holds square roots; a file called *_paint.* is in it. A quarter is 64.
+    ASSERT_EQ(run_program(folder_, "render flat.rib --option 'Exposure 1 1' -o quarter.png").exit_code, 0);
+    ASSERT_TRUE(fs::exists(folder_ / "quarter.png"));
+    fs::rename(folder_ / "quarter.png", folder_ / "quarter_paint.png");
+    folder_.write("look.sl",
+                  "surface look(string name = \"\"; string space = \"\") { Ci = color texture(name, .5, .5, "
+                  "\"colorspace\", space); Oi = 1; }");
+    const auto look = [&](const std::string& space, const std::string& options) {
+        std::string scene = kFlat;
+        scene.replace(
+            scene.find("Surface \"constant\""), 18,
+            "Surface \"look\" \"string name\" \"quarter_paint.png\" \"string space\" \"" + space + "\"");
+        folder_.write("flat.rib", scene);
+        return png(options);
+    };
+    const std::string plain = look("", "--transfer linear --view Raw");
+    EXPECT_EQ(said_.err, "");
+    EXPECT_NE(look("", "--ocio small.ocio --view plain"), look("linear", "--ocio small.ocio --view plain"));
+    EXPECT_EQ(look("paint", "--ocio small.ocio --view plain"), look("", "--ocio small.ocio --view plain"));
+    EXPECT_EQ(look("srgb", "--view Raw"), look("sRGB", "--view Raw"));
+    look("acescg", "--view Raw");
+    EXPECT_NE(said_.err.find("there are \"Linear Rec.709\", \"sRGB\", \"Raw\", and \"linear\""),
+              std::string::npos)
+        << said_.err;
+}
+
 TEST_F(ColorsAsked, GiveTheSameBytesForAnyNumberOfThreads) {
     const std::string one = png("--ocio small.ocio --view brighter -t 1");
     EXPECT_EQ(png("--ocio small.ocio --view brighter -t 7"), one);

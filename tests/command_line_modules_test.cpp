@@ -98,6 +98,10 @@ TEST_F(Modules, AreLoadedForTexturesAndForPicturesThatAreNotOpenExr) {
     EXPECT_TRUE(has(reading, "trapeze-maps.so"));
     EXPECT_FALSE(has(reading, "trapeze-displays.so"));
     EXPECT_TRUE(has(reading, "libOpenImageIO"));
+    const std::vector<std::string> managed = libraries_of("render sphere.rib -q --view sRGB");
+    EXPECT_TRUE(has(managed, "trapeze-colors.so"));
+    EXPECT_TRUE(has(managed, "libOpenColorIO"));
+    EXPECT_FALSE(has(managed, "libOpenImageIO"));
 }
 
 TEST_F(Modules, ThatAreMissingAreErrorsOfWhatNeedsThem) {
@@ -107,6 +111,11 @@ TEST_F(Modules, ThatAreMissingAreErrorsOfWhatNeedsThem) {
     EXPECT_NE(run(alone, "render sphere.rib -o picture.tif"), 0);
     EXPECT_NE(errors().find("cannot write \"picture.tif\": trapeze-displays.so is not in \"" +
                             fs::path(alone).parent_path().string() + "\""),
+              std::string::npos)
+        << errors();
+
+    EXPECT_EQ(run(alone, "render sphere.rib --view sRGB"), 3);
+    EXPECT_NE(errors().find("OpenColorIO, the built-in config: trapeze-colors.so is not in"),
               std::string::npos)
         << errors();
 

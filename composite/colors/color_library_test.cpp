@@ -103,6 +103,32 @@ TEST(Colors, AreTheConfigs) {
     near(viewed({.config = config, .working_space = "painted"}, kColor), 0.0197754, 0.00390625, 0.25);
 }
 
+TEST(Colors, OfFilesAreBroughtToTheWorkingSpace) {
+    const TemporaryFolder folder;
+    const Opened opened = open_colors_of({.config = write_config(folder)});
+    ASSERT_TRUE(opened.colors) << opened.problem;
+    EXPECT_EQ(opened.colors->space_of_file("/a/b/wood_paint.png"), "paint");
+    EXPECT_EQ(opened.colors->space_of_file("/a/b/wood.png"), "") << "only the rule for all others";
+    EXPECT_EQ(opened.colors->space_named("Painted"), "paint");
+    EXPECT_EQ(opened.colors->space_named("scene_linear"), "work");
+    EXPECT_EQ(opened.colors->space_named("acescg"), "");
+    EXPECT_EQ(opened.colors->spaces_listed(), R"("work", "raw", "mixed", "paint", "lost")");
+    std::string problem;
+    const auto transform = opened.colors->from_space("paint", &problem);
+    ASSERT_TRUE(transform) << problem;
+    float pixel[4] = {0.5f, 0.25f, 1, 1};
+    transform->apply(pixel, 1);
+    EXPECT_NEAR(pixel[0], 0.25, 1e-5);
+    EXPECT_NEAR(pixel[1], 0.0625, 1e-5);
+    EXPECT_NEAR(pixel[2], 1, 1e-5);
+    for (const char* same : {"work", "raw"}) {
+        EXPECT_FALSE(opened.colors->from_space(same, &problem)) << same;
+        EXPECT_EQ(problem, "") << same;
+    }
+    EXPECT_FALSE(opened.colors->from_space("lost", &problem));
+    EXPECT_THAT(problem, HasSubstr("lost.spi1d"));
+}
+
 TEST(Colors, HaveTheNamesOfTheConfig) {
     const TemporaryFolder folder;
     const std::string config = write_config(folder);

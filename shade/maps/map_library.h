@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/color_management.h"
 #include "core/files/module.h"
 #include "core/math.h"
 #include "core/scene/transfer.h"
@@ -28,6 +29,7 @@ struct MapFacts {
     int full_width = 0, full_height = 0, channels = 0;
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< the pixels of the whole picture that the file has
     bool is_one_float = false;           ///< one channel of floats, as depths are
+    bool has_colors = false;             ///< three channels or more beside alpha
     bool srgb_if_asked = false, srgb_by_itself = false;  ///< is_srgb_encoded() for Srgb and Auto
     std::string wrap_modes;                              ///< "periodic,clamp", or empty
     std::string texture_format;                          ///< "Shadow", "LatLong Environment", or empty
@@ -55,6 +57,10 @@ class MapCache {
     /// Opens the picture of `map` again, decoded from sRGB.
     virtual std::unique_ptr<OpenMap> open_decoded(const OpenMap& map, const std::string& file,
                                                   std::string* problem) = 0;
+    /// The same, brought from a colour space to another one. The transform must outlive the cache.
+    virtual std::unique_ptr<OpenMap> open_converted(const OpenMap& map, const std::string& file,
+                                                    const std::string& space, const ColorTransform& transform,
+                                                    std::string* problem) = 0;
 
     /// As Textures has these, but the map must be there.
     virtual void texture(const OpenMap& map, const TextureLookup& at, const MapOptions& options, Lanes lanes,

@@ -213,7 +213,7 @@ void MapService::look_up(Run& run, const Step& step, std::span<const Operand> op
 /// says that they are encoded.
 const Textures::Picture* MapService::picture_of(Run& run, const Step& step, bool of_color) {
     return textures_.find(run.registers().text_input(step, 0), step.at,
-                          textures_.transfer_of_lookup(colorspace_of(run, step), of_color, step.at));
+                          textures_.reading_of_lookup(colorspace_of(run, step), of_color, step.at));
 }
 
 void MapService::texture(Run& run, const Step& step, std::span<const Operand> operands) {
@@ -280,7 +280,7 @@ void MapService::environment(Run& run, const Step& step, std::span<const Operand
 /// The region around each direction has sides of `width`, at a right angle to it and to each other.
 void MapService::sky(std::string_view name, SourceLocation at, std::span<const V3f> directions, float width,
                      std::span<V3f> colors) {
-    const Textures::Picture* picture = textures_.find(name, at, textures_.transfer_of_lookup({}, true, at));
+    const Textures::Picture* picture = textures_.find(name, at, textures_.reading_of_lookup({}, true, at));
     constexpr size_t kTriples = 4;  // R, its changes, the colours
     const size_t count = directions.size(), plane = padded_size(count);
     std::vector<float> memory(plane * 3 * kTriples, 0.0f);

@@ -32,7 +32,8 @@ bool is_traced(std::string_view name) {
 
 }  // namespace
 
-Textures::Textures(const Options& options, Diagnostics* diagnostics, const Access& access)
+Textures::Textures(const Options& options, Diagnostics* diagnostics, const Access& access,
+                   std::shared_ptr<const ColorManagement> colors)
     : impl_(std::make_unique<Impl>(access)) {
     impl_->memory_megabytes = memory_megabytes_of(options);
     if (access.is_confined())
@@ -41,6 +42,7 @@ Textures::Textures(const Options& options, Diagnostics* diagnostics, const Acces
     if (const auto paths = options.search_paths.find("texture"); paths != options.search_paths.end())
         impl_->folders = paths->second;
     impl_->transfer = transfer_of(options);
+    impl_->colors = std::move(colors);
     impl_->diagnostics = diagnostics;
 }
 
@@ -96,6 +98,33 @@ Textures::Impl::Entry<Textures::Picture>& Textures::Impl::decoded_entry(const Pi
     return made;
 }
 
+const Textures::Picture* Textures::Impl::converted_picture(const Picture& picture, const std::string& space,
+                                                           SourceLocation location) {
+    const auto [known, is_new] = transforms.try_emplace(space);
+    auto& [transform, problem] = known->second;
+    if (is_new) transform = colors->from_space(space, &problem);
+    if (!transform && problem.empty()) return &picture;
+    const auto [place, is_first] = converted.try_emplace({space, picture.name});
+    Entry<Picture>& made = place->second;
+    if (is_first) {
+        if (!problem.empty()) made.problem = fmt::format("colour space \"{}\": {}", space, problem);
+        auto opened =
+            transform ? cache->open_converted(*picture.map, picture.file, space, *transform, &made.problem)
+                      : nullptr;
+        if (opened)
+            made.map = std::make_unique<Picture>(
+                Picture{std::move(opened), picture.file, picture.name, picture.location});
+    }
+    return report(made, picture.name, location);
+}
+
+/// The colour space that the config's rules give a file; empty: none.
+const std::string& Textures::Impl::space_by_rules(const std::string& file) {
+    const auto [known, is_new] = spaces_by_rules.try_emplace(file);
+    if (is_new) known->second = colors->space_of_file(file);
+    return known->second;
+}
+
 template <class Map>
 const Map* Textures::Impl::report(Entry<Map>& made, std::string_view name, SourceLocation location) {
     if (!made.map && !made.reported && diagnostics) {
@@ -114,29 +143,42 @@ void Textures::Impl::report_read_error(const std::string& name, SourceLocation l
         diagnostics->error(location, fmt::format("texture \"{}\": {}", name, error), "texture read " + name);
 }
 
-const Textures::Picture* Textures::find(std::string_view name, SourceLocation location, Transfer transfer) {
+const Textures::Picture* Textures::find(std::string_view name, SourceLocation location,
+                                        const TextureReading& reading) {
     if (name.empty()) return nullptr;
     const std::lock_guard lock(impl_->mutex);
     const Picture* picture = impl_->report(impl_->entry(name, location), name, location);
-    const bool is_encoded = picture && ((transfer == Transfer::Srgb && picture->map->facts.srgb_if_asked) ||
-                                        (transfer == Transfer::Auto && picture->map->facts.srgb_by_itself));
+    if (!picture) return nullptr;
+    const MapFacts& facts = picture->map->facts;
+    std::string space = reading.space;
+    if (reading.follows_rules && facts.has_colors) space = impl_->space_by_rules(picture->file);
+    if (!space.empty()) return impl_->converted_picture(*picture, space, location);
+    const bool is_encoded = (reading.transfer == Transfer::Srgb && facts.srgb_if_asked) ||
+                            (reading.transfer == Transfer::Auto && facts.srgb_by_itself);
     return is_encoded ? impl_->report(impl_->decoded_entry(*picture), name, location) : picture;
 }
 
-Transfer Textures::transfer_of_lookup(std::string_view colorspace, bool of_color,
-                                      SourceLocation location) const {
-    Transfer transfer = impl_->transfer;
-    if (const auto named = transfer_named(colorspace))
-        transfer = *named;
-    else if (!colorspace.empty() && impl_->diagnostics)
+TextureReading Textures::reading_of_lookup(std::string_view colorspace, bool of_color,
+                                           SourceLocation location) const {
+    TextureReading reading(impl_->transfer);
+    const auto named = transfer_named(colorspace);
+    if (named) reading.transfer = *named;
+    reading.follows_rules = impl_->colors && colorspace.empty() && of_color;
+    // "linear" and "auto" are no spaces of any config here; "srgb" is the curve where the config has none.
+    if (impl_->colors && !colorspace.empty() && named.value_or(Transfer::Srgb) == Transfer::Srgb)
+        reading.space = impl_->colors->space_named(colorspace);
+    if (!named && reading.space.empty() && !colorspace.empty() && impl_->diagnostics)
         impl_->diagnostics->warning(
             location,
             fmt::format(
                 "\"colorspace\" \"{}\" is not known, there are {}; the texture is read as the scene's "
                 "Option \"color\" \"transfer\" says",
-                colorspace, kTransferNames),
+                colorspace,
+                impl_->colors ? fmt::format("{}, and {}", impl_->colors->spaces_listed(), kTransferNames)
+                              : kTransferNames),
             fmt::format("colorspace {}", colorspace));
-    return transfer == Transfer::Auto && !of_color ? Transfer::Linear : transfer;
+    if (reading.transfer == Transfer::Auto && !of_color) reading.transfer = Transfer::Linear;
+    return reading;
 }
 
 std::string Textures::Impl::open(DepthMap& map) {

@@ -3,7 +3,8 @@
 ///
 /// s runs across the picture and t down it, from its top row at 0. Numbers are taken as they are, unless
 /// Option "color" "transfer" or a lookup's own "colorspace" asks for pictures of 8 and 16 bits to be taken to
-/// linear light by the sRGB curve: that is done as they are read, before any filtering. Outside 0..1 a
+/// linear light by the sRGB curve, or colour management knows their colour space: what that asks for is done
+/// as they are read, before any filtering. Outside 0..1 a
 /// picture is as its own metadata says, which MakeTexture writes (RISpec 3.2, section 7.1); without, it is
 /// black.
 ///
@@ -21,6 +22,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/color_management.h"
 #include "core/depth_height.h"
 #include "core/diagnostics.h"
 #include "core/files/access.h"
@@ -31,24 +33,37 @@
 
 namespace trapeze {
 
+/// How the numbers of a picture are taken.
+struct TextureReading {
+    Transfer transfer = Transfer::Linear;
+    std::string space = {};      ///< of colour management, in place of the transfer; empty: none is named
+    bool follows_rules = false;  ///< of its config, for names of files, where they are for this picture
+
+    TextureReading(Transfer its_transfer = Transfer::Linear) : transfer(its_transfer) {}
+};
+
 class Textures {
   public:
     /// Option "limits" "texturememory" (kilobytes) bounds the memory; searched are the folders of
     /// Option "searchpath" "texture"; Option "shadow" "bias" is the bias of shadows that have none of their
-    /// own. diagnostics may be null; `access` must outlive this.
-    Textures(const Options& options, Diagnostics* diagnostics, const Access& access = kEverything);
+    /// own. diagnostics may be null; `access` must outlive this. Without `colors` there is no colour
+    /// management.
+    Textures(const Options& options, Diagnostics* diagnostics, const Access& access = kEverything,
+             std::shared_ptr<const ColorManagement> colors = {});
     ~Textures();
     Textures(const Textures&) = delete;
     Textures& operator=(const Textures&) = delete;
 
-    /// An opened picture, of this object, whose numbers are taken as `transfer` says; null for an empty name
+    /// An opened picture, of this object, whose numbers are taken as `reading` says; null for an empty name
     /// or one that cannot be read, which is reported once. Thread-safe.
     class Picture;
-    const Picture* find(std::string_view name, SourceLocation location, Transfer transfer = Transfer::Linear);
+    const Picture* find(std::string_view name, SourceLocation location, const TextureReading& reading = {});
 
-    /// How a lookup takes a picture's numbers: by its "colorspace", which may be empty, or as Option "color"
-    /// "transfer" says. An unknown name is reported once. What is "auto" are numbers for lookups of floats.
-    Transfer transfer_of_lookup(std::string_view colorspace, bool of_color, SourceLocation location) const;
+    /// How a lookup takes a picture's numbers: by its "colorspace", which may be empty, or by the rules of
+    /// colour management, or as Option "color" "transfer" says. An unknown name is reported once. Rules and
+    /// "auto" are for lookups of colours.
+    TextureReading reading_of_lookup(std::string_view colorspace, bool of_color,
+                                     SourceLocation location) const;
 
     /// Opens a picture as a shadow map: null, and reported once, when it has no depths or no matrices.
     class DepthMap;

@@ -28,11 +28,15 @@ class Textures::DepthMap {
 };
 
 struct Textures::Impl {
+    /// From colour spaces to the working space; null where nothing is to be done, or can be, which the text
+    /// says. The cache's readers use them.
+    std::map<std::string, std::pair<std::shared_ptr<const ColorTransform>, std::string>> transforms;
     std::unique_ptr<MapCache> cache;  ///< made when the first file is opened
     std::vector<std::string> folders;
     float memory_megabytes = 0;
     float shadow_bias = -1;  ///< of Option "shadow" "bias"; below zero: none is set
     Transfer transfer = Transfer::Linear;
+    std::shared_ptr<const ColorManagement> colors;  ///< null: none
     Diagnostics* diagnostics = nullptr;
     const Access& access;
 
@@ -47,6 +51,9 @@ struct Textures::Impl {
     std::map<std::string, Entry<Picture>, std::less<>> pictures;  ///< numbers as they are
     std::map<std::string, Entry<Picture>, std::less<>> decoded;   ///< the same names, from sRGB
     std::map<std::string, Entry<DepthMap>, std::less<>> depth_maps;
+    /// By space and name, from that space.
+    std::map<std::pair<std::string, std::string>, Entry<Picture>> converted;
+    std::map<std::string, std::string> spaces_by_rules;  ///< of files
 
     explicit Impl(const Access& files) : access(files) {}
 
@@ -62,6 +69,10 @@ struct Textures::Impl {
     std::string start();
     Entry<Picture>& entry(std::string_view name, SourceLocation location);
     Entry<Picture>& decoded_entry(const Picture& picture);
+    /// The picture from a colour space: itself, where nothing is to be done.
+    const Picture* converted_picture(const Picture& picture, const std::string& space,
+                                     SourceLocation location);
+    const std::string& space_by_rules(const std::string& file);
     std::string open(Picture& picture);
     std::string open(DepthMap& map);
     template <class Map>

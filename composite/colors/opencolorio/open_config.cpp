@@ -48,6 +48,18 @@ void check_looks_of(const ocio::Config& config, const std::string& look) {
     }
 }
 
+/// A text of OpenColorIO, or of the parser below it, on one line.
+std::string on_one_line(std::string text) {
+    std::string line;
+    for (const char c : text)
+        if (static_cast<unsigned char>(c) > ' ' || static_cast<unsigned char>(c) >= 0x80)
+            line += c;
+        else if (!line.empty() && line.back() != ' ')
+            line += ' ';
+    while (line.ends_with(' ')) line.pop_back();
+    return line;
+}
+
 class OpenedConfig final : public ColorManagement {
   public:
     OpenedConfig(ocio::ConstConfigRcPtr config, const ColorRequest& request)
@@ -58,6 +70,32 @@ class OpenedConfig final : public ColorManagement {
     const ColorNames& names() const override { return names_; }
     const ColorTransform& view() const override { return view_; }
     bool view_is_srgb() const override { return view_is_srgb_; }
+
+    std::string space_named(std::string_view name) const override {
+        const auto space = config_->getColorSpace(std::string(name).c_str());
+        return space ? space->getName() : "";
+    }
+    std::string spaces_listed() const override { return listed_names(color_spaces_of(*config_)); }
+
+    std::string space_of_file(const std::string& path) const override {
+        try {
+            if (config_->filepathOnlyMatchesDefaultRule(path.c_str())) return {};
+            return space_named(config_->getColorSpaceFromFilepath(path.c_str()));
+        } catch (const std::exception&) {
+            return {};  // regular expressions have limits
+        }
+    }
+
+    std::shared_ptr<const ColorTransform> from_space(const std::string& space,
+                                                     std::string* problem) const override {
+        try {
+            const auto processor = config_->getProcessor(space.c_str(), names_.working_space.c_str());
+            return processor->isNoOp() ? nullptr : std::make_shared<const ProcessedColors>(processor);
+        } catch (const std::exception& error) {
+            *problem = on_one_line(error.what());
+            return nullptr;
+        }
+    }
 
   private:
     /// All names that the request leaves open are the config's usual ones.
@@ -102,18 +140,6 @@ class OpenedConfig final : public ColorManagement {
     ProcessedColors view_;
     bool view_is_srgb_ = false;
 };
-
-/// A text of OpenColorIO, or of the parser below it, on one line.
-std::string on_one_line(std::string text) {
-    std::string line;
-    for (const char c : text)
-        if (static_cast<unsigned char>(c) > ' ' || static_cast<unsigned char>(c) >= 0x80)
-            line += c;
-        else if (!line.empty() && line.back() != ' ')
-            line += ' ';
-    while (line.ends_with(' ')) line.pop_back();
-    return line;
-}
 
 /// OpenColorIO says some things on the standard error output; what matters it throws.
 void silence() {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <thread>
 
+#include "shade/maps/openimageio/converted_image_input.h"
 #include "shade/maps/openimageio/linear_image_input.h"
 #include "shade/maps/openimageio/map_matrices.h"
 
@@ -38,21 +39,22 @@ void OpenImageIoCache::give_back(OIIO::TextureSystem::Perthread* state) {
     idle_.push_back(state);
 }
 
-/// Adds a file with a reader of ours. In a thread of its own, since add_file() asks get_perthread_info().
-/// Returns what is wrong with the file.
-std::string OpenImageIoCache::add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator) {
+/// Adds a file with a reader of ours, which is given the config. In a thread of its own, since add_file()
+/// asks get_perthread_info(). Returns what is wrong with the file.
+std::string OpenImageIoCache::add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator,
+                                       const OIIO::ImageSpec* config) {
     std::string problem;
     std::thread([&] {
-        if (!cache_->add_file(path, creator)) problem = cache_->geterror();
+        if (!cache_->add_file(path, creator, config)) problem = cache_->geterror();
     }).join();
     return problem;
 }
 
 /// Opens the file that the cache knows by `name`. Returns what is wrong, or nothing.
 std::string OpenImageIoCache::open_file(CachedMap& map, const std::string& name,
-                                        OIIO::ImageInput::Creator creator) {
+                                        OIIO::ImageInput::Creator creator, const OIIO::ImageSpec* config) {
     const OIIO::ustring path(name);
-    const std::string problem = add_file(path, creator);
+    const std::string problem = add_file(path, creator, config);
     const ThreadState thread(*this);
     map.handle = system_->get_texture_handle(path, thread.get());
     map.image = cache_->get_image_handle(path, thread.of_cache());
@@ -77,6 +79,17 @@ std::unique_ptr<OpenMap> OpenImageIoCache::open_decoded(const OpenMap& map, cons
     return problem->empty() ? std::move(decoded) : nullptr;
 }
 
+std::unique_ptr<OpenMap> OpenImageIoCache::open_converted(const OpenMap& map, const std::string& file,
+                                                          const std::string& space,
+                                                          const ColorTransform& transform,
+                                                          std::string* problem) {
+    auto converted = std::make_unique<CachedMap>(static_cast<const CachedMap&>(map));
+    const OIIO::ImageSpec config = ConvertedImageInput::config_of(transform, file);
+    *problem = open_file(*converted, ConvertedImageInput::converted_name(file, space),
+                         &ConvertedImageInput::create, &config);
+    return problem->empty() ? std::move(converted) : nullptr;
+}
+
 /// Fills map.facts. Returns what makes lookups impossible, or nothing.
 std::string OpenImageIoCache::find_facts(CachedMap& map) {
     const ThreadState thread(*this);
@@ -84,6 +97,7 @@ std::string OpenImageIoCache::find_facts(CachedMap& map) {
     if (!cache_->get_imagespec(map.image, thread.of_cache(), in_file, 0, 0, true) ||
         !cache_->get_imagespec(map.image, thread.of_cache(), spec))
         return cache_->geterror();
+    map.facts.has_colors = in_file.nchannels - (in_file.alpha_channel >= 0 ? 1 : 0) >= 3;
     map.facts.srgb_if_asked = is_srgb_encoded(in_file, Transfer::Srgb);
     map.facts.srgb_by_itself = is_srgb_encoded(in_file, Transfer::Auto);
     return describe(map, spec);

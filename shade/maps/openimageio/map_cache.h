@@ -31,6 +31,9 @@ class OpenImageIoCache final : public MapCache {
     std::unique_ptr<OpenMap> open(const std::string& file, std::string* problem) override;
     std::unique_ptr<OpenMap> open_decoded(const OpenMap& map, const std::string& file,
                                           std::string* problem) override;
+    std::unique_ptr<OpenMap> open_converted(const OpenMap& map, const std::string& file,
+                                            const std::string& space, const ColorTransform& transform,
+                                            std::string* problem) override;
     void texture(const OpenMap& map, const TextureLookup& at, const MapOptions& options, Lanes lanes,
                  std::span<const Plane> out, const ReadFailed& failed) override;
     void environment(const OpenMap& map, const EnvironmentLookup& at, const MapOptions& options, Lanes lanes,
@@ -67,8 +70,10 @@ class OpenImageIoCache final : public MapCache {
     OIIO::TextureSystem::Perthread* take_thread_state();
     void give_back(OIIO::TextureSystem::Perthread* state);
 
-    std::string add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator);
-    std::string open_file(CachedMap& map, const std::string& name, OIIO::ImageInput::Creator creator);
+    std::string add_file(OIIO::ustring path, OIIO::ImageInput::Creator creator,
+                         const OIIO::ImageSpec* config);
+    std::string open_file(CachedMap& map, const std::string& name, OIIO::ImageInput::Creator creator,
+                          const OIIO::ImageSpec* config = nullptr);
     std::string find_facts(CachedMap& map);
     std::string describe(CachedMap& map, const OIIO::ImageSpec& spec);
     void find_folds(CachedMap& map, const OIIO::ImageSpec& spec);
