@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "composite/film/deep_pixel.h"
+#include "composite/deep_sample.h"
 #include "core/scene/camera.h"
 
 namespace trapeze {

@@ -123,17 +123,46 @@ TEST(OutputFiles, OfAnotherFormatAreNotAskedWhatTheFirstWas) {
     EXPECT_NE(file_text(folder / "x.exr").find("Somebody"), std::string::npos);
 }
 
-TEST(OutputFiles, OfTwoDisplaysAreBesideEachOther) {
+TEST(OutputFiles, OfTwoDisplaysAreSharedOrBesideEachOther) {
     WorkFolder folder;
     folder.write(
         "a.rib",
         world("Display \"a.exr\" \"openexr\" \"rgba\"\nDisplay \"+a.exr\" \"openexr\" \"normal N\""));
-    const Outcome outcome = run_program(folder, "render a.rib");
+    EXPECT_EQ(run_program(folder, "render a.rib --strict").err, "");
+    EXPECT_EQ(pictures(folder), (Names{"a.exr"}));
+    // What renames the first renames its layers.
+    EXPECT_EQ(run_program(folder, "render a.rib --strict -o b.exr").err, "");
+    EXPECT_EQ(pictures(folder), (Names{"a.exr", "b.exr"}));
+    folder.write("c.rib",
+                 world("Display \"c.tif\" \"tiff\" \"rgba\"\nDisplay \"+c.tif\" \"tiff\" \"normal N\""));
+    const Outcome outcome = run_program(folder, "render c.rib");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(pictures(folder), (Names{"a.N.exr", "a.exr"}));
-    EXPECT_NE(outcome.err.find("a.rib:2:1: warning: \"a.exr\" is another display's"), std::string::npos)
+    EXPECT_EQ(pictures(folder), (Names{"a.exr", "b.exr", "c.N.tif", "c.tif"}));
+    EXPECT_NE(outcome.err.find("c.rib:2:1: warning: \"c.tif\" is another display's"), std::string::npos)
         << outcome.err;
-    EXPECT_EQ(run_program(folder, "render a.rib --strict").exit_code, 1);
+    EXPECT_EQ(run_program(folder, "render c.rib --strict").exit_code, 1);
+}
+
+TEST(OutputFiles, HaveTheLayersThatAovAsksFor) {
+    WorkFolder folder;
+    folder.write("a.rib", world("Display \"a.exr\" \"openexr\" \"rgb\""));
+    const std::string all =
+        " --aov \"albedo,N,P,z,id,motion,uv,alpha,crypto_object,crypto_material,crypto_asset\" --strict";
+    EXPECT_EQ(run_program(folder, "render a.rib" + all).err, "");
+    EXPECT_EQ(pictures(folder), (Names{"a.exr"}));
+    EXPECT_EQ(run_program(folder, "render a.rib -d null" + all).err, "");
+    // A picture without layers has them in a file beside it.
+    const Outcome beside = run_program(folder, "render a.rib -o b.png --aov N");
+    EXPECT_EQ(beside.exit_code, 0) << beside.err;
+    EXPECT_EQ(pictures(folder), (Names{"a.exr", "b.exr", "b.png"}));
+    EXPECT_NE(beside.err.find("\"b.png\" holds no layers; --aov writes \"b.exr\""), std::string::npos)
+        << beside.err;
+    const Outcome missing = run_program(folder, "render a.rib --aov 'color nowhere'");
+    EXPECT_EQ(missing.exit_code, 0);
+    EXPECT_NE(missing.err.find("has a variable \"nowhere\""), std::string::npos) << missing.err;
+    const Outcome wrong = run_program(folder, "render a.rib --aov N,crypto_shader");
+    EXPECT_NE(wrong.exit_code, 0);
+    EXPECT_NE(wrong.err.find("\"crypto_shader\" is none of albedo"), std::string::npos) << wrong.err;
 }
 
 TEST(OutputFiles, AreInTheStatistics) {

@@ -3,7 +3,6 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
-#include "composite/film/layer_sums.h"
 #include "composite/mattes/murmur_hash.h"
 
 namespace trapeze {

@@ -54,8 +54,9 @@ bool has_colors(const PictureToWrite& picture) {
     return is_of_colors(picture.plan) || std::ranges::any_of(picture.further, is_of_colors);
 }
 
-/// Of pictures of light, whose numbers Exposure's gamma has not bent. Where no config is asked for nobody says what
-/// the scene's colours mean: they are taken for ITU-R BT.709's, as most are. A config's working space has a name.
+/// Of pictures of light, whose numbers Exposure's gamma has not bent. Where no config is asked for nobody
+/// says what the scene's colours mean: they are taken for ITU-R BT.709's, as most are. A config's working
+/// space has a name.
 void add_color_space(const PictureToWrite& picture, Imf::Header& header) {
     if (!has_colors(picture)) return;
     if (picture.context.colors) {

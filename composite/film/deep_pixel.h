@@ -4,18 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "composite/deep_sample.h"
 #include "composite/film/seen_layers.h"
 
 namespace trapeze {
-
-/// A surface at a depth, with its own premultiplied colour and alpha: over what is behind it, as compositing
-/// programs put samples of a deep picture together.
-struct DeepSample {
-    float depth = 0;
-    float rgba[4] = {0, 0, 0, 0};
-
-    bool operator==(const DeepSample&) const = default;
-};
 
 /// Gathers the samples of one pixel after another, which all weigh the same: a box filter of a pixel's width.
 ///

@@ -1,16 +1,6 @@
 #include "composite/film/layer_sums.h"
 
-#include <algorithm>
-#include <string_view>
-
 namespace trapeze {
-
-PixelFilter matte_filter(const PixelFilter& picture) {
-    constexpr std::string_view kPositive[] = {"gaussian", "box",  "triangle",
-                                              "b-spline", "disk", "blackman-harris"};
-    const bool is_positive = std::ranges::find(kPositive, picture.name) != std::end(kPositive);
-    return is_positive ? picture : PixelFilter{"box", picture.width_x, picture.width_y};
-}
 
 LayerSums::LayerSums(const LayerRules& rules)
     : rules_(rules), weights_(rules.kernel ? static_cast<size_t>(rules.kernel->tap_count()) : 0) {}

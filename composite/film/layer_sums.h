@@ -7,9 +7,9 @@
 
 #include "composite/film/deep_pixel.h"
 #include "composite/film/filters.h"
+#include "composite/film/matte_sums.h"
 #include "composite/film/seen_layers.h"
 #include "composite/mattes/matte_layers.h"
-#include "composite/mattes/matte_sums.h"
 
 namespace trapeze {
 
@@ -21,10 +21,6 @@ struct LayerRules {
 
     bool want_layers() const { return keys || deep_tolerance; }
 };
-
-/// The filter of mattes: the picture's where none of its weights is negative, else a box of its width, since
-/// no coverage is negative.
-PixelFilter matte_filter(const PixelFilter& picture);
 
 /// Serves for one pixel after another, whose samples come in their order.
 class LayerSums {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "composite/film/filters.h"
+#include "composite/film/matte_sums.h"
 #include "composite/film/pixel_sums.h"
-#include "composite/mattes/matte_sums.h"
 #include "core/scene/camera.h"
 
 namespace trapeze {

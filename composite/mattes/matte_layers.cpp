@@ -65,6 +65,13 @@ std::map<std::string, uint32_t> matte_names(const Scene& scene, MatteLayer layer
     return names;
 }
 
+PixelFilter matte_filter(const PixelFilter& picture) {
+    constexpr std::string_view kPositive[] = {"gaussian", "box",  "triangle",
+                                              "b-spline", "disk", "blackman-harris"};
+    const bool is_positive = std::ranges::find(kPositive, picture.name) != std::end(kPositive);
+    return is_positive ? picture : PixelFilter{"box", picture.width_x, picture.width_y};
+}
+
 MatteKeys::MatteKeys(const Scene& scene, std::vector<MatteLayer> layers, const Diagnostics& sources)
     : layers_(std::move(layers)) {
     if (layers_.empty()) return;

@@ -41,6 +41,10 @@ float matte_id(uint32_t hash);
 /// All names of a scene in a layer, with their hashes.
 std::map<std::string, uint32_t> matte_names(const Scene& scene, MatteLayer layer, const Diagnostics& sources);
 
+/// The filter of mattes: the picture's where none of its weights is negative, else a box of its width, since
+/// no coverage is negative.
+PixelFilter matte_filter(const PixelFilter& picture);
+
 /// What the film adds up coverage by: a number for each combination of names that the layers tell apart.
 class MatteKeys {
   public:

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "composite/mattes/matte_sums.h"
 #include "composite/mattes/murmur_hash.h"
 
 namespace trapeze {
@@ -95,56 +94,6 @@ TEST(MatteKeys, TellApartWhatAnyLayerTellsApart) {
     EXPECT_NE(keys.key_of(0), keys.key_of(4));
     EXPECT_EQ(keys.id(keys.key_of(0), 0), matte_id(murmur_hash_3("plastic")));
     EXPECT_EQ(keys.id(keys.key_of(3), 1), matte_id(murmur_hash_3("toys")));
-}
-
-/// A scene of primitives p0, p1 and so on, of materials m0 and m1 by turns.
-Scene scene_of_many(int count) {
-    Scene scene;
-    for (int i = 0; i < count; ++i)
-        scene.primitives.push_back(
-            primitive_of(("p" + std::to_string(i)).c_str(), "", i % 2 ? "m1" : "m0", {}));
-    return scene;
-}
-
-TEST(RankMattes, TheGreatestComeFirstAndTheRestIsTold) {
-    const Diagnostics sources;
-    const Scene scene = scene_of_many(8);
-    const MatteKeys keys(scene, {MatteLayer::Object, MatteLayer::Material}, sources);
-    MattePixel pixel;
-    pixel.weight = 2;
-    const float covered[] = {.1f, .4f, .2f, .3f, .05f, .15f, .25f, .35f};
-    for (uint32_t i = 0; i < 8; ++i)
-        pixel.add(keys.key_of(i), covered[i] / 2), pixel.add(keys.key_of(i), covered[i] / 2);
-    std::vector<float> ranks(2 * kMatteFloats, -1);
-    EXPECT_NEAR(rank_mattes(pixel, keys, ranks.data()), (.1f + .05f) / 2, 1e-6f);
-    const uint32_t order[] = {1, 7, 3, 6, 2, 5};
-    for (size_t rank = 0; rank < kMatteRanks; ++rank) {
-        EXPECT_EQ(ranks[2 * rank], matte_id(murmur_hash_3("p" + std::to_string(order[rank]))));
-        EXPECT_NEAR(ranks[2 * rank + 1], covered[order[rank]] / 2, 1e-6f);
-    }
-    const float* const materials = &ranks[kMatteFloats];
-    EXPECT_EQ(materials[0], matte_id(murmur_hash_3("m1")));
-    EXPECT_NEAR(materials[1], .6f, 1e-6f);
-    EXPECT_EQ(materials[2], matte_id(murmur_hash_3("m0")));
-    EXPECT_NEAR(materials[3], .3f, 1e-6f);
-    for (int i = 4; i < kMatteFloats; ++i) EXPECT_EQ(materials[i], 0);
-}
-
-TEST(RankMattes, EqualOnesAreInTheOrderOfTheirIdsAndNothingIsNothing) {
-    const Diagnostics sources;
-    const Scene scene = scene_of_many(3);
-    const MatteKeys keys(scene, {MatteLayer::Object}, sources);
-    MattePixel forwards, backwards;
-    forwards.weight = backwards.weight = 1;
-    for (uint32_t i = 0; i < 3; ++i) {
-        forwards.add(keys.key_of(i), .25f);
-        backwards.add(keys.key_of(2 - i), .25f);
-    }
-    std::vector<float> a(kMatteFloats), b(kMatteFloats), c(kMatteFloats, 1);
-    rank_mattes(forwards, keys, a.data()), rank_mattes(backwards, keys, b.data());
-    EXPECT_EQ(a, b);
-    EXPECT_EQ(rank_mattes({}, keys, c.data()), 0);
-    EXPECT_EQ(c, std::vector<float>(kMatteFloats, 0.0f));
 }
 
 }  // namespace

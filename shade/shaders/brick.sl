@@ -3,7 +3,8 @@
 surface brick(
     float Ka = 1, Kd = 1, sscale = 1, tscale = 1, brickwidth = 0.25, brickheight = 0.08, mortarthickness = 0.012,
           rowvary = 0.5, colorvary = 0.35, jagged = 0.011;
-    color brickcolor = color (0.52, 0.17, 0.10), mortarcolor = color (0.55, 0.53, 0.48);)
+    color brickcolor = color (0.52, 0.17, 0.10), mortarcolor = color (0.55, 0.53, 0.48);
+    output varying color albedo = 0;)
 {
     normal Nf = faceforward(normalize(N), I);
     point Q = transform("shader", P);
@@ -29,6 +30,7 @@ surface brick(
     Ct = brickcolor * (1 + colorvary * (2 * cellnoise(column + 0.5, row + 0.5) - 1));
     Ct *= 0.81 + 0.85 * noise(Q * 12) * noise(ss * 60, tt * 60);
     Ct = Cs * mix(mortarcolor * (0.72 + 0.56 * noise(ss * 90, tt * 90)), Ct, inside);
+    albedo = Os * Ct;
     Oi = Os;
     Ci = Os * Ct * (Ka * ambient() + Kd * diffuse(Nf));
 }

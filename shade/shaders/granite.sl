@@ -2,7 +2,8 @@
 surface granite(
     float Ka = 0.2, Kd = 0.8, Ks = 0.3, roughness = 0.1, txtscale = 1;
     color feldspar = color (0.62, 0.47, 0.42), quartz = color (0.75, 0.74, 0.72), mica = color (0.05, 0.05, 0.06),
-          specularcolor = 1;)
+          specularcolor = 1;
+    output varying color albedo = 0;)
 {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
@@ -21,6 +22,7 @@ surface granite(
     dark = smoothstep(0.553, 0.607, noise(Q * 5) + 0.133 * (sum - 0.3));
     Ct = mix(feldspar, quartz, bright) * (0.7 + 0.8 * sum);
     Ct = Cs * mix(Ct, mica, dark);
+    albedo = Os * Ct;
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + specularcolor * Ks * specular(Nf, V, roughness));
 }

@@ -4,7 +4,8 @@ surface marble(
     float Ka = 0.2, Kd = 0.75, Ks = 0.4, roughness = 0.07, txtscale = 1, veinfreq = 1, sharpness = 14,
           turbulence = 2.2;
     color basecolor = color (0.86, 0.84, 0.80), veincolor = color (0.16, 0.17, 0.20),
-          specularcolor = 1;)
+          specularcolor = 1;
+    output varying color albedo = 0;)
 {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
@@ -25,6 +26,7 @@ surface marble(
     cloud = smoothstep(0.2, 0.9, amount);
     Ct = mix(basecolor, 0.7 * basecolor + 0.3 * veincolor, 0.6 * cloud);
     Ct = Cs * mix(Ct, veincolor, 0.85 * pow(vein, sharpness));
+    albedo = Os * Ct;
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + specularcolor * Ks * specular(Nf, V, roughness));
 }

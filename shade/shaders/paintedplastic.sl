@@ -2,7 +2,8 @@
 surface paintedplastic(
     float Ka = 1, Kd = 0.5, Ks = 0.5, roughness = 0.1;
     color specularcolor = 1;
-    string texturename = "";)
+    string texturename = "";
+    output varying color albedo = 0;)
 {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
@@ -10,6 +11,7 @@ surface paintedplastic(
 
     if (texturename != "")
         Ct *= color texture(texturename, s, t);
+    albedo = Os * Ct;
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) + specularcolor * Ks * specular(Nf, V, roughness));
 }

@@ -5,7 +5,8 @@ surface rissurface(
     color specularcolor = 0, emission = 0;
     float roughness = 0.8, opacity = 1, bounce = 0.15;
     string texturename = "", colorspace = "";
-    float scales = 1, scalet = 1;)
+    float scales = 1, scalet = 1;
+    output varying color albedo = 0;)
 {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
@@ -28,6 +29,7 @@ surface rissurface(
     }
     illuminance(P)
         passing += Cl;
+    albedo = Os * opacity * base;
     Oi = Os * opacity;
     Ci = Os * (opacity * base * (ambient() + diffuse(Nf) + bounce * passing) +
                specularcolor * specular(Nf, V, roughness) + emission);

@@ -3,7 +3,8 @@ surface wood(
     float ringscale = 10, grainscale = 60, txtscale = 1, wobble = 0.38;
     color lightwood = color (0.55, 0.29, 0.11), darkwood = color (0.22, 0.085, 0.025);
     float Ka = 0.2, Kd = 0.7, Ks = 0.25, roughness = 0.12;
-    color specularcolor = 1;)
+    color specularcolor = 1;
+    output varying color albedo = 0;)
 {
     normal Nf = faceforward(normalize(N), I);
     vector V = -normalize(I);
@@ -28,6 +29,7 @@ surface wood(
     amount = amount * 0.8 + 0.25 * smoothstep(0.533, 0.7, grain);
 
     Ct = Cs * mix(lightwood, darkwood, clamp(amount, 0, 1));
+    albedo = Os * Ct;
     Oi = Os;
     Ci = Os * (Ct * (Ka * ambient() + Kd * diffuse(Nf)) +
                specularcolor * Ks * (1 - 0.5 * amount) * specular(Nf, V, roughness));

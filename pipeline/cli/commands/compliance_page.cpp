@@ -85,7 +85,7 @@ std::string request_table(std::span<const std::string> names, const std::vector<
     return text;
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string listed_names(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
     return text + ".\n";
@@ -160,13 +160,14 @@ std::string compliance_page(const std::vector<std::string>& paths) {
     text +=
         "\n## Settings with an effect\n\nAll others are kept for shaders to read, and `trapeze check` "
         "lists them.\n\n";
-    text += "- Option: " + joined(settings.options) + "- Attribute: " + joined(settings.attributes);
-    text += "- Hider: " + joined(settings.hider) + "- Display: " + joined(settings.display);
+    text +=
+        "- Option: " + listed_names(settings.options) + "- Attribute: " + listed_names(settings.attributes);
+    text += "- Hider: " + listed_names(settings.hider) + "- Display: " + listed_names(settings.display);
     text += "\n## Settings that need no effect\n\nThey ask for what is so in any case.\n\n";
     for (const rib::UnneededAttribute& s : rib::unneeded_attributes())
         text += fmt::format("- Attribute {} {}: {}.\n", s.category, s.name, s.why);
     const auto names = standard_shader_names();
-    text += "\n## Standard shaders\n\n" + joined({names.begin(), names.end()});
+    text += "\n## Standard shaders\n\n" + listed_names({names.begin(), names.end()});
     text +=
         "\n## Headers for shaders\n\nFiles that shaders include by custom, written anew from what is published of "
         "their functions; a file of the same name beside a scene or on the shaders' search path comes first.\n\n";

@@ -12,6 +12,7 @@
 #include "pipeline/cli/commands/pictures_of_maps.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
+#include "pipeline/cli/support/named_aovs.h"
 #include "pipeline/cli/support/on_threads.h"
 #include "pipeline/cli/support/output_names.h"
 #include "pipeline/cli/support/pass_pictures.h"
@@ -72,6 +73,7 @@ class RenderJob {
     void override_displays(Scene& scene, bool is_tile);
     RenderSettings settings_of_world(bool is_tile);
     void name_output(Scene& scene);
+    void add_asked_aovs(std::vector<Display>& displays);
     bool makes_tile(const Options& options) const;
     void name_tile(Options& options);
     bool has_tile(const Scene& scene);
@@ -222,6 +224,19 @@ bool RenderJob::has_tile(const Scene& scene) {
     return false;
 }
 
+/// Adds the layers of --aov.
+void RenderJob::add_asked_aovs(std::vector<Display>& displays) {
+    std::string known_good;
+    const std::string file = add_aovs(displays_of_aovs(arguments_.aovs, &known_good), displays);
+    if (file == displays.front().name) return;
+    // Beside what the user names the user may write.
+    if (renamed_) access_.allow_writing(file);
+    kept_.forget(file);
+    diagnostics_.note({},
+                      fmt::format("\"{}\" holds no layers; --aov writes \"{}\"", displays.front().name, file),
+                      "aov-beside " + file);
+}
+
 /// Puts -o, --driver and the default display in place of the scene's displays.
 void RenderJob::override_displays(Scene& scene, bool is_tile) {
     std::vector<Display>& displays = scene.options.displays;
@@ -237,6 +252,7 @@ void RenderJob::override_displays(Scene& scene, bool is_tile) {
     if (!names_.empty() && is_tile == tile_.has_value()) name_output(scene);
     if (!arguments_.driver.empty())
         for (Display& display : displays) display.type = arguments_.driver;
+    if (!arguments_.aovs.empty()) add_asked_aovs(displays);
     if (is_tile) name_tile(scene.options);
 }
 

@@ -68,6 +68,7 @@ struct Arguments {
     std::vector<std::string> words;  ///< as they were given, without the program's name
     std::vector<std::string> inputs;
     std::string output;  ///< empty: as the scene says
+    std::string aovs;    ///< as displays_of_aovs() reads it; empty: none
     std::string driver;  ///< replaces every Display's type; "null" writes nothing
     std::optional<std::pair<int, int>> resolution;
     std::optional<SampleRates> samples;

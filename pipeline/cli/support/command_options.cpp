@@ -2,6 +2,7 @@
 
 #include "core/scene/layer_limit.h"
 #include "core/simd/simd_limit.h"
+#include "pipeline/cli/support/named_aovs.h"
 #include "pipeline/cli/support/option_kinds.h"
 #include "pipeline/compare/sampler_list.h"
 #include "pipeline/study/study.h"
@@ -176,6 +177,16 @@ void add_render_options(CLI::App& app, Arguments& a) {
              "tile's",
              "FILE");
     add_file(app, "-d,--driver", a.driver, "replaces every Display's driver; null writes nothing", "DRIVER");
+    app.add_option(
+           "--aov", a.aovs,
+           "layers for the picture's OpenEXR file: albedo, N, P, z, id, motion, u, v, uv, alpha, crypto_object, "
+           "crypto_material, crypto_asset, or variables of shaders, as color foo and float foo")
+        ->check([](const std::string& text) {
+            std::string error;
+            displays_of_aovs(text, &error);
+            return error;
+        })
+        ->type_name("LIST like albedo,N");
     add_sampler_option(app, a);
     add_parsed(app, "--samples", a.samples, parse_sample_rates,
                "samples per pixel; MIN..MAX: as many as --variance asks for", "N|NxM|MIN..MAX",

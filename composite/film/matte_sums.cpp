@@ -1,4 +1,4 @@
-#include "composite/mattes/matte_sums.h"
+#include "composite/film/matte_sums.h"
 
 #include <algorithm>
 #include <bit>
