@@ -25,7 +25,7 @@ struct RenderSettings {
     CullHidden cull_hidden = CullHidden::Auto;
     uint32_t seed = 0;
     std::optional<PictureTile> tile;  ///< the part of the scene's crop to make; nothing: all of it
-    ColorRequest colors;  ///< what the user asks for in place of Option "ocio"
+    ColorRequest colors;              ///< what the user asks for in place of Option "ocio"
     /// Called now and then from any thread, one at a time, with the part done in [0, 1].
     std::function<void(double)> on_progress;
     /// Called at the beginning of each stage, by its name in the statistics; grids are diced while they
