@@ -230,7 +230,7 @@ TEST_F(Safe, PicturesAreWrittenInside) {
     fs::create_directory(work_ / "sub");
     const std::vector<std::string> names = {out("new.exr"),   out_from_here("new.exr"),
                                             "folder/new.exr", "link.exr",
-                                            "dangling.exr",   "sub/../" + out_from_here("new.exr")};
+                                            "dangling.exr",   "sub/../" + out_from_here("other.exr")};
     std::string rib = kSafeHead;
     for (size_t i = 0; i < names.size(); ++i)
         rib += "Display \"" + std::string(i ? "+" : "") + names[i] + "\" \"exr\" \"rgba\"\n";

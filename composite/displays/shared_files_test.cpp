@@ -28,12 +28,14 @@ Parameter text_parameter(const char* name, const char* value) {
     return {name, {StorageClass::Uniform, ValueType::String, 1}, {}, {value}};
 }
 
-/// A scene that collects its messages.
+/// A scene that collects its warnings and errors.
 struct LayerScene : RasterScene {
     LayerScene() : RasterScene(40, 30, 1) { context.diagnostics = &heard; }
 
     std::vector<std::string> messages;
-    Diagnostics heard{[this](const Diagnostic& diagnostic) { messages.push_back(to_string(diagnostic)); }};
+    Diagnostics heard{[this](const Diagnostic& diagnostic) {
+        if (diagnostic.severity != Severity::Note) messages.push_back(to_string(diagnostic));
+    }};
 
     void show(std::vector<Display> displays) { scene.options.displays = std::move(displays); }
     /// With values that name their place, in all that the displays ask for.
