@@ -103,7 +103,12 @@ bool Access::is_closed(const std::string& name, const std::string& folder) const
 }
 
 std::FILE* Access::open_to_read(const std::string& path) const {
-    if (!confined_) return std::fopen(path.c_str(), "rb");
+    std::FILE* const file = confined_ ? open_confined(path) : std::fopen(path.c_str(), "rb");
+    if (file) note_read(path);
+    return file;
+}
+
+std::FILE* Access::open_confined(const std::string& path) const {
     if (!has_file(path)) {
         errno = may_read(path) ? ENOENT : EACCES;
         return nullptr;

@@ -7,8 +7,11 @@
 #pragma once
 
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "core/files/read_names.h"
 
 namespace trapeze {
 
@@ -39,6 +42,13 @@ class Access {
     /// has been opened, so that no link can be put in its place between. Null, with errno set, when there is
     /// none.
     std::FILE* open_to_read(const std::string& path) const;
+    /// Whoever opens a file by other means than this class says so, for record_reads().
+    void note_read(const std::string& path) const {
+        if (reads_) reads_->add(path);
+    }
+    /// From now on the names of files that have been opened to read, also by copies of this, are added to
+    /// `reads`.
+    void record_reads(std::shared_ptr<ReadNames> reads) { reads_ = std::move(reads); }
     /// Reads a whole file; false where there is none or it has more than `most_bytes`.
     bool read(const std::string& path, size_t most_bytes, std::string* bytes) const;
 
@@ -51,10 +61,13 @@ class Access {
     Writing may_write(const std::string& path) const;
 
   private:
+    std::FILE* open_confined(const std::string& path) const;
+
     bool confined_ = false;             ///< all paths below are without links and dots
     std::string working_folder_;        ///< empty: none
     std::vector<std::string> folders_;  ///< to read below
     std::vector<std::string> files_;    ///< to write
+    std::shared_ptr<ReadNames> reads_;  ///< null: nobody asks
 };
 
 /// The permissions of whoever is not confined.

@@ -71,6 +71,7 @@ std::string Textures::Impl::open(Picture& picture) {
     if (!problem.empty()) return problem;
     picture.file = *file;
     picture.map = cache->open(*file, &problem);
+    if (problem.empty()) access.note_read(*file);
     return problem;
 }
 
