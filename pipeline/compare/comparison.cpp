@@ -81,6 +81,7 @@ std::optional<Comparison> compare(const SharedFrame& frame, const CompareSetting
     }
     set_ratios(comparison);
     comparison.verdict = judge(comparison);
+    comparison.verdict_without_times = judge_without_times(comparison);
     return comparison;
 }
 

@@ -12,6 +12,7 @@
 #include "pipeline/compare/machine.h"
 #include "pipeline/compare/measure.h"
 #include "pipeline/compare/pictures.h"
+#include "pipeline/compare/record/run_record.h"
 
 namespace trapeze {
 
@@ -28,6 +29,9 @@ struct Comparison {
     std::string scene;                 ///< as the user named it
     std::vector<std::string> command;  ///< the command line's words, without the program's name
     uint32_t seed = 0;
+    std::vector<std::string> scenes;      ///< all files of the input, as the user named them
+    std::vector<RecordedOption> options;  ///< that the figures follow from, defaults filled in
+    std::vector<InputFile> inputs;        ///< what was read
     Machine machine;
     FrameStats frame;  ///< of tessellation and shading
     FrameBlur blur;
@@ -37,7 +41,8 @@ struct Comparison {
     std::vector<SampleRate> rates;
     std::vector<ComparedMethod> methods;  ///< by rate, then in the order asked for
     Image reference;
-    std::vector<std::string> verdict;  ///< sentences
+    std::vector<std::string> verdict;                ///< sentences
+    std::vector<std::string> verdict_without_times;  ///< those that follow from nothing that a clock said
 
     std::vector<const ComparedMethod*> at(SampleRate rate) const;
 };

@@ -1,5 +1,8 @@
 #include "pipeline/compare/results_json.h"
 
+#include "pipeline/compare/record/figures_csv.h"
+#include "pipeline/compare/record/replay.h"
+
 namespace trapeze {
 
 nlohmann::ordered_json to_json(const MethodResult& r) {
@@ -55,9 +58,13 @@ nlohmann::ordered_json to_json(const Comparison& c) {
     const auto pixels = [](const BlurSize& blur) {
         return json{{"largest_pixels", blur.largest}, {"median_pixels", blur.median}};
     };
-    return {{"scene", c.scene},
+    return {{"program", kCompareProgram},
+            {"scene", c.scene},
+            {"scenes", c.scenes},
             {"command", c.command},
+            {"options", to_json(c.options)},
             {"seed", c.seed},
+            {"inputs", to_json(c.inputs)},
             {"machine", to_json(c.machine)},
             {"width", c.frame.width},
             {"height", c.frame.height},
@@ -72,7 +79,22 @@ nlohmann::ordered_json to_json(const Comparison& c) {
             {"reference_samples", c.reference_side * c.reference_side},
             {"baseline", c.baseline},
             {"results", results},
-            {"verdict", c.verdict}};
+            {"verdict", c.verdict},
+            {"verdict_without_times", c.verdict_without_times}};
+}
+
+nlohmann::ordered_json run_columns(const Machine& machine) {
+    return {{"trapeze", machine.trapeze},
+            {"cpu", machine.cpu},
+            {"threads", machine.threads},
+            {"simd_target", machine.simd}};
+}
+
+std::string comparison_csv(const Comparison& comparison) {
+    const auto json = to_json(comparison);
+    nlohmann::ordered_json common = {{"scene", json["scene"]}, {"seed", json["seed"]}};
+    common.update(run_columns(comparison.machine));
+    return figures_csv(common, json["results"]);
 }
 
 }  // namespace trapeze

@@ -258,6 +258,13 @@ std::string conclusion(const Comparison& c) {
 
 }  // namespace
 
+std::vector<std::string> judge_without_times(const Comparison& comparison) {
+    std::vector<std::string> sentences{blur_sentence(comparison), disagreement_sentences(comparison),
+                                       error_sentence(comparison)};
+    std::erase_if(sentences, [](const std::string& sentence) { return sentence.empty(); });
+    return sentences;
+}
+
 std::vector<std::string> judge(const Comparison& comparison) {
     std::vector<std::string> sentences{blur_sentence(comparison), disagreement_sentences(comparison)};
     for (const SampleRate& rate : comparison.rates) sentences.push_back(rate_sentence(comparison, rate));

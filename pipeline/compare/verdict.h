@@ -12,4 +12,7 @@ namespace trapeze {
 /// References take no part.
 std::vector<std::string> judge(const Comparison& comparison);
 
+/// Those sentences that follow from counts, sizes and errors alone: the same wherever they are measured.
+std::vector<std::string> judge_without_times(const Comparison& comparison);
+
 }  // namespace trapeze

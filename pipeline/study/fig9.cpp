@@ -83,10 +83,13 @@ void study_fig9(StudyBench& bench, StudyResult& result) {
                               {"part_at_most_0", better},
                               {"part_at_most_0.2", not_much_worse},
                               {"least", *least},
-                              {"most", *most},
-                              {"histogram_low", result.histograms[0].low},
-                              {"histogram_bin", kBin},
-                              {"histogram", result.histograms[0].counts}});
+                              {"most", *most}});
+    const HistogramPlot& histogram = result.histograms[0];
+    for (size_t i = 0; i < histogram.counts.size(); ++i)
+        result.figures.push_back({{"scene", scene_command_line(scene)},
+                                  {"histogram_bin_low", histogram.low + static_cast<double>(i) * kBin},
+                                  {"histogram_bin_width", kBin},
+                                  {"histogram_grids", histogram.counts[i]}});
     result.checks =
         checks_of_splits({mean, better, not_much_worse},
                          {paper::kFigure9Mean, paper::kFigure9Better, paper::kFigure9NotMuchWorse});

@@ -186,11 +186,13 @@ void add_sequence_curves(StudyResult& result, const SequenceTimes& times) {
 
 void add_sequence_figures(StudyResult& result, const SequenceTimes& times) {
     for (size_t r = 0; r < kSequenceRowCount; ++r)
-        result.figures.push_back({{"method", kSequenceRows[r].method},
-                                  {"update_seconds", times.update[r]},
-                                  {"trace_seconds", times.trace[r]},
-                                  {"tests_a_ray", times.tests[r]},
-                                  {"nodes_a_ray", times.nodes[r]}});
+        for (size_t f = 0; f < times.update[r].size(); ++f)
+            result.figures.push_back({{"method", kSequenceRows[r].method},
+                                      {"frame", f},
+                                      {"update_seconds_by_round", times.update[r][f]},
+                                      {"trace_seconds_by_round", times.trace[r][f]},
+                                      {"tests_a_ray", times.tests[r]},
+                                      {"nodes_a_ray", times.nodes[r]}});
 }
 
 StudyCheck check_of_agreement(const SequenceTimes& times) {

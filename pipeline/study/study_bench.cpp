@@ -60,6 +60,7 @@ StudyScene StudyBench::scene(const std::string& label, const std::string& name, 
 RenderSettings StudyBench::render_settings() const {
     RenderSettings settings;
     settings.memory_bytes = settings_.memory_bytes;
+    settings.seed = kStudySeed;
     settings.cancelled = settings_.cancelled;
     settings.on_progress = settings_.on_progress;
     return settings;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pipeline/compare/machine.h"
+#include "pipeline/compare/record/run_record.h"
 #include "pipeline/compare/report/screen_pictures.h"
 
 namespace trapeze {
@@ -74,11 +75,15 @@ struct StudySceneFacts {
     }
 };
 
+/// Of all random numbers of a study: RenderSettings' own.
+inline constexpr uint32_t kStudySeed = 0;
+
 struct StudyResult {
     std::string name, title;
     std::string paper;                 ///< whose figures stand beside ours: authors, title, year
     std::vector<std::string> command;  ///< the command line's words, without the program's name
-    std::vector<std::string> notes;    ///< sentences on how it was measured
+    std::vector<RecordedOption> options;
+    std::vector<std::string> notes;  ///< sentences on how it was measured
     Machine machine;
     bool quick = false;
     int rounds = 0;

@@ -65,6 +65,23 @@ StudyTable facts_table(const std::vector<std::string>& columns, const std::vecto
     return table;
 }
 
+nlohmann::ordered_json figure_of(const StudyScene& scene, const SampleRate& rate,
+                                 const std::vector<FrameStats>& rounds) {
+    const FrameStats& stats = rounds.front();
+    nlohmann::ordered_json figure = {{"scene", scene_command_line(scene)},
+                                     {"stands_for", scene.label},
+                                     {"samples_x", rate.x},
+                                     {"samples_y", rate.y},
+                                     {"micropolygons", stats.tessellate.micropolygons},
+                                     {"samples", stats.samples},
+                                     {"regions", stats.regions}};
+    for (const auto& [name, part] : kRows) {
+        auto& seconds = figure[std::string(name) + "_seconds_by_round"] = nlohmann::ordered_json::array();
+        for (const FrameStats& round : rounds) seconds.push_back(parts_of(round.seconds).*part);
+    }
+    return figure;
+}
+
 StudyCheck check_of_total(const std::string& scene, const std::string& than, double here, double printed) {
     StudyCheck check{scene + ": the whole frame takes less time than " + than, paper_seconds(printed),
                      seconds_text(here)};
@@ -93,6 +110,7 @@ void study_table3(StudyBench& bench, StudyResult& result) {
         std::vector<FrameStats> rounds;
         for (int round = 0; round < bench.rounds(); ++round)
             rounds.push_back(bench.render(scene, {side, side}));
+        result.figures.push_back(figure_of(scene, {side, side}, rounds));
         columns.push_back(fmt::format("{} ({}, {}x{})", scene.label, scene.name, side, side));
         frames.push_back(median_of(std::move(rounds)));
         here.push_back(parts_of(frames.back().seconds));

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/simd/simd_limit.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
 #include "pipeline/cli/support/on_threads.h"
 #include "pipeline/cli/support/read_settings.h"
+#include "pipeline/cli/support/recorded_options.h"
 #include "pipeline/cli/support/revision.h"
 #include "pipeline/cli/support/text_files.h"
+#include "pipeline/compare/record/replay.h"
 #include "pipeline/compare/report/html_report.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/compare/sampler_list.h"
@@ -36,14 +39,19 @@ class CompareJob {
           terminal_(terminal),
           diagnostics_(diagnostics),
           access_(scene_access(arguments)),
-          interrupt_(arguments.time_limit) {}
+          interrupt_(arguments.time_limit) {
+        access_.record_reads(reads_);
+    }
 
     int run();
+    /// The comparison, after run(); empty where none was made.
+    const std::optional<Comparison>& result() const { return result_; }
 
   private:
     bool outputs_are_possible();
     void take_world(Scene&& scene);
     CompareSettings settings_for(const SharedFrame& frame);
+    std::vector<InputFile> files_read() const;
     void write_outputs(const Comparison& comparison, const SharedFrame& frame);
     void print(const Comparison& comparison) const;
     int exit_code() const;
@@ -54,13 +62,16 @@ class CompareJob {
     Diagnostics& diagnostics_;
     Access access_;
     Interrupt interrupt_;
+    std::shared_ptr<ReadNames> reads_ = std::make_shared<ReadNames>();
+    std::string defaults_file_;
     int worlds_ = 0, frame_number_ = 0;
-    bool compared_ = false, output_failed_ = false;
+    std::optional<Comparison> result_;
+    bool output_failed_ = false;
 };
 
 /// Before minutes are spent on figures that cannot be written.
 bool CompareJob::outputs_are_possible() {
-    if (!can_write({options_.report, options_.json}, diagnostics_)) return false;
+    if (!can_write({options_.report, options_.json, options_.csv}, diagnostics_)) return false;
     if (options_.folder.empty()) return true;
     std::error_code error;
     fs::create_directories(options_.folder, error);
@@ -110,15 +121,29 @@ void CompareJob::take_world(Scene&& scene) {
     frame_number_ = options.frame;
     terminal_.begin_progress("shading", {arguments_.inputs.front(), "shading", frame_number_});
     const auto frame = share_frame(std::move(scene), settings, diagnostics_);
-    auto comparison = frame ? compare(*frame, settings_for(*frame)) : std::nullopt;
+    if (!frame) return terminal_.end_progress();
+    const CompareSettings what = settings_for(*frame);
+    result_ = compare(*frame, what);
     terminal_.end_progress();
-    if (!comparison) return;
-    compared_ = true;
-    comparison->scene = arguments_.inputs.front();
-    comparison->machine.trapeze = kVersion, comparison->machine.revision = revision();
-    comparison->command = arguments_.words, comparison->seed = arguments_.seed;
-    print(*comparison);
-    write_outputs(*comparison, *frame);
+    if (!result_) return;
+    Comparison& comparison = *result_;
+    comparison.scene = arguments_.inputs.front(), comparison.scenes = arguments_.inputs;
+    comparison.machine.trapeze = kVersion, comparison.machine.revision = revision();
+    comparison.command = arguments_.words, comparison.seed = arguments_.seed;
+    comparison.options = recorded_options(arguments_, what);
+    comparison.inputs = files_read();
+    print(comparison);
+    write_outputs(comparison, *frame);
+}
+
+std::vector<InputFile> CompareJob::files_read() const {
+    std::set<std::string> names = reads_->names();
+    names.insert(arguments_.inputs.begin(), arguments_.inputs.end());
+    std::vector<InputFile> files = hashed_inputs(names);
+    if (defaults_file_.empty()) return files;
+    files.push_back(hashed_inputs({defaults_file_}).front());
+    files.back().name = kUserDefaults;
+    return files;
 }
 
 void CompareJob::print(const Comparison& comparison) const {
@@ -131,6 +156,8 @@ void CompareJob::write_outputs(const Comparison& comparison, const SharedFrame& 
     if (!options_.json.empty())
         good =
             write_text(options_.json, json_text(to_json(comparison)) + "\n", terminal_, diagnostics_) && good;
+    if (!options_.csv.empty())
+        good = write_text(options_.csv, comparison_csv(comparison), terminal_, diagnostics_) && good;
     if (!options_.report.empty())
         good = write_text(options_.report, html_report(comparison), terminal_, diagnostics_) && good;
     if (!options_.folder.empty())
@@ -146,7 +173,7 @@ int CompareJob::exit_code() const {
     if (output_failed_) return kExitNoOutput;
     const auto kinds = diagnostics_.kinds();
     if (kinds.contains(kTooLittleMemory) || kinds.contains(kPictureTooLarge)) return kExitNoMemory;
-    if (!compared_) return kExitNothingRendered;
+    if (!result_) return kExitNothingRendered;
     const bool warned = diagnostics_.count(Severity::Warning) > 0;
     return diagnostics_.count(Severity::Error) > 0 || (arguments_.strict && warned) ? kExitErrors : kExitOk;
 }
@@ -155,6 +182,7 @@ int CompareJob::run() {
     if (!outputs_are_possible()) return kExitNoOutput;
     ReadOptions options = read_options(arguments_, access_);
     options.cancelled = &interrupt_.requested();
+    defaults_file_ = options.defaults_file;
     options.shading_rate = arguments_.shading_rate;
     on_threads(arguments_.threads, [&] {
         read_rib(arguments_.inputs, options, diagnostics_,
@@ -167,9 +195,73 @@ int CompareJob::run() {
     return exit_code();
 }
 
+/// The arguments of a replay as those of the comparison that was recorded; empty, and reported, where that
+/// cannot be repeated.
+std::optional<Arguments> replayed_arguments(const Arguments& given, const RecordedComparison& recorded,
+                                            Diagnostics& diagnostics) {
+    Arguments arguments = given;
+    arguments.compare.replay.clear();
+    arguments.inputs = recorded.scenes;
+    std::string error;
+    if (std::ranges::find(recorded.scenes, "-") != recorded.scenes.end())
+        error = "its scene was standard input, which is not here";
+    if (const auto words = error.empty() ? words_of(recorded.options, &error) : std::nullopt)
+        error = parse_more_of_compare(*words, arguments);
+    // Who wrote the file may be a stranger; what RIB before the scenes searches is open to them.
+    if (error.empty() && arguments.safe && !arguments.first_rib.empty())
+        error = "it has RIB of --option, which --safe does not take from a file";
+    std::string no_simd;
+    if (error.empty() && !limit_simd(arguments.simd, &no_simd))
+        diagnostics.note({}, fmt::format("{}: counts of tests and nodes may differ", no_simd));
+    if (error.empty()) return arguments;
+    diagnostics.error({}, fmt::format("cannot replay \"{}\": {}", given.compare.replay, error));
+    return {};
+}
+
+/// Reports what is not as it was. Returns whether all is.
+bool report_differences(const RecordedComparison& recorded, const Comparison& comparison,
+                        const std::string& file, Diagnostics& diagnostics) {
+    const ReplayOutcome outcome =
+        compare_figures(recorded.whole, nlohmann::json::parse(json_text(to_json(comparison))));
+    const std::vector<std::string> inputs = changed_inputs(recorded.inputs, comparison.inputs);
+    for (const std::string& sentence : inputs) diagnostics.error({}, sentence);
+    for (const std::string& sentence : outcome.differences) diagnostics.error({}, sentence);
+    if (recorded.version != kVersion)
+        diagnostics.note({}, fmt::format("Trapeze {} recorded it, this is {}", recorded.version, kVersion));
+    const size_t different = outcome.differences.size();
+    fmt::print("\nReplay of {}: of {} figures {} {} as recorded; times are not compared.\n", file,
+               outcome.compared, different == 0 ? "all" : fmt::format("{}", different),
+               different == 0 ? "are" : "are not");
+    return different == 0 && inputs.empty();
+}
+
+int replay(const Arguments& given, Terminal& terminal, Diagnostics& diagnostics) {
+    constexpr size_t kMostBytes = size_t{64} << 20;
+    const std::string& file = given.compare.replay;
+    std::string text, error;
+    if (!inputs_exist({file}, diagnostics)) return kExitNoInput;
+    if (!kEverything.read(file, kMostBytes, &text)) {
+        diagnostics.error({}, fmt::format("cannot read \"{}\", or it has more than 64 MiB", file));
+        return kExitNoInput;
+    }
+    const auto recorded = read_recorded(text, &error);
+    if (!recorded) {
+        diagnostics.error({}, fmt::format("cannot replay \"{}\": {}", file, error));
+        return kExitNoInput;
+    }
+    const auto arguments = replayed_arguments(given, *recorded, diagnostics);
+    if (!arguments || !inputs_exist(arguments->inputs, diagnostics)) return kExitNoInput;
+    CompareJob job(*arguments, terminal, diagnostics);
+    const int code = job.run();
+    if (!job.result()) return code;
+    const bool same = report_differences(*recorded, *job.result(), file, diagnostics);
+    return same || code != kExitOk ? code : kExitErrors;
+}
+
 }  // namespace
 
 int compare_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
+    if (!arguments.compare.replay.empty()) return replay(arguments, terminal, diagnostics);
     if (!inputs_exist(arguments.inputs, diagnostics)) return kExitNoInput;
     return CompareJob(arguments, terminal, diagnostics).run();
 }

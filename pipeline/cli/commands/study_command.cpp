@@ -16,6 +16,13 @@
 namespace trapeze {
 namespace {
 
+/// What the study's figures follow from.
+std::vector<RecordedOption> study_options(const Arguments& arguments) {
+    std::vector<RecordedOption> options = {{"repeat", {std::to_string(arguments.study.rounds)}}};
+    if (arguments.study.quick) options.push_back({"quick", {}});
+    return options;
+}
+
 std::optional<StudyResult> run(const Arguments& arguments, const Interrupt& interrupt, Terminal& terminal,
                                Diagnostics& diagnostics) {
     StudySettings settings;
@@ -38,17 +45,19 @@ std::optional<StudyResult> run(const Arguments& arguments, const Interrupt& inte
 
 int study_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics) {
     const StudyArguments& study = arguments.study;
-    if (!can_write({study.report, study.json}, diagnostics)) return kExitNoOutput;
+    if (!can_write({study.report, study.json, study.csv}, diagnostics)) return kExitNoOutput;
     const Interrupt interrupt;
     auto result = run(arguments, interrupt, terminal, diagnostics);
     if (interrupt.requested()) return interrupt.exit_code();
     if (!result) return diagnostics.kinds().contains(kTooLittleMemory) ? kExitNoMemory : kExitInternal;
     result->machine.trapeze = kVersion, result->machine.revision = revision();
     result->command = arguments.words;
+    result->options = study_options(arguments);
     fmt::print("{}", study_text(*result));
     bool good = true;
     if (!study.json.empty())
         good = write_text(study.json, json_text(study_json(*result)) + "\n", terminal, diagnostics) && good;
+    if (!study.csv.empty()) good = write_text(study.csv, study_csv(*result), terminal, diagnostics) && good;
     if (!study.report.empty())
         good = write_text(study.report, study_html(*result), terminal, diagnostics) && good;
     return good ? kExitOk : kExitNoOutput;

@@ -63,18 +63,30 @@ bool is_one_file(const std::string& a, const std::string& b) {
 bool outputs_are_apart(const Arguments& a, std::string* error) {
     std::vector<std::pair<const char*, std::string>> outputs;
     if (a.command == Command::Render) outputs = {{"-o", a.output}, {"--stats", a.stats_file}};
-    if (a.command == Command::Compare) outputs = {{"--report", a.compare.report}, {"--json", a.compare.json}};
-    if (a.command == Command::Study) outputs = {{"--report", a.study.report}, {"--json", a.study.json}};
+    if (a.command == Command::Compare)
+        outputs = {{"--report", a.compare.report}, {"--json", a.compare.json}, {"--csv", a.compare.csv}};
+    if (a.command == Command::Study)
+        outputs = {{"--report", a.study.report}, {"--json", a.study.json}, {"--csv", a.study.csv}};
     if (a.command == Command::Merge) outputs = {{"-o", a.output}};
-    if (outputs.empty()) return true;
-    if (outputs.size() > 1 && is_one_file(outputs[0].second, outputs[1].second) &&
-        !outputs[0].second.starts_with("/dev/"))
-        *error = std::string(outputs[0].first) + " and " + outputs[1].first + " name the same file";
+    for (size_t i = 0; i < outputs.size(); ++i)
+        for (size_t k = 0; k < i; ++k)
+            if (is_one_file(outputs[k].second, outputs[i].second) && !outputs[k].second.starts_with("/dev/"))
+                *error = std::string(outputs[k].first) + " and " + outputs[i].first + " name the same file";
+    std::vector<std::string> inputs = a.command == Command::Merge ? a.merge.tiles : a.inputs;
+    if (a.command == Command::Compare && !a.compare.replay.empty()) inputs.push_back(a.compare.replay);
     for (const auto& [option, file] : outputs)
-        for (const std::string& input : a.command == Command::Merge ? a.merge.tiles : a.inputs)
+        for (const std::string& input : inputs)
             if (is_one_file(file, input) && !file.starts_with("/dev/"))
                 *error = std::string(option) + ": \"" + file + "\" is an input, which would be written over";
     return error->empty();
+}
+
+/// Where there is something to do: scenes, or what was recorded of them.
+bool has_work(const Arguments& a, std::string* error) {
+    if (a.command != Command::Compare || a.compare.replay.empty() != a.inputs.empty()) return true;
+    *error = a.inputs.empty() ? "compare needs SCENE.rib, or --replay FILE.json"
+                              : "--replay repeats the scenes that FILE.json names; SCENE.rib is one too many";
+    return false;
 }
 
 bool crop_is_right(const Arguments& a, std::string* error) {
@@ -118,7 +130,7 @@ bool output_is_a_file(const Arguments& a, std::string* error) {
 /// What is wrong with options that are right each by itself; empty: nothing. Also sets what --safe implies.
 std::string contradiction(Arguments& a) {
     std::string error;
-    static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) &&
+    static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) && has_work(a, &error) &&
                       samplers_are_right(a, &error) && crop_is_right(a, &error) && tile_is_right(a, &error) &&
                       outputs_are_apart(a, &error));
     return error;
@@ -169,6 +181,18 @@ int print_page(const CLI::App& app, const std::vector<std::string>& words) {
 
 bool is_command(std::string_view name) {
     return std::ranges::any_of(kCommands, [&](const CommandRow& row) { return row.name == name; });
+}
+
+std::string parse_more_of_compare(const std::vector<std::string>& words, Arguments& arguments) {
+    CLI::App app;
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    add_compare_options(app, arguments);
+    try {
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    } catch (const CLI::ParseError& error) {
+        return error.what();
+    }
+    return contradiction(arguments);
 }
 
 std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments) {

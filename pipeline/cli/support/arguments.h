@@ -22,8 +22,9 @@ struct CompareArguments {
     std::vector<std::pair<int, int>> samples;  ///< rates to compare at; empty: the scene's own
     int reference_side = 32;
     int rounds = 3;
-    std::string report, json;  ///< files; empty: none
-    std::string folder;        ///< for pictures; empty: none
+    std::string report, json, csv;  ///< files; empty: none
+    std::string folder;             ///< for pictures; empty: none
+    std::string replay;             ///< a JSON of compare that is repeated; empty: none
 };
 
 /// What `trapeze scene` alone has; the picture's size is Arguments::resolution.
@@ -37,7 +38,7 @@ struct StudyArguments {
     std::string name;
     bool quick = false;
     int rounds = 3;
-    std::string report, json;  ///< files; empty: none
+    std::string report, json, csv;  ///< files; empty: none
 };
 
 /// What `trapeze cat` alone has; the file to write is Arguments::output, empty or "-": standard output.
@@ -116,5 +117,9 @@ bool is_command(std::string_view name);
 /// Reads the command line. When it says to stop (help, version, usage errors), prints what is asked for and
 /// returns the exit code; else nothing.
 std::optional<int> parse_arguments(int argc, char** argv, Arguments& arguments);
+
+/// Reads a command's options and words into arguments that have been read before, as if they stood on that
+/// command line, too. Returns what is wrong, or nothing.
+std::string parse_more_of_compare(const std::vector<std::string>& words, Arguments& arguments);
 
 }  // namespace trapeze

@@ -4,6 +4,7 @@
 #include "core/simd/simd_limit.h"
 #include "pipeline/cli/support/named_aovs.h"
 #include "pipeline/cli/support/option_kinds.h"
+#include "pipeline/cli/support/recorded_options.h"
 #include "pipeline/compare/sampler_list.h"
 #include "pipeline/study/study.h"
 #include "sample/visibility.h"
@@ -111,6 +112,14 @@ void add_memory_option(CLI::App& app, Arguments& a, const std::string& what_for)
                ", of 1 byte to 1e18 (units K, M, G, T)");
 }
 
+/// Files for the figures of commands that measure.
+void add_figure_options(CLI::App& app, std::string& report, const char* about_report, std::string& json,
+                        std::string& csv) {
+    add_file(app, "--report", report, about_report, "FILE.html");
+    add_file(app, "--json", json, "writes every figure as JSON", "FILE.json");
+    add_file(app, "--csv", csv, "writes every figure as a table: comma-separated values", "FILE.csv");
+}
+
 /// How the machine is used, and what is said meanwhile.
 void add_work_options(CLI::App& app, Arguments& a) {
     add_simd_option(app, a);
@@ -162,6 +171,18 @@ void add_color_options(CLI::App& app, ColorRequest& colors) {
              "the config's display that 8- and 16-bit files are for (default: its first)");
     add_name("--view", colors.view, "the display's view that they show (default: its first)");
     add_name("--look", colors.look, "a look in place of the view's own");
+}
+
+/// What a comparison's figures follow from is as it was, and so cannot be given.
+void add_replay_option(CLI::App& app, CompareArguments& c) {
+    CLI::Option* const replay =
+        add_file(app, "--replay", c.replay,
+                 "repeats a comparison from its --json, with its scenes and options, and says which figures "
+                 "and files are not as they were; times are not compared",
+                 "FILE.json");
+    for (const std::string_view option : kReplayedOptions)
+        replay->excludes(app.get_option("--" + std::string(option)));
+    app.get_option("scenes")->required(false);
 }
 
 }  // namespace
@@ -278,10 +299,10 @@ void add_compare_options(CLI::App& app, Arguments& a) {
                "NxN samples per pixel of the picture that errors are to", "N")
         ->capture_default_str();
     add_rounds_option(app, c.rounds);
-    add_file(app, "--report", c.report, "writes a report with pictures and charts, one file", "FILE.html");
-    add_file(app, "--json", c.json, "writes every figure as JSON", "FILE.json");
+    add_figure_options(app, c.report, "writes a report with pictures and charts, one file", c.json, c.csv);
     add_file(app, "-o,--output", c.folder, "writes pictures and heat maps as OpenEXR into a folder", "DIR");
     add_frame_options(app, a);
+    add_replay_option(app, c);
 }
 
 void add_scene_options(CLI::App& app, Arguments& a) {
@@ -321,9 +342,8 @@ void add_study_options(CLI::App& app, Arguments& a) {
         ->type_name("NAME");
     app.add_flag("--quick", s.quick, "a quarter of the pixels and fewer samples: minutes instead of an hour");
     add_rounds_option(app, s.rounds);
-    add_file(app, "--report", s.report, "writes a report with tables, plots and checks, one file",
-             "FILE.html");
-    add_file(app, "--json", s.json, "writes every figure as JSON", "FILE.json");
+    add_figure_options(app, s.report, "writes a report with tables, plots and checks, one file", s.json,
+                       s.csv);
     add_work_options(app, a);
 }
 

@@ -1,3 +1,4 @@
+#include "pipeline/compare/record/figures_csv.h"
 #include "pipeline/compare/results_json.h"
 #include "pipeline/study/report/study_report.h"
 
@@ -20,10 +21,29 @@ nlohmann::ordered_json study_json(const StudyResult& r) {
                           {"grids", s.grids},
                           {"largest_circle_of_confusion_pixels", s.largest_defocus},
                           {"largest_motion_pixels", s.largest_motion}});
-    return {{"study", r.name},      {"title", r.title}, {"after", r.paper},   {"machine", to_json(r.machine)},
-            {"command", r.command}, {"quick", r.quick}, {"rounds", r.rounds}, {"seconds", r.seconds},
-            {"notes", r.notes},     {"scenes", scenes}, {"tables", tables},   {"checks", checks},
+    return {{"program", "trapeze study"},
+            {"study", r.name},
+            {"title", r.title},
+            {"after", r.paper},
+            {"machine", to_json(r.machine)},
+            {"command", r.command},
+            {"options", to_json(r.options)},
+            {"seed", kStudySeed},
+            {"inputs", json::array()},  // the scenes are the program's own: "scenes" says how they are made
+            {"quick", r.quick},
+            {"rounds", r.rounds},
+            {"seconds", r.seconds},
+            {"notes", r.notes},
+            {"scenes", scenes},
+            {"tables", tables},
+            {"checks", checks},
             {"figures", r.figures}};
+}
+
+std::string study_csv(const StudyResult& r) {
+    nlohmann::ordered_json common = {{"study", r.name}, {"quick", r.quick}};
+    common.update(run_columns(r.machine));
+    return figures_csv(common, r.figures);
 }
 
 }  // namespace trapeze

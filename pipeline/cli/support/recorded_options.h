@@ -1,0 +1,30 @@
+/// The options that a comparison's figures follow from, as its JSON keeps them for a replay.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/cli/support/arguments.h"
+#include "pipeline/compare/comparison.h"
+#include "pipeline/compare/record/run_record.h"
+
+namespace trapeze {
+
+/// Long names of these options.
+inline constexpr std::array<std::string_view, 12> kReplayedOptions = {
+    "samplers",   "pattern", "samples",      "variance", "reference", "repeat",
+    "resolution", "crop",    "shading-rate", "seed",     "option",    "simd"};
+
+/// The options of a comparison, with what was chosen where the command line left it open. What shall be done
+/// with the figures, and what a run may use and reach, is not among them.
+std::vector<RecordedOption> recorded_options(const Arguments& arguments, const CompareSettings& settings);
+
+/// The words of a command line that give the options. Empty with *error set where one is not of
+/// kReplayedOptions.
+std::optional<std::vector<std::string>> words_of(const std::vector<RecordedOption>& options,
+                                                 std::string* error);
+
+}  // namespace trapeze
