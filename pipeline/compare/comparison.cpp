@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/compare/flip.h"
 #include "pipeline/compare/verdict.h"
 
 namespace trapeze {
@@ -64,13 +65,14 @@ std::optional<Comparison> compare(const SharedFrame& frame, const CompareSetting
     MeasureSettings measuring = settings.measure;
     measuring.on_progress = settings.on_progress;
     for (MethodResult& result : measure(frame, settings.samplers, settings.rates, measuring))
-        comparison.methods.push_back({std::move(result), 0, 0, {}});
+        comparison.methods.push_back({std::move(result), 0, 0, 0, {}});
     if (frame.context.is_cancelled()) return {};
 
     begin_stage("reference");
     auto reference = make_reference(frame, settings.reference_side, settings.on_progress);
     if (!reference) return {};
     comparison.reference = std::move(*reference);
+    const SeenPicture seen_reference = seen_picture(comparison.reference);
     for (ComparedMethod& method : comparison.methods) {
         begin_stage("picture of " + method.result.method + " at " + rate_text(method.result.rate));
         auto picture = make_picture(frame, method.result.sampler, method.result.rate, settings.on_progress,
@@ -78,6 +80,7 @@ std::optional<Comparison> compare(const SharedFrame& frame, const CompareSetting
         if (!picture) return {};
         method.picture = std::move(*picture);
         method.rmse = rms_difference(method.picture.image, comparison.reference);
+        method.flip = flip_difference(seen_picture(method.picture.image), seen_reference);
     }
     set_ratios(comparison);
     comparison.verdict = judge(comparison);

@@ -21,6 +21,7 @@ struct ComparedMethod {
     MethodResult result;
     double ratio = 0;  ///< of its median total to the baseline's at the same rate
     double rmse = 0;   ///< root mean square difference to the reference, linear light
+    double flip = 0;   ///< flip_difference() to the reference, as the report shows both
     MethodPicture picture;
 };
 

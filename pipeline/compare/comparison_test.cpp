@@ -35,6 +35,11 @@ TEST(Compare, MorePictureSamplesMeanLessError) {
     EXPECT_GT(c->methods[1].ratio, 0);
     EXPECT_LT(c->methods[2].rmse, 0.7 * c->methods[0].rmse);
     EXPECT_LT(c->methods[3].rmse, 0.7 * c->methods[1].rmse);
+    for (const size_t few : {0, 1}) {
+        EXPECT_GT(c->methods[few + 2].flip, 0);
+        EXPECT_LT(c->methods[few + 2].flip, c->methods[few].flip);
+        EXPECT_LT(c->methods[few].flip, 1);
+    }
     EXPECT_GT(c->blur.motion.largest, 1);
     EXPECT_GT(c->blur.defocus.largest, 1);
     EXPECT_FALSE(c->verdict.empty());
@@ -135,6 +140,7 @@ TEST(ComparisonJson, HasTheFiguresAndTheVerdict) {
     EXPECT_EQ(json["seed"], 7);
     EXPECT_EQ(json["machine"]["revision"], "v1-2-gabc");
     EXPECT_EQ(json["results"][0]["rmse"].get<double>(), c->methods[0].rmse);
+    EXPECT_EQ(json["results"][0]["flip"].get<double>(), c->methods[0].flip);
     EXPECT_EQ(json["results"][0]["ratio_to_baseline"].get<double>(), 1);
     EXPECT_EQ(json["reference_samples"], 64);
     EXPECT_EQ(json["verdict"].size(), c->verdict.size());

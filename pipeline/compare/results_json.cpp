@@ -53,6 +53,7 @@ nlohmann::ordered_json to_json(const Comparison& c) {
         json result = to_json(method.result);
         result["ratio_to_baseline"] = method.ratio;
         result["rmse"] = method.rmse;
+        result["flip"] = method.flip;
         results.push_back(std::move(result));
     }
     const auto pixels = [](const BlurSize& blur) {

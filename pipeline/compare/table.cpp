@@ -55,6 +55,10 @@ const std::vector<TableColumn>& table_columns() {
          [](const M& m) { return m.result.bytes_per_micropolygon(); }, counted_text},
         {"RMSE", "Root of the mean squared difference to the reference, linear red, green, blue.",
          [](const M& m) { return m.rmse; }, number_text},
+        {"FLIP",
+         "How different an observer would find the picture and the reference, shown in turns: 0 is the same, 1 "
+         "the most.",
+         [](const M& m) { return m.flip; }, number_text},
     };
     return columns;
 }

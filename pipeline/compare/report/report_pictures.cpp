@@ -85,8 +85,8 @@ std::string method_figure(const ComparedMethod& m, const Comparison& c, const Sc
            (scales.some_adaptive ? samples_image(m, scales) : "") +
            fmt::format(
                "<figcaption><strong>{}</strong> at {}<span>RMSE {} &middot; "
-               "{}</span></figcaption>\n</figure>\n",
-               escaped(name), rate_text(m.result.rate), number_text(m.rmse),
+               "FLIP {} &middot; {}</span></figcaption>\n</figure>\n",
+               escaped(name), rate_text(m.result.rate), number_text(m.rmse), number_text(m.flip),
                seconds_text(m.result.total_median()));
 }
 
