@@ -1,12 +1,19 @@
 #include "sample/visibility.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include "sample/cut_hits.h"
 #include "sample/level_of_detail.h"
+#include "sample/load_plugin.h"
 
 namespace trapeze {
 
-const std::vector<VisibilityMethod>& visibility_methods() {
-    static const std::vector<VisibilityMethod> methods = {
+namespace {
+
+/// The rows, and those that plugins have added.
+std::vector<VisibilityMethod>& method_table() {
+    static std::vector<VisibilityMethod> methods = {
 #define TRAPEZE_METHOD(row) row(),
 #include "sample/visibility_methods.def"
 #undef TRAPEZE_METHOD
@@ -15,6 +22,25 @@ const std::vector<VisibilityMethod>& visibility_methods() {
 #endif
     };
     return methods;
+}
+
+}  // namespace
+
+const std::vector<VisibilityMethod>& visibility_methods() {
+    return method_table();
+}
+
+bool add_visibility_method(const VisibilityMethod& method, std::string* error) {
+    const auto is_part_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    if (method.name.empty() || !std::ranges::all_of(method.name, is_part_of_name))
+        *error = "the name of its method, \"" + std::string(method.name) + "\", is not of letters and digits";
+    else if (find_named(method_table(), method.name))
+        *error = "there is a visibility method \"" + std::string(method.name) + "\" already";
+    else if (!method.natural_pattern || !method.honours || !method.prepare)
+        *error = "its method \"" + std::string(method.name) + "\" lacks a function";
+    else
+        return method_table().push_back(method), true;
+    return false;
 }
 
 std::unique_ptr<Visibility> Sampler::prepare(const RenderContext& context, const Grids& grids) const {

@@ -139,6 +139,7 @@ void CompareJob::take_world(Scene&& scene) {
 std::vector<InputFile> CompareJob::files_read() const {
     std::set<std::string> names = reads_->names();
     names.insert(arguments_.inputs.begin(), arguments_.inputs.end());
+    names.insert(arguments_.plugins.begin(), arguments_.plugins.end());
     std::vector<InputFile> files = hashed_inputs(names);
     if (defaults_file_.empty()) return files;
     files.push_back(hashed_inputs({defaults_file_}).front());

@@ -81,6 +81,7 @@ struct Arguments {
     int most_layers = 0;  ///< of each sample; 0: as the scene says
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
+    std::vector<std::string> plugins;  ///< files of visibility methods, which have been loaded
     std::string pattern;        ///< empty: the sampler's natural one
     std::string transfer;       ///< as transfer_named() reads it; empty: as the scene says
     ColorRequest colors;        ///< in place of the scene's

@@ -7,6 +7,7 @@
 #include "pipeline/cli/support/recorded_options.h"
 #include "pipeline/compare/sampler_list.h"
 #include "pipeline/study/study.h"
+#include "sample/load_plugin.h"
 #include "sample/visibility.h"
 
 namespace trapeze {
@@ -21,6 +22,23 @@ template <class Number>
 CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value, Number low, Number high,
                         const std::string& help, const std::string& form) {
     return app.add_option(name, value, help)->check(in_range(low, high))->type_name(form);
+}
+
+/// Loads each plugin as soon as its option is read: those after it in the table may name its method. So it is
+/// the first of a command's.
+void add_plugin_option(CLI::App& app, Arguments& a) {
+    const auto load = [&a](const std::vector<std::string>& files) {
+        for (const std::string& file : files)
+            if (std::string error; !load_plugin(file, &error)) throw CLI::ValidationError("--plugin", error);
+        a.plugins = files;
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "--plugin", load,
+           "loads a visibility method from a shared object, which is then one of those to choose; may be "
+           "repeated")
+        ->allow_extra_args(false)
+        ->check(a_name())
+        ->type_name("FILE.so");
 }
 
 void add_color_option(CLI::App& app, Arguments& a) {
@@ -192,6 +210,7 @@ void add_variance_option(CLI::App& app, Arguments& a, const char* what) {
 }
 
 void add_render_options(CLI::App& app, Arguments& a) {
+    add_plugin_option(app, a);
     add_inputs(app, a);
     add_file(app, "-o,--output", a.output,
              "replaces the first Display's name; ####, %04d and <frame> are the frame's number, <tile> the "
@@ -282,6 +301,7 @@ void add_cat_options(CLI::App& app, Arguments& a) {
 
 void add_compare_options(CLI::App& app, Arguments& a) {
     CompareArguments& c = a.compare;
+    add_plugin_option(app, a);
     add_inputs(app, a);
     app.add_option("--samplers", c.samplers,
                    "visibility methods, separated by spaces or semicolons (commas are part of a method: "
