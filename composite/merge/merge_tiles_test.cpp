@@ -290,6 +290,8 @@ TEST_F(MergeTiles, KeepWhatTheirHeadersHaveInCommon) {
         picture.change = [&](Imf::Header& header) {
             header.insert("scene", Imf::StringAttribute("a.rib"));
             header.insert("renderTime", Imf::StringAttribute(std::to_string(number)));
+            header.insert("renderStats",
+                          Imf::StringAttribute("{\"threads\":" + std::to_string(number) + "}"));
             header.insert("owner", Imf::StringAttribute(number == 1 ? "me" : "you"));
             Imf::addCapDate(header, number == 1 ? "2026:01:31 23:59:59" : "2026:02:01 00:00:01");
         };
@@ -304,7 +306,7 @@ TEST_F(MergeTiles, KeepWhatTheirHeadersHaveInCommon) {
     const Imf::Header& header = file.header();
     EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("scene").value(), "a.rib");
     EXPECT_EQ(Imf::capDate(header), "2026:01:31 23:59:59");
-    for (const char* name : {"tile", "renderTime", "owner", "type"})
+    for (const char* name : {"tile", "renderTime", "renderStats", "owner", "type"})
         EXPECT_EQ(header.find(name), header.end()) << name;
 }
 

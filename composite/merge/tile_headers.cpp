@@ -30,8 +30,9 @@ constexpr std::string_view kOfOneFile[] = {
     "chunkCount",          "compression", "dataWindow", "lineOrder", "name", "maxSamplesPerPixel",
     "dwaCompressionLevel", "tiles",       "type",       "version",   "tile"};
 constexpr const char* kTileAttribute = "tile";
-constexpr const char* kDate = "capDate";     ///< stays the first tile's
-constexpr const char* kTime = "renderTime";  ///< of a tile alone says nothing of the picture
+constexpr const char* kDate = "capDate";  ///< stays the first tile's
+constexpr std::string_view kOfTheRun[] = {"renderTime",
+                                          "renderStats"};  ///< of a tile alone say nothing of the picture
 
 template <class Names>
 bool has_name(const Names& names, std::string_view name) {
@@ -143,7 +144,7 @@ Imf::Header TileHeaders::merged(Diagnostics& diagnostics) const {
         const std::string name = attribute.name();
         const auto other = different_.find(name);
         if (other != different_.end() && name != kDate) {
-            if (name != kTime)
+            if (std::find(std::begin(kOfTheRun), std::end(kOfTheRun), name) == std::end(kOfTheRun))
                 diagnostics.warning(
                     {}, fmt::format("attribute \"{}\" is left out: \"{}\" and \"{}\" differ in it", name,
                                     files_.front().path, other->second));

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "composite/displays/write_displays.h"
+#include "pipeline/frame/json_text.h"
 #include "pipeline/frame/stopwatch.h"
 #include "pipeline/frame/version.h"
 
@@ -40,6 +41,26 @@ std::string names_of(const std::vector<std::string>& files) {
     return names;
 }
 
+/// What a picture's header says of its render: the most telling counts, and seconds.
+std::string stats_text(const FrameStats& stats) {
+    return json_text({{"primitives", stats.tessellate.primitives},
+                      {"micropolygons", stats.tessellate.micropolygons},
+                      {"shaded_vertices", stats.shade.shaded_vertices},
+                      {"samples", stats.samples},
+                      {"predicate_tests", stats.sample.predicate_tests},
+                      {"nodes_visited", stats.sample.nodes_visited},
+                      {"peak_rss", peak_resident_bytes()},
+                      {"threads", stats.threads},
+                      {"simd_target", stats.simd_target},
+                      {"seconds",
+                       {{"tessellate", stats.seconds.tessellate},
+                        {"shade", stats.seconds.shade},
+                        {"build", stats.seconds.build},
+                        {"trace", stats.seconds.trace},
+                        {"composite", stats.seconds.composite}}}},
+                     -1);
+}
+
 OutputInfo info_of(const FrameStats& stats, const RenderContext& context,
                    const std::vector<std::string>& scene_files) {
     OutputInfo info;
@@ -50,6 +71,7 @@ OutputInfo info_of(const FrameStats& stats, const RenderContext& context,
     if (stats.tile) info.metadata.emplace_back("tile", name_of(*stats.tile));
     const auto date = date_of_environment();
     if (!date) info.metadata.emplace_back("renderTime", std::to_string(stats.seconds.total));
+    if (!date) info.stats = stats_text(stats);
     info.date = date_text(date.value_or(std::time(nullptr)));
     if (context.scene->options.frame != 0) info.frame = context.scene->options.frame;
     info.scene = names_of(scene_files);
