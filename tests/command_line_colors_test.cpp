@@ -21,17 +21,6 @@ Polygon "P" [-9 -9 0  9 -9 0  9 9 0  -9 9 0]
 WorldEnd
 )";
 
-/// A variable of the environment, for as long as it lives.
-class SetVariable {
-  public:
-    SetVariable(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
-    ~SetVariable() { unsetenv(name_); }
-    SetVariable(const SetVariable&) = delete;
-
-  private:
-    const char* name_;
-};
-
 class ColorsAsked : public ::testing::Test {
   protected:
     void SetUp() override {

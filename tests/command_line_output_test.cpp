@@ -65,6 +65,7 @@ TEST(OutputFiles, OfEarlierFramesAreKept) {
 }
 
 TEST(OutputFiles, OfEmptyWorldsTakeNoName) {
+    const SetVariable date("SOURCE_DATE_EPOCH", "0");  // equal pictures are equal files
     WorkFolder folder;
     const std::string drawn = world(kShot), empty = world("Display \"empty.exr\" \"openexr\" \"rgba\"", true);
     folder.write("first.rib", empty + drawn), folder.write("last.rib", drawn + world("", true));
@@ -84,6 +85,7 @@ TEST(OutputFiles, OfEmptyWorldsTakeNoName) {
 
 /// What is behind the camera or beside the view is not seen either.
 TEST(OutputFiles, InWhichNothingIsSeenTakeNoName) {
+    const SetVariable date("SOURCE_DATE_EPOCH", "0");
     WorkFolder folder;
     const std::string hidden =
         "\nFormat 8 8 1 PixelSamples 1 1 WorldBegin\nTranslate 0 90 2 Sphere 1 -1 1 360\n"

@@ -44,6 +44,17 @@ struct Outcome {
     std::string out, err;
 };
 
+/// A variable of the environment, for as long as it lives.
+class SetVariable {
+  public:
+    SetVariable(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
+    ~SetVariable() { unsetenv(name_); }
+    SetVariable(const SetVariable&) = delete;
+
+  private:
+    const char* name_;
+};
+
 /// Runs `trapeze ARGUMENTS` (shell syntax) with the folder as working directory; the user's settings are
 /// those in its folder .config.
 inline Outcome run_program(const WorkFolder& folder, const std::string& arguments) {

@@ -82,11 +82,11 @@ struct Arguments {
     std::optional<std::vector<FrameRange>> frames;
     std::string sampler = "raytrace";
     std::vector<std::string> plugins;  ///< files of visibility methods, which have been loaded
-    std::string pattern;        ///< empty: the sampler's natural one
-    std::string transfer;       ///< as transfer_named() reads it; empty: as the scene says
-    ColorRequest colors;        ///< in place of the scene's
-    std::string simd = "best";  ///< as limit_simd() reads it
-    int threads = 0;            ///< 0: all; negative: all but so many
+    std::string pattern;               ///< empty: the sampler's natural one
+    std::string transfer;              ///< as transfer_named() reads it; empty: as the scene says
+    ColorRequest colors;               ///< in place of the scene's
+    std::string simd = "best";         ///< as limit_simd() reads it
+    int threads = 0;                   ///< 0: all; negative: all but so many
     uint32_t seed = 0;
     size_t memory_bytes = 0;  ///< for grids and trees; 0: three quarters of the machine's memory
     int regions_at_least = 1;
