@@ -7,6 +7,7 @@
 
 #include "composite/displays/display_plan.h"
 #include "composite/mattes/matte_layers.h"
+#include "core/scene/deep_pictures.h"
 
 namespace trapeze {
 namespace {
@@ -127,15 +128,21 @@ std::vector<Display> displays_of_aovs(const std::string& list, std::string* erro
 std::string add_aovs(const std::vector<Display>& aovs, std::vector<Display>& displays) {
     const Display first = displays.front();
     std::string file = first.name;
-    if (file_format(first) != FileFormat::OpenExr)
+    std::string type = first.type;  // of windows, too, which files of another name stand for
+    if (const auto format = file_format(first); format && *format != FileFormat::OpenExr) {
         file = std::filesystem::path(file).replace_extension(".exr").string();
+        type = "file";
+    } else if (is_deep(first)) {
+        file = std::filesystem::path(file).replace_extension(".layers.exr").string();
+        type = "file";
+    }
     for (const Display& aov : aovs) {
         if (std::any_of(displays.begin(), displays.end(), [&](const Display& known) {
                 return known.name == file && shows_the_same(known, aov);
             }))
             continue;
         Display added = aov;
-        added.name = file, added.type = first.type == "null" ? "null" : "file";
+        added.name = file, added.type = type;
         added.location = first.location;
         displays.push_back(std::move(added));
     }

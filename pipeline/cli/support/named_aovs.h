@@ -17,7 +17,8 @@ namespace trapeze {
 std::vector<Display> displays_of_aovs(const std::string& list, std::string* error);
 
 /// Adds them as layers to the file of the first of a scene's displays; where that is no OpenEXR, to a file of
-/// its name that is one. What the file has already is not added. Returns the file's name.
+/// its name that is one, and of a deep picture to one whose name ends with .layers.exr. What the file has
+/// already is not added. Returns the file's name.
 std::string add_aovs(const std::vector<Display>& aovs, std::vector<Display>& displays);
 
 }  // namespace trapeze

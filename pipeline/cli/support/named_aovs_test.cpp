@@ -61,9 +61,16 @@ TEST(NamedAovs, PicturesOfOtherFormatsHaveThemBeside) {
     ASSERT_EQ(displays.size(), 3u);
     EXPECT_EQ(displays[1].name, "dir/a.exr");
     EXPECT_EQ(displays[1].type, "file");
-    displays = {{"a.exr", "null", "rgba", {}, {}}};
-    add_aovs(aovs, displays);
-    EXPECT_EQ(displays.back().type, "null");
+    for (const char* type : {"null", "framebuffer", "openexr"}) {
+        displays = {{"a", type, "rgba", {}, {}}};
+        EXPECT_EQ(add_aovs(aovs, displays), "a");
+        EXPECT_EQ(displays.size(), 2u) << "alpha is there";
+        EXPECT_EQ(displays.back().type, type);
+    }
+    // A deep picture shares no file.
+    displays = {{"a.exr", "deepexr", "rgba", {}, {}}};
+    EXPECT_EQ(add_aovs(aovs, displays), "a.layers.exr");
+    EXPECT_EQ(displays.back().type, "file");
 }
 
 }  // namespace
