@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/scene/light_groups.h"
 #include "shade/answer_hits.h"
 #include "shade/grid_footprints.h"
+#include "shade/light_layers.h"
 #include "shade/materials/grid_shader.h"
 #include "shade/take_aovs.h"
 
@@ -123,6 +125,8 @@ Task<> GridRun::run(const AovLayout& aovs, const HitOutputs* asked) {
         atmosphere = co_await color(*shader, true, messages_.atmosphere);
     if (asked) answer_hits(*asked, surface, displaced, atmosphere, grids_);
     if (!aovs.empty()) take_aovs(aovs, surface, displaced, context_.camera, grids_);
+    // Behind all else: its runs of the surface leave other values in the registers.
+    if (asks_light_groups(aovs)) co_await split_light(aovs);
     clouds_.finish();
 }
 
@@ -138,6 +142,38 @@ void GridRun::set_own_colors() {
         grid->Ci = grid->Cs, grid->Oi = grid->Os;
         for (size_t i = 0; i < grid->vertex_count(); ++i) grid->Ci.set(i, grid->Cs.at(i) * grid->Os.at(i));
     }
+}
+
+/// Fills variables of groups of lights: runs the surface once without lights, and once more for each group. A
+/// surface that moves P would move it again: it has all of its light without any.
+Task<> GridRun::split_light(const AovLayout& aovs) {
+    std::vector<std::pair<Triples, Triples>> whole;
+    for (const ShadingGrid* grid : grids_) whole.emplace_back(grid->Ci, grid->Oi);
+    const bool splits = material_.surface && !material_.surface_moves && !grids_.front()->own_colors;
+    std::vector<Triples> unlit;
+    std::vector<const Lamp*> lamps;
+    group_lamps_ = &lamps;
+    if (splits) co_await run_surface();
+    for (const ShadingGrid* grid : grids_) unlit.push_back(grid->Ci);
+    for (const Aov& aov : aovs.aovs) {
+        const auto group = light_group_asked(aov);
+        if (!group) continue;
+        const bool is_unlit = *group == kUnlitGroup;
+        lamps = lamps_of_group(material_.lights, *group);
+        const bool is_lit = splits && !is_unlit && !lamps.empty();
+        if (is_lit) co_await run_surface();
+        for (size_t g = 0; g < grids_.size(); ++g)
+            for (int c = 0; c < 3; ++c) {
+                std::vector<float>& plane = grids_[g]->aovs[static_cast<size_t>(aov.offset + c)];
+                plane = is_unlit ? unlit[g].c[c] : grids_[g]->Ci.c[c];
+                if (is_unlit) continue;
+                for (size_t i = 0; i < plane.size(); ++i)
+                    plane[i] = is_lit ? plane[i] - unlit[g].c[c][i] : 0.0f;
+            }
+    }
+    group_lamps_ = nullptr;
+    for (size_t g = 0; g < grids_.size(); ++g)
+        grids_[g]->Ci = std::move(whole[g].first), grids_[g]->Oi = std::move(whole[g].second);
 }
 
 Task<GridRun::Layers> GridRun::run_surface() {
@@ -179,7 +215,8 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     surroundings.footprints = &footprints;
     surroundings.maps = &maps_;
     // Pieces of borders are vertices of the grids once more.
-    clouds_.set_grids(&batch == &batch_ ? grids : std::span<const ShadingGrid* const>());
+    const bool bakes = &batch == &batch_ && !group_lamps_;
+    clouds_.set_grids(bakes ? grids : std::span<const ShadingGrid* const>());
     surroundings.clouds = &clouds_;
     surroundings.lights = &scratch_.lights;
     surroundings.rays = rays_ ? &*rays_ : nullptr;
@@ -188,7 +225,9 @@ Task<vm::Registers*> GridRun::run_layer(const LayeredShader& shader, size_t laye
     surroundings.near_clip = context_.camera.near_clip, surroundings.far_clip = context_.camera.far_clip;
     surroundings.perspective = context_.camera.perspective;
     // Shadows ask for opacities: area lights that looked for their own shadows there would never end.
-    const auto& lights = grids.front()->for_opacity ? material_.other_lights : material_.lights;
+    const auto& lights = group_lamps_                 ? *group_lamps_
+                         : grids.front()->for_opacity ? material_.other_lights
+                                                      : material_.lights;
     scratch_.lights.start(scratch_.machine, lights, surroundings, batch.lanes,
                           variable_planes(registers, "N"), context_.seed);
     co_await bound.set_run_defaults(scratch_.machine, registers, surroundings, grids);

@@ -62,6 +62,7 @@ class GridRun {
     void move_grids(const vm::Registers& registers);
     const LayeredShader* volume() const;
     void set_own_colors();
+    Task<> split_light(const AovLayout& aovs);
     void note_moves(const vm::Registers& registers);
 
     const RenderContext& context_;
@@ -75,6 +76,8 @@ class GridRun {
     GridMessages messages_;
     std::optional<RayCalls> rays_;
     const vm::Batch batch_;
+    /// The lights that shine while light is split, and nothing is baked; else null.
+    const std::vector<const Lamp*>* group_lamps_ = nullptr;
 };
 
 }  // namespace trapeze

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/scene/light_groups.h"
+#include "shade/light_layers.h"
 #include "shade/made_variables.h"
 #include "shade/materials/material.h"
 #include "shade/shader_variables.h"
@@ -42,6 +44,10 @@ void take_channel(const Aov& aov, int channel, const vm::Operand* from, size_t f
 
 /// Whether any grid will have a variable.
 bool exists(const Aov& aov, const Materials& materials) {
+    if (const auto group = light_group_asked(aov))
+        return *group == kUnlitGroup || std::ranges::any_of(materials.lamps(), [&](const Lamp* lamp) {
+            return light_group_of(lamp->shader->instance()) == *group;
+        });
     return grids_have(aov) || is_made_variable(aov) ||
            std::any_of(materials.all().begin(), materials.all().end(),
                        [&](const Material& material) { return provides(material, aov); });
@@ -73,12 +79,17 @@ void report_missing_aovs(const AovLayout& layout, const Materials& materials, co
         const Display& display = options.displays[i];
         const Aov* aov = display.variable ? layout.find(*display.variable) : nullptr;
         if (!aov || exists(*aov, materials)) continue;
+        const auto group = light_group_asked(*aov);
         // Two displays may have one name.
         diagnostics.warning(
             display.location,
-            fmt::format("Display \"{}\": no surface or displacement shader of the scene has a variable "
-                        "\"{}\" of {}; it is 0 everywhere",
-                        display.name, aov->name, aov->channels == 1 ? "one number" : "three numbers"),
+            group
+                ? fmt::format(
+                      "Display \"{}\": no light of the scene is of the group \"{}\"; it is 0 everywhere",
+                      display.name, *group)
+                : fmt::format("Display \"{}\": no surface or displacement shader of the scene has a variable "
+                              "\"{}\" of {}; it is 0 everywhere",
+                              display.name, aov->name, aov->channels == 1 ? "one number" : "three numbers"),
             fmt::format("display-variable {} {} {}", i, display.name, aov->name));
     }
 }

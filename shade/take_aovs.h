@@ -17,6 +17,7 @@ class Diagnostics;
 /// after these have run: those of the surface, at least one, and of the displacement, each in the order of
 /// its layers. A variable is
 /// - Ci or Oi: the grid's own, as the picture has them;
+/// - "lightgroup:NAME": left at 0 for GridRun to fill (light_layers.h);
 /// - else an output parameter, of as many numbers, of the surface shader or, where that has none, of its
 ///   earlier layers, the displacement shader, and the layers of that;
 /// - else another parameter of the surface shader, or one of its predefined variables;

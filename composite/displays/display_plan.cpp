@@ -9,6 +9,7 @@
 #include "composite/displays/compressions.h"
 #include "composite/displays/exr_attributes.h"
 #include "core/scene/deep_pictures.h"
+#include "core/scene/light_groups.h"
 #include "core/scene/transfer.h"
 
 namespace trapeze {
@@ -118,6 +119,17 @@ bool choose_format(const Display& display, Diagnostics& diagnostics, DisplayPlan
     return true;
 }
 
+/// The name of a variable's layer. That of a group of lights is light_NAME, which programs can show that take
+/// a colon for something else.
+std::string layer_name(const Display& display, const Aov& aov) {
+    if (!display.layer.empty() && display.layer != aov.name) return display.layer;
+    if (!aov.name.starts_with(kLightGroupPrefix)) return aov.name;
+    std::string name = "light_" + aov.name.substr(kLightGroupPrefix.size());
+    const auto is_odd = [](unsigned char c) { return c < 128 && !std::isalnum(c); };
+    std::replace_if(name.begin(), name.end(), is_odd, '_');
+    return name;
+}
+
 /// The variable that the mode names.
 bool choose_variable(const Display& display, const AovLayout& layout, Diagnostics& diagnostics,
                      DisplayPlan& plan) {
@@ -125,7 +137,7 @@ bool choose_variable(const Display& display, const AovLayout& layout, Diagnostic
     if (const Aov* aov = layout.find(*display.variable)) {
         plan.aov = *aov;
         plan.aov_is_color = display.variable->type == ValueType::Color;
-        plan.layer = display.layer.empty() ? aov->name : display.layer;
+        plan.layer = layer_name(display, *aov);
         return true;
     }
     diagnostics.warning(

@@ -27,7 +27,7 @@ constexpr float kRises = 0.1f, kSteep = 0.05f;
 constexpr float kEdge = kPixel;
 
 /// Floats that are worked on together: the compiler makes vectors of them.
-constexpr int kLanes = SurfelRaster::kLanes;
+constexpr int kRasterLanes = SurfelRaster::kLanes;
 using Lanes = SurfelRaster::Lanes;
 
 /// In an order of its own, the same everywhere.
@@ -57,14 +57,14 @@ struct PixelRange {
     int first, end;
 };
 
-/// Calls use(row, first column) for kLanes pixels at a time, which hold those of the ranges.
+/// Calls use(row, first column) for kRasterLanes pixels at a time, which hold those of the ranges.
 template <class Use>
 void for_each_row(const PixelRange& columns, const PixelRange& rows, const Use& use) {
-    static_assert(kSide == 2 * kLanes);
-    const bool one = columns.end - columns.first <= kLanes;
+    static_assert(kSide == 2 * kRasterLanes);
+    const bool one = columns.end - columns.first <= kRasterLanes;
     for (int j = rows.first; j < rows.end; ++j) {
-        use(j, one ? std::min(columns.first, kLanes) : 0);
-        if (!one) use(j, kLanes);
+        use(j, one ? std::min(columns.first, kRasterLanes) : 0);
+        if (!one) use(j, kRasterLanes);
     }
 }
 
@@ -171,13 +171,13 @@ void SurfelRaster::cover(int first, const float* shares, float front, float back
     float* const fronts = &front_[static_cast<size_t>(first)];
     float* const backs = &back_[static_cast<size_t>(first)];
     const float* const weights = sky_->weights() + first;
-    for (size_t k = 0; k < kLanes && clamp_; ++k) {
+    for (size_t k = 0; k < kRasterLanes && clamp_; ++k) {
         const float before = larger(fronts[k], backs[k]);
         fronts[k] = smaller(1, fronts[k] + front * shares[k]);
         backs[k] = smaller(1, backs[k] + back * shares[k]);
         sums[k] += (larger(fronts[k], backs[k]) - before) * weights[k];
     }
-    for (size_t k = 0; k < kLanes && !clamp_; ++k) sums[k] += (front + back) * shares[k] * weights[k];
+    for (size_t k = 0; k < kRasterLanes && !clamp_; ++k) sums[k] += (front + back) * shares[k] * weights[k];
 }
 
 void SurfelRaster::take(float part, const SeenSurface& thing) {
@@ -205,13 +205,13 @@ void SurfelRaster::add_small(const V3f& way, const SeenSurface& thing) {
     for_each_row(columns, rows, [&](int j, int first) {
         const float dy = middle(j) - at.y, u_of_row = dy * oy, v_of_row = dy * ay;
         const float* const inside = &all.inside[static_cast<size_t>(j * kSide + first)];
-        for (int k = 0; k < kLanes; ++k) {
+        for (int k = 0; k < kRasterLanes; ++k) {
             const float dx = middle(first + k) - at.x, u = dx * ox + u_of_row, v = dx * ax + v_of_row;
             const float left = 1 - u * u - v * v, share = left > 0 ? left * left * left : 0;
             to[k] = share;
             sums[static_cast<size_t>(k)] += share * inside[k];
         }
-        to += kLanes;
+        to += kRasterLanes;
     });
     const float sum = added(sums);
     if (!(sum > 0)) return;
@@ -220,7 +220,7 @@ void SurfelRaster::add_small(const V3f& way, const SeenSurface& thing) {
     Lanes parts{};
     for_each_row(columns, rows, [&](int j, int first) {
         cover(j * kSide + first, from, thing.front * scale, thing.back * scale, parts);
-        from += kLanes;
+        from += kRasterLanes;
     });
     take(added(parts), thing);
 }
@@ -250,7 +250,7 @@ void SurfelRaster::add_disc(const V3f& way, const V3f& normal, float radius, con
     Lanes parts{}, shares;
     for_each_row(columns, rows, [&](int j, int first) {
         const auto p = static_cast<size_t>(j * kSide + first);
-        for (size_t k = 0; k < kLanes; ++k) {
+        for (size_t k = 0; k < kRasterLanes; ++k) {
             const float x = all.x[p + k], y = all.y[p + k], z = all.z[p + k];
             const float t = plane / (x * turned.x + y * turned.y + z * turned.z);
             const float dx = x * t - at.x, dy = y * t - at.y, dz = z * t - at.z;
@@ -292,7 +292,7 @@ void SurfelRaster::add_quad(const SurfelQuad& ways, float area, const SeenSurfac
     Lanes parts{}, shares;
     for_each_row(columns, rows, [&](int j, int first) {
         const auto p = static_cast<size_t>(j * kSide + first);
-        for (size_t k = 0; k < kLanes; ++k) {
+        for (size_t k = 0; k < kRasterLanes; ++k) {
             float share = 1;
             for (size_t e = 0; e < 4; ++e) {
                 const float in = all.x[p + k] * edges[e].x + all.y[p + k] * edges[e].y +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/scene/light_groups.h"
 #include "shade/rsl/analysis/suggestions.h"
 
 namespace trapeze {
@@ -29,7 +30,8 @@ void report_unknown_parameters(const ShaderInstance& instance, const rsl::Progra
             is_known = is_known || parameter.name == given.name;
             suggestion.consider(parameter.name);
         }
-        if (is_known) continue;
+        const bool names_group = program.kind == rsl::ShaderKind::Light && given.name == kLightGroupParameter;
+        if (is_known || names_group) continue;
         diagnostics.warning(instance.location,
                             fmt::format("shader \"{}\" has no parameter \"{}\"{}", shown(instance.name),
                                         shown(given.name), suggestion.text()),

@@ -7,6 +7,7 @@
 
 #include "composite/displays/display_plan.h"
 #include "core/scene/adaptive_sampling.h"
+#include "core/scene/light_groups.h"
 #include "core/scene/transfer.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/commands/pictures_of_maps.h"
@@ -73,7 +74,7 @@ class RenderJob {
     void override_displays(Scene& scene, bool is_tile);
     RenderSettings settings_of_world(bool is_tile);
     void name_output(Scene& scene);
-    void add_asked_aovs(std::vector<Display>& displays);
+    void add_asked_aovs(Scene& scene);
     bool makes_tile(const Options& options) const;
     void name_tile(Options& options);
     bool has_tile(const Scene& scene);
@@ -225,9 +226,11 @@ bool RenderJob::has_tile(const Scene& scene) {
 }
 
 /// Adds the layers of --aov.
-void RenderJob::add_asked_aovs(std::vector<Display>& displays) {
+void RenderJob::add_asked_aovs(Scene& scene) {
+    std::vector<Display>& displays = scene.options.displays;
     std::string known_good;
-    const std::string file = add_aovs(displays_of_aovs(arguments_.aovs, &known_good), displays);
+    const std::string file =
+        add_aovs(displays_of_aovs(arguments_.aovs, &known_good), light_groups(scene), displays);
     if (file == displays.front().name) return;
     // Beside what the user names the user may write.
     if (renamed_) access_.allow_writing(file);
@@ -252,7 +255,7 @@ void RenderJob::override_displays(Scene& scene, bool is_tile) {
     if (!names_.empty() && is_tile == tile_.has_value()) name_output(scene);
     if (!arguments_.driver.empty())
         for (Display& display : displays) display.type = arguments_.driver;
-    if (!arguments_.aovs.empty()) add_asked_aovs(displays);
+    if (!arguments_.aovs.empty()) add_asked_aovs(scene);
     if (is_tile) name_tile(scene.options);
 }
 

@@ -220,7 +220,7 @@ void add_render_options(CLI::App& app, Arguments& a) {
     app.add_option(
            "--aov", a.aovs,
            "layers for the picture's OpenEXR file: albedo, N, P, z, id, motion, u, v, uv, alpha, crypto_object, "
-           "crypto_material, crypto_asset, or variables of shaders, as color foo and float foo")
+           "crypto_material, crypto_asset, lightgroups, or variables of shaders, as color foo and float foo")
         ->check([](const std::string& text) {
             std::string error;
             displays_of_aovs(text, &error);

@@ -8,9 +8,12 @@
 #include "composite/displays/display_plan.h"
 #include "composite/mattes/matte_layers.h"
 #include "core/scene/deep_pictures.h"
+#include "core/scene/light_groups.h"
 
 namespace trapeze {
 namespace {
+
+constexpr const char* kAllLightGroups = "lightgroups";
 
 struct NamedVariable {
     std::string_view name;
@@ -77,7 +80,7 @@ bool add_named(const std::string& name, std::vector<Display>& displays) {
             displays.push_back(of_variable(name, known.type, known.filter));
             return true;
         }
-    if (name == "z" || name == "id" || matte_layer_named(name)) {
+    if (name == "z" || name == "id" || name == kAllLightGroups || matte_layer_named(name)) {
         displays.push_back(of_mode(name));
         return true;
     }
@@ -107,6 +110,20 @@ bool shows_the_same(const Display& display, const Display& aov) {
     return display.mode == aov.mode;
 }
 
+/// Puts a variable of each group in place of "lightgroups".
+std::vector<Display> with_light_groups(const std::vector<Display>& aovs, std::vector<std::string> groups) {
+    groups.emplace_back(kUnlitGroup);
+    std::vector<Display> all;
+    for (const Display& aov : aovs)
+        if (aov.mode != kAllLightGroups)
+            all.push_back(aov);
+        else
+            for (const std::string& group : groups)
+                all.push_back(of_variable(std::string(kLightGroupPrefix) + group, ValueType::Color,
+                                          VariableFilter::Picture));
+    return all;
+}
+
 }  // namespace
 
 std::vector<Display> displays_of_aovs(const std::string& list, std::string* error) {
@@ -119,13 +136,14 @@ std::vector<Display> displays_of_aovs(const std::string& list, std::string* erro
         *error =
             "\"" + name +
             "\" is none of albedo, N, P, motion, u, v, uv, z, id, alpha, crypto_object, crypto_material, "
-            "crypto_asset, and no variable as in \"color foo\" or \"float foo\"";
+            "crypto_asset, lightgroups, and no variable as in \"color foo\" or \"float foo\"";
         return {};
     }
     return displays;
 }
 
-std::string add_aovs(const std::vector<Display>& aovs, std::vector<Display>& displays) {
+std::string add_aovs(const std::vector<Display>& aovs, const std::vector<std::string>& light_groups,
+                     std::vector<Display>& displays) {
     const Display first = displays.front();
     std::string file = first.name;
     std::string type = first.type;  // of windows, too, which files of another name stand for
@@ -136,7 +154,7 @@ std::string add_aovs(const std::vector<Display>& aovs, std::vector<Display>& dis
         file = std::filesystem::path(file).replace_extension(".layers.exr").string();
         type = "file";
     }
-    for (const Display& aov : aovs) {
+    for (const Display& aov : with_light_groups(aovs, light_groups)) {
         if (std::any_of(displays.begin(), displays.end(), [&](const Display& known) {
                 return known.name == file && shows_the_same(known, aov);
             }))

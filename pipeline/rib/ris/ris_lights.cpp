@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/portable_math.h"
+#include "core/scene/light_groups.h"
 
 namespace trapeze::rib {
 namespace {
@@ -41,7 +42,8 @@ std::shared_ptr<LightInstance> make(const std::string& handle, const ShaderInsta
     return light;
 }
 
-/// How many samples the light asks for, 0 being as many as the renderer likes, and whether it has shadows.
+/// How many samples the light asks for, 0 being as many as the renderer likes, whether it has shadows, and
+/// its group.
 void set_sampling(LightInstance& light, const RisParameters& p) {
     const float samples = p.number_or("fixedSampleCount", 0);
     if (samples >= 1)
@@ -51,6 +53,8 @@ void set_sampling(LightInstance& light, const RisParameters& p) {
         set_number(light.shader, "traceshadows", 0);
     if (const auto color = p.color("shadowColor"))
         set_triple(light.shader, "shadowcolor", ValueType::Color, *color);
+    if (std::string group = p.text("lightGroup"); !group.empty())
+        set_text(light.shader, kLightGroupParameter, std::move(group));
 }
 
 constexpr float kSunAngle = 0.53f;  ///< that it takes in the sky, degrees
