@@ -12,6 +12,7 @@ struct PixelRect {
     int width() const { return x1 > x0 ? x1 - x0 : 0; }
     int height() const { return y1 > y0 ? y1 - y0 : 0; }
     bool empty() const { return x1 <= x0 || y1 <= y0; }
+    bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
     bool operator==(const PixelRect&) const = default;
 };
 

@@ -112,7 +112,7 @@ const std::map<std::string, Names> kConfinedLibraries = {
     {"OpenEXR/", {"composite"}},
     {"OpenColorIO/", {"composite/colors/opencolorio"}},
     {"embree3/", {"sample/embree"}},
-    {"nlohmann/", {"pipeline"}},
+    {"nlohmann/", {"composite/displays", "pipeline"}},
     {"CLI/", {"pipeline"}},
     {"tbb/", {"tessellate", "shade", "accel", "sample", "composite", "pipeline"}},
 };

@@ -39,7 +39,7 @@ constexpr const char* kMatteDisplays =
     "Display \"x.exr\" \"exr\" \"rgba\" Display \"+x.exr\" \"exr\" \"crypto_object\" Display \"+x.exr\" \"exr\" "
     "\"crypto_material\" ";
 constexpr const char* kDeepDisplays =
-    "Display \"x.exr\" \"exr\" \"rgba\" Display \"+d.exr\" \"deepexr\" \"rgba\" ";
+    "Display \"x.exr\" \"exr\" \"rgba\" Display \"+d.exr\" \"DeepEXR\" \"rgba\" ";
 constexpr const char* kKeptDisplays =
     "Display \"x.exr\" \"exr\" \"rgba\" Display \"+x.exr\" \"exr\" \"point P\" \"string filter\" \"zmin\" "
     "Display \"+x.exr\" \"exr\" \"point P\" \"string filter\" \"max\" Display \"+x.exr\" \"exr\" \"color albedo\" "

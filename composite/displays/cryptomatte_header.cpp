@@ -3,24 +3,12 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "composite/mattes/murmur_hash.h"
 
 namespace trapeze {
 namespace {
-
-/// A text as JSON has it. Bytes that are no ASCII stay: names are UTF-8.
-std::string json_string(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            quoted += fmt::format("\\{}", c);
-        else if (static_cast<unsigned char>(c) < 32)
-            quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-        else
-            quoted += c;
-    }
-    return quoted + '"';
-}
 
 void add_layer(const PictureToWrite& picture, MatteLayer layer, Imf::Header& header) {
     const std::string name(matte_layer_name(layer));
@@ -38,10 +26,11 @@ void add_layer(const PictureToWrite& picture, MatteLayer layer, Imf::Header& hea
 }  // namespace
 
 std::string matte_manifest(const Scene& scene, MatteLayer layer, const Diagnostics& sources) {
-    std::string manifest = "{";
+    nlohmann::json manifest = nlohmann::json::object();
     for (const auto& [name, hash] : matte_names(scene, layer, sources))
-        manifest += fmt::format("{}{}:\"{:08x}\"", manifest.size() > 1 ? "," : "", json_string(name), hash);
-    return manifest + '}';
+        manifest[name] = fmt::format("{:08x}", hash);
+    constexpr bool kOnlyAscii = false;
+    return manifest.dump(-1, ' ', kOnlyAscii, nlohmann::json::error_handler_t::replace);
 }
 
 void add_matte_attributes(const PictureToWrite& picture, Imf::Header& header) {

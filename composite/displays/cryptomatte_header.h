@@ -14,7 +14,8 @@ namespace trapeze {
 /// whatever part of the picture this is.
 void add_matte_attributes(const PictureToWrite& picture, Imf::Header& header);
 
-/// The manifest of a layer: a JSON object of names, with their hashes as eight hexadecimal digits.
+/// The manifest of a layer: a JSON object of names, with their hashes as eight hexadecimal digits. Bytes of a
+/// name that are no UTF-8 are replaced, since JSON has no others.
 std::string matte_manifest(const Scene& scene, MatteLayer layer, const Diagnostics& sources);
 
 }  // namespace trapeze

@@ -1,6 +1,5 @@
 #include "composite/displays/deep_exr_output.h"
 
-#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepFrameBuffer.h>
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
@@ -11,6 +10,7 @@
 
 #include "composite/displays/exr_header.h"
 #include "composite/displays/exr_stream.h"
+#include "core/half.h"
 
 namespace trapeze {
 namespace {
@@ -84,7 +84,7 @@ class DeepRows {
                 if constexpr (std::is_same_v<Value, float>)
                     values.push_back(value);
                 else
-                    values.push_back(Value(std::clamp(value, -65504.0f, 65504.0f)));
+                    values.push_back(to_half(value));
             }
         places_[channel].clear();
         Value* next = values.data();
@@ -124,13 +124,7 @@ void write_deep_pixels(const PictureToWrite& picture, OutputFile& file) {
 
 std::string write_deep_exr(const PictureToWrite& picture, OutputFile& file) {
     if (picture.image.deep.empty()) return "no deep samples were recorded";
-    if (!file.open()) return file.error();
-    try {
-        write_deep_pixels(picture, file);
-    } catch (const std::exception& failure) {
-        return file.error().empty() ? failure.what() : file.error();
-    }
-    return file.commit() ? std::string() : file.error();
+    return write_whole(file, [&] { write_deep_pixels(picture, file); });
 }
 
 }  // namespace trapeze

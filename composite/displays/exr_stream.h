@@ -29,4 +29,16 @@ class ExrStream : public Imf::OStream {
     OutputFile& file_;
 };
 
+/// Opens `file`, lets write() fill it, which may throw, and commits it. Returns what went wrong, or nothing.
+template <class Write>
+std::string write_whole(OutputFile& file, const Write& write) {
+    if (!file.open()) return file.error();
+    try {
+        write();
+    } catch (const std::exception& failure) {
+        return file.error().empty() ? failure.what() : file.error();
+    }
+    return file.commit() ? std::string() : file.error();
+}
+
 }  // namespace trapeze

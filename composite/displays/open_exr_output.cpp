@@ -1,6 +1,5 @@
 #include "composite/displays/open_exr_output.h"
 
-#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -13,6 +12,7 @@
 #include "composite/displays/exr_channels.h"
 #include "composite/displays/exr_header.h"
 #include "composite/displays/exr_stream.h"
+#include "core/half.h"
 
 namespace trapeze {
 namespace {
@@ -34,11 +34,6 @@ Imf::Header make_header(const PictureToWrite& picture, const std::vector<ExrChan
         header.setTileDescription(
             Imf::TileDescription(static_cast<unsigned>(side), static_cast<unsigned>(side)));
     return header;
-}
-
-/// What is larger becomes the largest finite half: no infinities in files.
-Imath::half to_half(float value) {
-    return Imath::half(std::clamp(value, -65504.0f, 65504.0f));
 }
 
 /// Rows of the picture's window as OpenEXR takes them: floats and ids from where they are, halves from a copy
@@ -133,13 +128,7 @@ std::string write_open_exr(const PictureToWrite& picture, OutputFile& file) {
     for (const DisplayPlan& plan : picture.further)
         if (problem.empty()) problem = missing(picture.image, plan);
     if (!problem.empty()) return problem;
-    if (!file.open()) return file.error();
-    try {
-        write_pixels(picture, file);
-    } catch (const std::exception& failure) {
-        return file.error().empty() ? failure.what() : file.error();
-    }
-    return file.commit() ? std::string() : file.error();
+    return write_whole(file, [&] { write_pixels(picture, file); });
 }
 
 }  // namespace trapeze

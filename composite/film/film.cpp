@@ -35,10 +35,6 @@ DepthFilter depth_filter_of(const RenderContext& context) {
     return filter;
 }
 
-bool has_pixel(const PixelRect& r, int x, int y) {
-    return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
-}
-
 bool wants_ids(const Options& options) {
     return std::any_of(options.displays.begin(), options.displays.end(),
                        [](const Display& display) { return display.mode == "id"; });
@@ -321,7 +317,7 @@ void Film::accumulate_layers(const FilmPart& part, TileSums& sums) {
 
 /// Exposure's gain is a picture's, too, but not its gamma: deep samples add up.
 void Film::record_deep(int px, int py, std::vector<DeepSample> samples) {
-    if (!has_pixel(image_.window, px, py)) return;
+    if (!image_.window.contains(px, py)) return;
     for (DeepSample& sample : samples)
         for (int c = 0; c < 3; ++c) sample.rgba[c] *= gain_;
     image_.deep[image_.index(px, py)] = std::move(samples);
@@ -330,7 +326,7 @@ void Film::record_deep(int px, int py, std::vector<DeepSample> samples) {
 /// Records a pixel's depth and id, which are of the samples within the pixel alone; these all lie in one
 /// tile.
 void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
-    if (!has_pixel(image_.window, px, py)) return;
+    if (!image_.window.contains(px, py)) return;
     const size_t at = image_.index(px, py);
     image_.z[at] = depth;
     if (!image_.id.empty()) image_.id[at] = primitive;
@@ -338,7 +334,7 @@ void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
 
 /// Records what a pixel keeps of variables. To these channels nothing is added but 0.
 void Film::record_variables(int px, int py, const PixelVariables& variables) {
-    if (!has_pixel(image_.window, px, py)) return;
+    if (!image_.window.contains(px, py)) return;
     std::copy(
         variables.values().begin(), variables.values().end(),
         image_.aovs.begin() + static_cast<std::ptrdiff_t>(variables.values().size() * image_.index(px, py)));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "composite/film/walk_layers.h"
+
 namespace trapeze {
 namespace {
 
@@ -19,8 +21,7 @@ void add_aovs_of_hit(const AxisRay& ray, const Grid& grid, const MicropolygonId&
     const int corners = grid.smooth ? 4 : 1;
     const V3f& transmission = progress.transmission;
     const bool is_first = progress.depth >= kInfinity;
-    const bool gray = transmission.x == transmission.y && transmission.y == transmission.z;
-    const float mean = gray ? transmission.x : (transmission.x + transmission.y + transmission.z) / 3;
+    const float mean = mean_of_channels(transmission);
     for (const Aov& aov : layout.aovs) {
         if (aov.is_of_one_surface() && !is_first) continue;
         for (int c = 0; c < aov.channels; ++c) {
@@ -46,7 +47,7 @@ void add(std::span<const Hit> hits, const Grids& grids, bool midpoint, const Lay
         const Grid& grid = grids.grids[id.grid];
         const Layer layer = layer_of(i, grid, id);
         for (int c = 0; c < 3; ++c) {
-            const float opacity = std::clamp(layer.opacity[c], 0.0f, 1.0f);
+            const float opacity = hiding(layer, c);
             if (!grid.matte) sum.color[c] += sum.transmission[c] * layer.color[c];
             if (grid.matte != 1) sum.alpha[c] += sum.transmission[c] * opacity;
             sum.transmission[c] *= 1 - opacity;
@@ -84,9 +85,7 @@ SampleColor LayerSum::result(bool midpoint) const {
     sample.depth = midpoint && layers == 1 ? kInfinity : depth;
     sample.primitive = primitive;
     for (int c = 0; c < 3; ++c) sample.rgba[c] = color[c];
-    // An equal alpha in all channels is kept exactly: (1 + 1 + 1) * (1 / 3) need not be 1.
-    const bool gray = alpha.x == alpha.y && alpha.y == alpha.z;
-    sample.rgba[3] = gray ? alpha.x : (alpha.x + alpha.y + alpha.z) / 3;
+    sample.rgba[3] = mean_of_channels(alpha);
     return sample;
 }
 
@@ -116,20 +115,13 @@ float resolve_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& g
 
 void add_aovs(const AxisRay& ray, std::span<const Hit> hits, const Grids& grids, const AovLayout& layout,
               AovProgress& progress, float* values) {
-    V3f& transmission = progress.transmission;
-    for (const Hit& hit : hits) {
-        if (transmission == V3f(0)) return;
-        const MicropolygonId id = MicropolygonId::unpack(hit.id);
-        if (id.grid >= grids.grids.size()) continue;
-        const Grid& grid = grids.grids[id.grid];
-        const Layer layer = layer_at(ray, grid, id);
-        if (shows(grid, layer)) {
-            if (grid.aov_channels == layout.channel_count)
-                add_aovs_of_hit(ray, grid, id, layout, progress, values);
-            progress.depth = std::min(progress.depth, hit.depth);
-        }
-        for (int c = 0; c < 3; ++c) transmission[c] *= 1 - std::clamp(layer.opacity[c], 0.0f, 1.0f);
-    }
+    walk_layers(ray, hits, grids, progress.transmission,
+                [&](const Hit& hit, const MicropolygonId& id, const Grid& grid, const Layer& layer) {
+                    if (!shows(grid, layer)) return;
+                    if (grid.aov_channels == layout.channel_count)
+                        add_aovs_of_hit(ray, grid, id, layout, progress, values);
+                    progress.depth = std::min(progress.depth, hit.depth);
+                });
 }
 
 }  // namespace trapeze

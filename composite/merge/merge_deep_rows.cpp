@@ -15,24 +15,10 @@ namespace {
 /// In memory at a time. No compression of deep files packs rows together.
 constexpr int kDeepRowsOfBand = 16;
 
-struct DeepChannel {
-    std::string name;
-    Imf::PixelType type = Imf::HALF;
-    size_t bytes = 2;  ///< of a sample
-};
-
-std::vector<DeepChannel> deep_channels_of(const Imf::ChannelList& list) {
-    std::vector<DeepChannel> channels;
-    for (auto i = list.begin(); i != list.end(); ++i)
-        channels.push_back(
-            {i.name(), i.channel().type, i.channel().type == Imf::HALF ? size_t{2} : size_t{4}});
-    return channels;
-}
-
 /// A window's pixels: how many samples each has, and where each channel's samples of it are.
 class DeepRows {
   public:
-    DeepRows(const std::vector<DeepChannel>& channels, const Box2i& window)
+    DeepRows(const std::vector<TileChannel>& channels, const Box2i& window)
         : channels_(channels),
           window_(window),
           counts_(width() * height()),
@@ -81,7 +67,7 @@ class DeepRows {
     }
 
   private:
-    const std::vector<DeepChannel>& channels_;
+    const std::vector<TileChannel>& channels_;
     Box2i window_;
     std::vector<uint32_t> counts_;
     std::vector<std::vector<char*>> samples_;  ///< of each channel, by pixels
@@ -91,7 +77,7 @@ class DeepRows {
 /// A band of the picture: its samples are those of the tiles that have been added, which stay here.
 class DeepBand {
   public:
-    DeepBand(const std::vector<DeepChannel>& channels, const std::vector<TileFile>& files,
+    DeepBand(const std::vector<TileChannel>& channels, const std::vector<TileFile>& files,
              const Box2i& window)
         : channels_(channels),
           files_(files),
@@ -122,7 +108,7 @@ class DeepBand {
                 throw differing_pixel(owner, files_[file], channels_[c].name, x, y);
     }
 
-    const std::vector<DeepChannel>& channels_;
+    const std::vector<TileChannel>& channels_;
     const std::vector<TileFile>& files_;
     DeepRows rows_;
     std::vector<const TileFile*> owners_;  ///< of each pixel; null: none yet
@@ -133,7 +119,7 @@ class DeepBand {
 
 void merge_deep_rows(const TileHeaders& tiles, const Imf::Header& header, const MergeOptions& options,
                      OutputFile& file, const std::string& name) {
-    const std::vector<DeepChannel> channels = deep_channels_of(header.channels());
+    const std::vector<TileChannel> channels = channels_of(header.channels());
     const Box2i& window = header.dataWindow();
     ExrStream stream(file, name);
     Imf::DeepScanLineOutputFile out(stream, header, 0);

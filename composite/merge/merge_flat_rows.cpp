@@ -1,4 +1,3 @@
-#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputFile.h>
@@ -12,6 +11,7 @@
 #include "composite/image.h"
 #include "composite/merge/merge_rows.h"
 #include "composite/merge/open_tiles.h"
+#include "core/half.h"
 #include "core/scene/scene.h"
 
 namespace trapeze {
@@ -23,20 +23,6 @@ constexpr size_t kBytesOfBand = size_t{64} << 20;
 constexpr size_t kMostRowsOfBand = 256;
 constexpr int32_t kNoTile = -1;
 
-struct FlatChannel {
-    std::string name;
-    Imf::PixelType type = Imf::HALF;
-    size_t bytes = 2;  ///< of a value
-};
-
-std::vector<FlatChannel> channels_of(const Imf::ChannelList& list) {
-    std::vector<FlatChannel> channels;
-    for (auto i = list.begin(); i != list.end(); ++i)
-        channels.push_back(
-            {i.name(), i.channel().type, i.channel().type == Imf::HALF ? size_t{2} : size_t{4}});
-    return channels;
-}
-
 template <class Value>
 void fill_with(std::vector<char>& plane, Value value) {
     for (size_t at = 0; at < plane.size(); at += sizeof value) std::memcpy(&plane[at], &value, sizeof value);
@@ -44,12 +30,12 @@ void fill_with(std::vector<char>& plane, Value value) {
 
 /// The values of pixels that show nothing, as the renderer writes them: no colour, the largest depth, no
 /// primitive.
-void fill_empty(const FlatChannel& channel, std::vector<char>& plane) {
+void fill_empty(const TileChannel& channel, std::vector<char>& plane) {
     const bool is_id = channel.name == "id" || channel.name.starts_with("id.");
     if (channel.name == "Z" && channel.type == Imf::FLOAT)
         fill_with(plane, kInfinity);
     else if (channel.name == "Z" && channel.type == Imf::HALF)
-        fill_with(plane, Imath::half(65504.0f));  // the largest that is finite
+        fill_with(plane, Imath::half(kLargestHalf));
     else if (is_id && channel.type == Imf::UINT)
         fill_with(plane, kNoPrimitive);
     else
@@ -59,7 +45,7 @@ void fill_empty(const FlatChannel& channel, std::vector<char>& plane) {
 /// A window's pixels, each channel's by themselves, row by row.
 class FlatRows {
   public:
-    explicit FlatRows(const std::vector<FlatChannel>& channels)
+    explicit FlatRows(const std::vector<TileChannel>& channels)
         : channels_(channels), planes_(channels.size()) {}
 
     void begin(const Box2i& window) {
@@ -92,7 +78,7 @@ class FlatRows {
     }
 
   private:
-    const std::vector<FlatChannel>& channels_;
+    const std::vector<TileChannel>& channels_;
     Box2i window_;
     std::vector<std::vector<char>> planes_;
 };
@@ -100,7 +86,7 @@ class FlatRows {
 /// A band of the picture, and which tile each pixel is of.
 class FlatBand {
   public:
-    FlatBand(const std::vector<FlatChannel>& channels, const std::vector<TileFile>& files)
+    FlatBand(const std::vector<TileChannel>& channels, const std::vector<TileFile>& files)
         : channels_(channels), files_(files), rows_(channels) {}
 
     void begin(const Box2i& window) {
@@ -136,23 +122,23 @@ class FlatBand {
         copy(tile, x, y, 1);
     }
 
-    const std::vector<FlatChannel>& channels_;
+    const std::vector<TileChannel>& channels_;
     const std::vector<TileFile>& files_;
     FlatRows rows_;
     std::vector<int32_t> owners_;
 };
 
 /// Rows of a band: the picture's and a tile's values are in memory, and a number for each pixel.
-int rows_of_band(const std::vector<FlatChannel>& channels, const Box2i& window) {
+int rows_of_band(const std::vector<TileChannel>& channels, const Box2i& window) {
     size_t bytes = sizeof(int32_t);
-    for (const FlatChannel& channel : channels) bytes += 2 * channel.bytes;
+    for (const TileChannel& channel : channels) bytes += 2 * channel.bytes;
     const size_t row = bytes * (static_cast<size_t>(window.max.x - window.min.x) + 1);
     return static_cast<int>(std::clamp<size_t>(kBytesOfBand / row, 1, kMostRowsOfBand));
 }
 
 /// Calls write(pixels, rows) for each band of the picture, of `step` rows, from the top.
 template <class Write>
-void for_each_band(const TileHeaders& tiles, const std::vector<FlatChannel>& channels, int step,
+void for_each_band(const TileHeaders& tiles, const std::vector<TileChannel>& channels, int step,
                    const MergeOptions& options, const Write& write) {
     const Box2i window = tiles.window();
     OpenTiles<Imf::InputFile> open(tiles.files());
@@ -178,7 +164,7 @@ void for_each_band(const TileHeaders& tiles, const std::vector<FlatChannel>& cha
 
 void merge_flat_rows(const TileHeaders& tiles, const Imf::Header& header, const MergeOptions& options,
                      OutputFile& file, const std::string& name) {
-    const std::vector<FlatChannel> channels = channels_of(header.channels());
+    const std::vector<TileChannel> channels = channels_of(header.channels());
     const int step = rows_of_band(channels, tiles.window());
     ExrStream stream(file, name);
     if (tiles.is_stored_in_tiles()) {

@@ -1,5 +1,7 @@
 #include "core/scene/aov.h"
 
+#include <cctype>
+
 namespace trapeze {
 
 const Aov* AovLayout::find(const DisplayVariable& variable) const& {
@@ -22,6 +24,12 @@ AovLayout aov_layout(const Options& options) {
         layout.channel_count += channels;
     }
     return layout;
+}
+
+bool can_name_channels(std::string_view name) {
+    constexpr size_t kLongest = 200;  // characters; OpenEXR's names have at most 255, with prefix and suffix
+    const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
+    return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), fits);
 }
 
 bool is_depth(const DisplayVariable& variable) {

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/scene.h"
@@ -59,6 +60,9 @@ struct AovLayout {
 /// The layout that a scene's Displays ask for; it follows from them alone. What does not fit in
 /// kMostAovChannels is left out.
 AovLayout aov_layout(const Options& options);
+
+/// Whether a file can have channels of a variable's name.
+bool can_name_channels(std::string_view name);
 
 /// Whether the variable is z, the depth that every picture has.
 bool is_depth(const DisplayVariable& variable);

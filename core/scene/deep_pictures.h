@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
+#include <string_view>
 
 #include "core/scene/scene.h"
 
@@ -12,8 +14,10 @@ namespace trapeze {
 /// depth.
 inline constexpr float kUsualDeepTolerance = 0.01f;
 
+/// Whether a Display's driver is "deepexr", whose case does not count, as no driver's does.
 inline bool is_deep(const Display& display) {
-    return display.type == "deepexr";
+    constexpr std::string_view kDriver = "deepexr";
+    return std::ranges::equal(display.type, kDriver, {}, [](unsigned char c) { return std::tolower(c); });
 }
 
 /// The tolerance of the picture's deep pixels: that of the first Display of driver "deepexr" ("float

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/half.h"
 #include "core/motion_keys.h"
 #include "core/scene/depth_filter.h"
 #include "core/scene/level_of_detail.h"
@@ -36,13 +37,6 @@ void pack_plane(const GridShape& shape, const float* rows, float* tiles, int64_t
                 const int j = std::min<int>(tv * 4 + (lane >> 2), shape.nv);
                 last = *tiles = coordinate_or(rows[shape.row_index(i, j)], last, not_finite);
             }
-}
-
-constexpr float kLargestHalf = 65504;
-
-/// The nearest half; what is larger than any becomes the largest finite one.
-Imath::half to_half(float value) {
-    return Imath::half(std::clamp(value, -kLargestHalf, kLargestHalf));
 }
 
 /// Packs three planes from `first_plane` on; floats are clamped to +-largest.

@@ -1,12 +1,12 @@
 #include "pipeline/cli/support/named_aovs.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 
 #include "composite/displays/display_plan.h"
 #include "composite/mattes/matte_layers.h"
+#include "core/scene/aov.h"
 #include "core/scene/deep_pictures.h"
 #include "core/scene/light_groups.h"
 
@@ -44,12 +44,6 @@ Display of_variable(const std::string& name, ValueType type, VariableFilter filt
     return display;
 }
 
-bool is_variable_name(std::string_view name) {
-    constexpr size_t kLongest = 200;
-    const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
-    return !name.empty() && name.size() <= kLongest && std::all_of(name.begin(), name.end(), fits);
-}
-
 /// "color foo" or foo.
 bool add_shader_variable(const std::string& text, std::vector<Display>& displays) {
     const auto is_type = [](std::string_view word) {
@@ -68,7 +62,7 @@ bool add_shader_variable(const std::string& text, std::vector<Display>& displays
         type = known->second;
         name = text.substr(text.find_first_not_of(' ', space));
     }
-    if (!is_variable_name(name)) return false;
+    if (!can_name_channels(name)) return false;
     displays.push_back(of_variable(name, type, VariableFilter::Picture));
     return true;
 }

@@ -1,16 +1,14 @@
 /// RISpec 4.1.2, Display, with the DisplayChannel that later RenderMans added.
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
+#include "core/scene/aov.h"
 #include "pipeline/rib/requests/colorspaces.h"
 #include "pipeline/rib/requests/request_table.h"
 #include "pipeline/rib/state/recognised_names.h"
 
 namespace trapeze::rib {
 namespace {
-
-constexpr size_t kLongestVariable = 200;  ///< characters; names become channels of files
 
 /// Globals of surface shaders (RISpec, table 12.1) whose types nobody declares.
 struct Global {
@@ -23,18 +21,12 @@ constexpr Global kGlobals[] = {
     {"dPdu", ValueType::Vector}, {"dPdv", ValueType::Vector}, {"I", ValueType::Vector},
     {"E", ValueType::Point},     {"time", ValueType::Float}};
 
-/// A name that can become a channel of a picture file.
-bool is_variable_name(std::string_view name) {
-    const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':'; };
-    return !name.empty() && name.size() <= kLongestVariable && std::all_of(name.begin(), name.end(), fits);
-}
-
 /// A variable of one or three numbers, which files can hold; nothing for others.
 std::optional<DisplayVariable> variable_of(const std::string& name, const Declaration& declaration) {
     constexpr ValueType kTypes[] = {ValueType::Float, ValueType::Integer, ValueType::Color,
                                     ValueType::Point, ValueType::Vector,  ValueType::Normal};
     const bool fits = std::find(std::begin(kTypes), std::end(kTypes), declaration.type) != std::end(kTypes);
-    if (!fits || declaration.array_length != 1 || !is_variable_name(name)) return {};
+    if (!fits || declaration.array_length != 1 || !can_name_channels(name)) return {};
     const bool is_integer = declaration.type == ValueType::Integer;  // a float of shaders
     return DisplayVariable{name, is_integer ? ValueType::Float : declaration.type};
 }
@@ -162,7 +154,7 @@ void display_channel(OptionContext& r, ArgumentCursor& c) {
     }
     const std::string channel = variable->name, source = parameters.string_or("source", "");
     // Others, "lpe:..." and the like, are not for names.
-    if (is_variable_name(source) && source.find(':') == std::string::npos) variable->name = source;
+    if (can_name_channels(source) && source.find(':') == std::string::npos) variable->name = source;
     r.state.scope().display_channels[channel] = {*variable, std::move(parameters)};
 }
 

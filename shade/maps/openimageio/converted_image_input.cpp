@@ -1,8 +1,8 @@
 #include "shade/maps/openimageio/converted_image_input.h"
 
-#include <Imath/half.h>
-
 #include <algorithm>
+
+#include "core/half.h"
 
 namespace trapeze {
 namespace {
@@ -24,10 +24,6 @@ OIIO::ImageSpec ConvertedImageInput::config_of(const ColorTransform& transform, 
     return config;
 }
 
-bool ConvertedImageInput::open(const std::string& name, OIIO::ImageSpec& new_spec) {
-    return open(name, new_spec, {});
-}
-
 bool ConvertedImageInput::open(const std::string&, OIIO::ImageSpec& new_spec, const OIIO::ImageSpec& config) {
     const OIIO::ParamValue* const transform = config.find_attribute(kTransform, OIIO::TypeDesc::PTR);
     if (!transform) {
@@ -35,16 +31,7 @@ bool ConvertedImageInput::open(const std::string&, OIIO::ImageSpec& new_spec, co
         return false;
     }
     transform_ = *static_cast<const ColorTransform* const*>(transform->data());
-    OIIO::ImageSpec stored;
-    stored.attribute("oiio:UnassociatedAlpha", 1);  // multiplied by alpha after it is converted, not before
-    inner_ = OIIO::ImageInput::open(std::string(config.get_string_attribute(kFile)), &stored);
-    if (!inner_) {
-        errorfmt("{}", OIIO::geterror());
-        return false;
-    }
-    take_spec();
-    new_spec = m_spec;
-    return true;
+    return open_inner(std::string(config.get_string_attribute(kFile)), {}, new_spec);
 }
 
 void ConvertedImageInput::take_spec() {
@@ -60,23 +47,6 @@ void ConvertedImageInput::take_spec() {
     m_spec.channelformats.clear();
     m_spec.set_format(fits_halves ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     m_spec.attribute("oiio:ColorSpace", "Linear");
-}
-
-bool ConvertedImageInput::close() {
-    const bool good = !inner_ || inner_->close();
-    inner_.reset();
-    return good;
-}
-
-bool ConvertedImageInput::seek_subimage(int subimage, int miplevel) {
-    if (!inner_ || !inner_->seek_subimage(subimage, miplevel)) return false;
-    take_spec();
-    return true;
-}
-
-bool ConvertedImageInput::failed() {
-    errorfmt("{}", inner_->geterror());
-    return false;
 }
 
 /// Greys are converted as colours of three equal numbers.
@@ -110,29 +80,22 @@ template <class Read>
 bool ConvertedImageInput::read(size_t pixels, void* data, Read&& read_floats) {
     const size_t numbers = pixels * static_cast<size_t>(m_spec.nchannels);
     std::vector<float> values(numbers);
-    if (!read_floats(values.data())) return failed();
+    if (!read_floats(values.data())) return false;
     convert(values.data(), pixels);
     if (m_spec.format == OIIO::TypeDesc::HALF)
-        std::transform(values.begin(), values.end(), static_cast<Imath::half*>(data),
-                       [](float value) { return Imath::half(std::clamp(value, -65504.0f, 65504.0f)); });
+        std::transform(values.begin(), values.end(), static_cast<Imath::half*>(data), to_half);
     else
         std::copy(values.begin(), values.end(), static_cast<float*>(data));
     return true;
 }
 
-bool ConvertedImageInput::read_native_scanline(int subimage, int miplevel, int y, int z, void* data) {
-    if (!inner_) return false;
-    lock_guard lock(*this);
-    if (!seek_subimage(subimage, miplevel)) return failed();
-    return read(static_cast<size_t>(m_spec.width), data,
+bool ConvertedImageInput::read_row(int y, int z, size_t pixels, void* data) {
+    return read(pixels, data,
                 [&](float* to) { return inner_->read_scanline(y, z, OIIO::TypeDesc::FLOAT, to); });
 }
 
-bool ConvertedImageInput::read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) {
-    if (!inner_) return false;
-    lock_guard lock(*this);
-    if (!seek_subimage(subimage, miplevel)) return failed();
-    return read(static_cast<size_t>(m_spec.tile_pixels()), data,
+bool ConvertedImageInput::read_square(int x, int y, int z, size_t pixels, void* data) {
+    return read(pixels, data,
                 [&](float* to) { return inner_->read_tile(x, y, z, OIIO::TypeDesc::FLOAT, to); });
 }
 

@@ -47,23 +47,10 @@ std::string LinearImageInput::decoded_name(const std::string& file) {
     return file + std::string(kDecoded);
 }
 
-bool LinearImageInput::open(const std::string& name, OIIO::ImageSpec& new_spec) {
-    return open(name, new_spec, {});
-}
-
 bool LinearImageInput::open(const std::string& name, OIIO::ImageSpec& new_spec,
                             const OIIO::ImageSpec& config) {
-    OIIO::ImageSpec stored = config;
-    stored.attribute("oiio:UnassociatedAlpha", 1);  // multiplied by alpha after it is decoded, not before
     const bool decoded = name.ends_with(kDecoded);
-    inner_ = OIIO::ImageInput::open(decoded ? name.substr(0, name.size() - kDecoded.size()) : name, &stored);
-    if (!inner_) {
-        errorfmt("{}", OIIO::geterror());
-        return false;
-    }
-    take_spec();
-    new_spec = m_spec;
-    return true;
+    return open_inner(decoded ? name.substr(0, name.size() - kDecoded.size()) : name, config, new_spec);
 }
 
 void LinearImageInput::take_spec() {
@@ -75,23 +62,6 @@ void LinearImageInput::take_spec() {
     m_spec.erase_attribute("oiio:UnassociatedAlpha");
     m_spec.set_format(stored_ == OIIO::TypeDesc::UINT8 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
     m_spec.attribute("oiio:ColorSpace", "Linear");
-}
-
-bool LinearImageInput::close() {
-    const bool good = !inner_ || inner_->close();
-    inner_.reset();
-    return good;
-}
-
-bool LinearImageInput::seek_subimage(int subimage, int miplevel) {
-    if (!inner_ || !inner_->seek_subimage(subimage, miplevel)) return false;
-    take_spec();
-    return true;
-}
-
-bool LinearImageInput::failed() {
-    errorfmt("{}", inner_->geterror());
-    return false;
 }
 
 template <class Stored>
@@ -114,9 +84,9 @@ void LinearImageInput::deliver(const std::vector<unsigned char>& pixels, void* d
 /// Delivers pixels to `data`. `read_native` reads so many from the wrapped file into its argument.
 template <class Read>
 bool LinearImageInput::read(size_t pixels, void* data, Read&& read_native) {
-    if (!decodes_) return read_native(data) || failed();
+    if (!decodes_) return read_native(data);
     std::vector<unsigned char> stored(pixels * m_spec.nchannels * stored_.size());
-    if (!read_native(stored.data())) return failed();
+    if (!read_native(stored.data())) return false;
     if (stored_ == OIIO::TypeDesc::UINT8)
         deliver<uint8_t>(stored, data);
     else
@@ -124,20 +94,16 @@ bool LinearImageInput::read(size_t pixels, void* data, Read&& read_native) {
     return true;
 }
 
-bool LinearImageInput::read_native_scanline(int subimage, int miplevel, int y, int z, void* data) {
-    if (!inner_) return false;
-    lock_guard lock(*this);
-    if (!seek_subimage(subimage, miplevel)) return failed();
-    return read(static_cast<size_t>(m_spec.width), data,
-                [&](void* to) { return inner_->read_native_scanline(subimage, miplevel, y, z, to); });
+bool LinearImageInput::read_row(int y, int z, size_t pixels, void* data) {
+    return read(pixels, data, [&](void* to) {
+        return inner_->read_native_scanline(current_subimage(), current_miplevel(), y, z, to);
+    });
 }
 
-bool LinearImageInput::read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) {
-    if (!inner_) return false;
-    lock_guard lock(*this);
-    if (!seek_subimage(subimage, miplevel)) return failed();
-    return read(static_cast<size_t>(m_spec.tile_pixels()), data,
-                [&](void* to) { return inner_->read_native_tile(subimage, miplevel, x, y, z, to); });
+bool LinearImageInput::read_square(int x, int y, int z, size_t pixels, void* data) {
+    return read(pixels, data, [&](void* to) {
+        return inner_->read_native_tile(current_subimage(), current_miplevel(), x, y, z, to);
+    });
 }
 
 }  // namespace trapeze

@@ -4,12 +4,10 @@
 /// linear light.
 #pragma once
 
-#include <OpenImageIO/imageio.h>
-
-#include <memory>
 #include <vector>
 
 #include "core/scene/transfer.h"
+#include "shade/maps/openimageio/wrapping_image_input.h"
 
 namespace trapeze {
 
@@ -17,7 +15,7 @@ namespace trapeze {
 /// more, unless the file's metadata names another space.
 bool is_srgb_encoded(const OIIO::ImageSpec& spec, Transfer transfer);
 
-class LinearImageInput : public OIIO::ImageInput {
+class LinearImageInput : public WrappingImageInput {
   public:
     /// The name by which a cache knows the decoded pixels of a file, beside the pixels as they are.
     static std::string decoded_name(const std::string& file);
@@ -27,25 +25,19 @@ class LinearImageInput : public OIIO::ImageInput {
     static OIIO::ImageInput* create() { return new LinearImageInput; }
 
     const char* format_name() const override { return "linear"; }
-    bool open(const std::string& name, OIIO::ImageSpec& new_spec) override;
+    using WrappingImageInput::open;
     bool open(const std::string& name, OIIO::ImageSpec& new_spec, const OIIO::ImageSpec& config) override;
-    bool close() override;
-    int current_subimage() const override { return inner_ ? inner_->current_subimage() : 0; }
-    int current_miplevel() const override { return inner_ ? inner_->current_miplevel() : 0; }
-    bool seek_subimage(int subimage, int miplevel) override;
-    bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
-    bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
 
   private:
-    void take_spec();
+    void take_spec() override;
+    bool read_row(int y, int z, size_t pixels, void* data) override;
+    bool read_square(int x, int y, int z, size_t pixels, void* data) override;
     /// Converts pixels as they are read from the wrapped file and stores them at `data`.
     template <class Stored>
     void deliver(const std::vector<unsigned char>& pixels, void* data) const;
     template <class Read>
     bool read(size_t pixels, void* data, Read&& read_native);
-    bool failed();
 
-    std::unique_ptr<OIIO::ImageInput> inner_;
     OIIO::TypeDesc stored_;  ///< of the file's numbers
     bool decodes_ = false, multiplies_ = false;
 };
