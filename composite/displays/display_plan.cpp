@@ -75,7 +75,7 @@ const Display* file_beside_window(const Display& display, const Options& options
     const auto found =
         std::find_if(options.displays.begin(), options.displays.end(), [&](const Display& other) {
             return (other.name == display.name || show_the_same(other, display)) && !opens_window(other) &&
-                   lower(other.type) != "null";
+                   !other.has_driver("null");
         });
     return found == options.displays.end() ? nullptr : &*found;
 }
@@ -338,8 +338,7 @@ bool holds_depth(const std::string& file) {
 }
 
 bool makes_depth_map(const Display& display) {
-    const std::string driver = lower(display.type);
-    return driver == "zfile" || driver == "shadow";
+    return display.has_driver("zfile") || display.has_driver("shadow");
 }
 
 std::optional<FileFormat> file_format(const Display& display) {

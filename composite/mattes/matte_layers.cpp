@@ -34,7 +34,7 @@ std::vector<MatteLayer> matte_layers(const Options& options) {
     std::vector<MatteLayer> layers;
     for (const MatteLayer layer : kMatteLayers)
         if (std::ranges::any_of(options.displays, [&](const Display& display) {
-                return display.type != "null" && display.mode == matte_layer_name(layer);
+                return !display.has_driver("null") && display.mode == matte_layer_name(layer);
             }))
             layers.push_back(layer);
     return layers;

@@ -80,7 +80,7 @@ TEST(MatteLayers, DisplaysAskForThem) {
     options.displays = {{"a", "exr", "crypto_asset", {}, {}},
                         {"a", "exr", "crypto_object", {}, {}},
                         {"b", "exr", "crypto_object", {}, {}},
-                        {"c", "null", "crypto_material", {}, {}}};
+                        {"c", "NULL", "crypto_material", {}, {}}};
     EXPECT_THAT(matte_layers(options), ElementsAre(MatteLayer::Object, MatteLayer::Asset));
     for (const MatteLayer layer : kMatteLayers) EXPECT_EQ(matte_layer_named(matte_layer_name(layer)), layer);
     EXPECT_FALSE(matte_layer_named("crypto"));

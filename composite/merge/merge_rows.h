@@ -12,7 +12,7 @@
 
 namespace trapeze {
 
-/// A channel of tiles, of which nothing but the size is looked at.
+/// A channel of tiles: its values are copied as they are.
 struct TileChannel {
     std::string name;
     Imf::PixelType type = Imf::HALF;

@@ -16,7 +16,7 @@ AovLayout aov_layout(const Options& options) {
     AovLayout layout;
     for (const Display& display : options.displays) {
         if (!display.variable || is_depth(*display.variable) || layout.find(*display.variable)) continue;
-        if (display.type == "null") continue;  // nobody sees it
+        if (display.has_driver("null")) continue;  // nobody sees it
         const int channels = component_count(display.variable->type);
         if (layout.channel_count + channels > kMostAovChannels) continue;
         layout.aovs.push_back(

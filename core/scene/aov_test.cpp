@@ -52,7 +52,7 @@ TEST(AovLayout, NothingIsAskedForByColourAndDepth) {
 TEST(AovLayout, NobodySeesWhatNullDisplaysShow) {
     Options options;
     options.displays = {Display{}, display_of("N", ValueType::Normal), display_of("s", ValueType::Float)};
-    options.displays[1].type = "null";
+    options.displays[1].type = "Null";
     const AovLayout layout = aov_layout(options);
     EXPECT_EQ(layout.find({"N", ValueType::Normal}), nullptr);
     EXPECT_EQ(layout.channel_count, 1);

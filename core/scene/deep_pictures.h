@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
-#include <string_view>
 
 #include "core/scene/scene.h"
 
@@ -14,10 +12,8 @@ namespace trapeze {
 /// depth.
 inline constexpr float kUsualDeepTolerance = 0.01f;
 
-/// Whether a Display's driver is "deepexr", whose case does not count, as no driver's does.
 inline bool is_deep(const Display& display) {
-    constexpr std::string_view kDriver = "deepexr";
-    return std::ranges::equal(display.type, kDriver, {}, [](unsigned char c) { return std::tolower(c); });
+    return display.has_driver("deepexr");
 }
 
 /// The tolerance of the picture's deep pixels: that of the first Display of driver "deepexr" ("float

@@ -2,10 +2,13 @@
 /// primitives. Everything here is valid; later stages may rely on it.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/diagnostics.h"
@@ -44,6 +47,11 @@ struct Display {
     std::optional<DisplayVariable> variable =
         {};                  ///< what the mode names, unless it is colour, alpha or depth
     std::string layer = {};  ///< of the variable in a file of several displays; empty: the variable's name
+
+    /// Whether the driver is the one of this name, given in lower case; the case of drivers does not count.
+    bool has_driver(std::string_view driver) const {
+        return std::ranges::equal(type, driver, {}, [](unsigned char c) { return std::tolower(c); });
+    }
 };
 
 /// A PixelFilter request: the filter's name, and how wide it is.
