@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "composite/film/glow_filter.h"
+#include "composite/filters/glow_filter.h"
 #include "tests/scene_harness.h"
 
 namespace trapeze::testing {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "composite/film/glow_filter.h"
+#include "composite/filters/glow_filter.h"
 #include "composite/mattes/murmur_hash.h"
 #include "tests/program_harness.h"
 #include "tests/scene_harness.h"

@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "composite/film/exposure.h"
 #include "composite/film/film_part.h"
 #include "composite/film/gathered_samples.h"
 #include "composite/film/pixel_depth.h"
 #include "composite/film/pixel_sums.h"
 #include "composite/film/pixel_variables.h"
 #include "composite/film/tile_sums.h"
+#include "composite/filters/exposure.h"
 #include "core/scene/deep_pictures.h"
 
 namespace trapeze {
 namespace {
-
-/// Rounds towards minus infinity: samples may lie left of and above the image, as far as the filter reaches.
-int tile_of(int pixel) {
-    return pixel >= 0 ? pixel / kTileSide : -((kTileSide - 1 - pixel) / kTileSide);
-}
 
 /// A rectangle with x more columns and y more rows on either side.
 PixelRect grown(const PixelRect& r, int x, int y) {
@@ -41,16 +36,6 @@ bool wants_ids(const Options& options) {
 }
 
 }  // namespace
-
-struct Film::Tile {
-    /// Set by the thread that adds the tile, before it lowers the neighbours' `missing`.
-    std::unique_ptr<TileSums> sums;
-    /// Tiles that this one's pixels wait for. At 0 they are developed, or none of them is in the crop.
-    std::atomic<int> missing{0};
-    /// Tiles that have yet to read `sums`; the last one frees them.
-    std::atomic<int> readers{0};
-    std::atomic<bool> added{false};
-};
 
 Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     : aovs_(aov_layout(context.scene->options)),
@@ -80,49 +65,12 @@ Film::Film(const RenderContext& context, bool record_ids, bool leave_gamma)
     if (layer_rules_.deep_tolerance) image_.deep.resize(count);
     if (record_ids || wants_ids(options)) image_.id.assign(count, kNoPrimitive);
 
-    sampled_ = intersection(sampled_pixels(context.camera, options),
-                            grown(image_.window, kernel_.reach_x(), kernel_.reach_y()));
-    first_tile_x_ = tile_of(sampled_.x0), first_tile_y_ = tile_of(sampled_.y0);
-    tiles_x_ = tile_of(sampled_.x1 - 1) + 1 - first_tile_x_;
-    tiles_y_ = tile_of(sampled_.y1 - 1) + 1 - first_tile_y_;
-    tile_reach_x_ = (kernel_.reach_x() + kTileSide - 1) / kTileSide;
-    tile_reach_y_ = (kernel_.reach_y() + kTileSide - 1) / kTileSide;
-    const int tile_count = tiles_x_ * tiles_y_;
-    tiles_ = std::make_unique<Tile[]>(tile_count);
-    for (int tile = 0; tile < tile_count; ++tile)
-        for_each_neighbour(tile, [&](int from) {
-            if (!reaches(from, tile)) return;
-            tiles_[tile].missing.fetch_add(1, std::memory_order_relaxed);
-            tiles_[from].readers.fetch_add(1, std::memory_order_relaxed);
-        });
+    const PixelRect sampled = intersection(sampled_pixels(context.camera, options),
+                                           grown(image_.window, kernel_.reach_x(), kernel_.reach_y()));
+    tiles_ = FilmTiles(sampled, image_.window, kernel_.reach_x(), kernel_.reach_y());
 }
 
 Film::~Film() = default;
-
-PixelRect Film::tile_square(int tile) const {
-    const int x = (first_tile_x_ + tile % tiles_x_) * kTileSide,
-              y = (first_tile_y_ + tile / tiles_x_) * kTileSide;
-    return {x, y, x + kTileSide, y + kTileSide};
-}
-
-PixelRect Film::tile_pixels(int tile) const {
-    return intersection(tile_square(tile), sampled_);
-}
-
-/// Whether samples of one tile have a part in pixels of another one that are kept.
-bool Film::reaches(int from, int to) const {
-    const PixelRect reached = grown(tile_pixels(from), kernel_.reach_x(), kernel_.reach_y());
-    return !intersection(intersection(reached, tile_pixels(to)), image_.window).empty();
-}
-
-template <class Visit>
-void Film::for_each_neighbour(int tile, Visit&& visit) const {
-    const int column = tile % tiles_x_, row = tile / tiles_x_;
-    for (int y = std::max(0, row - tile_reach_y_); y <= std::min(tiles_y_ - 1, row + tile_reach_y_); ++y)
-        for (int x = std::max(0, column - tile_reach_x_); x <= std::min(tiles_x_ - 1, column + tile_reach_x_);
-             ++x)
-            visit(y * tiles_x_ + x);
-}
 
 void Film::add(const SampleTile& samples, const HitBuffer& hits, const Grids& grids) {
     add_part({samples.pixels, samples, hits, grids});
@@ -173,27 +121,23 @@ std::unique_ptr<TileSums> Film::make_sums(const PixelRect& tile, bool colored) c
 
 template <class SumsOf>
 void Film::add_tiles(const PixelRect& pixels, const SumsOf& sums_of) {
-    if (pixels.empty()) return;
-    for (int row = tile_of(pixels.y0); row <= tile_of(pixels.y1 - 1); ++row)
-        for (int column = tile_of(pixels.x0); column <= tile_of(pixels.x1 - 1); ++column)
-            add_tile(column - first_tile_x_, row - first_tile_y_, pixels, sums_of);
+    tiles_.for_each_in(pixels, [&](int tile) { add_tile(tile, pixels, sums_of); });
 }
 
 template <class SumsOf>
-void Film::add_tile(int column, int row, const PixelRect& pixels, const SumsOf& sums_of) {
-    if (column < 0 || column >= tiles_x_ || row < 0 || row >= tiles_y_) return;
-    const int index = row * tiles_x_ + column;
-    Tile& tile = tiles_[index];
+void Film::add_tile(int index, const PixelRect& pixels, const SumsOf& sums_of) {
+    FilmTiles::Tile& tile = tiles_[index];
     // A tile counts once, whoever brings it.
     if (tile.added.exchange(true)) return;
-    std::unique_ptr<TileSums> sums = sums_of(intersection(tile_square(index), pixels));
+    std::unique_ptr<TileSums> sums = sums_of(intersection(tiles_.square(index), pixels));
     if (tile.readers.load(std::memory_order_relaxed) > 0) {
         waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
         tile.sums = std::move(sums);
     }
-    for_each_neighbour(index, [&](int to) {
+    tiles_.for_each_neighbour(index, [&](int to) {
+        if (!tiles_.reaches(index, to)) return;
         // Acquire and release: whoever takes the last one sees the sums of all.
-        if (reaches(index, to) && tiles_[to].missing.fetch_sub(1, std::memory_order_acq_rel) == 1) settle(to);
+        if (tiles_[to].missing.fetch_sub(1, std::memory_order_acq_rel) == 1) settle(to);
     });
 }
 
@@ -315,9 +259,15 @@ void Film::accumulate_layers(const FilmPart& part, TileSums& sums) {
         }
 }
 
+/// Whether a pixel is kept, and not one that an earlier run has finished.
+bool Film::takes_pixel(int px, int py) const {
+    return image_.window.contains(px, py) &&
+           !tiles_[tiles_.of_pixel(px, py)].settled.load(std::memory_order_relaxed);
+}
+
 /// Exposure's gain is a picture's, too, but not its gamma: deep samples add up.
 void Film::record_deep(int px, int py, std::vector<DeepSample> samples) {
-    if (!image_.window.contains(px, py)) return;
+    if (!takes_pixel(px, py)) return;
     for (DeepSample& sample : samples)
         for (int c = 0; c < 3; ++c) sample.rgba[c] *= gain_;
     image_.deep[image_.index(px, py)] = std::move(samples);
@@ -326,7 +276,7 @@ void Film::record_deep(int px, int py, std::vector<DeepSample> samples) {
 /// Records a pixel's depth and id, which are of the samples within the pixel alone; these all lie in one
 /// tile.
 void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
-    if (!image_.window.contains(px, py)) return;
+    if (!takes_pixel(px, py)) return;
     const size_t at = image_.index(px, py);
     image_.z[at] = depth;
     if (!image_.id.empty()) image_.id[at] = primitive;
@@ -334,7 +284,7 @@ void Film::record_pixel(int px, int py, float depth, uint32_t primitive) {
 
 /// Records what a pixel keeps of variables. To these channels nothing is added but 0.
 void Film::record_variables(int px, int py, const PixelVariables& variables) {
-    if (!image_.window.contains(px, py)) return;
+    if (!takes_pixel(px, py)) return;
     std::copy(
         variables.values().begin(), variables.values().end(),
         image_.aovs.begin() + static_cast<std::ptrdiff_t>(variables.values().size() * image_.index(px, py)));
@@ -343,8 +293,9 @@ void Film::record_variables(int px, int py, const PixelVariables& variables) {
 /// Finishes a tile once all that its pixels wait for is there.
 void Film::settle(int tile) {
     develop(tile);
-    for_each_neighbour(tile, [&](int from) {
-        if (reaches(from, tile)) release(from);
+    tiles_[tile].settled.store(true, std::memory_order_release);
+    tiles_.for_each_neighbour(tile, [&](int from) {
+        if (tiles_.reaches(from, tile)) release(from);
     });
 }
 
@@ -359,8 +310,8 @@ void Film::release(int tile) {
 /// `first_of(x, y)` is where a pixel's channels go.
 template <class FirstOf>
 void Film::gather(int tile, Sum sum, const PixelRect& pixels, const FirstOf& first_of) const {
-    for_each_neighbour(tile, [&](int from) {
-        const TileSums* sums = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
+    tiles_.for_each_neighbour(tile, [&](int from) {
+        const TileSums* sums = tiles_.reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
         const size_t channels = sums ? sums->channels(sum) : 0;
         if (channels == 0) return;
         const PixelRect shared = intersection(sums->pixels(), pixels);
@@ -380,8 +331,8 @@ void Film::rank_mattes(int tile, const PixelRect& pixels) {
     const auto sum = [&](int x, int y) -> MattePixel& {
         return sums[static_cast<size_t>(y - pixels.y0) * width + static_cast<size_t>(x - pixels.x0)];
     };
-    for_each_neighbour(tile, [&](int from) {
-        const TileSums* of_tile = reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
+    tiles_.for_each_neighbour(tile, [&](int from) {
+        const TileSums* of_tile = tiles_.reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
         if (!of_tile || !of_tile->mattes) return;
         const PixelRect shared = intersection(of_tile->mattes->pixels(), pixels);
         for (int y = shared.y0; y < shared.y1; ++y)
@@ -400,7 +351,7 @@ void Film::rank_mattes(int tile, const PixelRect& pixels) {
 
 /// Makes pixels of sums: divides each by the sum of the weights; 0 where that is 0.
 void Film::develop(int tile) {
-    const PixelRect pixels = intersection(tile_pixels(tile), image_.window);
+    const PixelRect pixels = tiles_.kept_pixels(tile);
     const auto width = static_cast<size_t>(pixels.width());
     std::vector<float> weights(width * static_cast<size_t>(pixels.height()));
     const auto weight = [&](int x, int y) {
@@ -434,10 +385,9 @@ void Film::expose(float* rgba) const {
 }
 
 Image Film::finish() {
-    for (int tile = 0; tile < tiles_x_ * tiles_y_; ++tile)
+    for (int tile = 0; tile < tiles_.count(); ++tile)
         if (tiles_[tile].missing.load(std::memory_order_acquire) > 0) develop(tile);
-    tiles_.reset();
-    tiles_x_ = tiles_y_ = 0;
+    tiles_ = {};
     waiting_bytes_ = 0;
     image_.matte_loss = matte_loss_;
     return std::move(image_);

@@ -13,9 +13,11 @@
 #include <memory>
 #include <vector>
 
-#include "composite/film/filters.h"
+#include "composite/film/film_tiles.h"
+#include "composite/film/finished_tiles.h"
 #include "composite/film/layer_sums.h"
 #include "composite/film/sample_sink.h"
+#include "composite/filters/filters.h"
 #include "composite/image.h"
 #include "core/scene/aov.h"
 #include "core/scene/depth_filter.h"
@@ -24,11 +26,10 @@
 namespace trapeze {
 
 struct FilmPart;
+class AwaitedTiles;
 class GatheredSamples;
 class PixelVariables;
 struct GatherRules;
-class TileSums;
-enum class Sum : uint8_t;
 
 class Film final : public SampleSink {
   public:
@@ -55,26 +56,28 @@ class Film final : public SampleSink {
     /// add().
     Image finish();
 
+    /// Numbers of the tiles whose pixels are finished, in order. Thread-safe, as write_finished().
+    std::vector<int> finished_tiles() const;
+    /// All tiles that may have to be finished, those without pixels that are kept among them.
+    int tile_count() const { return tiles_.count(); }
+    /// Writes the finished tiles, while others may be added. False when `write` was.
+    bool write_finished(const WriteBytes& write) const;
+    /// Takes tiles that write_finished() of a film of the same picture has written, before the first add().
+    /// False when they are none of this film's; it is of no use then.
+    bool read_finished(const ReadBytes& read);
+    /// The tiles that have not been added.
+    AwaitedTiles awaited_tiles() const;
+
     /// Bytes of the sums that wait for their neighbours.
     size_t waiting_bytes() const { return waiting_bytes_.load(std::memory_order_relaxed); }
 
   private:
-    struct Tile;
-
-    /// A tile's pixels; and those of them whose samples count.
-    PixelRect tile_square(int tile) const;
-    PixelRect tile_pixels(int tile) const;
     void add_part(const FilmPart& part);
     /// Adds the tiles that a rectangle has pixels of: sums_of(pixels) makes a tile's sums.
     template <class SumsOf>
     void add_tiles(const PixelRect& pixels, const SumsOf& sums_of);
     template <class SumsOf>
-    void add_tile(int column, int row, const PixelRect& pixels, const SumsOf& sums_of);
-    /// Calls visit(tile) for the tiles around a tile, itself included, in the order of tiles.
-    template <class Visit>
-    void for_each_neighbour(int tile, Visit&& visit) const;
-    /// Whether samples of tile `from` have a part in pixels of tile `to` that are kept.
-    bool reaches(int from, int to) const;
+    void add_tile(int tile, const PixelRect& pixels, const SumsOf& sums_of);
 
     /// Adds weights and colours of a tile's samples to its sums.
     void accumulate(const FilmPart& part, TileSums& sums);
@@ -83,6 +86,8 @@ class Film final : public SampleSink {
     void accumulate_taps(const FilmPart& part, TileSums& sums);
     void accumulate_pixels(const FilmPart& part, TileSums& sums);
     void accumulate_aovs(const FilmPart& part, TileSums& sums);
+    FinishedTilesHeader finished_tiles_header() const;
+    bool takes_pixel(int px, int py) const;
     void record_pixel(int px, int py, float depth, uint32_t primitive);
     void record_variables(int px, int py, const PixelVariables& variables);
     void record_deep(int px, int py, std::vector<DeepSample> samples);
@@ -105,10 +110,7 @@ class Film final : public SampleSink {
     std::atomic<float> matte_loss_{0};
     DepthFilter depth_filter_ = DepthFilter::Min;
     float gain_ = 1, inverse_gamma_ = 1;
-    PixelRect sampled_;  ///< the pixels whose samples count
-    int first_tile_x_ = 0, first_tile_y_ = 0, tiles_x_ = 0, tiles_y_ = 0;
-    int tile_reach_x_ = 0, tile_reach_y_ = 0;  ///< in tiles
-    std::unique_ptr<Tile[]> tiles_;
+    FilmTiles tiles_;
     std::atomic<size_t> waiting_bytes_{0};
     Image image_;
 };

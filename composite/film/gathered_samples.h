@@ -11,9 +11,9 @@
 #include <functional>
 #include <vector>
 
-#include "composite/film/filters.h"
 #include "composite/film/layer_sums.h"
 #include "composite/film/sample_sink.h"
+#include "composite/filters/filters.h"
 #include "core/scene/aov.h"
 #include "core/scene/depth_filter.h"
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "composite/film/deep_pixel.h"
-#include "composite/film/filters.h"
 #include "composite/film/matte_sums.h"
 #include "composite/film/seen_layers.h"
+#include "composite/filters/filters.h"
 #include "composite/mattes/matte_layers.h"
 
 namespace trapeze {

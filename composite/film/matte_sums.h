@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "composite/film/filters.h"
+#include "composite/filters/filters.h"
 #include "composite/mattes/matte_layers.h"
 #include "core/pixel_rect.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "composite/film/filters.h"
+#include "composite/filters/filters.h"
 
 namespace trapeze {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "composite/film/filters.h"
 #include "composite/film/matte_sums.h"
 #include "composite/film/pixel_sums.h"
+#include "composite/filters/filters.h"
 #include "core/scene/camera.h"
 
 namespace trapeze {

@@ -16,9 +16,9 @@ namespace {
 constexpr int kDeepRowsOfBand = 16;
 
 /// A window's pixels: how many samples each has, and where each channel's samples of it are.
-class DeepRows {
+class TileDeepRows {
   public:
-    DeepRows(const std::vector<TileChannel>& channels, const Box2i& window)
+    TileDeepRows(const std::vector<TileChannel>& channels, const Box2i& window)
         : channels_(channels),
           window_(window),
           counts_(width() * height()),
@@ -84,9 +84,9 @@ class DeepBand {
           rows_(channels, window),
           owners_(rows_.width() * rows_.height()) {}
 
-    DeepRows& rows() { return rows_; }
+    TileDeepRows& rows() { return rows_; }
 
-    void add(size_t file, std::unique_ptr<DeepRows> tile) {
+    void add(size_t file, std::unique_ptr<TileDeepRows> tile) {
         const Box2i& window = tile->window();
         for (int y = window.min.y; y <= window.max.y; ++y)
             for (int x = window.min.x; x <= window.max.x; ++x) {
@@ -100,7 +100,8 @@ class DeepBand {
     }
 
   private:
-    void compare(DeepRows& tile, size_t from, size_t to, const TileFile& owner, size_t file, int x, int y) {
+    void compare(TileDeepRows& tile, size_t from, size_t to, const TileFile& owner, size_t file, int x,
+                 int y) {
         const size_t count = tile.count(from);
         for (size_t c = 0; c < channels_.size(); ++c)
             if (count != rows_.count(to) ||
@@ -110,9 +111,9 @@ class DeepBand {
 
     const std::vector<TileChannel>& channels_;
     const std::vector<TileFile>& files_;
-    DeepRows rows_;
+    TileDeepRows rows_;
     std::vector<const TileFile*> owners_;  ///< of each pixel; null: none yet
-    std::vector<std::unique_ptr<DeepRows>> tiles_;
+    std::vector<std::unique_ptr<TileDeepRows>> tiles_;
 };
 
 }  // namespace
@@ -131,7 +132,7 @@ void merge_deep_rows(const TileHeaders& tiles, const Imf::Header& header, const 
         DeepBand band(channels, tiles.files(), {V2i(window.min.x, rows.from), V2i(window.max.x, rows.to)});
         open.for_each_in(rows, [&](size_t i, Imf::DeepScanLineInputFile& input, const RowBand& part) {
             const Box2i& whole = tiles.files()[i].window;
-            auto tile = std::make_unique<DeepRows>(
+            auto tile = std::make_unique<TileDeepRows>(
                 channels, Box2i(V2i(whole.min.x, part.from), V2i(whole.max.x, part.to)));
             tile->read(input);
             band.add(i, std::move(tile));

@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
-#include "composite/film/exposure.h"
-#include "composite/film/glow_filter.h"
+#include "composite/filters/exposure.h"
+#include "composite/filters/glow_filter.h"
 
 namespace trapeze {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "composite/film/filters.h"
+#include "composite/filters/filters.h"
 #include "pipeline/ri/errors.h"
 
 // RISpec 5.2: rows and columns as in RiBasis. (Not const, as in RISpec: they are arguments of type RtBasis.)

@@ -23,7 +23,7 @@ constexpr float kMostRayDepth = 100;    ///< Option "trace" "maxdepth"
 constexpr float kMostHiderSamples = 64;
 constexpr size_t kMostColorSamples = 1000;
 
-/// RISpec's and the usual others; composite/film/filters.cpp has what they mean.
+/// RISpec's and the usual others; composite/filters/filters.cpp has what they mean.
 constexpr std::string_view kFilters[] = {"gaussian", "box",     "triangle",        "catmull-rom",
                                          "sinc",     "disk",    "bessel",          "mitchell",
                                          "b-spline", "lanczos", "blackman-harris", "separable-catmull-rom"};

@@ -1,4 +1,4 @@
-#include "composite/film/filters.h"
+#include "composite/filters/filters.h"
 
 #include <gtest/gtest.h>
 

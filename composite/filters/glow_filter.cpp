@@ -1,4 +1,4 @@
-#include "composite/film/glow_filter.h"
+#include "composite/filters/glow_filter.h"
 
 #include <algorithm>
 #include <cmath>

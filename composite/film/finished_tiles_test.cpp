@@ -1,0 +1,239 @@
+#include "composite/film/finished_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <thread>
+
+#include "composite/film/awaited_tiles.h"
+#include "composite/film/film.h"
+#include "composite/film/film_tiles.h"
+#include "composite/film/raster_harness.h"
+
+namespace trapeze {
+namespace {
+
+using testing::RasterScene;
+
+constexpr int kGridColumns = 6, kGridRows = 4;  // the picture is 96x64
+
+/// Bytes that are written at the end and read from the beginning.
+struct Bytes {
+    std::string text;
+    size_t at = 0;
+
+    WriteBytes writer() {
+        return [this](const void* bytes, size_t count) {
+            text.append(static_cast<const char*>(bytes), count);
+            return true;
+        };
+    }
+    ReadBytes reader() {
+        return [this](void* bytes, size_t count) {
+            if (count > text.size() - at) return false;
+            std::memcpy(bytes, text.data() + at, count);
+            at += count;
+            return true;
+        };
+    }
+};
+
+/// Asks for all that a film keeps of a pixel: depth, ids, variables summed and chosen, deep samples.
+void ask_for_all(RasterScene& scene, const char* filter, float width) {
+    scene.scene.options.filter = {filter, width, width};
+    Display chosen = testing::aov_display("foo", ValueType::Float);
+    chosen.parameters.set({"filter", {StorageClass::Uniform, ValueType::String, 1}, {}, {"min"}});
+    Display deep = testing::aov_display("Ci", ValueType::Color, "a.exr");
+    deep.type = "deepexr";
+    scene.scene.options.displays = {chosen, deep};
+    scene.scene.options.exposure_gain = 1.5f;
+    scene.update();
+}
+
+Grids all_grids() {
+    testing::GridLook look;
+    look.color = [](int x, int y) {
+        const auto channel = [&](uint32_t c) {
+            return unit_float(hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), c));
+        };
+        return V3f(channel(0), channel(1), channel(2));
+    };
+    look.aov_channels = 4;
+    look.aov = [&](int x, int y, int channel) { return static_cast<float>(x * y + channel); };
+    look.depth = 5, look.primitive = 3;
+    Grids grids;
+    testing::add_grids(grids, kGridColumns, kGridRows, look);
+    return grids;
+}
+
+bool in_ring(float x, float y) {
+    const float r = std::hypot(x - 48, y - 32);
+    return r > 9.5f && r < 40.2f;
+}
+
+void add_ring_tile(const RasterScene& scene, const Grids& grids, const PixelRect& pixels, Film& film) {
+    const SampleTile samples = testing::make_samples(scene, pixels);
+    film.add(samples, testing::make_hits(samples, grids, kGridColumns, kGridRows, in_ring), grids);
+}
+
+/// Whether a tile is among those that a film begins with.
+bool comes_first(uint32_t seed, const PixelRect& tile) {
+    return hash(seed, static_cast<uint32_t>(tile.x0), static_cast<uint32_t>(tile.y0)) % 100 < 88;
+}
+
+TEST(FinishedTiles, APictureIsTheSameBitsWhenAnotherFilmGoesOnWithIt) {
+    for (const auto& [filter, width] : {std::pair{"gaussian", 2.0f}, {"box", 1.0f}, {"sinc", 21.0f}}) {
+        RasterScene scene(96, 64, 2);
+        ask_for_all(scene, filter, width);
+        const Grids grids = all_grids();
+        const std::vector<PixelRect> tiles = testing::tiles_of(scene.sampled());
+        Film whole(scene.context, true);
+        for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, whole);
+        const Image expected = whole.finish();
+        ASSERT_FALSE(expected.deep.empty());
+        ASSERT_GT(expected.aov_channels, 0);
+        for (uint32_t seed = 0; seed < 4; ++seed) {
+            Film first(scene.context, true);
+            size_t left_out = 0;
+            for (const PixelRect& tile : tiles)
+                if (seed == 3 || comes_first(seed, tile))
+                    add_ring_tile(scene, grids, tile, first);
+                else
+                    ++left_out;
+            Bytes bytes;
+            ASSERT_TRUE(first.write_finished(bytes.writer()));
+            const size_t finished = first.finished_tiles().size();
+            ASSERT_GT(finished, 0u);
+
+            Film second(scene.context, true);
+            ASSERT_TRUE(second.read_finished(bytes.reader()));
+            EXPECT_EQ(bytes.at, bytes.text.size());
+            EXPECT_EQ(second.finished_tiles().size(), finished);
+            const AwaitedTiles awaited = second.awaited_tiles();
+            size_t left = 0;
+            for (const PixelRect& tile : tiles)
+                if (awaited.meet(tile)) ++left, add_ring_tile(scene, grids, tile, second);
+            EXPECT_EQ(second.waiting_bytes(), 0u);
+            EXPECT_GE(left, left_out);
+            EXPECT_EQ(left == 0, left_out == 0);
+            EXPECT_TRUE(second.finish() == expected) << filter << seed;
+        }
+    }
+}
+
+TEST(FinishedTiles, AreFinishedAfterAllOthersHaveBeenRestored) {
+    RasterScene scene(96, 64, 2);
+    ask_for_all(scene, "gaussian", 2);
+    const Grids grids = all_grids();
+    const std::vector<PixelRect> tiles = testing::tiles_of(scene.sampled());
+    Film whole(scene.context, true);
+    for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, whole);
+    const Image expected = whole.finish();
+    // A tile or two at a time, each by a film of its own.
+    Bytes bytes;
+    Film(scene.context, true).write_finished(bytes.writer());
+    for (int round = 0; round < 100; ++round) {
+        Film film(scene.context, true);
+        ASSERT_TRUE(film.read_finished(bytes.reader()));
+        const AwaitedTiles awaited = film.awaited_tiles();
+        const size_t before = film.finished_tiles().size();
+        for (const PixelRect& tile : tiles)
+            if (awaited.meet(tile) && film.finished_tiles().size() < before + 2)
+                add_ring_tile(scene, grids, tile, film);
+        bytes = {};
+        ASSERT_TRUE(film.write_finished(bytes.writer()));
+        if (film.finished_tiles().size() > before) continue;
+        EXPECT_TRUE(film.finish() == expected);
+        EXPECT_GT(round, 5);
+        return;
+    }
+    FAIL() << "they never end";
+}
+
+TEST(FinishedTiles, OfAnotherFilmOrCutShortAreRefused) {
+    RasterScene scene(96, 64, 2);
+    ask_for_all(scene, "gaussian", 2);
+    const Grids grids = all_grids();
+    Film film(scene.context, true);
+    for (const PixelRect& tile : testing::tiles_of(scene.sampled())) add_ring_tile(scene, grids, tile, film);
+    Bytes bytes;
+    ASSERT_TRUE(film.write_finished(bytes.writer()));
+    for (uint32_t i = 0; i < 50; ++i) {
+        Bytes part{bytes.text.substr(0, hash(i) % bytes.text.size()), 0};
+        EXPECT_FALSE(Film(scene.context, true).read_finished(part.reader()));
+    }
+    // Whatever is in them, nothing is read or written that is not theirs.
+    for (uint32_t i = 0; i < 300; ++i) {
+        Bytes part{bytes.text, 0};
+        for (uint32_t j = 0; j < 4; ++j)
+            part.text[hash(i, j) % (i % 2 ? part.text.size() : 60)] = static_cast<char>(hash(i, j, 7));
+        Film other(scene.context, true);
+        if (other.read_finished(part.reader())) other.finish();
+    }
+    EXPECT_FALSE(Film(scene.context, false).read_finished(Bytes{bytes.text, 0}.reader()));
+    RasterScene larger(96, 80, 2);
+    ask_for_all(larger, "gaussian", 2);
+    EXPECT_FALSE(Film(larger.context, true).read_finished(Bytes{bytes.text, 0}.reader()));
+    WriteBytes full = [left = 5000](const void*, size_t count) mutable {
+        left -= static_cast<int>(count);
+        return left >= 0;
+    };
+    EXPECT_FALSE(film.write_finished(full));
+}
+
+TEST(FinishedTiles, AreWrittenWhileOthersAreAdded) {
+    RasterScene scene(96, 64, 2);
+    ask_for_all(scene, "gaussian", 2);
+    const Grids grids = all_grids();
+    const std::vector<PixelRect> tiles = testing::tiles_of(scene.sampled());
+    Film whole(scene.context, true);
+    for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, whole);
+    const Image expected = whole.finish();
+
+    Film film(scene.context, true);
+    std::atomic<bool> done{false};
+    std::vector<Bytes> written;
+    std::thread saver([&] {
+        while (!done) {
+            Bytes& bytes = written.emplace_back();
+            EXPECT_TRUE(film.write_finished(bytes.writer()));
+        }
+    });
+    for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, film);
+    done = true;
+    saver.join();
+    for (size_t i = 0; i < written.size(); i += 1 + written.size() / 8) {
+        Film next(scene.context, true);
+        ASSERT_TRUE(next.read_finished(written[i].reader()));
+        for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, next);
+        EXPECT_TRUE(next.finish() == expected);
+    }
+}
+
+TEST(AwaitedTiles, MeetAndBoundAsCountedOneByOne) {
+    const PixelRect sampled{-3, -17, 90, 70}, window{0, 0, 88, 66};
+    FilmTiles tiles(sampled, window, 2, 2);
+    for (int tile = 0; tile < tiles.count(); ++tile)
+        tiles[tile].added = hash(static_cast<uint32_t>(tile)) % 5 > 0;
+    const AwaitedTiles awaited(tiles);
+    for (uint32_t i = 0; i < 3000; ++i) {
+        const auto pick = [i](uint32_t c, int from, int to) {
+            return from + static_cast<int>(hash(i, c) % static_cast<uint32_t>(to - from));
+        };
+        PixelRect pixels{pick(0, -40, 110), pick(1, -40, 90), 0, 0};
+        pixels.x1 = pixels.x0 + pick(2, 0, 60), pixels.y1 = pixels.y0 + pick(3, 0, 60);
+        PixelRect bound{1000, 1000, -1000, -1000};
+        for (int tile = 0; tile < tiles.count(); ++tile) {
+            const PixelRect part = intersection(tiles.square(tile), pixels);
+            if (part.empty() || tiles[tile].added) continue;
+            bound = {std::min(bound.x0, part.x0), std::min(bound.y0, part.y0), std::max(bound.x1, part.x1),
+                     std::max(bound.y1, part.y1)};
+        }
+        EXPECT_EQ(awaited.meet(pixels), !bound.empty());
+        const PixelRect found = awaited.bound(pixels);
+        EXPECT_TRUE(bound.empty() ? found.empty() : found == bound);
+    }
+}
+
+}  // namespace
+}  // namespace trapeze
