@@ -310,6 +310,13 @@ void Shading::write_bakes() {
                        impl_->access, *impl_->context.diagnostics);
 }
 
+bool Shading::may_bake() const {
+    return std::ranges::any_of(impl_->materials.shaders(), [](const BoundShader* shader) {
+        return std::ranges::any_of(shader->program().code,
+                                   [](const rsl::Instruction& i) { return i.op == rsl::Op::Bake3d; });
+    });
+}
+
 void Shading::leave_out_bakes() {
     if (impl_->context.diagnostics) impl_->bakes.leave_out(*impl_->context.diagnostics);
 }

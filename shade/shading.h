@@ -99,6 +99,8 @@ class Shading {
     void write_bakes();
     /// Instead of writing them, warns of each that it is not written, as the picture is a tile alone.
     void leave_out_bakes();
+    /// Whether some shader may bake a point cloud.
+    bool may_bake() const;
 
     /// To be called after the last grid: warns, once for each set of attributes, of displacement beyond
     /// the displacement bound, with the bound that was needed.

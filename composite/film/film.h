@@ -65,8 +65,12 @@ class Film final : public SampleSink {
     /// Takes tiles that write_finished() of a film of the same picture has written, before the first add().
     /// False when they are none of this film's; it is of no use then.
     bool read_finished(const ReadBytes& read);
+    /// Whether anything is seen in the tiles that were taken.
+    bool took_something() const { return took_something_; }
     /// The tiles that have not been added.
     AwaitedTiles awaited_tiles() const;
+    /// Whether a rectangle has pixels of such a tile. Thread-safe.
+    bool awaits(const PixelRect& pixels) const;
 
     /// Bytes of the sums that wait for their neighbours.
     size_t waiting_bytes() const { return waiting_bytes_.load(std::memory_order_relaxed); }
@@ -112,6 +116,7 @@ class Film final : public SampleSink {
     float gain_ = 1, inverse_gamma_ = 1;
     FilmTiles tiles_;
     std::atomic<size_t> waiting_bytes_{0};
+    bool took_something_ = false;
     Image image_;
 };
 

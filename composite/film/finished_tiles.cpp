@@ -121,11 +121,19 @@ bool Film::read_finished(const ReadBytes& read) {
     for (int tile = 0; tile < tiles_.count(); ++tile)
         if (tiles_[tile].readers.load(std::memory_order_relaxed) == 0) tiles_[tile].added = true;
     matte_loss_ = header.matte_loss;
+    took_something_ = std::ranges::any_of(image_.z, [](float depth) { return depth < kInfinity; });
     return true;
 }
 
 AwaitedTiles Film::awaited_tiles() const {
     return AwaitedTiles(tiles_);
+}
+
+bool Film::awaits(const PixelRect& pixels) const {
+    bool any = false;
+    tiles_.for_each_in(pixels,
+                       [&](int tile) { any = any || !tiles_[tile].added.load(std::memory_order_relaxed); });
+    return any;
 }
 
 }  // namespace trapeze

@@ -20,12 +20,13 @@ int floor_to(int pixel, int side) {
 
 /// The part of a region in a rectangle: the subpatches that it may see, and the memory for these.
 Region part_of(const Region& whole, const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
-               int aov_channels) {
+               const RegionLimits& limits) {
     Region part{pixels, {}, 0};
     for (const uint32_t index : whole.subpatches) {
-        if (intersection(subpatches[index].bound, pixels).empty()) continue;
+        const PixelRect seen = intersection(subpatches[index].bound, pixels);
+        if (seen.empty() || (limits.awaited && !limits.awaited->meet(seen))) continue;
         part.subpatches.push_back(index);
-        part.estimated_bytes += estimated_bytes(subpatches[index], aov_channels);
+        part.estimated_bytes += estimated_bytes(subpatches[index], limits.aov_channels);
     }
     return part;
 }
@@ -71,10 +72,11 @@ size_t estimated_bytes(const SubpatchInfo& subpatch, int aov_channels) {
 std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                                        const RegionLimits& limits) {
     Region whole;
-    whole.pixels = pixels;
+    whole.pixels = limits.awaited ? limits.awaited->bound(pixels) : pixels;
+    if (limits.awaited && whole.pixels.empty()) return {};
     whole.subpatches.resize(subpatches.size());
     std::iota(whole.subpatches.begin(), whole.subpatches.end(), 0u);
-    std::vector<Region> regions{part_of(whole, pixels, subpatches, limits.aov_channels)};
+    std::vector<Region> regions{part_of(whole, whole.pixels, subpatches, limits)};
     // The heaviest region that must be split, else (while there are too few) the largest.
     for (;;) {
         const bool too_few = static_cast<int>(regions.size()) < limits.at_least;
@@ -85,12 +87,17 @@ std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const 
             if (chosen == regions.size() || regions[i].estimated_bytes > regions[chosen].estimated_bytes)
                 chosen = i;
         }
-        if (chosen == regions.size()) return regions;
+        if (chosen == regions.size()) break;
         const auto [low, high] = halves(regions[chosen].pixels);
-        Region second = part_of(regions[chosen], high, subpatches, limits.aov_channels);
-        regions[chosen] = part_of(regions[chosen], low, subpatches, limits.aov_channels);
+        Region second = part_of(regions[chosen], high, subpatches, limits);
+        regions[chosen] = part_of(regions[chosen], low, subpatches, limits);
         regions.insert(regions.begin() + static_cast<std::ptrdiff_t>(chosen) + 1, std::move(second));
     }
+    if (limits.awaited) {
+        for (Region& region : regions) region.pixels = limits.awaited->bound(region.pixels);
+        std::erase_if(regions, [](const Region& region) { return region.pixels.empty(); });
+    }
+    return regions;
 }
 
 std::vector<PixelRect> tiles_of(const PixelRect& pixels, int side) {

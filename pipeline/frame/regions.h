@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "composite/film/awaited_tiles.h"
 #include "core/samples.h"
 #include "core/scene/camera.h"
 #include "core/scene/vertex_set.h"
@@ -28,12 +29,15 @@ struct RegionLimits {
     size_t bytes = 0;      ///< a region's grids and tree may take this much
     int at_least = 1;      ///< regions to make even when fewer would fit (as far as there are tiles)
     int aov_channels = 0;  ///< that every vertex carries besides its colour
+    /// Tiles that are wanted: others and what is seen in them alone are left out; null: all are.
+    const AwaitedTiles* awaited = nullptr;
 };
 
 /// Upper estimate, in bytes, of the memory of a subpatch's grid and its part of the tree.
 size_t estimated_bytes(const SubpatchInfo& subpatch, int aov_channels);
 
-/// Splits `pixels` along tile borders, the longer side first, until every region fits or is a single tile.
+/// Splits `pixels`, or the part of them that is awaited, along tile borders, the longer side first, until
+/// every region fits or is a single tile.
 std::vector<Region> split_into_regions(const PixelRect& pixels, std::span<const SubpatchInfo> subpatches,
                                        const RegionLimits& limits);
 

@@ -74,11 +74,20 @@ struct Frame {
     size_t memory_budget;  ///< bytes, of a region's grids and tree
     bool leave_gamma;      ///< to what comes after the film
     bool culls_hidden;     ///< before shading
+    int regions_at_least;
 };
 
 LayerLimits layer_limits(const Frame& frame) {
     return LayerLimits::of(frame.context.most_layers, frame.memory_budget / kListsShare,
                            tbb::this_task_arena::max_concurrency());
+}
+
+/// The keeper of finished tiles, or null where there is none, or what they leave beside the picture would be
+/// lost: a point cloud is of all grids.
+FilmKeeper* keeper_of(const RenderSettings& settings, const Shading& shading) {
+    if (!settings.keeper || settings.tile || !shading.may_bake()) return settings.keeper;
+    settings.keeper->give_up("a shader may bake a point cloud, which must see all of the frame");
+    return nullptr;
 }
 
 /// Adds what samples see of the grids of their region to the film.
@@ -120,12 +129,29 @@ bool add_regions(const Frame& frame, const std::vector<Region>& regions, FrameRe
     return !frame.context.is_cancelled();
 }
 
-/// The film with all regions in it; null when cancelled.
-std::unique_ptr<Film> film_of_regions(const Frame& frame, const std::vector<Region>& regions,
-                                      FrameRecorder& recorder) {
+/// What is left to do of a film, in parts that fit the memory.
+std::vector<Region> regions_of(const Frame& frame, const Film& film) {
+    const Options& options = frame.context.scene->options;
+    const AwaitedTiles awaited = film.awaited_tiles();
+    return split_into_regions(
+        sampled_pixels(frame.context.camera, options), frame.tessellation.subpatches(),
+        {frame.memory_budget, frame.regions_at_least, aov_layout(options).channel_count, &awaited});
+}
+
+/// The film with all regions in it; null when cancelled, or when the keeper refuses.
+std::unique_ptr<Film> film_of_regions(const Frame& frame, FilmKeeper* keeper, FrameRecorder& recorder) {
     while (!frame.context.is_cancelled()) {
         auto film = std::make_unique<Film>(frame.context, false, frame.leave_gamma);
-        if (add_regions(frame, regions, recorder, *film)) return film;
+        if (keeper && !keeper->begin(*film)) return {};
+        const std::vector<Region> regions = regions_of(frame, *film);
+        recorder.stats().regions = static_cast<int>(regions.size());
+        recorder.stats().shows_something = film->took_something();
+        const bool is_whole = add_regions(frame, regions, recorder, *film);
+        const bool is_endless = !is_whole && !frame.context.is_cancelled();
+        if (keeper && is_endless) keeper->give_up("a shader's loops are endless");
+        if (keeper) keeper->end();
+        if (is_whole) return film;
+        keeper = nullptr;
         recorder.restart();
     }
     return {};
@@ -221,14 +247,13 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
         settings.cull_hidden == CullHidden::On || (settings.cull_hidden == CullHidden::Auto && rays);
     const size_t region_budget = rays ? budget / 2 : budget;
     const std::unique_ptr<SamplePattern> pattern = sampler->make_pattern(context);
-    const Options& options = context.scene->options;
-    const std::vector<Region> regions =
-        split_into_regions(sampled_pixels(context.camera, options), tessellation.subpatches(),
-                           {region_budget, settings.regions_at_least, aov_layout(options).channel_count});
+    FilmKeeper* const keeper = keeper_of(settings, shading);
+    const int least_regions = std::max(settings.regions_at_least, keeper ? keeper->regions_at_least() : 1);
 
-    const std::unique_ptr<Film> film = film_of_regions(
-        {context, tessellation, shading, *sampler, *pattern, region_budget, glow.has_value(), culls_hidden},
-        regions, recorder);
+    const std::unique_ptr<Film> film =
+        film_of_regions({context, tessellation, shading, *sampler, *pattern, region_budget, glow.has_value(),
+                         culls_hidden, least_regions},
+                        keeper, recorder);
     if (!film) return {};
     shading.report_displacement_bounds();
     // A point cloud is of all that the picture sees, of which a tile has a part.
@@ -253,7 +278,6 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
                         kMatteRanks, result.image.matte_loss),
             "matte-loss");
     result.stats = recorder.finish(context);
-    result.stats.regions = static_cast<int>(regions.size());
     result.stats.sampler = sampler->name();
     result.stats.tile = settings.tile;
     if (rays) {

@@ -12,6 +12,7 @@
 #include "core/scene/color_request.h"
 #include "core/scene/render_context.h"
 #include "pipeline/frame/cull_hidden.h"
+#include "pipeline/frame/film_keeper.h"
 #include "pipeline/frame/frame_stats.h"
 
 namespace trapeze {
@@ -34,6 +35,7 @@ struct RenderSettings {
     /// Rendering ends early when this becomes true; null: never.
     const std::atomic<bool>* cancelled = nullptr;
     const Access* access = &kEverything;  ///< to the files that the scene names
+    FilmKeeper* keeper = nullptr;         ///< of finished tiles; null: nobody
 };
 
 /// The picture of a frame and what it cost.

@@ -61,6 +61,7 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
     tbb::enumerable_thread_specific<TileResolver> resolvers;
     const auto resolve = [&](size_t i) {
         if (context.is_cancelled()) return;
+        if (!film.awaits(tiles[i])) return on_step();
         TileResolver& resolver = resolvers.local();
         if (adaptive) {
             resolver.sample_count +=

@@ -31,9 +31,9 @@ struct HeatMap {
 };
 
 /// Finds what every sample of some pixels sees and adds it to the film, with the threads of the calling task
-/// arena. Adds to the stats; calls `on_step` once for each rectangle of tiles_of(pixels, side of a tile).
-/// A pattern with levels is sampled adaptively, by a method that takes lists.
-/// Layers are those that `limits` allow. Fills `heat` (of those pixels) when there is one.
+/// arena; what the film does not await is left out. Adds to the stats; calls `on_step` once for each
+/// rectangle of tiles_of(pixels, side of a tile). A pattern with levels is sampled adaptively, by a method
+/// that takes lists. Layers are those that `limits` allow. Fills `heat` (of those pixels) when there is one.
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,
                    const std::function<void()>& on_step, const LayerLimits& limits, HeatMap* heat = nullptr);

@@ -1,0 +1,139 @@
+/// A frame that is cancelled again and again, and goes on with its finished tiles each time, is the same bits
+/// in the end.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "composite/film/film.h"
+#include "core/random.h"
+#include "tests/scene_harness.h"
+
+namespace trapeze::testing {
+namespace {
+
+/// Keeps tiles in memory from attempt to attempt.
+class MemoryKeeper final : public FilmKeeper {
+  public:
+    bool begin(Film& film) override {
+        film_ = &film;
+        ++begun;
+        size_t at = 0;
+        const ReadBytes read = [&](void* to, size_t count) {
+            if (count > bytes_.size() - at) return false;
+            std::memcpy(to, bytes_.data() + at, count);
+            at += count;
+            return true;
+        };
+        EXPECT_TRUE(bytes_.empty() || film.read_finished(read));
+        EXPECT_EQ(at, bytes_.size());
+        return true;
+    }
+    void end() override {
+        if (!film_) return;
+        bytes_.clear();
+        EXPECT_TRUE(film_->write_finished([this](const void* from, size_t count) {
+            bytes_.append(static_cast<const char*>(from), count);
+            return true;
+        }));
+        tiles = film_->finished_tiles().size();
+        film_ = nullptr;
+    }
+    void give_up(const std::string& why) override {
+        reason = why;
+        film_ = nullptr;
+        bytes_.clear();
+    }
+    int regions_at_least() const override { return regions; }
+
+    size_t begun = 0, tiles = 0;
+    int regions = 1;
+    std::string reason;
+
+  private:
+    Film* film_ = nullptr;
+    std::string bytes_;
+};
+
+struct Attempts {
+    size_t cancelled = 0, with_tiles = 0;
+};
+
+/// Renders a world in attempts, each of which is cancelled when it is so far as a number says, until one
+/// comes to its end.
+std::optional<FrameResult> render_in_attempts(const Scene& scene, RenderSettings settings,
+                                              Diagnostics& diagnostics, Attempts& attempts) {
+    MemoryKeeper keeper;
+    settings.keeper = &keeper;
+    for (uint32_t attempt = 0; attempt < 40; ++attempt) {
+        std::atomic<bool> cancelled{false};
+        const double until = attempt < 4 ? unit_float(hash(attempt, settings.seed)) : 2;
+        settings.cancelled = &cancelled;
+        settings.on_progress = [&](double part) {
+            if (part >= until) cancelled = true;
+        };
+        keeper.regions = attempt % 2 ? 3 : 1;
+        auto result = render_frame(make_context(scene, settings, diagnostics), settings);
+        if (result) return result;
+        EXPECT_TRUE(cancelled.load());
+        ++attempts.cancelled;
+        if (keeper.tiles > 0) ++attempts.with_tiles;
+    }
+    return {};
+}
+
+/// All worlds of a scene, whole and in attempts.
+Attempts expect_same_in_attempts(const std::string& path, const std::string& first_rib = {},
+                                 RenderSettings settings = {}) {
+    Diagnostics diagnostics;
+    Attempts attempts;
+    ReadOptions options;
+    if (!first_rib.empty()) options.first_texts.push_back({"test", first_rib});
+    const std::vector<std::string> files{path};
+    read_rib(files, options, diagnostics, [&](Scene&& scene) {
+        const auto whole = render_frame(make_context(scene, settings, diagnostics), settings);
+        const auto resumed = render_in_attempts(scene, settings, diagnostics, attempts);
+        ASSERT_TRUE(whole && resumed);
+        EXPECT_TRUE(same_bits(whole->image, resumed->image)) << path;
+        EXPECT_EQ(whole->image.matte_loss, resumed->image.matte_loss);
+        EXPECT_EQ(whole->stats.shows_something, resumed->stats.shows_something);
+    });
+    return attempts;
+}
+
+TEST(Resume, EveryTinySceneIsTheSameBits) {
+    Attempts all;
+    for (const std::string& name : tiny_scenes_without_maps()) {
+        const Attempts attempts = expect_same_in_attempts(tiny_scene_path(name));
+        all.cancelled += attempts.cancelled, all.with_tiles += attempts.with_tiles;
+    }
+    EXPECT_GT(all.cancelled, 100u);
+    EXPECT_GT(all.with_tiles, 50u);
+}
+
+/// Twelve tiles and more, of which each attempt makes a few.
+constexpr const char* kLarge = "Format 160 112 1 ";
+
+TEST(Resume, AdaptiveSamplesDeepPicturesAndMattesAreTheSameBits) {
+    for (const std::string rib :
+         {"PixelSamples 6 6 PixelVariance .001", "Display \"a.exr\" \"deepexr\" \"rgba\"",
+          "Display \"a.exr\" \"openexr\" \"rgba\" Display \"+m.exr\" \"openexr\" \"cryptoobject\"",
+          "PixelFilter \"sinc\" 21 17",
+          "PixelFilter \"box\" 1 1 Display \"a.exr\" \"openexr\" \"rgba\" "
+          "Display \"+z.exr\" \"openexr\" \"varying float __depth\""}) {
+        const Attempts attempts =
+            expect_same_in_attempts(tiny_scene_path("defocus_motion.rib"), std::string(kLarge) + rib);
+        EXPECT_GT(attempts.with_tiles, 0u) << rib;
+    }
+}
+
+TEST(Resume, RasterizersAreTheSameBits) {
+    for (const char* method : {"interval", "interleaveuvt", "embree"}) {
+        RenderSettings settings;
+        settings.sampler = method;
+        EXPECT_GT(expect_same_in_attempts(tiny_scene_path("defocus_motion.rib"), kLarge, settings).with_tiles,
+                  0u);
+    }
+}
+
+}  // namespace
+}  // namespace trapeze::testing
