@@ -56,11 +56,12 @@ class SetVariable {
 };
 
 /// Runs `trapeze ARGUMENTS` (shell syntax) with the folder as working directory; the user's settings are
-/// those in its folder .config.
-inline Outcome run_program(const WorkFolder& folder, const std::string& arguments) {
-    const std::string command =
-        "cd '" + folder.path().string() + "' && export XDG_CONFIG_HOME='" + folder.path().string() +
-        "/.config' && '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " + arguments;
+/// those in its folder .config. `before`: words that run it, as `env NAME=VALUE`, or nothing.
+inline Outcome run_program(const WorkFolder& folder, const std::string& arguments,
+                           const std::string& before = {}) {
+    const std::string command = "cd '" + folder.path().string() + "' && export XDG_CONFIG_HOME='" +
+                                folder.path().string() + "/.config' && " + before +
+                                " '" TRAPEZE_PROGRAM "' </dev/null >.stdout 2>.stderr " + arguments;
     const int status = std::system(("bash -c \"" + command + "\"").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(folder / ".stdout"),
             file_text(folder / ".stderr")};

@@ -28,7 +28,7 @@ class MemoryKeeper final : public FilmKeeper {
         EXPECT_EQ(at, bytes_.size());
         return true;
     }
-    void end() override {
+    void end(bool) override {
         if (!film_) return;
         bytes_.clear();
         EXPECT_TRUE(film_->write_finished([this](const void* from, size_t count) {

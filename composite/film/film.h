@@ -58,8 +58,8 @@ class Film final : public SampleSink {
 
     /// Numbers of the tiles whose pixels are finished, in order. Thread-safe, as write_finished().
     std::vector<int> finished_tiles() const;
-    /// All tiles that may have to be finished, those without pixels that are kept among them.
-    int tile_count() const { return tiles_.count(); }
+    /// The tiles that are finished in the end: all that have pixels of the picture.
+    size_t picture_tiles() const;
     /// Writes the finished tiles, while others may be added. False when `write` was.
     bool write_finished(const WriteBytes& write) const;
     /// Takes tiles that write_finished() of a film of the same picture has written, before the first add().

@@ -78,6 +78,13 @@ std::vector<int> Film::finished_tiles() const {
     return finished;
 }
 
+size_t Film::picture_tiles() const {
+    size_t count = 0;
+    for (int tile = 0; tile < tiles_.count(); ++tile)
+        if (!tiles_.kept_pixels(tile).empty()) ++count;
+    return count;
+}
+
 bool Film::write_finished(const WriteBytes& write) const {
     const std::vector<int> finished = finished_tiles();
     // After the tiles: the loss is theirs, and of some that are about to be.

@@ -1,5 +1,6 @@
 #include "core/files/output_file.h"
 
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <mutex>
 #include <set>
+#include <string_view>
 
 #include "core/files/foreign_paths.h"
 
@@ -110,13 +112,14 @@ bool OutputFile::open() {
                   std::to_string(++partials().count);
         partials().paths.insert(partial);
     }
-    file_ = std::fopen(partial.c_str(), "wbx");
+    file_ = std::fopen(partial.c_str(), "wbxe");
     if (!file_ && errno == EEXIST) {
         // It was left by a process of the same number, which was killed.
         ::unlink(partial.c_str());
-        file_ = std::fopen(partial.c_str(), "wbx");
+        file_ = std::fopen(partial.c_str(), "wbxe");
     }
     if (!file_) fail_with_errno();
+    if (file_) static_cast<void>(::flock(::fileno(file_), LOCK_EX | LOCK_NB));  // for remove_leftovers()
     const std::lock_guard lock(partials().mutex);
     if (file_ && partials().paths.contains(partial)) {
         partial_ = partial;
@@ -168,6 +171,24 @@ void OutputFile::remove_partials() {
     for (auto path = partials().paths.rbegin(); path != partials().paths.rend(); ++path)
         std::remove(path->c_str());
     partials().paths.clear();
+}
+
+void OutputFile::remove_leftovers(const std::string& target) {
+    const fs::path path(target);
+    const std::string beginning = path.filename().string().substr(0, kNameBytes) + ".";
+    std::error_code failed;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(beginning)) continue;
+        const std::string_view rest = std::string_view(name).substr(beginning.size());
+        const size_t digits = rest.find_first_not_of("0123456789");
+        if (digits == 0 || digits == rest.npos || !rest.substr(digits).starts_with(".part-")) continue;
+        std::FILE* const file = std::fopen(entry.path().c_str(), "rbe");
+        if (!file) continue;
+        if (::flock(::fileno(file), LOCK_EX | LOCK_NB) == 0) fs::remove(entry.path(), failed);
+        std::fclose(file);
+    }
 }
 
 void OutputFile::remove_at_the_end(const std::string& path) {

@@ -34,6 +34,9 @@ class OutputFile {
     /// Removes the temporary files of all OutputFiles of the process: for a process about to be ended by a
     /// signal. Thread-safe; their commit() fails from then on.
     static void remove_partials();
+    /// Removes what processes that are no more, as they were killed, have left of writing a file: those that
+    /// write hold a lock.
+    static void remove_leftovers(const std::string& target);
     /// Lets remove_partials() remove a file or folder that is not to stay, too.
     static void remove_at_the_end(const std::string& path);
     /// Removes it now.

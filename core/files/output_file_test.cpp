@@ -96,6 +96,19 @@ TEST(OutputFile, LongNames) {
     EXPECT_EQ(folder.names(), Names{name});
 }
 
+TEST(OutputFile, LeftoversAreThoseThatNobodyWrites) {
+    const TemporaryFolder folder;
+    for (const char* name : {"x.exr.123.part-4", "x.exr.part-4", "x.exr.12a.part-4", "y.exr.123.part-4"})
+        put(folder.file(name), "left");
+    {
+        OutputFile file(folder.file("x.exr"));
+        ASSERT_TRUE(file.open() && file.write("new", 3));
+        OutputFile::remove_leftovers(folder.file("x.exr"));
+        EXPECT_TRUE(file.commit()) << file.error();
+    }
+    EXPECT_EQ(folder.names(), (Names{"x.exr", "x.exr.12a.part-4", "x.exr.part-4", "y.exr.123.part-4"}));
+}
+
 TEST(OutputFile, AFullDiskIsAnError) {
     const TemporaryFolder folder;
     put(folder.file("x.exr"), "old");

@@ -10,8 +10,6 @@
 namespace trapeze {
 namespace {
 
-constexpr size_t kBlockBytes = 64;
-
 /// The first 32 bits of the fractional parts of the cube roots of the first 64 primes.
 constexpr std::array<uint32_t, 64> kCubeRoots = {
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
@@ -27,70 +25,58 @@ uint32_t big_endian_word(const unsigned char* bytes) {
     return uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];
 }
 
-/// The hash while bytes come in, FIPS 180-4 section 6.2; names of variables are the standard's.
-class Sha256 {
-  public:
-    void add(const unsigned char* bytes, size_t count) {
-        length_ += count;
-        while (count > 0) {
-            const size_t taken = std::min(count, kBlockBytes - filled_);
-            std::memcpy(block_.data() + filled_, bytes, taken);
-            filled_ += taken, bytes += taken, count -= taken;
-            if (filled_ == kBlockBytes) mix(), filled_ = 0;
-        }
-    }
-    uint64_t length() const { return length_; }
-
-    /// Nothing can be added afterwards.
-    std::string digits() {
-        const uint64_t bits = length_ * 8;
-        const unsigned char one = 0x80, zero = 0;
-        add(&one, 1);
-        while (filled_ != kBlockBytes - sizeof bits) add(&zero, 1);
-        for (int shift = 56; shift >= 0; shift -= 8) {
-            const auto byte = static_cast<unsigned char>(bits >> shift);
-            add(&byte, 1);
-        }
-        std::string text;
-        for (const uint32_t word : hash_)
-            for (int shift = 28; shift >= 0; shift -= 4) text += "0123456789abcdef"[word >> shift & 15];
-        return text;
-    }
-
-  private:
-    void mix() {
-        std::array<uint32_t, 64> w;
-        for (size_t t = 0; t < 16; ++t) w[t] = big_endian_word(block_.data() + 4 * t);
-        for (size_t t = 16; t < 64; ++t) {
-            const uint32_t s0 = std::rotr(w[t - 15], 7) ^ std::rotr(w[t - 15], 18) ^ w[t - 15] >> 3;
-            const uint32_t s1 = std::rotr(w[t - 2], 17) ^ std::rotr(w[t - 2], 19) ^ w[t - 2] >> 10;
-            w[t] = s1 + w[t - 7] + s0 + w[t - 16];
-        }
-        auto [a, b, c, d, e, f, g, h] = hash_;
-        for (size_t t = 0; t < 64; ++t) {
-            const uint32_t t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
-                                ((e & f) ^ (~e & g)) + kCubeRoots[t] + w[t];
-            const uint32_t t2 =
-                (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
-            h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
-        }
-        const std::array<uint32_t, 8> mixed = {a, b, c, d, e, f, g, h};
-        for (size_t i = 0; i < mixed.size(); ++i) hash_[i] += mixed[i];
-    }
-
-    /// Of the square roots of the first eight primes.
-    std::array<uint32_t, 8> hash_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                     0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-    std::array<unsigned char, kBlockBytes> block_;
-    size_t filled_ = 0;    ///< bytes of the block
-    uint64_t length_ = 0;  ///< bytes in all
-};
-
 }  // namespace
+
+void Sha256::add(const void* data, size_t count) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    length_ += count;
+    while (count > 0) {
+        const size_t taken = std::min(count, block_.size() - filled_);
+        std::memcpy(block_.data() + filled_, bytes, taken);
+        filled_ += taken, bytes += taken, count -= taken;
+        if (filled_ == block_.size()) mix(), filled_ = 0;
+    }
+}
+
+std::string Sha256::digits() {
+    const uint64_t bits = length_ * 8;
+    const unsigned char one = 0x80, zero = 0;
+    add(&one, 1);
+    while (filled_ != block_.size() - sizeof bits) add(&zero, 1);
+    for (int shift = 56; shift >= 0; shift -= 8) {
+        const auto byte = static_cast<unsigned char>(bits >> shift);
+        add(&byte, 1);
+    }
+    std::string text;
+    for (const uint32_t word : hash_)
+        for (int shift = 28; shift >= 0; shift -= 4) text += "0123456789abcdef"[word >> shift & 15];
+    return text;
+}
+
+/// FIPS 180-4 section 6.2; names of variables are the standard's.
+void Sha256::mix() {
+    std::array<uint32_t, 64> w;
+    for (size_t t = 0; t < 16; ++t) w[t] = big_endian_word(block_.data() + 4 * t);
+    for (size_t t = 16; t < 64; ++t) {
+        const uint32_t s0 = std::rotr(w[t - 15], 7) ^ std::rotr(w[t - 15], 18) ^ w[t - 15] >> 3;
+        const uint32_t s1 = std::rotr(w[t - 2], 17) ^ std::rotr(w[t - 2], 19) ^ w[t - 2] >> 10;
+        w[t] = s1 + w[t - 7] + s0 + w[t - 16];
+    }
+    auto [a, b, c, d, e, f, g, h] = hash_;
+    for (size_t t = 0; t < 64; ++t) {
+        const uint32_t t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
+                            ((e & f) ^ (~e & g)) + kCubeRoots[t] + w[t];
+        const uint32_t t2 =
+            (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
+        h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
+    }
+    const std::array<uint32_t, 8> mixed = {a, b, c, d, e, f, g, h};
+    for (size_t i = 0; i < mixed.size(); ++i) hash_[i] += mixed[i];
+}
 
 std::string sha256(std::string_view bytes) {
     Sha256 hash;
-    hash.add(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+    hash.add(bytes.data(), bytes.size());
     return hash.digits();
 }
 
@@ -102,7 +88,7 @@ std::optional<FileHash> hash_of_file(const std::string& path) {
     Sha256 hash;
     char buffer[1 << 16];
     while (file.read(buffer, sizeof buffer) || file.gcount() > 0)
-        hash.add(reinterpret_cast<const unsigned char*>(buffer), static_cast<size_t>(file.gcount()));
+        hash.add(buffer, static_cast<size_t>(file.gcount()));
     if (file.bad()) return {};
     const uint64_t bytes = hash.length();
     return FileHash{bytes, hash.digits()};

@@ -22,6 +22,10 @@ class KeptPictures {
     /// Drops a picture that nobody would miss: a map has been made of it, or it is to be replaced.
     void forget(const std::string& path);
 
+    /// The frames by path; and puts back those that an earlier run had.
+    const std::map<std::string, int>& frames() const { return frames_; }
+    void set_frames(std::map<std::string, int> frames) { frames_ = std::move(frames); }
+
   private:
     Diagnostics& diagnostics_;
     std::map<std::string, int> frames_;  ///< by path

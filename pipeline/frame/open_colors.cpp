@@ -74,6 +74,7 @@ OpenedColors open_colors(const Options& options, const ColorRequest& users, cons
         OpenedColors opened;
         const ColorLibrary* const library = color_library(&problem);
         if (library) opened.colors = library->open(request, &problem);
+        if (opened.colors && !request.config.empty()) access.note_read(request.config);
         if (opened.colors) return opened;
     }
     const std::string name =

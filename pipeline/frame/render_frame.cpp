@@ -149,7 +149,7 @@ std::unique_ptr<Film> film_of_regions(const Frame& frame, FilmKeeper* keeper, Fr
         const bool is_whole = add_regions(frame, regions, recorder, *film);
         const bool is_endless = !is_whole && !frame.context.is_cancelled();
         if (keeper && is_endless) keeper->give_up("a shader's loops are endless");
-        if (keeper) keeper->end();
+        if (keeper) keeper->end(frame.context.is_cancelled());
         if (is_whole) return film;
         keeper = nullptr;
         recorder.restart();

@@ -127,12 +127,20 @@ bool output_is_a_file(const Arguments& a, std::string* error) {
     return false;
 }
 
+/// What is gone on with is read again.
+bool can_be_resumed(const Arguments& a, std::string* error) {
+    const bool saves = a.checkpoint || a.resume;
+    if (saves && std::ranges::find(a.inputs, "-") != a.inputs.end())
+        *error = "--checkpoint and --resume need files: standard input cannot be read again";
+    return error->empty();
+}
+
 /// What is wrong with options that are right each by itself; empty: nothing. Also sets what --safe implies.
 std::string contradiction(Arguments& a) {
     std::string error;
     static_cast<void>(settle_safety(a, &error) && output_is_a_file(a, &error) && has_work(a, &error) &&
                       samplers_are_right(a, &error) && crop_is_right(a, &error) && tile_is_right(a, &error) &&
-                      outputs_are_apart(a, &error));
+                      outputs_are_apart(a, &error) && can_be_resumed(a, &error));
     return error;
 }
 

@@ -105,6 +105,8 @@ struct Arguments {
     double program_seconds = 10;           ///< seconds without an answer after which a program is ended
     bool safe = false;                     ///< scenes are confined (core/files/access.h)
     std::optional<double> time_limit;      ///< seconds
+    std::optional<double> checkpoint;      ///< seconds from one save to the next; nothing: none are asked for
+    bool resume = false;                   ///< goes on with what was saved
     bool strict = false, quiet = false, color = true;
 
     /// The tile to make; nothing: the whole crop.

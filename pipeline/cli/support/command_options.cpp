@@ -91,6 +91,15 @@ std::string listed(const std::vector<Row>& table) {
     return text;
 }
 
+/// For runs that may be broken off.
+void add_checkpoint_options(CLI::App& app, Arguments& a) {
+    add_parsed(app, "--checkpoint", a.checkpoint, parse_duration,
+               "saves what is finished so often, for --resume, in the picture's name with .checkpoint behind",
+               "TIME like 30s, 5m", ", more than none (units s, m, h)");
+    app.add_flag("--resume", a.resume,
+                 "goes on with what a run has saved that was broken off; saves every 5 minutes itself");
+}
+
 void add_sampler_option(CLI::App& app, Arguments& a) {
     const auto is_method = [](const std::string& text) {
         std::string error;
@@ -249,6 +258,7 @@ void add_render_options(CLI::App& app, Arguments& a) {
                    "scene's Option \"color\" \"transfer\")")
         ->check(CLI::IsMember({"linear", "srgb", "auto"}));
     add_color_options(app, a.colors);
+    add_checkpoint_options(app, a);
     add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20",
                " (ranges upwards, with a step as in 1-9x2)");
     add_file(app, "--stats", a.stats_file, "writes statistics as JSON", "FILE.json");

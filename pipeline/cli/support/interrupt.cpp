@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <utility>
 
 #include "composite/displays/write_displays.h"
 #include "pipeline/cli/support/exit_codes.h"
@@ -40,7 +41,8 @@ std::string time_limit_message() {
     return "the time limit is reached; what was not done is left out";
 }
 
-Interrupt::Interrupt(std::optional<double> time_limit) {
+Interrupt::Interrupt(std::optional<double> time_limit, std::function<void()> before_end)
+    : before_end_(std::move(before_end)) {
     if (time_limit)
         deadline_ = Clock::now() +
                     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*time_limit));
@@ -75,6 +77,8 @@ void Interrupt::watch() {
     g_requested = true;
     const auto asked = Clock::now();
     while (!done_ && Clock::now() - asked < kPatience) std::this_thread::sleep_for(kPoll);
+    if (done_) return;
+    if (before_end_) before_end_();
     if (done_) return;
     remove_partial_outputs();
     rib::end_all_programs();

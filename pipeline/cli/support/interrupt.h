@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,8 +19,9 @@ std::string time_limit_message();
 /// process.
 class Interrupt {
   public:
-    /// `time_limit`: seconds from now.
-    explicit Interrupt(std::optional<double> time_limit = {});
+    /// `time_limit`: seconds from now. `before_end` is called by the watcher where work has not stopped in
+    /// time, before the process ends.
+    explicit Interrupt(std::optional<double> time_limit = {}, std::function<void()> before_end = {});
     ~Interrupt();
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
@@ -32,6 +34,7 @@ class Interrupt {
     void watch();
 
     std::optional<Clock::time_point> deadline_;
+    const std::function<void()> before_end_;
     std::atomic<bool> done_{false}, too_late_{false};
     std::thread watcher_;
 };

@@ -1,4 +1,5 @@
-/// The options that a comparison's figures follow from, as its JSON keeps them for a replay.
+/// The options that figures and pictures follow from, as files keep them for a run that repeats another one,
+/// or goes on with it.
 #pragma once
 
 #include <array>
@@ -21,6 +22,10 @@ inline constexpr std::array<std::string_view, 12> kReplayedOptions = {
 /// The options of a comparison, with what was chosen where the command line left it open. What shall be done
 /// with the figures, and what a run may use and reach, is not among them.
 std::vector<RecordedOption> recorded_options(const Arguments& arguments, const CompareSettings& settings);
+
+/// The options of a render that its pixels, or the names and kinds of its files, follow from; the scenes are
+/// among them. How much of the machine is used is not, nor what is said meanwhile.
+std::vector<RecordedOption> recorded_options(const Arguments& arguments);
 
 /// The words of a command line that give the options. Empty with *error set where one is not of
 /// kReplayedOptions.
