@@ -17,6 +17,14 @@ int clamped_int(float value, int lo, int hi) {
 
 }  // namespace
 
+Box3f grown(const Box3f& box, float displacement_bound) {
+    constexpr float kRounding = 4e-6f;
+    float largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
+    const V3f grow(displacement_bound + kRounding * largest);
+    return {box.min - grow, box.max + grow};
+}
+
 RasterBound::Result RasterBound::of(std::span<const Box3f> boxes) const {
     if (everything_) return {picture_, true};
     Box3f all;

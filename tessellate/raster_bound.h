@@ -48,4 +48,7 @@ class RasterBound {
     bool everything_ = false;
 };
 
+/// A box that holds what shaders displace by up to `displacement_bound`, and the rounding of positions.
+Box3f grown(const Box3f& box, float displacement_bound);
+
 }  // namespace trapeze

@@ -241,11 +241,7 @@ class FaceSplitter {
         add_moved_corners(node);
         for (Box3f& box : boxes_) {
             if (box.isEmpty()) continue;
-            float largest = 0;
-            for (int k = 0; k < 3; ++k)
-                largest = std::max({largest, std::abs(box.min[k]), std::abs(box.max[k])});
-            const float grow = context_.displacement_bound + 4e-6f * largest;  // rounding of positions
-            box.min -= V3f(grow), box.max += V3f(grow);
+            box = grown(box, context_.displacement_bound);
         }
         return context_.raster->of(boxes_);
     }

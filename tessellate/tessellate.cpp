@@ -18,6 +18,7 @@
 
 #include "core/random.h"
 #include "tessellate/dice.h"
+#include "tessellate/out_of_view.h"
 #include "tessellate/shared_grids.h"
 #include "tessellate/topology/order_by_face.h"
 
@@ -217,6 +218,11 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
         by_rays ? primitive.attributes->rays.seen() : primitive.attributes->visible_to_camera;
     if (!out.surface || !is_seen || context.is_cancelled()) return;
     out.placed = std::make_unique<PlacedSurface>(*out.surface, primitive, context.motion);
+    const float displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
+    if (!by_rays && is_out_of_view(*out.placed, raster, displacement_bound, kFarthest)) {
+        out.splits.culled = static_cast<uint64_t>(out.surface->face_count());
+        return;
+    }
     out.vertices = VertexTable(*out.placed);
     if (const float reach = out.vertices.reach(); reach > kFarthest) {
         context.diagnostics->error(
@@ -250,7 +256,7 @@ void tessellate_primitive(const RenderContext& context, const Primitive& primiti
     split.raster = &raster;
     split.rate = rate;
     split.estimates = estimates;
-    split.displacement_bound = std::max(primitive.attributes->displacement_bound, 0.0f);
+    split.displacement_bound = displacement_bound;
     split.most_parts_of_face = most_parts;
     std::optional<Splits> splits = split_all(split, context, options.most_bytes);
     if (!splits) {

@@ -39,6 +39,32 @@ TEST_P(TinyScene, IsTheSameForEveryThreadCountAndRegionSplit) {
     }
 }
 
+/// A crop has the bits of the whole picture, though what lies beside it is not even measured.
+TEST_P(TinyScene, IsTheSameInTiles) {
+    const std::string path = tiny_scene_path(GetParam());
+    const auto whole = render_scene(path, {}, 2);
+    constexpr PictureTile kGrid{4, 3, 0};
+    const auto first = static_cast<int>(GetParam().size() % 4);
+    for (int number = 1 + first; number <= kGrid.count(); number += 4) {
+        RenderSettings settings;
+        settings.tile = PictureTile{kGrid.columns, kGrid.rows, number};
+        const auto tile = render_scene(path, settings, 2);
+        ASSERT_EQ(tile.size(), whole.size());
+        for (size_t i = 0; i < tile.size(); ++i) {
+            const Image &a = whole[i].image, &b = tile[i].image;
+            size_t others = 0;
+            for (int y = b.window.y0; y < b.window.y1; ++y)
+                for (int x = b.window.x0; x < b.window.x1; ++x) {
+                    const size_t at = a.index(x, y), own = b.index(x, y);
+                    others += a.z[at] != b.z[own];
+                    for (size_t c = 0; c < 4; ++c) others += a.rgba[4 * at + c] != b.rgba[4 * own + c];
+                }
+            EXPECT_FALSE(b.window.empty());
+            EXPECT_EQ(others, 0u) << number << ", world " << i;
+        }
+    }
+}
+
 /// The rows of the table of methods, each as it is by default, and one of their other forms: these take turns
 /// from scene to scene.
 std::vector<MethodForm> methods_for(const std::string& scene) {
