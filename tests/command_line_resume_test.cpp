@@ -1,5 +1,5 @@
 /// Renders that are broken off and gone on with.
-#include <csignal>
+#include <chrono>
 
 #include "core/random.h"
 #include "tests/command_line_harness.h"
@@ -53,6 +53,13 @@ Outcome render(const WorkFolder& folder, const std::string& options, const std::
     return run_program(folder, "render a.rib " + options, "env SOURCE_DATE_EPOCH=1000000000 " + before);
 }
 
+/// Seconds that a plain render takes now, as busy as the machine is.
+double seconds_of_render(const WorkFolder& folder, const std::string& options = {}) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(render(folder, options).exit_code, 0);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 void expect_same_pictures(const WorkFolder& a, const WorkFolder& b) {
     for (const std::string& name : kPictures) {
         ASSERT_FALSE(file_text(a / name).empty()) << name;
@@ -63,10 +70,10 @@ void expect_same_pictures(const WorkFolder& a, const WorkFolder& b) {
 TEST(Resume, KilledAtTwentyMomentsEveryPictureIsTheSame) {
     WorkFolder whole, folder;
     write_scene(whole), write_scene(folder);
-    ASSERT_EQ(render(whole, "").exit_code, 0);
+    const double whole_seconds = seconds_of_render(whole);
     int kills = 0, went_on = 0;
     for (uint32_t i = 0; kills < 20 && i < 60; ++i) {
-        const float seconds = .05f + .6f * unit_float(hash(i));
+        const double seconds = whole_seconds * (.05 + .75 * unit_float(hash(i)));
         const Outcome run =
             render(folder, "--resume --checkpoint .05s", "timeout -s KILL " + std::to_string(seconds) + " ");
         if (run.err.find("note: goes on with") != std::string::npos) ++went_on;
@@ -90,16 +97,17 @@ TEST(Resume, KilledAtTwentyMomentsEveryPictureIsTheSame) {
 TEST(Resume, TheTimeLimitSavesUntilARunComesToItsEnd) {
     WorkFolder whole, folder;
     write_scene(whole), write_scene(folder);
-    ASSERT_EQ(render(whole, "--samples 12").exit_code, 0);
+    const double seconds = seconds_of_render(whole, "--samples 12");
+    const std::string limit = " --time-limit " + std::to_string(.6 * seconds);
     int attempts = 0;
     bool said = false;
-    Outcome run = render(folder, "--samples 12 --checkpoint 1h --time-limit 1.3s");
+    Outcome run = render(folder, "--samples 12 --checkpoint 1h" + limit);
     while (run.exit_code == 8 && ++attempts < 40) {
         said = said || run.err.find("saved in \"a.exr.checkpoint\"; --resume") != std::string::npos;
-        run = render(folder, "--samples 12 --resume --time-limit 1.3s");
+        run = render(folder, "--samples 12 --resume" + limit);
     }
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_GT(attempts, 1);
+    EXPECT_GT(attempts, 0);
     EXPECT_TRUE(said);
     expect_same_pictures(whole, folder);
     EXPECT_FALSE(fs::exists(folder / "a.exr.checkpoint"));

@@ -262,9 +262,9 @@ void Checkpoint::save_at_end_now() {
     // Whoever has had a film and has finished nothing of it takes smaller parts.
     const bool is_stuck = film_ && film_->finished_tiles().size() == restored_;
     if (is_stuck) state_.regions = std::min(2 * std::max(1, state_.regions), kMostRegions);
-    const bool wrote = save(is_stuck);
+    save(is_stuck);
     const std::string& path = settings_.path;
-    if (wrote && film_)
+    if (film_ && saves_ && saved_.worlds == state_.worlds.size())
         end_ = fmt::format("{} of {} tiles of the picture are saved in \"{}\"; --resume goes on with them",
                            saved_.tiles, film_->picture_tiles(), path);
     else if (std::error_code ignored; fs::exists(path, ignored))
@@ -284,6 +284,8 @@ void Checkpoint::remove() {
     saves_ = false;
     std::error_code ignored;
     if (is_checkpoint(settings_.path)) fs::remove(settings_.path, ignored);
+    // Whoever was killed just before this run began may have been there still.
+    OutputFile::remove_leftovers(settings_.path);
 }
 
 }  // namespace trapeze

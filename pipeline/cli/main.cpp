@@ -33,6 +33,9 @@ int run(const trapeze::Arguments& arguments, trapeze::Terminal& terminal) {
         case Command::Render:
             code = render_command(arguments, terminal, diagnostics);
             break;
+        case Command::Farm:
+            code = farm_command(arguments, terminal, diagnostics);
+            break;
         case Command::Merge:
             code = merge_command(arguments, terminal, diagnostics);
             break;

@@ -8,6 +8,7 @@ namespace trapeze {
 
 /// The program's commands. Each returns the exit code.
 int render_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
+int farm_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int merge_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int check_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);
 int info_command(const Arguments& arguments, Terminal& terminal, Diagnostics& diagnostics);

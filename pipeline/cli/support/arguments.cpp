@@ -31,6 +31,8 @@ struct CommandRow {
 constexpr CommandRow kCommands[] = {
     {"render", Command::Render, add_render_options, "renders scenes"},
     {"merge", Command::Merge, add_merge_options, "joins the tiles of a picture that --tiles has divided"},
+    {"farm", Command::Farm, add_farm_options,
+     "writes the files of a job that renders frames and tiles by Slurm, GNU parallel or Open Job Description"},
     {"check", Command::Check, add_check_options,
      "reads scenes and reports all that is wrong, missing or not supported; renders nothing"},
     {"info", Command::Info, add_info_options, "says what is in scenes"},

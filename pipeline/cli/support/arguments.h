@@ -14,7 +14,7 @@
 
 namespace trapeze {
 
-enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader, Compliance, Merge };
+enum class Command { Render, Check, Info, Cat, Compare, Scene, Study, Shader, Compliance, Merge, Farm };
 
 /// What `trapeze compare` alone has.
 struct CompareArguments {
@@ -52,6 +52,14 @@ struct CatArguments {
 struct MergeArguments {
     std::vector<std::string> tiles;  ///< files
     bool allow_missing = false;
+};
+
+/// What `trapeze farm` alone has; its folder is Arguments::output.
+struct FarmArguments {
+    std::string scheduler;                     ///< slurm, parallel or openjd
+    std::optional<std::pair<int, int>> tiles;  ///< columns and rows of each frame
+    std::string options;                       ///< for `trapeze render`, as a shell reads them
+    int retries = 3;                           ///< of a task that a signal has killed
 };
 
 /// What `trapeze shader` alone has.
@@ -99,6 +107,7 @@ struct Arguments {
     StudyArguments study;
     ShaderArguments shader;
     MergeArguments merge;
+    FarmArguments farm;
     std::string scenes_folder = "scenes";  ///< of `trapeze compliance`: tiny and gallery are in it
     std::vector<std::string> first_rib;    ///< lines of RIB that are executed before the inputs
     bool allow_programs = false;           ///< whether programs that scenes name are run

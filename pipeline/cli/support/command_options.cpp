@@ -286,6 +286,31 @@ void add_merge_options(CLI::App& app, Arguments& a) {
     add_color_option(app, a);
 }
 
+void add_farm_options(CLI::App& app, Arguments& a) {
+    app.add_option("scene", a.inputs, "scenes that are read one after the other, as by render")
+        ->required()
+        ->check(a_name())
+        ->type_name("SCENE.rib");
+    add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20",
+               " (ranges upwards, with a step as in 1-9x2)")
+        ->required();
+    add_parsed(app, "--tiles", a.farm.tiles, parse_tiles,
+               "divides each frame into N columns and M rows, a task each, and joins them afterwards",
+               "NxM like 2x2", ", each from 1 to " + std::to_string(kMostTilesOfSide));
+    app.add_option("--for", a.farm.scheduler, "the scheduler that runs the job")
+        ->check(CLI::IsMember({"slurm", "parallel", "openjd"}))
+        ->required();
+    add_file(app, "-o,--output", a.output, "folder of the job and its pictures (default: SCENE.farm)", "DIR");
+    app.add_option("--with", a.farm.options,
+                   "options for `trapeze render`, as one text: '--samples 8 --memory 8G'")
+        ->type_name("OPTIONS");
+    add_number(app, "--retries", a.farm.retries, 0, 1000,
+               "under Slurm, a task whose process a signal has killed begins again so often", "N")
+        ->capture_default_str();
+    app.add_flag("-q,--quiet", a.quiet, "only errors");
+    add_color_option(app, a);
+}
+
 void add_check_options(CLI::App& app, Arguments& a) {
     add_inputs(app, a);
     add_memory_option(app, a, "for a file and for its scene, each");

@@ -11,6 +11,7 @@ namespace trapeze {
 
 void add_render_options(CLI::App& app, Arguments& arguments);
 void add_merge_options(CLI::App& app, Arguments& arguments);
+void add_farm_options(CLI::App& app, Arguments& arguments);
 void add_check_options(CLI::App& app, Arguments& arguments);
 void add_info_options(CLI::App& app, Arguments& arguments);
 void add_cat_options(CLI::App& app, Arguments& arguments);
