@@ -237,10 +237,13 @@ bool WorldOutputs::find_pictures(MapRequest& request, Access& access) {
         const auto own = passes_.file_of(picture);
         picture = names_.take_back(picture).value_or(picture);
         kept_.forget(picture);
-        if (own)
+        if (own) {
             picture = *own;
-        else if (encoded_.contains(picture))
+            // Nobody else can read it: it is gone with the run.
+            access.record_reads({});
+        } else if (encoded_.contains(picture)) {
             request.colorspace = Transfer::Srgb;
+        }
     }
     passes_.allow_reading(access);
     return true;
