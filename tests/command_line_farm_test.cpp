@@ -1,6 +1,7 @@
 /// The files of jobs; tests/farm/run gives them to schedulers.
 #include <nlohmann/json.hpp>
 
+#include "core/shell_word.h"
 #include "tests/command_line_harness.h"
 
 namespace trapeze::testing {
@@ -91,9 +92,7 @@ TEST(Farm, TheTemplateIsOfOpenJobDescription) {
         if (word == "{{Param.Folder}}") word = folder.path().string();
         if (word == "{{Task.Param.Frame}}") word = "3";
         if (word == "{{Task.Param.Tile}}") word = "2";
-        words += " '";
-        for (const char c : word) words += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        words += "'";
+        words += " " + shell_word(word);
     }
     EXPECT_EQ(run.at("command"), "bash");
     EXPECT_EQ(run_script(folder, words), 0) << file_text(folder / ".stderr");

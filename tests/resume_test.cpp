@@ -2,9 +2,8 @@
 /// in the end.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "composite/film/film.h"
+#include "composite/film/kept_bytes_harness.h"
 #include "core/random.h"
 #include "tests/scene_harness.h"
 
@@ -17,31 +16,22 @@ class MemoryKeeper final : public FilmKeeper {
     bool begin(Film& film) override {
         film_ = &film;
         ++begun;
-        size_t at = 0;
-        const ReadBytes read = [&](void* to, size_t count) {
-            if (count > bytes_.size() - at) return false;
-            std::memcpy(to, bytes_.data() + at, count);
-            at += count;
-            return true;
-        };
-        EXPECT_TRUE(bytes_.empty() || film.read_finished(read));
-        EXPECT_EQ(at, bytes_.size());
+        bytes_.at = 0;
+        EXPECT_TRUE(bytes_.text.empty() || film.read_finished(bytes_.reader()));
+        EXPECT_EQ(bytes_.at, bytes_.text.size());
         return true;
     }
     void end(bool) override {
         if (!film_) return;
-        bytes_.clear();
-        EXPECT_TRUE(film_->write_finished([this](const void* from, size_t count) {
-            bytes_.append(static_cast<const char*>(from), count);
-            return true;
-        }));
+        bytes_ = {};
+        EXPECT_TRUE(film_->write_finished(bytes_.writer()));
         tiles = film_->finished_tiles().size();
         film_ = nullptr;
     }
     void give_up(const std::string& why) override {
         reason = why;
         film_ = nullptr;
-        bytes_.clear();
+        bytes_ = {};
     }
     int regions_at_least() const override { return regions; }
 
@@ -51,7 +41,7 @@ class MemoryKeeper final : public FilmKeeper {
 
   private:
     Film* film_ = nullptr;
-    std::string bytes_;
+    KeptBytes bytes_;
 };
 
 struct Attempts {

@@ -2,41 +2,21 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <thread>
 
 #include "composite/film/awaited_tiles.h"
 #include "composite/film/film.h"
 #include "composite/film/film_tiles.h"
+#include "composite/film/kept_bytes_harness.h"
 #include "composite/film/raster_harness.h"
 
 namespace trapeze {
 namespace {
 
+using testing::KeptBytes;
 using testing::RasterScene;
 
 constexpr int kGridColumns = 6, kGridRows = 4;  // the picture is 96x64
-
-/// Bytes that are written at the end and read from the beginning.
-struct Bytes {
-    std::string text;
-    size_t at = 0;
-
-    WriteBytes writer() {
-        return [this](const void* bytes, size_t count) {
-            text.append(static_cast<const char*>(bytes), count);
-            return true;
-        };
-    }
-    ReadBytes reader() {
-        return [this](void* bytes, size_t count) {
-            if (count > text.size() - at) return false;
-            std::memcpy(bytes, text.data() + at, count);
-            at += count;
-            return true;
-        };
-    }
-};
 
 /// Asks for all that a film keeps of a pixel: depth, ids, variables summed and chosen, deep samples.
 void ask_for_all(RasterScene& scene, const char* filter, float width) {
@@ -76,6 +56,12 @@ void add_ring_tile(const RasterScene& scene, const Grids& grids, const PixelRect
     film.add(samples, testing::make_hits(samples, grids, kGridColumns, kGridRows, in_ring), grids);
 }
 
+Image whole_picture(const RasterScene& scene, const Grids& grids) {
+    Film film(scene.context, true);
+    for (const PixelRect& tile : testing::tiles_of(scene.sampled())) add_ring_tile(scene, grids, tile, film);
+    return film.finish();
+}
+
 /// Whether a tile is among those that a film begins with.
 bool comes_first(uint32_t seed, const PixelRect& tile) {
     return hash(seed, static_cast<uint32_t>(tile.x0), static_cast<uint32_t>(tile.y0)) % 100 < 88;
@@ -87,9 +73,7 @@ TEST(FinishedTiles, APictureIsTheSameBitsWhenAnotherFilmGoesOnWithIt) {
         ask_for_all(scene, filter, width);
         const Grids grids = all_grids();
         const std::vector<PixelRect> tiles = testing::tiles_of(scene.sampled());
-        Film whole(scene.context, true);
-        for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, whole);
-        const Image expected = whole.finish();
+        const Image expected = whole_picture(scene, grids);
         ASSERT_FALSE(expected.deep.empty());
         ASSERT_GT(expected.aov_channels, 0);
         for (uint32_t seed = 0; seed < 4; ++seed) {
@@ -100,7 +84,7 @@ TEST(FinishedTiles, APictureIsTheSameBitsWhenAnotherFilmGoesOnWithIt) {
                     add_ring_tile(scene, grids, tile, first);
                 else
                     ++left_out;
-            Bytes bytes;
+            KeptBytes bytes;
             ASSERT_TRUE(first.write_finished(bytes.writer()));
             const size_t finished = first.finished_tiles().size();
             ASSERT_GT(finished, 0u);
@@ -126,11 +110,9 @@ TEST(FinishedTiles, AreFinishedAfterAllOthersHaveBeenRestored) {
     ask_for_all(scene, "gaussian", 2);
     const Grids grids = all_grids();
     const std::vector<PixelRect> tiles = testing::tiles_of(scene.sampled());
-    Film whole(scene.context, true);
-    for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, whole);
-    const Image expected = whole.finish();
+    const Image expected = whole_picture(scene, grids);
     // A tile or two at a time, each by a film of its own.
-    Bytes bytes;
+    KeptBytes bytes;
     Film(scene.context, true).write_finished(bytes.writer());
     for (int round = 0; round < 100; ++round) {
         Film film(scene.context, true);
@@ -156,24 +138,24 @@ TEST(FinishedTiles, OfAnotherFilmOrCutShortAreRefused) {
     const Grids grids = all_grids();
     Film film(scene.context, true);
     for (const PixelRect& tile : testing::tiles_of(scene.sampled())) add_ring_tile(scene, grids, tile, film);
-    Bytes bytes;
+    KeptBytes bytes;
     ASSERT_TRUE(film.write_finished(bytes.writer()));
     for (uint32_t i = 0; i < 50; ++i) {
-        Bytes part{bytes.text.substr(0, hash(i) % bytes.text.size()), 0};
+        KeptBytes part{bytes.text.substr(0, hash(i) % bytes.text.size()), 0};
         EXPECT_FALSE(Film(scene.context, true).read_finished(part.reader()));
     }
     // Whatever is in them, nothing is read or written that is not theirs.
     for (uint32_t i = 0; i < 300; ++i) {
-        Bytes part{bytes.text, 0};
+        KeptBytes part{bytes.text, 0};
         for (uint32_t j = 0; j < 4; ++j)
             part.text[hash(i, j) % (i % 2 ? part.text.size() : 60)] = static_cast<char>(hash(i, j, 7));
         Film other(scene.context, true);
         if (other.read_finished(part.reader())) other.finish();
     }
-    EXPECT_FALSE(Film(scene.context, false).read_finished(Bytes{bytes.text, 0}.reader()));
+    EXPECT_FALSE(Film(scene.context, false).read_finished(KeptBytes{bytes.text, 0}.reader()));
     RasterScene larger(96, 80, 2);
     ask_for_all(larger, "gaussian", 2);
-    EXPECT_FALSE(Film(larger.context, true).read_finished(Bytes{bytes.text, 0}.reader()));
+    EXPECT_FALSE(Film(larger.context, true).read_finished(KeptBytes{bytes.text, 0}.reader()));
     WriteBytes full = [left = 5000](const void*, size_t count) mutable {
         left -= static_cast<int>(count);
         return left >= 0;
@@ -186,16 +168,14 @@ TEST(FinishedTiles, AreWrittenWhileOthersAreAdded) {
     ask_for_all(scene, "gaussian", 2);
     const Grids grids = all_grids();
     const std::vector<PixelRect> tiles = testing::tiles_of(scene.sampled());
-    Film whole(scene.context, true);
-    for (const PixelRect& tile : tiles) add_ring_tile(scene, grids, tile, whole);
-    const Image expected = whole.finish();
+    const Image expected = whole_picture(scene, grids);
 
     Film film(scene.context, true);
     std::atomic<bool> done{false};
-    std::vector<Bytes> written;
+    std::vector<KeptBytes> written;
     std::thread saver([&] {
         while (!done) {
-            Bytes& bytes = written.emplace_back();
+            KeptBytes& bytes = written.emplace_back();
             EXPECT_TRUE(film.write_finished(bytes.writer()));
         }
     });

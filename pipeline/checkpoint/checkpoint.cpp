@@ -71,10 +71,7 @@ bool Checkpoint::open() {
         CheckpointState& state = resumed_->state();
         std::vector<std::string> changes = changed_settings(state.origin, settings_.origin);
         std::ranges::move(changed_files(state.origin.files, looker_), std::back_inserter(changes));
-        for (const std::string& change : changes)
-            diagnostics_.error(
-                {}, fmt::format("cannot go on with the checkpoint \"{}\": {}", settings_.path, change));
-        refused_ = !changes.empty();
+        for (const std::string& change : changes) refuse(change);
         if (refused_) return false;
         state_ = state;
         saved_ = {state.worlds.size(), state.maps.size(), static_cast<size_t>(std::max(0, state.tiles))};
@@ -154,13 +151,10 @@ bool Checkpoint::begin(Film& film) {
 
 /// Puts the tiles of the checkpoint into their film; false, and reported, where they are of something else.
 bool Checkpoint::take_tiles(Film& film) {
-    refused_ = !reads_nothing_new();
+    refuse_what_is_new();
     if (refused_ || state_.tiles <= 0) return !refused_;
-    refused_ = !film.read_finished([this](void* to, size_t count) { return resumed_->read(to, count); });
-    if (refused_)
-        diagnostics_.error({}, fmt::format("cannot go on with the checkpoint \"{}\": its tiles are those of "
-                                           "another picture",
-                                           settings_.path));
+    if (!film.read_finished([this](void* to, size_t count) { return resumed_->read(to, count); }))
+        refuse("its tiles are those of another picture");
     restored_ = film.finished_tiles().size();
     if (!refused_)
         diagnostics_.note(
@@ -170,19 +164,18 @@ bool Checkpoint::take_tiles(Film& film) {
 
 /// What is read by the time that a film begins was read then, too: scenes, archives, shaders. Textures and
 /// maps follow, and may have been read no sooner.
-bool Checkpoint::reads_nothing_new() {
+void Checkpoint::refuse_what_is_new() {
     const std::set<std::string> written = written_paths();
     std::set<std::string> known;
     for (const SeenFile& file : state_.origin.files) known.insert(file.name);
-    bool good = true;
-    for (const std::string& name : reads_->names()) {
-        if (known.contains(name) || written.contains(key_of(name)) || !looker_.look(name)) continue;
-        diagnostics_.error({}, fmt::format("cannot go on with the checkpoint \"{}\": \"{}\" is read now, and "
-                                           "was not read then",
-                                           settings_.path, name));
-        good = false;
-    }
-    return good;
+    for (const std::string& name : reads_->names())
+        if (!known.contains(name) && !written.contains(key_of(name)) && looker_.look(name))
+            refuse(fmt::format("\"{}\" is read now, and was not read then", name));
+}
+
+void Checkpoint::refuse(const std::string& why) {
+    diagnostics_.error({}, fmt::format("cannot go on with the checkpoint \"{}\": {}", settings_.path, why));
+    refused_ = true;
 }
 
 void Checkpoint::end(bool is_cancelled) {

@@ -77,7 +77,8 @@ class Checkpoint final : public FilmKeeper {
     bool note_files();
     std::set<std::string> written_paths() const;
     void note_written();
-    bool reads_nothing_new();
+    void refuse_what_is_new();
+    void refuse(const std::string& why);
     bool take_tiles(Film& film);
 
     const CheckpointSettings settings_;

@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace trapeze {
+#include "core/shell_word.h"
 
-std::string shell_word(const std::string& text) {
-    std::string word = "'";
-    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return word + "'";
-}
+namespace trapeze {
 
 std::vector<FarmFile> common_files(const FarmJob& job) {
     std::vector<std::string> scenes;

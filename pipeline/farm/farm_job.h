@@ -31,9 +31,6 @@ struct FarmFile {
 /// Begins a line of every file, but for JSON and lists of commands.
 inline constexpr const char* kFarmMark = "Written by trapeze farm";
 
-/// A word that any shell reads as this text.
-std::string shell_word(const std::string& text);
-
 /// The scripts that all schedulers call: DIR/render FRAME TILE, and DIR/merge FRAME where there are tiles.
 std::vector<FarmFile> common_files(const FarmJob& job);
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/shell_word.h"
 #include "pipeline/farm/farm_job.h"
 #include "pipeline/frame/json_text.h"
 

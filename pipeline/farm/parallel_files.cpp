@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/shell_word.h"
 #include "pipeline/farm/farm_job.h"
 
 namespace trapeze {

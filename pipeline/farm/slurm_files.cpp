@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/shell_word.h"
 #include "pipeline/farm/farm_job.h"
 
 namespace trapeze {

@@ -72,13 +72,7 @@ class CompareJob {
 /// Before minutes are spent on figures that cannot be written.
 bool CompareJob::outputs_are_possible() {
     if (!can_write({options_.report, options_.json, options_.csv}, diagnostics_)) return false;
-    if (options_.folder.empty()) return true;
-    std::error_code error;
-    fs::create_directories(options_.folder, error);
-    if (!error && fs::is_directory(options_.folder, error)) return true;
-    diagnostics_.error({}, fmt::format("cannot make the folder \"{}\": {}", options_.folder,
-                                       error ? error.message() : "a file is in its place"));
-    return false;
+    return options_.folder.empty() || make_folder(options_.folder, diagnostics_);
 }
 
 CompareSettings CompareJob::settings_for(const SharedFrame& frame) {

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <set>
 
-#include "core/files/output_file.h"
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/text_files.h"
@@ -41,32 +40,21 @@ bool may_be_replaced(const std::string& path, bool is_script) {
     return !is_script || second.find(kFarmMark) != std::string::npos;
 }
 
-bool write_file(const FarmFile& file, Diagnostics& diagnostics) {
-    OutputFile output(file.path);
-    const bool good = output.open() && output.write(file.text.data(), file.text.size()) && output.commit();
-    if (!good) diagnostics.error({}, fmt::format("cannot write \"{}\": {}", file.path, output.error()));
+bool write_file(const FarmFile& file, Terminal& terminal, Diagnostics& diagnostics) {
+    if (!write_text(file.path, file.text, terminal, diagnostics)) return false;
     std::error_code ignored;
-    if (good && file.is_program)
+    if (file.is_program)
         fs::permissions(file.path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                         fs::perm_options::add, ignored);
-    return good;
+    return true;
 }
 
-/// Makes the folders of a job.
-bool make_folders(const FarmJob& job, const std::string& scheduler, Diagnostics& diagnostics) {
+/// The folders of a job.
+std::vector<std::string> folders_of(const FarmJob& job, const std::string& scheduler) {
     std::vector<std::string> folders{job.folder};
     if (job.tile_count() > 1) folders.push_back(job.path("tiles"));
     if (scheduler == "slurm") folders.push_back(job.path("logs")), folders.push_back(job.path("deaths"));
-    for (const std::string& folder : folders) {
-        std::error_code failed;
-        fs::create_directories(folder, failed);
-        if (!fs::is_directory(folder, failed)) {
-            diagnostics.error({}, fmt::format("cannot make the folder \"{}\": {}", folder,
-                                              failed ? failed.message() : "a file is in its place"));
-            return false;
-        }
-    }
-    return true;
+    return folders;
 }
 
 /// How the job is begun.
@@ -107,9 +95,10 @@ int farm_command(const Arguments& arguments, Terminal& terminal, Diagnostics& di
                               fmt::format("cannot write \"{}\": what is there is no job's file", file.path));
             return kExitNoOutput;
         }
-    if (!make_folders(job, farm.scheduler, diagnostics)) return kExitNoOutput;
+    for (const std::string& folder : folders_of(job, farm.scheduler))
+        if (!make_folder(folder, diagnostics)) return kExitNoOutput;
     for (const FarmFile& file : files)
-        if (!write_file(file, diagnostics)) return kExitNoOutput;
+        if (!write_file(file, terminal, diagnostics)) return kExitNoOutput;
     terminal.say_on_terminal(fmt::format("wrote a job of {} tasks; {} begins it, from this folder",
                                          job.frames.size() * static_cast<size_t>(job.tile_count()),
                                          how_to_run(job, farm.scheduler)));

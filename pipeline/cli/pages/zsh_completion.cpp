@@ -1,16 +1,10 @@
 #include <sstream>
 
+#include "core/shell_word.h"
 #include "pipeline/cli/pages/completions.h"
 
 namespace trapeze {
 namespace {
-
-/// A text within single quotes.
-std::string zsh_quoted(const std::string& text) {
-    std::string quoted = "'";
-    for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-    return quoted + "'";
-}
 
 /// "[TEXT]" of _arguments.
 std::string zsh_explanation(const OptionText& option) {
@@ -41,7 +35,7 @@ std::string zsh_option(const OptionText& option) {
     const bool repeats = option.about.find("may be repeated") != std::string::npos;
     const std::string forms = names.size() > 1 ? "{" + joined(names, ",") + "}" : names.front();
     return (repeats ? "'*'" : "'(" + joined(option.names, " ") + ")'") + forms +
-           zsh_quoted(zsh_explanation(option) + zsh_value(option));
+           shell_word(zsh_explanation(option) + zsh_value(option));
 }
 
 }  // namespace
@@ -49,11 +43,11 @@ std::string zsh_option(const OptionText& option) {
 std::string zsh_completion(const CommandText& program) {
     std::string commands, cases;
     for (const CommandText& command : program.commands) {
-        commands += "        " + zsh_quoted(command.name + ":" + brief(command.about)) + "\n";
+        commands += "        " + shell_word(command.name + ":" + brief(command.about)) + "\n";
         cases += "    " + command.name + ")\n        _arguments -s";
         for (const OptionText& option : command.options) cases += " \\\n            " + zsh_option(option);
         for (const OptionText& word : command.words)
-            cases += " \\\n            " + zsh_quoted((word.is_list ? "*" : "1") + zsh_value(word));
+            cases += " \\\n            " + shell_word((word.is_list ? "*" : "1") + zsh_value(word));
         cases += " ;;\n";
     }
     return "#compdef " + program.name + "\n# Completions for zsh. Made by `" + program.name +

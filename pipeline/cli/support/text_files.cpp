@@ -26,6 +26,15 @@ bool can_write(std::initializer_list<std::string> paths, Diagnostics& diagnostic
     return true;
 }
 
+bool make_folder(const std::string& path, Diagnostics& diagnostics) {
+    std::error_code failed;
+    std::filesystem::create_directories(path, failed);
+    if (!failed && std::filesystem::is_directory(path, failed)) return true;
+    diagnostics.error({}, fmt::format("cannot make the folder \"{}\": {}", path,
+                                      failed ? failed.message() : "a file is in its place"));
+    return false;
+}
+
 bool may_write_report(const std::string& path, const Access& access, Diagnostics& diagnostics) {
     // Devices and pipes are the user's way to look at it.
     std::error_code ignored;

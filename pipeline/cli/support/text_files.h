@@ -14,6 +14,9 @@ namespace trapeze {
 /// cannot be written. Empty names are left out.
 bool can_write(std::initializer_list<std::string> paths, Diagnostics& diagnostics);
 
+/// Makes a folder, and those above it, where it is not there; reports why not.
+bool make_folder(const std::string& path, Diagnostics& diagnostics);
+
 /// Whether a report of the run may be written at a path. Confined runs (--safe) write only below the working
 /// folder; other runs write over a file outside of the working folder only if it is such a report. Reports
 /// why not, and that the path lies outside.
