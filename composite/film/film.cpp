@@ -130,6 +130,7 @@ void Film::add_tile(int index, const PixelRect& pixels, const SumsOf& sums_of) {
     // A tile counts once, whoever brings it.
     if (tile.added.exchange(true)) return;
     std::unique_ptr<TileSums> sums = sums_of(intersection(tiles_.square(index), pixels));
+    develop_inner(index, *sums);
     if (tile.readers.load(std::memory_order_relaxed) > 0) {
         waiting_bytes_.fetch_add(sums->bytes(), std::memory_order_relaxed);
         tile.sums = std::move(sums);
@@ -290,103 +291,9 @@ void Film::record_variables(int px, int py, const PixelVariables& variables) {
         image_.aovs.begin() + static_cast<std::ptrdiff_t>(variables.values().size() * image_.index(px, py)));
 }
 
-/// Finishes a tile once all that its pixels wait for is there.
-void Film::settle(int tile) {
-    develop(tile);
-    tiles_[tile].settled.store(true, std::memory_order_release);
-    tiles_.for_each_neighbour(tile, [&](int from) {
-        if (tiles_.reaches(from, tile)) release(from);
-    });
-}
-
-/// Counts one reader of a tile's sums less; the last one frees them.
-void Film::release(int tile) {
-    if (tiles_[tile].readers.fetch_sub(1, std::memory_order_acq_rel) != 1 || !tiles_[tile].sums) return;
-    waiting_bytes_.fetch_sub(tiles_[tile].sums->bytes(), std::memory_order_relaxed);
-    tiles_[tile].sums.reset();
-}
-
-/// Adds what the tiles around a tile, itself included, have in its pixels; in the order of tiles.
-/// `first_of(x, y)` is where a pixel's channels go.
-template <class FirstOf>
-void Film::gather(int tile, Sum sum, const PixelRect& pixels, const FirstOf& first_of) const {
-    tiles_.for_each_neighbour(tile, [&](int from) {
-        const TileSums* sums = tiles_.reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
-        const size_t channels = sums ? sums->channels(sum) : 0;
-        if (channels == 0) return;
-        const PixelRect shared = intersection(sums->pixels(), pixels);
-        for (int y = shared.y0; y < shared.y1; ++y)
-            for (int x = shared.x0; x < shared.x1; ++x) {
-                const float* const source = sums->pixel(sum, x, y);
-                float* const target = first_of(x, y);
-                for (size_t c = 0; c < channels; ++c) target[c] += source[c];
-            }
-    });
-}
-
-/// Adds up the coverages of the tiles around, in the order of tiles, and keeps the greatest of each pixel.
-void Film::rank_mattes(int tile, const PixelRect& pixels) {
-    const auto width = static_cast<size_t>(pixels.width());
-    std::vector<MattePixel> sums(width * static_cast<size_t>(pixels.height()));
-    const auto sum = [&](int x, int y) -> MattePixel& {
-        return sums[static_cast<size_t>(y - pixels.y0) * width + static_cast<size_t>(x - pixels.x0)];
-    };
-    tiles_.for_each_neighbour(tile, [&](int from) {
-        const TileSums* of_tile = tiles_.reaches(from, tile) ? tiles_[from].sums.get() : nullptr;
-        if (!of_tile || !of_tile->mattes) return;
-        const PixelRect shared = intersection(of_tile->mattes->pixels(), pixels);
-        for (int y = shared.y0; y < shared.y1; ++y)
-            for (int x = shared.x0; x < shared.x1; ++x) sum(x, y).add(of_tile->mattes->at(x, y));
-    });
-    float lost = 0;
-    for (int y = pixels.y0; y < pixels.y1; ++y)
-        for (int x = pixels.x0; x < pixels.x1; ++x)
-            lost = std::max(
-                lost, trapeze::rank_mattes(sum(x, y), matte_keys_,
-                                           image_.mattes.data() + static_cast<size_t>(image_.matte_floats) *
-                                                                      image_.index(x, y)));
-    float known = matte_loss_.load(std::memory_order_relaxed);
-    while (lost > known && !matte_loss_.compare_exchange_weak(known, lost, std::memory_order_relaxed)) {}
-}
-
-/// Makes pixels of sums: divides each by the sum of the weights; 0 where that is 0.
-void Film::develop(int tile) {
-    const PixelRect pixels = tiles_.kept_pixels(tile);
-    const auto width = static_cast<size_t>(pixels.width());
-    std::vector<float> weights(width * static_cast<size_t>(pixels.height()));
-    const auto weight = [&](int x, int y) {
-        return &weights[static_cast<size_t>(y - pixels.y0) * width + static_cast<size_t>(x - pixels.x0)];
-    };
-    const auto channels = static_cast<size_t>(aovs_.channel_count);
-    const auto color = [&](int x, int y) { return &image_.rgba[4 * image_.index(x, y)]; };
-    const auto aov = [&](int x, int y) { return image_.aovs.data() + channels * image_.index(x, y); };
-    if (matte_kernel_) rank_mattes(tile, pixels);
-    gather(tile, Sum::Weight, pixels, weight);
-    gather(tile, Sum::Color, pixels, color);
-    gather(tile, Sum::Aov, pixels, aov);
-    for (int y = pixels.y0; y < pixels.y1; ++y)
-        for (int x = pixels.x0; x < pixels.x1; ++x) {
-            const float sum = *weight(x, y);
-            const auto divide = [sum](float* values, size_t count) {
-                for (size_t c = 0; c < count; ++c) values[c] = sum == 0 ? 0 : values[c] / sum;
-            };
-            divide(color(x, y), 4);
-            if (sum != 0) expose(color(x, y));
-            for (const Aov& variable : aovs_.aovs)
-                if (variable.is_summed())
-                    divide(aov(x, y) + variable.offset, static_cast<size_t>(variable.channels));
-        }
-}
-
-/// Applies Exposure (RISpec 4.1.2): (colour * gain) ^ (1 / gamma).
-void Film::expose(float* rgba) const {
-    for (int c = 0; c < 3; ++c) rgba[c] *= gain_;
-    apply_gamma(inverse_gamma_, rgba);
-}
-
 Image Film::finish() {
     for (int tile = 0; tile < tiles_.count(); ++tile)
-        if (tiles_[tile].missing.load(std::memory_order_acquire) > 0) develop(tile);
+        if (tiles_[tile].missing.load(std::memory_order_acquire) > 0) develop_rest(tile);
     tiles_ = {};
     waiting_bytes_ = 0;
     image_.matte_loss = matte_loss_;

@@ -56,6 +56,13 @@ class Film final : public SampleSink {
     /// add().
     Image finish();
 
+    /// Before finish(): the picture as it becomes, of which only what finished_pixels() names may be read.
+    const Image& unfinished() const { return image_; }
+    int tile_count() const { return tiles_.count(); }
+    /// The pixels of a tile whose colours, depths, ids and variables are finished: none, then those that no
+    /// other tile's samples reach, then all that are kept. Thread-safe.
+    PixelRect finished_pixels(int tile) const;
+
     /// Numbers of the tiles whose pixels are finished, in order. Thread-safe, as write_finished().
     std::vector<int> finished_tiles() const;
     /// The tiles that are finished in the end: all that have pixels of the picture.
@@ -100,9 +107,10 @@ class Film final : public SampleSink {
     void accumulate_layers(const FilmPart& part, TileSums& sums);
     void rank_mattes(int tile, const PixelRect& pixels);
     void settle(int tile);
-    void develop(int tile);
-    template <class FirstOf>
-    void gather(int tile, Sum sum, const PixelRect& pixels, const FirstOf& first_of) const;
+    void develop_inner(int tile, const TileSums& sums);
+    void develop_rest(int tile);
+    template <class ForSums>
+    void develop(const PixelRect& pixels, const ForSums& for_sums);
     void release(int tile);
     void expose(float* rgba) const;
 

@@ -28,6 +28,18 @@ PixelRect FilmTiles::square(int tile) const {
     return {x, y, x + kTileSide, y + kTileSide};
 }
 
+PixelRect FilmTiles::inner_pixels(int tile) const {
+    PixelRect inner = square(tile);
+    const int column = tile % columns_, row = tile / columns_;
+    if (column > 0) inner.x0 += reach_pixels_x_;
+    if (column < columns_ - 1) inner.x1 -= reach_pixels_x_;
+    if (row > 0) inner.y0 += reach_pixels_y_;
+    if (row < rows_ - 1) inner.y1 -= reach_pixels_y_;
+    // A filter wider than a tile reaches past the next one.
+    const bool reaches_far = reach_pixels_x_ > kTileSide || reach_pixels_y_ > kTileSide;
+    return reaches_far ? PixelRect{} : intersection(inner, kept_pixels(tile));
+}
+
 bool FilmTiles::reaches(int from, int to) const {
     const PixelRect p = sampled_pixels(from);
     const PixelRect reached{p.x0 - reach_pixels_x_, p.y0 - reach_pixels_y_, p.x1 + reach_pixels_x_,

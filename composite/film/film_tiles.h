@@ -22,6 +22,8 @@ class FilmTiles {
         /// Tiles that have yet to read `sums`; the last one frees them.
         std::atomic<int> readers{0};
         std::atomic<bool> added{false};
+        /// inner_pixels() are developed, and never written again but by mattes and deep samples.
+        std::atomic<bool> has_inner{false};
         /// The pixels are finished, and never written again; whoever reads this (acquire) may read them.
         std::atomic<bool> settled{false};
     };
@@ -43,6 +45,8 @@ class FilmTiles {
     PixelRect square(int tile) const;
     PixelRect sampled_pixels(int tile) const { return intersection(square(tile), sampled_); }
     PixelRect kept_pixels(int tile) const { return intersection(sampled_pixels(tile), window_); }
+    /// The kept pixels that no other tile's samples have a part in; may be none.
+    PixelRect inner_pixels(int tile) const;
     /// Whether samples of tile `from` have a part in pixels of tile `to` that are kept.
     bool reaches(int from, int to) const;
 

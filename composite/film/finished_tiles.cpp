@@ -78,6 +78,11 @@ std::vector<int> Film::finished_tiles() const {
     return finished;
 }
 
+PixelRect Film::finished_pixels(int tile) const {
+    if (tiles_[tile].settled.load(std::memory_order_acquire)) return tiles_.kept_pixels(tile);
+    return tiles_[tile].has_inner.load(std::memory_order_acquire) ? tiles_.inner_pixels(tile) : PixelRect{};
+}
+
 size_t Film::picture_tiles() const {
     size_t count = 0;
     for (int tile = 0; tile < tiles_.count(); ++tile)

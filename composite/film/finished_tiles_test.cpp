@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <thread>
 
 #include "composite/film/awaited_tiles.h"
@@ -130,6 +132,40 @@ TEST(FinishedTiles, AreFinishedAfterAllOthersHaveBeenRestored) {
         return;
     }
     FAIL() << "they never end";
+}
+
+/// Every pixel that is said to be finished, whatever tiles have come, is as it is in the end; and those that
+/// no other tile reaches need no other tile.
+TEST(FinishedPixels, AreThoseOfTheWholePictureAtAnyTime) {
+    for (const auto& [filter, width] : {std::pair{"gaussian", 2.0f}, {"box", 1.0f}, {"sinc", 21.0f}}) {
+        RasterScene scene(96, 64, 2);
+        ask_for_all(scene, filter, width);
+        const Grids grids = all_grids();
+        const Image expected = whole_picture(scene, grids);
+        std::vector<PixelRect> tiles = testing::tiles_of(scene.sampled());
+        for (size_t i = tiles.size() - 1; i > 0; --i)
+            std::swap(tiles[i], tiles[hash(7, static_cast<uint32_t>(i)) % (i + 1)]);
+        Film film(scene.context, true);
+        for (const PixelRect& tile : tiles) {
+            add_ring_tile(scene, grids, tile, film);
+            size_t of_tile = 0;
+            for (int t = 0; t < film.tile_count(); ++t) {
+                const PixelRect finished = film.finished_pixels(t);
+                for (int y = finished.y0; y < finished.y1; ++y)
+                    for (int x = finished.x0; x < finished.x1; ++x) {
+                        ASSERT_TRUE(testing::same_pixel(film.unfinished(), expected, x, y)) << x << " " << y;
+                        if (tile.contains(x, y)) ++of_tile;
+                    }
+            }
+            const int reach = std::string(filter) == "gaussian" ? 1 : std::string(filter) == "box" ? 0 : 10;
+            const auto inner = static_cast<size_t>(std::max(0, kTileSide - 2 * reach));
+            const bool is_whole = tile.width() == kTileSide && tile.height() == kTileSide;
+            if (is_whole && scene.context.camera.crop.contains(tile.x0, tile.y0)) {
+                EXPECT_GE(of_tile, inner * inner) << filter << tile.x0 << " " << tile.y0;
+            }
+        }
+        EXPECT_TRUE(film.finish() == expected);
+    }
 }
 
 TEST(FinishedTiles, OfAnotherFilmOrCutShortAreRefused) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <vector>
 
+#include "composite/image.h"
 #include "core/grid.h"
 #include "core/hit_buffer.h"
 #include "core/random.h"
@@ -147,6 +149,17 @@ inline HitBuffer make_hits(const SampleTile& samples, const Grids& grids, int co
         hits.first.push_back(static_cast<uint32_t>(hits.hits.size()));
     }
     return hits;
+}
+
+/// Whether a pixel of both windows has the same colour, depth, id and variables, bit for bit.
+inline bool same_pixel(const Image& a, const Image& b, int x, int y) {
+    const auto same = [&](const auto& of_a, const auto& of_b, int channels) {
+        const auto count = static_cast<size_t>(channels);
+        return std::memcmp(of_a.data() + count * a.index(x, y), of_b.data() + count * b.index(x, y),
+                           count * sizeof of_a[0]) == 0;
+    };
+    return same(a.rgba, b.rgba, 4) && same(a.z, b.z, 1) && (a.id.empty() || same(a.id, b.id, 1)) &&
+           (a.aov_channels == 0 || same(a.aovs, b.aovs, a.aov_channels));
 }
 
 }  // namespace trapeze::testing
