@@ -109,7 +109,7 @@ class RateRun {
         Film film(context);
         FrameStats stats;
         resolve_tiles(context, frame_.pixels, frame_.grids, *visibility, *pattern, film, stats, [] {},
-                      {context.most_layers});
+                      {{context.most_layers}});
         result.resolve_seconds.push_back(stats.seconds.trace);
         result.sample = stats.sample;
     }

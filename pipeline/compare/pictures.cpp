@@ -24,9 +24,9 @@ std::optional<MethodPicture> resolve(const SharedFrame& frame, const RenderConte
     Progress progress(on_progress);
     progress.begin_part(
         0, 1, tiles_of(frame.pixels, context.sample_levels > 1 ? kTileSide : visibility->tile_side()).size());
-    resolve_tiles(
-        context, frame.pixels, frame.grids, *visibility, *pattern, film, stats,
-        [&progress] { progress.step(); }, {context.most_layers}, with_heat ? &heat : nullptr);
+    resolve_tiles(context, frame.pixels, frame.grids, *visibility, *pattern, film, stats,
+                  [&progress] { progress.step(); },
+                  {{context.most_layers}, TileOrder::Rows, with_heat ? &heat : nullptr});
     if (context.is_cancelled()) return {};
     return MethodPicture{film.finish(), std::move(heat)};
 }

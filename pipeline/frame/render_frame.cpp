@@ -32,7 +32,8 @@ namespace {
 constexpr int kPictureChannels = 6;  ///< colour, opacity, depth and a weight or id, of four bytes each
 /// Point clouds may take a part of the memory budget, but for small ones so much.
 constexpr size_t kLeastCloudBytes = size_t{1} << 26;
-constexpr int kGlowChannels = 9;  ///< light spread along rows, three times
+constexpr int kPreviewChannels = 5;  ///< colour, opacity and depth, for whoever is watching
+constexpr int kGlowChannels = 9;     ///< light spread along rows, three times
 
 /// Lists of hits may take this part of the memory budget, beside a region's grids and tree.
 constexpr size_t kListsShare = 8;
@@ -75,6 +76,8 @@ struct Frame {
     bool leave_gamma;      ///< to what comes after the film
     bool culls_hidden;     ///< before shading
     int regions_at_least;
+    FilmWatcher* watcher;        ///< null: nobody watches
+    const RenderContext& asked;  ///< without the margin that glows into the picture
 };
 
 LayerLimits layer_limits(const Frame& frame) {
@@ -102,9 +105,9 @@ void sample_region(const Frame& frame, const PixelRect& pixels, const Grids& gri
 
     const bool adaptive = frame.pattern.levels() != nullptr;
     recorder.begin_tiles(tiles_of(pixels, adaptive ? kTileSide : visibility->tile_side()).size());
-    resolve_tiles(
-        frame.context, pixels, grids, *visibility, frame.pattern, film, recorder.stats(),
-        [&recorder] { recorder.progress().step(); }, layer_limits(frame));
+    resolve_tiles(frame.context, pixels, grids, *visibility, frame.pattern, film, recorder.stats(),
+                  [&recorder] { recorder.progress().step(); },
+                  {layer_limits(frame), frame.watcher ? TileOrder::CoarseFirst : TileOrder::Rows});
 }
 
 /// Dices, shades and samples region after region. False when cancelled, or when a shader was found to be
@@ -146,7 +149,9 @@ std::unique_ptr<Film> film_of_regions(const Frame& frame, FilmKeeper* keeper, Fr
         const std::vector<Region> regions = regions_of(frame, *film);
         recorder.stats().regions = static_cast<int>(regions.size());
         recorder.stats().shows_something = film->took_something();
+        if (frame.watcher) frame.watcher->begin(*film, frame.asked);
         const bool is_whole = add_regions(frame, regions, recorder, *film);
+        if (frame.watcher) frame.watcher->end();
         const bool is_endless = !is_whole && !frame.context.is_cancelled();
         if (keeper && is_endless) keeper->give_up("a shader's loops are endless");
         if (keeper) keeper->end(frame.context.is_cancelled());
@@ -166,7 +171,8 @@ size_t default_memory_budget() {
 bool picture_fits(const RenderContext& context, const RenderSettings& settings) {
     const PixelRect pixels = sampled_pixels(context.camera, context.scene->options);
     if (pixels.empty()) return true;
-    const int channels = kPictureChannels + aov_layout(context.scene->options).channel_count +
+    const int aovs = aov_layout(context.scene->options).channel_count;
+    const int channels = kPictureChannels + aovs + (settings.watcher ? kPreviewChannels + aovs : 0) +
                          kMatteFloats * static_cast<int>(matte_layers(context.scene->options).size()) +
                          (find_glow(context.scene->options, nullptr) ? kGlowChannels : 0);
     const double bytes = 4.0 * channels * pixels.width() * pixels.height();
@@ -252,7 +258,7 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
 
     const std::unique_ptr<Film> film =
         film_of_regions({context, tessellation, shading, *sampler, *pattern, region_budget, glow.has_value(),
-                         culls_hidden, least_regions},
+                         culls_hidden, least_regions, settings.watcher, asked},
                         keeper, recorder);
     if (!film) return {};
     shading.report_displacement_bounds();
@@ -270,6 +276,7 @@ std::optional<FrameResult> render_frame(const RenderContext& asked, const Render
         if (glow) glow_picture(*glow, context, asked.camera.crop, result.image);
     });
     if (glow && context.is_cancelled()) return {};
+    if (settings.watcher) settings.watcher->show(result.image, asked);
     if (result.image.matte_loss > 0)
         context.diagnostics->note(
             {},

@@ -13,6 +13,7 @@
 #include "core/scene/render_context.h"
 #include "pipeline/frame/cull_hidden.h"
 #include "pipeline/frame/film_keeper.h"
+#include "pipeline/frame/film_watcher.h"
 #include "pipeline/frame/frame_stats.h"
 
 namespace trapeze {
@@ -36,6 +37,7 @@ struct RenderSettings {
     const std::atomic<bool>* cancelled = nullptr;
     const Access* access = &kEverything;  ///< to the files that the scene names
     FilmKeeper* keeper = nullptr;         ///< of finished tiles; null: nobody
+    FilmWatcher* watcher = nullptr;       ///< for whom tiles come in coarse order; null: nobody
 };
 
 /// The picture of a frame and what it cost.

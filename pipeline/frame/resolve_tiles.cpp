@@ -3,6 +3,8 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <atomic>
+
 #include "pipeline/frame/adaptive_tile.h"
 #include "pipeline/frame/regions.h"
 #include "pipeline/frame/stopwatch.h"
@@ -53,11 +55,14 @@ void take_heat(const TileResolver& resolver, HeatMap& heat) {
 
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,
-                   const std::function<void()>& on_step, const LayerLimits& limits, HeatMap* heat) {
+                   const std::function<void()>& on_step, const ResolveOptions& options) {
+    const LayerLimits& limits = options.limits;
+    HeatMap* const heat = options.heat;
     Stopwatch wall;
     const bool all_opaque = every_grid_is_opaque(grids);
     const bool adaptive = pattern.levels() != nullptr;
-    const std::vector<PixelRect> tiles = tiles_of(pixels, adaptive ? kTileSide : visibility.tile_side());
+    std::vector<PixelRect> tiles = tiles_of(pixels, adaptive ? kTileSide : visibility.tile_side());
+    if (options.order == TileOrder::CoarseFirst) tiles = coarse_first(tiles);
     tbb::enumerable_thread_specific<TileResolver> resolvers;
     const auto resolve = [&](size_t i) {
         if (context.is_cancelled()) return;
@@ -82,7 +87,13 @@ void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const 
         on_step();
     };
     // Tiles differ in cost by ten and more: one at a time, or a thread is left alone with a run of slow ones.
-    tbb::parallel_for(size_t{0}, tiles.size(), resolve, tbb::simple_partitioner());
+    // In their order, whichever part of the range a thread has: threads would begin far from each other.
+    std::atomic<size_t> next{0};
+    const auto resolve_next = [&](size_t) { resolve(next.fetch_add(1, std::memory_order_relaxed)); };
+    if (options.order == TileOrder::CoarseFirst)
+        tbb::parallel_for(size_t{0}, tiles.size(), resolve_next, tbb::simple_partitioner());
+    else
+        tbb::parallel_for(size_t{0}, tiles.size(), resolve, tbb::simple_partitioner());
     double trace = 0, composite = 0;
     uint64_t list_bytes = 0;
     for (const TileResolver& resolver : resolvers) {

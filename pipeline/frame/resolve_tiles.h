@@ -8,6 +8,7 @@
 #include "core/scene/render_context.h"
 #include "pipeline/frame/frame_stats.h"
 #include "pipeline/frame/layer_passes.h"
+#include "pipeline/frame/tile_order.h"
 #include "sample/visibility.h"
 
 namespace trapeze {
@@ -30,12 +31,19 @@ struct HeatMap {
     }
 };
 
+/// How resolve_tiles() goes about it.
+struct ResolveOptions {
+    LayerLimits limits;  ///< of the layers that samples see
+    TileOrder order = TileOrder::Rows;
+    HeatMap* heat = nullptr;  ///< of those pixels, to fill; null: none is wanted
+};
+
 /// Finds what every sample of some pixels sees and adds it to the film, with the threads of the calling task
 /// arena; what the film does not await is left out. Adds to the stats; calls `on_step` once for each
 /// rectangle of tiles_of(pixels, side of a tile). A pattern with levels is sampled adaptively, by a method
-/// that takes lists. Layers are those that `limits` allow. Fills `heat` (of those pixels) when there is one.
+/// that takes lists.
 void resolve_tiles(const RenderContext& context, const PixelRect& pixels, const Grids& grids,
                    const Visibility& visibility, const SamplePattern& pattern, Film& film, FrameStats& stats,
-                   const std::function<void()>& on_step, const LayerLimits& limits, HeatMap* heat = nullptr);
+                   const std::function<void()>& on_step, const ResolveOptions& options);
 
 }  // namespace trapeze
