@@ -10,6 +10,7 @@
 #include "pipeline/cli/commands/commands.h"
 #include "pipeline/cli/commands/pictures_of_maps.h"
 #include "pipeline/cli/commands/run_checkpoint.h"
+#include "pipeline/cli/commands/run_preview.h"
 #include "pipeline/cli/commands/world_outputs.h"
 #include "pipeline/cli/support/exit_codes.h"
 #include "pipeline/cli/support/interrupt.h"
@@ -96,6 +97,7 @@ class RenderJob {
     int worlds_ = 0, worlds_before_ = 0;  ///< that were rendered, of them, by an earlier run
     int map_requests_ = 0;
     WorldOutputs outputs_;
+    std::unique_ptr<Preview> preview_;  ///< null where nobody watches
     bool output_failed_ = false;
 };
 
@@ -137,8 +139,15 @@ RenderSettings RenderJob::settings_of_world(bool is_tile) {
     settings.cancelled = &interrupt_.requested();
     settings.access = &access_;
     settings.keeper = checkpoint_.get();
-    settings.on_progress = [this](double fraction) { terminal_.progress(fraction); };
-    settings.on_stage = [this](std::string_view name) { terminal_.stage(name); };
+    settings.watcher = preview_.get();
+    settings.on_progress = [this](double fraction) {
+        terminal_.progress(fraction);
+        if (preview_) preview_->progress(fraction);
+    };
+    settings.on_stage = [this](std::string_view name) {
+        terminal_.stage(name);
+        if (preview_) preview_->begin_stage(name);
+    };
     return settings;
 }
 
@@ -273,6 +282,7 @@ int RenderJob::run() {
         terminal_.wait("waiting for " + what + ", " + std::to_string(seconds) + " s");
     };
     options.shading_rate = arguments_.shading_rate;
+    preview_ = preview_of(arguments_, terminal_, diagnostics_);
     options.on_map = [this](const MapRequest& request) {
         if (!ends_early()) make_map_of_pictures(request);
     };
@@ -286,6 +296,7 @@ int RenderJob::run() {
     });
     terminal_.end_progress();
     close_checkpoint();
+    preview_.reset();
     if (!ends_early()) {
         if (worlds_ == 0 && maps_.empty())
             diagnostics_.error({}, worlds_read

@@ -10,6 +10,7 @@
 #include "core/picture_tile.h"
 #include "core/scene/color_request.h"
 #include "pipeline/cli/support/parse_values.h"
+#include "pipeline/preview/viewer_address.h"
 #include "pipeline/study/scenes/scenes.h"
 
 namespace trapeze {
@@ -116,6 +117,7 @@ struct Arguments {
     std::optional<double> time_limit;      ///< seconds
     std::optional<double> checkpoint;      ///< seconds from one save to the next; nothing: none are asked for
     bool resume = false;                   ///< goes on with what was saved
+    std::vector<ViewerAddress> previews;   ///< viewers that show pictures while they are made
     bool strict = false, quiet = false, color = true;
 
     /// The tile to make; nothing: the whole crop.

@@ -100,6 +100,25 @@ void add_checkpoint_options(CLI::App& app, Arguments& a) {
                  "goes on with what a run has saved that was broken off; saves every 5 minutes itself");
 }
 
+void add_preview_option(CLI::App& app, Arguments& a) {
+    const auto read = [&a](const std::vector<std::string>& texts) {
+        a.previews.clear();
+        for (const std::string& text : texts) {
+            const auto viewer = parse_viewer(text);
+            if (!viewer)
+                throw CLI::ValidationError("--preview",
+                                           "\"" + text + "\" is not tev[:HOST:PORT], tev:PORT or web[:PORT]");
+            a.previews.push_back(*viewer);
+        }
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "--preview", read,
+           "shows pictures while they are made: tev is sent them (to 127.0.0.1:14158), web serves a page "
+           "that browsers of this machine can open; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("tev[:HOST:PORT]|web[:PORT]");
+}
+
 void add_sampler_option(CLI::App& app, Arguments& a) {
     const auto is_method = [](const std::string& text) {
         std::string error;
@@ -259,6 +278,7 @@ void add_render_options(CLI::App& app, Arguments& a) {
         ->check(CLI::IsMember({"linear", "srgb", "auto"}));
     add_color_options(app, a.colors);
     add_checkpoint_options(app, a);
+    add_preview_option(app, a);
     add_parsed(app, "-f,--frames", a.frames, parse_frames, "frames to render", "LIST like 1-10,20",
                " (ranges upwards, with a step as in 1-9x2)");
     add_file(app, "--stats", a.stats_file, "writes statistics as JSON", "FILE.json");

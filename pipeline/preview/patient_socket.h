@@ -1,0 +1,39 @@
+/// A connection that bytes are sent over as long as the other side takes them.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace trapeze {
+
+/// Sends without ever waiting longer than it is allowed to. For one thread.
+class PatientSocket {
+  public:
+    /// `patience`, asked again and again while nothing is taken, says for how long that may be.
+    explicit PatientSocket(std::function<std::chrono::milliseconds()> patience)
+        : patience_(std::move(patience)) {}
+    ~PatientSocket() { close(); }
+    PatientSocket(const PatientSocket&) = delete;
+    PatientSocket& operator=(const PatientSocket&) = delete;
+
+    /// Connects by TCP. This and send() return false, with a reason in problem(), when they fail; then the
+    /// socket is closed.
+    bool connect(const std::string& host, int port);
+    bool send(std::string_view bytes);
+    bool is_open() const { return file_ >= 0; }
+    void close();
+    const std::string& problem() const { return problem_; }
+
+  private:
+    bool try_connect(int family, const void* address, unsigned length);
+    bool wait_until_it_takes();
+    bool fail(std::string why);
+
+    const std::function<std::chrono::milliseconds()> patience_;
+    int file_ = -1;
+    std::string problem_;
+};
+
+}  // namespace trapeze
