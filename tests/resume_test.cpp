@@ -106,7 +106,7 @@ constexpr const char* kLarge = "Format 160 112 1 ";
 TEST(Resume, AdaptiveSamplesDeepPicturesAndMattesAreTheSameBits) {
     for (const std::string rib :
          {"PixelSamples 6 6 PixelVariance .001", "Display \"a.exr\" \"deepexr\" \"rgba\"",
-          "Display \"a.exr\" \"openexr\" \"rgba\" Display \"+m.exr\" \"openexr\" \"cryptoobject\"",
+          "Display \"a.exr\" \"openexr\" \"rgba\" Display \"+m.exr\" \"openexr\" \"crypto_object\"",
           "PixelFilter \"sinc\" 21 17",
           "PixelFilter \"box\" 1 1 Display \"a.exr\" \"openexr\" \"rgba\" "
           "Display \"+z.exr\" \"openexr\" \"varying float __depth\""}) {
