@@ -145,9 +145,12 @@ TEST_F(ColorsAsked, InVainAreErrorsBeforeAnythingIsRendered) {
 
 TEST_F(ColorsAsked, InVainByTheSceneAreErrorsBeforeAnythingIsRendered) {
     ask("\"config\" \"small.ocio\" \"look\" \"half\"");
-    EXPECT_NE(refused("flat.rib").find("config \"small.ocio\": no look \"half\"; there is \"double\""),
+    EXPECT_NE(refused("flat.rib")
+                  .find("flat.rib:1:1: error: OpenColorIO, config \"small.ocio\": no look "
+                        "\"half\"; there is \"double\""),
               std::string::npos)
         << said_.err;
+    EXPECT_TRUE(refused("flat.rib --look third").starts_with("error: OpenColorIO, ")) << said_.err;
     EXPECT_NE(run_program(folder_, "check flat.rib").err.find("no look \"half\""), std::string::npos);
     ask("\"config\" \"small.ocio\" \"workingspace\" \"acescg\"");
     EXPECT_NE(refused("flat.rib").find("no colour space \"acescg\"; there is \"work\", \"raw\""),

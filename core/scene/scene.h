@@ -108,6 +108,7 @@ struct Options {
     std::map<std::string, ParameterList> user;  ///< Option "category" "name" value, by category
     std::map<std::string, std::vector<std::string>>
         search_paths;  ///< by category; "." and the scene's folder included
+    SourceLocation colors_location = {};  ///< of the last Option "ocio"
 };
 
 /// A light that a scene has made. Its space is taken at shutter open.

@@ -79,7 +79,9 @@ OpenedColors open_colors(const Options& options, const ColorRequest& users, cons
     }
     const std::string name =
         request.config.empty() ? "the built-in config" : fmt::format("config \"{}\"{}", request.config, from);
-    diagnostics.error({}, fmt::format("OpenColorIO, {}: {}", name, problem), kNoColors);
+    // What the user asks for may be what is wrong.
+    const SourceLocation at = users.asks() ? SourceLocation{} : options.colors_location;
+    diagnostics.error(at, fmt::format("OpenColorIO, {}: {}", name, problem), kNoColors);
     return {nullptr, true};
 }
 

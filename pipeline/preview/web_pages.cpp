@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <ranges>
 
 #include "pipeline/preview/view_cube.h"
 
@@ -65,8 +64,10 @@ void append(std::string& bytes, const std::vector<float>& values) {
 /// Places of channels by their names, which commas part; those that are not there are left out.
 std::vector<int> channels_named(const PreviewFacts& facts, std::string_view names) {
     std::vector<int> places;
-    for (const auto part : std::views::split(names, ',')) {
-        const std::string_view name(part.begin(), part.end());
+    while (!names.empty()) {
+        const size_t comma = std::min(names.find(','), names.size());
+        const std::string_view name = names.substr(0, comma);
+        names.remove_prefix(std::min(comma + 1, names.size()));
         const auto found = std::ranges::find(facts.channels, name);
         if (found != facts.channels.end()) places.push_back(static_cast<int>(found - facts.channels.begin()));
     }

@@ -66,9 +66,9 @@ class HttplibServer final : public WebServer {
         }
         WebRequest asked{request.path, request.get_header_value("Host"), {}};
         for (const auto& [name, value] : request.params) asked.parameters.emplace(name, value);
-        WebAnswer answer = answer_(asked);
+        const WebAnswer answer = answer_(asked);
         response.status = answer.status;
-        response.set_content(std::move(answer.body), answer.type);
+        response.set_content(answer.body, answer.type);
     }
 
     const AnswerWebRequest answer_;

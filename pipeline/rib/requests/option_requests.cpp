@@ -272,6 +272,7 @@ void option(OptionContext& r, ArgumentCursor& c) {
     Options& o = changeable_options(r);
     const std::string category = c.string("the category");
     const ParameterList values = r.parameters(c, Undeclared::Guess);
+    if (category == "ocio") o.colors_location = r.report.at();
     for (const Parameter& value : values.values) {
         if (category == "searchpath" && !value.strings.empty())
             r.search.set_search_path(value.name, value.strings[0]);
