@@ -107,7 +107,7 @@ struct Options {
     std::vector<Display> displays;              ///< the first is the primary one; others came with '+'
     std::map<std::string, ParameterList> user;  ///< Option "category" "name" value, by category
     std::map<std::string, std::vector<std::string>>
-        search_paths;  ///< by category; "." and the scene's folder included
+        search_paths;                     ///< by category; "." and the scene's folder included
     SourceLocation colors_location = {};  ///< of the last Option "ocio"
 };
 

@@ -191,6 +191,7 @@ def look_away():
     expect_end(run)
     for process in stopped:
         subprocess.run(["kill", "-CONT", process])
+    browser.close()
     driver.send_signal(signal.SIGTERM)
     if pathlib.Path("alone.exr").stat().st_size == 0:
         sys.exit("the picture is empty")
