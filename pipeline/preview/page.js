@@ -222,8 +222,6 @@
                 if (status.ended && (!now || now.complete === now.facts.version)) {
                     // The server learns that it may go, and a later run takes its place.
                     if (have) await wait(1000);
-                } else {
-                    await wait(50);
                 }
             } catch (problem) {
                 tell(!now || !now.facts.closed);

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "pipeline/preview/view_cube.h"
 
@@ -23,6 +24,9 @@ static_assert(std::endian::native == std::endian::little, "numbers are sent as t
 
 /// A page that is up to date is told so after this, so that it and the server know of each other.
 constexpr std::chrono::milliseconds kLongestPoll{1000};
+/// What changes for so long after a change is told together with it: a page that is not in front of all may
+/// set no clock for less than a second, and asks again as soon as it is answered.
+constexpr std::chrono::milliseconds kTogether{40};
 /// A page that has asked for nothing for so long is gone.
 constexpr std::chrono::milliseconds kGone{1000};
 /// An answer ends after the tile that brings it to so many bytes.
@@ -127,7 +131,11 @@ WebAnswer WebPages::answer(const WebRequest& request) {
 WebAnswer WebPages::state(const WebRequest& request) {
     const std::string page = parameter(request, "page");
     note_request(page, parameter(request, "have"));
-    const PreviewStatus status = board_.wait(number(parameter(request, "after")), kLongestPoll);
+    PreviewStatus status = board_.wait(number(parameter(request, "after")), kLongestPoll);
+    if (!status.ended) {
+        std::this_thread::sleep_for(kTogether);
+        status = board_.status();
+    }
     nlohmann::json json = {{"program", version_},
                            {"run", run_},
                            {"version", status.version},
