@@ -116,8 +116,8 @@ TEST(Resume, AdaptiveSamplesDeepPicturesAndMattesAreTheSameBits) {
     }
 }
 
-TEST(Resume, RasterizersAreTheSameBits) {
-    for (const char* method : {"interval", "interleaveuvt", "embree"}) {
+TEST(Resume, EveryMethodIsTheSameBits) {
+    for (const std::string& method : methods_beside_ray_tracing()) {
         RenderSettings settings;
         settings.sampler = method;
         EXPECT_GT(expect_same_in_attempts(tiny_scene_path("defocus_motion.rib"), kLarge, settings).with_tiles,

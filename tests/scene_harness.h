@@ -14,11 +14,19 @@
 
 #include "pipeline/frame/render_frame.h"
 #include "pipeline/rib/read_rib.h"
+#include "sample/visibility.h"
 
 namespace trapeze::testing {
 
 inline std::string tiny_scene_path(const std::string& file) {
     return TRAPEZE_SOURCE_DIR "/scenes/tiny/" + file;
+}
+
+/// Of the methods beside ray tracing, one of each kind; Embree where it is.
+inline std::vector<std::string> methods_beside_ray_tracing() {
+    std::vector<std::string> methods{"interval", "interleaveuvt"};
+    if (std::string reason; choose_sampler("embree", "", &reason)) methods.emplace_back("embree");
+    return methods;
 }
 
 /// Every scene of scenes/tiny, by file name, sorted.

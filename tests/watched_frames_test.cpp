@@ -110,7 +110,7 @@ TEST(WatchedFrames, CropsMarginsAndVariablesAreTheSameBits) {
 }
 
 TEST(WatchedFrames, EveryMethodIsTheSameBits) {
-    for (const char* method : {"interval", "interleaveuvt", "embree"}) {
+    for (const std::string& method : methods_beside_ray_tracing()) {
         RenderSettings settings;
         settings.sampler = method;
         settings.regions_at_least = 3;
