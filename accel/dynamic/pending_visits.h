@@ -37,6 +37,11 @@ class PendingVisits {
             push(meets_a ? a : b);
         }
     }
+    /// Whether a box that is not empty may hold a hit nearer than those found by now.
+    bool may_meet(const KeyBox& box) const {
+        float depth;
+        return clip(along_axes_, box, box, 0, rounding_).meets(ray_, slack_, depth) && !(depth > ray_.t_max);
+    }
     /// The next node, none of which is beyond what the ray has found by now; false: there is none.
     bool pop(uint32_t& node) {
         while (size_ > 0) {
