@@ -471,7 +471,7 @@ TEST_P(Agreement, OfAnyNumberOfThreads) {
 TEST_P(Agreement, OfAllInstructionSets) {
     Truths truths(scene());
     for_each_target([&] {
-        for (const auto& [method, pattern] : every_method({.few_numbers = true}))
+        for (const auto& [method, pattern] : every_method({.one_of_each_tree = true}))
             EXPECT_TRUE(resolve(scene(), method) == truths.of(pattern)) << method;
     });
 }

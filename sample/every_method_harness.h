@@ -19,6 +19,9 @@ struct WhichForms {
     /// Of raytrace's options that are numbers, as levels=9|12|15, one other value alone: for what depends on
     /// no number, and where each form costs several builds.
     bool few_numbers = false;
+    /// Of raytrace's trees each as it is by default: what their options choose between is compiled once, for
+    /// all instruction sets.
+    bool one_of_each_tree = false;
 };
 
 /// The forms of all methods of the table: each row as it is by default, and with each of its options at each
@@ -51,6 +54,7 @@ inline std::vector<MethodForm> every_method(WhichForms which = {}) {
                 const std::string choice = std::string(option.name) + "=" + std::string(option.values[i]);
                 // Where it does not go with the defaults, it does with one of the forms before.
                 for (const std::string& base : before) {
+                    if (which.one_of_each_tree && base.find("tree=") != base.npos) continue;
                     if (!add(base + choice)) continue;
                     bases.push_back(base + choice + ",");
                     if (method.options.size() > 2) break;
