@@ -1,6 +1,7 @@
 #include "composite/displays/image_output.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,23 +112,24 @@ std::vector<float> viewed_row(const Image& image, const Encoding& e, int y) {
 /// The window's pixels, row by row, channels side by side, in the file's numbers.
 template <class Value>
 std::vector<Value> encode_pixels(const Image& image, const Encoding& e) {
-    std::vector<Value> out;
-    out.reserve(image.z.size() * static_cast<size_t>(e.channels));
-    for (int y = image.window.y0; y < image.window.y1; ++y) {
+    const auto row_values = static_cast<size_t>(image.window.width()) * static_cast<size_t>(e.channels);
+    std::vector<Value> values(row_values * static_cast<size_t>(image.window.height()));
+    tbb::parallel_for(image.window.y0, image.window.y1, [&](int y) {
         const std::vector<float> viewed = viewed_row(image, e, y);
+        Value* out = values.data() + row_values * static_cast<size_t>(y - image.window.y0);
         for (int x = image.window.x0; x < image.window.x1; ++x) {
             const float* pixel = e.values + static_cast<size_t>(e.values_per_pixel) * image.index(x, y);
             const float* shown = viewed.empty() ? nullptr : viewed.data() + 4 * (x - image.window.x0);
             for (int c = e.first_channel; c < e.first_channel + e.channels; ++c) {
                 const float value = shown && c < 3 ? shown[c] : encoded(e, pixel, c);
                 if constexpr (std::is_same_v<Value, float>)
-                    out.push_back(value);
+                    *out++ = value;
                 else
-                    out.push_back(static_cast<Value>(quantized(e.quantization, value, x, y, c)));
+                    *out++ = static_cast<Value>(quantized(e.quantization, value, x, y, c));
             }
         }
-    }
-    return out;
+    });
+    return values;
 }
 
 /// How numbers of colours stand for light, for the file's metadata; empty for other pictures.
