@@ -103,13 +103,16 @@ struct TevImages {
 /// Listens at a port of its own for one viewer after the other, in a thread, until it is stopped.
 class MockTev {
   public:
-    /// `most_packets`: after so many of a connection it closes that, as one that was quit. `reads`: whether
-    /// it reads at all.
-    explicit MockTev(size_t most_packets = ~size_t{0}, bool reads = true)
+    /// `most_packets`: after so many of the first connection it closes that, as one that was quit. `reads`:
+    /// whether it reads at all. `port`: 0: any that is free.
+    explicit MockTev(size_t most_packets = ~size_t{0}, bool reads = true, int port = 0)
         : most_packets_(most_packets), reads_(reads) {
         listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
         sockaddr_in address{};
         address.sin_family = AF_INET, address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        address.sin_port = htons(static_cast<uint16_t>(port));
+        const int on = 1;
+        setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
         socklen_t size = sizeof address;
         if (bind(listener_, reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
             listen(listener_, 4) != 0 ||
@@ -125,6 +128,7 @@ class MockTev {
     int port() const { return port_; }
     std::string address() const { return "tev:127.0.0.1:" + std::to_string(port_); }
     int connections() const { return connections_; }
+    bool has_hung_up() const { return hung_up_; }
 
     /// What it has been sent, after the last connection was closed.
     const TevImages& stop() {
@@ -155,12 +159,14 @@ class MockTev {
                 while (!done_) usleep(1000);
             } else {
                 try {
-                    for (size_t packet = 0; packet < most_packets_ && take_packet(connection); ++packet) {}
+                    const size_t most = connections_ == 1 ? most_packets_ : ~size_t{0};
+                    for (size_t packet = 0; packet < most && take_packet(connection); ++packet) {}
                 } catch (const std::exception& error) {
                     problem_ = error.what();
                 }
             }
             close(connection);
+            hung_up_ = true;
         }
     }
 
@@ -186,7 +192,7 @@ class MockTev {
     const bool reads_;
     int listener_ = -1, port_ = 0;
     std::atomic<int> connections_{0};
-    std::atomic<bool> done_{false};
+    std::atomic<bool> done_{false}, hung_up_{false};
     TevImages images_;
     std::string problem_;
     std::thread thread_;

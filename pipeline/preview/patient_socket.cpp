@@ -31,6 +31,12 @@ void PatientSocket::close() {
     file_ = -1;
 }
 
+bool PatientSocket::is_open() const {
+    char byte = 0;
+    return file_ >= 0 && recv(file_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) < 0 &&
+           (errno == EAGAIN || errno == EWOULDBLOCK);
+}
+
 bool PatientSocket::connect(const std::string& host, int port) {
     close();
     addrinfo wanted{};

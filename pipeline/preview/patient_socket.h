@@ -22,7 +22,8 @@ class PatientSocket {
     /// socket is closed.
     bool connect(const std::string& host, int port);
     bool send(std::string_view bytes);
-    bool is_open() const { return file_ >= 0; }
+    /// Whether it is connected, and the other side has not hung up. It must be one that never sends anything.
+    bool is_open() const;
     void close();
     const std::string& problem() const { return problem_; }
 

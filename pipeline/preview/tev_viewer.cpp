@@ -14,6 +14,8 @@ namespace {
 constexpr std::chrono::seconds kPatience{30}, kPatienceAtEnd{1};
 /// A picture's changes are looked for so often where nobody says that there are any.
 constexpr std::chrono::milliseconds kLook{500};
+/// A tev that is not there is asked again after this.
+constexpr std::chrono::seconds kTryAgain{2};
 
 }  // namespace
 
@@ -40,13 +42,25 @@ void TevViewer::run() {
     int number = 0;
     for (;;) {
         const PreviewEntry entry = board_.wait_for_picture_after(number);
-        if (!entry.picture) return;
+        if (!entry.picture) return socket_.close();
         number = entry.number;
+        show_once_there(entry);
+    }
+}
+
+/// Shows a picture that is being made as soon as there is a tev, from its beginning to where it is.
+void TevViewer::show_once_there(const PreviewEntry& entry) {
+    for (;;) {
+        const bool is_closed = entry.picture->is_closed();
         const bool is_there = socket_.is_open() || socket_.connect(host_, port_);
         const bool is_shown = is_there && show(entry);
         if (!is_shown && !fails_)
             report_(fmt::format("tev at {}:{} shows nothing: {}", host_, port_, socket_.problem()));
         fails_ = !is_shown;
+        if (is_shown || is_closed) return;
+        const auto until = std::chrono::steady_clock::now() + kTryAgain;
+        while (!entry.picture->is_closed() && std::chrono::steady_clock::now() < until)
+            std::this_thread::sleep_for(kLook / 5);
     }
 }
 

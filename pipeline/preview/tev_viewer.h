@@ -11,8 +11,8 @@
 
 namespace trapeze {
 
-/// Sends tiles as they are finished. A tev that goes away, or takes nothing for long, is left alone until the
-/// next picture begins.
+/// Sends tiles as they are finished. A tev that is not there, went away, or takes nothing for long is asked
+/// again now and then.
 class TevViewer final : public PreviewViewer {
   public:
     /// `report` is called from the viewer's thread with what is wrong, in one line: once until
@@ -26,6 +26,7 @@ class TevViewer final : public PreviewViewer {
 
   private:
     void run();
+    void show_once_there(const PreviewEntry& entry);
     bool show(const PreviewEntry& entry);
     bool send_changes(const PreviewEntry& entry, const std::vector<int>& channels, uint64_t& version);
 

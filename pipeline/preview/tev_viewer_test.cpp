@@ -26,6 +26,10 @@ struct Reports {
     std::mutex mutex;
     std::vector<std::string> lines;
 
+    size_t count() {
+        const std::lock_guard lock(mutex);
+        return lines.size();
+    }
     auto taker() {
         return [this](const std::string& line) {
             const std::lock_guard lock(mutex);
@@ -34,9 +38,9 @@ struct Reports {
     }
 };
 
-/// Puts a picture's tiles, then ends it.
-void make_picture(PreviewBoard& board, const std::string& name, const NumberedPicture& numbers, int width,
-                  int height, bool is_whole = true) {
+/// Begins a picture, and puts its tiles.
+std::shared_ptr<PreviewPicture> make_tiles(PreviewBoard& board, const std::string& name,
+                                           const NumberedPicture& numbers, int width, int height) {
     const auto picture = make_preview_picture(numbers.window, name, width, height);
     board.begin_picture({0, picture, {}, 0});
     for (int y = 0; y < height; y += 16)
@@ -44,6 +48,13 @@ void make_picture(PreviewBoard& board, const std::string& name, const NumberedPi
             picture->put(intersection({x, y, x + 16, y + 16}, numbers.window), numbers.source());
             board.note_change();
         }
+    return picture;
+}
+
+/// Puts a picture's tiles, then ends it.
+void make_picture(PreviewBoard& board, const std::string& name, const NumberedPicture& numbers, int width,
+                  int height, bool is_whole = true) {
+    const auto picture = make_tiles(board, name, numbers, width, height);
     if (is_whole)
         picture->finish(numbers.source());
     else
@@ -122,21 +133,66 @@ TEST(TevViewer, NobodyThereIsSaidOnce) {
         << reports.lines[0];
 }
 
-TEST(TevViewer, OneThatWasQuitIsAskedAgainAtTheNextPicture) {
+TEST(TevViewer, OneThatWasQuitAndIsThereAgainHasEverything) {
     MockTev tev(3);
     Reports reports;
+    // Many tiles: sending fails only some time after the other side has hung up.
+    const NumberedPicture first({0, 0, 640, 480}, 5), second({0, 0, 64, 48}, 5, 0.5f);
     {
         PreviewBoard board;
         TevViewer viewer(board, "127.0.0.1", tev.port(), reports.taker());
-        // Many tiles: sending fails only some time after the other side has hung up.
-        const NumberedPicture numbers({0, 0, 640, 480}, 5);
-        for (int i = 0; i < 2; ++i) make_picture(board, "a.exr", numbers, 640, 480);
+        const auto picture = make_tiles(board, "a.exr", first, 640, 480);
+        while (!tev.has_hung_up()) std::this_thread::yield();
+        picture->finish(first.source());
+        make_picture(board, "b.exr", second, 64, 48);
         board.end();
         viewer.finish();
     }
-    tev.stop();
+    const testing::TevImages& shown = tev.stop();
+    EXPECT_EQ(shown.created, (std::vector<std::string>{"a.exr", "a.exr", "b.exr"}));
+    expect_numbers(shown.images.at("a.exr"), first);
+    expect_numbers(shown.images.at("b.exr"), second);
     EXPECT_EQ(tev.connections(), 2);
     EXPECT_EQ(reports.lines.size(), 1u);
+}
+
+TEST(TevViewer, OneThatIsStartedLaterHasThePicture) {
+    int port = 0;
+    {
+        MockTev gone;
+        port = gone.port();
+    }
+    Reports reports;
+    const NumberedPicture numbers({0, 0, 32, 16}, 5);
+    const auto picture = make_preview_picture(numbers.window, "a.exr", 32, 16);
+    PreviewBoard board;
+    TevViewer viewer(board, "127.0.0.1", port, reports.taker());
+    board.begin_picture({0, picture, {}, 0});
+    picture->put({0, 0, 16, 16}, numbers.source());
+    while (reports.count() == 0) std::this_thread::yield();
+    MockTev tev(~size_t{0}, true, port);
+    while (tev.connections() == 0) std::this_thread::yield();
+    picture->finish(numbers.source());
+    board.end();
+    viewer.finish();
+    const testing::TevImages& shown = tev.stop();
+    expect_numbers(shown.images.at("a.exr"), numbers);
+    EXPECT_EQ(reports.count(), 1u);
+}
+
+TEST(TevViewer, OneThatHungUpBetweenPicturesMissesNone) {
+    MockTev tev(3);
+    Reports reports;
+    PreviewBoard board;
+    TevViewer viewer(board, "127.0.0.1", tev.port(), reports.taker());
+    const NumberedPicture numbers({0, 0, 32, 16}, 5);
+    make_picture(board, "a.exr", numbers, 32, 16);
+    while (!tev.has_hung_up()) std::this_thread::yield();
+    make_picture(board, "b.exr", numbers, 32, 16);
+    board.end();
+    viewer.finish();
+    const testing::TevImages& shown = tev.stop();
+    expect_numbers(shown.images.at("b.exr"), numbers);
 }
 
 TEST(TevViewer, OneThatTakesNothingHoldsNobodyUp) {

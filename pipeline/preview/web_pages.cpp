@@ -27,8 +27,6 @@ constexpr std::chrono::milliseconds kLongestPoll{1000};
 /// What changes for so long after a change is told together with it: a page that is not in front of all may
 /// set no clock for less than a second, and asks again as soon as it is answered.
 constexpr std::chrono::milliseconds kTogether{40};
-/// A page that has asked for nothing for so long is gone.
-constexpr std::chrono::milliseconds kGone{1000};
 /// An answer ends after the tile that brings it to so many bytes.
 constexpr size_t kMostBytes = size_t{16} << 20;
 /// Pages that are remembered; a stranger may make up as many as he likes.
@@ -190,6 +188,8 @@ void WebPages::note_request(const std::string& id, const std::string& have) {
                                 ? fmt::format("{}.{}", entry.number, entry.picture->version())
                                 : std::string();
     const std::lock_guard lock(mutex_);
+    if (pages_.size() >= kMostPages)
+        std::erase_if(pages_, [now = Clock::now()](const auto& page) { return page.second.is_gone(now); });
     if (pages_.size() >= kMostPages && !pages_.contains(id)) return;
     Page& page = pages_[id];
     page.seen = Clock::now(), page.waits = true;
@@ -207,7 +207,7 @@ bool WebPages::everybody_has_all() const {
     const std::lock_guard lock(mutex_);
     return std::ranges::all_of(pages_, [now = Clock::now()](const auto& entry) {
         const Page& page = entry.second;
-        return page.has_all || (!page.waits && now - page.seen > kGone);
+        return page.has_all || page.is_gone(now);
     });
 }
 

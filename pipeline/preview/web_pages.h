@@ -34,11 +34,15 @@ class WebPages {
 
   private:
     using Clock = std::chrono::steady_clock;
+    /// A page that has asked for nothing for so long is gone.
+    static constexpr std::chrono::milliseconds kGone{1000};
     /// An open page, as its requests tell.
     struct Page {
         Clock::time_point seen;  ///< when it asked for something last, or was answered
         bool waits = false;      ///< for an answer
         bool has_all = false;
+
+        bool is_gone(Clock::time_point now) const { return !waits && now - seen > kGone; }
     };
     WebAnswer state(const WebRequest& request);
     WebAnswer tiles(const WebRequest& request) const;
