@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "accel/builders/grid_summary.h"
 #include "accel/moving/micropolygon_parts.h"
@@ -41,35 +42,39 @@ float largest_coordinate(const Box3f& box) {
 
 }  // namespace
 
-ShutterSpan when_in_cell(const Grid& grid, const MicropolygonId& id, float pose_time, const Box3f& cell,
-                         ShutterSpan within) {
-    const size_t keys = grid.key_count;
+SeparatingAxes::SeparatingAxes(const Grid& grid, const MicropolygonId& id, float pose_time)
+    : keys_(grid.key_count) {
     std::array<QuadPose, kMaxKeyCount> poses;
-    float largest = largest_coordinate(cell);
-    for (size_t key = 0; key < keys; ++key)
+    for (size_t key = 0; key < keys_; ++key)
         for (size_t c = 0; c < 4; ++c) {
             const V3f& p = poses[key][c] = vertex_of_key(
                 grid, static_cast<int>(key), id.u + static_cast<int>(c & 1), id.v + static_cast<int>(c >> 1));
-            for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(p[k]));
+            for (int k = 0; k < 3; ++k) largest_ = std::max(largest_, std::abs(p[k]));
         }
-    for (const V3f& axis : separating_axes(pose_of(grid, id, pose_time))) {
+    for (const V3f& direction : separating_axes(pose_of(grid, id, pose_time))) {
         // Lengths do not matter, but a product that overflows or vanishes tells nothing.
-        const float length = std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z);
+        const float length = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
         if (!(length > 1e-15f && length < 1e15f)) continue;
-        const V3f unit = axis / length;
-        // Three products and two sums on both sides, of vertices that moved: half-ulps of the largest.
-        const float rounding = 4 * kBoundRounding * largest;
-        const AxisRange of_cell = range_of_box(cell, unit);
-        std::array<float, kMaxKeyCount> low, high;
-        for (size_t key = 0; key < keys; ++key) {
+        Axis& axis = axes_[count_++];
+        axis.unit = direction / length;
+        for (size_t key = 0; key < keys_; ++key) {
             const QuadPose& pose = poses[key];
-            const std::array<float, 4> at{unit.dot(pose[0]), unit.dot(pose[1]), unit.dot(pose[2]),
-                                          unit.dot(pose[3])};
-            low[key] = std::min({at[0], at[1], at[2], at[3]}) - rounding;
-            high[key] = std::max({at[0], at[1], at[2], at[3]}) + rounding;
+            const std::array<float, 4> at{axis.unit.dot(pose[0]), axis.unit.dot(pose[1]),
+                                          axis.unit.dot(pose[2]), axis.unit.dot(pose[3])};
+            axis.low[key] = std::min({at[0], at[1], at[2], at[3]});
+            axis.high[key] = std::max({at[0], at[1], at[2], at[3]});
         }
-        within = when_at_or_below(std::span(low).first(keys), of_cell.high, within);
-        within = when_at_or_above(std::span(high).first(keys), of_cell.low, within);
+    }
+}
+
+ShutterSpan SeparatingAxes::when_in_cell(const Box3f& cell, ShutterSpan within) const {
+    // Three products and two sums on both sides, of vertices that moved, and then one more sum: half-ulps of
+    // the largest.
+    const float rounding = 4 * kBoundRounding * std::max(largest_, largest_coordinate(cell));
+    for (const Axis& axis : std::span(axes_).first(count_)) {
+        const AxisRange of_cell = range_of_box(cell, axis.unit);
+        within = when_at_or_below(std::span(axis.low).first(keys_), of_cell.high + rounding, within);
+        within = when_at_or_above(std::span(axis.high).first(keys_), of_cell.low - rounding, within);
         if (within.is_empty()) break;
     }
     return within;

@@ -24,7 +24,7 @@ constexpr double kStepCost = .5;
 
 /// The planes of one node along one axis, and the weights of what begins and ends between them.
 struct AxisPlanes {
-    float first = 0, step = 0;
+    float first = 0, step = 0, steps_per_unit = 0;
     size_t count = 0;  ///< 0: none can be tried
     /// Weights that are at or below planes from this one on, or at or above planes down to this one.
     std::array<double, kMostKdSlabs + 2> low_from{}, high_to{};
@@ -35,17 +35,24 @@ struct AxisPlanes {
     AxisPlanes(float from, float to, size_t slabs)
         : first(from), step((to - from) / static_cast<float>(slabs)) {
         if (step > 0 && at(1) > from && at(slabs - 1) < at(slabs)) count = slabs + 1;
+        steps_per_unit = 1 / step;
     }
     float at(size_t plane) const { return first + step * static_cast<float>(plane); }
-    /// The first plane at or above a coordinate; `count`: none.
+    /// The first plane at or above a coordinate; `count`: none. What is said of planes decides costs alone,
+    /// and may be wrong by what is rounded. Without std::ceil, which is a call where all machines are built
+    /// for.
     size_t first_above(float x) const {
-        const float place = std::ceil((x - first) / step);
-        return place > 0 ? static_cast<size_t>(std::min(place, static_cast<float>(count))) : 0;
+        const float place = (x - first) * steps_per_unit;
+        if (!(place > 0)) return 0;
+        if (!(place < static_cast<float>(count))) return count;
+        const auto below = static_cast<uint32_t>(place);
+        return below + (static_cast<float>(below) < place ? 1 : 0);
     }
     /// One more than the last plane at or below a coordinate; 0: none.
     size_t end_below(float x) const {
-        const float place = std::floor((x - first) / step) + 1;
-        return place > 0 ? static_cast<size_t>(std::min(place, static_cast<float>(count))) : 0;
+        const float place = (x - first) * steps_per_unit;
+        if (!(place >= 0)) return 0;
+        return place < static_cast<float>(count) ? static_cast<uint32_t>(place) + size_t{1} : count;
     }
 
     void add(const AxisPlanes& o) {
@@ -55,41 +62,42 @@ struct AxisPlanes {
     }
 };
 
-/// Where one side of a reference's box is along an axis: at the pose time where its pose in the cell is, and
-/// at other times moved by as much as the micropolygon's whole box. That is a guess, which decides costs
-/// alone.
-template <class ValueAt>
-class MovingSide {
+/// A micropolygon's whole box at the times that matter for a reference to it.
+class BoxOverTime {
   public:
-    MovingSide(size_t keys, const ValueAt& value_at, float pose_time, float in_pose)
-        : keys_(keys), value_at_(value_at), shift_(in_pose - at(pose_time)) {}
+    BoxOverTime(std::span<const Box3f> keys, float pose_time, const ShutterSpan& when)
+        : keys_(keys), when_(when), pose_(at(pose_time)), from_(at(when.from)), to_(at(when.to)) {}
 
-    float shift() const { return shift_; }
-    /// The least and the largest value in a span.
-    std::pair<float, float> range(const ShutterSpan& when) const {
-        const float from = at(when.from), to = at(when.to);
-        std::pair<float, float> range{std::min(from, to), std::max(from, to)};
-        const auto segments = static_cast<float>(keys_ - 1);
-        for (size_t key = 1; key + 1 < keys_; ++key) {
+    /// Where one side of the reference's box is along an axis in its span: its least and largest values. At
+    /// the pose time the side is where the pose in the cell has it, and at other times moved by as much as
+    /// the whole box. That is a guess, which decides costs alone.
+    struct Range {
+        float least, most, shift;
+    };
+    Range range(V3f Box3f::*side, int axis, float in_pose) const {
+        const auto value = [side, axis](const Box3f& box) { return (box.*side)[axis]; };
+        float least = std::min(value(from_), value(to_)), most = std::max(value(from_), value(to_));
+        const auto segments = static_cast<float>(keys_.size() - 1);
+        for (size_t key = 1; key + 1 < keys_.size(); ++key) {
             const float time = static_cast<float>(key) / segments;
-            if (time <= when.from || time >= when.to) continue;
-            range.first = std::min(range.first, value_at_(key));
-            range.second = std::max(range.second, value_at_(key));
+            if (time <= when_.from || time >= when_.to) continue;
+            least = std::min(least, value(keys_[key])), most = std::max(most, value(keys_[key]));
         }
-        return {range.first + shift_, range.second + shift_};
+        const float shift = in_pose - value(pose_);
+        return {least + shift, most + shift, shift};
     }
 
   private:
-    float at(float time) const {
-        if (keys_ == 1) return value_at_(0);
-        const MotionSegment s = segment_at(time, static_cast<int>(keys_));
-        const auto i = static_cast<size_t>(s.index);
-        return value_at_(i) + (value_at_(i + 1) - value_at_(i)) * s.local;
+    Box3f at(float time) const {
+        if (keys_.size() == 1) return keys_[0];
+        const MotionSegment s = segment_at(time, static_cast<int>(keys_.size()));
+        const Box3f &a = keys_[static_cast<size_t>(s.index)], &b = keys_[static_cast<size_t>(s.index) + 1];
+        return {a.min + (b.min - a.min) * s.local, a.max + (b.max - a.max) * s.local};
     }
 
-    size_t keys_;
-    const ValueAt& value_at_;
-    float shift_;
+    const std::span<const Box3f> keys_;
+    const ShutterSpan when_;
+    const Box3f pose_, from_, to_;
 };
 
 /// Sums of a node's references over the planes of all axes.
@@ -104,22 +112,19 @@ struct PlaneSums {
         const auto counts = [by_time](const ShutterSpan& there) {
             return by_time ? static_cast<double>(there.length()) : there.is_empty() ? 0. : 1.;
         };
+        const BoxOverTime box(keys, pose_time, when);
         for (int k = 0; k < 3; ++k) {
             AxisPlanes& planes = axis[static_cast<size_t>(k)];
             if (planes.count == 0) continue;
-            const auto min_at = [&](size_t key) { return keys[key].min[k]; };
-            const auto max_at = [&](size_t key) { return keys[key].max[k]; };
-            const MovingSide low(keys.size(), min_at, pose_time, reference.box.min[k]);
-            const auto [low_least, low_most] = low.range(when);
-            const size_t whole_from = planes.first_above(low_most);
-            for (size_t p = planes.first_above(low_least); p < whole_from; ++p)
-                planes.low_part[p] += counts(when_at_or_below(keys, k, planes.at(p) - low.shift(), when));
+            const auto low = box.range(&Box3f::min, k, reference.box.min[k]);
+            const size_t whole_from = planes.first_above(low.most);
+            for (size_t p = planes.first_above(low.least); p < whole_from; ++p)
+                planes.low_part[p] += counts(when_at_or_below(keys, k, planes.at(p) - low.shift, when));
             planes.low_from[whole_from] += whole;
-            const MovingSide high(keys.size(), max_at, pose_time, reference.box.max[k]);
-            const auto [high_least, high_most] = high.range(when);
-            const size_t whole_to = planes.end_below(high_least), any_to = planes.end_below(high_most);
+            const auto high = box.range(&Box3f::max, k, reference.box.max[k]);
+            const size_t whole_to = planes.end_below(high.least), any_to = planes.end_below(high.most);
             for (size_t p = whole_to; p < any_to; ++p)
-                planes.high_part[p] += counts(when_at_or_above(keys, k, planes.at(p) - high.shift(), when));
+                planes.high_part[p] += counts(when_at_or_above(keys, k, planes.at(p) - high.shift, when));
             planes.high_to[whole_to] += whole;
         }
     }
@@ -132,7 +137,8 @@ struct PlaneSums {
 /// depend on their order.
 template <class Sum, class Add>
 Sum sum_in_parts(std::span<const KdReference> references, const Sum& zero, const Add& add) {
-    const auto of_part = [&](size_t first, size_t last, Sum sum) {
+    const auto of_part = [&](size_t first, size_t last, const Sum& before) {
+        Sum sum = before;
         for (size_t i = first; i < last; ++i) add(references[i], sum);
         return sum;
     };

@@ -152,8 +152,10 @@ class KdBuilder {
             in_low.when = when_at_or_below(keys, plane.axis, plane.at, reference.when);
             in_high.when = when_at_or_above(keys, plane.axis, plane.at, reference.when);
             if (!in_low.when.is_empty() && !in_high.when.is_empty()) {
-                look_closer(reference, plane, low.cell, in_low);
-                look_closer(reference, plane, high.cell, in_high);
+                const MicropolygonId& id = boxes_.id(reference.item);
+                const SeparatingAxes axes(grids_.grids[id.grid], id, planes_.pose_time(reference.when));
+                look_closer(reference, plane, axes, low.cell, in_low);
+                look_closer(reference, plane, axes, high.cell, in_high);
                 if (!(in_low.when == in_high.when)) {
                     const float pose = planes_.pose_time(reference.when);
                     in_low.guest = !in_low.when.holds(pose) && in_high.when.holds(pose);
@@ -170,12 +172,12 @@ class KdBuilder {
     }
 
     /// Looks at the polygon where a plane cuts its box.
-    void look_closer(const KdReference& whole, const KdPlane& plane, const Box3f& cell,
-                     KdReference& part) const {
+    void look_closer(const KdReference& whole, const KdPlane& plane, const SeparatingAxes& axes,
+                     const Box3f& cell, KdReference& part) const {
         const MicropolygonId& id = boxes_.id(part.item);
         const Grid& grid = grids_.grids[id.grid];
         const float pose_time = planes_.pose_time(whole.when);
-        part.when = when_in_cell(grid, id, pose_time, common(boxes_.swept(part.item), cell), part.when);
+        part.when = axes.when_in_cell(common(boxes_.swept(part.item), cell), part.when);
         if (part.when.is_empty()) return;
         const float part_time = planes_.pose_time(part.when);
         if (part_time == pose_time) {

@@ -15,6 +15,11 @@ template <class ValueAt>
 ShutterSpan when_not_above(size_t keys, const ValueAt& value_at, float at, ShutterSpan within) {
     if (within.is_empty()) return ShutterSpan::none();
     if (keys == 1) return value_at(0) <= at ? within : ShutterSpan::none();
+    if (keys == 2) {  // as below, of one segment
+        const bool begins_above = value_at(0) > at, ends_above = value_at(1) > at;
+        if (begins_above && ends_above) return ShutterSpan::none();
+        if (!begins_above && !ends_above) return within;
+    }
     const int count = static_cast<int>(keys);
     const float segments = static_cast<float>(count - 1);  // a power of two: quotients by it are exact
     ShutterSpan span = ShutterSpan::none();
