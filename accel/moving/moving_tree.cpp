@@ -9,6 +9,7 @@
 
 #include "accel/builders/grid_summary.h"
 #include "accel/builders/micropolygon_boxes.h"
+#include "accel/builders/sah_topology.h"
 #include "accel/moving/key_boxes.h"
 #include "accel/moving/linear_topology.h"
 
@@ -153,6 +154,34 @@ void MovingTree::bound(const Sources& sources) {
         if (top_.nodes[node].link.is_leaf()) bound_leaf(sources, node);
     });
     if (!top_.nodes.empty()) bound_below(top_.nodes.size() - 1, 0);
+    stats_.tree_sah_cost = sah_cost();
+}
+
+double MovingTree::sah_cost() const {
+    if (top_.nodes.empty()) return 0;
+    const auto keys = static_cast<size_t>(top_.key_count);
+    const auto mean_area = [&](size_t node) {
+        double sum = 0;
+        for (size_t key = 0; key < keys; ++key) {
+            const KeyBox& box = top_.boxes[node * keys + key];
+            // Between keys boxes are interpolated: those at both ends count for half a segment.
+            const double part = keys > 2 && (key == 0 || key + 1 == keys) ? .5 : 1;
+            sum += part * half_area(Box3f(V3f(box.low[0], box.low[1], box.low[2]),
+                                          V3f(box.high[0], box.high[1], box.high[2])));
+        }
+        return sum;
+    };
+    const double root = mean_area(top_.nodes.size() - 1);
+    if (!(root > 0)) return 0;
+    double sum = 0;
+    for (size_t i = 0; i < top_.nodes.size(); ++i) {
+        const TopLink link = top_.nodes[i].link;
+        const double steps =
+            link.is_leaf() ? static_cast<double>(leaf_first_[link.index() + 1] - leaf_first_[link.index()])
+                           : 1;
+        sum += steps * mean_area(i);
+    }
+    return sum / root;
 }
 
 void MovingTree::bound_leaf(const Sources& sources, size_t at) {

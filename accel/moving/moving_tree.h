@@ -41,6 +41,9 @@ class MovingTree final : public ListTree {
     void bound_leaf(const Sources& sources, size_t node);
     /// Bounds a node that is inner, and all inner ones below it, by their children.
     void bound_below(size_t node, int depth);
+    /// What stats() say of the surface area heuristic. A node is met with the ratio of its area to the
+    /// root's, areas being means of the shutter; a step costs as much as a test.
+    double sah_cost() const;
 
     MovingTreeOptions options_;
 };

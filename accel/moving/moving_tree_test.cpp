@@ -84,8 +84,10 @@ TEST(MovingTree, LooksAtLessOfStillStripsWithSpatialSplits) {
     GridMaker maker;
     add_strips(maker, 2000, 1, noise);
     std::array<SampleStats, 2> stats;
+    std::array<double, 2> sah_costs{};
     for (const size_t splits : {0, 1}) {
         const MovingTree tree(maker.grids(), {splits ? 4. : 0.});
+        sah_costs[splits] = tree.stats().tree_sah_cost;
         Noise rays;
         for (int round = 0; round < 2000; ++round) {
             TraceRay ray = TraceRay::turned(axis_ray(noisy_ray(maker, rays, round)), {});
@@ -95,6 +97,31 @@ TEST(MovingTree, LooksAtLessOfStillStripsWithSpatialSplits) {
     }
     EXPECT_LT(stats[1].predicate_tests, stats[0].predicate_tests * 4 / 5);
     EXPECT_LT(stats[1].nodes_visited, stats[0].nodes_visited * 4 / 5);
+    EXPECT_LT(sah_costs[1], sah_costs[0] * .8);
+}
+
+/// Two squares, a quarter of the whole box's width each, far apart: a line through the whole meets each with
+/// the ratio of their areas.
+TEST(MovingTree, CountsItsCostByTheSurfaceAreaHeuristic) {
+    const auto squares = [](int count, int keys, float apart_then) {
+        GridMaker maker;
+        for (int n = 0; n < count; ++n)
+            maker.add(1, 1, keys, [=](int i, int j, float t) {
+                const float apart = n == 0 ? 0 : 3 + (apart_then - 3) * t;
+                return V3f(static_cast<float>(i) + apart, static_cast<float>(j), 5);
+            });
+        return maker;
+    };
+    const auto cost = [](const GridMaker& maker, int leaf) {
+        MovingTreeOptions options;
+        options.leaf = leaf;
+        return MovingTree(maker.grids(), options).stats().tree_sah_cost;
+    };
+    EXPECT_DOUBLE_EQ(cost(squares(1, 1, 0), 4), 1);
+    EXPECT_DOUBLE_EQ(cost(squares(2, 1, 0), 4), 2);            // one leaf of two
+    EXPECT_NEAR(cost(squares(2, 1, 0), 2), 1 + 2 / 4., 1e-3);  // a step, and squares of 1 in a box of 4
+    // At the end 9 apart: the mean area is 7.
+    EXPECT_NEAR(cost(squares(2, 2, 9), 2), 1 + 2 / 7., 1e-3);
 }
 
 TEST(MovingTree, ShowsTransparentHitsOnce) {
@@ -151,10 +178,14 @@ TEST(MovingTree, RefittedSeesEveryFrameAsItIs) {
          {MovingTreeOptions{}, {.budget = 2}, {.topology = MovingTreeOptions::Topology::Morton}}) {
         MovingTree tree(first.grids(), options);
         const uint64_t nodes = tree.stats().tree_nodes;
+        const double built = tree.stats().tree_sah_cost;
         for (const GridMaker* frame : {&second, &fewer_keys, &first}) {
             tree.refit(frame->grids());
             EXPECT_EQ(testing::differing_rays(*frame, tree, 300, 30), 0);
             EXPECT_EQ(tree.stats().tree_nodes, nodes);
+            if (frame == &second) {
+                EXPECT_GT(tree.stats().tree_sah_cost, built);
+            }
         }
         tree.refit(other.grids());
         EXPECT_EQ(testing::differing_rays(other, tree, 300, 30), 0);

@@ -35,6 +35,7 @@ nlohmann::ordered_json to_json(const MethodResult& r) {
             {"tree_references", r.build.tree_references},
             {"tree_duplicates", r.build.tree_duplicates},
             {"tree_splits", r.build.tree_splits},
+            {"tree_sah_cost", r.build.tree_sah_cost},
             {"bytes_per_micropolygon", r.bytes_per_micropolygon()},
             {"micropolygons", r.micropolygons},
             {"tile_side", r.tile_side}};

@@ -1,6 +1,7 @@
 /// What papers on trees for what moves claim of them, as checks.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct KdVariants {
 };
 /// Checks that planes for the middle of the shutter, and the weight by time, are worth what the paper says.
 std::vector<StudyCheck> checks_of_kd_variants(const std::string& scene, const KdVariants& here);
+
+/// Checks that a tree that is refitted from frame to frame becomes worse beside one that is built anew: costs
+/// by the surface area heuristic, a frame [Gruenschloss11 figure 5].
+StudyCheck check_of_refitting(const std::string& scene, std::span<const double> refitted,
+                              std::span<const double> rebuilt);
 
 /// Checks what updates gain over inserting all anew each frame. Costs are in the order of paper::kFalling.
 std::vector<StudyCheck> checks_of_updates(const std::string& scene, const paper::SequenceCosts (&here)[3],

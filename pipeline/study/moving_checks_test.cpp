@@ -17,22 +17,28 @@ TEST(MovingChecks, ThePapersOwnFiguresHoldThem) {
                    true);
     }
     expect_all(checks_of_updates("", paper::kFalling, paper::kFalling), true);
+    const std::vector<double> refitted{10, 12, 15, 19, 24}, rebuilt{10, 10, 11, 10, 10};
+    EXPECT_TRUE(check_of_refitting("", refitted, rebuilt).held);
     expect_all(checks_of_kd_variants("", {88, 100, 101, 93, 100}), true);
 }
 
 TEST(MovingChecks, CanMiss) {
-    const paper::TreeRatios bad{3, 3, .9, 1, 1, 3, 3}, msbvh{2, 2, .5, 1, .9, 2, 1};
+    const paper::TreeRatios bad{3, 3, .9, 1, 1, 3, 3, 1}, msbvh{2, 2, .5, 1, .9, 2, 1, .9};
     expect_all(checks_of_spatial_splits("", bad, paper::kMsbvh[0]), false);
     expect_all(checks_of_kd_tree("", bad, msbvh, paper::kMbkd[0], paper::kMsbvh[0]), false);
     expect_all(checks_of_kd_variants("", {98, 100, 99, 98, 100}), false);
     const paper::SequenceCosts slow[3] = {{1, 1}, {.5, 1}, {.5, 1}};
     expect_all(checks_of_updates("", slow, paper::kFalling), false);
+    const std::vector<double> jumps{10, 20, 12, 14, 13}, rebuilt{10, 10, 10, 10, 10}, none{};
+    EXPECT_FALSE(check_of_refitting("", jumps, rebuilt).held);
+    EXPECT_FALSE(check_of_refitting("", rebuilt, rebuilt).held);
+    EXPECT_FALSE(check_of_refitting("", none, none).held);
 }
 
 /// What was not measured holds nothing.
 TEST(MovingChecks, NumbersThatAreNoneHoldNothing) {
     const double nan = paper::kNoFigure;
-    const paper::TreeRatios none{nan, nan, nan, nan, nan, nan, nan};
+    const paper::TreeRatios none{nan, nan, nan, nan, nan, nan, nan, nan};
     expect_all(checks_of_spatial_splits("", none, paper::kMsbvh[0]), false);
     expect_all(checks_of_kd_tree("", none, none, paper::kMbkd[0], paper::kMsbvh[0]), false);
     expect_all(checks_of_kd_variants("", {nan, nan, nan, nan, nan}), false);

@@ -91,21 +91,21 @@ std::string maximum_and_average(const std::vector<float>& map, const std::vector
 
 StudyTable tree_table(const MovingRun& run, const TreeRows& rows) {
     StudyTable table{run.label(),
-                     {"", "references", "duplicates", "nodes", "MB", "build", "trace", "tests a ray",
-                      "nodes a ray", "tests a pixel, max / mean", "nodes a pixel, max / mean"},
+                     {"", "references", "duplicates", "nodes", "splits", "SAH cost", "MB", "build", "trace",
+                      "tests a ray", "nodes a ray", "tests a pixel, max / mean", "nodes a pixel, max / mean"},
                      {}};
     for (size_t r = 0; r < rows.size(); ++r) {
         const MethodResult& m = run.results[r];
         const auto count = [](uint64_t n) {
             return n == 0 ? std::string("-") : count_text(static_cast<double>(n));
         };
-        table.rows.push_back({rows[r].name, count(m.build.tree_references), count(m.build.tree_duplicates),
-                              count(m.build.tree_nodes),
-                              number_text(static_cast<double>(m.build.tree_bytes) / 1e6),
-                              seconds_text(m.build_median()), seconds_text(m.resolve_median()),
-                              number_text(m.tests_per_sample()), number_text(m.nodes_per_sample()),
-                              maximum_and_average(run.heat[r].tests, run.heat[r].samples),
-                              maximum_and_average(run.heat[r].nodes, run.heat[r].samples)});
+        table.rows.push_back(
+            {rows[r].name, count(m.build.tree_references), count(m.build.tree_duplicates),
+             count(m.build.tree_nodes), count(m.build.tree_splits), counted_text(m.build.tree_sah_cost),
+             number_text(static_cast<double>(m.build.tree_bytes) / 1e6), seconds_text(m.build_median()),
+             seconds_text(m.resolve_median()), number_text(m.tests_per_sample()),
+             number_text(m.nodes_per_sample()), maximum_and_average(run.heat[r].tests, run.heat[r].samples),
+             maximum_and_average(run.heat[r].nodes, run.heat[r].samples)});
     }
     return table;
 }
@@ -114,18 +114,20 @@ StudyTable tree_table(const MovingRun& run, const TreeRows& rows) {
 paper::TreeRatios ratios_of(const MovingRun& run, size_t row) {
     const MethodResult &one = run.results[row], &base = run.results[0];
     const auto of = [](uint64_t a, uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
-    return {of(one.build.tree_references, base.build.tree_references),
-            of(one.build.tree_nodes, base.build.tree_nodes),
-            one.tests_per_sample() / base.tests_per_sample(),
-            one.nodes_per_sample() / base.nodes_per_sample(),
-            one.resolve_median() / base.resolve_median(),
-            one.build_median() / base.build_median(),
-            of(one.build.tree_bytes, base.build.tree_bytes)};
+    return {
+        of(one.build.tree_references, base.build.tree_references),
+        of(one.build.tree_nodes, base.build.tree_nodes),
+        one.tests_per_sample() / base.tests_per_sample(),
+        one.nodes_per_sample() / base.nodes_per_sample(),
+        one.resolve_median() / base.resolve_median(),
+        one.build_median() / base.build_median(),
+        of(one.build.tree_bytes, base.build.tree_bytes),
+        one.build.tree_sah_cost > 0 ? one.build.tree_sah_cost / base.build.tree_sah_cost : paper::kNoFigure};
 }
 
 std::vector<std::string> ratio_cells(const std::string& name, const paper::TreeRatios& r) {
     std::vector<std::string> cells{name};
-    for (const double ratio : {r.references, r.nodes, r.tests, r.steps, r.time, r.build, r.bytes})
+    for (const double ratio : {r.references, r.nodes, r.tests, r.steps, r.time, r.build, r.bytes, r.sah})
         cells.push_back(std::isnan(ratio) ? "-" : number_text(ratio) + "x");
     return cells;
 }
@@ -133,9 +135,10 @@ std::vector<std::string> ratio_cells(const std::string& name, const paper::TreeR
 /// Ratios to interpolated boxes, ours and the paper's in turn.
 void add_ratios(StudyResult& result, const std::vector<MovingRun>& runs, size_t row, const char* name,
                 const paper::TreeRatios* of_paper) {
-    StudyTable table{fmt::format("{} beside interpolated boxes", name),
-                     {"", "references", "nodes", "tests", "steps", "render time", "build time", "bytes"},
-                     {}};
+    StudyTable table{
+        fmt::format("{} beside interpolated boxes", name),
+        {"", "references", "nodes", "tests", "steps", "render time", "build time", "bytes", "SAH cost"},
+        {}};
     for (const MovingRun& run : runs) {
         table.rows.push_back(ratio_cells(run.label(), ratios_of(run, row)));
         if (run.scene.of_paper != paper::kMovingScenes)

@@ -36,7 +36,7 @@ constexpr SequenceRow kSequenceRows[] = {
     {"linear, built anew", "raytrace:tree=lbvh,bundle=off"},
     {"hyper-trapezoids, built anew", "raytrace:tree=paper,bundle=off"},
     {"Trapeze's wide tree, built anew", "raytrace"}};
-constexpr size_t kSequenceRowCount = std::size(kSequenceRows);
+constexpr size_t kSequenceRowCount = std::size(kSequenceRows), kRefittedRow = 5, kInterpolatedRow = 6;
 
 /// Seconds by row, then frame, then round.
 using SequenceSeconds = std::vector<std::vector<std::vector<double>>>;
@@ -47,6 +47,8 @@ struct SequenceTimes {
     std::vector<std::vector<uint64_t>> seen{kSequenceRowCount,
                                             std::vector<uint64_t>(kSequenceFrames)};  ///< hits' hash
     std::vector<double> nodes, tests;  ///< a ray, by row: means of the frames
+    /// By row, then frame; 0 where a tree does not count it.
+    std::vector<std::vector<double>> sah{kSequenceRowCount, std::vector<double>(kSequenceFrames)};
 
     paper::SequenceCosts costs(size_t row, int frame) const {
         return {median(update[row][static_cast<size_t>(frame)]),
@@ -129,6 +131,7 @@ void follow(const StudyBench& bench, const std::vector<SharedFrame>& frames, siz
         const SampleStats stats = trace_tiles(tiles, *tree, hits);
         times.trace[row][f].push_back(watch.lap());
         times.seen[row][f] = hash_of(hits);
+        times.sah[row][f] = tree->build_stats().tree_sah_cost;
         bench.figure(fmt::format(
             "frame {}, {}: update {}, trace {}, {} nodes a ray", f, kSequenceRows[row].name,
             seconds_text(times.update[row][f].back()), seconds_text(times.trace[row][f].back()),
@@ -184,6 +187,19 @@ void add_sequence_curves(StudyResult& result, const SequenceTimes& times) {
     }
 }
 
+/// [Gruenschloss11 figure 5], of interpolated boxes.
+void add_sah_curves(StudyResult& result, const SequenceTimes& times) {
+    LinePlot plot{"Cost by the surface area heuristic", "frame", "expected tests and steps of a line", {}};
+    for (size_t r = 0; r < kSequenceRowCount; ++r) {
+        if (times.sah[r].front() == 0) continue;
+        PlotSeries& series = plot.series.emplace_back();
+        series.name = kSequenceRows[r].name;
+        for (size_t f = 0; f < times.sah[r].size(); ++f)
+            series.points.emplace_back(static_cast<double>(f), times.sah[r][f]);
+    }
+    result.plots.push_back(std::move(plot));
+}
+
 void add_sequence_figures(StudyResult& result, const SequenceTimes& times) {
     for (size_t r = 0; r < kSequenceRowCount; ++r)
         for (size_t f = 0; f < times.update[r].size(); ++f)
@@ -192,7 +208,8 @@ void add_sequence_figures(StudyResult& result, const SequenceTimes& times) {
                                       {"update_seconds_by_round", times.update[r][f]},
                                       {"trace_seconds_by_round", times.trace[r][f]},
                                       {"tests_a_ray", times.tests[r]},
-                                      {"nodes_a_ray", times.nodes[r]}});
+                                      {"nodes_a_ray", times.nodes[r]},
+                                      {"tree_sah_cost", times.sah[r][f]}});
 }
 
 StudyCheck check_of_agreement(const SequenceTimes& times) {
@@ -223,10 +240,13 @@ void study_dynamic(StudyBench& bench, StudyResult& result) {
         }
     add_sequence_table(result, times);
     add_sequence_curves(result, times);
+    add_sah_curves(result, times);
     add_sequence_figures(result, times);
     result.checks =
         checks_of_updates("Falling triangles",
                           {times.mean_costs(0), times.mean_costs(1), times.mean_costs(2)}, paper::kFalling);
+    result.checks.push_back(
+        check_of_refitting("Falling triangles", times.sah[kRefittedRow], times.sah[kInterpolatedRow]));
     result.checks.push_back(check_of_agreement(times));
 }
 

@@ -17,5 +17,6 @@ void study_growth(StudyBench& bench, StudyResult& result);
 void study_msbvh(StudyBench& bench, StudyResult& result);
 void study_mbkd(StudyBench& bench, StudyResult& result);
 void study_dynamic(StudyBench& bench, StudyResult& result);
+void study_structures(StudyBench& bench, StudyResult& result);
 
 }  // namespace trapeze

@@ -42,6 +42,10 @@ constexpr StudyRow kStudies[] = {
     {"dynamic", "Trees updated from frame to frame",
      "a sequence of falling flakes: trees that are updated, refitted, and built anew", study_dynamic,
      "a report on dynamic updates of bounding volume hierarchies, 2006 or later"},
+    {"structures", "Which structure is for what",
+     "all trees on six scenes, still, moving and out of focus, and on one from few micropolygons to many",
+     study_structures,
+     "Hou et al. 2010, Gruenschloss et al. 2011, Yang et al. 2017, and the report on dynamic updates"},
 };
 
 }  // namespace
