@@ -142,6 +142,20 @@ std::vector<Region> regions_of(const Frame& frame, const Film& film) {
 }
 
 /// The film with all regions in it; null when cancelled, or when the keeper refuses.
+/// The same, while the watcher, if there is one, may read the film: no longer, even where memory runs out.
+bool add_regions_watched(const Frame& frame, const std::vector<Region>& regions, FrameRecorder& recorder,
+                         Film& film) {
+    struct Watching {
+        FilmWatcher* watcher;
+        ~Watching() {
+            if (watcher) watcher->end();
+        }
+    };
+    if (frame.watcher) frame.watcher->begin(film, frame.asked);
+    const Watching watching{frame.watcher};
+    return add_regions(frame, regions, recorder, film);
+}
+
 std::unique_ptr<Film> film_of_regions(const Frame& frame, FilmKeeper* keeper, FrameRecorder& recorder) {
     while (!frame.context.is_cancelled()) {
         auto film = std::make_unique<Film>(frame.context, false, frame.leave_gamma);
@@ -149,9 +163,7 @@ std::unique_ptr<Film> film_of_regions(const Frame& frame, FilmKeeper* keeper, Fr
         const std::vector<Region> regions = regions_of(frame, *film);
         recorder.stats().regions = static_cast<int>(regions.size());
         recorder.stats().shows_something = film->took_something();
-        if (frame.watcher) frame.watcher->begin(*film, frame.asked);
-        const bool is_whole = add_regions(frame, regions, recorder, *film);
-        if (frame.watcher) frame.watcher->end();
+        const bool is_whole = add_regions_watched(frame, regions, recorder, *film);
         const bool is_endless = !is_whole && !frame.context.is_cancelled();
         if (keeper && is_endless) keeper->give_up("a shader's loops are endless");
         if (keeper) keeper->end(frame.context.is_cancelled());
