@@ -296,7 +296,6 @@ int RenderJob::run() {
     });
     terminal_.end_progress();
     close_checkpoint();
-    preview_.reset();
     if (!ends_early()) {
         if (worlds_ == 0 && maps_.empty())
             diagnostics_.error({}, worlds_read
@@ -304,7 +303,11 @@ int RenderJob::run() {
                                        : "no WorldBegin block was found in the input; nothing rendered");
         if (!(frames_.empty() && maps_.empty()) && !write_stats()) output_failed_ = true;
     }
-    return exit_code();
+    // Viewers may take a while to have all that they are to keep: by now all is written and known.
+    const int code = exit_code();
+    if (!interrupt_.requested()) interrupt_.lift_time_limit();
+    preview_.reset();
+    return code;
 }
 
 }  // namespace

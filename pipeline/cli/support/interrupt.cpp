@@ -70,7 +70,7 @@ int Interrupt::exit_code() const {
 }
 
 void Interrupt::watch() {
-    while (!done_ && g_signal == 0 && !(deadline_ && Clock::now() >= *deadline_))
+    while (!done_ && g_signal == 0 && !(deadline_ && !unlimited_ && Clock::now() >= *deadline_))
         std::this_thread::sleep_for(kPoll);
     if (done_) return;
     too_late_ = g_signal == 0;

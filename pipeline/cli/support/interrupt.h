@@ -28,6 +28,8 @@ class Interrupt {
 
     const std::atomic<bool>& requested() const;
     int exit_code() const;  ///< 130, 143 or 8 once requested
+    /// The work is done: what is left to do has no time limit.
+    void lift_time_limit() { unlimited_ = true; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -35,7 +37,7 @@ class Interrupt {
 
     std::optional<Clock::time_point> deadline_;
     const std::function<void()> before_end_;
-    std::atomic<bool> done_{false}, too_late_{false};
+    std::atomic<bool> done_{false}, too_late_{false}, unlimited_{false};
     std::thread watcher_;
 };
 
