@@ -3,12 +3,14 @@
     const $ = id => document.getElementById(id);
     const canvas = $("canvas"), context = canvas.getContext("2d");
     const page = Math.random().toString(36).slice(2);
+    const kPaintedAlone = 64;          // tiles of an answer; of more the whole rectangle is painted at once
     const kMostBytes = 512 * 2 ** 20;  // of layers that are fetched though nobody looks at them
 
     // Two pictures: the one that is made, and the one before it. A picture has `facts` as /state tells them,
     // `planes` of floats by the names of channels, `versions` of layers that it has, and `cube`, its view.
     let now = null, before = null, pinned = false;
     let layer = "RGB", exposure = 0, status = null;
+    let pointed = null;  // the pixel whose values are shown
 
     const key = (run, facts) => run + "/" + facts.number;
     const picture = (run, facts) => ({key: key(run, facts), run, facts, planes: {}, versions: {}, cube: null});
@@ -65,6 +67,18 @@
         return low < high ? [low, high] : [Number.isFinite(low) ? low - 1 : 0, Number.isFinite(low) ? low : 1];
     }
 
+    // Of both pictures where they lie side by side: one grey is one value.
+    function sharedRange() {
+        let low = Infinity, high = -Infinity;
+        for (const of of comparable() ? [now, before] : [now]) {
+            const channels = channelsOf(of, layer);
+            if (!channels.length || channels.some(c => !of.planes[c])) continue;
+            of.range = of.range || rangeOf(of, channels);
+            low = Math.min(low, of.range[0]), high = Math.max(high, of.range[1]);
+        }
+        return [low, high];
+    }
+
     function painter(of) {
         const channels = channelsOf(of, layer), planes = channels.map(c => of.planes[c]);
         if (!channels.length || planes.some(p => !p)) return null;
@@ -75,7 +89,7 @@
                 if (cube) throughCube(cube, rgb, out, at);
                 else for (let c = 0; c < 3; ++c) out[at + c] = encoded(rgb[c]);
             };
-        const [low, high] = layer === "A" ? [0, 1] : of.range || (of.range = rangeOf(of, channels));
+        const [low, high] = layer === "A" ? [0, 1] : sharedRange();
         const shown = v => Number.isFinite(v) ? 255 * (v - low) / (high - low) : 0;
         return (i, out, at) => {
             for (let c = 0; c < 3; ++c) out[at + c] = shown(planes[planes.length === 3 ? c : 0][i]);
@@ -129,21 +143,23 @@
             of.planes[channel] = of.planes[channel] || new Float32Array(width * height).fill(NaN);
         for (;;) {
             const after = of.versions[name] || 0;
-            const answer = await bytes(`tiles?picture=${of.facts.number}&after=${after}&channels=${encodeURIComponent(channels.join(","))}`);
-            const view = new DataView(answer), count = Number(view.getBigUint64(0, true));
-            let at = 16;
+            const answer = await bytes(`tiles?picture=${of.facts.number}&after=${after}&channels=${encodeURIComponent(channels.join(","))}&page=${page}`);
+            const view = new DataView(answer), floats = new Float32Array(answer);
+            const count = Number(view.getBigUint64(0, true));
+            let at = 16, x0 = Infinity, y0 = Infinity, x1 = -Infinity, y1 = -Infinity;
             for (let t = 0; t < count; ++t) {
                 const [x, y, w, h] = [0, 4, 8, 12].map(k => view.getInt32(at + k, true));
                 at += 16;
                 for (const channel of channels)
                     for (let row = 0; row < h; ++row, at += 4 * w)
-                        of.planes[channel].set(new Float32Array(answer.slice(at, at + 4 * w)), (y - top + row) * width + x - left);
-                if (of === now && name === layer) {
-                    of.range = isColour(channels) ? of.range : null;
-                    if (isColour(channels) || layer === "A") paint(x, y, x + w, y + h);
-                    else paintSoon();
-                }
+                        of.planes[channel].set(floats.subarray(at / 4, at / 4 + w), (y - top + row) * width + x - left);
+                if (of !== now || name !== layer) continue;
+                if (!isColour(channels) && layer !== "A") paintSoon();
+                else if (count <= kPaintedAlone) paint(x, y, x + w, y + h);
+                else x0 = Math.min(x0, x), y0 = Math.min(y0, y), x1 = Math.max(x1, x + w), y1 = Math.max(y1, y + h);
             }
+            paint(x0, y0, x1, y1);
+            if (of === now && pointed) read(...pointed);
             of.versions[name] = Number(view.getBigUint64(8, true));
             if (count === 0) return;
         }
@@ -151,7 +167,7 @@
     async function fetchCube(of) {
         const {view} = of.facts;
         if (!view || of.cube) return;
-        of.cube = {...view, table: new Float32Array(await bytes(`view?picture=${of.facts.number}`))};
+        of.cube = {...view, table: new Float32Array(await bytes(`view?picture=${of.facts.number}&page=${page}`))};
         paintSoon();
     }
     async function fetchAll(of) {
@@ -175,11 +191,23 @@
         $("layer").replaceChildren(...names.map(name => new Option(name, name, false, name === layer)));
         $("empty").hidden = true;
         paintAll();
+        if (pointed) read(...pointed);
     }
 
     // How far it is.
     const clock = s => s >= 3600 ? `${Math.floor(s / 3600)}:${String(Math.floor(s / 60) % 60).padStart(2, "0")}:${String(Math.floor(s) % 60).padStart(2, "0")}`
         : `${Math.floor(s / 60)}:${String(Math.floor(s) % 60).padStart(2, "0")}`;
+    // To those who listen: not every percent.
+    function say(text) {
+        if ($("told").textContent !== text) $("told").textContent = text;
+    }
+    function tellOfNewRun() {
+        if (status.ended || (now && status.run === now.run)) return;
+        const text = `${now ? "a new run: " : ""}${status.stage}`;
+        say(text);
+        $("stage").textContent = text;
+        document.title = "Trapeze";
+    }
     function tell(gone) {
         if (!now) return;
         const facts = now.facts, done = facts.finished, broken = facts.closed && !done;
@@ -187,6 +215,7 @@
         $("facts").textContent = `${facts.width}×${facts.height}` + (facts.frame ? `, frame ${facts.frame}` : "");
         $("progress").value = done ? 1 : status.fraction;
         const left = status.left === null || status.left === undefined ? "" : `, about ${clock(status.left)} left`;
+        say(done ? "finished" : broken || gone ? "broken off" : status.stage);
         $("stage").textContent = done ? "finished" : broken || gone ? "broken off"
             : `${status.stage}, ${Math.floor(100 * status.fraction)} %, ${clock(status.seconds)}${left}`;
         document.title = (done || broken || gone ? "" : `${Math.floor(100 * status.fraction)} % `) + facts.name;
@@ -207,6 +236,7 @@
                 if (status.run !== run) version = 0;
                 run = status.run, version = status.version;
                 const facts = status.picture;
+                if (!facts) tellOfNewRun();
                 if (facts) {
                     if (!now || now.key !== key(run, facts)) {
                         // What is left of the one before is still there for a while.
@@ -269,13 +299,17 @@
         read(Math.floor((event.clientX - box.left - x) / scale), Math.floor((event.clientY - box.top - y) / scale));
     });
     stand.addEventListener("keydown", event => {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
         const middle = [stand.clientWidth / 2, stand.clientHeight / 2];
         const moves = {ArrowLeft: [64, 0], ArrowRight: [-64, 0], ArrowUp: [0, 64], ArrowDown: [0, -64]}[event.key];
         if (moves) x += moves[0], y += moves[1], place();
         else if (event.key === "+" || event.key === "=") enlargeTo(2 * scale, ...middle);
         else if (event.key === "-") enlargeTo(scale / 2, ...middle);
-        else if (event.key === "b" || event.key === "B") $("split").value = Number($("split").value) > 0.5 ? 0 : 1, paintAll();
-        else return;
+        else if ((event.key === "b" || event.key === "B") && now && comparable()) {
+            $("split").value = Number($("split").value) > 0.5 ? 0 : 1;
+            paintAll();
+            return;
+        } else return;
         fitted = false;
         event.preventDefault();
     });
@@ -296,6 +330,7 @@
         }));
     }
     function read(px, py) {
+        pointed = [px, py];
         if (!now) return;
         const [x0, y0, x1, y1] = now.facts.window;
         const inside = px >= x0 && px < x1 && py >= y0 && py < y1;

@@ -1,6 +1,7 @@
 #include "pipeline/preview/preview.h"
 
 #include <chrono>
+#include <new>
 
 #include "composite/film/film.h"
 #include "pipeline/preview/preview_channels.h"
@@ -39,6 +40,17 @@ void Preview::begin(const Film& film, const RenderContext& context) {
     const Image& image = film.unfinished();
     const PixelRect window = intersection(context.camera.crop, image.window);
     if (window.empty()) return;
+    try {
+        begin_picture(film, context, window);
+    } catch (const std::bad_alloc&) {  // the film has room, its copy has none: nobody sees it
+        const std::lock_guard lock(mutex_);
+        film_ = nullptr;
+        picture_.reset();
+    }
+}
+
+void Preview::begin_picture(const Film& film, const RenderContext& context, const PixelRect& window) {
+    const Image& image = film.unfinished();
     picture_ = std::make_shared<PreviewPicture>(PreviewFacts{name_of(context.scene->options), image.width,
                                                              image.height, window,
                                                              preview_channels(image, context)});
@@ -77,7 +89,7 @@ void Preview::copy_now_and_then() {
     std::unique_lock lock(mutex_);
     while (!done_) {
         wake_.wait_for(lock, kPause, [this] { return done_; });
-        if (film_) copy_finished();
+        if (!done_ && film_) copy_finished();
     }
 }
 

@@ -42,6 +42,7 @@ class Preview final : public FilmWatcher {
     void show(const Image& image, const RenderContext& context) override;
 
   private:
+    void begin_picture(const Film& film, const RenderContext& context, const PixelRect& window);
     void copy_now_and_then();
     void copy_finished();
     void close_picture();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <numeric>
 
 #include "pipeline/preview/tev_packets.h"
@@ -28,7 +29,14 @@ TevViewer::TevViewer(const PreviewBoard& board, std::string host, int port,
       socket_([this]() -> std::chrono::milliseconds {
           return board_.status().ended ? kPatienceAtEnd : kPatience;
       }),
-      thread_([this] { run(); }) {}
+      thread_([this] {
+          try {
+              run();
+          } catch (const std::bad_alloc&) {
+              socket_.close();
+              report_("tev shows no more: there is no memory for what it would be sent");
+          }
+      }) {}
 
 TevViewer::~TevViewer() {
     finish();
@@ -42,7 +50,7 @@ void TevViewer::run() {
     int number = 0;
     for (;;) {
         const PreviewEntry entry = board_.wait_for_picture_after(number);
-        if (!entry.picture) return socket_.close();
+        if (!entry.picture || gives_up_) return socket_.close();
         number = entry.number;
         show_once_there(entry);
     }
@@ -51,13 +59,14 @@ void TevViewer::run() {
 /// Shows a picture that is being made as soon as there is a tev, from its beginning to where it is.
 void TevViewer::show_once_there(const PreviewEntry& entry) {
     for (;;) {
-        const bool is_closed = entry.picture->is_closed();
+        const bool is_closed = entry.picture->is_closed(), has_ended = board_.status().ended;
         const bool is_there = socket_.is_open() || socket_.connect(host_, port_);
         const bool is_shown = is_there && show(entry);
         if (!is_shown && !fails_)
             report_(fmt::format("tev at {}:{} shows nothing: {}", host_, port_, socket_.problem()));
         fails_ = !is_shown;
-        if (is_shown || is_closed) return;
+        if (!is_shown && has_ended) gives_up_ = true;
+        if (is_shown || is_closed || gives_up_) return;
         const auto until = std::chrono::steady_clock::now() + kTryAgain;
         while (!entry.picture->is_closed() && std::chrono::steady_clock::now() < until)
             std::this_thread::sleep_for(kLook / 5);

@@ -34,7 +34,8 @@ class TevViewer final : public PreviewViewer {
     const std::string host_;
     const int port_;
     const std::function<void(const std::string&)> report_;
-    bool fails_ = false;  ///< it is said already that nothing is shown
+    bool fails_ = false;     ///< it is said already that nothing is shown
+    bool gives_up_ = false;  ///< the run has ended, and waits for a tev that takes nothing
     PatientSocket socket_;
     std::thread thread_;
 };

@@ -54,6 +54,14 @@ bool is_own_name(std::string_view host) {
     return host == "127.0.0.1" || host == "localhost";
 }
 
+/// Whether a page that is not ours asks: it could read no answer, but keep the run waiting, and its threads
+/// busy. The page itself may be led to from anywhere.
+bool is_of_others(const WebRequest& request) {
+    if (!request.origin.empty() && request.origin != "http://" + request.host) return true;
+    return request.path != "/" && !request.site.empty() && request.site != "same-origin" &&
+           request.site != "none";
+}
+
 template <class Number>
 void append(std::string& bytes, Number value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -117,10 +125,12 @@ WebPages::WebPages(const PreviewBoard& board, std::string version)
 
 WebAnswer WebPages::answer(const WebRequest& request) {
     if (!is_own_name(request.host)) return refusal(403, "this server is for this machine alone");
+    if (is_of_others(request)) return refusal(403, "other pages are to ask for nothing here");
     if (request.path == "/") return {200, "text/html; charset=utf-8", kPreviewPage};
     if (request.path == "/page.css") return {200, "text/css; charset=utf-8", kPreviewStyle};
     if (request.path == "/page.js") return {200, "text/javascript; charset=utf-8", kPreviewScript};
     if (request.path == "/state") return state(request);
+    const Asking asking(*this, parameter(request, "page"));
     if (request.path == "/tiles") return tiles(request);
     if (request.path == "/view") return view(request);
     return refusal(404, "there is no such page");
@@ -129,6 +139,7 @@ WebAnswer WebPages::answer(const WebRequest& request) {
 WebAnswer WebPages::state(const WebRequest& request) {
     const std::string page = parameter(request, "page");
     note_request(page, parameter(request, "have"));
+    const Asking asking(*this, page);
     PreviewStatus status = board_.wait(number(parameter(request, "after")), kLongestPoll);
     if (!status.ended) {
         std::this_thread::sleep_for(kTogether);
@@ -144,7 +155,6 @@ WebAnswer WebPages::state(const WebRequest& request) {
                            {"ended", status.ended},
                            {"picture", nullptr}};
     if (status.entry.picture) json["picture"] = picture_json(status);
-    note_answer(page);
     // Names of files need not be UTF-8.
     return {200, "application/json", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
@@ -192,15 +202,25 @@ void WebPages::note_request(const std::string& id, const std::string& have) {
         std::erase_if(pages_, [now = Clock::now()](const auto& page) { return page.second.is_gone(now); });
     if (pages_.size() >= kMostPages && !pages_.contains(id)) return;
     Page& page = pages_[id];
-    page.seen = Clock::now(), page.waits = true;
+    page.seen = Clock::now();
     page.has_all = !entry.picture || (!all.empty() && have == all);
 }
 
-void WebPages::note_answer(const std::string& id) {
+WebPages::Asking::Asking(WebPages& pages, std::string id) : pages_(pages), id_(std::move(id)) {
+    pages_.note_waiting(id_, +1);
+}
+
+WebPages::Asking::~Asking() {
+    pages_.note_waiting(id_, -1);
+}
+
+void WebPages::note_waiting(const std::string& id, int more) {
     const std::lock_guard lock(mutex_);
     const auto found = pages_.find(id);
     if (found == pages_.end()) return;
-    found->second.seen = Clock::now(), found->second.waits = false;
+    found->second.seen = Clock::now();
+    // A page may have been forgotten, and noted anew, while it waited.
+    found->second.waits = std::max(0, found->second.waits + more);
 }
 
 bool WebPages::everybody_has_all() const {

@@ -231,6 +231,46 @@ TEST(WebPages, ThePagesThatAreOpenAreWaitedFor) {
     EXPECT_TRUE(pages.everybody_has_all());
 }
 
+/// A page of somebody else's in the same browser cannot read answers, but it could ask.
+TEST(WebPages, OtherPagesAreRefusedAndHoldNobodyUp) {
+    PreviewBoard board;
+    WebPages pages(board, "Trapeze 1");
+    board.begin_picture({0, make_preview_picture(kSeen), {}, 0});
+    const auto status = [&](const char* path, const char* site, const char* origin) {
+        return pages.answer({path, "127.0.0.1:14159", {{"page", "x"}, {"picture", "1"}}, site, origin})
+            .status;
+    };
+    for (const char* path : {"/state", "/tiles", "/view", "/page.js"}) {
+        EXPECT_EQ(status(path, "cross-site", ""), 403) << path;
+        EXPECT_EQ(status(path, "same-site", ""), 403) << path;  // another port of this machine
+        EXPECT_EQ(status(path, "", "http://example.com"), 403) << path;
+        EXPECT_EQ(status(path, "", "null"), 403) << path;
+    }
+    EXPECT_TRUE(pages.everybody_has_all());
+    EXPECT_EQ(status("/", "cross-site", ""), 200);  // a link to the page
+    EXPECT_EQ(status("/state", "same-origin", "http://127.0.0.1:14159"), 200);
+    EXPECT_EQ(status("/tiles", "none", ""), 200);
+    EXPECT_FALSE(pages.everybody_has_all());
+}
+
+TEST(WebPages, APageThatIsStillFetchingIsThere) {
+    const NumberedPicture numbers(kSeen, 5);
+    PreviewBoard board;
+    WebPages pages(board, "Trapeze 1");
+    const auto picture = make_preview_picture(kSeen);
+    board.begin_picture({0, picture, {}, 0});
+    picture->finish(numbers.source());
+    board.end();
+    state_of(pages, {{"page", "a"}});
+    const auto begun = std::chrono::steady_clock::now();
+    // For longer than a page that says nothing is taken to be there.
+    while (std::chrono::steady_clock::now() - begun < std::chrono::milliseconds(2500)) {
+        EXPECT_EQ(ask(pages, "/tiles", {{"picture", "1"}, {"channels", "R"}, {"page", "a"}}).status, 200);
+        EXPECT_FALSE(pages.everybody_has_all());
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+}
+
 TEST(WebPages, APageThatIsGoneIsNotWaitedFor) {
     PreviewBoard board;
     WebPages pages(board, "Trapeze 1");

@@ -15,6 +15,9 @@ struct WebRequest {
     std::string path;
     std::string host;  ///< as the browser calls the server
     std::map<std::string, std::string> parameters;
+    /// What the browser says of the page that asks: headers Sec-Fetch-Site and Origin; empty where it says
+    /// nothing.
+    std::string site = {}, origin = {};
 };
 
 struct WebAnswer {

@@ -29,6 +29,7 @@ class HttplibServer final : public WebServer {
         server_.set_write_timeout(kPatience);
         // A connection that says nothing would keep a thread, and the end, waiting.
         server_.set_keep_alive_max_count(1);
+        server_.set_keep_alive_timeout(kPatience);
         server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
             respond(request, response);
             return httplib::Server::HandlerResponse::Handled;
@@ -58,13 +59,20 @@ class HttplibServer final : public WebServer {
         response.set_header("Cache-Control", "no-store");
         response.set_header("X-Content-Type-Options", "nosniff");
         response.set_header("Content-Security-Policy",
-                            "default-src 'self'; img-src data:; base-uri 'none'; form-action 'none'");
+                            "default-src 'self'; img-src data:; base-uri 'none'; form-action 'none'; "
+                            "frame-ancestors 'none'");
+        response.set_header("Cross-Origin-Resource-Policy", "same-origin");
+        response.set_header("Cross-Origin-Opener-Policy", "same-origin");
         response.set_header("Connection", "close");
         if (request.method != "GET" && request.method != "HEAD") {
             response.status = 405;
             return;
         }
-        WebRequest asked{request.path, request.get_header_value("Host"), {}};
+        WebRequest asked{request.path,
+                         request.get_header_value("Host"),
+                         {},
+                         request.get_header_value("Sec-Fetch-Site"),
+                         request.get_header_value("Origin")};
         for (const auto& [name, value] : request.params) asked.parameters.emplace(name, value);
         const WebAnswer answer = answer_(asked);
         response.status = answer.status;
