@@ -4,9 +4,9 @@
 /// - /state?after=V&page=ID&have=P.S: how far the run is, as JSON, once its version is greater than V, or
 ///   after a second. ID is the page's own; it has the changes of picture P up to version S, of all channels.
 /// - /tiles?picture=P&after=S&channels=R,G,B&page=ID: changes of a picture since its version S, at most some
-/// 16 MiB:
-///   the number of tiles and the version that they lead to as 64-bit integers, then of each tile x, y, width
-///   and height as 32-bit integers, and its floats, channel after channel, row by row; little-endian.
+///   16 MiB: the number of tiles and the version that they lead to as 64-bit integers, then of each tile x,
+///   y, width and height as 32-bit integers, and its floats, channel after channel, row by row;
+///   little-endian.
 /// - /view?picture=P&page=ID: the picture's ViewCube as floats; 404 where it has none.
 #pragma once
 

@@ -24,7 +24,7 @@ struct Blur {
 constexpr Blur kBlurs[] = {{"still", 0, 0}, {"moving", 1, 0}, {"moving and out of focus", 1, 1}};
 constexpr const Blur& kBothBlurs = kBlurs[2];
 
-/// A scene, and what it is to be multiplied by for about a million micropolygons at full size.
+/// A scene, and what its own micropolygons are multiplied by.
 struct StructureScene {
     const char *label, *name;
     double scale;
@@ -33,7 +33,8 @@ constexpr StructureScene kStructureScenes[] = {
     {"Halberd", "halberd", 1}, {"Car", "car-study", .25}, {"Flowers", "flowers", 1},
     {"Hair", "hair", .5},      {"Building", "arcade", 4}, {"Falling flakes", "falling", 4},
 };
-/// Of the halberd: from a tenth of a million to twenty million at full size.
+/// Of the halberd, times its own micropolygons: from some tenth of a million to tens of millions at full
+/// size.
 constexpr double kSizes[] = {.1, .5, 2, 8, 20};
 
 /// The trees that the program offers, each as it is by default.
@@ -52,7 +53,7 @@ StudyScene study_scene(const StudyBench& bench, const StructureScene& scene, con
     return made;
 }
 
-/// Measures trees on a scene. `result` has its facts.
+/// Measures trees on a scene, whose facts are then the bench's last.
 StructureRun run_structures(StudyBench& bench, const StructureScene& scene, const Blur& blur, double times,
                             const std::vector<std::string>& trees) {
     const StudyScene made = study_scene(bench, scene, blur, times);
