@@ -373,8 +373,8 @@ TEST_P(Agreement, TheTreesOfOtherPapersFindWhatBruteForceFinds) {
     const auto truth = resolve(scene(), "bruteforce");
     for (const std::string tree :
          {"mbkd", "mbkd,duplicates=64,leaf=4,mailbox=off", "mbkd,duplicates=2,plane=0,ray_sort=off",
-          "mbkd,plane=1,weight=whole", "gs", "dynamic", "loose", "loose,place=lowest,levels=9",
-          "loose,skip=off,levels=12"})
+          "mbkd,plane=1,weight=whole", "gs", "gs,order=given", "dynamic", "loose",
+          "loose,place=lowest,levels=9", "loose,skip=off,levels=12"})
         EXPECT_EQ(differing_samples(resolve(scene(), "raytrace:tree=" + tree), truth), 0u) << tree;
 }
 

@@ -65,7 +65,8 @@ void expect_every_frame_right(Tree tree) {
 TEST(InsertionTree, SeesEveryFrameAsItIs) {
     for (const int passes : {0, 2})
         for (const float thinning : {0.f, 1.1f, 2.f})
-            expect_every_frame_right(InsertionTree({passes, thinning}));
+            for (const auto order : {InsertionOptions::Order::Shuffled, InsertionOptions::Order::Given})
+                expect_every_frame_right(InsertionTree({passes, thinning, order}));
 }
 
 TEST(LooseTree, SeesEveryFrameAsItIs) {
@@ -111,20 +112,6 @@ TEST(InsertionTree, IsBetterWhereObjectsAreInsertedAgain) {
     EXPECT_LT(thrice.expected_visits(), once.expected_visits() * .95);
 }
 
-/// Objects that drift apart leave nodes thin and large; dissolving those keeps the tree better.
-TEST(InsertionTree, IsBetterWhereThinNodesAreDissolved) {
-    std::array<double, 2> visits;
-    for (const size_t thins : {0, 1}) {
-        InsertionTree tree({1, thins ? 1.2f : 0.f});
-        for (int frame = 0; frame < 12; ++frame) {
-            const GridMaker maker = drifting_frame(frame, 2000);
-            tree.update(maker.grids());
-        }
-        visits[thins] = tree.expected_visits();
-    }
-    EXPECT_LT(visits[1], visits[0]);
-}
-
 /// Sorted objects make a tree as deep as it has objects: nothing may be bounded by a depth.
 TEST(InsertionTree, MayBeDeep) {
     GridMaker maker;
@@ -134,10 +121,24 @@ TEST(InsertionTree, MayBeDeep) {
             return V3f(static_cast<float>(i) * size, static_cast<float>(j) * size, 1);
         });
     }
-    InsertionTree tree;
+    InsertionTree tree({.order = InsertionOptions::Order::Given});
     tree.build(maker.grids());
     EXPECT_EQ(tree.contradiction(), "");
     EXPECT_EQ(testing::differing_rays(maker, tree, 200, 20), 0);
+}
+
+/// A row of quads, one beside the other, each a little larger.
+TEST(InsertionTree, IsBetterWhereRowsAreShuffled) {
+    GridMaker maker;
+    for (int n = 0; n < 1500; ++n)
+        maker.add(1, 1, 1, [n](int i, int j, float) {
+            const auto at = static_cast<float>(n + i);
+            return V3f(1e-3f * at * at, static_cast<float>(j), 1);
+        });
+    InsertionTree given({.order = InsertionOptions::Order::Given}), shuffled;
+    given.build(maker.grids());
+    shuffled.build(maker.grids());
+    EXPECT_LT(shuffled.expected_visits(), given.expected_visits() * .2);
 }
 
 /// A node's objects reach at most half a voxel beyond the voxel that the node stands for.

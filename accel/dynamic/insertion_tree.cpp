@@ -1,6 +1,9 @@
 #include "accel/dynamic/insertion_tree.h"
 
 #include <algorithm>
+#include <numeric>
+
+#include "core/random.h"
 
 namespace trapeze {
 
@@ -11,14 +14,15 @@ void InsertionTree::build(const Grids& grids) {
 
 void InsertionTree::insert_all() {
     reset();
-    const auto count = static_cast<uint32_t>(objects_.boxes.size());
-    for (uint32_t object = 0; object < count; ++object)
+    const size_t count = objects_.boxes.size();
+    const std::vector<uint32_t> order = insertion_order();
+    for (const uint32_t object : order)
         if (root_ == kNone)
             root_ = object;
         else
             insert(object, root_);
     for (int pass = 0; pass < options_.passes && count > 1; ++pass)
-        for (uint32_t object = 0; object < count; ++object) {
+        for (const uint32_t object : order) {
             climb(detach(object), empty_box(), 1);  // to the root, for nothing but the empty box fits in all
             insert(object, root_);
         }
@@ -26,6 +30,16 @@ void InsertionTree::insert_all() {
     moved_ = dissolved_ = 0;
     for (size_t node = count; node < nodes_.size(); ++node)
         nodes_[node].first_quality = quality(nodes_[node]);
+}
+
+/// Shuffled by Fisher and Yates, so many objects in one way.
+std::vector<uint32_t> InsertionTree::insertion_order() const {
+    std::vector<uint32_t> order(objects_.boxes.size());
+    std::iota(order.begin(), order.end(), 0u);
+    if (options_.order == InsertionOptions::Order::Shuffled)
+        for (uint32_t left = static_cast<uint32_t>(order.size()); left > 1; --left)
+            std::swap(order[left - 1], order[hash(left) % left]);
+    return order;
 }
 
 void InsertionTree::reset() {

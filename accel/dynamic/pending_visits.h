@@ -40,7 +40,7 @@ class PendingVisits {
     /// Whether a box that is not empty may hold a hit nearer than those found by now.
     bool may_meet(const KeyBox& box) const {
         float depth;
-        return clip(along_axes_, box, box, 0, rounding_).meets(ray_, slack_, depth) && !(depth > ray_.t_max);
+        return meets(box, depth) && !(depth > ray_.t_max);
     }
     /// The next node, none of which is beyond what the ray has found by now; false: there is none.
     bool pop(uint32_t& node) {
@@ -62,7 +62,10 @@ class PendingVisits {
     /// Empty boxes are met by no ray: without asking, one that a NaN is part of would meet them.
     bool meets(uint32_t node, const KeyBox& box, Visit& visit) const {
         visit.node = node;
-        return !is_empty(box) && clip(along_axes_, box, box, 0, rounding_).meets(ray_, slack_, visit.depth);
+        return !is_empty(box) && meets(box, visit.depth);
+    }
+    bool meets(const KeyBox& box, float& depth) const {
+        return clip(along_axes_, box, box, 0, rounding_).meets(ray_, slack_, depth);
     }
     void push(const Visit& visit) {
         if (size_ < kShallow)

@@ -53,6 +53,7 @@ KdTreeOptions kd_options(const MethodSpec& spec) {
 InsertionOptions insertion_options(const MethodSpec& spec) {
     InsertionOptions options;
     options.passes = spec["tree"] == "dynamic" ? 2 : 0;
+    if (spec["order"] == "given") options.order = InsertionOptions::Order::Given;
     if (spec["thinning"] != "off") options.thinning = std::stof(std::string(spec["thinning"]));
     return options;
 }

@@ -27,6 +27,7 @@ const std::vector<SpecOption>& raytrace_options() {
         {"weight", {"time", "whole"}},
         {"mailbox", {"on", "off"}},
         {"thinning", {"off", "1.1", "1.2", "1.5", "2"}},
+        {"order", {"shuffled", "given"}},
         {"levels", {"18", "9", "12", "15", "21"}},
         {"place", {"size", "lowest"}},
         {"skip", {"on", "off"}},
@@ -39,7 +40,7 @@ std::string_view trees_with(std::string_view option) {
     struct Row {
         std::string_view option, trees;
     };
-    static constexpr std::array<Row, 14> kRows{{
+    static constexpr std::array<Row, 15> kRows{{
         {"bundle", "paper|interpolated|msbvh|lbvh|refit"},
         {"ray_sort", "paper|interpolated|msbvh|lbvh|refit|mbkd|gs|dynamic|loose"},
         {"leaf", "paper|interpolated|msbvh|lbvh|refit|mbkd"},
@@ -51,6 +52,7 @@ std::string_view trees_with(std::string_view option) {
         {"weight", "mbkd"},
         {"mailbox", "mbkd"},
         {"thinning", "dynamic"},
+        {"order", "gs|dynamic"},
         {"levels", "loose"},
         {"place", "loose"},
         {"skip", "loose"},
